@@ -165,8 +165,10 @@ void refuse_surface_options(const MeshProblem& problem, bool angle_may_be, const
   };
   add(s.compounds != Compounds::kNone, "compound");
   add(s.merge_curves > 0, "merge_curves");
-  add(s.ignore_below > 0, "ignore_below");
-  add(s.fill_holes > 0, "fill_holes");
+  const bool has_outlines = std::holds_alternative<PlanarModel>(problem.model);
+  add(s.ignore_below > 0 && !has_outlines, "ignore_below");
+  add(s.idealize && !has_outlines, "idealize");
+  add(s.fill_holes > 0 && !has_outlines, "fill_holes");
   add(s.feature_angle && !angle_may_be, "feature_angle");
   add(s.weld_tolerance.has_value(), "weld_tolerance");
   add(s.mirror.has_value(), "mirror");
@@ -189,6 +191,21 @@ void check_no_surface(const MeshProblem& problem, bool in_space) {
     throw InputError(problem.size.where +
                      (in_space ? ": sizes by curvature are for models of surfaces"
                                : ": sizes by curvature are for surfaces, and this is a planar domain"));
+}
+
+/// What names curves by their number, or pairs them, needs all that there are.
+void check_small_outlines(const MeshProblem& problem) {
+  const SurfaceSpec& s = problem.surface;
+  if (s.ignore_below == 0 && !s.idealize && s.fill_holes == 0) return;
+  const auto refuse = [&](const std::string& other) {
+    throw InputError(fmt::format("{}: what is small in the plane cannot be left out beside {}",
+                                 s.where.empty() ? problem.where : s.where, other));
+  };
+  if (is_symmetric(problem)) refuse("symmetry (" + problem.symmetry.where + ")");
+  if (!problem.periodic.empty()) refuse("periodic sides (" + problem.periodic[0].where + ")");
+  if (!problem.divisions.empty()) refuse("numbers of edges (" + problem.divisions[0].where + ")");
+  if (!problem.mapped.corners.empty()) refuse("corners of grids (" + problem.mapped.corners[0].where + ")");
+  if (problem.metric.plane) refuse("a metric (" + problem.metric.where + ")");
 }
 
 /// Mirror images have the nodes of the other side, and not those of periodic curves.
@@ -224,6 +241,7 @@ void check_kind(const MeshProblem& problem) {
   if (!in_space &&
       (given != nullptr || lines != nullptr || std::holds_alternative<PlanarModel>(problem.model))) {
     check_no_surface(problem, false);
+    check_small_outlines(problem);
     check_symmetry_alone(problem);
   }
   if (given == nullptr && lines == nullptr) return;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <variant>
 
@@ -12,11 +13,13 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/curves/compose_size.h"
+#include "features/curves/surface_input.h"
 #include "features/metric/metric_plane.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "features/washers/planar_washers.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/nearest_triangle.h"
+#include "geometry/planar/leave_out_small.h"
 #include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
@@ -78,6 +81,24 @@ std::unique_ptr<ModelSteps> steps_of(const MeshProblem& problem, const Refinemen
   return is_planar ? planar_steps(problem, refinement) : surface_steps(problem, refinement);
 }
 
+/// The problem of a planar model without what is small in its outlines.
+MeshProblem without_small_outlines(MeshProblem problem, std::vector<Warning>& told) {
+  PlanarModel& model = std::get<PlanarModel>(problem.model);
+  std::vector<Vec3> ends;
+  std::vector<Entity> curves, regions;
+  for (const ModelCurve& curve : model.curves) {
+    const Vec2 end = curve.shape->point(0);
+    ends.push_back({end.x, end.y, 0});
+    curves.push_back({0, {curve.name}});
+  }
+  for (const ModelLoop& loop : model.loops) regions.push_back({0, {loop.region}});
+  const double length = length_of_small(problem, ends);
+  const double hole = std::max(length, std::numbers::pi * problem.surface.fill_holes);
+  model = leave_out_small(std::move(model), {length, hole, names_that_stay(problem, curves, regions)}, told);
+  problem.surface = {};
+  return problem;
+}
+
 }  // namespace
 
 // A problem becomes a mesh in these steps: model and size, maps, curves, patches with their fields; the
@@ -109,11 +130,18 @@ Refinement as_read(const PreparedProblem& prepared) {
 PreparedProblem prepare_problem(const MeshProblem& problem, const Refinement& refinement) {
   check_problem(problem);
   check_criteria(problem.criteria);
+  const SurfaceSpec& s = problem.surface;
+  const bool has_small = s.ignore_below > 0 || s.idealize || s.fill_holes > 0;
   if (const auto* model = std::get_if<PlanarModel>(&problem.model);
-      model != nullptr && !problem.washers.empty()) {
-    std::vector<Warning> of_size, told;
-    const PointSize size = as_function(planar_base_size(problem.size, *model, of_size));
-    PreparedProblem prepared = prepare_problem(with_planar_washers(problem, size, told), refinement);
+      model != nullptr && (has_small || !problem.washers.empty())) {
+    std::vector<Warning> told;
+    MeshProblem other = has_small ? without_small_outlines(problem, told) : problem;
+    if (!problem.washers.empty()) {
+      std::vector<Warning> of_size;
+      const PointSize size = as_function(planar_base_size(problem.size, *model, of_size));
+      other = with_planar_washers(std::move(other), size, told);
+    }
+    PreparedProblem prepared = prepare_problem(other, refinement);
     prepared.warnings.insert(prepared.warnings.begin(), told.begin(), told.end());
     return prepared;
   }
@@ -144,12 +172,10 @@ Mesh put_together(Finishing& on) {
 
 namespace {
 
-/// Tells how far nodes lie from a CAD model as it was read, where what is small in it went.
+/// Tells how far nodes lie from a model as it was read, where what is small in it went.
 void tell_farthest_node(const PreparedProblem& prepared, MeshResult& result) {
-  if (!prepared.surface || !prepared.surface->ignores_small || !prepared.surface->cad ||
-      !has_finite_points(result.mesh))
-    return;
-  const Mesh& fine = prepared.surface->cad->fine;
+  if (!prepared.surface || !prepared.surface->model.before || !has_finite_points(result.mesh)) return;
+  const Mesh& fine = *prepared.surface->model.before;
   const NearestTriangle nearest(fine.points, fine.triangles);
   const std::vector<Vec3>& nodes = result.mesh.points;
   std::vector<double> distances(nodes.size());

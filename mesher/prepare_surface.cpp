@@ -181,7 +181,6 @@ class SurfaceSteps final : public ModelSteps {
         refinement_.spots.empty() ? kMostAgreementSteps : kStepsAnew, failures_, p.warnings);
     surface_->model = std::move(model_);
     surface_->cad = cad_;
-    surface_->ignores_small = problem_.surface.ignore_below > 0;
     p.failures = failures_.take();
     p.surface = surface_;
     append(p.warnings, surface_->model.warnings);

@@ -115,7 +115,7 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& quads
       (prepared.surface && !prepared.surface->given) || !prepared.plane.curve_places.empty();
   if (result.soundness.sound() || !can_be_finer || !repair_options(prepared.settings.options).refine_unsound)
     return;
-  const bool ignores_small = prepared.surface && prepared.surface->ignores_small;
+  const bool ignores_small = prepared.surface && prepared.surface->model.before;
   Refinement refinement = as_read(prepared);
   add_spots(prepared, result.soundness, refinement.spots);
   if (refinement.spots.empty()) return;
@@ -172,7 +172,7 @@ void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& 
                      PreparedProblem& prepared, MeshResult& result) {
   const RepairOptions options = repair_options(prepared.settings.options);
   if (!options.refine_unsound || !options.ignore_small || !prepared.surface || prepared.surface->given ||
-      prepared.surface->ignores_small || result.soundness.places.empty())
+      prepared.surface->model.before || result.soundness.places.empty())
     return;
   double least = std::numeric_limits<double>::infinity();
   int hint = -1;

@@ -58,7 +58,6 @@ struct PreparedSurface {
   std::shared_ptr<const WholeSurface> is_part_of;   ///< that; null: `model` is the whole
   std::optional<GivenEntities> given;               ///< of a GivenMesh
   std::shared_ptr<const SurfaceModel> cad;          ///< as it was read; null of other models
-  bool ignores_small = false;                       ///< see ignore_small()
 
   const SurfaceModel& whole() const { return is_part_of ? is_part_of->model : model; }
   const std::vector<SurfaceCut>& all_cuts() const { return is_part_of ? is_part_of->cuts : cuts; }

@@ -29,6 +29,7 @@ struct BatchArguments : SweepArguments {
   std::optional<std::string> size;
   std::string quality = "best", criteria = "batch";
   std::optional<double> ignore_below;
+  bool idealize = false;
   fs::path settings;   ///< further keys for all parts
   std::string format;  ///< extension of further meshes; empty: none
   bool strict = false;
@@ -74,6 +75,7 @@ std::string experiment_of(const BatchArguments& arguments, const std::map<std::s
     text +=
         fmt::format("size = {}\n", as_number(*arguments.size) ? *arguments.size : quoted(*arguments.size));
   if (arguments.ignore_below) text += fmt::format("surface.ignore_below = {}\n", *arguments.ignore_below);
+  if (arguments.idealize) text += "surface.idealize = true\n";
   if (!arguments.settings.empty())
     text += "\n# " + arguments.settings.string() + "\n" + file_bytes(arguments.settings);
   for (const auto& [name, file] : parts)
@@ -129,6 +131,7 @@ void add_batch(CLI::App& app, Commands& commands) {
   add_size(*batch, arguments.size, kSizeHelp);
   batch->add_option("--quality", arguments.quality, "fast, good or best")->capture_default_str();
   add_criteria(*batch, arguments.criteria, arguments.strict);
+  batch->add_flag("--idealize", arguments.idealize, "leave out what is below min_length of the criteria");
   batch->add_option("--ignore-below", arguments.ignore_below, "leave out what of the models is smaller")
       ->check(kLength);
   batch->add_option("--settings", arguments.settings,

@@ -202,6 +202,9 @@ void add_surface(CLI::App& command, SurfaceArguments& arguments) {
   command.add_option(
       "--ignore-below", arguments.ignore_below,
       "length: close smaller holes, join narrower faces to neighbours, shorter curves to points");
+  command.add_flag("--idealize", arguments.idealize, "ignore what is below min_length of the criteria");
+  command.add_option("--keep", arguments.keep,
+                     "name of a face or curve that is not left out; may be repeated");
   command.add_option("--fill-holes", arguments.fill_holes, "diameter: close holes that are not wider")
       ->check(kLength);
   command.add_flag("--glue", arguments.glue,
@@ -227,6 +230,14 @@ void set_surface(const SurfaceArguments& arguments, Case& c) {
       refuse("--ignore-below {}: expected a length > 0", *arguments.ignore_below);
     given("--ignore-below");
     surface.ignore_below = *arguments.ignore_below;
+  }
+  if (arguments.idealize) {
+    given("--idealize");
+    surface.idealize = true;
+  }
+  if (!arguments.keep.empty()) {
+    given("--keep");
+    surface.keep = arguments.keep;
   }
   if (arguments.fill_holes) {
     given("--fill-holes");

@@ -17,8 +17,10 @@ struct SurfaceArguments {
   std::string compound, unit;  ///< empty: as the model says
   std::optional<double> feature_angle, weld_tolerance;
   std::optional<double> ignore_below, fill_holes;  ///< lengths
-  bool glue = false;                               ///< else as the model says
-  bool keep_going = false;                         ///< leave out what cannot be read or meshed
+  bool idealize = false;
+  std::vector<std::string> keep;  ///< names
+  bool glue = false;              ///< else as the model says
+  bool keep_going = false;        ///< leave out what cannot be read or meshed
 };
 void add_surface(CLI::App& command, SurfaceArguments& arguments);
 void set_surface(const SurfaceArguments& arguments, Case& c);

@@ -403,6 +403,9 @@ void define_surface(py::class_<Problem>& c) {
       .def("glue", [](Problem& p, bool yes) { p.problem.surface.glue = yes; })
       .def("fill_holes", [](Problem& p, double diameter) { p.problem.surface.fill_holes = diameter; })
       .def("ignore_below", [](Problem& p, double length) { p.problem.surface.ignore_below = length; })
+      .def("idealize", [](Problem& p, bool yes) { p.problem.surface.idealize = yes; })
+      .def("keep",
+           [](Problem& p, std::vector<std::string> names) { p.problem.surface.keep = std::move(names); })
       .def("merge_curves", [](Problem& p, double length) { p.problem.surface.merge_curves = length; });
 }
 

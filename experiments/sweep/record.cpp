@@ -104,6 +104,8 @@ Json surface_json(const SurfaceSpec& surface) {
                {"merge_curves", surface.merge_curves > 0 ? Json(surface.merge_curves) : Json()},
                {"feature_angle", surface.feature_angle ? Json(*surface.feature_angle) : Json()},
                {"ignore_below", surface.ignore_below > 0 ? Json(surface.ignore_below) : Json()},
+               {"idealize", surface.idealize},
+               {"keep", surface.keep},
                {"glue", surface.glue},
                {"unit", surface.unit.empty() ? Json() : Json(surface.unit)},
                {"weld_tolerance", surface.weld_tolerance ? Json(*surface.weld_tolerance) : Json()},

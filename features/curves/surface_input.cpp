@@ -10,6 +10,7 @@
 
 #include "base/length_unit.h"
 #include "base/located.h"
+#include "base/nearest_name.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/sizes/curve_options.h"
@@ -58,6 +59,44 @@ std::vector<std::vector<int>> faces_of_tags(const SurfaceSpec& spec, const Mesh&
   return groups;
 }
 
+}  // namespace
+
+double length_of_small(const MeshProblem& problem, std::span<const Vec3> points) {
+  const SurfaceSpec& spec = problem.surface;
+  if (!spec.idealize || spec.ignore_below > 0) return spec.ignore_below;
+  const auto limit = std::ranges::find_if(
+      problem.criteria.limits, [](const CriterionLimit& l) { return l.key == "min_length" && l.on.empty(); });
+  const auto refuse = [&](const char* what) {
+    throw InputError(
+        fmt::format("{}: what is shorter than min_length is to be left out, but {}: expected "
+                    "ignore_below with a length",
+                    spec.where.empty() ? problem.where : spec.where, what));
+  };
+  if (limit == problem.criteria.limits.end()) refuse("the criteria have none");
+  if (!limit->in_sizes) return limit->value;
+  if (!problem.size.field) refuse("it is in parts of a size that is not known before the mesh");
+  double size = std::numeric_limits<double>::infinity();
+  int hint = -1;
+  for (const Vec3& x : points) size = std::min(size, problem.size.field->at(x, hint));
+  return limit->value * size;
+}
+
+KeptNames names_that_stay(const MeshProblem& problem, const std::vector<Entity>& curves,
+                          const std::vector<Entity>& regions) {
+  const SurfaceSpec& spec = problem.surface;
+  std::vector<std::string> known;
+  for (const auto* entities : {&curves, &regions})
+    for (const Entity& e : *entities) known.insert(known.end(), e.names.begin(), e.names.end());
+  for (const std::string& name : spec.keep)
+    if (std::ranges::find(known, name) == known.end())
+      throw InputError(fmt::format("{}: '{}' is to stay, and no curve and no region is called that{}",
+                                   spec.where.empty() ? problem.where : spec.where, name,
+                                   suggestion_or_all(name, known)));
+  return {curve_options(problem.options).keep_named, spec.keep};
+}
+
+namespace {
+
 SurfaceModel make_compounds(const MeshProblem& problem, const std::vector<FeatureBall>& kept,
                             SurfaceModel model) {
   const SurfaceSpec& spec = problem.surface;
@@ -68,12 +107,11 @@ SurfaceModel make_compounds(const MeshProblem& problem, const std::vector<Featur
                                                                 : tangent_groups(model, kEveryAngle);
     model = make_compound(std::move(model), groups, options);
   }
+  const KeptNames keep = names_that_stay(problem, model.fine.curves, model.fine.regions);
   if (spec.fill_holes > 0)
-    model = close_small_holes(std::move(model), {std::numbers::pi * spec.fill_holes,
-                                                 curve_options(problem.options).keep_named, kept});
-  if (spec.ignore_below > 0)
-    model = ignore_small(std::move(model),
-                         {spec.ignore_below, curve_options(problem.options).keep_named, kept}, options);
+    model = close_small_holes(std::move(model), {std::numbers::pi * spec.fill_holes, keep, kept});
+  if (const double length = length_of_small(problem, model.fine.points); length > 0)
+    model = ignore_small(std::move(model), {length, keep, kept}, options);
   if (spec.merge_curves > 0) model = merge_short_curves(std::move(model), spec.merge_curves, options);
   return model;
 }
@@ -85,7 +123,7 @@ void check_for_cad(const SurfaceSpec& spec) {
   };
   if (spec.mirror) refuse("a mirror");
   if (spec.feature_angle && spec.compounds == Compounds::kNone && spec.merge_curves == 0 &&
-      spec.ignore_below == 0)
+      spec.ignore_below == 0 && !spec.idealize)
     refuse("a feature angle without compounds");
 }
 
@@ -188,7 +226,7 @@ SurfaceModel make_from_cad(const MeshProblem& problem) {
                                           : read_cad(std::get<CadModel>(problem.model), options);
   const bool changes_faces = problem.surface.compounds != Compounds::kNone ||
                              problem.surface.merge_curves > 0 || problem.surface.ignore_below > 0 ||
-                             problem.surface.fill_holes > 0;
+                             problem.surface.idealize || problem.surface.fill_holes > 0;
   const auto unusable =
       std::ranges::find_if(model.left_out, [](const LeftOutFace& f) { return f.face >= 0; });
   if (unusable != model.left_out.end() && changes_faces)

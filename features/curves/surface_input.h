@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "delquad/mesher.h"
+#include "geometry/mesh/entity_names.h"
 #include "geometry/surface/triangulated_model.h"
 
 namespace delquad {
@@ -17,6 +19,14 @@ namespace delquad {
 SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept,
                           std::shared_ptr<const SurfaceModel>& cad);
 SurfaceModel make_surface(const MeshProblem& problem);
+
+/// What is smaller is left out: `ignore_below`, or what the criteria call too short, of the least size at
+/// these points; 0: nothing. Throws InputError where that is not known.
+double length_of_small(const MeshProblem& problem, std::span<const Vec3> points);
+
+/// Throws InputError for names that are to stay, and that none has.
+KeptNames names_that_stay(const MeshProblem& problem, const std::vector<Entity>& curves,
+                          const std::vector<Entity>& regions);
 
 /// The model with curves shorter than a part of the size (`curves.join_below`) made one with those that they
 /// continue, see merge_short_curves(): no node is needed where these meet, and so many short edges would make

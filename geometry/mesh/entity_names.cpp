@@ -9,6 +9,14 @@
 
 namespace delquad {
 
+std::vector<std::string> KeptNames::of(const Entity& entity) const {
+  std::vector<std::string> kept = entity.names;
+  if (!all)
+    std::erase_if(kept,
+                  [&](const std::string& name) { return std::ranges::find(names, name) == names.end(); });
+  return kept;
+}
+
 std::string region_label(const Entity& region) {
   return region.names.empty() ? fmt::format("region_{}", region.tag) : region.names[0];
 }

@@ -7,6 +7,16 @@
 
 namespace delquad {
 
+/// Names that must not go.
+struct KeptNames {
+  bool all = false;
+  std::vector<std::string> names = {};
+
+  /// Those of an entity that stay.
+  std::vector<std::string> of(const Entity& entity) const;
+  bool any_of(const Entity& entity) const { return !of(entity).empty(); }
+};
+
 /// What messages call a region.
 std::string region_label(const Entity& region);
 

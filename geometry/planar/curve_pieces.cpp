@@ -17,6 +17,7 @@ namespace {
 std::vector<CurvePiece> cut_at_stops(const PlanarModel& model, const ModelChain& chain) {
   std::vector<CurvePiece> pieces;
   for (std::size_t c = 0; c < model.curves.size(); ++c) {
+    if (model.curves[c].is_gone) continue;
     std::vector<CurveStop> stops = chain.stops[c];
     stops.push_back({1, chain.curve_ends[c][1]});
     double t = 0;

@@ -152,6 +152,7 @@ class Chainer {
     std::vector<Span> spans;
     std::vector<Box<Vec2>> boxes;
     for (int c = 0; c < static_cast<int>(model_.curves.size()); ++c) {
+      if (model_.curves[c].is_gone) continue;
       double t = 0;
       int node = chain_.curve_ends[c][0];
       std::vector<CurveStop> stops = chain_.stops[c];

@@ -33,7 +33,7 @@ struct Loop {
 };
 
 /// The loops of all faces, by face.
-std::vector<std::vector<Loop>> find_loops(const Mesh& mesh) {
+std::vector<std::vector<Loop>> find_loops(const Mesh& mesh, const KeptNames& keep) {
   struct HoleSide {
     std::array<int, 2> ends;
     int other;
@@ -43,7 +43,7 @@ std::vector<std::vector<Loop>> find_loops(const Mesh& mesh) {
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
     const auto [a, b] = mesh.lines[l];
-    const bool named = !mesh.curves[mesh.line_curve[l]].names.empty();
+    const bool named = keep.any_of(mesh.curves[mesh.line_curve[l]]);
     const auto edge = sides_of_edge(std::span(sides), a, b);
     for (const HalfEdge& side : edge) {
       const int face = mesh.triangle_region[side.element];
@@ -87,8 +87,8 @@ class SmallHoles {
       : model_(model),
         mesh_(model.fine),
         length_(narrow.length),
-        keep_named_(narrow.keep_named),
-        loops_(find_loops(mesh_)),
+        keep_(narrow.keep),
+        loops_(find_loops(mesh_, narrow.keep)),
         tube_(mesh_.regions.size(), 0) {}
 
   /// Whether anything was closed.
@@ -120,14 +120,14 @@ class SmallHoles {
   }
   bool closable(const Loop& loop) const {
     return is_short(loop) && loop.simple && loop.sides.size() > 2 && tube_[loop.face] == 0 &&
-           !(keep_named_ && loses_name(loop));
+           !loses_name(loop);
   }
-  /// Whether no other has the name of a curve of the hole, or of a face that lines it.
+  /// Whether no other has a name that is kept, of a curve of the hole or of a face that lines it.
   bool loses_name(const Loop& loop) const {
     if (loop.named) return true;
     for (std::size_t face = 0; face < tube_.size() && loop.other >= 0; ++face) {
       if (tube_[face] == 0 || tube_[face] != tube_[loop.other]) continue;
-      if (!has_names_of(mesh_.regions[loop.face], mesh_.regions[face]) ||
+      if (!has_names_of(mesh_.regions[loop.face], mesh_.regions[face], keep_) ||
           std::ranges::any_of(loops_[face], &Loop::named))
         return true;
     }
@@ -224,7 +224,7 @@ class SmallHoles {
   SurfaceModel& model_;
   Mesh& mesh_;
   double length_;
-  bool keep_named_;
+  const KeptNames& keep_;
   std::vector<std::vector<Loop>> loops_;
   std::vector<int> tube_;  ///< of each face, from 1; 0: none
 };

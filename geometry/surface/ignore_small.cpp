@@ -65,7 +65,7 @@ class FaceJoiner {
         sets_[f].outline -= 2 * length;  // a seam
         continue;
       }
-      const bool stays = narrow.keep_named && !mesh.curves[mesh.line_curve[l]].names.empty();
+      const bool stays = narrow.keep.any_of(mesh.curves[mesh.line_curve[l]]);
       const double weight = stays ? 0 : smoothness(mesh, edge[0], edge[1]) * length;
       for (const auto& [one, other] : {std::array{f, g}, {g, f}}) {
         sets_[one].common[other].length += length;
@@ -118,7 +118,7 @@ class FaceJoiner {
     for (const auto& [other, common] : set.common) {
       const int face = set.members[0], host = sets_[other].members[0];
       if (!(common.weight > most) || origin_[face] == origin_[host]) continue;
-      if (narrow_.keep_named && !has_names_of(mesh_.regions[host], mesh_.regions[face])) continue;
+      if (!has_names_of(mesh_.regions[host], mesh_.regions[face], narrow_.keep)) continue;
       best = other, most = common.weight;
     }
     return best;
@@ -278,8 +278,7 @@ SurfaceModel contract_short_curves(SurfaceModel model, const NarrowOptions& narr
   const Mesh& mesh = model.fine;
   const std::vector<double> lengths = lengths_of_curves(mesh);
   std::vector<char> stays(lengths.size(), 0);
-  for (std::size_t c = 0; c < lengths.size(); ++c)
-    stays[c] = narrow.keep_named && !mesh.curves[c].names.empty();
+  for (std::size_t c = 0; c < lengths.size(); ++c) stays[c] = narrow.keep.any_of(mesh.curves[c]);
   for (std::size_t l = 0; l < mesh.lines.size(); ++l)
     stays[mesh.line_curve[l]] |= std::ranges::any_of(narrow.kept, [&](const FeatureBall& ball) {
       const auto& [a, b] = mesh.lines[l];
@@ -321,7 +320,7 @@ void report_lost_names(const char* kind, const std::vector<Entity>& before, cons
       if (there.insert(name).second)
         warnings.push_back({"names that went with what is small", 1,
                             fmt::format("no {} has the name '{}' any more: {} {} was too small "
-                                        "(curves.keep_named keeps it)",
+                                        "(surface.keep keeps it)",
                                         kind, name, kind, entity.tag)});
 }
 
@@ -336,15 +335,15 @@ bool is_kept(const Mesh& mesh, int triangle, const NarrowOptions& narrow) {
   });
 }
 
-bool has_names_of(const Entity& host, const Entity& other) {
-  return std::ranges::all_of(other.names, [&](const std::string& name) {
+bool has_names_of(const Entity& host, const Entity& other, const KeptNames& keep) {
+  return std::ranges::all_of(keep.of(other), [&](const std::string& name) {
     return std::ranges::find(host.names, name) != host.names.end();
   });
 }
 
 bool may_join(const Mesh& mesh, int curve, int face, int host, const NarrowOptions& narrow) {
-  return face != host && (!narrow.keep_named || (mesh.curves[curve].names.empty() &&
-                                                 has_names_of(mesh.regions[host], mesh.regions[face])));
+  return face != host && !narrow.keep.any_of(mesh.curves[curve]) &&
+         has_names_of(mesh.regions[host], mesh.regions[face], narrow.keep);
 }
 
 SurfaceModel ignore_small(SurfaceModel model, const NarrowOptions& narrow, const CompoundOptions& options) {
@@ -354,7 +353,7 @@ SurfaceModel ignore_small(SurfaceModel model, const NarrowOptions& narrow, const
         fmt::format("{}: faces and curves below {:.6g} are to be ignored: expected a length far below the "
                     "diagonal, {:.3g}",
                     model.source, length, size));
-  const std::vector<Entity> faces = model.fine.regions, curves = model.fine.curves;
+  model.before = std::make_shared<const Mesh>(model.fine);
   model = close_small_holes(std::move(model), narrow);
   const std::vector<int> origin = cut_narrow_parts(model, narrow);
   const EntityGroups groups = FaceJoiner(model.fine, origin, narrow).join(model.warnings);
@@ -363,8 +362,8 @@ SurfaceModel ignore_small(SurfaceModel model, const NarrowOptions& narrow, const
   model = make_compound(std::move(model), groups, options);
   model = contract_short_curves(merge_short_curves(std::move(model), length, options, ShortRest::kSilent),
                                 narrow);
-  report_lost_names("face", faces, model.fine.regions, model.warnings);
-  report_lost_names("curve", curves, model.fine.curves, model.warnings);
+  report_lost_names("face", model.before->regions, model.fine.regions, model.warnings);
+  report_lost_names("curve", model.before->curves, model.fine.curves, model.warnings);
   return model;
 }
 

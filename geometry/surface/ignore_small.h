@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "geometry/mesh/entity_names.h"
 #include "geometry/surface/compound.h"
 #include "geometry/surface/surface_model.h"
 #include "geometry/surface/triangulated_model.h"
@@ -10,8 +11,8 @@ namespace delquad {
 
 struct NarrowOptions {
   double length = 0;  ///< what is narrower goes
-  /// What has a name stays: a face becomes only part of one with all its names, and curves with names stay.
-  bool keep_named = false;
+  /// A face becomes only part of one with all of its names that are kept, and curves with such names stay.
+  KeptNames keep = {};
   /// Faces and parts of faces that reach into these stay.
   std::vector<FeatureBall> kept = {};
 };
@@ -28,7 +29,7 @@ struct NarrowOptions {
 /// - of other shorter curves, both ends become one point, where the surface stays what it is by that, and no
 ///   point moves farther than `length`.
 /// Warnings name each of these with its place, the short curves that stay, and names that no face and no
-/// curve has any more. Throws InputError for a length that is not below the model's diagonal.
+/// curve has any more; `before` is what the model was. Throws InputError for a length that is not below the model's diagonal.
 SurfaceModel ignore_small(SurfaceModel model, const NarrowOptions& narrow,
                           const CompoundOptions& options = {});
 
@@ -46,8 +47,8 @@ std::vector<int> cut_narrow_parts(SurfaceModel& model, const NarrowOptions& narr
 
 /// Whether a triangle reaches into what is kept.
 bool is_kept(const Mesh& mesh, int triangle, const NarrowOptions& narrow);
-/// Whether it has all names of the other.
-bool has_names_of(const Entity& host, const Entity& other);
+/// Whether it has all names of the other that are kept.
+bool has_names_of(const Entity& host, const Entity& other, const KeptNames& keep);
 /// Whether a face may become part of another one across this curve.
 bool may_join(const Mesh& mesh, int curve, int face, int host, const NarrowOptions& narrow);
 

@@ -67,7 +67,8 @@ struct SurfaceModel {
   std::vector<LooseLine> loose;         ///< to be imprinted
   std::vector<EmbeddedCurve> embedded;  ///< by curve
   std::vector<LeftOutFace> left_out;
-  std::vector<Warning> warnings;  ///< what was repaired or looks suspicious
+  std::shared_ptr<const Mesh> before;  ///< `fine` before ignore_small(); null where that did not run
+  std::vector<Warning> warnings;       ///< what was repaired or looks suspicious
 };
 
 }  // namespace delquad

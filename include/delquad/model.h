@@ -53,6 +53,7 @@ struct ModelCurve {
   std::string name;       ///< physical group of the boundary; may be empty
   std::string where;      ///< file and line (or entity) it was read from, for messages
   bool is_crack = false;  ///< its nodes are doubled, except where it ends inside: the mesh comes apart there
+  bool is_gone = false;   ///< it only keeps its number, and no loop has it
 };
 
 /// How curves are divided into edges, whatever the size asks for.
@@ -274,8 +275,10 @@ struct SurfaceSpec {
   std::vector<std::vector<int>> groups;  ///< of kGroups: tags of faces
   double merge_curves = 0;               ///< curves shorter than this length become one with a neighbour
   /// Faces narrower than this length become part of a neighbour, curves shorter than it one with a neighbour
-  /// or a point; 0: none.
+  /// or a point; of planar models see leave_out_small(); 0: none.
   double ignore_below = 0;
+  bool idealize = false;  ///< ignore_below is min_length of the criteria, where nothing else is said
+  std::vector<std::string> keep = {};    ///< what has these names is not left out
   double fill_holes = 0;                 ///< holes and tubes not wider than this diameter are closed; 0: none
   std::optional<double> feature_angle;   ///< degrees in (0, 180]; absent: 40
   std::optional<double> weld_tolerance;  ///< part of the diagonal in [0, 0.1]; absent: 1e-9

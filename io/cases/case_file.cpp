@@ -367,8 +367,8 @@ MirrorPlane read_mirror(const TomlTable& table, double weld_tolerance) {
   return plane;
 }
 
-/// The keys of a [surface] table: compound, merge_curves, ignore_below, feature_angle, weld_tolerance,
-/// mirror, glue, unit. Throws InputError with file and line.
+/// The keys of a [surface] table: compound, merge_curves, ignore_below, idealize, keep, feature_angle,
+/// weld_tolerance, mirror, glue, unit. Throws InputError with file and line.
 SurfaceSpec read_surface_spec(const TomlTable& table) {
   SurfaceSpec spec;
   spec.where = table.where();
@@ -381,6 +381,8 @@ SurfaceSpec read_surface_spec(const TomlTable& table) {
       if (group.size() < 2) throw InputError(table.where("compound") + ": a compound has two faces or more");
   }
   if (table.has("ignore_below")) spec.ignore_below = table.positive_number("ignore_below");
+  spec.idealize = table.flag("idealize", false);
+  if (table.has("keep")) spec.keep = table.texts("keep");
   if (table.has("fill_holes")) spec.fill_holes = table.positive_number("fill_holes");
   if (table.has("merge_curves")) spec.merge_curves = table.positive_number("merge_curves");
   if (table.has("feature_angle"))

@@ -163,6 +163,8 @@ TomlKeys surface_keys() {
           {"weld_tolerance", "how far apart open edges may be, in diagonals", between("number", 0, 0.1)},
           {"mirror", "the model is one half", "", mirror_keys},
           {"ignore_below", "narrower faces become part of neighbours, shorter curves points", kPositive},
+          {"idealize", "whether ignore_below is min_length of the criteria", kFlag},
+          {"keep", "names of faces and curves that are not left out", kTexts},
           {"fill_holes", "diameter: holes that are not wider are closed", kPositive},
           {"glue", "whether bodies of CAD share what they touch at", kFlag},
           {"unit", "of lengths", one_of({"um", "mm", "cm", "m", "km", "in", "ft"})}};

@@ -257,8 +257,12 @@ std::string advice(const PreparedProblem* prepared, const FailingElement& first,
   if (prepared->surface)
     return fmt::format(": --ignore-below {:.3g} may help{}", below,
                        ignored < n ? fmt::format(" against {} of them", ignored) : "");
-  return fmt::format(": {}a size of {:.3g} there would help",
-                     first.cause == kAtGap ? "" : "fewer points, or ", first.what);
+  constexpr double kAbove = 1.01;
+  const std::string other = first.cause == kAtGap ? ""
+                            : prepared->plane.curve_places.empty()
+                                ? "fewer points, or "
+                                : fmt::format("--ignore-below {:.3g}, or ", kAbove * first.what);
+  return fmt::format(": {}a size of {:.3g} there would help", other, first.what);
 }
 
 /// "curve 7 (rim)"

@@ -153,7 +153,10 @@ class Comparison {
         sides_(sides),
         is_cut_(model.fine.curves.size(), 0) {
     for (const SurfaceCut& cut : cuts) is_cut_[cut.curve] = 1;
-    if (projector_ == nullptr) triangles_.emplace_back(fine_.points, fine_.triangles);
+    if (projector_ != nullptr) return;
+    const bool is_whole = std::ranges::find(left_out, 1) == left_out.end();
+    const Mesh& surface = model.before && is_whole ? *model.before : fine_;
+    triangles_.emplace_back(surface.points, surface.triangles);
   }
 
   SurfaceReport run() {

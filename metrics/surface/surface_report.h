@@ -28,7 +28,8 @@ MapReport report_maps(std::span<const FlatPatch* const> maps);
 /// Compares a mesh with its model; the mesh has the model's curves and regions.
 ///
 /// mesh_to_surface is sampled at the centre of each element and the middle of each edge, against the true
-/// surface (the curve, for edges on curves), or against the triangles of a triangulated model.
+/// surface (the curve, for edges on curves), or against the triangles of a triangulated model, as they were
+/// before ignore_small() where nothing is left out.
 /// surface_to_mesh is sampled at the points of the fine triangulation, which lie on the surface, and inside
 /// triangles so large that only plane faces have them, a 50th of the diagonal apart; against the elements, a
 /// quad being four triangles around its centre. `cuts`: curves that

@@ -84,7 +84,7 @@ TEST(PoorQuads, OfAHoleBesideAWall) {
 
 TEST(PoorQuads, OptionsAreNamedWhereTheyHelp) {
   // A strip of a plate is a face of its own.
-  const auto poor_of = [](const std::vector<Polygon>& faces, double ignore_below) {
+  const auto mesh_of = [](const std::vector<Polygon>& faces, double ignore_below) {
     Mesh plate;
     for (const Polygon& face : faces) {
       const int first = static_cast<int>(plate.points.size());
@@ -98,12 +98,20 @@ TEST(PoorQuads, OptionsAreNamedWhereTheyHelp) {
     problem.model = TriangleModel{plate};
     problem.surface.ignore_below = ignore_below;
     problem.size.field = make_constant_size(1);
-    return poor_in(mesh(problem, "DB"));
+    return mesh(problem, "DB");
+  };
+  const auto poor_of = [&](const std::vector<Polygon>& faces, double ignore_below) {
+    return poor_in(mesh_of(faces, ignore_below));
   };
   const std::vector<Polygon> strip{rectangle({0, 0}, {10, 5}), rectangle({0, 5}, {10, 5.02}),
                                    rectangle({0, 5.02}, {10, 10})};
   expect_told(poor_of(strip, 0), {"narrower than the size, 0.02", "--ignore-below 0.021 may help"});
   EXPECT_EQ(poor_of(strip, 0.021), "");
+  const auto told = [](const MeshResult& result) {
+    return std::ranges::count(result.warnings, "farthest nodes", &Warning::kind);
+  };
+  EXPECT_EQ(told(mesh_of(strip, 0)), 0);
+  EXPECT_EQ(told(mesh_of(strip, 0.021)), 1) << "how far nodes lie from the triangles as they were read";
 }
 
 TEST(PoorQuads, OfACornerOfTheModel) {

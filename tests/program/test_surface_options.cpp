@@ -72,8 +72,7 @@ TEST(SurfaceOptions, NonsenseIsRefused) {
   for (const char* length : {"0", "-1", "nan", "inf"})
     refused("roof.off", {"--ignore-below", length}, "expected a length > 0");
   refused("roof.off", {"--ignore-below", "3"}, "expected a length far below the diagonal");
-  refused("square.toml", {"--ignore-below", "0.1"},
-          "--ignore-below: the model is planar: ignore_below is for surfaces\n");
+  refused("square.toml", {"--glue"}, "--glue: the model is planar: glue is for surfaces\n");
   refused("square.toml", {"--compound", "all"}, "--compound: the model is planar");
 }
 

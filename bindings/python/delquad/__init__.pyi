@@ -202,6 +202,8 @@ def mesh(
     weld: float | None = None,
     merge_curves: float | None = None,
     ignore_below: float | None = None,
+    idealize: bool = False,
+    keep: str | Sequence[str] = (),
     fill_holes: float | None = None,
     mirror: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
     glue: bool = False,

@@ -119,7 +119,7 @@ def _add_layer(problem, layer):
     problem.add_layer(*names, *(read(values[key]) for key, read in _LAYER.items()))
 
 
-def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, fill_holes, mirror, glue, unit):
+def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, idealize, keep, fill_holes, mirror, glue, unit):
     if isinstance(compounds, str):
         problem.compounds_named(compounds)
     elif compounds is not None:
@@ -132,6 +132,10 @@ def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_b
         problem.merge_curves(merge_curves)
     if ignore_below is not None:
         problem.ignore_below(ignore_below)
+    if idealize:
+        problem.idealize(True)
+    if keep:
+        problem.keep([keep] if isinstance(keep, str) else list(keep))
     if fill_holes is not None:
         problem.fill_holes(fill_holes)
     if mirror is not None:
@@ -212,6 +216,8 @@ def mesh(
     weld=None,
     merge_curves=None,
     ignore_below=None,
+    idealize=False,
+    keep=(),
     fill_holes=None,
     mirror=None,
     glue=False,
@@ -265,6 +271,7 @@ def mesh(
     compounds, feature_angle, weld, merge_curves, mirror: how faces of surfaces are made of the model; mirror is a
         point and a normal.
     ignore_below: a length; narrower faces become part of neighbours, shorter curves points.
+    idealize: ignore_below is min_length of the criteria. keep: names that are not left out.
     fill_holes: a diameter; holes that are not wider are closed.
     glue: bodies of a CAD model that touch share faces, curves and nodes there.
     unit: of lengths, of CAD and 3MF: "um", "mm" (as if nothing is said), "cm", "m", "km", "in" or "ft".
@@ -327,7 +334,7 @@ def mesh(
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)
-    _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, fill_holes, mirror, glue, unit)
+    _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, idealize, keep, fill_holes, mirror, glue, unit)
     _embed(problem, embed)
     if quality is not None:
         _core.check_quality(quality)
