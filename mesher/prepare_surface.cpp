@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "algorithms/treatment/treatment.h"
@@ -28,7 +27,6 @@
 #include "features/symmetry/mirrored_surface.h"
 #include "features/washers/surface_washers.h"
 #include "fields/sampled_fields.h"
-#include "geometry/mesh/half_edges.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "mesher/prepare.h"
@@ -68,42 +66,21 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
 /// not what is missing then, and there may be many rounds.
 constexpr long long kStepsAnew = kMostAgreementSteps / 10;
 
-/// Takes those divisions from `n_asked` on out that are of curves of a face. Returns whether there were some.
-bool drop_divisions(const Mesh& fine, int face, std::size_t n_asked, std::vector<CurveDivision>& divisions) {
-  std::set<std::string> around;
-  const std::vector<HalfEdge> sides = sorted_half_edges(fine);
-  for (std::size_t l = 0; l < fine.lines.size(); ++l)
-    for (const HalfEdge& side : sides_of_edge(std::span(sides), fine.lines[l][0], fine.lines[l][1]))
-      if (fine.triangle_region[side.element] == face)
-        around.insert(fmt::format("curve_{}", fine.curves[fine.line_curve[l]].tag));
-  const auto gone = std::remove_if(divisions.begin() + static_cast<std::ptrdiff_t>(n_asked), divisions.end(),
-                                   [&](const CurveDivision& d) { return around.contains(d.name); });
-  const bool any = gone != divisions.end();
-  divisions.erase(gone, divisions.end());
-  return any;
-}
-
-/// Meshes the curves; faces for which that is impossible go. Before that those `divisions` give way that
-/// nobody asked for by name, from `n_asked` on.
+/// Meshes the curves; faces for which that is impossible go, those with washers once these gave way.
 SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                              const SizeField* asked, const MeshProblem& problem,
-                             std::vector<CurveDivision> divisions, std::size_t n_asked,
+                             const std::vector<CurveDivision>& divisions, SurfaceWashers& washers,
                              const MappedSpec& mapped, const PeriodicSides& periodic, long long most_steps,
-                             Failures& failures, std::vector<Warning>& warnings) {
+                             Failures& failures) {
   const auto solver = matching_solver(recombination_options(problem.options).solver, problem.options);
   while (!flattening.patches.empty()) {
     try {
-      const bool may_repeat = failures.are_left_out() || divisions.size() > n_asked;
+      const bool may_repeat = failures.are_left_out() || washers.can_give_way();
       return make_surface_domain(model, may_repeat ? flattening : std::move(flattening), size, *solver, asked,
                                  divisions, periodic, mapped, curve_options(problem.options).agreement,
                                  most_steps);
     } catch (const FaceError& error) {
-      if (drop_divisions(model.fine, error.face(), n_asked, divisions)) {
-        warnings.push_back(
-            {"faces without rows around holes and across fillets", 1,
-             std::string(error.what()) + ": its curves get no rows around holes or across fillets"});
-        continue;
-      }
+      if (washers.give_way(error)) continue;
       failures.add(error.face(), error.what());
       std::erase_if(flattening.patches, [&](const FlatPatch& p) { return p.face == error.face(); });
     }
@@ -150,7 +127,7 @@ class SurfaceSteps final : public ModelSteps {
     check_surface_cross(problem_.cross);
     check_count(expected_quads(model_.fine, SurfaceSize(asked_)), problem_);
     cut_ = cut_at_planes(problem_, model_, asked_);
-    if (cut_) divisions_ = divisions_of_part(problem_.divisions, *cut_), n_asked_ = divisions_.size();
+    if (cut_) divisions_ = divisions_of_part(problem_.divisions, *cut_);
     if (cut_) model_ = std::move(cut_->half.model);
     wanted_ = surface_size(problem_, model_, asked_, divisions_, refinement_.spots, part());
   }
@@ -177,8 +154,8 @@ class SurfaceSteps final : public ModelSteps {
     }
     surface_->domain = mesh_curves_of(
         model_, std::move(flattening_), *on_curves, wanted_.curvature ? nullptr : wanted_.base.get(),
-        problem_, divisions_, n_asked_, mapped_, periodic_,
-        refinement_.spots.empty() ? kMostAgreementSteps : kStepsAnew, failures_, p.warnings);
+        problem_, divisions_, washers_, mapped_, periodic_,
+        refinement_.spots.empty() ? kMostAgreementSteps : kStepsAnew, failures_);
     surface_->model = std::move(model_);
     surface_->cad = cad_;
     p.failures = failures_.take();
@@ -222,12 +199,9 @@ class SurfaceSteps final : public ModelSteps {
                                              : "a surface needs a size (a number or an expression)");
     });
     model_ = join_short_curves(problem_, *asked_, std::move(model_));
-    SurfaceWashers washers;
-    n_asked_ = divisions_.size();
-    washers.plan(problem_.washers, divisions_, as_function(asked_), model_);
+    washers_.plan(as_function(asked_));
     asked_ = imprint_named(problem_.size.named, std::move(asked_), model_, warnings);
-    washers.cut(model_, divisions_, mapped_);
-    divide_fillets(problem_.fillet_rows, model_, divisions_, mapped_);
+    washers_.cut();
   }
 
   void set_size(PreparedProblem& p) {
@@ -250,8 +224,8 @@ class SurfaceSteps final : public ModelSteps {
   std::shared_ptr<const SizeField> asked_;
   std::optional<CutSurface> cut_;                              ///< of a symmetric one, whose part is `model_`
   std::vector<CurveDivision> divisions_ = problem_.divisions;  ///< of the part
-  std::size_t n_asked_ = 0;  ///< divisions; those behind are of washers and fillets
   MappedSpec mapped_ = problem_.mapped;
+  SurfaceWashers washers_{problem_, model_, divisions_, mapped_};
   WantedSize wanted_;
   PeriodicSides periodic_;
   std::vector<Warning> of_periodic_;

@@ -16,6 +16,10 @@
 namespace delquad {
 namespace {
 
+/// Curves that face a divided one want as many edges where that is no more than this times what they want, or
+/// that of them.
+constexpr double kMostChange = 1.45;
+
 /// Length from a chain's beginning to each of its points.
 std::vector<double> lengths_along(const Mesh& fine, const CurveChain& chain) {
   std::vector<double> length{0};
@@ -75,7 +79,9 @@ void divide_curves(const Mesh& fine, const SurfaceCurves& curves, const std::vec
   }
   for (std::size_t c = 0; c < wanted.demands.size(); ++c)
     if (const auto at = of_group.find(wanted.group[c]); at != of_group.end())
-      wanted.demands[c].integral = at->second;
+      if (const double change = std::log(at->second / wanted.integrals[c].total());
+          wanted.demands[c].exact > 0 || std::abs(change) <= std::log(kMostChange))
+        wanted.demands[c].integral = at->second;
 }
 
 void check_divisions_even(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,

@@ -42,7 +42,7 @@ class GridOfPatch {
   std::optional<QuadPatch> make(Vec2& fold) const {
     std::vector<double> layers;
     for (int row = 1; row < mapped_.rows; ++row) layers.push_back(double(row) / mapped_.rows);
-    if (mapped_.corners.empty() && mapped_.rows == 0) layers = ring_layers(patch_.boundary, *patch_.size);
+    if (mapped_.corners.empty() && mapped_.rows <= 0) layers = ring_layers(patch_.boundary, *patch_.size);
     const auto flat = interpolated_grid(patch_.boundary, patch_.boundary.points, mapped_.corners, layers);
     if (!flat) return std::nullopt;
     QuadPatch grid;
@@ -54,7 +54,8 @@ class GridOfPatch {
     if (mapped_.corners.size() == 3 || !are_convex(grid.points, grid.quads))
       smooth_grid(grid, *patch_.cross, *patch_.size);
     if (!are_convex(grid.points, grid.quads, &fold)) return std::nullopt;
-    if (!mapped_.is_asked && mapped_.rows == 0 && !quality_of(grid).pays(is_narrow(layers)))
+    if (!mapped_.is_asked && mapped_.rows <= 0 &&
+        !quality_of(grid).pays(mapped_.rows < 0 || is_narrow(layers)))
       return std::nullopt;
     return grid;
   }
@@ -151,7 +152,7 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, P
     for (const int node : patch.boundary.point_node) p.plane.curve_places[node] = {};
   }
   for (const auto& [region, rows] : spec.rings) {
-    if (std::ranges::none_of(p.patches, [&](const PreparedPatch& patch) {
+    if (rows > 0 && std::ranges::none_of(p.patches, [&](const PreparedPatch& patch) {
           return patch.grid && has_name(p.boundary.regions[patch.region], region);
         }))
       p.warnings.push_back(

@@ -185,10 +185,10 @@ std::optional<MappedFace> GridFinder::find(int face, const Entity& region, const
     return cut_at(face, outline[0], corners);
   const bool asked =
       std::ranges::any_of(spec_.names, [&](const auto& name) { return has_name(region, name); });
-  const bool just_narrow = !asked && !spec_.automatic;
   const auto told =
       std::ranges::find_if(spec_.rings, [&](const auto& r) { return has_name(region, r.first); });
   const int rows = told == spec_.rings.end() ? 0 : told->second;
+  const bool just_narrow = !asked && !spec_.automatic && rows == 0;
   if (outline.size() == 2 && (rows > 0 || (turns_nowhere(outline[0]) && turns_nowhere(outline[1])))) {
     const double outer = wanted(outline[0]), inner = wanted(outline[1]);
     if (!asked && rows == 0 && !sides_match(outer, inner)) return std::nullopt;
@@ -207,7 +207,7 @@ std::optional<MappedFace> GridFinder::find(int face, const Entity& region, const
   const std::vector<std::size_t> corners = corners_by_angle(outline[0]);
   if (!asked && !looks_mapped(outline[0], corners, just_narrow)) return std::nullopt;
   MappedFace mapped = cut_at(face, outline[0], corners);
-  mapped.is_asked = asked;
+  mapped.is_asked = asked, mapped.rows = rows;
   return mapped;
 }
 

@@ -33,7 +33,7 @@ struct MappedFace {
   std::vector<std::vector<int>>
       sides;                        ///< four or three, of curves, one after the other; of a ring its loops
   std::vector<std::size_t> begins;  ///< where in the outline they begin, ascending; of a ring: none
-  int rows = 0;                     ///< of a ring: see MappedSpec::rings; 0: as the size asks for
+  int rows = 0;                     ///< see MappedSpec::rings; 0: no one told
 };
 
 /// Tells which faces become grids, and where these have their corners: at the points that are told; else a

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 #include <vector>
@@ -28,10 +27,7 @@ constexpr double kSmooth = 0.866;
 class FilletFinder {
  public:
   explicit FilletFinder(const SurfaceModel& model)
-      : model_(model), mesh_(model.fine), sides_(sorted_half_edges(mesh_)) {
-    for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
-      curve_[std::minmax(mesh_.lines[l][0], mesh_.lines[l][1])] = mesh_.line_curve[l];
-  }
+      : model_(model), mesh_(model.fine), sides_(sorted_half_edges(mesh_)) {}
 
   /// 1 / radius of the face of a chart; 0: it differs from place to place, or is not known.
   double curvature(const Chart& chart) const {
@@ -45,13 +41,13 @@ class FilletFinder {
   }
 
   /// The curves across a fillet of that curvature; of a ring none. Nothing where the chart is no fillet.
-  std::optional<std::set<int>> across(const Chart& chart, double curvature) const {
+  std::optional<std::set<int>> across(const OutlinedChart& chart, double curvature) const {
     std::set<int> curves;
     int n_changes = 0, n_across = 0;
-    for (const std::vector<int>& loop : chart.loops) {
-      int before = side_of(chart, loop, loop.size() - 1, curvature);
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        const int curve = side_of(chart, loop, i, curvature);
+    for (std::size_t l = 0; l < chart.loops.size(); ++l) {
+      int before = side_of(chart, l, chart.loops[l].size() - 1, curvature);
+      for (std::size_t i = 0; i < chart.loops[l].size(); ++i) {
+        const int curve = side_of(chart, l, i, curvature);
         n_changes += curve != before;
         n_across += curve != before && curve >= 0;
         if (curve >= 0) curves.insert(curve);
@@ -71,9 +67,10 @@ class FilletFinder {
     return model_.projector->face_curvature(face, model_.projector->to_face(face, middle));
   }
   /// -1 where a flatter face goes on smoothly beside that side of a loop; else the curve.
-  int side_of(const Chart& chart, const std::vector<int>& loop, std::size_t i, double curvature) const {
+  int side_of(const OutlinedChart& chart, std::size_t l, std::size_t i, double curvature) const {
+    const std::vector<int>& loop = chart.loops[l];
     const int a = chart.fine_node[loop[i]], b = chart.fine_node[loop[(i + 1) % loop.size()]];
-    const int curve = curve_.at(std::minmax(a, b));
+    const int curve = chart.curve_of[l][i];
     const auto edge = sides_of_edge(std::span(sides_), a, b);
     if (edge.size() != 2) return curve;
     const Vec3 m = area_vector(mesh_, edge[0].element), n = area_vector(mesh_, edge[1].element);
@@ -85,18 +82,16 @@ class FilletFinder {
   const SurfaceModel& model_;
   const Mesh& mesh_;
   std::vector<HalfEdge> sides_;
-  std::map<std::pair<int, int>, int> curve_;
 };
 
 }  // namespace
 
-void divide_fillets(const std::vector<FilletRows>& fillets, const SurfaceModel& model,
-                    std::vector<CurveDivision>& divisions, MappedSpec& mapped) {
-  if (fillets.empty() || !model.projector) return;
-  const Mesh& mesh = model.fine;
-  std::map<int, int> divided = divided_curves(mesh, divisions);
-  const FilletFinder finder(model);
-  for (const Chart& chart : extract_charts(mesh, std::vector<char>(mesh.triangles.size(), 1))) {
+void SurfaceWashers::divide_fillets() {
+  const std::vector<FilletRows>& fillets = problem_.fillet_rows;
+  if (fillets.empty() || !model_.projector) return;
+  find_divided();
+  const FilletFinder finder(model_);
+  for (const OutlinedChart& chart : outlined_charts(model_.fine)) {
     const double curvature = finder.curvature(chart);
     const auto spec = std::ranges::find_if(fillets, [&](const FilletRows& f) {
       return curvature * f.most >= 1 - kVaries / 2 && curvature * f.least <= 1 + kVaries / 2;
@@ -105,11 +100,8 @@ void divide_fillets(const std::vector<FilletRows>& fillets, const SurfaceModel& 
     const auto curves = finder.across(chart, curvature);
     if (!curves) continue;
     if (curves->empty())
-      mapped.rings.emplace_back(fmt::format("region_{}", mesh.regions[chart.face].tag), spec->rows);
-    for (const int c : *curves)
-      if (divided.emplace(c, spec->rows).second)
-        divisions.push_back(
-            {.name = fmt::format("curve_{}", mesh.curves[c].tag), .edges = spec->rows, .where = spec->where});
+      mapped_.rings.emplace_back(fmt::format("region_{}", model_.fine.regions[chart.face].tag), spec->rows);
+    for (const int c : *curves) divide(c, spec->rows, spec->where);
   }
 }
 

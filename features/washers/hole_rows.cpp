@@ -11,20 +11,24 @@
 #include "base/segment.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
 namespace {
 
-/// Outlines turn by no more at a point, and by no more than this times a full turn in all.
-constexpr double kMostTurn = 50 * std::numbers::pi / 180, kMostTurns = 1.1;
+/// Outlines turn by no more than this times a full turn in all.
+constexpr double kMostTurns = 1.1;
 /// How much distances from the middle of a round outline differ, in radii.
 constexpr double kRound = 0.06;
 /// Diameters are in a range that they miss by this part: triangulations have them so.
 constexpr double kInRange = 1e-3;
-/// Rows are at least so high, of what is asked for.
-constexpr double kLeastHeight = 0.6;
+/// Rows are at least so high, of what is asked for; and what is free beside them so wide, of the last edges.
+constexpr double kLeastHeight = 0.6, kLeastFree = 0.5;
 /// Edges around, where the size asks for less; and edges of a closed boundary of quads.
 constexpr int kFewestEdges = 6, kFewestAsked = 4;
+constexpr double kMostEdges = 1e5;  // that are tried
+/// Lengths of edges, in sizes: quads beside them have others that are a fifth shorter or longer.
+constexpr double kShortest = 1.2 * kAskedShort, kLongest = kAskedLong / 1.2;
 
 /// Twice the area, along the normal.
 Vec3 area_of(const std::vector<Vec3>& outline) {
@@ -71,37 +75,18 @@ double diameter_of(const std::vector<Vec2>& flat) {
   return least;
 }
 
-/// So many edges, by the lengths of parts; opposite parts of equal lengths get equal numbers.
-std::vector<int> share_edges(const std::vector<double>& parts, int edges) {
-  const std::size_t n = parts.size(), half = n / 2;
-  bool repeats = n > 1 && n % 2 == 0 && edges % 2 == 0;
-  for (std::size_t i = 0; repeats && i < half; ++i)
-    repeats = std::abs(parts[i] - parts[i + half]) <= kInRange * parts[i];
-  if (repeats) {
-    std::vector<int> shares = share_edges({parts.begin(), parts.begin() + half}, edges / 2);
-    shares.insert(shares.end(), shares.begin(), shares.begin() + half);
-    return shares;
-  }
-  std::vector<int> shares(n, 1);
-  for (int left = edges - static_cast<int>(n); left > 0; --left) {
-    std::size_t most = 0;
-    for (std::size_t i = 1; i < n; ++i)
-      if (parts[i] * shares[most] > parts[most] * shares[i] * (1 + kInRange)) most = i;
-    ++shares[most];
-  }
-  return shares;
-}
+constexpr double kTurn = 2 * std::numbers::pi;
 
-/// Around the last row. Where no width is given each row is as high as edges at its beginning are long.
-double outer_length(const WasherSpec& washer, double length, int edges) {
-  if (washer.width > 0) return length + 2 * std::numbers::pi * washer.width;
-  return length * std::pow(1 + 2 * std::numbers::pi / edges, washer.rows);
+/// Around the last of some rows. Where no width is given each is as high as edges at its beginning are long.
+double outer_length(const WasherSpec& washer, double length, int edges, int rows) {
+  if (washer.width > 0) return length + kTurn * rows * washer.width / washer.rows;
+  return length * std::pow(1 + kTurn / edges, rows);
 }
 
 /// An even number: edges at the hole and around the last row are as long as the size, in the mean.
 int edges_for(const WasherSpec& washer, double length, double size) {
   const auto miss = [&](int n) {
-    return std::log(std::sqrt(length * outer_length(washer, length, n)) / (n * size));
+    return std::log(std::sqrt(length * outer_length(washer, length, n, washer.rows)) / (n * size));
   };
   int n = std::max(kFewestEdges, 2 * static_cast<int>(length / size / 2));
   while (miss(n) > 0 && std::abs(miss(n + 2)) < miss(n)) n += 2;
@@ -182,34 +167,82 @@ const WasherSpec* washer_of(const std::vector<WasherSpec>& washers, const Hole& 
   return at == washers.end() ? nullptr : &*at;
 }
 
+bool edge_fits(double length, double size) { return length >= kShortest * size && length <= kLongest * size; }
+
+std::vector<int> share_edges(const std::vector<double>& parts, int edges) {
+  const std::size_t n = parts.size(), half = n / 2;
+  bool repeats = n > 1 && n % 2 == 0 && edges % 2 == 0;
+  for (std::size_t i = 0; repeats && i < half; ++i)
+    repeats = std::abs(parts[i] - parts[i + half]) <= kInRange * parts[i];
+  if (repeats) {
+    std::vector<int> shares = share_edges({parts.begin(), parts.begin() + half}, edges / 2);
+    shares.insert(shares.end(), shares.begin(), shares.begin() + half);
+    return shares;
+  }
+  std::vector<int> shares(n, 1);
+  for (int left = edges - static_cast<int>(n); left > 0; --left) {
+    std::size_t most = 0;
+    for (std::size_t i = 1; i < n; ++i)
+      if (parts[i] * shares[most] > parts[most] * shares[i] * (1 + kInRange)) most = i;
+    ++shares[most];
+  }
+  return shares;
+}
+
 std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSpec& washer, double size,
                                     const HoleRoom& room, std::vector<Warning>& warnings) {
   const double length = hole.length();
-  const int edges = washer.edges > 0 ? washer.edges : edges_for(washer, length, size);
-  const double asked = (outer_length(washer, length, edges) - length) / (2 * std::numbers::pi) / washer.rows;
-  const std::string label = fmt::format("{}: the hole of diameter {:.4g} at {}", washer.where, hole.diameter,
-                                        show_point(hole.middle()));
-  if (edges < static_cast<int>(hole.parts.size())) {
+  const bool is_given = !hole.given.empty() && std::ranges::count(hole.given, 0) == 0;
+  const int wanted = is_given           ? std::accumulate(hole.given.begin(), hole.given.end(), 0)
+                     : washer.edges > 0 ? washer.edges
+                                        : edges_for(washer, length, size);
+  const auto outer = [&](int n, int rows) { return outer_length(washer, length, n, rows); };
+  const auto height = [&](int n, int rows) { return (outer(n, rows) - length) / kTurn / rows; };
+  const auto fits = [&](int n) {
+    return n >= static_cast<int>(hole.parts.size()) && (!hole.is_rim || edge_fits(length / n, size)) &&
+           length + kTurn * kLeastHeight * height(n, 1) <= n * kLongest * size &&
+           outer(n, washer.rows) >= n * kShortest * size;
+  };
+  int edges = fits(wanted) ? wanted : 0;
+  const int most =
+      is_given || edges > 0
+          ? 0
+          : static_cast<int>(std::min(kMostEdges, outer(kFewestEdges, washer.rows) / (kShortest * size)));
+  for (int n = kFewestEdges; n <= most; n += 2)
+    if (fits(n) &&
+        (edges == 0 || std::abs(std::log(n / double(wanted))) < std::abs(std::log(edges / double(wanted)))))
+      edges = n;
+  const double asked = height(edges > 0 ? edges : wanted, washer.rows);
+  const auto [plain, shared] = room.around(hole, number, (2 * washer.rows + 2) * asked);
+  int rows = edges > 0 ? washer.rows : 0;
+  const auto possible = [&, plain = plain, shared = shared] {
+    const double free = kLeastFree * length / edges, growth = kLeastFree * kTurn / edges;
+    return std::min({height(edges, rows), plain / (rows + 1), (plain - free) / rows / (1 + growth),
+                     shared / (2 * rows + 1), (shared - free) / rows / (2 + growth),
+                     (edges * kLongest * size - length) / kTurn / rows});
+  };
+  while (rows > 0 && possible() < kLeastHeight * height(edges, rows)) --rows;
+  const double high = rows > 0 ? possible() : 0;
+  if (rows == washer.rows && high == asked && edges == wanted)
+    return HoleRows{rows, high, is_given ? hole.given : share_edges(hole.parts, edges)};
+  const double near = std::min(plain, shared);
+  const std::string why =
+      near < (washer.rows + 1) * asked && edges > 0
+          ? fmt::format("something is {:.3g} away", near)
+          : fmt::format("{} edges would be {:.2g} to {:.2g} sizes long", wanted, length / wanted / size,
+                        outer(wanted, washer.rows) / wanted / size);
+  const std::string label = fmt::format("{}: the hole of diameter {:.4g} at {} gets", washer.where,
+                                        hole.diameter, show_point(hole.middle()));
+  if (rows == 0) {
     warnings.push_back({"holes without rows", 1,
-                        fmt::format("{} gets no rows: it consists of {} curves, and has {} edges", label,
-                                    hole.parts.size(), edges)});
+                        fmt::format("{} no rows: {}, and a row is {:.3g} high", label, why, asked)});
     return std::nullopt;
   }
-  const auto [plain, shared] = room.around(hole, number, (2 * washer.rows + 2) * asked);
-  for (int rows = washer.rows; rows > 0; --rows) {
-    const double height = std::min({asked, plain / (rows + 1), shared / (2 * rows + 1)});
-    if (height < kLeastHeight * asked) continue;
-    if (rows < washer.rows || height < asked)
-      warnings.push_back(
-          {"holes with less room for rows than asked for", asked * washer.rows / (rows * height),
-           fmt::format("{} gets {} of {:.3g}, not {} of {:.3g}: something is {:.3g} away", label,
-                       counted(rows, "row"), height, washer.rows, asked, std::min(plain, shared))});
-    return HoleRows{rows, height, share_edges(hole.parts, edges)};
-  }
-  warnings.push_back({"holes without rows", 1,
-                      fmt::format("{} gets no rows: something is {:.3g} away, and a row is {:.3g} high",
-                                  label, std::min(plain, shared), asked)});
-  return std::nullopt;
+  const std::string others = edges == wanted ? "" : fmt::format(" and {} edges", edges);
+  warnings.push_back({"holes with less room for rows than asked for", asked * washer.rows / (rows * high),
+                      fmt::format("{} {} of {:.3g}{}, not {} of {:.3g}: {}", label, counted(rows, "row"),
+                                  high, others, washer.rows, height(wanted, washer.rows), why)});
+  return HoleRows{rows, high, is_given ? hole.given : share_edges(hole.parts, edges)};
 }
 
 void check_washers(const std::vector<WasherSpec>& washers, const std::vector<FilletRows>& fillets) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,15 +13,20 @@
 
 namespace delquad {
 
+/// Outlines turn by no more at a point, in radians, or have a corner there.
+inline constexpr double kMostTurn = 50 * std::numbers::pi / 180;
+
 /// A smooth and convex outline of a hole.
 struct Hole {
-  std::vector<Vec3> outline;  ///< once around, the first point is not repeated
-  std::vector<double> parts;  ///< lengths of the curves that it consists of, in their order
-  double diameter = 0;        ///< of an oval one: the least width
+  std::vector<Vec3> outline;    ///< once around, the first point is not repeated
+  std::vector<double> parts;    ///< lengths of the curves that it consists of, in their order
+  double diameter = 0;          ///< of an oval one: the least width
+  std::vector<int> given = {};  ///< edges of its parts, where that is settled; 0: not
+  bool is_rim = false;          ///< whether other faces go on there
   double length() const;
   Vec3 middle() const;
 };
-/// The diameter; nothing of what has corners of more than 50 degrees or is not convex.
+/// The diameter; nothing of what has corners or is not convex.
 std::optional<double> hole_diameter(const std::vector<Vec3>& outline);
 
 /// How far a hole is from all else that bounds its region.
@@ -47,8 +53,14 @@ struct HoleRows {
 };
 /// The range that a hole falls into; null: none.
 const WasherSpec* washer_of(const std::vector<WasherSpec>& washers, const Hole& hole);
+/// Whether edges are about as long as the size: neither shorter nor longer than a sheet allows.
+bool edge_fits(double length, double size);
+/// Edges of parts with these lengths; opposite parts of equal lengths get equal numbers.
+std::vector<int> share_edges(const std::vector<double>& parts, int edges);
 /// Fewer and lower rows where there is less room: to walls a row is left free, and between two holes with
-/// rows one, too. Nothing where there is no room for one of .6 of its height. Warnings tell of both.
+/// rows one, too; and where edges around the last row would be longer than fits. Another number of edges, the
+/// next in ratio, where no rows of .6 of their height fit this one, or edges of the rim. Nothing where
+/// none does. Warnings tell of all.
 std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSpec& washer, double size,
                                     const HoleRoom& room, std::vector<Warning>& warnings);
 

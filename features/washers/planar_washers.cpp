@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
-#include <set>
 #include <utility>
 #include <variant>
 
@@ -108,16 +108,16 @@ MeshProblem with_planar_washers(MeshProblem problem, const PointSize& size, std:
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
       walls.push_back({{points[i], points[i + 1]}, hole_of[c]});
   }
-  for (const ModelPoint& point : model.points) {
-    const Vec3 at{point.at.x, point.at.y, 0};
-    walls.push_back({{at, at}});
-  }
+  for (const ModelPoint& p : model.points)
+    walls.push_back({{Vec3{p.at.x, p.at.y, 0}, Vec3{p.at.x, p.at.y, 0}}});
   const HoleRoom room(std::move(walls));
-  std::set<int> divided;  // curves
+  std::map<int, int> divided;  // edges of curves
   for (const CurveDivision& division : problem.divisions)
-    for (const int c : entities_named(curve_entities(model), "curve", division.name)) divided.insert(c);
+    for (const int c : entities_named(curve_entities(model), "curve", division.name))
+      divided[c] = division.edges;
   for (std::size_t l = 0; l < holes.size(); ++l) {
     if (of_hole[l] == nullptr) continue;
+    for (const int c : sampled[l].curves) holes[l].given.push_back(divided.contains(c) ? divided[c] : 0);
     const auto rows =
         rows_around(holes[l], static_cast<int>(l), *of_hole[l], size(holes[l].outline[0]), room, warnings);
     if (!rows) continue;
@@ -132,7 +132,7 @@ MeshProblem with_planar_washers(MeshProblem problem, const PointSize& size, std:
     const std::vector<int>& curves = sampled[l].curves;
     for (std::size_t i = 0; i < curves.size(); ++i) {
       layer.on.push_back(fmt::format("curve_{}", curves[i] + 1));
-      if (divided.insert(curves[i]).second)
+      if (divided.emplace(curves[i], rows->edges[i]).second)
         problem.divisions.push_back({.name = layer.on.back(), .edges = rows->edges[i], .where = layer.where});
     }
     problem.layers.push_back(std::move(layer));

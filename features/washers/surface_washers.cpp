@@ -25,6 +25,8 @@ namespace {
 constexpr double kLeastFlat = 0.8;
 /// Points of a ring's outline for each edge, at least, and steps on the way there.
 constexpr int kPointsAnEdge = 4, kSteps = 4;
+/// Ends of a bore have lengths within this ratio.
+constexpr double kMostTaper = 1.25;
 
 /// A hole in a face, with what is known of it on the surface.
 struct FaceHole : Hole {
@@ -36,32 +38,22 @@ struct FaceHole : Hole {
 
 using Edge = std::pair<int, int>;
 
-std::map<Edge, int> curves_of_edges(const Mesh& mesh) {
-  std::map<Edge, int> curve;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-    curve[std::minmax(mesh.lines[l][0], mesh.lines[l][1])] = mesh.line_curve[l];
-  return curve;
-}
-
-std::vector<Chart> charts_of(const Mesh& mesh) {
-  return extract_charts(mesh, std::vector<char>(mesh.triangles.size(), 1));
-}
-
 /// A loop of a chart, from the beginning of a curve; its diameter is 0 where it is no hole. `into`: of each
 /// side of the chart's loops, by its ends. `ends`: points at which curves begin.
-FaceHole hole_of(const Chart& chart, std::vector<int> loop, const std::map<Edge, int>& curves,
-                 const std::map<Edge, Vec3>& into, const std::set<int>& ends) {
+FaceHole hole_of(const OutlinedChart& chart, std::size_t l, const std::map<Edge, Vec3>& into,
+                 const std::set<int>& ends) {
+  std::vector<int> loop = chart.loops[l];
+  FaceHole hole;
+  hole.curve_of = chart.curve_of[l];
+  hole.face = chart.face;
   const std::size_t n = loop.size();
   const auto first = std::ranges::find_if(loop, [&](int v) { return ends.contains(chart.fine_node[v]); });
+  std::ranges::rotate(hole.curve_of, hole.curve_of.begin() + (first - loop.begin()) % std::ssize(loop));
   if (first != loop.end()) std::ranges::rotate(loop, first);
-  FaceHole hole;
-  hole.face = chart.face;
   Vec3 area;
   double flat = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 a = chart.points[loop[i]], side = chart.points[loop[(i + 1) % n]] - a;
-    hole.curve_of.push_back(
-        curves.at(std::minmax(chart.fine_node[loop[i]], chart.fine_node[loop[(i + 1) % n]])));
     if (i == 0 || hole.curve_of[i] != hole.curves.back()) {
       hole.curves.push_back(hole.curve_of[i]);
       hole.parts.push_back(0);
@@ -125,39 +117,125 @@ std::vector<std::vector<Vec3>> places_around(const FaceHole& hole, const HoleRow
   return parts;
 }
 
+std::vector<HoleRoom::Wall> walls_of(const std::vector<LooseLine>& loose) {
+  std::vector<HoleRoom::Wall> walls;
+  for (const LooseLine& line : loose)
+    for (std::size_t i = 0; i < line.points.size(); ++i)
+      walls.push_back({{line.points[i], line.points[std::min(i + 1, line.points.size() - 1)]}});
+  return walls;
+}
+
 /// The name that a part of a ring's outline has until it is found again; no name of a file has a line's end.
 std::string mark(std::size_t ring, std::size_t part) { return fmt::format("\n{} {}", ring, part); }
 
 }  // namespace
 
-std::map<int, int> divided_curves(const Mesh& mesh, const std::vector<CurveDivision>& divisions) {
-  std::map<int, int> edges;
-  for (const CurveDivision& division : divisions)
-    for (const int c : entities_named(mesh.curves, "curve", division.name)) edges[c] = division.edges;
-  return edges;
+std::vector<OutlinedChart> outlined_charts(const Mesh& mesh) {
+  std::map<Edge, int> curve;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    curve[std::minmax(mesh.lines[l][0], mesh.lines[l][1])] = mesh.line_curve[l];
+  std::vector<OutlinedChart> outlined;
+  for (Chart& chart : extract_charts(mesh, std::vector<char>(mesh.triangles.size(), 1))) {
+    OutlinedChart& made = outlined.emplace_back(OutlinedChart{std::move(chart)});
+    for (const std::vector<int>& loop : made.loops) {
+      auto& curves = made.curve_of.emplace_back();
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        curves.push_back(
+            curve.at(std::minmax(made.fine_node[loop[i]], made.fine_node[loop[(i + 1) % loop.size()]])));
+    }
+  }
+  return outlined;
 }
 
-void SurfaceWashers::plan(const std::vector<WasherSpec>& washers, const std::vector<CurveDivision>& divisions,
-                          const PointSize& size, SurfaceModel& model) {
-  if (washers.empty()) return;
-  const Mesh& mesh = model.fine;
-  const auto curves = curves_of_edges(mesh);
+std::vector<SurfaceWashers::FacingSides> SurfaceWashers::facing_sides(const OutlinedChart& chart) {
+  std::vector<std::vector<int>> sides;
+  for (std::size_t l = 0; l < chart.loops.size(); ++l) {
+    const std::vector<int>& loop = chart.loops[l];
+    const std::size_t n = loop.size();
+    const auto at = [&](std::size_t i) { return chart.points[loop[i % n]]; };
+    const auto is_corner = [&](std::size_t i) {
+      return turn_angle(at(i + n - 1), at(i), at(i + 1)) > kMostTurn;
+    };
+    std::size_t first = 0;
+    while (first < n && !is_corner(first)) ++first;
+    for (std::size_t i = first; i < first + n; ++i) {
+      if (i == first || is_corner(i)) sides.emplace_back();
+      const int curve = chart.curve_of[l][i % n];
+      if (std::ranges::find(sides.back(), curve) == sides.back().end()) sides.back().push_back(curve);
+    }
+  }
+  if (chart.loops.size() * sides.size() != 4) return {};
+  std::vector<FacingSides> facing{{chart.face, {sides[0], sides[sides.size() / 2]}}};
+  if (sides.size() == 4) facing.push_back({chart.face, {sides[1], sides[3]}});
+  return facing;
+}
+
+void SurfaceWashers::find_divided() {
+  edges_.clear();
+  for (const CurveDivision& division : divisions_)
+    for (const int c : entities_named(model_.fine.curves, "curve", division.name)) edges_[c] = division.edges;
+}
+
+void SurfaceWashers::divide(int curve, int edges, const std::string& where) {
+  if (!edges_.emplace(curve, edges).second) return;
+  divisions_.push_back(
+      {.name = fmt::format("curve_{}", model_.fine.curves[curve].tag), .edges = edges, .where = where});
+  ++n_added_;
+}
+
+bool SurfaceWashers::are_rims(const std::vector<int>& side) const {
+  return std::ranges::all_of(side, [&](int c) { return rims_.contains(c); });
+}
+
+void SurfaceWashers::spread(const std::vector<FacingSides>& facing, double size, const std::string& where) {
+  const std::vector<double> lengths = lengths_of_curves(model_.fine);
+  for (std::size_t before = 0; before < rims_.size();) {
+    before = rims_.size();
+    for (const FacingSides& f : facing)
+      for (const int k : {0, 1}) {
+        const std::vector<int>&from = f.sides[k], &to = f.sides[1 - k];
+        if (!are_rims(from) || std::ranges::any_of(to, [&](int c) { return edges_.contains(c); })) continue;
+        Hole end;
+        double length = 0;
+        int edges = 0;
+        for (const int c : to) end.parts.push_back(lengths[c]);
+        for (const int c : from) length += lengths[c], edges += edges_.at(c);
+        const auto [least, most] = std::minmax({length, end.length()});
+        if (most > kMostTaper * least || edges < static_cast<int>(to.size()) ||
+            !edge_fits(end.length() / edges, size))
+          continue;
+        const std::vector<int> shares = share_edges(end.parts, edges);
+        for (std::size_t i = 0; i < to.size(); ++i) divide(to[i], shares[i], where), rims_.insert(to[i]);
+      }
+  }
+}
+
+void SurfaceWashers::plan(const PointSize& size) {
+  if (problem_.washers.empty()) return;
+  const Mesh& mesh = model_.fine;
+  find_divided();
   std::set<int> ends;
   for (const std::vector<int>& points : points_of_curves(mesh)) ends.insert({points.front(), points.back()});
-  std::vector<HoleRoom::Wall> loose;
-  for (const LooseLine& line : model.loose)
-    for (std::size_t i = 0; i < line.points.size(); ++i)
-      loose.push_back({{line.points[i], line.points[std::min(i + 1, line.points.size() - 1)]}});
-  std::map<int, int> edges = divided_curves(mesh, divisions);
+  const std::vector<HoleRoom::Wall> loose = walls_of(model_.loose);
+  const std::vector<OutlinedChart> charts = outlined_charts(mesh);
+  std::vector<FacingSides> facing;
+  std::vector<int> n_faces(mesh.curves.size(), 0);
+  for (const OutlinedChart& chart : charts) {
+    for (FacingSides& f : facing_sides(chart)) facing.push_back(std::move(f));
+    std::set<int> around;
+    for (const auto& curves : chart.curve_of) around.insert(curves.begin(), curves.end());
+    for (const int c : around) ++n_faces[c];
+  }
   const NearestOnRegions regions(mesh);
-  for (const Chart& chart : charts_of(mesh)) {
+  for (const OutlinedChart& chart : charts) {
     check_cancelled();
     const auto into = ways_into(chart);
     std::vector<FaceHole> holes;
     std::vector<HoleRoom::Wall> walls = loose;
-    for (const std::vector<int>& loop : chart.loops) {
-      FaceHole hole = hole_of(chart, loop, curves, into, ends);
-      const bool gets_rows = hole.diameter > 0 && washer_of(washers, hole) != nullptr;
+    for (std::size_t l = 0; l < chart.loops.size(); ++l) {
+      const std::vector<int>& loop = chart.loops[l];
+      FaceHole hole = hole_of(chart, l, into, ends);
+      const bool gets_rows = hole.diameter > 0 && washer_of(problem_.washers, hole) != nullptr;
       for (std::size_t i = 0; i < loop.size(); ++i)
         walls.push_back({{chart.points[loop[i]], chart.points[loop[(i + 1) % loop.size()]]},
                          gets_rows ? static_cast<int>(holes.size()) : -1});
@@ -166,87 +244,112 @@ void SurfaceWashers::plan(const std::vector<WasherSpec>& washers, const std::vec
     if (holes.empty()) continue;
     const HoleRoom room(std::move(walls));
     for (std::size_t h = 0; h < holes.size(); ++h) {
-      const FaceHole& hole = holes[h];
-      const std::string& where = washer_of(washers, hole)->where;
-      auto rows = rows_around(hole, static_cast<int>(h), *washer_of(washers, hole), size(hole.outline[0]),
-                              room, model.warnings);
+      FaceHole& hole = holes[h];
+      const WasherSpec& washer = *washer_of(problem_.washers, hole);
+      for (const int c : hole.curves) {
+        hole.given.push_back(edges_.contains(c) ? edges_[c] : 0);
+        hole.is_rim |= n_faces[c] > 1;
+      }
+      const double there = size(hole.outline[0]);
+      auto rows = rows_around(hole, static_cast<int>(h), washer, there, room, model_.warnings);
       if (!rows) continue;
-      // Another face may have the same hole, and its curves may be divided.
-      for (std::size_t i = 0; i < hole.curves.size(); ++i)
-        rows->edges[i] = edges.try_emplace(hole.curves[i], rows->edges[i]).first->second;
-      const auto parts = places_around(hole, *rows, model, regions);
+      for (std::size_t i = 0; i < hole.curves.size(); ++i) {
+        divide(hole.curves[i], rows->edges[i], washer.where);
+        rows->edges[i] = edges_.at(hole.curves[i]);
+        rims_.insert(hole.curves[i]);
+      }
+      spread(facing, there, washer.where);
+      const auto parts = places_around(hole, *rows, model_, regions);
       const std::string at = show_point(hole.middle());
       for (std::size_t i = 0; i < parts.size(); ++i)
-        model.loose.push_back(
-            {parts[i], {mark(rings_.size(), i)}, where + ": the ring around the hole at " + at});
-      rings_.push_back({hole.face, hole.curves, *rows, where, at});
+        model_.loose.push_back(
+            {parts[i], {mark(rings_.size(), i)}, washer.where + ": the ring around the hole at " + at});
+      rings_.push_back({hole.face, hole.curves, *rows, washer.where, at});
     }
   }
+  for (const FacingSides& f : facing)
+    if (are_rims(f.sides[0]) && are_rims(f.sides[1]))
+      mapped_.rings.emplace_back(fmt::format("region_{}", mesh.regions[f.face].tag), -1);
 }
 
-void SurfaceWashers::cut(SurfaceModel& model, std::vector<CurveDivision>& divisions,
-                         MappedSpec& mapped) const {
-  if (rings_.empty()) return;
-  Mesh& mesh = model.fine;
-  std::map<std::string, std::vector<int>> marked;
+void SurfaceWashers::cut() {
+  Mesh& mesh = model_.fine;
+  std::map<std::string, int> marked;
   std::set<int> outer;
-  for (std::size_t c = 0; c < mesh.curves.size(); ++c) {
+  for (std::size_t c = 0; c < mesh.curves.size() && !rings_.empty(); ++c) {
     auto& names = mesh.curves[c].names;
     if (names.empty() || names[0][0] != '\n') continue;
-    marked[names[0]].push_back(static_cast<int>(c));
+    if (!marked.emplace(names[0], static_cast<int>(c)).second) marked[names[0]] = -1;
     outer.insert(static_cast<int>(c));
     names.clear();
   }
-  std::erase_if(model.embedded, [&](const EmbeddedCurve& e) { return outer.contains(e.curve); });
+  std::erase_if(model_.embedded, [&](const EmbeddedCurve& e) { return outer.contains(e.curve); });
   // Rings are the charts that just these curves bound.
-  std::map<std::pair<int, std::set<int>>, Chart> charts;
-  const auto curve_of = curves_of_edges(mesh);
-  for (Chart& chart : charts_of(mesh)) {
+  std::map<std::pair<int, std::set<int>>, std::vector<int>> triangles;
+  for (const OutlinedChart& chart : rings_.empty() ? std::vector<OutlinedChart>{} : outlined_charts(mesh)) {
     std::set<int> around;
-    for (const std::vector<int>& loop : chart.loops)
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        around.insert(
-            curve_of.at(std::minmax(chart.fine_node[loop[i]], chart.fine_node[loop[(i + 1) % loop.size()]])));
-    const int face = chart.face;
-    charts.insert_or_assign({face, std::move(around)}, std::move(chart));
+    for (const auto& curves : chart.curve_of) around.insert(curves.begin(), curves.end());
+    triangles[{chart.face, around}] = chart.fine_triangle;
   }
   int tag = 0;
   for (const Entity& face : mesh.regions) tag = std::max(tag, face.tag);
   EntityGroups origin = each_alone(mesh.regions.size());
-  std::map<int, int> divided = divided_curves(mesh, divisions);
   for (std::size_t r = 0; r < rings_.size(); ++r) {
     const Ring& ring = rings_[r];
-    std::vector<int> curves = ring.curves;
-    for (std::size_t i = 0; i < ring.curves.size(); ++i)
-      if (const auto& found = marked[mark(r, i)]; found.size() == 1) curves.push_back(found[0]);
-    const auto chart = charts.find({ring.face, {curves.begin(), curves.end()}});
-    if (curves.size() < 2 * ring.curves.size() || chart == charts.end()) {
-      model.warnings.push_back(
+    std::vector<int> curves;
+    for (std::size_t i = 0; i < ring.curves.size(); ++i) {
+      const auto found = marked.find(mark(r, i));
+      curves.push_back(found == marked.end() ? -1 : found->second);
+    }
+    std::set<int> around(ring.curves.begin(), ring.curves.end());
+    around.insert(curves.begin(), curves.end());
+    const auto found = triangles.find({ring.face, around});
+    if (found == triangles.end()) {
+      model_.warnings.push_back(
           {"holes without rows", 1,
            fmt::format("{}: the hole at {} gets no rows: its ring is not whole on one face", ring.where,
                        ring.at)});
       continue;
     }
-    for (const int t : chart->second.fine_triangle)
-      mesh.triangle_region[t] = static_cast<int>(mesh.regions.size());
+    for (const int t : found->second) mesh.triangle_region[t] = static_cast<int>(mesh.regions.size());
     mesh.regions.push_back({++tag, mesh.regions[ring.face].names});
     origin.push_back({ring.face});
-    mapped.rings.emplace_back(fmt::format("region_{}", tag), ring.rows.rows);
+    mapped_.rings.emplace_back(fmt::format("region_{}", tag), ring.rows.rows);
     for (std::size_t i = 0; i < curves.size(); ++i) {
       outer.erase(curves[i]);
-      const int n = ring.rows.edges[i % ring.curves.size()];
-      if (divided.emplace(curves[i], n).second)
-        divisions.push_back(
-            {.name = fmt::format("curve_{}", mesh.curves[curves[i]].tag), .edges = n, .where = ring.where});
+      divide(curves[i], ring.rows.edges[i], ring.where);
     }
   }
-  const std::vector<EmbeddedCurve> embedded = model.embedded;
-  regroup(model, mesh, origin, each_alone(mesh.curves.size()));
-  model.embedded = embedded;
-  if (outer.empty()) return;
-  const Mesh former = mesh;
-  keep_lines(mesh, [&](std::size_t l) { return !outer.contains(former.line_curve[l]); });
-  tidy_model(model, former);
+  if (!rings_.empty()) {
+    const std::vector<EmbeddedCurve> embedded = model_.embedded;
+    regroup(model_, mesh, origin, each_alone(mesh.curves.size()));
+    model_.embedded = embedded;
+  }
+  if (!outer.empty()) {
+    const Mesh former = mesh;
+    keep_lines(mesh, [&](std::size_t l) { return !outer.contains(former.line_curve[l]); });
+    tidy_model(model_, former);
+  }
+  divide_fillets();
+}
+
+bool SurfaceWashers::give_way(const FaceError& error) {
+  const Mesh& mesh = model_.fine;
+  std::set<std::string> around;
+  for (const OutlinedChart& chart : outlined_charts(mesh))
+    for (const auto& curves : chart.curve_of)
+      for (const int c : curves)
+        if (chart.face == error.face()) around.insert(fmt::format("curve_{}", mesh.curves[c].tag));
+  const auto gone = std::remove_if(divisions_.end() - n_added_, divisions_.end(),
+                                   [&](const CurveDivision& d) { return around.contains(d.name); });
+  const std::ptrdiff_t n_gone = divisions_.end() - gone;
+  divisions_.erase(gone, divisions_.end());
+  n_added_ -= n_gone;
+  if (n_gone > 0)
+    model_.warnings.push_back(
+        {"faces without rows around holes and across fillets", 1,
+         fmt::format("{}: its curves get no rows around holes or across fillets", error.what())});
+  return n_gone > 0;
 }
 
 }  // namespace delquad

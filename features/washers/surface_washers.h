@@ -1,26 +1,48 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "delquad/model.h"
+#include "delquad/error.h"
+#include "delquad/mesher.h"
 #include "features/washers/hole_rows.h"
 #include "geometry/planar/planar_model.h"
+#include "geometry/surface/chart.h"
 #include "geometry/surface/surface_model.h"
 
 namespace delquad {
 
+/// A chart, and of each side of its loops the curve that it is of.
+struct OutlinedChart : Chart {
+  std::vector<std::vector<int>> curve_of = {};
+};
+std::vector<OutlinedChart> outlined_charts(const Mesh& mesh);
+
 /// Rings around holes in faces of a surface: curves at equal distance from the holes, along the surface, part
-/// faces of their own from those around, with as many edges on both sides and so many rows.
+/// faces of their own from those around, with as many edges on both sides and so many rows. The other end of
+/// a bore gets the edges of the first, and the face between becomes a grid where that pays. Fillets: numbers
+/// of edges of the curves that run across them, rows of those that are rings.
 class SurfaceWashers {
  public:
-  /// Adds the curves to the lines that are to be imprinted. Holes with curves that `divisions` name get none.
-  /// Warnings, of the model, tell of those that get fewer rows than asked for, or none.
-  void plan(const std::vector<WasherSpec>& washers, const std::vector<CurveDivision>& divisions,
-            const PointSize& size, SurfaceModel& model);
-  /// Once they are imprinted: parts the faces, and adds what their curves and rings are to have.
-  void cut(SurfaceModel& model, std::vector<CurveDivision>& divisions, MappedSpec& mapped) const;
+  /// `divisions`, `mapped`: of the model. They get what holes and fillets are to have; curves that are
+  /// divided stay as they are.
+  SurfaceWashers(const MeshProblem& problem, SurfaceModel& model, std::vector<CurveDivision>& divisions,
+                 MappedSpec& mapped)
+      : problem_(problem), model_(model), divisions_(divisions), mapped_(mapped) {}
+
+  /// Adds the rings to the lines that are to be imprinted. Warnings, of the model, tell of holes that get
+  /// other rows than asked for, or none.
+  void plan(const PointSize& size);
+  /// Once they are imprinted: parts the faces, and divides the fillets.
+  void cut();
+  /// Takes the divisions that were added out again that are of curves of a face, which cannot be meshed with
+  /// them. Returns whether there were some.
+  bool give_way(const FaceError& error);
+  bool can_give_way() const { return n_added_ > 0; }
 
  private:
   struct Ring {
@@ -29,15 +51,27 @@ class SurfaceWashers {
     HoleRows rows;
     std::string where, at;
   };
+  /// Curves of ends of tubes, or of opposite sides of strips.
+  struct FacingSides {
+    int face;
+    std::array<std::vector<int>, 2> sides;
+  };
+  static std::vector<FacingSides> facing_sides(const OutlinedChart& chart);
+  void find_divided();
+  void divide(int curve, int edges, const std::string& where);
+  bool are_rims(const std::vector<int>& side) const;
+  /// Gives the edges of rims to what faces them along bores, from there on, too.
+  void spread(const std::vector<FacingSides>& facing, double size, const std::string& where);
+  void divide_fillets();
+
+  const MeshProblem& problem_;
+  SurfaceModel& model_;
+  std::vector<CurveDivision>& divisions_;
+  MappedSpec& mapped_;
+  std::map<int, int> edges_;  ///< of curves that are divided
+  std::set<int> rims_;        ///< those of them that are of holes with rows, and of other ends of these
   std::vector<Ring> rings_;
+  std::ptrdiff_t n_added_ = 0;  ///< divisions, the last ones
 };
-
-/// Numbers of edges by curve.
-std::map<int, int> divided_curves(const Mesh& mesh, const std::vector<CurveDivision>& divisions);
-
-/// Adds what the fillets of a CAD model are to have: numbers of edges of the curves that run across them,
-/// rows of those that are rings. Curves that are divided already stay as they are.
-void divide_fillets(const std::vector<FilletRows>& fillets, const SurfaceModel& model,
-                    std::vector<CurveDivision>& divisions, MappedSpec& mapped);
 
 }  // namespace delquad

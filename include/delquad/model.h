@@ -103,7 +103,8 @@ struct MappedSpec {
   bool automatic = false;        ///< and all where that pays: four nearly right angles, sides that match
   std::string where = "mapped";  ///< who asked for it, for messages
   std::vector<GridCorners> corners = {};  ///< of regions whose corners are told, named above or not
-  /// Numbers of regions of surfaces ("region_2") that become rings of so many rows where they can.
+  /// Numbers of regions of surfaces ("region_2") that become rings of so many rows where they can; -1: any
+  /// grids, where their quads are no worse than a sheet allows.
   std::vector<std::pair<std::string, int>> rings = {};
 
   bool asks() const { return automatic || !names.empty() || !corners.empty() || !rings.empty(); }

@@ -116,7 +116,7 @@ TEST(Washers, AreToldOnTheCommandLine) {
   const TemporaryFolder folder;
   const auto model =
       write_text(folder / "m.toml",
-                 "size = 1\nloop = [{ rectangle = [[0, 0], [20, 20]] }, { circle = { centre = [10, "
+                 "size = 1.7\nloop = [{ rectangle = [[0, 0], [20, 20]] }, { circle = { centre = [10, "
                  "10], radius = 3 } }]\n");
   const auto run = [&](const std::string& washers) {
     return delquad({"mesh", model, "-o", folder / "m.msh", "--washers", washers});

@@ -56,7 +56,7 @@ int warned(const MeshResult& result, const std::string& text) {
 
 TEST(Washers, AreRowsOfSoManyQuads) {
   for (const char* word : {"DB", "DBCQO"})
-    for (const double size : {1.0, 4.0, 8.0}) {
+    for (const double size : {2.2, 4.0, 7.5}) {
       const MeshResult r =
           mesh(problem_of(plate({{20, 20, 4}, {45, 20, 1}}), size, {{6, 10, 2, 16, 4}}), word);
       EXPECT_EQ(rows_around(r.mesh, {20, 20, 0}, 4, 8, 2, 16), 2) << word << size;
@@ -76,12 +76,57 @@ TEST(Washers, GetLessWhereThereIsNoRoom) {
   MeshResult r = mesh(problem_of(plate({{20, 33, 4}}), 3, {{6, 10, 2, 16, 4}}), "DB");
   EXPECT_EQ(rows_around(r.mesh, {20, 33, 0}, 4, 5.5, 1, 16), 1);
   EXPECT_EQ(warned(r, "gets 1 row of 1.5, not 2 of 2: something is 3 away"), 1);
-  // Two that are 2.2 apart.
+  // Two that are 2.2 apart: between them half the length of an edge is left.
+  const double row = (2.2 - std::numbers::pi / 4) / (2 + std::numbers::pi / 16);
   r = mesh(problem_of(plate({{20, 20, 4}, {30.2, 20, 4}}), 2, {{6, 10, 1, 16, 1}}), "DB");
-  for (const double x : {20.0, 30.2}) EXPECT_EQ(rows_around(r.mesh, {x, 20, 0}, 4, 4 + 2.2 / 3, 1, 16), 1);
+  for (const double x : {20.0, 30.2}) EXPECT_EQ(rows_around(r.mesh, {x, 20, 0}, 4, 4 + row, 1, 16), 1);
   // None.
   r = mesh(problem_of(plate({{20, 35.5, 4}}), 2, {{6, 10, 1, 16, 2}}), "DB");
   EXPECT_EQ(warned(r, "gets no rows: something is 0.5 away"), 1);
+}
+
+/// A planar model as triangles in space, turned about x.
+Mesh in_space(const PlanarModel& model, double size) {
+  Mesh made = mesh(problem_of(model, size, {}), "DB").mesh;
+  for (Vec3& x : made.points) x = {x.x, 0.6 * x.y, 0.8 * x.y};
+  made.lines.clear();
+  made.line_curve.clear();
+  made.curves.clear();
+  return made;
+}
+
+double longest_side(const Mesh& mesh) {
+  double longest = 0;
+  for (const auto& quad : mesh.quads)
+    for (const int k : {0, 1, 2, 3})
+      longest = std::max(longest, norm(mesh.points[quad[k]] - mesh.points[quad[(k + 1) % 4]]));
+  return longest;
+}
+
+TEST(Washers, HaveOtherEdgesWhereTheseDoNotFitTheSize) {
+  for (const bool is_surface : {false, true}) {
+    MeshProblem problem = problem_of(plate({{20, 20, 4}}), 1, {{6, 10, 2, 16, 4}});
+    if (is_surface) problem.model = TriangleModel{in_space(plate({{20, 20, 4}}), 1.5)};
+    const MeshResult r = mesh(problem, "DBCO");
+    EXPECT_EQ(warned(r, "16 edges would be 1.6 to 3.1 sizes long"), 1);
+    EXPECT_LT(longest_side(r.mesh), 2);
+  }
+}
+
+TEST(Washers, GiveTheirEdgesToTheOtherEndOfABore) {
+  // The bore of 18 through the boss has room for rows at x = 0 alone.
+  const MeshResult r = mesh(problem_of(ExampleModel{"bracket"}, 4, {{17, 19, 1, 24, 5.5}}), "DBCO");
+  EXPECT_EQ(warned(r, "gets no rows: something is 6 away"), 1);
+  int at_first = 0, at_other = 0, all = 0;
+  for (const Vec3& x : r.mesh.points) {
+    if (std::abs(std::hypot(x.y - 30, x.z - 40) - 9) > 1e-3 || x.x > 16.001) continue;
+    at_first += x.x < 1e-6;
+    at_other += x.x > 16 - 1e-6;
+    ++all;
+  }
+  EXPECT_EQ(at_first, 24);
+  EXPECT_EQ(at_other, 24);
+  EXPECT_EQ(all % 24, 0) << all;
 }
 
 TEST(Washers, OfSlotsGoAroundTheirEnds) {
@@ -103,16 +148,6 @@ TEST(Washers, OfSlotsGoAroundTheirEnds) {
   EXPECT_EQ(on_hole, 20);
   EXPECT_EQ(on_ring, 20);
   EXPECT_EQ(between, 0);
-}
-
-/// A planar model as triangles in space, turned about x.
-Mesh in_space(const PlanarModel& model, double size) {
-  Mesh made = mesh(problem_of(model, size, {}), "DB").mesh;
-  for (Vec3& x : made.points) x = {x.x, 0.6 * x.y, 0.8 * x.y};
-  made.lines.clear();
-  made.line_curve.clear();
-  made.curves.clear();
-  return made;
 }
 
 TEST(Washers, AreRingsOnTriangulations) {
