@@ -19,6 +19,7 @@
 #include "features/curved/curved_mesh.h"
 #include "features/given/given_worst.h"
 #include "metrics/judgement/criteria.h"
+#include "metrics/judgement/poor_quads.h"
 #include "metrics/judgement/soundness.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
@@ -67,7 +68,8 @@ void tell_price(Finishing& on, const MeshResult& before) {
         "{}: given quads that were inverted, folded or flat are sound now, at a price: {}", on.label, price));
 }
 
-/// Where the mesh that the stages made of given quads is worse than these, see is_worse(), it becomes what
+/// Where the mesh that the stages made of given quads is worse than these, see is_worse(), and criteria that
+/// were given do not tell otherwise, it becomes what
 /// fewer of the stages make, if that is not, or else the given mesh. A warning says so. Returns whether it is
 /// another.
 bool keep_better(Finishing& on) {
@@ -77,7 +79,13 @@ bool keep_better(Finishing& on) {
   measure(on.prepared, on.left_out, given);
   const std::optional<GivenWorst>& worst = on.prepared.given_worst;  // none of triangles
   const MeshResult before = worst ? as_it_was(given, *worst) : given;
-  if (!is_worse(result, before)) return false;
+  const bool aims = !on.prepared.settings.criteria.empty() && on.prepared.surface;
+  const double failing = aims ? failing_part(on.prepared, given.mesh) : 0;
+  const auto is_harmful = [&](const MeshResult& run) {
+    return is_worse(run, before) &&
+           !(aims && run.soundness.sound() && failing_part(on.prepared, run.mesh) < failing);
+  };
+  if (!is_harmful(result)) return false;
   const std::string worse = text_of_worst(result), was = text_of_worst(before);
   const auto tell = [&](const std::string& what) {
     result.warnings.push_back(
@@ -91,7 +99,7 @@ bool keep_better(Finishing& on) {
       result.soundness.sound() ? harm_of(result, before).sum() : std::numeric_limits<double>::max();
   const auto is_good = [&](MeshResult& run) {
     const bool is_mended = run.soundness.sound() || !(result.soundness.sound() || best);
-    if (is_mended && !is_worse(run, before)) return true;
+    if (is_mended && !is_harmful(run)) return true;
     const double harm = harm_of(run, before).sum();
     if (!run.soundness.sound() || before.soundness.sound() || harm >= least) return false;
     least = harm;
@@ -158,16 +166,18 @@ std::vector<char> without_lifting(const Finishing& f) {
 bool lift(Finishing& on) {
   const std::vector<char> left_out = without_lifting(on);
   const Options& options = on.prepared.settings.options;
-  // Straight limits say nothing of curved elements. Words that end with a matching are the paper's.
+  // Straight limits say nothing of curved elements. Words that end with a matching are the paper's. A mesh
+  // that is given is mended where that is asked for.
   const bool stays = is_curved(on) || on.state.of_quads.empty() ||
-                     (on.prepared.is_given_surface() && repair_options(options).keep_given);
+                     (on.prepared.is_given_surface() && repair_options(options).keep_given &&
+                      on.prepared.settings.criteria.empty());
   const LiftingSummary lifted =
       lift_bad_quads({on.prepared, options, on.state.patches, left_out, on.state.nodes},
                      stays ? nullptr : &asked_size(on.prepared));
   if (lifted.stopped > 0) on.result.warnings.push_back(stopped_early(on.prepared, "lifting", lifted.stopped));
   on.result.lifting_cost = lifted.cost;
   add_summary(on.result.log, lifted);
-  return lifted.moved + lifted.rings + lifted.mended > 0;
+  return lifted.moved + lifted.rings + lifted.mended + lifted.edited > 0;
 }
 
 bool part_corners(Finishing& on) {

@@ -5,10 +5,12 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
 
+#include "algorithms/finish/edit_failing.h"
 #include "base/parallel.h"
 #include "metrics/shape.h"
 #include "metrics/surface/surface_search.h"
@@ -305,6 +307,25 @@ bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector
   return false;
 }
 
+/// By moves; where these do not do, by edits, and moves once more. Faces that are images must stay so.
+void mend_failing(const AllPatches& in, const std::vector<std::size_t>& which, const SizeField& size,
+                  LiftingSummary& summary) {
+  Budget trials(kMostMending);
+  const auto move = [&] {
+    summary.moved += move_on_tracks(in, which, [&](SurfaceTracks& tracks, std::vector<Vec3>& places) {
+      return mend_failing_on_surface(tracks, places, size, kMendingSweeps, trials);
+    });
+  };
+  move();
+  if (!in.prepared.boundary.periodic_faces.empty()) return;
+  std::vector<int> edits(which.size());
+  parallel_for(
+      which.size(), [&](std::size_t k) { edits[k] = edit_failing(in, which[k], size); },
+      [&](std::size_t k) { return static_cast<double>(in.patches[which[k]].quads.quads.size()); });
+  summary.edited = std::accumulate(edits.begin(), edits.end(), 0);
+  if (summary.edited > 0) move();
+}
+
 }  // namespace
 
 LiftingSummary lift_bad_quads(const AllPatches& in, const SizeField* size) {
@@ -339,11 +360,7 @@ LiftingSummary lift_bad_quads(const AllPatches& in, const SizeField* size) {
     bad = std::move(left);
   }
   while (mend_one(in, badness_of, which, bad, trials, cost, summary)) continue;
-  Budget mending(kMostMending);
-  if (size != nullptr && total(bad) < kUnsound)
-    summary.moved += move_on_tracks(in, which, [&](SurfaceTracks& tracks, std::vector<Vec3>& places) {
-      return mend_failing_on_surface(tracks, places, *size, kMendingSweeps, mending);
-    });
+  if (size != nullptr && total(bad) < kUnsound) mend_failing(in, which, *size, summary);
   summary.cost = kMostCost - cost.left();
   if (cost.is_spent() && !bad.empty())
     summary.stopped = in.prepared.boundary.regions[in.prepared.patches[bad[0].patch].region].tag;

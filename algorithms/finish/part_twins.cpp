@@ -7,9 +7,13 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <numeric>
+#include <optional>
 
+#include "base/marks.h"
 #include "geometry/mesh/tri_topology.h"
 #include "patches/prepared.h"
+#include "smoothing/relocation/element_quality.h"
 #include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {
@@ -108,29 +112,36 @@ void part_chord(TriPatch& mesh, std::array<int, 2> ends) {
 /// A corner is not opened where that leaves a quad below this eta, or this part of the sine that it had.
 constexpr double kOpenCornerEta = 0.1, kOpenCornerPart = 0.3;
 
-/// The worst of the quads around the vertices from slot `first` on, once these have settled.
-double worst_once_settled(QuadTopology& mesh, QuadRelocation& relocation, int first) {
+/// The quads around the vertices from slot `first` on, once these have settled.
+ElementQuality once_settled(QuadTopology& mesh, QuadRelocation& relocation, int first) {
   constexpr int kSweeps = 8;
   const int end = mesh.vertex_slots();
   relocation.adopt_new_vertices(first);
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (int v = first; v < end; ++v) relocation.step(v);
-  double worst = 1;
-  for (int v = first; v < end; ++v)
-    mesh.for_each_out(v, [&](int g) { worst = std::min(worst, least_sine(mesh, QuadTopology::element(g))); });
-  return worst;
+  std::vector<int> fresh(end - first);
+  std::iota(fresh.begin(), fresh.end(), first);
+  ElementQuality total;
+  Marks met;
+  met.begin(mesh.element_slots());
+  for_each_element_around(mesh, fresh, met, [&](int e) { total.add(element_quality(mesh, relocation, e)); });
+  return total;
 }
 
-double worst_once_open(QuadTopology& mesh, QuadRelocation& relocation, int h, bool counterclockwise) {
+bool is_better(const ElementQuality& a, const ElementQuality& b) {
+  return a.failing == b.failing ? a.least_sine > b.least_sine : a.failing < b.failing;
+}
+
+ElementQuality once_open(QuadTopology& mesh, QuadRelocation& relocation, int h, bool counterclockwise) {
   const int first = mesh.vertex_slots();
   mesh.open(h, counterclockwise);
-  return worst_once_settled(mesh, relocation, first);
+  return once_settled(mesh, relocation, first);
 }
 
-double worst_with_ring(QuadTopology& mesh, QuadRelocation& relocation, int quad) {
+ElementQuality with_ring(QuadTopology& mesh, QuadRelocation& relocation, int quad) {
   const int first = mesh.vertex_slots();
   mesh.pillow(std::array<int, 1>{quad});
-  return worst_once_settled(mesh, relocation, first);
+  return once_settled(mesh, relocation, first);
 }
 
 /// A node between two faces that has one quad of each: these share two sides. Its places on both boundaries.
@@ -183,42 +194,47 @@ double angle_at(const AllPatches& in, const TwinCorner& corner, int k) {
   return 0;
 }
 
-/// Gives a boundary vertex with one quad a second one, where that leaves no bad quads: opens one of the sides
-/// that do not touch it, or puts a ring inside the quad.
-bool open_corner(QuadPatch& patch, int v, const ParametricSize& size) {
+/// What a boundary vertex with one quad may get a second one by, and the quads around then.
+struct Opened {
+  QuadPatch mesh;
+  ElementQuality quality;
+};
+
+/// Opens one of the sides that do not touch it, or puts a ring inside the quad. None where that would leave
+/// bad quads.
+std::optional<Opened> open_corner(const QuadPatch& patch, int v, const ParametricSize& size) {
   QuadTopology mesh(patch);
-  if (mesh.valence(v) != 1) return true;  // it has been opened already
   QuadRelocation relocation(mesh, size);
   relocation.keep_convex_corners();
   const int quad = QuadTopology::element(mesh.out(v)), side = mesh.next(mesh.out(v));
   struct Way {
     bool possible;
-    std::function<double()> take;  ///< returns the worst sine
+    std::function<ElementQuality()> take;
   };
   const int after = mesh.next(side);
   const Way ways[] = {
-      {mesh.twin(side) >= 0 && mesh.can_open(side),
-       [&] { return worst_once_open(mesh, relocation, side, false); }},
+      {mesh.twin(side) >= 0 && mesh.can_open(side), [&] { return once_open(mesh, relocation, side, false); }},
       {mesh.twin(after) >= 0 && mesh.can_open(after),
-       [&] { return worst_once_open(mesh, relocation, after, true); }},
-      {mesh.can_pillow(std::array<int, 1>{quad}), [&] { return worst_with_ring(mesh, relocation, quad); }}};
+       [&] { return once_open(mesh, relocation, after, true); }},
+      {mesh.can_pillow(std::array<int, 1>{quad}), [&] { return with_ring(mesh, relocation, quad); }}};
   const Way* best = nullptr;
-  double worst = std::min(sine_of_eta(kOpenCornerEta), kOpenCornerPart * least_sine(mesh, quad));
+  ElementQuality least;
+  least.least_sine = std::min(sine_of_eta(kOpenCornerEta), kOpenCornerPart * least_sine(mesh, quad));
   const int n_vertices = mesh.vertex_slots();
   for (const Way& way : ways) {
     if (!way.possible) continue;
     const auto start = mesh.mark();
-    const double sine = way.take();
+    const ElementQuality quality = way.take();
     mesh.rollback(start);
-    if (sine > worst) worst = sine, best = &way;
+    if (best == nullptr ? quality.least_sine > least.least_sine : is_better(quality, least))
+      least = quality, best = &way;
   }
-  if (best == nullptr) return false;
+  if (best == nullptr) return {};
   best->take();
   mesh.commit();
   for (int w = n_vertices; w < mesh.vertex_slots(); ++w) relocation.activate(w);
   relocation.relax(0.01, 30);
-  patch = mesh.to_patch();
-  return true;
+  return Opened{mesh.to_patch(), least};
 }
 
 /// Returns how many were opened.
@@ -233,13 +249,13 @@ int open_chords(QuadPatch& patch, const std::vector<std::array<int, 2>>& chords,
       if (mesh.target(h) == b) chord = h;
     });
     if (chord < 0 || !mesh.can_open(chord)) continue;
-    double worst[2];
+    ElementQuality quality[2];
     for (const bool counterclockwise : {false, true}) {
       const auto start = mesh.mark();
-      worst[counterclockwise] = worst_once_open(mesh, relocation, chord, counterclockwise);
+      quality[counterclockwise] = once_open(mesh, relocation, chord, counterclockwise);
       mesh.rollback(start);
     }
-    worst_once_open(mesh, relocation, chord, worst[1] > worst[0]);
+    once_open(mesh, relocation, chord, is_better(quality[1], quality[0]));
     mesh.commit();
     ++opened;
     for (const int v : {mesh.vertex_slots() - 2, mesh.vertex_slots() - 1}) relocation.activate(v);
@@ -302,14 +318,28 @@ PartingSummary part_twins(const AllPatches& in) {
     ++summary.rings;
   }
   for (const TwinCorner& corner : twin_corners(in)) {
-    const auto open = [&](int k) {
-      PatchMesh& patch = in.patches[corner.patch[k]];
-      patch.inside.clear();
-      return open_corner(patch.quads, corner.point[k], *in.prepared.patches[corner.patch[k]].size);
+    const auto is_open = [&](int k) {
+      const auto has_it = [&](const auto& quad) {
+        return std::ranges::find(quad, corner.point[k]) != quad.end();
+      };
+      return std::ranges::count_if(in.patches[corner.patch[k]].quads.quads, has_it) > 1;
     };
+    if (is_open(0) || is_open(1)) {  // by now
+      ++summary.corners;
+      continue;
+    }
+    std::optional<Opened> opened[2];
+    for (const int k : {0, 1})
+      opened[k] = open_corner(in.patches[corner.patch[k]].quads, corner.point[k],
+                              *in.prepared.patches[corner.patch[k]].size);
+    ++(opened[0] || opened[1] ? summary.corners : summary.corners_left);
     // The wider angle has more room for two.
-    const int first = angle_at(in, corner, 0) >= angle_at(in, corner, 1) ? 0 : 1;
-    ++(open(first) || open(1 - first) ? summary.corners : summary.corners_left);
+    int k = angle_at(in, corner, 0) >= angle_at(in, corner, 1) ? 0 : 1;
+    if (!opened[k] || (opened[1 - k] && opened[1 - k]->quality.failing < opened[k]->quality.failing))
+      k = 1 - k;
+    if (!opened[k]) continue;
+    in.patches[corner.patch[k]].inside.clear();
+    in.patches[corner.patch[k]].quads = std::move(opened[k]->mesh);
   }
   return summary;
 }

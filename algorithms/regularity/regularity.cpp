@@ -266,7 +266,7 @@ class RegularityProcess {
   struct Quality {
     double mean = 0;  ///< of their values
     double least_sine = 1;
-    int failing = 0;
+    int failing = 0, thin = 0;
     double crowding = 0;
     int n = 0;
   };
@@ -452,8 +452,8 @@ class RegularityProcess {
         for (const int v : region_) relocation_.step(v);
       const Quality after = quality();
       loss = before.mean - after.mean;
-      if (after.least_sine >= least && after.failing <= before.failing && after.crowding <= before.crowding &&
-          loss <= allowed)
+      if (after.least_sine >= least && after.failing <= before.failing && after.thin <= before.thin &&
+          after.crowding <= before.crowding && loss <= allowed)
         return true;
       if (loss > hopeless) return false;
       if (sweep > 2 && is_slow(last_loss - loss, loss - allowed)) return false;
@@ -475,7 +475,7 @@ class RegularityProcess {
     ElementQuality total;
     for (const int e : elements_) total.add(element_quality(mesh_, relocation_, e));
     const int n = static_cast<int>(elements_.size());
-    return {total.value / std::max(n, 1), total.least_sine, total.failing, total.crowding, n};
+    return {total.value / std::max(n, 1), total.least_sine, total.failing, total.thin, total.crowding, n};
   }
 
   void accept() {

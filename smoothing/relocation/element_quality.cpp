@@ -32,11 +32,12 @@ ElementQuality element_quality(const QuadTopology& mesh, const QuadRelocation& r
   }
   double least = std::min(1.0, cross(side[n - 1], side[0]));
   for (int k = 1; k < n; ++k) least = std::min(least, cross(side[k - 1], side[k]));
-  const bool is_failing =
-      is_beyond_asked(shortest, longest, longest_side / std::max(shortest_side, kTinyLength), least);
+  const double aspect = longest_side / std::max(shortest_side, kTinyLength);
+  const bool is_failing = is_beyond_asked(shortest, longest, aspect, least);
+  const bool is_thin = shortest < kAskedShort || aspect > kAskedAspect;
   const bool roomy = shortest >= kKeptSide && shortest_side >= kKeptSide * longest_side;
   const double crowding = roomy ? 0 : relocation.crowding(element);
-  return {eta_of_sine(least) - kSizeWeight * (deviation / n), least, is_failing, crowding};
+  return {eta_of_sine(least) - kSizeWeight * (deviation / n), least, is_failing, is_thin, crowding};
 }
 
 }  // namespace delquad

@@ -13,11 +13,13 @@ struct ElementQuality {
   double value = 0;       ///< eta - 1.5 * (size deviation), or the sum of it
   double least_sine = 1;  ///< of all corners
   int failing = 0;        ///< 1: is_beyond_asked(); or the sum
+  int thin = 0;           ///< 1: by its shortest side, which no angle mends; or the sum
   double crowding = 0;    ///< QuadRelocation::crowding(), or the sum of it
   void add(const ElementQuality& other) {
     value += other.value;
     least_sine = std::min(least_sine, other.least_sine);
     failing += other.failing;
+    thin += other.thin;
     crowding += other.crowding;
   }
 };
@@ -34,9 +36,9 @@ ElementQuality element_quality(const QuadTopology& mesh, const QuadRelocation& r
 inline double crowding_of(double length, double delta, double longest, bool narrow = false,
                           double width = 0) {
   constexpr double kLeastPart = 0.01;
-  constexpr double kThin = 4;  // longest side over width: from there on an element is thin
+  constexpr double kNarrowAspect = 4;  // longest side over width: from there on an element is thin
   double reach = std::clamp(delta, longest, 2 * longest);
-  if (narrow) reach = std::min(reach, kThin * width);
+  if (narrow) reach = std::min(reach, kNarrowAspect * width);
   return 1 / std::clamp(length / std::max(kKeptSide * reach, kTinyLength), kLeastPart, 1.0) - 1;
 }
 

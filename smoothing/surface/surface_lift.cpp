@@ -51,50 +51,161 @@ constexpr Vec2 kCompass[8] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDia
 /// with the square.
 constexpr std::size_t kMostPaired = 24;
 
-const LiftedBall kEverywhere;
-
-class SurfaceLift {
+/// Vertices of some quads move one by one, to where what the quads around them lack is least.
+class SurfaceMoves {
  public:
-  SurfaceLift(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, Budget& trials,
-              const LiftedBall& ball)
-      : tracks_(tracks),
-        quads_(tracks.quads()),
-        places_(places),
-        start_(places),
-        trials_(trials),
-        cost_(tracks.is_on_cad() ? kCostOnCad : 1),
-        ball_(ball),
-        eta_(eta),
-        steepest2_(std::pow(std::tan((1 - eta) * std::numbers::pi / 2), 2)),
-        warp2_(std::pow(std::tan((1 - eta / kWarpFactor) * std::numbers::pi / 2), 2)),
-        tried_(places.size(), 0),
-        moved_(places.size(), 0) {
-    find_corners();
-  }
-  /// Of quads beyond what is asked for, see is_beyond_asked(), for this size.
-  SurfaceLift(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size, Budget& trials)
-      : SurfaceLift(tracks, places, kAskedEta, trials, kEverywhere) {
-    size_ = &size;
-  }
+  virtual ~SurfaceMoves() = default;
 
-  /// Ends after max_sweeps; each tries every vertex of a bad quad once. Or once the trials are spent.
+  /// Ends after max_sweeps; each works on every bad quad once. Or once the trials are spent.
   int run(int max_sweeps) {
-    outward_ = tracks_.normals();
-    if (size_ != nullptr) find_limits();
     bool again = true;
     for (int sweep = 0; sweep < max_sweeps && again; ++sweep) {
       again = false;
-      for (const int q : quads_below()) {
+      for (const int q : bad_quads()) {
         check_cancelled();
-        if (!is_bad(q)) continue;
-        if (size_ != nullptr)
-          again = mend(q) || again;
-        else
-          for (const int v : quads_[q]) again = (!trials_.is_spent() && improve(v)) || again;
+        if (is_bad(q)) again = work_on(q) || again;
       }
     }
     return static_cast<int>(std::ranges::count_if(moved_, [](int when) { return when > 0; }));
   }
+
+ protected:
+  /// `steps` of a search, which ends after `fruitless` ones without a gain.
+  SurfaceMoves(SurfaceTracks& tracks, std::vector<Vec3>& places, Budget& trials, int steps, int fruitless)
+      : tracks_(tracks),
+        quads_(tracks.quads()),
+        places_(places),
+        start_(places),
+        outward_(tracks.normals()),
+        tried_(places.size(), 0),
+        moved_(places.size(), 0),
+        trials_(trials),
+        cost_(tracks.is_on_cad() ? kCostOnCad : 1),
+        steps_(steps),
+        fruitless_(fruitless) {
+    find_corners();
+  }
+
+  virtual bool is_bad(int q) const = 0;
+  /// Returns whether something moved.
+  virtual bool work_on(int q) = 0;
+  virtual double lack_around(int v) const = 0;
+  virtual bool is_gain(double lack, double before) const = 0;
+  /// That edges at a vertex may not fall below.
+  virtual double least_edge(int v) const = 0;
+
+  /// 1 - |angle - 90 degrees| / 90 degrees, the least over the corners: eta where that is positive. Without
+  /// the corner `skipped` (none: -1). Or what its warp counts as where that is less: 0 for a folded quad.
+  /// `warp`: gets it instead, in radians.
+  double quality(int q, int skipped = -1, double* warp = nullptr) const {
+    const auto& v = quads_[q];
+    const Vec3& outward = outward_[q];
+    Vec3 normal = cross(places_[v[2]] - places_[v[0]], places_[v[3]] - places_[v[1]]);
+    const bool turned_over = !(dot(normal, outward) > 0);
+    if (turned_over) normal = outward;
+    std::array<Vec3, 4> corner_normal;
+    double least = 1;
+    for (int k = 0; k < 4; ++k) {
+      const Vec3& at = places_[v[k]];
+      const Vec3 out = places_[v[(k + 1) % 4]] - at, in = places_[v[(k + 3) % 4]] - at, c = cross(out, in);
+      corner_normal[k] = c;
+      if (k == skipped) continue;
+      double angle = std::atan2(norm(c), dot(out, in));
+      if (dot(c, normal) < 0) angle = 2 * std::numbers::pi - angle;
+      least = std::min(least, 1 - std::abs(angle - std::numbers::pi / 2) * (2 / std::numbers::pi));
+    }
+    double most_warp = 0;
+    for (int k = 0; k < 2; ++k) {
+      const Vec3 &m = corner_normal[k], &n = corner_normal[k + 2];
+      most_warp = std::max(most_warp, std::atan2(norm(cross(m, n)), dot(m, n)));
+    }
+    if (warp != nullptr) *warp = most_warp;
+    if (warp == nullptr) least = std::min(least, kWarpFactor * (1 - most_warp * (2 / std::numbers::pi)));
+    return turned_over ? least - kTurnedOver : least;
+  }
+
+  template <class F>
+  void for_each_neighbour(int v, F&& f) const {
+    for (int i = first_[v]; i < first_[v + 1]; ++i) {
+      const auto& quad = quads_[corners_[i] / 4];
+      f(quad[(corners_[i] + 1) % 4]);
+      f(quad[(corners_[i] + 3) % 4]);
+    }
+  }
+
+  double shortest_edge(int v, const std::vector<Vec3>& places) const {
+    double shortest = std::numeric_limits<double>::max();
+    for_each_neighbour(v, [&](int w) { shortest = std::min(shortest, norm(places[w] - places[v])); });
+    return shortest;
+  }
+
+  /// Axes of the search, a step long: along the longest edge, and across it as far as the edges reach; on a
+  /// curve along this only.
+  std::array<Vec3, 2> axes(int v, const std::array<Vec3, 2>& free) const {
+    Vec3 along;
+    for_each_neighbour(v, [&](int w) {
+      const Vec3 edge = places_[w] - places_[v];
+      if (norm(edge) > norm(along)) along = edge;
+    });
+    if (tracks_.is_on_curve(v)) return {kReach * norm(along) / norm(free[0]) * free[0], Vec3{}};
+    const Vec3 normal = cross(free[0], free[1]);
+    const Vec3 across = (1 / (norm(normal) * norm(along))) * cross(normal, along);
+    double width = 0;
+    for_each_neighbour(
+        v, [&](int w) { width = std::max(width, std::abs(dot(across, places_[w] - places_[v]))); });
+    return {kReach * along, kReach * width * across};
+  }
+
+  /// The best of the places halfway between two neighbours, then a compass search: eight directions, a step
+  /// that shrinks.
+  bool improve(int v) {
+    const auto free = tracks_.axes(v);
+    if (norm(free[0]) == 0 || is_unchanged(v)) return false;
+    tried_[v] = ++now_;
+    const SurfaceTracks::Spot start{tracks_.position(v), places_[v]};
+    const double before = lack_around(v);
+    if (!is_gain(0, before)) return false;  // whatever would be found
+    const double shortest = least_edge(v);
+    SurfaceTracks::Spot at = start;
+    double best = before;
+    const auto try_at = [&](const SurfaceTracks::Spot& from, const Vec3& x) {
+      if (best == 0) return;
+      trials_.spend(cost_);
+      const SurfaceTracks::Spot trial = tracks_.spot_near(v, from, x);
+      places_[v] = trial.place;
+      if (shortest_edge(v, places_) < shortest) return;
+      const double lacking = lack_around(v);
+      if (lacking < best) best = lacking, at = trial;
+    };
+    std::vector<Vec3> neighbours;
+    for_each_neighbour(v, [&](int w) { neighbours.push_back(places_[w]); });
+    for (std::size_t i = 0; neighbours.size() <= kMostPaired && i < neighbours.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) try_at(start, 0.5 * (neighbours[i] + neighbours[j]));
+    places_[v] = at.place;
+    auto [along, across] = axes(v, free);
+    for (int step = 0, fruitless = 0; step < steps_ && best > 0; ++step) {
+      if (fruitless == fruitless_ && best == before) break;
+      const SurfaceTracks::Spot centre = at;
+      const double last = best;
+      for (const Vec2 d : kCompass) try_at(centre, centre.place + d.x * along + d.y * across);
+      if (best == last) ++fruitless, along = 0.5 * along, across = 0.5 * across;
+    }
+    const bool gained = is_gain(best, before);
+    places_[v] = gained ? at.place : start.place;
+    if (gained) tracks_.put(v, at), moved_[v] = ++now_;
+    return gained;
+  }
+
+  SurfaceTracks& tracks_;
+  const std::vector<std::array<int, 4>>& quads_;
+  std::vector<Vec3>& places_;
+  const std::vector<Vec3> start_;
+  std::vector<int> first_, corners_;  ///< of each vertex, its corners: 4 quad + k
+  const std::vector<Vec3> outward_;   ///< normals at the quads where these were at first
+  std::vector<int> tried_, moved_;    ///< of each vertex, when last; 0: never
+  int now_ = 0;
+  Budget& trials_;
+  const long long cost_;  ///< of a trial
 
  private:
   void find_corners() {
@@ -108,23 +219,114 @@ class SurfaceLift {
       for (int k = 0; k < 4; ++k) corners_[fill[quads_[q][k]]++] = 4 * static_cast<int>(q) + k;
   }
 
-  std::vector<int> quads_below() const {
-    std::vector<char> is_below(quads_.size(), 0);
+  std::vector<int> bad_quads() const {
+    std::vector<char> is_bad_one(quads_.size(), 0);
     parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
-      for (int q = static_cast<int>(begin); q < static_cast<int>(end); ++q)
-        is_below[q] = is_in_ball(q) && (size_ != nullptr || !is_clearly_good(q)) && is_bad(q);
+      for (int q = static_cast<int>(begin); q < static_cast<int>(end); ++q) is_bad_one[q] = is_bad(q);
     });
-    std::vector<int> below;
-    for (std::size_t q = 0; q < is_below.size(); ++q)
-      if (is_below[q]) below.push_back(static_cast<int>(q));
-    return below;
+    std::vector<int> bad;
+    for (std::size_t q = 0; q < is_bad_one.size(); ++q)
+      if (is_bad_one[q]) bad.push_back(static_cast<int>(q));
+    return bad;
   }
 
-  bool is_bad(int q) const { return size_ != nullptr ? beyond(q) > 0 : quality(q) < eta_; }
+  /// Whether v has been tried and nothing around it has moved since.
+  bool is_unchanged(int v) const {
+    for (int i = first_[v]; i < first_[v + 1]; ++i)
+      for (const int w : quads_[corners_[i] / 4])
+        if (w != v && moved_[w] > tried_[v]) return false;
+    return tried_[v] > 0;
+  }
+
+  const int steps_, fruitless_;
+};
+
+/// Of quads below an eta.
+class PoorLift final : public SurfaceMoves {
+ public:
+  PoorLift(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, Budget& trials,
+           const LiftedBall& ball)
+      : SurfaceMoves(tracks, places, trials, kSteps, kSteps),
+        ball_(ball),
+        eta_(eta),
+        steepest2_(std::pow(std::tan((1 - eta) * std::numbers::pi / 2), 2)),
+        warp2_(std::pow(std::tan((1 - eta / kWarpFactor) * std::numbers::pi / 2), 2)) {}
+
+ private:
+  bool is_bad(int q) const override { return is_in_ball(q) && !is_clearly_good(q) && quality(q) < eta_; }
+
+  bool work_on(int q) override {
+    bool again = false;
+    for (const int v : quads_[q]) again = (!trials_.is_spent() && improve(v)) || again;
+    return again;
+  }
+
+  /// Counting in each quad the corners that the place of v changes: all but the one opposite.
+  double lack_around(int v) const override {
+    double sum = 0;
+    for (int i = first_[v]; i < first_[v + 1]; ++i)
+      sum += lack(quality(corners_[i] / 4, (corners_[i] + 2) % 4));
+    return sum;
+  }
+  static double lack(double quality) { return std::pow(std::max(kGood - quality, 0.0) / kGood, kPower); }
+
+  bool is_gain(double lack, double before) const override {
+    return lack < before - std::max(kLeastGain * before, kLeastLack);
+  }
+
+  double least_edge(int v) const override {
+    return (tracks_.is_on_curve(v) ? kShortestOnCurve : kShortestInside) * shortest_edge(v, start_);
+  }
+
+  bool is_in_ball(int q) const {
+    return std::isinf(ball_.radius) || std::ranges::any_of(quads_[q], [&](int v) {
+             return norm(start_[v] - ball_.centre) < ball_.radius;
+           });
+  }
+
+  /// Whether quality() is above the wanted eta without doubt: as cheap as can be, for most quads are.
+  bool is_clearly_good(int q) const {
+    constexpr double kMargin = 1 - 1e-9;
+    const auto& v = quads_[q];
+    const Vec3 normal = cross(places_[v[2]] - places_[v[0]], places_[v[3]] - places_[v[1]]);
+    if (!(dot(normal, outward_[q]) > 0)) return false;
+    std::array<Vec3, 4> corner_normal;
+    for (int k = 0; k < 4; ++k) {
+      const Vec3& at = places_[v[k]];
+      const Vec3 out = places_[v[(k + 1) % 4]] - at, in = places_[v[(k + 3) % 4]] - at, c = cross(out, in);
+      const double cosine = dot(out, in);  // both times the lengths of the sides
+      if (!(dot(c, normal) > 0 && cosine * cosine < kMargin * steepest2_ * dot(c, c))) return false;
+      corner_normal[k] = c;
+    }
+    for (int k = 0; k < 2; ++k) {
+      const Vec3 &m = corner_normal[k], &n = corner_normal[k + 2];
+      const Vec3 turn = cross(m, n);
+      const double along = dot(m, n);
+      if (!(along > 0 && dot(turn, turn) < kMargin * warp2_ * along * along)) return false;
+    }
+    return true;
+  }
+
+  const LiftedBall& ball_;
+  double eta_;        ///< that will do
+  double steepest2_;  ///< square of the cotangent of the sharpest angle that will do
+  double warp2_;      ///< square of the tangent of the largest warp that will do
+};
+
+/// Of quads beyond what is asked for, see is_beyond_asked(), for a size.
+class FailingMending final : public SurfaceMoves {
+ public:
+  FailingMending(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size, Budget& trials)
+      : SurfaceMoves(tracks, places, trials, kMendingSteps, kFruitless) {
+    find_limits(size);
+  }
+
+ private:
+  bool is_bad(int q) const override { return beyond(q) > 0; }
 
   /// Moves the vertices of a quad, and where fewer quads fail then, for not too much of eta, those near it to
   /// what is best for eta; else they go back.
-  bool mend(int q) {
+  bool work_on(int q) override {
     std::vector<int> around;
     for (const int v : quads_[q])
       for (int i = first_[v]; i < first_[v + 1]; ++i) around.push_back(corners_[i] / 4);
@@ -166,12 +368,12 @@ class SurfaceLift {
     return false;
   }
 
-  void find_limits() {
+  void find_limits(const SizeField& size) {
     delta_.resize(places_.size());
     least_.resize(quads_.size());
     parallel_ranges(places_.size(), [&](std::size_t begin, std::size_t end) {
       int hint = -1;
-      for (std::size_t v = begin; v < end; ++v) delta_[v] = size_->at(places_[v], hint);
+      for (std::size_t v = begin; v < end; ++v) delta_[v] = size.at(places_[v], hint);
     });
     parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t q = begin; q < end; ++q) least_[q] = quality(static_cast<int>(q));
@@ -202,176 +404,26 @@ class SurfaceLift {
     return sum;
   }
 
-  bool is_in_ball(int q) const {
-    return std::isinf(ball_.radius) || std::ranges::any_of(quads_[q], [&](int v) {
-             return norm(start_[v] - ball_.centre) < ball_.radius;
-           });
-  }
-
-  /// 1 - |angle - 90 degrees| / 90 degrees, the least over the corners: eta where that is positive. Without
-  /// the corner `skipped` (none: -1). Or what its warp counts as where that is less: 0 for a folded quad.
-  /// `warp`: gets it instead, in radians.
-  double quality(int q, int skipped = -1, double* warp = nullptr) const {
-    const auto& v = quads_[q];
-    const Vec3& outward = outward_[q];
-    Vec3 normal = cross(places_[v[2]] - places_[v[0]], places_[v[3]] - places_[v[1]]);
-    const bool turned_over = !(dot(normal, outward) > 0);
-    if (turned_over) normal = outward;
-    std::array<Vec3, 4> corner_normal;
-    double least = 1;
-    for (int k = 0; k < 4; ++k) {
-      const Vec3& at = places_[v[k]];
-      const Vec3 out = places_[v[(k + 1) % 4]] - at, in = places_[v[(k + 3) % 4]] - at, c = cross(out, in);
-      corner_normal[k] = c;
-      if (k == skipped) continue;
-      double angle = std::atan2(norm(c), dot(out, in));
-      if (dot(c, normal) < 0) angle = 2 * std::numbers::pi - angle;
-      least = std::min(least, 1 - std::abs(angle - std::numbers::pi / 2) * (2 / std::numbers::pi));
-    }
-    double most_warp = 0;
-    for (int k = 0; k < 2; ++k) {
-      const Vec3 &m = corner_normal[k], &n = corner_normal[k + 2];
-      most_warp = std::max(most_warp, std::atan2(norm(cross(m, n)), dot(m, n)));
-    }
-    if (warp != nullptr) *warp = most_warp;
-    if (warp == nullptr) least = std::min(least, kWarpFactor * (1 - most_warp * (2 / std::numbers::pi)));
-    return turned_over ? least - kTurnedOver : least;
-  }
-
-  /// Whether quality() is above the wanted eta without doubt: as cheap as can be, for most quads are.
-  bool is_clearly_good(int q) const {
-    constexpr double kMargin = 1 - 1e-9;
-    const auto& v = quads_[q];
-    const Vec3 normal = cross(places_[v[2]] - places_[v[0]], places_[v[3]] - places_[v[1]]);
-    if (!(dot(normal, outward_[q]) > 0)) return false;
-    std::array<Vec3, 4> corner_normal;
-    for (int k = 0; k < 4; ++k) {
-      const Vec3& at = places_[v[k]];
-      const Vec3 out = places_[v[(k + 1) % 4]] - at, in = places_[v[(k + 3) % 4]] - at, c = cross(out, in);
-      const double cosine = dot(out, in);  // both times the lengths of the sides
-      if (!(dot(c, normal) > 0 && cosine * cosine < kMargin * steepest2_ * dot(c, c))) return false;
-      corner_normal[k] = c;
-    }
-    for (int k = 0; k < 2; ++k) {
-      const Vec3 &m = corner_normal[k], &n = corner_normal[k + 2];
-      const Vec3 turn = cross(m, n);
-      const double along = dot(m, n);
-      if (!(along > 0 && dot(turn, turn) < kMargin * warp2_ * along * along)) return false;
-    }
-    return true;
-  }
-
-  template <class F>
-  void for_each_neighbour(int v, F&& f) const {
-    for (int i = first_[v]; i < first_[v + 1]; ++i) {
-      const auto& quad = quads_[corners_[i] / 4];
-      f(quad[(corners_[i] + 1) % 4]);
-      f(quad[(corners_[i] + 3) % 4]);
-    }
-  }
-
-  double shortest_edge(int v, const std::vector<Vec3>& places) const {
-    double shortest = std::numeric_limits<double>::max();
-    for_each_neighbour(v, [&](int w) { shortest = std::min(shortest, norm(places[w] - places[v])); });
-    return shortest;
-  }
-
-  /// That edges at a vertex may not fall below; what is to be mended: nor below what is asked for and was.
-  double least_edge(int v) const {
-    const double shortest = shortest_edge(v, start_);
-    if (size_ != nullptr) return std::min(shortest, kAskedShort * delta_[v]);
-    return (tracks_.is_on_curve(v) ? kShortestOnCurve : kShortestInside) * shortest;
-  }
-
-  /// What the quads around v lack, counting in each the corners that the place of v changes: all but the one
-  /// opposite.
-  double lack_around(int v) const {
+  double lack_around(int v) const override {
     double sum = 0;
-    for (int i = first_[v]; size_ != nullptr && i < first_[v + 1]; ++i) {
+    for (int i = first_[v]; i < first_[v + 1]; ++i) {
       const int q = corners_[i] / 4;
       const double eta = quality(q), by = beyond(q);
       if (eta < least_[q]) return std::numeric_limits<double>::infinity();
       sum += 1 - std::min(eta, 1.0);
       if (by > 0) sum += kFailing + kBeyond * std::min(by, 1.0);
     }
-    for (int i = first_[v]; size_ == nullptr && i < first_[v + 1]; ++i)
-      sum += lack(quality(corners_[i] / 4, (corners_[i] + 2) % 4));
     return sum;
   }
-  static double lack(double quality) { return std::pow(std::max(kGood - quality, 0.0) / kGood, kPower); }
 
-  bool is_gain(double lack, double before) const {
-    if (size_ != nullptr) return lack < before - kLeastMending;
-    return lack < before - std::max(kLeastGain * before, kLeastLack);
+  bool is_gain(double lack, double before) const override { return lack < before - kLeastMending; }
+
+  /// Nor below what is asked for and was.
+  double least_edge(int v) const override {
+    return std::min(shortest_edge(v, start_), kAskedShort * delta_[v]);
   }
 
-  /// Whether v has been tried and nothing around it has moved since.
-  bool is_unchanged(int v) const {
-    for (int i = first_[v]; i < first_[v + 1]; ++i)
-      for (const int w : quads_[corners_[i] / 4])
-        if (w != v && moved_[w] > tried_[v]) return false;
-    return tried_[v] > 0;
-  }
-
-  /// Axes of the search, a step long: along the longest edge, and across it as far as the edges reach; on a
-  /// curve along this only.
-  std::array<Vec3, 2> axes(int v, const std::array<Vec3, 2>& free) const {
-    Vec3 along;
-    for_each_neighbour(v, [&](int w) {
-      const Vec3 edge = places_[w] - places_[v];
-      if (norm(edge) > norm(along)) along = edge;
-    });
-    if (tracks_.is_on_curve(v)) return {kReach * norm(along) / norm(free[0]) * free[0], Vec3{}};
-    const Vec3 normal = cross(free[0], free[1]);
-    const Vec3 across = (1 / (norm(normal) * norm(along))) * cross(normal, along);
-    double width = 0;
-    for_each_neighbour(
-        v, [&](int w) { width = std::max(width, std::abs(dot(across, places_[w] - places_[v]))); });
-    return {kReach * along, kReach * width * across};
-  }
-
-  /// The best of the places halfway between two neighbours, then a compass search: eight directions, a step
-  /// that shrinks.
-  bool improve(int v) {
-    const auto free = tracks_.axes(v);
-    if (norm(free[0]) == 0 || is_unchanged(v)) return false;
-    tried_[v] = ++now_;
-    const SurfaceTracks::Spot start{tracks_.position(v), places_[v]};
-    const double before = lack_around(v);
-    if (size_ == nullptr && !is_gain(0, before)) return false;  // whatever would be found
-    const double shortest = least_edge(v);
-    SurfaceTracks::Spot at = start;
-    double best = before;
-    const auto try_at = [&](const SurfaceTracks::Spot& from, const Vec3& x) {
-      if (best == 0) return;
-      trials_.spend(cost_);
-      const SurfaceTracks::Spot trial = tracks_.spot_near(v, from, x);
-      places_[v] = trial.place;
-      if (shortest_edge(v, places_) < shortest) return;
-      const double lacking = lack_around(v);
-      if (lacking < best) best = lacking, at = trial;
-    };
-    std::vector<Vec3> neighbours;
-    for_each_neighbour(v, [&](int w) { neighbours.push_back(places_[w]); });
-    for (std::size_t i = 0; neighbours.size() <= kMostPaired && i < neighbours.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) try_at(start, 0.5 * (neighbours[i] + neighbours[j]));
-    places_[v] = at.place;
-    auto [along, across] = axes(v, free);
-    const int steps = size_ != nullptr ? kMendingSteps : kSteps;
-    for (int step = 0, fruitless = 0; step < steps && best > 0; ++step) {
-      if (size_ != nullptr && fruitless == kFruitless && best == before) break;
-      const SurfaceTracks::Spot centre = at;
-      const double last = best;
-      for (const Vec2 d : kCompass) try_at(centre, centre.place + d.x * along + d.y * across);
-      if (best == last) ++fruitless, along = 0.5 * along, across = 0.5 * across;
-    }
-    const bool gained = is_gain(best, before);
-    places_[v] = gained ? at.place : start.place;
-    if (gained) tracks_.put(v, at), moved_[v] = ++now_;
-    return gained;
-  }
-
-  /// The same for both ends of an edge that move by the same way: alone, each would warp quads more.
+  /// improve() for both ends of an edge that move by the same way: alone, each would warp quads more.
   bool shift(std::array<int, 2> ends) {
     std::array<SurfaceTracks::Spot, 2> start, at;
     for (const int k : {0, 1}) {
@@ -410,35 +462,20 @@ class SurfaceLift {
     return gained;
   }
 
-  SurfaceTracks& tracks_;
-  const std::vector<std::array<int, 4>>& quads_;
-  std::vector<Vec3>& places_;
-  std::vector<Vec3> start_;
-  Budget& trials_;
-  long long cost_;  ///< of a trial
-  const LiftedBall& ball_;
-  double eta_;                        ///< that will do
-  double steepest2_;                  ///< square of the cotangent of the sharpest angle that will do
-  double warp2_;                      ///< square of the tangent of the largest warp that will do
-  std::vector<int> first_, corners_;  ///< of each vertex, its corners: 4 quad + k
-  std::vector<Vec3> outward_;         ///< normals at the quads where these were at first
-  std::vector<int> tried_, moved_;    ///< of each vertex, when last; 0: never
-  int now_ = 0;
-  const SizeField* size_ = nullptr;  ///< of quads that fail
-  std::vector<double> delta_;        ///< by vertex, where it was at first
-  std::vector<double> least_;        ///< of each quad, the quality that it must keep
+  std::vector<double> delta_;  ///< by vertex, where it was at first
+  std::vector<double> least_;  ///< of each quad, the quality that it must keep
 };
 
 }  // namespace
 
 int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps,
                           Budget& trials, const LiftedBall& ball) {
-  return SurfaceLift(tracks, places, eta, trials, ball).run(max_sweeps);
+  return PoorLift(tracks, places, eta, trials, ball).run(max_sweeps);
 }
 
 int mend_failing_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size,
                             int max_sweeps, Budget& trials) {
-  return SurfaceLift(tracks, places, size, trials).run(max_sweeps);
+  return FailingMending(tracks, places, size, trials).run(max_sweeps);
 }
 
 }  // namespace delquad

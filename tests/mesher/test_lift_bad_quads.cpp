@@ -1,18 +1,22 @@
+#include "algorithms/finish/edit_failing.h"
 #include "algorithms/finish/lift_bad_quads.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <utility>
 
 #include "fields/fields.h"
 #include "geometry/mesh/quad_corners.h"
+#include "geometry/mesh/quad_topology.h"
 #include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
 #include "metrics/judgement/poor_quads.h"
+#include "metrics/judgement/soundness.h"
 #include "tests/support/prepare_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surfaces.h"
@@ -89,6 +93,85 @@ TEST(LiftBadQuads, WhatFailsIsMended) {
     }
   EXPECT_GT(before, 0.1);
   EXPECT_LT(after, before / 2);
+}
+
+/// Corners of the boundary with one quad, and sides inside between two of its points: other faces may have
+/// these, too.
+int ties(const QuadPatch& mesh) {
+  const QuadTopology topology(mesh);
+  int n = 0;
+  for (int v = 0; v < mesh.n_boundary; ++v) {
+    n += topology.valence(v) == 1;
+    topology.for_each_out(
+        v, [&](int h) { n += topology.twin(h) >= 0 && topology.on_boundary(topology.target(h)); });
+  }
+  return n;
+}
+
+/// A spike without a tip.
+SurfaceModel spike() {
+  return surfaces::grid_surface({40, 40}, [](double u, double v) {
+    return Vec3{(2 * u - 1) * (1 - 0.9 * v), 4 * v, 0.2 * v * v};
+  });
+}
+
+// Where moves do not do: words without C and O leave much that fails.
+TEST(LiftBadQuads, WhatFailsIsEdited) {
+  const Word word = parse_word("DB");
+  double before = 0, after = 0;
+  int edits = 0;
+  for (const double h : {0.11, 0.13, 0.17, 0.19, 0.23}) {
+    SCOPED_TRACE(h);
+    MeshProblem c;
+    c.name = c.where = "spike";
+    const std::shared_ptr<const SizeField> size = make_constant_size(h);
+    const PreparedProblem prepared = surfaces::prepare_surface(c, spike(), size);
+    MeshingState state = begin_meshing(prepared);
+    for (const Stage* stage : word.stages) run_stage(*stage, prepared, state);
+    const std::vector<char> none(state.patches.size(), 0);
+    const AllPatches all{prepared, prepared.settings.options, state.patches, none, state.nodes};
+    place_inside(all);
+    const auto failing = [&] {
+      return failing_part(prepared, assemble(prepared, state.nodes.points, state.patches, none));
+    };
+    for (std::size_t p = 0; p < state.patches.size(); ++p) {
+      const double was = failing();
+      const int tied = ties(state.patches[p].quads);
+      edits += edit_failing(all, p, *size);
+      EXPECT_LE(failing(), was);
+      EXPECT_LE(ties(state.patches[p].quads), tied);
+      before += was, after += failing();
+    }
+    EXPECT_TRUE(
+        check_elements(prepared, assemble(prepared, state.nodes.points, state.patches, none)).sound());
+  }
+  EXPECT_GT(edits, 5);
+  EXPECT_LT(after, 0.8 * before);
+}
+
+TEST(LiftBadQuads, WhatIsGivenIsMendedWhereThatIsAsked) {
+  double before = 0, after = 0;
+  for (const double h : {0.13, 0.17, 0.19, 0.23}) {
+    MeshProblem c;
+    c.name = c.where = "spike";
+    c.options.set("repair.lift_bad_quads", false);
+    const std::shared_ptr<const SizeField> size = make_constant_size(h);
+    MeshProblem given;
+    given.name = given.where = "given";
+    given.model = GivenMesh{run_word(surfaces::prepare_surface(c, spike(), size), parse_word("DB")).mesh};
+    given.size.field = size;
+    const auto failing = [&] {
+      const PreparedProblem prepared = prepare_problem(given);
+      const MeshResult result = run_word(prepared, parse_word("CO", WordStart::kGivenMesh));
+      EXPECT_TRUE(result.soundness.sound());
+      return failing_part(prepared, result.mesh);
+    };
+    before += failing();
+    given.criteria = *std::ranges::find(criteria_presets(), "batch", &Criteria::name);
+    after += failing();
+  }
+  EXPECT_GT(before, 0.01);
+  EXPECT_LT(after, 0.8 * before);
 }
 
 TEST(LiftBadQuads, SaysWhatItWasWorth) {
