@@ -2,8 +2,10 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "delquad/fields.h"
+#include "fields/tangent_metric.h"
 
 namespace delquad {
 namespace {
@@ -63,6 +65,14 @@ double metric_length(Vec2 d, const Tensor2& a, const Tensor2& b) {
   return (la - lb) / std::log(la / lb);
 }
 
+double difference(const Tensor2& a, const Tensor2& b) {
+  // Half the logarithms of the eigenvalues of a^-1 b, whose product and sum are these.
+  const double det = determinant(b) / determinant(a);
+  const double half = (a.yy * b.xx - 2 * a.xy * b.xy + a.xx * b.yy) / determinant(a) / 2;
+  const double root = std::sqrt(std::max(0.0, half * half - det)), most = half + root;
+  return std::max(std::abs(std::log(most)), std::abs(std::log(det / most))) / 2;
+}
+
 Tensor2 intersection(const Tensor2& a, const Tensor2& b) {
   // In the coordinates y = sqrt(a) x the first is the identity and the second has the same axes as their
   // common ones.
@@ -120,6 +130,50 @@ Tensor2 limited(const Tensor2& m, const MetricLimits& limits) {
   s.least = std::min(std::max(s.least, least), most);
   if (limits.aspect > 0) s.least = std::max(s.least, s.most / (limits.aspect * limits.aspect));
   return tensor_by(s.most, s.least, s.direction);
+}
+
+TangentMetric TangentMetric::with_normal(const Vec3& normal) {
+  const double length = norm(normal);
+  const Vec3 n = length > 0 ? (1 / length) * normal : Vec3{0, 0, 1};
+  // Away from the axis that is nearest to the normal.
+  const Vec3 axis = std::abs(n.x) < std::abs(n.y) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 e = cross(axis, n);
+  TangentMetric metric{(1 / norm(e)) * e, {}, {}};
+  metric.f = cross(n, metric.e);
+  return metric;
+}
+
+Tensor2 TangentMetric::seen(const TangentMetric& other) const {
+  constexpr double kOpposite = 1e-6;  // 1 + cosine
+  const Vec3 n = cross(e, f), o = cross(other.e, other.f);
+  const double cosine = 1 + dot(n, o);
+  const Vec3 turned = cosine > kOpposite ? other.e - (dot(other.e, n) / cosine) * (n + o) : other.e;
+  const Vec2 x = in_plane(turned);
+  const double length = norm(x), c = length > 0 ? x.x / length : 1, s = length > 0 ? x.y / length : 0;
+  const auto& [xx, xy, yy] = other.m;
+  return {c * c * xx - 2 * c * s * xy + s * s * yy, c * s * (xx - yy) + (c * c - s * s) * xy,
+          s * s * xx + 2 * c * s * xy + c * c * yy};
+}
+
+double metric_square(const Vec3& d, const TangentMetric& at) {
+  const Vec2 x = at.in_plane(d);
+  const double flat = dot(x, x), by = at.m.xx * x.x * x.x + 2 * at.m.xy * x.x * x.y + at.m.yy * x.y * x.y;
+  // Of a direction without a part in the plane the mean of all.
+  constexpr double kUpright = 1e-12;
+  if (!(flat > kUpright * dot(d, d))) return dot(d, d) * (at.m.xx + at.m.yy) / 2;
+  return std::max(0.0, by) * dot(d, d) / flat;
+}
+
+double metric_length(const Vec3& d, const TangentMetric& a, const TangentMetric& b) {
+  return metric_length(Vec2{1, 0}, Tensor2{metric_square(d, a), 0, 1}, Tensor2{metric_square(d, b), 0, 1});
+}
+
+TangentMetric log_mean(std::span<const TangentMetric> metrics, std::span<const double> weights) {
+  TangentMetric mean = metrics[0];
+  std::vector<Tensor2> seen;
+  for (const TangentMetric& m : metrics) seen.push_back(mean.seen(m));
+  mean.m = log_mean(seen, weights);
+  return mean;
 }
 
 }  // namespace delquad

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -112,6 +113,37 @@ std::unique_ptr<CrossField> make_nodal_cross(const Mesh& mesh, std::vector<doubl
     crosses.push_back(Cross::from_angle(theta[i]));
   }
   return std::make_unique<NodalCross>(flat, std::move(crosses));
+}
+
+SpaceMetricFunction make_nodal_space_metric(const Mesh& mesh, std::vector<Tensor3> metric) {
+  check_nodal(mesh, metric.size(), "metric");
+  const auto matrix = [](const Tensor3& m) {
+    Eigen::Matrix3d a;
+    a << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
+    return a;
+  };
+  using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+  std::vector<Eigen::Matrix3d> logs;
+  for (std::size_t i = 0; i < metric.size(); ++i) {
+    if (!matrix(metric[i]).allFinite() || !(Solver(matrix(metric[i])).eigenvalues()[0] > 0))
+      throw InputError(fmt::format("the nodal metric {} at {} is not finite and positive definite", i,
+                                   show_point(mesh.points[i])));
+    const Solver solver(matrix(metric[i]));
+    logs.emplace_back(solver.eigenvectors() * solver.eigenvalues().array().log().matrix().asDiagonal() *
+                      solver.eigenvectors().transpose());
+  }
+  return [nodes = std::make_shared<const Nodes>(mesh), logs = std::move(logs)](std::span<const Vec3> points,
+                                                                               std::span<Tensor3> at) {
+    int hint = -1;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto [v, w] = nodes->at(points[i], hint);
+      const Solver solver(w[0] * logs[v[0]] + w[1] * logs[v[1]] + w[2] * logs[v[2]]);
+      const Eigen::Matrix3d m = solver.eigenvectors() *
+                                solver.eigenvalues().array().exp().matrix().asDiagonal() *
+                                solver.eigenvectors().transpose();
+      at[i] = {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)};
+    }
+  };
 }
 
 MetricFunction make_nodal_metric(const Mesh& mesh, std::vector<Tensor2> metric) {

@@ -73,7 +73,7 @@ NodalValues read_msh_view(const std::filesystem::path& path, const std::string& 
 }
 
 /// A solution file of Medit, as Mmg and BAMG write metrics, of the mesh with the same name. `width`: numbers
-/// at each point: 1, or 3 of a tensor of the plane.
+/// at each point: 1, or 6 of a tensor (m11, m12, m13, m22, m23, m33; m11, m12, m22 in the plane's file).
 NodalValues read_sol(const std::filesystem::path& path, std::size_t width) {
   const std::filesystem::path mesh_file = std::filesystem::path(path).replace_extension(".mesh");
   if (!std::filesystem::exists(mesh_file))
@@ -97,9 +97,14 @@ NodalValues read_sol(const std::filesystem::path& path, std::size_t width) {
       in.fail("{} solution(s), the first of type {}: expected one of type {}", n_fields, kind,
               width == 1 ? 1 : kTensor);
     const std::size_t given = width == 1 ? 1 : dimension == 3 ? 6 : 3;
-    for (long long i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < given; ++k)
-        if (const double value = in.real("a value", Strays::kKept); k < width) result.values.push_back(value);
+    for (long long i = 0; i < n; ++i) {
+      std::array<double, 6> value{};
+      for (std::size_t k = 0; k < given; ++k) value[k] = in.real("a value", Strays::kKept);
+      if (given == 3) value = {value[0], value[1], 0, value[2], 0, 1};
+      // Medit has m11, m12, m22, m13, m23 and m33.
+      if (given == 6) std::swap(value[2], value[3]);
+      result.values.insert(result.values.end(), value.begin(), value.begin() + static_cast<long>(width));
+    }
     return result;
   }
   in.fail("no SolAtVertices");
@@ -116,7 +121,8 @@ void require_values(NodalValues& field, const std::string& file) {
   for (std::size_t i = 0; i < is_used.size(); ++i) {
     if (!is_used[i]) {
       field.values[width * i] = 1;  // is never asked for
-      if (width > 1) field.values[width * i + 1] = 0, field.values[width * i + 2] = 1;
+      constexpr double kUnit[] = {1, 0, 0, 1, 0, 1};
+      if (width > 1) std::copy_n(kUnit, width, field.values.begin() + static_cast<long>(width * i));
     } else if (std::isnan(field.values[width * i])) {
       const Vec3& p = field.mesh.points[i];
       refuse("{}: the field has no value at {}", file, show_point(p));
@@ -182,7 +188,8 @@ NodalValues read_tensors(const std::filesystem::path& path, const std::string& n
   const std::string kind = kind_of_file(path);
   if (kind == ".vtu") refuse("{}: tensors are read from MSH and SOL files", path.string());
   // MSH has rows of three by three.
-  NodalValues field = kind == ".sol" ? read_sol(path, 3) : read_msh_view(path, name, 9, std::array{0, 1, 4});
+  NodalValues field =
+      kind == ".sol" ? read_sol(path, 6) : read_msh_view(path, name, 9, std::array{0, 1, 2, 4, 5, 8});
   require_values(field, path.string());
   return field;
 }

@@ -7,7 +7,7 @@
 #include "base/stopwatch.h"
 #include "features/curved/curved_mesh.h"
 #include "features/layers/add_layers.h"
-#include "features/metric/metric_plane.h"
+#include "features/metric/metric_surface.h"
 #include "features/periodic/periodic.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "geometry/mesh/check_invariants.h"
@@ -140,17 +140,12 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
 }
 
 MeshMetrics metrics_of(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides) {
-  if (!prepared.metric_plane)
+  const MetricAt metric = metric_of(prepared);
+  if (!metric)
     return evaluate_metrics(mesh, prepared.size.field.get(), prepared.size.asked.get(),
                             prepared.settings.options, sides, quads_in_layers(prepared, mesh));
   MeshMetrics metrics = evaluate_metrics(mesh, nullptr, nullptr, prepared.settings.options, sides);
-  const MetricPlane& plane = *prepared.metric_plane;
-  const double scale = plane.scale_of(prepared.size.asked ? *prepared.size.asked : *prepared.size.field);
-  const double factor = 1 / (scale * scale);
-  metrics.values.merge(measure_by_metric(mesh, sides, [&](Vec2 x, int& hint) {
-    const Tensor2 m = plane.metric_at(x, hint);
-    return Tensor2{factor * m.xx, factor * m.xy, factor * m.yy};
-  }));
+  metrics.values.merge(measure_by_metric(mesh, sides, metric));
   return metrics;
 }
 

@@ -277,7 +277,7 @@ void check_problem(const MeshProblem& problem) {
       throw InputError(fmt::format("{}: the normal of a plane of symmetry has no finite length{}",
                                    problem.symmetry.where, is_flat ? " in the plane" : ""));
   for (const CurveDivision& division : problem.divisions) check_division(division);
-  check(problem.cross, problem.metric.plane != nullptr);
+  check(problem.cross, problem.metric.asks());
   check_surface(problem.surface, problem.surface.where.empty() ? problem.where : problem.surface.where);
   check_washers(problem);
   check_kind(problem);

@@ -139,11 +139,13 @@ bool is_to_be_curved(const Finishing& f) { return is_curved(f) && f.result.sound
 bool was_given(const Finishing& f) { return !f.state.given.empty(); }
 /// Before a treatment quads are bad in the plane, too.
 bool is_treated(const Finishing& f) {
-  return is_surface(f) && recombination_options(f.prepared.settings.options).treatment == Treatment::kPaper;
+  return is_surface(f) && !f.prepared.surface->metric &&
+         recombination_options(f.prepared.settings.options).treatment == Treatment::kPaper;
 }
 /// A mesh that is not sound is made anew, see refine_unsound(): until then this takes time for nothing.
 bool is_worth_other_cuts(const Finishing& f) {
-  return are_cuts_in_the_way(f.prepared, f.state.of_quads) &&
+  return !(f.prepared.surface && f.prepared.surface->metric) &&
+         are_cuts_in_the_way(f.prepared, f.state.of_quads) &&
          (f.result.soundness.sound() || f.prepared.surface->given);
 }
 

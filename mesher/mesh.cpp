@@ -11,6 +11,7 @@
 #include "delquad/mesher.h"
 #include "features/crosses/size_aware.h"
 #include "features/metric/metric_plane.h"
+#include "features/metric/metric_surface.h"
 #include "features/scaling/scale_sizes.h"
 #include "io/cases/read_problem.h"
 #include "mesher/finish_steps.h"
@@ -50,7 +51,8 @@ Prepared prepare_now(MeshProblem problem, Steps& steps) {
   const Stopwatch reading;
   problem = read_files(std::move(problem));
   std::vector<Warning> of_metric;
-  if (problem.metric.asks()) problem = in_metric_plane(std::move(problem), of_metric);
+  if (problem.metric.asks()) check_metric(problem);
+  if (problem.metric.function) problem = in_metric_plane(std::move(problem), of_metric);
   problem = refined(std::move(problem));
   const TimeSpent time = reading.time();
   PreparedProblem made = problem.quads ? prepare_for_quads(problem) : prepare_problem(problem);
@@ -241,9 +243,9 @@ MeshMetrics Prepared::metrics(const Mesh& made) const {
 MeshResult Prepared::measure(Mesh of_others) const {
   MeshResult result;
   result.mesh = std::move(of_others);
-  result.metrics = made_->metric_plane ? metrics(result.mesh)
-                                       : evaluate_metrics(result.mesh, made_->size.field.get(),
-                                                          made_->size.asked.get(), made_->settings.options);
+  result.metrics = metric_of(*made_) ? metrics(result.mesh)
+                                     : evaluate_metrics(result.mesh, made_->size.field.get(),
+                                                        made_->size.asked.get(), made_->settings.options);
   result.soundness = check_elements(*made_, result.mesh);
   result.bad_elsewhere = static_cast<int>(
       std::ranges::count_if(quad_etas(result.mesh), [](double eta) { return eta < kBadEta; }));

@@ -23,7 +23,8 @@ constexpr int kMostGuesses = 3;
 
 bool has_size(const MeshProblem& problem) {
   const SizeSpec& size = problem.size;
-  return size.field || size.function || size.from_boundary || !size.sources.empty() || size.max > 0;
+  return problem.metric.asks() || size.field || size.function || size.from_boundary ||
+         !size.sources.empty() || size.max > 0;
 }
 
 }  // namespace

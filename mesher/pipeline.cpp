@@ -15,6 +15,7 @@
 #include "features/curves/compose_size.h"
 #include "features/curves/surface_input.h"
 #include "features/metric/metric_plane.h"
+#include "features/metric/metric_surface.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "features/washers/planar_washers.h"
 #include "geometry/mesh/check_invariants.h"
@@ -208,9 +209,9 @@ MeshResult finish_meshing(const PreparedProblem& prepared, const std::string& la
   const BadQuads bad =
       judge_quads(prepared, label, result.mesh, result.metrics, result.warnings, result.soundness);
   result.bad_in_corners = bad.in_corners;
-  result.bad_elsewhere = prepared.metric_plane
-                             ? count_bad_quads(*prepared.metric_plane, label, result.mesh, result.warnings)
-                             : bad.elsewhere;
+  const MetricAt metric = metric_of(prepared);
+  result.bad_elsewhere =
+      metric ? count_bad_quads(metric, label, result.mesh, result.warnings) : bad.elsewhere;
   judge_by_criteria(prepared, false, result);
   if (prepared.is_given_surface()) put_back_entities(*prepared.surface->given, result.mesh);
   return std::move(on.result);

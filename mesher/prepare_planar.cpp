@@ -190,7 +190,7 @@ class PlanarSteps final : public ModelSteps {
     add_grids(problem_.mapped, domain_.mapped, p);
     if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
     if (problem_.cross.kind == CrossKind::kMetric)
-      make_crosses_size_aware(p, [&](Vec2 u, int& hint) { return p.metric_plane->pull_at(u, hint); });
+      make_crosses_size_aware(p, [&](int, Vec2 u, int& hint) { return p.metric_plane->pull_at(u, hint); });
     if (p.metric_plane)
       for (PlacedSingularity& s : p.crosses.singularities) s.at = p.metric_plane->to_plane(s.at);
     if (p.crosses.index_sum_and_expected) check_index_sum(problem_, p);

@@ -18,6 +18,7 @@
 #include "features/given/given_surface.h"
 #include "features/given/given_worst.h"
 #include "features/grids/grids.h"
+#include "features/metric/metric_surface.h"
 #include "features/periodic/periodic.h"
 #include "features/seed/perturb.h"
 #include "features/sizes/curve_options.h"
@@ -129,16 +130,25 @@ class SurfaceSteps final : public ModelSteps {
     cut_ = cut_at_planes(problem_, model_, asked_);
     if (cut_) divisions_ = divisions_of_part(problem_.divisions, *cut_);
     if (cut_) model_ = std::move(cut_->half.model);
-    wanted_ = surface_size(problem_, model_, asked_, divisions_, refinement_.spots, part());
+    if (problem_.metric.asks())
+      metric_ = wanted_metric(problem_, model_, refinement_.spots);
+    else
+      wanted_ = surface_size(problem_, model_, asked_, divisions_, refinement_.spots, part());
   }
 
   bool is_surface() const override { return true; }
 
   void flatten(PreparedProblem&) override {
     improve_triangulation(model_);
+    if (metric_) {
+      wanted_.base = make_constant_size(1);
+      wanted_.metric = refine_for_metric(model_, *metric_);
+    }
     refine_for_size(model_, wanted_);
     periodic_ = find_periodic_sides(model_, problem_.periodic, of_periodic_);
-    flattening_ = located(problem_.where, [&] { return flatten_periodic(model_, periodic_); });
+    flattening_ = located(problem_.where, [&] {
+      return metric_ ? flatten_by_metric(model_, *wanted_.metric) : flatten_periodic(model_, periodic_);
+    });
     for (const LeftOutFace& face : model_.left_out) failures_.add(face.face, face.reason);
     add_unflattened(flattening_, model_, failures_);
   }
@@ -153,18 +163,21 @@ class SurfaceSteps final : public ModelSteps {
       on_curves = std::make_shared<SurfaceSize>(model_, other);
     }
     surface_->domain = mesh_curves_of(
-        model_, std::move(flattening_), *on_curves, wanted_.curvature ? nullptr : wanted_.base.get(),
-        problem_, divisions_, washers_, mapped_, periodic_,
-        refinement_.spots.empty() ? kMostAgreementSteps : kStepsAnew, failures_);
+        model_, std::move(flattening_), *on_curves,
+        wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_, divisions_, washers_, mapped_,
+        periodic_, refinement_.spots.empty() ? kMostAgreementSteps : kStepsAnew, failures_);
     surface_->model = std::move(model_);
     surface_->cad = cad_;
+    surface_->metric = wanted_.metric;
     p.failures = failures_.take();
     p.surface = surface_;
     append(p.warnings, surface_->model.warnings);
     append(p.warnings, of_periodic_);
     append(p.warnings, surface_->domain.warnings);
-    warn_of_large_size(*wanted_.base, surface_->model.fine, p.warnings);
-    warn_of_coarse_turns(wanted_, *surface_, p.warnings);
+    if (!metric_) {
+      warn_of_large_size(*wanted_.base, surface_->model.fine, p.warnings);
+      warn_of_coarse_turns(wanted_, *surface_, p.warnings);
+    }
     p.boundary = surface_->domain.boundary;
     p.boundary.unit = surface_->model.fine.unit;
   }
@@ -177,6 +190,9 @@ class SurfaceSteps final : public ModelSteps {
         for (const auto& loop : surface_->domain.patches[i].outline)
           for (const CurveSide& side : loop) surface_->domain.chain_stays[side.chain] = 1;
     if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
+    if (problem_.cross.kind == CrossKind::kMetric)
+      make_crosses_size_aware(
+          p, [&](int patch, Vec2 u, int& hint) { return pull_at(*surface_, patch, u, hint); });
     if (!cut_) return;
     add_whole(std::move(*cut_), *surface_, p);
   }
@@ -190,6 +206,12 @@ class SurfaceSteps final : public ModelSteps {
       for (const SizeSpot& spot : refinement_.spots) kept.push_back({spot.at, spot.reach});
     cad_ = refinement_.cad;
     model_ = make_surface(problem_, kept, cad_);
+    if (problem_.metric.asks()) {
+      asked_ = std::make_shared<SurfaceMetric>(model_, wanted_metric(problem_, model_, {}));
+      model_ = join_short_curves(problem_, *asked_, std::move(model_));
+      asked_ = std::make_shared<SurfaceMetric>(model_, wanted_metric(problem_, model_, {}));
+      return;
+    }
     const SampleDomain domain = {Box<Vec3>::around(model_.fine.points), &model_.fine};
     asked_ = base_size(problem_.size, domain, warnings, [&] {
       return largest_size(problem_.size, problem_.size.from_boundary
@@ -227,6 +249,7 @@ class SurfaceSteps final : public ModelSteps {
   MappedSpec mapped_ = problem_.mapped;
   SurfaceWashers washers_{problem_, model_, divisions_, mapped_};
   WantedSize wanted_;
+  std::optional<WantedMetric> metric_;  ///< in place of a size
   PeriodicSides periodic_;
   std::vector<Warning> of_periodic_;
   Flattening flattening_;

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 
 #include "algorithms/cleanup/cleanup.h"
@@ -15,6 +16,7 @@
 #include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
 #include "base/activity.h"
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "features/given/given_worst.h"
@@ -269,6 +271,23 @@ OptimisationSummary optimise_surface(const AllPatches& in) {
   return summary;
 }
 
+/// Each patch in its flat plane, where the metric is a scalar; its boundary stays.
+std::vector<OptimisationSummary> optimise_by_metric(const AllPatches& in) {
+  std::vector<OptimisationSummary> summaries(in.patches.size());
+  parallel_for(in.patches.size(), [&](std::size_t i) {
+    if (in.left_out[i]) return;
+    const PreparedPatch& prepared = in.prepared.patches[i];
+    std::vector<int> own(prepared.boundary.points.size());
+    std::iota(own.begin(), own.end(), 0);
+    PlanarTracks tracks(prepared.boundary.points, {}, {{&in.patches[i].quads, own, prepared.cross.get()}},
+                        *prepared.size);
+    std::vector<Vec2> points = tracks.points();
+    summaries[i] = optimise_on_tracks(points, tracks.quads(), tracks, optimisation_options(in.options));
+    tracks.store(points);
+  });
+  return summaries;
+}
+
 OptimisationSummary optimise_plane(const AllPatches& in) {
   std::vector<Vec2> nodes;
   for (const Vec3& p : in.nodes.points) nodes.push_back({p.x, p.y});
@@ -292,9 +311,13 @@ OptimisationSummary optimise_plane(const AllPatches& in) {
 /// Once each patch was untangled in its plane, all of them move together, nodes along their curves.
 void optimise_quads(const AllPatches& in, StageLog& log) {
   const Stopwatch watch;
-  OptimisationSummary summary = in.prepared.surface ? optimise_surface(in) : optimise_plane(in);
-  summary.seconds = watch.work_seconds();
-  add_summary(log, summary);
+  if (in.prepared.surface && in.prepared.surface->metric) {
+    for (const OptimisationSummary& summary : optimise_by_metric(in)) add_summary(log, summary);
+  } else {
+    OptimisationSummary summary = in.prepared.surface ? optimise_surface(in) : optimise_plane(in);
+    summary.seconds = watch.work_seconds();
+    add_summary(log, summary);
+  }
   log.add_time("optimisation", watch.time());
 }
 

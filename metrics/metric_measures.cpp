@@ -17,42 +17,33 @@ constexpr double kRange = std::numbers::sqrt2;
 /// An edge is along an axis that it differs from by no more, in the metric.
 constexpr double kAlong = 8 * std::numbers::pi / 180;
 
-Vec2 flat(const Vec3& x) { return {x.x, x.y}; }
+constexpr std::array kEqualWeights{0.25, 0.25, 0.25, 0.25};
 
-double metric_eta(const Mesh& mesh, const std::array<int, 4>& quad, const std::vector<Tensor2>& metric) {
-  std::array<Tensor2, 4> at;
-  for (int k = 0; k < 4; ++k) at[k] = metric[quad[k]];
-  const MetricAxes axes = axes_of(log_mean(at, std::array{0.25, 0.25, 0.25, 0.25}));
-  const Vec2 e{std::cos(axes.theta), std::sin(axes.theta)};
-  std::array<Vec2, 4> x;
-  for (int k = 0; k < 4; ++k) {
-    const Vec2 p = flat(mesh.points[quad[k]]);
-    x[k] = {dot(p, e) / axes.h1, cross(e, p) / axes.h2};
-  }
-  return quad_eta(x[0], x[1], x[2], x[3]);
-}
-
-std::vector<Tensor2> metric_at_points(const Mesh& mesh, const MetricAt& metric_at) {
-  std::vector<Tensor2> metric(mesh.points.size());
-  parallel_ranges(metric.size(), [&](std::size_t begin, std::size_t end) {
-    int hint = -1;
-    for (std::size_t i = begin; i < end; ++i) metric[i] = metric_at(flat(mesh.points[i]), hint);
-  });
-  return metric;
-}
-
-std::vector<double> etas_by(const Mesh& mesh, const std::vector<Tensor2>& metric) {
+std::vector<double> etas_by(const Mesh& mesh, const MetricAt& metric_at) {
   std::vector<double> etas(mesh.quads.size());
   parallel_ranges(etas.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t q = begin; q < end; ++q) etas[q] = metric_eta(mesh, mesh.quads[q], metric);
+    int hint = -1;
+    for (std::size_t q = begin; q < end; ++q) {
+      std::array<TangentMetric, 4> at;
+      for (int k = 0; k < 4; ++k) at[k] = metric_at(mesh.quad_region[q], mesh.points[mesh.quads[q][k]], hint);
+      const TangentMetric mean = log_mean(at, kEqualWeights);
+      const MetricAxes axes = axes_of(mean.m);
+      const Vec2 e{std::cos(axes.theta), std::sin(axes.theta)};
+      std::array<Vec2, 4> x;
+      for (int k = 0; k < 4; ++k) {
+        const Vec2 p = mean.in_plane(mesh.points[mesh.quads[q][k]]);
+        x[k] = {dot(p, e) / axes.h1, cross(e, p) / axes.h2};
+      }
+      etas[q] = quad_eta(x[0], x[1], x[2], x[3]);
+    }
   });
   return etas;
 }
 
 /// The angle of d from the nearest axis, in the metric.
-double angle_from_axes(Vec2 d, const Tensor2& metric) {
-  const MetricAxes axes = axes_of(metric);
-  const Vec2 e{std::cos(axes.theta), std::sin(axes.theta)};
+double angle_from_axes(const Vec3& way, const TangentMetric& metric) {
+  const MetricAxes axes = axes_of(metric.m);
+  const Vec2 e{std::cos(axes.theta), std::sin(axes.theta)}, d = metric.in_plane(way);
   const double u = std::abs(dot(d, e)) / axes.h1, v = std::abs(cross(e, d)) / axes.h2;
   return std::atan2(std::min(u, v), std::max(u, v));
 }
@@ -76,22 +67,23 @@ const std::vector<Metric>& metrics_by_metric() {
   return all;
 }
 
-std::vector<double> metric_etas(const Mesh& mesh, const MetricAt& metric) {
-  return etas_by(mesh, metric_at_points(mesh, metric));
-}
+std::vector<double> metric_etas(const Mesh& mesh, const MetricAt& metric) { return etas_by(mesh, metric); }
 
 std::map<std::string, double> measure_by_metric(const Mesh& mesh, std::span<const HalfEdge> sides,
                                                 const MetricAt& metric_at) {
   std::map<std::string, double> values;
   for (const Metric& m : metrics_by_metric()) values[m.key] = std::numeric_limits<double>::quiet_NaN();
   if (sides.empty()) return values;
-  const std::vector<Tensor2> metric = metric_at_points(mesh, metric_at);
-  const std::vector<double> etas = etas_by(mesh, metric);
+  const std::vector<double> etas = etas_by(mesh, metric_at);
+  int hint = -1;
   double edges = 0, sum = 0, in_range = 0, inner = 0, aligned = 0;
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;
   for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
-    const Vec2 a = flat(mesh.points[edge[0].lo]), b = flat(mesh.points[edge[0].hi]);
-    const Tensor2 &at_a = metric[edge[0].lo], &at_b = metric[edge[0].hi];
+    const Vec3 a = mesh.points[edge[0].lo], b = mesh.points[edge[0].hi];
+    const int triangles = static_cast<int>(mesh.triangles.size()), element = edge[0].element;
+    const int region =
+        element < triangles ? mesh.triangle_region[element] : mesh.quad_region[element - triangles];
+    const TangentMetric at_a = metric_at(region, a, hint), at_b = metric_at(region, b, hint);
     const double length = metric_length(b - a, at_a, at_b);
     ++edges;
     sum += length < 1 ? length - 1 : 1 / length - 1;
@@ -99,7 +91,7 @@ std::map<std::string, double> measure_by_metric(const Mesh& mesh, std::span<cons
     shortest = std::min(shortest, length), longest = std::max(longest, length);
     if (edge.size() != 2) return;
     ++inner;
-    const Tensor2 mean = log_mean(std::array{at_a, at_b}, std::array{0.5, 0.5});
+    const TangentMetric mean = log_mean(std::array{at_a, at_b}, std::array{0.5, 0.5});
     aligned += angle_from_axes(b - a, mean) <= kAlong ? 1 : 0;
   });
   if (!etas.empty()) {

@@ -40,10 +40,10 @@ void AcrossView::add_patch(int patch) {
     }
   auto& side_at = side_at_.emplace_back(map.flat.triangles.size(), std::array{-1, -1, -1});
   auto& stretch = stretch_.emplace_back();
-  for (const auto& v : map.flat.triangles) {
-    const auto space = [&](int k) { return fine_.points[map.fine_node[v[k]]]; };
+  for (size_t t = 0; t < map.flat.triangles.size(); ++t) {
+    const auto& v = map.flat.triangles[t];
     const auto plane = [&](int k) { return flat_point(map, v[k]); };
-    const double in_space = norm(cross(space(1) - space(0), space(2) - space(0)));
+    const double in_space = double_area(map, fine_, t);
     const double in_plane = cross(plane(1) - plane(0), plane(2) - plane(0));
     stretch.push_back(in_space > 0 ? std::sqrt(in_plane / in_space) : 1);
   }
@@ -56,7 +56,8 @@ void AcrossView::add_patch(int patch) {
       side_at[t][k] = index;
       auto& on_line = sides_on_[s.chain][s.line];
       on_line[on_line[0] < 0 ? 0 : 1] = index;
-      const double length = norm(fine_.points[map.fine_node[s.to]] - fine_.points[map.fine_node[s.from]]);
+      const Vec3 way = fine_.points[map.fine_node[s.to]] - fine_.points[map.fine_node[s.from]];
+      const double length = map.sides.empty() ? norm(way) : map.sides[t][k];
       sides_.push_back({&s, patch, static_cast<int>(l), t, k, path, length});
       path += length;
     }

@@ -125,16 +125,9 @@ bool is_of_ring(const SurfaceCurves& curves, const ClosureSum& sum) {
 }  // namespace
 
 double expected_quads(const Mesh& fine, const FlatPatch& map, const SurfaceSize& size) {
-  constexpr double kThird[] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
   double sum = 0;
   int hint = -1;
-  for (const auto& triangle : map.flat.triangles) {
-    std::array<int, 3> v;
-    for (int k = 0; k < 3; ++k) v[k] = map.fine_node[triangle[k]];
-    const Vec3 a = fine.points[v[0]], b = fine.points[v[1]], c = fine.points[v[2]];
-    const double delta = size.on_fine(v, kThird, (1.0 / 3) * (a + b + c), hint);
-    sum += norm(cross(b - a, c - a)) / 2 / (delta * delta);
-  }
+  for (const int t : map.fine_triangle) sum += size.quads_in(fine, t, hint);
   return sum;
 }
 

@@ -54,6 +54,7 @@ struct PreparedSurface {
   SurfaceDomain domain;
   std::vector<SurfaceCut> cuts;
   std::shared_ptr<const SurfaceSize> size;
+  std::shared_ptr<const SurfaceMetric> metric;      ///< in place of a size; null: none
   std::shared_ptr<const MirroredSurface> mirrored;  ///< of symmetric ones, of which `model` is a part
   std::shared_ptr<const WholeSurface> is_part_of;   ///< that; null: `model` is the whole
   std::optional<GivenEntities> given;               ///< of a GivenMesh

@@ -19,6 +19,7 @@
 #include "fields/surface/surface_size.h"
 #include "patches/narrow_places.h"
 #include "patches/patch_outline.h"
+#include "patches/surface_domain.h"
 
 namespace delquad {
 
@@ -38,7 +39,9 @@ struct Seam {
 class TubePatch {
  public:
   TubePatch(const Mesh& fine, const FlatPatch& map, const SizeField& size)
-      : fine_(fine), map_(map), size_(size), limit_(map.flat.points.size(), kNone) {}
+      : fine_(fine), map_(map), size_(size), limit_(map.flat.points.size(), kNone) {
+    if (!map.sides.empty()) stretch_ = stretch_of(map, fine);
+  }
 
   /// The lines of one curve that both have the patch on either side.
   void add_cut(const std::vector<Seam>& lines) {
@@ -74,7 +77,9 @@ class TubePatch {
       asks = limit_[v] < kNone && limit_[v] < size_.at(space(static_cast<int>(v)), hint);
     if (!asks) return {};
     Mesh surface;
-    for (size_t v = 0; v < limit_.size(); ++v) surface.points.push_back(space(static_cast<int>(v)));
+    // The map is in the metric, in the mean.
+    for (int v = 0; v < std::ssize(limit_); ++v)
+      surface.points.push_back(map_.sides.empty() ? space(v) : Vec3{flat(v).x, flat(v).y, 0});
     surface.triangles = map_.flat.triangles;
     limit_slope(surface, kGrowth, limit_);
     return std::move(limit_);
@@ -103,6 +108,7 @@ class TubePatch {
   /// Parameter length over length in space.
   double stretch(const Seam& s) const {
     const auto in_plane = [&](const CurveSide& side) { return norm(flat(side.to) - flat(side.from)); };
+    if (!map_.sides.empty()) return (stretch_[s.forward->from] + stretch_[s.forward->to]) / 2;
     const double in_space = norm(space(s.forward->to) - space(s.forward->from));
     return in_space > 0 ? (in_plane(*s.forward) + in_plane(*s.backward)) / 2 / in_space : 1;
   }
@@ -110,6 +116,7 @@ class TubePatch {
   const Mesh& fine_;
   const FlatPatch& map_;
   const SizeField& size_;
+  std::vector<double> stretch_;  ///< at vertices; empty: see stretch()
   std::vector<double> limit_;
 };
 
@@ -162,6 +169,18 @@ std::vector<std::vector<double>> limits_on_curves(const SurfaceCurves& curves) {
       }
   }
   return limits;
+}
+
+/// Limits by a metric become those of lengths in space.
+void limits_in_space(const Mesh& fine, const CurveChain& chain, const SurfaceSize& size,
+                     std::vector<double>& limits) {
+  int hint = -1;
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const std::size_t line = std::min(i, chain.points.size() - 2);
+    if (limits[i] < kNone)
+      limits[i] *=
+          size.along_line(chain.points[line], chain.points[line + 1], 0, fine.points[chain.points[i]], hint);
+  }
 }
 
 /// The angle by which a chain turns at each of its points, its ends as the points beside them by half.
@@ -279,13 +298,17 @@ CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const
   std::vector<std::vector<double>> limits = limits_on_curves(curves);
   CurveDemands wanted;
   const SizeOnLine delta = size_on_lines(size);
+  const SizeOnLine delta_along = [&](int a, int b, double t, const Vec3& x, int& hint) {
+    return size.along_line(a, b, t, x, hint);
+  };
   const SizeOnLine delta_asked = [&](int, int, double, const Vec3& x, int& hint) {
     return asked.at(x, hint);
   };
   for (std::size_t c = 0; c < chains.size(); ++c) {
     CurveDemand demand{0, chains[c].closed() ? 3 : 1, {}};
     demand_turns(fine, chains[c], size.edge_turn(), limits[c], demand);
-    wanted.integrals.push_back(size_integral(fine, chains[c], delta, limits[c]));
+    if (size.has_metric()) limits_in_space(fine, chains[c], size, limits[c]);
+    wanted.integrals.push_back(size_integral(fine, chains[c], delta_along, limits[c]));
     const double total = demand.integral = wanted.integrals.back().total();
     const bool same = limits[c].empty() && &asked == static_cast<const SizeField*>(&size);
     wanted.lengths.push_back(same ? total : size_integral(fine, chains[c], delta_asked).total());

@@ -45,6 +45,9 @@ struct SurfaceDomain {
   std::vector<Warning> warnings;
 };
 
+/// Parameter length over length at each vertex of a map, by the areas around.
+std::vector<double> stretch_of(const FlatPatch& map, const Mesh& fine);
+
 /// delta' of a patch: delta at the point in space, or what a tube allows there if less, times the local
 /// stretch parameter length / surface length, which is |det M|^(-1/4) (the paper's sections 2 and 5 print
 /// +1/4), averaged to the map's vertices so that it is continuous.

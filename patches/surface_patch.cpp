@@ -15,18 +15,21 @@ std::array<int, 3> nodes_of(const SurfacePatch& patch, const std::array<int, 3>&
 
 }  // namespace
 
-SurfacePatchSize::SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SurfaceSize& size)
-    : patch_(patch), fine_(fine), size_(size) {
-  const TriPatch& flat = patch.map.flat;
-  std::vector<double> flat_area(flat.points.size(), 0), area(flat.points.size(), 0);
-  for (const auto& v : flat.triangles) {
-    const double in_plane = area_vector(flat.points, v);
-    const double in_space = norm(area_vector(fine.points, nodes_of(patch, v)));
-    for (const int i : v) flat_area[i] += in_plane, area[i] += in_space;
+std::vector<double> stretch_of(const FlatPatch& map, const Mesh& fine) {
+  const TriPatch& flat = map.flat;
+  std::vector<double> flat_area(flat.points.size(), 0), area(flat.points.size(), 0), stretch;
+  for (size_t t = 0; t < flat.triangles.size(); ++t) {
+    const double in_plane = area_vector(flat.points, flat.triangles[t]);
+    const double in_space = double_area(map, fine, t);
+    for (const int i : flat.triangles[t]) flat_area[i] += in_plane, area[i] += in_space;
   }
   for (size_t i = 0; i < area.size(); ++i)
-    stretch_.push_back(area[i] > 0 ? std::sqrt(flat_area[i] / area[i]) : 1);
+    stretch.push_back(area[i] > 0 ? std::sqrt(flat_area[i] / area[i]) : 1);
+  return stretch;
 }
+
+SurfacePatchSize::SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SurfaceSize& size)
+    : patch_(patch), fine_(fine), size_(size), stretch_(stretch_of(patch.map, fine)) {}
 
 double SurfacePatchSize::at(Vec2 u, int& hint) const {
   const auto [t, b] = patch_.background->locate(u, hint);

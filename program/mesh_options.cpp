@@ -289,7 +289,8 @@ CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
   mesh->add_option(
       "--metric", arguments.metric,
       "lengths by direction, in place of a size: FILE or FILE:FIELD, an MSH or SOL file with tensors at "
-      "the points of its mesh (formulas: [metric] in model files)");
+      "the points of its mesh; of surfaces also KEY=NUMBER,... with the keys chord (how far sides stray "
+      "from an arc), min, max, aspect, gradation and complexity (formulas: [metric] in model files)");
   add_surface(*mesh, arguments);
   std::string qualities;
   for (const Quality& q : quality_registry())
@@ -326,6 +327,30 @@ CLI::App* add_improve_options(CLI::App& app, MeshArguments& arguments) {
   return improve;
 }
 
+namespace {
+
+/// KEY=NUMBER, parted by commas.
+void set_metric_numbers(const std::string& text, MetricSpec& metric) {
+  const std::map<std::string, double*> keys = {
+      {"chord", &metric.chord},         {"min", &metric.limits.min},
+      {"max", &metric.limits.max},      {"aspect", &metric.limits.aspect},
+      {"gradation", &metric.gradation}, {"complexity", &metric.complexity}};
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const std::size_t equals = std::min(part.find('='), part.size());
+    const auto key = keys.find(part.substr(0, equals));
+    const auto number =
+        key == keys.end() ? std::nullopt : as_number(part.substr(equals + (equals < part.size())));
+    if (!number || !(*number > 0))
+      throw InputError("--metric: '" + part +
+                       "': expected a key of chord, min, max, aspect, gradation and complexity, = and a "
+                       "number above 0");
+    *key->second = *number;
+  }
+}
+
+}  // namespace
+
 void set_problem(const MeshArguments& arguments, Case& c) {
   c.max_elements = arguments.max_elements;
   c.size = with_arguments(std::move(c.size), arguments);
@@ -340,11 +365,14 @@ void set_problem(const MeshArguments& arguments, Case& c) {
   set_criteria(arguments, c.criteria);
   set_surface(arguments, c);
   if (!arguments.metric.empty()) {
-    c.metric = {.file = arguments.metric,
-                .limits = c.metric.limits,
+    c.metric = {.limits = c.metric.limits,
                 .gradation = c.metric.gradation,
                 .complexity = c.metric.complexity,
                 .where = "--metric"};
+    if (arguments.metric.starts_with("chord="))
+      set_metric_numbers(arguments.metric, c.metric);
+    else
+      c.metric.file = arguments.metric;
   }
   if (!arguments.cross.empty()) c.cross = {.text = arguments.cross, .where = "--cross"};
 }

@@ -80,6 +80,17 @@ std::vector<Vec3> read_points(const py::handle& object, const std::string& what)
   return points;
 }
 
+std::vector<Tensor3> read_tensors(const py::handle& object, const std::string& what) {
+  constexpr const char* kExpected = "numbers of shape (n, 6)";
+  const Doubles array(as_array(object, what, kExpected));
+  if (array.ndim() != 2 || array.shape(1) != 6) throw bad_shape(what, kExpected, array);
+  const auto a = array.unchecked<2>();
+  std::vector<Tensor3> tensors;
+  for (py::ssize_t i = 0; i < a.shape(0); ++i)
+    tensors.push_back({a(i, 0), a(i, 1), a(i, 2), a(i, 3), a(i, 4), a(i, 5)});
+  return tensors;
+}
+
 std::vector<Vec2> read_plane_points(const py::handle& object, const std::string& what) {
   constexpr const char* kExpected = "numbers of shape (n, 2)";
   const Doubles array(as_array(object, what, kExpected));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "delquad/fields.h"
 #include "delquad/mesh.h"
 
 // Arrays of numpy from and to lists of points and elements. `what` names an argument in messages. All that
@@ -28,6 +29,8 @@ std::vector<double> read_numbers(const py::handle& object, const std::string& wh
 /// n whole numbers.
 std::vector<int> read_integers(const py::handle& object, const std::string& what);
 /// n numbers into `target`: what a callback returned. One number will do for all.
+/// m11, m12, m13, m22, m23 and m33, of shape (n, 6).
+std::vector<Tensor3> read_tensors(const py::handle& object, const std::string& what);
 void read_values(const py::handle& object, double* target, std::size_t n, const std::string& what);
 
 /// (n, columns) whole numbers, one row after the other.

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "base/located.h"
+#include "base/text.h"
 #include "bindings/python/arrays.h"
 #include "bindings/python/problem.h"
 #include "geometry/mesh/check_mesh.h"
@@ -331,6 +332,13 @@ void define_metric(py::class_<Problem>& c) {
   c.def("metric_function", [](Problem& p, py::object function) { p.callbacks.metric = std::move(function); })
       .def("metric_nodal",
            [](Problem& p, const Mesh& mesh, const py::object& values) {
+             if (const auto array = py::array::ensure(values);
+                 array && array.ndim() == 2 && array.shape(1) == 6) {
+               p.problem.metric.in_space = located("metric", [&] {
+                 return make_nodal_space_metric(mesh, read_tensors(values, "metric: the values"));
+               });
+               return;
+             }
              std::vector<Tensor2> metric;
              for (const Vec3& m : read_points(values, "metric: the values"))
                metric.push_back({m.x, m.y, m.z});
@@ -344,6 +352,8 @@ void define_metric(py::class_<Problem>& c) {
                metric.tensor = texts;
              else if (kind == "sizes")
                metric.sizes = texts;
+             else if (texts.size() == 1 && kind == "chord")
+               metric.chord = as_number(texts[0]).value_or(0);
              else if (texts.size() == 1)
                (kind == "solution" ? metric.solution : metric.file) = texts[0];
            })

@@ -1,5 +1,6 @@
 #include "bindings/python/problem.h"
 
+#include <algorithm>
 #include <span>
 #include <thread>
 #include <utility>
@@ -122,7 +123,21 @@ std::shared_ptr<Result> mesh(MeshProblem problem, const Callbacks& callbacks, co
     problem.size.function = as_function<Vec3>(callbacks.size, python, "the size function");
   if (!callbacks.cross.is_none())
     problem.cross.function = as_function<Vec2>(callbacks.cross, python, "the cross function");
-  if (!callbacks.metric.is_none())
+  const bool is_planar = std::holds_alternative<PlanarModel>(problem.model) ||
+                         std::holds_alternative<LineModel>(problem.model) ||
+                         std::holds_alternative<GivenMesh>(problem.model);
+  if (!callbacks.metric.is_none() && !is_planar)
+    problem.metric.in_space = [&](std::span<const Vec3> points, std::span<Tensor3> metric) {
+      if (points.empty()) return;
+      python.call([&] {
+        const std::vector<Tensor3> made =
+            read_tensors(callbacks.metric(points_for_python(points)), "what the metric function returned");
+        if (made.size() != metric.size())
+          refuse("what the metric function returned: {} tensors for {} points", made.size(), metric.size());
+        std::ranges::copy(made, metric.begin());
+      });
+    };
+  if (!callbacks.metric.is_none() && is_planar)
     problem.metric.function = [&](std::span<const Vec2> points, std::span<Tensor2> metric) {
       if (points.empty()) return;
       python.call([&] {

@@ -1,6 +1,7 @@
 #include "experiments/sweep/record.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
@@ -67,6 +68,7 @@ Json metric_field_json(const MetricSpec& metric) {
                {"aspect", metric.limits.aspect},
                {"gradation", metric.gradation},
                {"complexity", metric.complexity}};
+  if (metric.chord > 0) json["chord"] = metric.chord;
   if (!metric.tensor.empty()) json["tensor"] = metric.tensor;
   if (!metric.sizes.empty()) json["sizes"] = metric.sizes;
   if (!metric.solution.empty()) json["solution"] = metric.solution;
@@ -366,7 +368,11 @@ Json topology_json(const Topology& t) {
 }
 
 Json distances_json(const Distances& d) {
-  return {{"samples", d.samples}, {"max", d.max}, {"mean", d.mean}, {"max_in_sizes", d.max_in_sizes}};
+  return {{"samples", d.samples},
+          {"max", d.max},
+          {"mean", d.mean},
+          {"rms", std::sqrt(d.mean_square)},
+          {"max_in_sizes", d.max_in_sizes}};
 }
 
 Json maps_json(const Prepared& p) {

@@ -169,7 +169,7 @@ std::shared_ptr<const BackgroundMesh> resolve_size(const PreparedPatch& patch) {
 
 }  // namespace
 
-void make_crosses_size_aware(PreparedProblem& prepared, const CrossPullAt& pull) {
+void make_crosses_size_aware(PreparedProblem& prepared, const PatchPullAt& pull) {
   std::vector<PreparedPatch>& patches = prepared.patches;
   const auto n_points = [&](std::size_t i) { return static_cast<double>(patches[i].boundary.points.size()); };
   std::vector<std::shared_ptr<const BackgroundMesh>> backgrounds(patches.size());
@@ -186,8 +186,10 @@ void make_crosses_size_aware(PreparedProblem& prepared, const CrossPullAt& pull)
       [&](std::size_t g) {
         const DoingFace face = doing_patch(prepared, groups[g].patches.front());
         std::vector<FieldPatch> of_group;
-        for (const int i : groups[g].patches)
-          of_group.push_back({backgrounds[i], patches[i].size.get(), patches[i].cross, pull});
+        for (const int i : groups[g].patches) {
+          of_group.push_back({backgrounds[i], patches[i].size.get(), patches[i].cross});
+          if (pull) of_group.back().pull = [&pull, i](Vec2 u, int& hint) { return pull(i, u, hint); };
+        }
         const auto fields = make_size_aware_fields(of_group, groups[g].seams);
         for (std::size_t k = 0; k < fields.size(); ++k) made[groups[g].patches[k]] = fields[k];
       },

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "fields/size_aware_cross_field.h"
 #include "patches/prepared.h"
 
@@ -7,8 +9,9 @@ namespace delquad {
 
 /// Replaces each patch's boundary-aligned field by the size-aware one, on a background mesh made for it: one
 /// that follows delta', so that it resolves it. Notes singularities, sum of indices and dislocations.
-/// `pull`: what they are drawn to besides; null: nothing.
-void make_crosses_size_aware(PreparedProblem& prepared, const CrossPullAt& pull = nullptr);
+/// `pull`: what they are drawn to besides, by patch; null: nothing.
+using PatchPullAt = std::function<CrossPull(int patch, Vec2 u, int& hint)>;
+void make_crosses_size_aware(PreparedProblem& prepared, const PatchPullAt& pull = nullptr);
 
 /// Rows of quads that have to end along the fields of all patches so that sizes are as wanted, in the mean:
 /// see expected_dislocations(). Takes about as long as D unless the fields are size-aware.

@@ -48,17 +48,12 @@ bool is_symmetric(const MeshProblem& problem) {
 
 double expected_quads(const Mesh& fine, const SurfaceSize& size, const std::vector<FacePair>& images,
                       const CutSurface* part) {
-  constexpr double kThird[] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
   std::vector<int> times(fine.regions.size(), 1);
   for (const FacePair& pair : images) times[pair.face] = 0, times[pair.master] = 2;
   double sum = 0;
   int hint = -1;
   for (std::size_t t = 0; t < fine.triangles.size(); ++t) {
-    const auto& triangle = fine.triangles[t];
-    const auto& [a, b, c] = triangle;
-    const Vec3 p = fine.points[a], q = fine.points[b], r = fine.points[c];
-    const double delta = size.on_fine(triangle, kThird, (1.0 / 3) * (p + q + r), hint);
-    double quads = times[fine.triangle_region[t]] * (norm(cross(q - p, r - p)) / 2 / (delta * delta));
+    double quads = times[fine.triangle_region[t]] * size.quads_in(fine, static_cast<int>(t), hint);
     for (int k = 0; part != nullptr && k < part->planes.count(); ++k)
       if (!(part->half.face_planes[fine.triangle_region[t]] >> k & 1)) quads *= 2;
     sum += quads;

@@ -310,7 +310,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
                                   const std::vector<CurveDivision>& divisions, const PeriodicSides& periodic,
                                   const MappedSpec& mapped, double agreement, long long most_steps) {
   const Mesh& fine = model.fine;
-  SurfaceCurves curves = find_curves(model, std::move(flattening), size);
+  SurfaceCurves curves = find_curves(model, std::move(flattening), size.on_maps());
   ChainPairs pairs = pair_chains(model, curves.chains, curves.cut_face, periodic);
   curves.images = std::move(pairs.pairs);
   const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);

@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "fields/sample_triangle.h"
+#include "fields/tangent_metric.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/surface/surface_editor.h"
 
@@ -48,15 +49,8 @@ constexpr double kFlip = -1e-9;
 
 long long key_of(int a, int b) { return (static_cast<long long>(std::min(a, b)) << 32) | std::max(a, b); }
 Vec2 flat(const Vec3& x) { return {x.x, x.y}; }
-Tensor2 times(double factor, const Tensor2& m) { return {factor * m.xx, factor * m.xy, factor * m.yy}; }
-double determinant(const Tensor2& m) { return std::max(0.0, m.xx * m.yy - m.xy * m.xy); }
 double product(Vec2 a, const Tensor2& m, Vec2 b) {
   return m.xx * a.x * b.x + m.xy * (a.x * b.y + a.y * b.x) + m.yy * a.y * b.y;
-}
-/// Whether the first asks for no larger lengths in any direction.
-bool is_finer(const Tensor2& a, const Tensor2& b) {
-  const Tensor2 d{a.xx - b.xx, a.xy - b.xy, a.yy - b.yy};
-  return d.xx >= 0 && d.yy >= 0 && d.xx * d.yy >= d.xy * d.xy;
 }
 
 class MetricMesher {
@@ -452,14 +446,6 @@ class MetricMesher {
 };
 
 }  // namespace
-
-double difference(const Tensor2& a, const Tensor2& b) {
-  // Half the logarithms of the eigenvalues of a^-1 b, whose product and sum are these.
-  const double det = determinant(b) / determinant(a);
-  const double half = (a.yy * b.xx - 2 * a.xy * b.xy + a.xx * b.yy) / determinant(a) / 2;
-  const double root = std::sqrt(std::max(0.0, half * half - det)), most = half + root;
-  return std::max(std::abs(std::log(most)), std::abs(std::log(det / most))) / 2;
-}
 
 MetricMesh resolve_metric(const PlanarDomain& domain, const MetricFunction& metric, const MetricSpec& spec,
                           long long max_elements) {

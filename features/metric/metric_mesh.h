@@ -28,7 +28,4 @@ struct MetricMesh {
 MetricMesh resolve_metric(const PlanarDomain& domain, const MetricFunction& metric, const MetricSpec& spec,
                           long long max_elements);
 
-/// By which factor lengths differ, at most, as a logarithm.
-double difference(const Tensor2& a, const Tensor2& b);
-
 }  // namespace delquad

@@ -77,16 +77,23 @@ void check(const MetricSpec& metric) {
                                  metric.gradation));
 }
 
-/// Refuses what has no meaning in the flat plane.
-const PlanarModel& model_for_metric(const MeshProblem& problem) {
+[[noreturn]] void refuse_with_metric(const MeshProblem& problem, const std::string& what,
+                                     const std::string& where) {
+  throw InputError(fmt::format("{}: {} not go with a metric ({}) yet", where, what, problem.metric.where));
+}
+
+}  // namespace
+
+void check_metric(const MeshProblem& problem) {
   check(problem.metric);
-  const auto* model = std::get_if<PlanarModel>(&problem.model);
   const auto refuse = [&](const std::string& what, const std::string& where) {
-    throw InputError(fmt::format("{}: {} not go with a metric ({}) yet", where, what, problem.metric.where));
+    refuse_with_metric(problem, what, where);
   };
-  if (model == nullptr) refuse("surfaces, kept lines and given meshes do", problem.where);
+  if (std::holds_alternative<LineModel>(problem.model) || std::holds_alternative<GivenMesh>(problem.model))
+    refuse("kept lines and given meshes do", problem.where);
   if (!problem.layers.empty()) refuse("layers do", problem.layers[0].where);
   if (!problem.washers.empty()) refuse("rows around holes do", problem.washers[0].where);
+  if (!problem.fillet_rows.empty()) refuse("rows across fillets do", problem.fillet_rows[0].where);
   if (!problem.periodic.empty()) refuse("periodic sides do", problem.periodic[0].where);
   if (problem.symmetry.automatic || !problem.symmetry.planes.empty())
     refuse("planes of symmetry do", problem.symmetry.where);
@@ -94,15 +101,31 @@ const PlanarModel& model_for_metric(const MeshProblem& problem) {
   if (!problem.criteria.empty()) refuse("criteria do", problem.criteria.where);
   const SizeSpec& size = problem.size;
   if (size.field || size.function || size.from_boundary || !size.sources.empty() || !size.named.empty() ||
-      size.gradation > 0 || size.max > 0)
+      size.gradation > 0 || size.max > 0 || size.curvature > 0 || size.min > 0)
     refuse("a size does", size.where);
   const auto kind = problem.cross.kind.value_or(CrossKind::kBoundary);
   if (kind == CrossKind::kField || kind == CrossKind::kGradient)
     refuse("given directions and those of a gradient do", problem.cross.where);
+  const auto* model = std::get_if<PlanarModel>(&problem.model);
+  const MetricSpec& metric = problem.metric;
+  if (model == nullptr ? metric.in_space == nullptr && !(metric.chord > 0) : metric.function == nullptr)
+    throw InputError(metric.where +
+                     (model == nullptr
+                          ? ": a metric of surfaces has tensors in space, six formulas, a file, or a chord"
+                          : ": a metric of planar domains has tensors of the plane: a chord and tensors in "
+                            "space are for surfaces"));
+  if (model == nullptr) return;
   for (const ModelCurve& curve : model->curves)
     if (curve.is_crack) refuse("cracks do", curve.where);
-  return *model;
 }
+
+CrossPull pull_to(Vec2 along, const MetricAxes& axes) {
+  const double stretch = std::log(axes.h2 / axes.h1);
+  if (!(norm(along) > 0)) return {{0, 0}, 0};
+  return {Cross::along(along), kPull * stretch * stretch};
+}
+
+namespace {
 
 /// The domain in one piece for each connected part, measured by the metric.
 std::vector<Chart> metric_charts(const MetricMesh& made, const MeshProblem& problem) {
@@ -389,8 +412,7 @@ CrossPull MetricPlane::pull_at(Vec2 u, int& hint) const {
   const Vec2 e{std::cos(axes.theta), std::sin(axes.theta)};
   const Vec2 along =
       by_weights(plane.triangles(), t, x + axes.h1 * e, flat.triangles()) - flat.triangles().points[v[0]];
-  const double stretch = std::log(axes.h2 / axes.h1);
-  return {Cross::along(turn(along)), kPull * stretch * stretch};
+  return pull_to(turn(along), axes);
 }
 
 Tensor2 MetricPlane::metric_at(Vec2 x, int& hint) const {
@@ -406,7 +428,7 @@ double MetricPlane::scale_of(const SizeField& other) const {
 }
 
 MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings) {
-  const PlanarModel& model = model_for_metric(problem);
+  const PlanarModel& model = std::get<PlanarModel>(problem.model);
   const Vec2 low = box_of(model, 64).low, high = box_of(model, 64).high;
   const double edge = kCoarseEdge * norm(high - low);
   const PlanarDomain domain = make_domain(model, [edge](const Vec3&) { return edge; });
@@ -470,10 +492,9 @@ void to_plane(const MetricPlane& plane, Mesh& mesh) {
   });
 }
 
-int count_bad_quads(const MetricPlane& plane, const std::string& label, const Mesh& mesh,
+int count_bad_quads(const MetricAt& metric, const std::string& label, const Mesh& mesh,
                     std::vector<Warning>& warnings) {
-  const std::vector<double> etas =
-      metric_etas(mesh, [&](Vec2 x, int& hint) { return plane.metric_at(x, hint); });
+  const std::vector<double> etas = metric_etas(mesh, metric);
   const auto bad = static_cast<int>(std::ranges::count_if(etas, [](double eta) { return eta < kBadEta; }));
   if (bad == 0) return 0;
   const auto worst = std::ranges::min_element(etas);

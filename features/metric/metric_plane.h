@@ -12,6 +12,7 @@
 #include "features/seed/perturb.h"
 #include "fields/background_mesh.h"
 #include "fields/size_aware_cross_field.h"
+#include "metrics/metric_measures.h"
 
 // A plane with a metric is a surface, and conformally flat: a domain is laid into a plane in which the metric
 // is the square of a scalar times the identity, and is meshed there as any other. What is near 1 there is
@@ -54,11 +55,17 @@ struct MetricPlane {
 /// that cannot be laid flat in one piece, and for what does not go with a metric.
 MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings);
 
+/// Refuses numbers out of range and what does not go with a metric, in an InputError.
+void check_metric(const MeshProblem& problem);
+
+/// The pull to an axis of a metric that has this direction in a flat plane.
+CrossPull pull_to(Vec2 along, const MetricAxes& axes);
+
 /// Brings a mesh of the flat plane to the domain's own, its nodes on lines to the true curves.
 void to_plane(const MetricPlane& plane, Mesh& mesh);
 
 /// The number of quads of a mesh of the domain whose eta is below kBadEta in the metric, with a warning.
-int count_bad_quads(const MetricPlane& plane, const std::string& label, const Mesh& mesh,
+int count_bad_quads(const MetricAt& metric, const std::string& label, const Mesh& mesh,
                     std::vector<Warning>& warnings);
 
 }  // namespace delquad

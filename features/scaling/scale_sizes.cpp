@@ -70,6 +70,7 @@ MeshProblem with_scaled_sizes(MeshProblem problem, double factor) {
   if (follows_curvature && size.gradation == 0) size.gradation = kCurvatureGradation;
   size.gradation *= factor;
   scale_per_turn(size.curvature, factor);
+  problem.metric.scale *= factor;
   size.min *= factor;
   size.max *= factor;
   return problem;

@@ -47,7 +47,9 @@ class HalfProjector final : public SurfaceProjector {
     }
     return planes_.put_on_all(curve_planes_[curve], y);
   }
-  double face_curvature(int face, const Vec3& x) const override { return base_->face_curvature(face, x); }
+  PrincipalCurvatures curvatures(int face, const Vec3& x) const override {
+    return base_->curvatures(face, x);
+  }
 
  private:
   std::shared_ptr<const SurfaceProjector> base_;

@@ -10,6 +10,7 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "base/sort_unique.h"
+#include "fields/surface/surface_metric.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/improve_triangulation.h"
 
@@ -267,7 +268,8 @@ void limit_slope(const Mesh& fine, double slope, std::vector<double>& values) {
 SurfaceSize::SurfaceSize(std::shared_ptr<const SizeField> base) : base_(std::move(base)) {}
 
 SurfaceSize::SurfaceSize(const SurfaceModel& model, const WantedSize& wanted)
-    : base_(wanted.base), edge_turn_(wanted.edge_turn) {
+    : base_(wanted.base), edge_turn_(wanted.edge_turn), metric_(wanted.metric) {
+  if (metric_) line_stretch_ = metric_->stretches_of_lines(model.fine);
   if (!wanted.lives_on_surface()) return;
   delta_ = wanted_at_points(model.fine, wanted);
   limit_slope(model.fine, wanted.gradation, delta_);
@@ -288,7 +290,22 @@ double SurfaceSize::on_fine(std::span<const int> nodes, std::span<const double> 
   return std::min(base, delta);
 }
 
+double SurfaceSize::along_line(int a, int b, double t, const Vec3& x, int& hint) const {
+  const double size = on_fine(std::array{a, b}, std::array{1 - t, t}, x, hint);
+  return metric_ ? size / line_stretch_.at(std::minmax(a, b)) : size;
+}
+
+double SurfaceSize::quads_in(const Mesh& fine, int triangle, int& hint) const {
+  constexpr double kThird[] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
+  const auto& v = fine.triangles[triangle];
+  const Vec3 a = fine.points[v[0]], b = fine.points[v[1]], c = fine.points[v[2]];
+  const double delta = on_fine(v, kThird, (1.0 / 3) * (a + b + c), hint);
+  const double area = metric_ ? metric_->area(fine, triangle) : norm(cross(b - a, c - a)) / 2;
+  return area / (delta * delta);
+}
+
 double SurfaceSize::at(const Vec3& x, int& hint) const {
+  if (metric_) return metric_->at(x, hint);
   const double base = base_->at(x, hint);
   if (!triangles_) return base;
   const NearestTriangle::Found found = triangles_->find(x, kOffSurface * base);

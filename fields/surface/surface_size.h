@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "delquad/fields.h"
@@ -13,6 +15,8 @@
 #include "geometry/surface/surface_model.h"
 
 namespace delquad {
+
+class SurfaceMetric;
 
 /// A ball in which sizes are at most `size`.
 struct SizeSpot {
@@ -38,6 +42,8 @@ struct WantedSize {
   std::vector<SizeSpot> spots = {};
   /// Edges of curves should turn by no more, in radians; 0: by any angle. It changes no size inside of faces.
   double edge_turn = 0;
+  /// By which everything is measured in place of lengths in space; null: none. The base is 1 then, and all.
+  std::shared_ptr<const SurfaceMetric> metric = nullptr;
 
   /// Without the limit of gradation.
   double in_face(int face, const Vec3& x) const;
@@ -65,15 +71,24 @@ class SurfaceSize final : public SizeField {
   /// At the point x with these weights of points of the fine triangulation it was made from. This is what
   /// meshing uses.
   double on_fine(std::span<const int> nodes, std::span<const double> weights, const Vec3& x, int& hint) const;
-  /// At the point of the surface nearest to x, for measuring meshes.
+  /// The same along a line, in space.
+  double along_line(int a, int b, double t, const Vec3& x, int& hint) const;
+  /// How many quads a fine triangle is.
+  double quads_in(const Mesh& fine, int triangle, int& hint) const;
+  /// At the point of the surface nearest to x, in space, for measuring meshes.
   double at(const Vec3& x, int& hint) const override;
   double edge_turn() const { return edge_turn_; }
+  bool has_metric() const { return metric_ != nullptr; }
+  /// What maps are measured by: `at`, or 1 of a metric.
+  const SizeField& on_maps() const { return metric_ ? *base_ : static_cast<const SizeField&>(*this); }
 
  private:
   std::shared_ptr<const SizeField> base_;
   double edge_turn_ = 0;
-  std::vector<double> delta_;                 ///< of each fine point; empty: the base is all
-  std::optional<NearestTriangle> triangles_;  ///< where sizes are less than the base
+  std::shared_ptr<const SurfaceMetric> metric_;
+  std::map<std::pair<int, int>, double> line_stretch_;  ///< of a metric, by ends
+  std::vector<double> delta_;                           ///< of each fine point; empty: the base is all
+  std::optional<NearestTriangle> triangles_;            ///< where sizes are less than the base
 };
 
 /// What the size on each curve of a model may be at most so that edges beside a curve that is shorter than

@@ -161,18 +161,24 @@ std::optional<Elementary> as_elementary(const Handle(Geom_Surface) & surface) {
 
 gp_Pnt pnt_of(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-/// The larger of the principal curvatures by size; NaN where the tangents du and dv are parallel or vanish.
-double largest_curvature(const Geom_Surface& surface, double u, double v) {
+/// Not known where the tangents du and dv are parallel or vanish.
+PrincipalCurvatures curvatures_of(const Geom_Surface& surface, double u, double v) {
   gp_Pnt p;
   gp_Vec du, dv, duu, dvv, duv;
   surface.D2(u, v, p, du, dv, duu, dvv, duv);
   const double e = du.Dot(du), f = du.Dot(dv), g = dv.Dot(dv), area2 = e * g - f * f;
   constexpr double kSingular = 1e-12;  // of the squared sine between the tangents
-  if (!(area2 > kSingular * e * g)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(area2 > kSingular * e * g)) return {};
   const gp_Vec normal = du.Crossed(dv) / std::sqrt(area2);
   const double l = normal.Dot(duu), m = normal.Dot(duv), n = normal.Dot(dvv);
   const double mean = (e * n - 2 * f * m + g * l) / (2 * area2), gauss = (l * n - m * m) / area2;
-  return std::abs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss));
+  const double most = std::copysign(std::abs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss)), mean);
+  // The direction a du + b dv solves (l - most e) a + (m - most f) b = 0, and the same of m and n.
+  const double left = l - most * e, mixed = m - most * f, right = n - most * g;
+  gp_Vec along = std::abs(left) * g > std::abs(right) * e ? left * dv - mixed * du : mixed * dv - right * du;
+  if (along.Magnitude() == 0) along = du;
+  along.Normalize();
+  return {most, 2 * mean - most, {along.X(), along.Y(), along.Z()}};
 }
 
 /// How near to the ends of a closed curve both sides are tried, as a fraction of its parameters.
@@ -189,12 +195,12 @@ class FaceProjector {
     triangles_.emplace(std::move(face.points), std::move(face.triangles));
   }
 
-  double curvature(const Vec3& x) const {
+  PrincipalCurvatures curvatures(const Vec3& x) const {
     const Vec2 uv = parameters(x);
     try {
-      return largest_curvature(*surface_, uv.x, uv.y);
+      return curvatures_of(*surface_, uv.x, uv.y);
     } catch (const Standard_Failure&) {  // no second derivatives there
-      return std::numeric_limits<double>::quiet_NaN();
+      return {};
     }
   }
 
@@ -277,7 +283,9 @@ class ShapeProjector : public SurfaceProjector {
     check_cancelled();
     return curves_[curve].nearest(x, tolerance_);
   }
-  double face_curvature(int face, const Vec3& x) const override { return faces_[face].curvature(x); }
+  PrincipalCurvatures curvatures(int face, const Vec3& x) const override {
+    return faces_[face].curvatures(x);
+  }
 
  private:
   double tolerance_;

@@ -190,14 +190,18 @@ int genus(const Chart& chart) {
   return (2 - static_cast<int>(chart.loops.size()) - euler) / 2;
 }
 
+std::array<Vec3, 3> corners_at(const std::array<double, 3>& sides) {
+  // Lengths of another metric are no triangle's where it changes much within one.
+  constexpr double kFlat = 1e-6;
+  const auto& [bc, ca, ab] = sides;
+  const double x = (ab * ab + ca * ca - bc * bc) / (2 * ab);
+  return {Vec3{}, Vec3{ab, 0, 0}, Vec3{x, std::sqrt(std::max(ca * ca - x * x, kFlat * kFlat * ab * ab)), 0}};
+}
+
 std::array<Vec3, 3> corners_of(const Chart& chart, int triangle) {
   const auto& [a, b, c] = chart.triangles[triangle];
   if (chart.sides.empty()) return {chart.points[a], chart.points[b], chart.points[c]};
-  // Lengths of another metric are no triangle's where it changes much within one.
-  constexpr double kFlat = 1e-6;
-  const auto& [bc, ca, ab] = chart.sides[triangle];
-  const double x = (ab * ab + ca * ca - bc * bc) / (2 * ab);
-  return {Vec3{}, Vec3{ab, 0, 0}, Vec3{x, std::sqrt(std::max(ca * ca - x * x, kFlat * kFlat * ab * ab)), 0}};
+  return corners_at(chart.sides[triangle]);
 }
 
 std::vector<double> boundary_lengths(const Chart& chart) {

@@ -23,6 +23,8 @@ struct Chart {
   std::vector<std::array<double, 3>> sides = {};
 };
 
+/// Corners of a triangle with sides of these lengths, as far as there is one.
+std::array<Vec3, 3> corners_at(const std::array<double, 3>& sides);
 /// The corners of a triangle, or any others at these lengths from each other.
 std::array<Vec3, 3> corners_of(const Chart& chart, int triangle);
 

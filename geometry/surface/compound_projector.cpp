@@ -32,8 +32,8 @@ class CompoundProjector final : public SurfaceProjector {
   }
 
   Vec3 to_face(int face, const Vec3& x) const override { return base_->to_face(member_at(face, x), x); }
-  double face_curvature(int face, const Vec3& x) const override {
-    return base_->face_curvature(member_at(face, x), x);
+  PrincipalCurvatures curvatures(int face, const Vec3& x) const override {
+    return base_->curvatures(member_at(face, x), x);
   }
   Vec3 to_curve(int curve, const Vec3& x) const override {
     const std::vector<int>& members = curves_[curve];
@@ -70,7 +70,9 @@ class CurvesOnFaces final : public SurfaceProjector {
   Vec3 to_curve(int curve, const Vec3& x) const override {
     return curve < first_curve_ ? base_->to_curve(curve, x) : to_face(faces_[curve - first_curve_], x);
   }
-  double face_curvature(int face, const Vec3& x) const override { return base_->face_curvature(face, x); }
+  PrincipalCurvatures curvatures(int face, const Vec3& x) const override {
+    return base_->curvatures(face, x);
+  }
 
  private:
   std::shared_ptr<const SurfaceProjector> base_;

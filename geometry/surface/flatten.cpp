@@ -91,8 +91,11 @@ class ChartWork {
  private:
   Outcome plan() const {
     if (chart_.loops.empty() || genus(chart_) > 0) return divide(std::nullopt);
+    // Of another metric the plane is a map where it has no directions.
     if (auto flat = planar_map(chart_, tolerance_))
-      if (auto map = checked_map(chart_, std::move(*flat), "plane")) return {std::move(map), {}, false};
+      if (auto map = checked_map(chart_, std::move(*flat), "plane");
+          map && (chart_.sides.empty() || map->quality.sigma_95 <= kGoodSigma))
+        return {std::move(map), {}, false};
     return chart_.loops.size() > 1 ? flatten_with_holes() : flatten_disk();
   }
 
@@ -167,6 +170,17 @@ class ChartWork {
   std::optional<ChartElements> elements_;  ///< none: cuts run anywhere
 };
 
+}  // namespace
+
+double double_area(const FlatPatch& patch, const Mesh& fine, std::size_t triangle) {
+  std::array<Vec3, 3> at;
+  for (int k = 0; k < 3; ++k) at[k] = fine.points[patch.fine_node[patch.flat.triangles[triangle][k]]];
+  if (!patch.sides.empty()) at = corners_at(patch.sides[triangle]);
+  return norm(cross(at[1] - at[0], at[2] - at[0]));
+}
+
+namespace {
+
 FlatPatch to_patch(const Chart& chart, Map map) {
   FlatPatch patch;
   patch.face = chart.face;
@@ -176,6 +190,7 @@ FlatPatch to_patch(const Chart& chart, Map map) {
   patch.loops = chart.loops;
   patch.quality = map.quality;
   patch.method = std::move(map.method);
+  patch.sides = chart.sides;
   return patch;
 }
 
@@ -250,10 +265,23 @@ class Flattener {
     Outcome outcome;
   };
 
+  std::vector<Chart> charts_of(const std::vector<char>& wanted, const std::vector<char>& open) const {
+    std::vector<Chart> charts = extract_charts(mesh_, wanted, open);
+    for (Chart& chart : charts) {
+      if (!options_.length) break;
+      for (const int t : chart.fine_triangle) {
+        const auto& v = mesh_.triangles[t];
+        auto& sides = chart.sides.emplace_back();
+        for (int k = 0; k < 3; ++k) sides[k] = options_.length(chart.face, v[(k + 1) % 3], v[(k + 2) % 3]);
+      }
+    }
+    return charts;
+  }
+
   void flatten_open(int round) {
     const std::vector<CutEnd> ends = cut_ends();
     std::vector<Planned> mapped, planned;
-    std::vector<Chart> charts = extract_charts(mesh_, open_, standing_lines());
+    std::vector<Chart> charts = charts_of(open_, standing_lines());
     std::vector<Outcome> outcomes(charts.size());
     parallel_for(
         charts.size(),
@@ -317,7 +345,7 @@ class Flattener {
       }
     std::vector<std::vector<FlatPatch>> opened(mapped.size());
     std::vector<char> is_stuck(mapped.size(), 0);
-    for (const Chart& part : extract_charts(mesh_, wanted)) {
+    for (const Chart& part : charts_of(wanted, {})) {
       const std::size_t i = chart_of[part.fine_triangle.front()];
       const Map& map = *mapped[i].outcome.map;
       if (auto flat = opened_map(mapped[i].chart, map.flat, part)) {

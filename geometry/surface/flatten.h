@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <utility>
@@ -28,8 +30,12 @@ struct FlatPatch {
   /// Indices of flat points, the patch on the left; the longest loop first.
   std::vector<std::vector<int>> loops;
   FlatQuality quality;
-  std::string method;  ///< "plane", "boundary-first" or "spectral"
+  std::string method;                             ///< "plane", "boundary-first" or "spectral"
+  std::vector<std::array<double, 3>> sides = {};  ///< see Chart::sides
 };
+
+/// Twice the area of a triangle of a patch: in space, or by its sides.
+double double_area(const FlatPatch& patch, const Mesh& fine, std::size_t triangle);
 
 struct Flattening {
   std::vector<FlatPatch> patches;  ///< by face, then by first triangle; a face may have several
@@ -50,6 +56,8 @@ struct FlattenOptions {
   /// With `element`, of each fine point: cuts go there only for want of a way around; empty: no point is
   /// such.
   std::vector<char> avoided = {};
+  /// The length of the side between two fine points, of a triangle of a face; null: in space.
+  std::function<double(int face, int a, int b)> length = nullptr;
 };
 
 /// Flattens all faces conformally, as if there were no embedded curves. Faces that cannot be flattened as

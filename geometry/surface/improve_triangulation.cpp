@@ -12,6 +12,7 @@
 
 #include "base/cancel.h"
 #include "base/sort_unique.h"
+#include "geometry/surface/chart.h"
 #include "geometry/surface/surface_editor.h"
 
 namespace delquad {
@@ -38,14 +39,13 @@ class Improver {
   /// Follows a rule instead of the options' lengths.
   void refine(RefinementRule& rule) {
     rule_ = &rule;
+    if (rule.has_lengths()) flip_all();
     split_all();
     editor_.finish();
   }
 
   void run() {
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-      for (int k = 0; k < 3; ++k) queue_.push_back(side(static_cast<int>(t), k));
-    flip();
+    flip_all();
     find_targets();
     split_all();
     editor_.finish();
@@ -87,7 +87,16 @@ class Improver {
     return norm(n) > thinnest * longest * longest ? (1 / norm(n)) * n : Vec3{};
   }
 
-  double cotangent(int at, int b, int c) const {
+  double length_in(int face, const Edge& e) const {
+    return rule_ == nullptr ? length(e) : rule_->length(face, e.first, e.second, length(e));
+  }
+
+  double cotangent(int at, int b, int c, int face) const {
+    if (rule_ != nullptr && rule_->has_lengths()) {
+      const auto [p, q, r] = corners_at(
+          {length_in(face, edge(b, c)), length_in(face, edge(c, at)), length_in(face, edge(at, b))});
+      return dot(q - p, r - p) / norm(cross(q - p, r - p));
+    }
     const Vec3 u = point(b) - point(at), v = point(c) - point(at);
     return dot(u, v) / std::max(norm(cross(u, v)), std::numeric_limits<double>::min());
   }
@@ -107,7 +116,7 @@ class Improver {
   /// points must not turn away from the triangles more than they did.
   bool should_flip(int a, int b, int c, int d, int face) const {
     constexpr double kTie = 1e-6;  // cocircular points stay as they are
-    if (cotangent(c, a, b) + cotangent(d, a, b) > -kTie) return false;
+    if (cotangent(c, a, b, face) + cotangent(d, a, b, face) > -kTie) return false;
     const Vec3 old_normals[] = {normal(a, b, c, kThin), normal(b, a, d, kThin)};
     const Vec3 new_normals[] = {normal(a, d, c, kFlat), normal(b, c, d, kFlat)};
     const double limit = model_.projector ? kTurnSmooth : kTurnExact;
@@ -135,6 +144,12 @@ class Improver {
       queue_.pop_back();
     }
     return e;
+  }
+
+  void flip_all() {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) queue_.push_back(side(static_cast<int>(t), k));
+    flip();
   }
 
   /// Flips the edges in the queue and those around each edge that was flipped, until all are well.
@@ -179,10 +194,11 @@ class Improver {
   }
 
   void consider(int t) {
+    const int face = mesh_.triangle_region[t];
     Edge longest = side(t, 0);
     for (int k = 1; k < 3; ++k)
-      if (length(side(t, k)) > length(longest)) longest = side(t, k);
-    const double l = length(longest);
+      if (length_in(face, side(t, k)) > length_in(face, longest)) longest = side(t, k);
+    const double l = length_in(face, longest);
     if (is_too_large(t, l)) candidates_.push({l, longest.first, longest.second});
   }
 

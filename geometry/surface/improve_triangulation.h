@@ -29,6 +29,13 @@ class RefinementRule {
   /// triangles that are small enough in some sense, or refinement does not end.
   virtual bool is_too_large(int face, const std::array<int, 3>& nodes,
                             const std::array<bool, 3>& is_line) const = 0;
+  /// The length of a side, by which the longest is told, and what is Delaunay; `in_space`: that there.
+  virtual double length([[maybe_unused]] int face, [[maybe_unused]] int a, [[maybe_unused]] int b,
+                        double in_space) const {
+    return in_space;
+  }
+  /// Whether that is another than in space.
+  virtual bool has_lengths() const { return false; }
   /// A node was put on the middle of the side a-b, of a triangle of the face.
   virtual void node_added(int node, int a, int b, int face, bool on_line) = 0;
 };

@@ -59,8 +59,8 @@ class FormEstimate {
     for (int round = 0; round < kSmoothing; ++round) smooth_normals();
   }
 
-  /// At each point: the largest curvature of the mean of the forms around, weighted by the angles.
-  std::vector<double> curvatures() const {
+  /// At each point: the mean of the forms around, weighted by the angles.
+  std::vector<Eigen::Matrix3d> forms() const {
     std::vector<Eigen::Matrix3d> sum(piece_.points.size(), Eigen::Matrix3d::Zero());
     std::vector<double> weight(piece_.points.size(), 0);
     for (const auto& v : piece_.triangles) {
@@ -72,16 +72,9 @@ class FormEstimate {
         weight[v[k]] += angle;
       }
     }
-    std::vector<double> values;
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-      if (!(weight[i] > 0)) {
-        values.push_back(0);
-        continue;
-      }
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum[i] / weight[i], Eigen::EigenvaluesOnly);
-      values.push_back(solver.eigenvalues().cwiseAbs().maxCoeff());
-    }
-    return values;
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      if (weight[i] > 0) sum[i] /= weight[i];
+    return sum;
   }
 
  private:
@@ -203,9 +196,15 @@ void ModelCurvature::estimate_faces(const Mesh& fine) {
       pieces.size(),
       [&](std::size_t f) {
         if (pieces[f].triangles.empty() || is_plane(pieces[f])) return;
-        std::vector<double> values = FormEstimate(pieces[f]).curvatures();
+        std::vector<double> values;
+        std::vector<Tensor3> forms;
+        for (const Eigen::Matrix3d& m : FormEstimate(pieces[f]).forms()) {
+          const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m, Eigen::EigenvaluesOnly);
+          values.push_back(solver.eigenvalues().cwiseAbs().maxCoeff());
+          forms.push_back({m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)});
+        }
         faces_[f] = Sampled{NearestTriangle(std::move(pieces[f].points), std::move(pieces[f].triangles)),
-                            std::move(values)};
+                            std::move(values), std::move(forms)};
       },
       [&](std::size_t f) { return static_cast<double>(pieces[f].triangles.size()); });
 }
@@ -234,6 +233,31 @@ double ModelCurvature::of_face(int face, const Vec3& x) const {
   if (!projector_) return faces_[face] ? faces_[face]->at(x) : 0;
   const double curvature = projector_->face_curvature(face, x);
   return std::isnan(curvature) ? 0 : curvature;  // a singular point: what is around it counts
+}
+
+PrincipalCurvatures ModelCurvature::principal(int face, const Vec3& x) const {
+  constexpr PrincipalCurvatures kPlane{0, 0, {}};
+  if (projector_) {
+    const PrincipalCurvatures found = projector_->curvatures(face, x);
+    return std::isfinite(found.most) ? found : kPlane;
+  }
+  if (!faces_[face]) return kPlane;
+  const auto& [triangles, values, forms] = *faces_[face];
+  const NearestTriangle::Found found = triangles.find(x);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Tensor3& m = forms[triangles.triangle(found.triangle)[k]];
+    Eigen::Matrix3d form;
+    form << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
+    sum += found.weights[k] * form;
+  }
+  // The least of the three by size is that along the normal.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
+  const Eigen::Vector3d& value = solver.eigenvalues();
+  const int most = std::abs(value[0]) > std::abs(value[2]) ? 0 : 2;
+  const double least = std::abs(value[1]) > std::abs(value[2 - most]) ? value[1] : value[2 - most];
+  const Eigen::Vector3d along = solver.eigenvectors().col(most);
+  return {value[most], least, {along[0], along[1], along[2]}};
 }
 
 double ModelCurvature::of_curve(int curve, const Vec3& x) const {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "delquad/fields.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/surface_model.h"
 
@@ -22,6 +23,8 @@ class ModelCurvature {
 
   /// Largest curvature (1 / length) in any direction at the face's point nearest to x.
   double of_face(int face, const Vec3& x) const;
+  /// In all directions; 0 where it is not known.
+  PrincipalCurvatures principal(int face, const Vec3& x) const;
   /// The same of a curve that the model had when this was made.
   double of_curve(int curve, const Vec3& x) const;
 
@@ -30,6 +33,7 @@ class ModelCurvature {
   struct Sampled {
     NearestTriangle triangles;
     std::vector<double> values;
+    std::vector<Tensor3> forms = {};  ///< second fundamental forms of faces
     double at(const Vec3& x) const;
   };
   void estimate_faces(const Mesh& fine);

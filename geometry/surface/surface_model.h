@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -9,6 +10,13 @@
 #include "delquad/mesh.h"
 
 namespace delquad {
+
+/// Curvatures (1 / length) of a face at a point, along two perpendicular directions; NaN where not known.
+struct PrincipalCurvatures {
+  double most = std::numeric_limits<double>::quiet_NaN();  ///< the larger by size
+  double least = 0;
+  Vec3 along = {};  ///< the direction of `most`, of length 1
+};
 
 /// The true geometry behind a fine triangulation.
 class SurfaceProjector {
@@ -20,11 +28,13 @@ class SurfaceProjector {
   /// The point of a curve (index into SurfaceModel::fine.curves) nearest to x; safe to call from several
   /// threads.
   virtual Vec3 to_curve(int curve, const Vec3& x) const = 0;
-  /// The largest curvature (1 / length, >= 0) of a face in any direction near x, a point next to it; NaN
-  /// where it is not known: at singular points of the parametrisation. Safe to call from several threads.
-  virtual double face_curvature([[maybe_unused]] int face, [[maybe_unused]] const Vec3& x) const {
-    return std::numeric_limits<double>::quiet_NaN();
+  /// Of a face near x, a point next to it; not known at singular points of the parametrisation. Safe to call
+  /// from several threads.
+  virtual PrincipalCurvatures curvatures([[maybe_unused]] int face, [[maybe_unused]] const Vec3& x) const {
+    return {};
   }
+  /// The largest in any direction, >= 0.
+  double face_curvature(int face, const Vec3& x) const { return std::abs(curvatures(face, x).most); }
 };
 
 /// A face that is missing from a model because it cannot be used.

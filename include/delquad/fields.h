@@ -203,6 +203,8 @@ MetricAxes axes_of(const Tensor2& m);
 bool is_metric(const Tensor2& m);
 inline constexpr double kMostAspect = 1e6;
 
+/// By which factor lengths differ, at most, as a logarithm.
+double difference(const Tensor2& a, const Tensor2& b);
 /// The length of d where the metric goes from `a` to `b` along it as the exponential of a linear function:
 /// (la - lb) / log(la / lb) with the lengths by both.
 double metric_length(Vec2 d, const Tensor2& a, const Tensor2& b);
@@ -244,13 +246,29 @@ MetricFunction make_nodal_metric(const Mesh& mesh, std::vector<Tensor2> metric);
 /// the only one.
 MetricFunction make_file_metric(const std::filesystem::path& file, const std::string& field = {});
 
+/// The same in space, for surfaces: of a vector in the tangent plane d M d is the square of its length.
+struct Tensor3 {
+  double xx = 1, xy = 0, xz = 0, yy = 1, yz = 0, zz = 1;
+  friend bool operator==(const Tensor3&, const Tensor3&) = default;
+};
+using SpaceMetricFunction = std::function<void(std::span<const Vec3> points, std::span<Tensor3> metric)>;
+/// m11, m12, m13, m22, m23 and m33 as formulas in x, y and z.
+SpaceMetricFunction make_expression_space_metric(const std::array<std::string, 6>& tensor);
+/// As that of the plane; of the point of the mesh that is nearest.
+SpaceMetricFunction make_nodal_space_metric(const Mesh& mesh, std::vector<Tensor3> metric);
+SpaceMetricFunction make_file_space_metric(const std::filesystem::path& file, const std::string& field = {});
+
 struct MetricPlane;
 
-/// The metric that a planar problem is meshed by, in place of a size. Of `function`, `tensor`, `sizes`,
-/// `solution` and `file` one is given.
+/// The metric that a problem is meshed by, in place of a size. One of the first is given: of planar domains
+/// `function`, `tensor`, `sizes`, `solution` or `file`, of surfaces `in_space`, `tensor`, `file` or `chord`.
 struct MetricSpec {
   MetricFunction function = nullptr;
-  std::vector<std::string> tensor = {};  ///< see make_expression_metric()
+  SpaceMetricFunction in_space = nullptr;
+  /// By the curvature of surfaces: along each principal direction sides stray from an arc by no more than
+  /// this length; 0: that is not asked.
+  double chord = 0;
+  std::vector<std::string> tensor = {};  ///< see make_expression_metric(), make_expression_space_metric()
   std::vector<std::string> sizes = {};   ///< h1, h2 and, if it is not 0, theta
   std::string solution = {};             ///< see make_solution_metric()
   std::string file = {};                 ///< FILE or FILE:FIELD, which counts from `folder`
@@ -258,12 +276,14 @@ struct MetricSpec {
   MetricLimits limits = {};
   double gradation = 0;          ///< the most that sizes grow by per unit length, above 1; 0: no limit
   double complexity = 0;         ///< the integral of sqrt(det M), about the number of quads; 0: as it is
+  double scale = 1;              ///< all lengths on surfaces are times this, at last
   std::string where = "metric";  ///< who asked for it, for messages
   /// Made by prepare() for itself.
   std::shared_ptr<const MetricPlane> plane = nullptr;
 
   bool asks() const {
-    return function || !tensor.empty() || !sizes.empty() || !solution.empty() || !file.empty();
+    return function || in_space || chord > 0 || !tensor.empty() || !sizes.empty() || !solution.empty() ||
+           !file.empty();
   }
 };
 

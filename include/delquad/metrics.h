@@ -137,7 +137,7 @@ inline constexpr double kExplainedSizes = 1.25;
 /// Distances at some samples, in diagonals of the model.
 struct Distances {
   int samples = 0;
-  double max = 0, mean = 0;
+  double max = 0, mean = 0, mean_square = 0;
   double max_in_sizes = 0;  ///< of the size at the sample; 0 where no size was given
   Places unexplained;       ///< above kExplainedSizes
   void add(double distance);

@@ -282,9 +282,12 @@ MetricSpec read_metric_spec(const TomlTable& table) {
   metric.sizes = formulas("sizes");
   metric.solution = table.text("solution", "");
   metric.file = table.text("file", "");
-  if (table.has("tensor") + table.has("sizes") + table.has("solution") + table.has("file") != 1)
-    throw InputError(metric.where + ": expected one of 'tensor', 'sizes', 'solution' and 'file'");
+  if (table.has("tensor") + table.has("sizes") + table.has("solution") + table.has("file") +
+          table.has("chord") !=
+      1)
+    throw InputError(metric.where + ": expected one of 'tensor', 'sizes', 'solution', 'file' and 'chord'");
   const auto length = [&](const char* key) { return table.has(key) ? table.positive_number(key) : 0; };
+  metric.chord = length("chord");
   metric.limits = {length("min"), length("max"), number_at_least(table, "aspect", 1, 0)};
   if (metric.limits.max > 0 && metric.limits.min > metric.limits.max)
     throw InputError(table.where("min") + ": 'min' is larger than 'max'");

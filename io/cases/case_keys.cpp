@@ -224,7 +224,8 @@ TomlKeys size_keys() {
 }
 
 TomlKeys metric_spec_keys() {
-  return {{"tensor", "formulas of m11, m12 and m22", kTexts},
+  return {{"tensor", "formulas of m11, m12, m22; of surfaces m11, m12, m13, m22, m23, m33", kTexts},
+          {"chord", "of surfaces: how far sides stray from an arc, by direction", kPositive},
           {"sizes", "formulas of h1, h2 and the direction of h1, in radians", kTexts},
           {"solution", "a formula that is to be interpolated well", kText},
           {"file", "FILE or FILE:FIELD with tensors at the points of its mesh", kText},

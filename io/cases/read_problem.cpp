@@ -102,9 +102,36 @@ double hessian_step(const Model& model) {
   return kHessianStep * norm(box.high - box.low);
 }
 
+SizeFile file_of_metric(const MetricSpec& metric) {
+  const auto file = size_file_of(metric.file, metric.folder);
+  if (!file) throw InputError("the metric '" + metric.file + "': expected FILE or FILE:FIELD, .msh or .sol");
+  return *file;
+}
+
+void read_surface_metric(MetricSpec& metric) {
+  if (metric.in_space || metric.chord > 0) return;
+  metric.in_space = located(metric.where, [&]() -> SpaceMetricFunction {
+    if (metric.tensor.size() == 6) {
+      std::array<std::string, 6> formulas;
+      std::ranges::copy(metric.tensor, formulas.begin());
+      return make_expression_space_metric(formulas);
+    }
+    if (metric.file.empty())
+      throw InputError(
+          "expected of a surface 'chord', a 'file' or a 'tensor' of m11, m12, m13, m22, m23 and m33");
+    const SizeFile file = file_of_metric(metric);
+    return make_file_space_metric(file.path, file.field);
+  });
+}
+
 void read_metric(const Model& model, MetricSpec& metric) {
   if (metric.function || !metric.asks()) return;
+  if (!std::holds_alternative<PlanarModel>(model) && !std::holds_alternative<LineModel>(model) &&
+      !std::holds_alternative<GivenMesh>(model))
+    return read_surface_metric(metric);
   metric.function = located(metric.where, [&]() -> MetricFunction {
+    if (metric.in_space || metric.chord > 0)
+      throw InputError("a chord and tensors in space are for surfaces, and this is a planar domain");
     if (!metric.tensor.empty() && metric.tensor.size() != 3)
       throw InputError(
           fmt::format("a tensor of {} formulas: expected m11, m12 and m22", metric.tensor.size()));
@@ -117,10 +144,8 @@ void read_metric(const Model& model, MetricSpec& metric) {
       return make_sizes_metric(metric.sizes[0], metric.sizes[1],
                                metric.sizes.size() == 3 ? metric.sizes[2] : "0");
     if (!metric.solution.empty()) return make_solution_metric(metric.solution, hessian_step(model));
-    const auto file = size_file_of(metric.file, metric.folder);
-    if (!file)
-      throw InputError("the metric '" + metric.file + "': expected FILE or FILE:FIELD, .msh or .sol");
-    return make_file_metric(file->path, file->field);
+    const SizeFile file = file_of_metric(metric);
+    return make_file_metric(file.path, file.field);
   });
 }
 
@@ -251,6 +276,17 @@ MetricFunction make_expression_metric(const std::array<std::string, 3>& tensor) 
   };
 }
 
+SpaceMetricFunction make_expression_space_metric(const std::array<std::string, 6>& tensor) {
+  std::vector<Expression> m;
+  for (const std::string& text : tensor) m.emplace_back(text, std::vector<std::string>{"x", "y", "z"});
+  return [m](std::span<const Vec3> points, std::span<Tensor3> metric) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double at[] = {points[i].x, points[i].y, points[i].z};
+      metric[i] = {m[0](at), m[1](at), m[2](at), m[3](at), m[4](at), m[5](at)};
+    }
+  };
+}
+
 MetricFunction make_sizes_metric(const std::string& h1, const std::string& h2, const std::string& theta) {
   const Expression along(h1, kPlane), across(h2, kPlane), angle(theta, kPlane);
   return [along, across, angle](std::span<const Vec2> points, std::span<Tensor2> metric) {
@@ -266,11 +302,20 @@ MetricFunction make_sizes_metric(const std::string& h1, const std::string& h2, c
   };
 }
 
+SpaceMetricFunction make_file_space_metric(const std::filesystem::path& file, const std::string& field) {
+  const NodalValues tensors = read_tensors(file, field);
+  std::vector<Tensor3> metric;
+  const std::vector<double>& m = tensors.values;
+  for (std::size_t i = 0; i + 5 < m.size(); i += 6)
+    metric.push_back({m[i], m[i + 1], m[i + 2], m[i + 3], m[i + 4], m[i + 5]});
+  return located(file.string(), [&] { return make_nodal_space_metric(tensors.mesh, std::move(metric)); });
+}
+
 MetricFunction make_file_metric(const std::filesystem::path& file, const std::string& field) {
   const NodalValues tensors = read_tensors(file, field);
   std::vector<Tensor2> metric;
-  for (std::size_t i = 0; i + 2 < tensors.values.size(); i += 3)
-    metric.push_back({tensors.values[i], tensors.values[i + 1], tensors.values[i + 2]});
+  const std::vector<double>& m = tensors.values;
+  for (std::size_t i = 0; i + 5 < m.size(); i += 6) metric.push_back({m[i], m[i + 1], m[i + 3]});
   return located(file.string(), [&] { return make_nodal_metric(tensors.mesh, std::move(metric)); });
 }
 

@@ -371,6 +371,7 @@ void Distances::add(double distance) {
   ++samples;
   max = std::max(max, distance);
   mean += (distance - mean) / samples;
+  mean_square += (distance * distance - mean_square) / samples;
 }
 
 void Distances::add(double distance, double size, const Place& place) {

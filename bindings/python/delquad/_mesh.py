@@ -79,9 +79,9 @@ def _set_size(problem, size):
 def _set_metric(problem, metric):
     asked = dict(metric) if isinstance(metric, dict) else {"tensor": metric}
     limits = [float(asked.pop(key, 0)) for key in ("min", "max", "aspect", "gradation", "complexity")]
-    if len(asked) != 1 or not asked.keys() <= {"tensor", "sizes", "solution", "file"}:
+    if len(asked) != 1 or not asked.keys() <= {"tensor", "sizes", "solution", "file", "chord"}:
         raise TypeError(
-            "metric: expected one of 'tensor', 'sizes', 'solution' and 'file', with 'min', 'max', 'aspect', "
+            "metric: expected one of 'tensor', 'sizes', 'solution', 'file' and 'chord', with 'min', 'max', 'aspect', "
             f"'gradation' and 'complexity', got {', '.join(asked) or 'none'}"
         )
     [(kind, given)] = asked.items()
@@ -90,7 +90,7 @@ def _set_metric(problem, metric):
     elif kind == "tensor" and len(given) == 2:
         problem.metric_nodal(*given)
     else:
-        problem.metric_texts(kind, [str(given)] if kind in ("solution", "file") else [str(text) for text in given])
+        problem.metric_texts(kind, [str(given)] if kind in ("solution", "file", "chord") else [str(text) for text in given])
     problem.metric_limits(*limits)
 
 
@@ -245,10 +245,11 @@ def mesh(
         or else lines count; or the path of a file: .step, .iges, .brep, .stl, .obj, .off, .ply, .3mf, .msh or .toml.
     size: edge length: a number, a function of points of shape (n, 3) that returns n numbers, a formula in x, y, z,
         "boundary" or a file of sizes ("error.vtu:h") as text, or (mesh, values at its points).
-    metric: lengths by direction, of planar models, in place of a size: a function of points of shape (n, 2) that returns
-        m11, m12, m22 of shape (n, 3), (mesh, such values at its points), or a dictionary with one of "tensor" (these, or
-        three formulas), "sizes" (formulas of h1, h2 and the direction of h1), "solution" (a formula) and "file", and with
-        "min", "max", "aspect", "gradation" and "complexity"; see docs/anisotropy.md.
+    metric: lengths by direction, in place of a size: a function of points of shape (n, 2) that returns
+        m11, m12, m22 of shape (n, 3), of surfaces of points of shape (n, 3) that returns m11, m12, m13, m22, m23, m33 of
+        shape (n, 6); (mesh, such values at its points), or a dictionary with one of "tensor" (these, or formulas),
+        "sizes" (formulas of h1, h2 and the direction of h1), "solution" (a formula), "file" and "chord" (of surfaces: how
+        far sides stray from an arc), and with "min", "max", "aspect", "gradation" and "complexity"; see docs/anisotropy.md.
     word, quality: the stages by letters, or "fast", "good" (as if nothing is said) or "best".
     cross: "boundary", "size-aware", "gradient", "metric" (along its axes), or angles in radians: a function of points of shape (n, 2), a
         formula, or (mesh, values at its points).

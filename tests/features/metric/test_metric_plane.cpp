@@ -285,7 +285,7 @@ TEST(MetricPlane, RefusesWhatDoesNotGoWithIt) {
   expect_input_error([&] { mesh(other, "DB"); }, {"lengths from 2 to 1"});
   other = problem;
   other.model = ExampleModel{"torus"};
-  expect_input_error([&] { mesh(other, "DB"); }, {"surfaces"});
+  expect_input_error([&] { mesh(other, "DB"); }, {"of a surface"});
   other = square();
   other.size.field = make_constant_size(0.1);
   other.cross.kind = CrossKind::kMetric;

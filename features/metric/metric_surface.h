@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "fields/size_aware_cross_field.h"
+#include "fields/surface/surface_metric.h"
+#include "metrics/metric_measures.h"
+#include "patches/prepared.h"
+
+// A surface with a metric is measured by it where it is laid flat: charts by the lengths of their sides,
+// curves by theirs. All else happens in the flat patches, whose size is the metric's own.
+
+namespace delquad {
+
+/// The metric of a model, the spots being where sizes are less. Of `model` as it was read.
+WantedMetric wanted_metric(const MeshProblem& problem, const SurfaceModel& model,
+                           const std::vector<SizeSpot>& spots);
+
+/// flatten() by lengths in a metric.
+Flattening flatten_by_metric(SurfaceModel& model, const SurfaceMetric& metric);
+
+/// How much the field of a patch is drawn to the metric's axes.
+CrossPull pull_at(const PreparedSurface& surface, int patch, Vec2 u, int& hint);
+
+/// The metric that meshes are measured by; null: none.
+MetricAt metric_of(const PreparedProblem& prepared);
+
+}  // namespace delquad

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "delquad/fields.h"
+
+namespace delquad {
+
+inline Tensor2 times(double factor, const Tensor2& m) {
+  return {factor * m.xx, factor * m.xy, factor * m.yy};
+}
+inline double determinant(const Tensor2& m) { return std::max(0.0, m.xx * m.yy - m.xy * m.xy); }
+/// Whether the first asks for no larger lengths in any direction.
+inline bool is_finer(const Tensor2& a, const Tensor2& b) {
+  const Tensor2 d{a.xx - b.xx, a.xy - b.xy, a.yy - b.yy};
+  return d.xx >= 0 && d.yy >= 0 && d.xx * d.yy >= d.xy * d.xy;
+}
+
+/// A metric of the tangent plane at a point.
+struct TangentMetric {
+  Vec3 e = {1, 0, 0}, f = {0, 1, 0};  ///< of length 1, perpendicular
+  Tensor2 m = {};                     ///< in their terms
+
+  static TangentMetric with_normal(const Vec3& normal);
+  Vec2 in_plane(const Vec3& d) const { return {dot(d, e), dot(d, f)}; }
+  Vec3 in_space(Vec2 d) const { return d.x * e + d.y * f; }
+  /// What another is here, turned from its plane into this one by the least angle.
+  Tensor2 seen(const TangentMetric& other) const;
+};
+
+/// The square of the length of a vector that is turned into the plane.
+double metric_square(const Vec3& d, const TangentMetric& at);
+/// As that of the plane, see delquad/fields.h.
+double metric_length(const Vec3& d, const TangentMetric& a, const TangentMetric& b);
+/// log_mean() in the plane of the first.
+TangentMetric log_mean(std::span<const TangentMetric> metrics, std::span<const double> weights);
+
+}  // namespace delquad
