@@ -3,7 +3,7 @@
     python3 benchmarks/chord_metric.py build/release/delquad MODEL... [--chord 0.0005] [--max 0.05]
 
 Each model is meshed with --metric chord=...,max=..., both in diagonals of the model, then with --size and --curvature, whose
-number of elements per turn is sought until the middles of quads and edges lie as near to the surface in the mean.
+number of elements per turn is sought until the middles of quads and edges lie as near to the surface (root mean square).
 Both have the same largest size. Distances are in diagonals of the model.
 """
 
@@ -35,7 +35,7 @@ def mesh(model, *options):
     distances = made["surface"]["distances_in_diagonals"]["mesh_to_surface"]
     return {
         "quads": made["metrics"]["n_quads"],
-        "mean": distances["mean"],
+        "rms": distances["rms"],
         "max": distances["max"],
         "sound": run.returncode == 0,
         "metrics": made["metrics"],
@@ -57,19 +57,19 @@ def as_near(model, size, wanted):
         if made is None:
             high = turns
         else:
-            if best is None or abs(made["mean"] / wanted - 1) < abs(best["mean"] / wanted - 1):
+            if best is None or abs(made["rms"] / wanted - 1) < abs(best["rms"] / wanted - 1):
                 best = {**made, "turns": turns}
-            if abs(made["mean"] / wanted - 1) < 0.03:
+            if abs(made["rms"] / wanted - 1) < 0.03:
                 break
-            low, high = (turns, high) if made["mean"] > wanted else (low, turns)
+            low, high = (turns, high) if made["rms"] > wanted else (low, turns)
             # Distances fall with the square of the number.
-            turns *= (made["mean"] / wanted) ** 0.5
+            turns *= (made["rms"] / wanted) ** 0.5
         if not low < turns < high:
             turns = (low * high) ** 0.5
     return best, why
 
 
-print("| model | quads by the metric | mean, max | eta_M mean / worst | quads by sizes | mean, max | per turn | share |")
+print("| model | quads by the metric | rms, max | eta_M mean / worst | quads by sizes | rms, max | per turn | share |")
 print("|---|---:|---:|---:|---:|---:|---:|---:|")
 for model in arguments.models:
     extent = diagonal(model)
@@ -78,8 +78,8 @@ for model in arguments.models:
     if long is None:
         print(f"| {pathlib.Path(model).stem} | {why} |", flush=True)
         continue
-    even, why = as_near(model, size, long["mean"])
-    tell = lambda made: f"{made['quads']:.0f}{'' if made['sound'] else ' (not sound)'} | {made['mean']:.1e}, {made['max']:.1e}"
+    even, why = as_near(model, size, long["rms"])
+    tell = lambda made: f"{made['quads']:.0f}{'' if made['sound'] else ' (not sound)'} | {made['rms']:.1e}, {made['max']:.1e}"
     values = long["metrics"]
     first = f"| {pathlib.Path(model).stem} | {tell(long)} | {values['metric_eta_mean']:.3f} / {values['metric_eta_worst']:.2f} |"
     if even is None:

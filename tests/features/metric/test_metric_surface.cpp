@@ -140,7 +140,8 @@ TEST(MetricSurface, FilletsTakeFewerQuads) {
   EXPECT_LT(2 * by_metric.mesh.quads.size(), even.mesh.quads.size());
 }
 
-// Planes at slivers turn from point to point: what is asked for there must not become ever smaller on the way.
+// Planes at slivers turn from point to point: what is asked for there must not become ever smaller on the
+// way.
 TEST(MetricSurface, SliversMakeNothingFiner) {
   for (const char* name : {"cross_drilled", "loft"}) {
     const MeshResult result = mesh(by_chord(ExampleModel{name}, 0.1, 8), "good");
