@@ -143,6 +143,7 @@ PreparedProblem prepare_problem(const MeshProblem& problem, const Refinement& re
       other = with_planar_washers(std::move(other), size, told);
     }
     PreparedProblem prepared = prepare_problem(other, refinement);
+    prepared.plane.ignores_small = has_small;
     prepared.warnings.insert(prepared.warnings.begin(), told.begin(), told.end());
     return prepared;
   }

@@ -69,6 +69,7 @@ std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface);
 
 /// What the patches of a planar domain were made from.
 struct PreparedPlane {
+  bool ignores_small = false;  ///< what is small in its outlines was left out
   /// Of each curve those of the model that lie there; empty where the lines are kept.
   std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes;
   std::vector<CurvePlace> curve_places;              ///< of the curves' nodes; empty where the lines are kept

@@ -369,7 +369,7 @@ void set_problem(const MeshArguments& arguments, Case& c) {
                 .gradation = c.metric.gradation,
                 .complexity = c.metric.complexity,
                 .where = "--metric"};
-    if (arguments.metric.starts_with("chord="))
+    if (arguments.metric.find('=') < arguments.metric.find_first_of("/."))
       set_metric_numbers(arguments.metric, c.metric);
     else
       c.metric.file = arguments.metric;

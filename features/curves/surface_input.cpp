@@ -69,9 +69,10 @@ double length_of_small(const MeshProblem& problem, std::span<const Vec3> points)
   const auto refuse = [&](const char* what) {
     throw InputError(
         fmt::format("{}: what is shorter than min_length is to be left out, but {}: expected "
-                    "ignore_below with a length",
+                    "criteria with it, or ignore_below with a length",
                     spec.where.empty() ? problem.where : spec.where, what));
   };
+  if (problem.criteria.empty()) refuse("there are no criteria");
   if (limit == problem.criteria.limits.end()) refuse("the criteria have none");
   if (!limit->in_sizes) return limit->value;
   if (!problem.size.field) refuse("it is in parts of a size that is not known before the mesh");

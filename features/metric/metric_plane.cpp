@@ -65,13 +65,15 @@ class FlatCurve final : public Curve {
 void check(const MetricSpec& metric) {
   const auto is_bad = [](double x) { return !(x >= 0) || !std::isfinite(x); };
   const MetricLimits& limits = metric.limits;
-  if (is_bad(limits.min) || is_bad(limits.max) || is_bad(limits.aspect) || is_bad(metric.complexity) ||
-      (limits.max > 0 && limits.min > limits.max) || (limits.aspect > 0 && limits.aspect < 1))
+  if (is_bad(limits.min) || is_bad(limits.max) || is_bad(limits.aspect) || is_bad(metric.complexity))
     throw InputError(
-        fmt::format("{}: lengths from {} to {}, one at most {} times the other, a complexity of {}: expected "
-                    "finite numbers "
-                    "above 0, or 0 for none, the least below the largest and an aspect of at least 1",
+        fmt::format("{}: min {}, max {}, aspect {}, complexity {}: expected finite numbers above 0, or "
+                    "0 for none",
                     metric.where, limits.min, limits.max, limits.aspect, metric.complexity));
+  if (limits.max > 0 && limits.min > limits.max)
+    throw InputError(fmt::format("{}: min {} is above max {}", metric.where, limits.min, limits.max));
+  if (limits.aspect > 0 && limits.aspect < 1)
+    throw InputError(fmt::format("{}: aspect {}: expected at least 1", metric.where, limits.aspect));
   if (metric.gradation != 0 && !(metric.gradation > 1 && std::isfinite(metric.gradation)))
     throw InputError(fmt::format("{}: gradation {}: expected a factor above 1, or 0 for none", metric.where,
                                  metric.gradation));

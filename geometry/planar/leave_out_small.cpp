@@ -18,7 +18,7 @@ namespace delquad {
 namespace {
 
 /// Chords of a piece of a curve without corners.
-constexpr int kChords = 16;
+constexpr int kChords = 32;
 
 struct Piece {
   std::shared_ptr<const Curve> shape;
@@ -75,6 +75,7 @@ class NodeRemover {
     curves_at_.resize(chain_.nodes.size());
     uses_.resize(chain_.nodes.size(), 0);
     for (std::size_t c = 0; c < model.curves.size(); ++c) {
+      if (model.curves[c].is_gone) continue;
       for (const int node : chain_.curve_ends[c]) curves_at_[node].push_back(static_cast<int>(c));
       for (const CurveStop& stop : chain_.stops[c]) ++uses_[stop.node];
     }
@@ -84,7 +85,7 @@ class NodeRemover {
   void run() {
     seen_.resize(model_.curves.size(), 0);
     for (int c = 0; c < static_cast<int>(model_.curves.size()); ++c)
-      if (!seen_[c]) thin_out(chain_from(c));
+      if (!seen_[c] && !model_.curves[c].is_gone) thin_out(chain_from(c));
   }
 
  private:
@@ -165,10 +166,12 @@ class NodeRemover {
       short_ones.pop();
       if (!(i == 0 || chain.is_kept[i]) || behind[i] != j || gap[i] != length) continue;
       if (!may_go(i) && !may_go(j)) {
+        const auto& ends = chain_.curve_ends[chain.curve[i]];
         warnings_.push_back(
             {"short curves that stay", 1 / length,
-             fmt::format("{} stays, {:.3g} long: others meet at its ends, or have other names",
-                         curve_label(model_, chain.curve[i]), length)});
+             fmt::format("{} stays, {:.3g} long: {}", curve_label(model_, chain.curve[i]), length,
+                         ends[0] == ends[1] ? "it is closed"
+                                            : "others meet at its ends, or neighbours have other names")});
         continue;
       }
       const int gone = !may_go(i) || (may_go(j) && turn[j] < turn[i]) ? j : i;
@@ -280,13 +283,14 @@ void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<War
     const bool alone = std::ranges::all_of(loop.curves, [&](int c) { return uses[c] == 1; });
     goes[l] = length < small.hole && host[l] >= 0 && alone && !small.keep.any_of(names_of(loop));
     if (!goes[l]) continue;
-    const Vec2 at = outlines[l][0];
+    Vec2 at{};
+    for (const Vec2& x : outlines[l]) at = at + (1.0 / static_cast<double>(outlines[l].size())) * x;
     warnings.push_back({"small holes that were closed", 1 / length,
                         fmt::format("closed a hole of {:.3g} around at {}", length, show_point(at))});
     for (const std::string& name : names_of(loop).names)
-      warnings.push_back(
-          {"names that went with what is small", 1,
-           fmt::format("'{}' went with the hole at {} (surface.keep keeps it)", name, show_point(at))});
+      warnings.push_back({"names that went with what is small", 1,
+                          fmt::format("'{}' went with the hole at {} (--keep, or surface.keep, keeps it)",
+                                      name, show_point(at))});
   }
   std::vector<ModelLoop> kept;
   for (std::size_t l = 0; l < n; ++l) {
@@ -307,8 +311,8 @@ void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<War
 }  // namespace
 
 PlanarModel leave_out_small(PlanarModel model, const SmallOutlines& small, std::vector<Warning>& warnings) {
-  if (small.length > 0) NodeRemover(model, small.length, warnings).run();
   if (small.hole > 0) close_holes(model, small, warnings);
+  if (small.length > 0) NodeRemover(model, small.length, warnings).run();
   return model;
 }
 

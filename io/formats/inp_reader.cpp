@@ -3,11 +3,13 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "base/sort_unique.h"
 #include "base/text.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
+#include "io/entity_names.h"
 #include "io/face_reader.h"
 #include "io/formats/readers.h"
 #include "io/mesh_io.h"
@@ -66,6 +68,12 @@ int nodes_of_type(const std::string& type) {
   }
   return 0;
 }
+
+/// A side "S2" or "E2" of elements, by their number or set.
+struct InpSurface {
+  std::string name, elements, side;
+  int line;
+};
 
 struct InpElement {
   std::vector<int> nodes;  ///< indices
@@ -211,7 +219,48 @@ class InpReader {
       if (is_new) entities.push_back({it->second + 1, e.sets});
       add(e, it->second);
     }
+    add_sides_of_shells();
     add_surfaces();
+    take_numbers(mesh_.curves, 1);
+    take_numbers(mesh_.regions, 2);
+  }
+
+  /// Of shells our writer has the sides along curves in sets "_NAME_E2", and no surfaces of them.
+  void add_sides_of_shells() {
+    const auto is_used = [&](const std::string& set) {
+      return std::ranges::find(surfaces_, set, &InpSurface::elements) != surfaces_.end();
+    };
+    for (const auto& [set, members] : sets_) {
+      const size_t n = set.size();
+      if (n > 4 && set[0] == '_' && set[n - 3] == '_' && set[n - 2] == 'E' && !members.empty() &&
+          !is_used(set))
+        surfaces_.push_back({set.substr(1, n - 4), set, set.substr(n - 2), elements_[members[0]].line});
+    }
+  }
+
+  /// What is called by a number of its own, as in our files ("curve_7"), has it again.
+  void take_numbers(std::vector<Entity>& entities, int dim) {
+    std::map<std::string, std::vector<int>> holders;
+    for (size_t i = 0; i < entities.size(); ++i)
+      for (const std::string& name : entities[i].names) holders[name].push_back(static_cast<int>(i));
+    std::map<int, int> of_tag;
+    const std::string prefix = tag_label(dim, 0).substr(0, tag_label(dim, 0).size() - 1);
+    for (const auto& [name, held] : holders) {
+      if (held.size() != 1 || !name.starts_with(prefix)) continue;
+      int tag = 0;
+      const auto [end, error] = std::from_chars(name.data() + prefix.size(), name.data() + name.size(), tag);
+      Entity& entity = entities[held[0]];
+      const bool is_first = std::ranges::none_of(of_tag, [&](const auto& t) { return t.second == held[0]; });
+      if (error != std::errc() || tag < 1 || name != tag_label(dim, tag) || !is_first) continue;
+      of_tag[tag] = held[0];
+      entity.tag = tag;
+      std::erase(entity.names, name);
+    }
+    int next = of_tag.empty() ? 0 : of_tag.rbegin()->first;
+    std::set<int> known;
+    for (const auto& [tag, entity] : of_tag) known.insert(entity);
+    for (size_t i = 0; i < entities.size() && !of_tag.empty(); ++i)
+      if (!known.contains(static_cast<int>(i))) entities[i].tag = ++next;
   }
 
   void add(const InpElement& e, int entity) {
@@ -222,16 +271,11 @@ class InpReader {
     if (!wrong.empty()) in_.fail_at(e.line, "{}", wrong);
   }
 
-  struct Surface {
-    std::string name, elements, side;
-    int line;
-  };
-
   /// Sides "S2" or "E2" of elements become lines; those on several surfaces are lines of a curve of all their
   /// names. Surfaces of whole elements are no curves.
   void add_surfaces() {
     std::map<std::vector<int>, std::vector<std::string>> names_of;  // by the nodes of a line, its ends first
-    for (const Surface& s : surfaces_) {
+    for (const InpSurface& s : surfaces_) {
       const bool is_side = s.side.size() == 2 && (s.side[0] == 'S' || s.side[0] == 'E') && s.side[1] >= '1' &&
                            s.side[1] <= '4';
       if (!is_side) continue;
@@ -241,6 +285,7 @@ class InpReader {
         if (k >= n || n < 3) in_.fail_at(s.line, "an element has no side {}", s.side);
         std::vector<int> nodes = {v[k], v[(k + 1) % n]};
         if (v.size() == 8) nodes.push_back(v[4 + k]);
+        if (names_of.contains({nodes[1], nodes[0]})) nodes = {nodes[1], nodes[0]};  // of a neighbour
         std::vector<std::string>& names = names_of[nodes];
         if (std::find(names.begin(), names.end(), s.name) == names.end()) names.push_back(s.name);
       }
@@ -253,7 +298,7 @@ class InpReader {
     }
   }
 
-  std::vector<int> elements_named(const Surface& surface) const {
+  std::vector<int> elements_named(const InpSurface& surface) const {
     const auto set = sets_.find(surface.elements);
     if (set != sets_.end()) return set->second;
     long long number = 0;
@@ -273,7 +318,7 @@ class InpReader {
   std::map<long long, int> node_of_, element_of_;
   std::vector<InpElement> elements_;
   std::map<std::string, std::vector<int>> sets_;
-  std::vector<Surface> surfaces_;
+  std::vector<InpSurface> surfaces_;
 };
 
 }  // namespace

@@ -258,10 +258,12 @@ std::string advice(const PreparedProblem* prepared, const FailingElement& first,
     return fmt::format(": --ignore-below {:.3g} may help{}", below,
                        ignored < n ? fmt::format(" against {} of them", ignored) : "");
   constexpr double kAbove = 1.01;
-  const std::string other = first.cause == kAtGap ? ""
-                            : prepared->plane.curve_places.empty()
-                                ? "fewer points, or "
-                                : fmt::format("--ignore-below {:.3g}, or ", kAbove * first.what);
+  const PreparedPlane& plane = prepared->plane;
+  std::string other;
+  if (first.cause == kAtFineCurve && plane.curve_places.empty()) other = "fewer points, or ";
+  if (first.cause == kAtFineCurve && !plane.curve_places.empty() && !plane.ignores_small)
+    other =
+        fmt::format("--ignore-below {:.3g} (of a hole: more than it is around), or ", kAbove * first.what);
   return fmt::format(": {}a size of {:.3g} there would help", other, first.what);
 }
 

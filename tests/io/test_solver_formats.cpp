@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "io/mesh_io.h"
 #include "tests/support/grid_mesh.h"
 #include "tests/support/run_program.h"
@@ -111,6 +113,27 @@ TEST(AbaqusInp, NamesBecomeLabels) {
         "** region \"blech\" is blech_2\n", "** curve \"3 côtés\" is SET_3_c__t__s\n",
         "*SURFACE, NAME=SET_3_c__t__s, TYPE=NODE\n1\n2\n3\n4\n", "ELSET=_curve_1_E1\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
+}
+
+TEST(AbaqusInp, NumbersComeBack) {
+  const TemporaryFolder folder;
+  const auto numbers = [](const std::vector<Entity>& entities) {
+    std::set<int> all;
+    for (const Entity& entity : entities) {
+      all.insert(entity.tag);
+      for (const std::string& name : entity.names)
+        EXPECT_FALSE(name.starts_with("curve_") || name.starts_with("region_")) << name;
+    }
+    return all;
+  };
+  // Of plane elements surfaces have the sides, of shells sets.
+  for (const Mesh& mesh : {quad_grid(2, 2, 0.5, 0.5), bent()}) {
+    write_mesh(folder / "a.inp", mesh);
+    const Mesh read = read_mesh(folder / "a.inp");
+    EXPECT_EQ(read.lines.size(), mesh.lines.size());
+    EXPECT_EQ(numbers(read.curves), numbers(mesh.curves));
+    EXPECT_EQ(numbers(read.regions), numbers(mesh.regions));
+  }
 }
 
 TEST(AbaqusInp, AFaceThatLooksDownIsAShell) {

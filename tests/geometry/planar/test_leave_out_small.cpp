@@ -139,7 +139,7 @@ TEST(LeaveOutSmall, WhatTheCriteriaCallTooShort) {
   problem.model = stepped_plate();
   problem.size.field = make_constant_size(1);
   problem.surface.idealize = true;
-  expect_input_error([&] { mesh(problem, "DB"); }, {"the criteria have none"});
+  expect_input_error([&] { mesh(problem, "DB"); }, {"there are no criteria"});
   problem.criteria = read_criteria("batch");
   EXPECT_GT(shortest_edge(mesh(problem, "DBCO").mesh), 0.5);
 }
