@@ -232,7 +232,8 @@ TEST(OwnFiles, InpKeepsElementsSetsAndSurfaces) {
   const Mesh back = read_mesh(folder / "a.INP");
   EXPECT_EQ(back.quads, mesh.quads);
   EXPECT_EQ(back.quad_region, mesh.quad_region);
-  EXPECT_EQ(back.regions[0].names, (std::vector<std::string>{"all", "region_3", "steel__1_"}));
+  EXPECT_EQ(back.regions[0].tag, 3);
+  EXPECT_EQ(back.regions[0].names, (std::vector<std::string>{"all", "steel__1_"}));
   EXPECT_EQ(back.lines.size(), mesh.lines.size());
   EXPECT_EQ(back.curves.size(), 4u);
 }

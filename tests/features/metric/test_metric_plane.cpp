@@ -282,7 +282,7 @@ TEST(MetricPlane, RefusesWhatDoesNotGoWithIt) {
   expect_input_error([&] { mesh(other, "DB"); }, {"gradation 0.5", "above 1"});
   other = problem;
   other.metric.limits = {.min = 2, .max = 1};
-  expect_input_error([&] { mesh(other, "DB"); }, {"lengths from 2 to 1"});
+  expect_input_error([&] { mesh(other, "DB"); }, {"min 2 is above max 1"});
   other = problem;
   other.model = ExampleModel{"torus"};
   expect_input_error([&] { mesh(other, "DB"); }, {"of a surface"});
