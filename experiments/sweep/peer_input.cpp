@@ -79,8 +79,8 @@ void write_boundary(TextWriter& out, const Prepared& prepared) {
 /// The file of a surface as it is, or the example as a STEP file.
 fs::path surface_file(const PeerTask& task, const fs::path& folder) {
   const SurfaceSpec& s = task.c.surface;
-  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.ignore_below > 0 || s.idealize || s.fill_holes > 0 ||
-      s.glue || s.mirror || s.weld_tolerance || !s.unit.empty())
+  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.ignore_below > 0 || s.idealize ||
+      s.fill_holes > 0 || s.glue || s.mirror || s.weld_tolerance || !s.unit.empty())
     throw NotApplicable("'" + task.peer.name +
                         "' gets the model's file as it is, but the case changes its faces");
   const std::string example = example_of(task.c);

@@ -29,7 +29,8 @@ struct NarrowOptions {
 /// - of other shorter curves, both ends become one point, where the surface stays what it is by that, and no
 ///   point moves farther than `length`.
 /// Warnings name each of these with its place, the short curves that stay, and names that no face and no
-/// curve has any more; `before` is what the model was. Throws InputError for a length that is not below the model's diagonal.
+/// curve has any more; `before` is what the model was. Throws InputError for a length that is not below the
+/// model's diagonal.
 SurfaceModel ignore_small(SurfaceModel model, const NarrowOptions& narrow,
                           const CompoundOptions& options = {});
 
