@@ -10,10 +10,10 @@
 #include <utility>
 #include <variant>
 
-#include "base/predicates.h"
 #include "features/washers/hole_rows.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/planar/curve_pieces.h"
+#include "geometry/planar/encloses.h"
 #include "geometry/planar/model_chain.h"
 
 namespace delquad {
@@ -62,15 +62,6 @@ SampledLoop sample(const PlanarModel& model, const ModelChain& chain, std::vecto
   return loop;
 }
 
-bool encloses(const std::vector<Vec2>& loop, Vec2 x) {
-  bool inside = false;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vec2 a = loop[i], b = loop[(i + 1) % loop.size()];
-    if ((a.y <= x.y) != (b.y <= x.y) && (orient2d(a, b, x) > 0) == (b.y > a.y)) inside = !inside;
-  }
-  return inside;
-}
-
 std::vector<Vec3> in_space(const std::vector<Vec2>& points) {
   std::vector<Vec3> lifted;
   for (const Vec2& x : points) lifted.push_back({x.x, x.y, 0});
@@ -104,6 +95,7 @@ MeshProblem with_planar_washers(MeshProblem problem, const PointSize& size, std:
   }
   std::vector<HoleRoom::Wall> walls;
   for (std::size_t c = 0; c < model.curves.size(); ++c) {
+    if (model.curves[c].is_gone) continue;
     const std::vector<Vec3> points = in_space(sample(*model.curves[c].shape, true));
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
       walls.push_back({{points[i], points[i + 1]}, hole_of[c]});

@@ -9,8 +9,8 @@
 #include <queue>
 #include <tuple>
 
-#include "base/predicates.h"
 #include "base/text.h"
+#include "geometry/planar/encloses.h"
 #include "geometry/planar/model_chain.h"
 
 namespace delquad {
@@ -247,15 +247,6 @@ std::vector<Vec2> outline(const PlanarModel& model, const ModelLoop& loop) {
   return points;
 }
 
-bool encloses(const std::vector<Vec2>& loop, Vec2 x) {
-  bool inside = false;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vec2 a = loop[i], b = loop[(i + 1) % loop.size()];
-    if ((a.y <= x.y) != (b.y <= x.y) && (orient2d(a, b, x) > 0) == (b.y > a.y)) inside = !inside;
-  }
-  return inside;
-}
-
 void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<Warning>& warnings) {
   const std::size_t n = model.loops.size();
   std::vector<std::vector<Vec2>> outlines;
@@ -273,6 +264,17 @@ void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<War
     std::erase(all.names, "");
     return all;
   };
+  const auto tell = [&](std::size_t l) {
+    const double length = length_of(outlines[l]);
+    Vec2 at{};
+    for (const Vec2& x : outlines[l]) at = at + (1.0 / static_cast<double>(outlines[l].size())) * x;
+    warnings.push_back({"small holes that were closed", 1 / length,
+                        fmt::format("closed a hole of {:.3g} around at {}", length, show_point(at))});
+    for (const std::string& name : names_of(model.loops[l]).names)
+      warnings.push_back({"names that went with what is small", 1,
+                          fmt::format("'{}' went with the hole at {} (--keep, or surface.keep, keeps it)",
+                                      name, show_point(at))});
+  };
   std::vector<char> goes(n, 0);
   std::vector<int> host(n, -1);
   for (std::size_t l = 0; l < n; ++l) {
@@ -282,16 +284,13 @@ void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<War
       if (is_in(l, k) && !(length_of(outlines[k]) < small.hole)) host[l] = static_cast<int>(k);
     const bool alone = std::ranges::all_of(loop.curves, [&](int c) { return uses[c] == 1; });
     goes[l] = length < small.hole && host[l] >= 0 && alone && !small.keep.any_of(names_of(loop));
-    if (!goes[l]) continue;
-    Vec2 at{};
-    for (const Vec2& x : outlines[l]) at = at + (1.0 / static_cast<double>(outlines[l].size())) * x;
-    warnings.push_back({"small holes that were closed", 1 / length,
-                        fmt::format("closed a hole of {:.3g} around at {}", length, show_point(at))});
-    for (const std::string& name : names_of(loop).names)
-      warnings.push_back({"names that went with what is small", 1,
-                          fmt::format("'{}' went with the hole at {} (--keep, or surface.keep, keeps it)",
-                                      name, show_point(at))});
   }
+  // What holds something that stays, stays.
+  for (std::size_t l = 0; l < n; ++l)
+    for (std::size_t k = 0; k < n; ++k)
+      if (goes[l] && is_in(k, l) && small.keep.any_of(names_of(model.loops[k]))) goes[l] = 0;
+  for (std::size_t l = 0; l < n; ++l)
+    if (goes[l]) tell(l);
   std::vector<ModelLoop> kept;
   for (std::size_t l = 0; l < n; ++l) {
     std::optional<std::size_t> around;

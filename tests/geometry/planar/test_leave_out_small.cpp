@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "delquad/mesher.h"
 #include "tests/support/expect_input_error.h"
@@ -105,6 +106,34 @@ TEST(LeaveOutSmall, InclusionsTakeWhatLiesInThem) {
   ASSERT_EQ(mesh.regions.size(), 1U);
   EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"plate"});
   EXPECT_GT(shortest_edge(mesh), 0.4);
+}
+
+TEST(LeaveOutSmall, WhatHoldsSomethingThatStaysStays) {
+  PlanarModel model = segments({{0, 0}, {10, 0}, {10, 6}, {0, 6}});
+  add_hole(model, {3, 3}, 0.1);
+  model.loops.back().region = "stone";
+  add_hole(model, {3, 3}, 0.05, "core");
+  std::vector<Warning> warnings;
+  EXPECT_EQ(leave_out_small(model, {0, 1, {false, {"core"}}}, warnings).loops.size(), 3U);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(LeaveOutSmall, AHoleOfJoinedArcsGetsItsWashers) {
+  PlanarModel model = segments({{0, 0}, {20, 0}, {20, 20}, {0, 20}});
+  model.loops.push_back({{4, 5}, "", ""});
+  model.curves.push_back({make_arc({10, 10}, 3, 0, 6.2), "", ""});
+  model.curves.push_back({make_arc({10, 10}, 3, 6.2, 2 * 3.14159265358979324), "", ""});
+  MeshProblem problem;
+  problem.model = model;
+  problem.size.field = make_constant_size(1);
+  problem.surface.ignore_below = 0.3;
+  problem.washers.push_back({.least = 5, .most = 7, .rows = 1, .edges = 20});
+  const MeshResult result = mesh(problem, "DBCO");
+  const auto is_told = [](const Warning& w) { return w.text.find("rows") != std::string::npos; };
+  EXPECT_TRUE(std::ranges::none_of(result.warnings, is_told));
+  const auto on_ring = std::ranges::count_if(
+      result.mesh.points, [](const Vec3& x) { return std::abs(std::hypot(x.x - 10, x.y - 10) - 3) < 1e-9; });
+  EXPECT_EQ(on_ring, 20);
 }
 
 TEST(LeaveOutSmall, JunctionsAndNamesStay) {

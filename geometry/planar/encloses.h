@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/predicates.h"
+
+namespace delquad {
+
+/// Whether a point lies in a closed polygon, by exact predicates.
+inline bool encloses(const std::vector<Vec2>& loop, Vec2 x) {
+  bool inside = false;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2 a = loop[i], b = loop[(i + 1) % loop.size()];
+    if ((a.y <= x.y) != (b.y <= x.y) && (orient2d(a, b, x) > 0) == (b.y > a.y)) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace delquad
