@@ -60,6 +60,9 @@ void check_size(const SizeSpec& size) {
 
 void check_surface(const SurfaceSpec& surface, const std::string& where) {
   check_length(surface.ignore_below, "the length below which faces and curves are ignored", where);
+  if (surface.simplify && !(*surface.simplify >= 0 && std::isfinite(*surface.simplify)))
+    throw InputError(
+        fmt::format("{}: simplify {}: expected a number of sizes, at least 0", where, *surface.simplify));
   check_length(surface.fill_holes, "the diameter of holes that are closed", where);
   check_length(surface.merge_curves, "the length of curves that are merged", where);
   if (surface.feature_angle) checked_feature_angle(*surface.feature_angle, where);
@@ -168,6 +171,7 @@ void refuse_surface_options(const MeshProblem& problem, bool angle_may_be, const
   const bool has_outlines = std::holds_alternative<PlanarModel>(problem.model);
   add(s.ignore_below > 0 && !has_outlines, "ignore_below");
   add(s.idealize && !has_outlines, "idealize");
+  add(s.simplify && !has_outlines, "simplify");
   add(s.fill_holes > 0 && !has_outlines, "fill_holes");
   add(s.feature_angle && !angle_may_be, "feature_angle");
   add(s.weld_tolerance.has_value(), "weld_tolerance");

@@ -21,6 +21,7 @@
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "geometry/planar/leave_out_small.h"
+#include "geometry/planar/simplify_outlines.h"
 #include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
@@ -82,6 +83,31 @@ std::unique_ptr<ModelSteps> steps_of(const MeshProblem& problem, const Refinemen
   return is_planar ? planar_steps(problem, refinement) : surface_steps(problem, refinement);
 }
 
+/// As it is asked for, of a planar model, before its curves make it smaller.
+PointSize size_of(const MeshProblem& problem) {
+  std::vector<Warning> of_size;
+  return as_function(planar_base_size(problem.size, std::get<PlanarModel>(problem.model), of_size));
+}
+
+/// Of outlines of data, in sizes.
+constexpr double kSimplify = 0.1;
+
+bool is_to_be_simplified(const MeshProblem& problem) {
+  const auto* model = std::get_if<PlanarModel>(&problem.model);
+  if (model == nullptr || problem.metric.plane) return false;
+  return problem.surface.simplify ? *problem.surface.simplify > 0
+                                  : std::ranges::any_of(model->curves, &ModelCurve::is_data);
+}
+
+MeshProblem simplified(MeshProblem problem, std::vector<Warning>& told) {
+  const double part = problem.surface.simplify.value_or(kSimplify);
+  const PointSize tolerance = [part, size = size_of(problem)](const Vec3& x) { return part * size(x); };
+  problem.model = simplify_outlines(std::move(std::get<PlanarModel>(problem.model)), tolerance,
+                                    problem.surface.simplify.has_value(), told);
+  problem.surface.simplify = 0;
+  return problem;
+}
+
 /// The problem of a planar model without what is small in its outlines.
 MeshProblem without_small_outlines(MeshProblem problem, std::vector<Warning>& told) {
   PlanarModel& model = std::get<PlanarModel>(problem.model);
@@ -134,14 +160,11 @@ PreparedProblem prepare_problem(const MeshProblem& problem, const Refinement& re
   const SurfaceSpec& s = problem.surface;
   const bool has_small = s.ignore_below > 0 || s.idealize || s.fill_holes > 0;
   if (const auto* model = std::get_if<PlanarModel>(&problem.model);
-      model != nullptr && (has_small || !problem.washers.empty())) {
+      model != nullptr && (has_small || is_to_be_simplified(problem) || !problem.washers.empty())) {
     std::vector<Warning> told;
-    MeshProblem other = has_small ? without_small_outlines(problem, told) : problem;
-    if (!problem.washers.empty()) {
-      std::vector<Warning> of_size;
-      const PointSize size = as_function(planar_base_size(problem.size, *model, of_size));
-      other = with_planar_washers(std::move(other), size, told);
-    }
+    MeshProblem other = is_to_be_simplified(problem) ? simplified(problem, told) : problem;
+    if (has_small) other = without_small_outlines(std::move(other), told);
+    if (!problem.washers.empty()) other = with_planar_washers(std::move(other), size_of(problem), told);
     PreparedProblem prepared = prepare_problem(other, refinement);
     prepared.plane.ignores_small = has_small;
     prepared.warnings.insert(prepared.warnings.begin(), told.begin(), told.end());

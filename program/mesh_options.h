@@ -17,6 +17,7 @@ struct SurfaceArguments {
   std::string compound, unit;  ///< empty: as the model says
   std::optional<double> feature_angle, weld_tolerance;
   std::optional<double> ignore_below, fill_holes;  ///< lengths
+  std::optional<double> simplify;                  ///< sizes
   bool idealize = false;
   std::vector<std::string> keep;  ///< names
   bool glue = false;              ///< else as the model says

@@ -136,6 +136,13 @@ void define_curves(py::module_& m) {
       },
       arg("points"), arg("name") = "", "Every point gets a node.");
   m.def(
+      "spline",
+      [](const py::object& points, const std::string& name, double corner) {
+        return ModelCurve{make_spline(read_plane_points(points, "spline"), corner), name, ""};
+      },
+      arg("points"), arg("name") = "", arg("corner") = std::numbers::pi / 3,
+      "The cubic spline through the points, with corners where chords turn by more than an angle (radians).");
+  m.def(
       "arc",
       [](const py::object& centre, double radius, double angle0, double angle1, const std::string& name) {
         return ModelCurve{make_arc(read_vec2(centre, "the arc's centre"), radius, angle0, angle1), name, ""};

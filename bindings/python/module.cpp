@@ -412,6 +412,7 @@ void define_surface(py::class_<Problem>& c) {
       .def("unit", [](Problem& p, const std::string& name) { p.problem.surface.unit = name; })
       .def("glue", [](Problem& p, bool yes) { p.problem.surface.glue = yes; })
       .def("fill_holes", [](Problem& p, double diameter) { p.problem.surface.fill_holes = diameter; })
+      .def("simplify", [](Problem& p, double sizes) { p.problem.surface.simplify = sizes; })
       .def("ignore_below", [](Problem& p, double length) { p.problem.surface.ignore_below = length; })
       .def("idealize", [](Problem& p, bool yes) { p.problem.surface.idealize = yes; })
       .def("keep",

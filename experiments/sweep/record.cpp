@@ -117,6 +117,7 @@ Json surface_json(const SurfaceSpec& surface) {
                       {"normal", point_json(surface.mirror->normal)},
                       {"tolerance", surface.mirror->tolerance},
                       {"join", surface.mirror->join}};
+  if (surface.simplify) json["simplify"] = *surface.simplify;
   if (surface.fill_holes > 0) json["fill_holes"] = surface.fill_holes;
   if (!surface.embed.empty()) json["embed"] = embed_json(surface.embed);
   return json;

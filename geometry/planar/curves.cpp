@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "base/located.h"
@@ -28,12 +31,32 @@ void require_finite(Vec2 p, const std::string& what) {
     throw InputError(fmt::format("{} is ({}, {}); finite coordinates were expected", what, p.x, p.y));
 }
 
+void check_points(std::span<const Vec2> points, const char* what) {
+  if (points.size() < 2)
+    throw InputError(fmt::format("the {} has {} points; at least two were expected", what, points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    require_finite(points[i], fmt::format("point {} of the {}", i + 1, what));
+    if (i > 0 && points[i] == points[i - 1])
+      throw InputError(fmt::format("the {} has a zero-length segment: points {} and {} are both ({}, {})",
+                                   what, i, i + 1, points[i].x, points[i].y));
+  }
+}
+
+/// By which angle a line turns at b, radians, at least 0.
+double turn(Vec2 a, Vec2 b, Vec2 c) { return std::abs(std::atan2(cross(b - a, c - b), dot(b - a, c - b))); }
+
 class Polyline final : public Curve {
  public:
-  explicit Polyline(std::vector<Vec2> points) : points_(std::move(points)) {
-    // Equal parameter spans, not lengths: a tiny edge beside a huge one keeps a span of its own.
+  Polyline(std::vector<Vec2> points, double corner) : points_(std::move(points)) {
+    // Equal parameter spans, not lengths, where each point is a node: a tiny edge beside a huge one keeps a
+    // span of its own.
     const std::size_t n = points_.size() - 1;
-    for (std::size_t i = 0; i <= n; ++i) knots_.push_back(static_cast<double>(i) / static_cast<double>(n));
+    for (std::size_t i = 0; i < n; ++i)
+      knots_.push_back(knots_[i] + (corner < 0 ? 1 : norm(points_[i + 1] - points_[i])));
+    const double all = knots_[n];
+    for (double& t : knots_) t /= all;
+    for (std::size_t i = 1; i < n; ++i)
+      if (turn(points_[i - 1], points_[i], points_[i + 1]) > corner) fixed_.push_back(knots_[i]);
   }
 
   Vec2 point(double t) const override {
@@ -46,11 +69,87 @@ class Polyline final : public Curve {
     return s < 0.5 ? a + s * (b - a) : b + (1 - s) * (a - b);
   }
 
-  std::vector<double> fixed_parameters() const override { return {knots_.begin() + 1, knots_.end() - 1}; }
+  std::vector<double> fixed_parameters() const override { return fixed_; }
 
  private:
   std::vector<Vec2> points_;
-  std::vector<double> knots_;
+  std::vector<double> knots_{0}, fixed_;
+};
+
+/// Second derivatives by t at the knots of the cubic spline through these points: natural, or periodic.
+std::vector<Vec2> second_derivatives(std::span<const double> t, std::span<const Vec2> points,
+                                     bool is_periodic) {
+  const int n = static_cast<int>(points.size()) - 1;
+  const int unknowns = is_periodic ? n : n - 1, first = is_periodic ? 0 : 1;
+  std::vector<Vec2> second(points.size());
+  if (unknowns < 1) return second;
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::MatrixX2d jump = Eigen::MatrixX2d::Zero(unknowns, 2);
+  for (int i = 0; i < n; ++i) {  // each chord gives its share to the equations at both ends
+    const double h = t[i + 1] - t[i];
+    const Vec2 slope = (1 / h) * (points[i + 1] - points[i]);
+    const int at[2] = {i - first, is_periodic ? (i + 1) % n : i};
+    for (const int k : {0, 1}) {
+      if (at[k] < 0 || at[k] >= unknowns) continue;
+      entries.emplace_back(at[k], at[k], h / 3);
+      if (at[1 - k] >= 0 && at[1 - k] < unknowns) entries.emplace_back(at[k], at[1 - k], h / 6);
+      jump.row(at[k]) += (k == 0 ? 1 : -1) * Eigen::RowVector2d(slope.x, slope.y);
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::MatrixX2d solution = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(jump);
+  for (int i = 0; i < unknowns; ++i) second[i + first] = {solution(i, 0), solution(i, 1)};
+  if (is_periodic) second[n] = second[0];
+  return second;
+}
+
+class Spline final : public Curve {
+ public:
+  Spline(std::vector<Vec2> points, double corner) : points_(std::move(points)), t_{0} {
+    const std::size_t n = points_.size() - 1;
+    const bool is_closed = points_[0] == points_[n];
+    const auto turns = [&](std::size_t i) {  // at point i, which has neighbours on both sides
+      return turn(points_[(i + n - 1) % n], points_[i], points_[i + 1]) > corner;
+    };
+    if (is_closed && !turns(0)) {  // it begins at a corner, if it has one
+      std::size_t first = 1;
+      while (first < n && !turns(first)) ++first;
+      points_.pop_back();
+      std::ranges::rotate(points_, points_.begin() + static_cast<std::ptrdiff_t>(first % n));
+      points_.push_back(points_[0]);
+    }
+    for (std::size_t i = 0; i < n; ++i) t_.push_back(t_[i] + norm(points_[i + 1] - points_[i]));
+    const double length = t_[n];
+    for (double& t : t_) t /= length;
+    for (std::size_t from = 0, to = 1; from < n; from = to++) {
+      while (to < n && !turns(to)) ++to;
+      if (to < n) fixed_.push_back(t_[to]);
+      const std::size_t count = to - from + 1;
+      const std::vector<Vec2> second =
+          second_derivatives(std::span(t_).subspan(from, count), std::span(points_).subspan(from, count),
+                             is_closed && count == n + 1 && !turns(0));
+      for (std::size_t i = 0; i + 1 < count; ++i) second_.push_back({second[i], second[i + 1]});
+    }
+  }
+
+  Vec2 point(double t) const override {
+    const auto after = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
+    const std::size_t i = static_cast<std::size_t>(after - t_.begin()) - 1;
+    const double h = t_[i + 1] - t_[i], b = (t - t_[i]) / h, a = 1 - b;
+    if (b <= 0) return points_[i];
+    if (b >= 1) return points_[i + 1];
+    return a * points_[i] + b * points_[i + 1] +
+           (h * h / 6) * ((a * a * a - a) * second_[i][0] + (b * b * b - b) * second_[i][1]);
+  }
+
+  std::vector<double> fixed_parameters() const override { return fixed_; }
+
+ private:
+  std::vector<Vec2> points_;
+  std::vector<double> t_;                    ///< at each, by the length of chords
+  std::vector<std::array<Vec2, 2>> second_;  ///< derivatives at the ends of each chord
+  std::vector<double> fixed_;
 };
 
 class Arc final : public Curve {
@@ -90,20 +189,18 @@ std::shared_ptr<const Curve> make_segment(Vec2 a, Vec2 b) {
   require_finite(a, "the segment's start");
   require_finite(b, "the segment's end");
   if (a == b) throw InputError(fmt::format("the segment has no length: both ends are ({}, {})", a.x, a.y));
-  return std::make_shared<Polyline>(std::vector{a, b});
+  return std::make_shared<Polyline>(std::vector{a, b}, -1);
 }
 
-std::shared_ptr<const Curve> make_polyline(std::vector<Vec2> points) {
-  if (points.size() < 2)
-    throw InputError(fmt::format("the polyline has {} points; at least two were expected", points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    require_finite(points[i], fmt::format("point {} of the polyline", i + 1));
-    if (i > 0 && points[i] == points[i - 1])
-      throw InputError(
-          fmt::format("the polyline has a zero-length segment: points {} and {} are both ({}, {})", i, i + 1,
-                      points[i].x, points[i].y));
-  }
-  return std::make_shared<Polyline>(std::move(points));
+std::shared_ptr<const Curve> make_polyline(std::vector<Vec2> points, double corner) {
+  check_points(points, "polyline");
+  return std::make_shared<Polyline>(std::move(points), corner);
+}
+
+std::shared_ptr<const Curve> make_spline(std::vector<Vec2> points, double corner) {
+  check_points(points, "spline");
+  require_finite(corner, "the angle of the spline's corners");
+  return std::make_shared<Spline>(std::move(points), corner);
 }
 
 std::shared_ptr<const Curve> make_arc(Vec2 centre, double radius, double angle0, double angle1) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,8 +32,14 @@ class Curve {
 
 std::shared_ptr<const Curve> make_segment(Vec2 a, Vec2 b);
 
-/// At least two points, none equal to the one before; the last may equal the first. Every corner gets a node.
-std::shared_ptr<const Curve> make_polyline(std::vector<Vec2> points);
+/// At least two points, none equal to the one before; the last may equal the first. Every corner that turns
+/// by more than `corner` (radians) gets a node; below 0: every point.
+std::shared_ptr<const Curve> make_polyline(std::vector<Vec2> points, double corner = -1);
+
+/// The cubic spline through two points or more, none equal to the one before, twice differentiable by the
+/// length of chords; natural at its ends, periodic if the last point equals the first. Where chords turn by
+/// more than `corner` (radians) it has a corner, with a node, and ends there as at its ends.
+std::shared_ptr<const Curve> make_spline(std::vector<Vec2> points, double corner = std::numbers::pi / 3);
 
 /// From angle0 to angle1 (radians), counterclockwise when angle1 > angle0; at most one turn. A full turn, to
 /// rounding, ends at the very point where it began.
@@ -53,6 +60,7 @@ struct ModelCurve {
   std::string name;       ///< physical group of the boundary; may be empty
   std::string where;      ///< file and line (or entity) it was read from, for messages
   bool is_crack = false;  ///< its nodes are doubled, except where it ends inside: the mesh comes apart there
+  bool is_data = false;   ///< its points were measured: they need not all be nodes, see SurfaceSpec::simplify
   bool is_gone = false;   ///< it only keeps its number, and no loop has it
 };
 
@@ -279,8 +287,11 @@ struct SurfaceSpec {
   /// or a point; of planar models see leave_out_small(); 0: none.
   double ignore_below = 0;
   bool idealize = false;  ///< ignore_below is min_length of the criteria, where nothing else is said
-  std::vector<std::string> keep = {};    ///< what has these names is not left out
-  double fill_holes = 0;                 ///< holes and tubes not wider than this diameter are closed; 0: none
+  std::vector<std::string> keep = {};  ///< what has these names is not left out
+  double fill_holes = 0;               ///< holes and tubes not wider than this diameter are closed; 0: none
+  /// Planar polylines lose the points that lie so many sizes from what stays, at most, and have nodes at
+  /// sharp corners alone; 0: all are nodes. Absent: 0.1 of those of data, 0 of others.
+  std::optional<double> simplify;
   std::optional<double> feature_angle;   ///< degrees in (0, 180]; absent: 40
   std::optional<double> weld_tolerance;  ///< part of the diagonal in [0, 0.1]; absent: 1e-9
   std::optional<MirrorPlane> mirror;

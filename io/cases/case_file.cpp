@@ -305,7 +305,8 @@ void set_model(Model model, Case& target) {
 
 /// A file of lines, triangles or CAD as the case's model, if its extension says so.
 bool set_model_file(const std::filesystem::path& file, Case& target) {
-  if (kind_of_file(file) != ".msh" && !is_surface_file(file)) return false;
+  const std::string kind = kind_of_file(file);
+  if (kind != ".msh" && kind != ".geojson" && !is_surface_file(file)) return false;
   set_model(ModelFile{file}, target);
   return true;
 }
@@ -387,6 +388,7 @@ SurfaceSpec read_surface_spec(const TomlTable& table) {
   spec.idealize = table.flag("idealize", false);
   if (table.has("keep")) spec.keep = table.texts("keep");
   if (table.has("fill_holes")) spec.fill_holes = table.positive_number("fill_holes");
+  if (table.has("simplify")) spec.simplify = number_at_least(table, "simplify", 0, 0);
   if (table.has("merge_curves")) spec.merge_curves = table.positive_number("merge_curves");
   if (table.has("feature_angle"))
     spec.feature_angle = checked_feature_angle(table.number("feature_angle"), table.where("feature_angle"));
@@ -477,7 +479,8 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   if (set_model_file(file, result)) return result;
   if (kind_of_file(file) != ".toml")
     throw InputError(file.string() + ": unknown kind of model '" + file.extension().string() +
-                     "'; known: .toml (curves and loops), .msh (lines or triangles), " + surface_files());
+                     "'; known: .toml (curves and loops), .geojson (polygons), .msh (lines or triangles), " +
+                     surface_files());
   const TomlTable table = TomlTable::read(file);
   if (table.has("case"))
     refuse("{}: this is an experiment with cases of its own: run it with 'delquad run'", table.where("case"));

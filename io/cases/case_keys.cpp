@@ -52,6 +52,8 @@ std::string points(int least, const std::string& point = kPoint) {
   return fmt::format(R"({{"type": "array", "items": {}, "minItems": {}}})", point, least);
 }
 
+std::string points_or_file() { return fmt::format(R"({{"anyOf": [{}, {{"type": "string"}}]}})", points(2)); }
+
 std::string two_points() {
   return fmt::format(R"({{"type": "array", "items": {}, "minItems": 2, "maxItems": 2}})", kPoint);
 }
@@ -112,11 +114,13 @@ namespace {
 
 /// Those that begin, then the shapes.
 TomlKeys with_shapes(TomlKeys keys) {
-  for (const TomlKey& shape : TomlKeys{{"segment", "two points", two_points()},
-                                       {"polyline", "points, each of which gets a node", points(2)},
-                                       {"arc", "a part of a circle", "", arc_keys},
-                                       {"circle", "a circle", "", circle_keys},
-                                       {"expression", "formulas", "", expression_keys}})
+  for (const TomlKey& shape :
+       TomlKeys{{"segment", "two points", two_points()},
+                {"polyline", "points, each of which gets a node, or a file of them", points_or_file()},
+                {"spline", "points that a smooth curve goes through, or a file", points_or_file()},
+                {"arc", "a part of a circle", "", arc_keys},
+                {"circle", "a circle", "", circle_keys},
+                {"expression", "formulas", "", expression_keys}})
     keys.push_back(shape);
   return keys;
 }
@@ -166,6 +170,7 @@ TomlKeys surface_keys() {
           {"idealize", "whether ignore_below is min_length of the criteria", kFlag},
           {"keep", "names of faces and curves that are not left out", kTexts},
           {"fill_holes", "diameter: holes that are not wider are closed", kPositive},
+          {"simplify", "polylines, to so many sizes", at_least("number", 0)},
           {"glue", "whether bodies of CAD share what they touch at", kFlag},
           {"unit", "of lengths", one_of({"um", "mm", "cm", "m", "km", "in", "ft"})}};
 }

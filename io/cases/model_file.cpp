@@ -1,6 +1,8 @@
 #include "io/cases/model_file.h"
+
 #include "base/box.h"
 #include "delquad/fields.h"
+#include "io/cases/outline_files.h"
 
 #include <algorithm>
 #include <functional>
@@ -178,10 +180,15 @@ class ModelReader {
 
  private:
   static std::shared_ptr<const Curve> read_shape(const TomlTable& table) {
-    const std::string key = only_key(table, {"segment", "polyline", "arc", "circle", "expression"});
-    if (key == "segment" || key == "polyline") {
-      const std::vector<Vec2> points = table.points(key);
+    const std::string key = only_key(table, {"segment", "polyline", "spline", "arc", "circle", "expression"});
+    if (key == "segment" || key == "polyline" || key == "spline") {
+      const bool is_file = table.kind(key) == TomlKind::kText;
+      const std::vector<Vec2> points =
+          is_file ? located(table.where(key),
+                            [&] { return read_points(table.file().parent_path() / table.text(key)); })
+                  : table.points(key);
       if (key == "polyline") return make_polyline(points);
+      if (key == "spline") return make_spline(points);
       if (points.size() != 2) throw InputError("'segment' must be two points");
       return make_segment(points[0], points[1]);
     }

@@ -1,5 +1,7 @@
 #include "io/cases/read_problem.h"
 
+#include "io/cases/outline_files.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -181,6 +183,7 @@ Model read_model(const ModelFile& file, bool keep_going) {
     given.mesh = read_mesh(file.path, &given.notes);
     return given;
   }
+  if (kind == ".geojson") return read_geojson(file.path);
   if (kCadFiles.count(kind) > 0) return CadModel{file.path};
   if (kTriangleFiles.count(kind) == 0) return read_msh_model(file.path);
   TriangleModel triangles{{}, file.path.string()};

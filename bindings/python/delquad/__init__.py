@@ -31,6 +31,7 @@ from ._core import (
     loop,
     point,
     polyline,
+    spline,
     qualities,
     segment,
     triangles,

@@ -119,7 +119,7 @@ def _add_layer(problem, layer):
     problem.add_layer(*names, *(read(values[key]) for key, read in _LAYER.items()))
 
 
-def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, idealize, keep, fill_holes, mirror, glue, unit):
+def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, idealize, keep, fill_holes, simplify, mirror, glue, unit):
     if isinstance(compounds, str):
         problem.compounds_named(compounds)
     elif compounds is not None:
@@ -138,6 +138,8 @@ def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_b
         problem.keep([keep] if isinstance(keep, str) else list(keep))
     if fill_holes is not None:
         problem.fill_holes(fill_holes)
+    if simplify is not None:
+        problem.simplify(simplify)
     if mirror is not None:
         point, normal = mirror
         problem.mirror(point, normal)
@@ -219,6 +221,7 @@ def mesh(
     idealize=False,
     keep=(),
     fill_holes=None,
+    simplify=None,
     mirror=None,
     glue=False,
     unit=None,
@@ -242,7 +245,7 @@ def mesh(
     """Meshes a model and returns a Result.
 
     model: from polygons(), planar(), lines(), triangles(), cad(), example(); a Mesh, whose triangles and quads
-        or else lines count; or the path of a file: .step, .iges, .brep, .stl, .obj, .off, .ply, .3mf, .msh or .toml.
+        or else lines count; or the path of a file: .step, .iges, .brep, .stl, .obj, .off, .ply, .3mf, .geojson, .msh or .toml.
     size: edge length: a number, a function of points of shape (n, 3) that returns n numbers, a formula in x, y, z,
         "boundary" or a file of sizes ("error.vtu:h") as text, or (mesh, values at its points).
     metric: lengths by direction, in place of a size: a function of points of shape (n, 2) that returns
@@ -274,6 +277,7 @@ def mesh(
     ignore_below: a length; narrower faces become part of neighbours, shorter curves points.
     idealize: ignore_below is min_length of the criteria. keep: names that are not left out.
     fill_holes: a diameter; holes that are not wider are closed.
+    simplify: so many sizes; planar polylines lose points that lie nearer to what stays (0.1 if nothing is said, of GeoJSON).
     glue: bodies of a CAD model that touch share faces, curves and nodes there.
     unit: of lengths, of CAD and 3MF: "um", "mm" (as if nothing is said), "cm", "m", "km", "in" or "ft".
     embed: polylines of shape (n, 3) and single points (3,) on a surface, which become edges and nodes of the mesh;
@@ -335,7 +339,7 @@ def mesh(
     problem.size_limits(gradation, curvature, min_size, max_size)
     if cross is not None:
         _set_cross(problem, cross)
-    _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, idealize, keep, fill_holes, mirror, glue, unit)
+    _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, idealize, keep, fill_holes, simplify, mirror, glue, unit)
     _embed(problem, embed)
     if quality is not None:
         _core.check_quality(quality)

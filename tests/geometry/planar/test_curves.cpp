@@ -30,6 +30,42 @@ TEST(Curves, SegmentEndsExactly) {
   EXPECT_TRUE(curve->fixed_parameters().empty());
 }
 
+TEST(Curves, SplineIsACircleToFourthOrder) {
+  // Sixteen and 32 points of a circle: the error of a periodic cubic spline falls by 16 from the one to the
+  // other.
+  double off[2] = {};
+  for (const int k : {0, 1}) {
+    const int n = 16 << k;
+    std::vector<Vec2> points;
+    for (int i = 0; i <= n; ++i)
+      points.push_back({std::cos(2 * kPi * (i % n) / n), std::sin(2 * kPi * (i % n) / n)});
+    const auto curve = make_spline(points);
+    EXPECT_TRUE(curve->fixed_parameters().empty());
+    EXPECT_EQ(curve->point(0), points[0]);
+    EXPECT_EQ(curve->point(1), points[0]);
+    for (int i = 0; i < 1000; ++i) off[k] = std::max(off[k], std::abs(norm(curve->point(i / 1000.0)) - 1));
+  }
+  EXPECT_LT(off[0], 1e-3);
+  EXPECT_NEAR(off[0] / off[1], 16, 2);
+}
+
+TEST(Curves, SplineBreaksAtCorners) {
+  // A closed half disc that begins in the middle of its straight side: straight there, and smooth on the arc.
+  std::vector<Vec2> points{{0, 0}, {0.5, 0}, {1, 0}};
+  for (int i = 1; i < 12; ++i) points.push_back({std::cos(kPi * i / 12), std::sin(kPi * i / 12)});
+  for (const double x : {-1.0, -0.5, 0.0}) points.push_back({x, 0});
+  const auto curve = make_spline(points);
+  const std::vector<double> corners = curve->fixed_parameters();
+  ASSERT_EQ(corners.size(), 1u);
+  EXPECT_EQ(curve->point(0), (Vec2{1, 0}));
+  EXPECT_EQ(curve->point(1), (Vec2{1, 0}));
+  EXPECT_EQ(curve->point(corners[0]), (Vec2{-1, 0}));
+  for (int i = 0; i <= 100; ++i) {
+    EXPECT_EQ(curve->point(corners[0] + (1 - corners[0]) * i / 100).y, 0);
+    EXPECT_NEAR(norm(curve->point(corners[0] * i / 100)), 1, 4e-3);  // natural ends are flat
+  }
+}
+
 TEST(Curves, PolylineHasNodesAtItsCorners) {
   // Lengths from 1e-12 to 1: each edge keeps its own span of the parameter.
   const std::vector<Vec2> points{{0, 0},   {1, 0},   {1, 1e-12}, {1, 0.3},

@@ -1,0 +1,137 @@
+#include "geometry/planar/simplify_outlines.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polyline_simplification_2/simplify.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "base/text.h"
+#include "geometry/planar/model_chain.h"
+
+namespace delquad {
+namespace {
+
+namespace simplification = CGAL::Polyline_simplification_2;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_2;
+using Structure = CGAL::Triangulation_data_structure_2<simplification::Vertex_base_2<Kernel>,
+                                                       CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Triangulation = CGAL::Constrained_triangulation_plus_2<
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>>;
+
+/// Chords of a curve that is no polyline, which stays.
+constexpr int kChords = 256;
+
+/// The largest distance of points that went from the chord in their place, in tolerances, squared.
+struct RelativeDistance {
+  const PointSize& tolerance;
+  boost::optional<double> operator()(const Triangulation&,
+                                     Triangulation::Vertices_in_constraint_iterator at) const {
+    const Triangulation::Points_in_constraint_iterator from(boost::prior(at)), to(boost::next(at));
+    const Kernel::Segment_2 chord(*from, *to);
+    double most = 0;
+    for (auto p = boost::next(from); p != to; ++p) {
+      const double allowed = tolerance({p->x(), p->y(), 0});
+      most = std::max(most, CGAL::squared_distance(chord, *p) / (allowed * allowed));
+    }
+    return most;
+  }
+};
+
+/// Its corners and ends, if it is straight between them.
+std::optional<std::vector<Vec2>> polyline_of(const Curve& curve) {
+  std::vector<double> t = curve.fixed_parameters();
+  t.insert(t.begin(), 0);
+  t.push_back(1);
+  std::vector<Vec2> points{curve.point(0)};
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    const Vec2 a = points.back(), b = curve.point(t[i]);
+    for (const double s : {0.21, 0.5, 0.83}) {
+      const Vec2 x = curve.point(t[i - 1] + s * (t[i] - t[i - 1])) - a;
+      if (std::abs(cross(x, b - a)) > kJoinTolerance * dot(b - a, b - a)) return std::nullopt;
+    }
+    points.push_back(b);
+  }
+  return points;
+}
+
+class OutlineSimplifier {
+ public:
+  OutlineSimplifier(PlanarModel& model, const PointSize& tolerance, bool all, std::vector<Warning>& warnings)
+      : model_(model), tolerance_(tolerance), warnings_(warnings) {
+    for (std::size_t c = 0; c < model.curves.size(); ++c) {
+      const ModelCurve& curve = model.curves[c];
+      if (curve.is_gone) continue;
+      auto points = all || curve.is_data ? polyline_of(*curve.shape) : std::nullopt;
+      points ? add(static_cast<int>(c), *points) : add_that_stays(*curve.shape);
+    }
+  }
+
+  void run() {
+    simplification::simplify(triangulation_, RelativeDistance{tolerance_},
+                             simplification::Stop_above_cost_threshold(1), true);
+    for (const Outline& outline : outlines_) take(outline);
+  }
+
+ private:
+  struct Outline {
+    int curve;
+    std::size_t n_points;
+    Triangulation::Constraint_id constraint;
+  };
+
+  void add(int curve, const std::vector<Vec2>& points) {
+    std::vector<Point> corners;
+    for (const Vec2 p : points) corners.emplace_back(p.x, p.y);
+    outlines_.push_back(
+        {curve, points.size(), triangulation_.insert_constraint(corners.begin(), corners.end())});
+  }
+
+  void add_that_stays(const Curve& curve) {
+    std::vector<Point> points;
+    for (int k = 0; k <= kChords; ++k) {
+      const Vec2 p = curve.point(double(k) / kChords);
+      points.emplace_back(p.x, p.y);
+    }
+    const auto constraint = triangulation_.insert_constraint(points.begin(), points.end());
+    for (auto v = triangulation_.vertices_in_constraint_begin(constraint);
+         v != triangulation_.vertices_in_constraint_end(constraint); ++v)
+      (*v)->set_removable(false);
+  }
+
+  void take(const Outline& outline) {
+    std::vector<Vec2> points;
+    for (auto v = triangulation_.vertices_in_constraint_begin(outline.constraint);
+         v != triangulation_.vertices_in_constraint_end(outline.constraint); ++v)
+      points.push_back({(*v)->point().x(), (*v)->point().y()});
+    if (points.size() >= outline.n_points) return;
+    ModelCurve& curve = model_.curves[outline.curve];
+    curve.shape = make_polyline(points, kSimplifiedCorner);
+    warnings_.emplace_back("outlines of fewer points", static_cast<double>(outline.n_points),
+                           fmt::format("{}: {} of {} points stay", curve_label(model_, outline.curve),
+                                       points.size(), outline.n_points));
+  }
+
+  PlanarModel& model_;
+  const PointSize& tolerance_;
+  std::vector<Warning>& warnings_;
+  Triangulation triangulation_;
+  std::vector<Outline> outlines_;
+};
+
+}  // namespace
+
+PlanarModel simplify_outlines(PlanarModel model, const PointSize& tolerance, bool all,
+                              std::vector<Warning>& warnings) {
+  if (all || std::ranges::any_of(model.curves, &ModelCurve::is_data))
+    OutlineSimplifier(model, tolerance, all, warnings).run();
+  for (ModelCurve& curve : model.curves) curve.is_data = false;
+  return model;
+}
+
+}  // namespace delquad

@@ -1,0 +1,164 @@
+#include "io/cases/outline_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "base/located.h"
+#include "base/text.h"
+#include "delquad/error.h"
+#include "io/text_scanner.h"
+
+namespace delquad {
+namespace {
+
+using Json = nlohmann::json;
+
+class GeoJsonReader {
+ public:
+  explicit GeoJsonReader(const std::filesystem::path& path) : path_(path.string()) {
+    Json root;
+    try {
+      root = Json::parse(read_whole_file(path));
+    } catch (const Json::parse_error& error) {
+      refuse("{}: no GeoJSON: {}", path_, error.what());
+    }
+    model_.source = path_;
+    try {
+      read(root, path_, "");
+      if (model_.loops.empty()) refuse("{}: there are no polygons", path_);
+      check_unit(root);
+    } catch (const Json::exception& error) {
+      refuse("{}: {}", where_, error.what());
+    }
+  }
+
+  PlanarModel model() { return std::move(model_); }
+
+ private:
+  void read(const Json& object, const std::string& where, const std::string& name) {
+    where_ = where;
+    if (!object.is_object() || !object.contains("type")) refuse("{}: expected an object with a type", where);
+    const std::string type = object.at("type");
+    int n = 0;
+    if (type == "FeatureCollection") {
+      for (const Json& feature : object.at("features"))
+        read(feature, fmt::format("{}: feature {}", where, ++n), "");
+    } else if (type == "GeometryCollection") {
+      for (const Json& geometry : object.at("geometries")) read(geometry, where, name);
+    } else if (type == "Feature") {
+      const std::string of_feature = name_of(object);
+      if (!object.at("geometry").is_null())
+        read(object["geometry"], of_feature.empty() ? where : where + " ('" + of_feature + "')", of_feature);
+    } else if (type == "Polygon") {
+      add_polygon(object.at("coordinates"), where, name);
+    } else if (type == "MultiPolygon") {
+      for (const Json& polygon : object.at("coordinates"))
+        add_polygon(polygon, fmt::format("{}, polygon {}", where, ++n), name);
+    } else if (type == "LineString") {
+      add_curve(object.at("coordinates"), where, name);
+    } else if (type == "MultiLineString") {
+      for (const Json& line : object.at("coordinates"))
+        add_curve(line, fmt::format("{}, line {}", where, ++n), name);
+    } else if (type == "Point") {
+      model_.points.push_back({point(object.at("coordinates"), where), name, where});
+    } else {
+      refuse("{}: the type '{}' is not known: expected polygons, lines and points", where, type);
+    }
+  }
+
+  static std::string name_of(const Json& feature) {
+    if (const auto properties = feature.find("properties");
+        properties != feature.end() && properties->is_object())
+      for (const char* key : {"name", "NAME", "id"})
+        if (const auto name = properties->find(key); name != properties->end() && !name->is_null())
+          return name->is_string() ? name->get<std::string>() : name->dump();
+    return "";
+  }
+
+  Vec2 point(const Json& xy, const std::string& where) {
+    where_ = where;
+    const Vec2 p{xy.at(0), xy.at(1)};
+    are_degrees_ = are_degrees_ && std::abs(p.x) <= 180 && std::abs(p.y) <= 90;
+    return p;
+  }
+
+  int add_curve(const Json& line, const std::string& where, const std::string& name) {
+    std::vector<Vec2> points;
+    for (const Json& xy : line) {
+      const Vec2 p = point(xy, where);
+      if (points.empty() || p != points.back()) points.push_back(p);  // twice the same: common in such files
+    }
+    model_.curves.push_back({located(where, [&] { return make_polyline(points); }), name, where});
+    model_.curves.back().is_data = true;
+    return static_cast<int>(model_.curves.size()) - 1;
+  }
+
+  void add_polygon(const Json& rings, const std::string& where, const std::string& name) {
+    int n = 0;
+    for (const Json& ring : rings) {
+      const bool is_hole = n++ > 0;
+      const std::string place = rings.size() == 1 ? where : fmt::format("{}, ring {}", where, n);
+      if (ring.size() < 4 || ring.front() != ring.back())
+        refuse("{}: a ring has four points or more, and the last is the first", place);
+      const int curve =
+          add_curve(ring, place, is_hole && !name.empty() ? fmt::format("{}_hole_{}", name, n) : name);
+      model_.loops.push_back({{curve}, is_hole ? "" : name, place, is_hole});
+    }
+  }
+
+  void check_unit(const Json& root) const {
+    std::string crs;
+    if (const auto at = root.find("crs"); at != root.end() && at->is_object())
+      crs = at->at("properties").at("name");
+    if (crs.ends_with("CRS84") || crs.ends_with(":4326") || (crs.empty() && are_degrees_))
+      refuse(
+          "{}: the coordinates are degrees of longitude and latitude: expected lengths, such as 'ogr2ogr "
+          "-t_srs "
+          "EPSG:CODE' makes of them; if they are lengths, say so by a \"crs\" of any other name",
+          path_);
+  }
+
+  std::string path_, where_;
+  PlanarModel model_;
+  bool are_degrees_ = true;
+};
+
+}  // namespace
+
+PlanarModel read_geojson(const std::filesystem::path& path) { return GeoJsonReader(path).model(); }
+
+std::vector<Vec2> read_points(const std::filesystem::path& path) {
+  TextScanner in(path);
+  const std::string_view text = in.text();
+  const std::string_view first = text.substr(0, text.find('\n'));
+  if (first.find_first_of("ABCDFGHIJKLMNOPQRSTUVWXYZabcdfghijklmnopqrstuvwxyz#") != std::string_view::npos)
+    in.rest_of_line();  // a name
+  std::vector<Vec2> points;
+  while (!in.at_end()) {
+    if (in.next_is('#')) {
+      in.rest_of_line();
+      continue;
+    }
+    const double x = in.real("x"), y = in.real("y");
+    if (!in.at_end_of_line() && !in.next_is('#')) in.fail("more than two coordinates on a line");
+    points.push_back({x, y});
+  }
+  // Two counts, then both sides from the nose: round the profile from the trailing edge of the upper one.
+  if (points.size() > 4 && points[0].x >= 2 && points[0].y >= 2 &&
+      points[0].x + points[0].y == static_cast<double>(points.size() - 1)) {
+    const auto n = static_cast<std::ptrdiff_t>(points[0].x);
+    points.erase(points.begin());
+    std::reverse(points.begin(), points.begin() + n);
+    if (points[n - 1] == points[n]) points.erase(points.begin() + n);
+  }
+  if (points.size() < 2) refuse("{}: expected two points or more", path.string());
+  return points;
+}
+
+}  // namespace delquad
