@@ -35,6 +35,8 @@ constexpr double kChordSag = 0.02;
 constexpr double kMostSagitta = 0.2;
 /// Directions mean something where lengths differ by this factor.
 constexpr double kStretched = 2;
+/// Lengths that differ by less, as a logarithm, are a size without directions.
+constexpr double kIsotropic = 1e-9;
 constexpr int kMostRounds = 200, kGradationSweeps = 200;
 constexpr double kMorePoints = 1.2;
 /// The growth of lengths away from bends, where none is asked for.
@@ -85,7 +87,8 @@ class MetricMesher {
     }
     flip_all(editor);
     editor.finish();
-    MetricMesh made{std::move(model_.fine), std::move(metric_), {}, complexity_};
+    const bool is_isotropic = has_no_directions();
+    MetricMesh made{std::move(model_.fine), std::move(metric_), {}, complexity_, scale_, is_isotropic};
     for (const auto& [a, b] : made.fine.lines) made.segments.push_back(segments_.at(key_of(a, b)));
     return made;
   }
@@ -181,6 +184,12 @@ class MetricMesher {
                       spec_.where, asked, max_elements_));
   }
   Tensor2 within_limits(const Tensor2& m) const { return limited(times(scale_, m), limits_); }
+  bool has_no_directions() const {
+    return std::ranges::all_of(given_, [&](const Tensor2& m) {
+      const MetricAxes axes = axes_of(within_limits(m));
+      return std::log(axes.h2 / axes.h1) < kIsotropic;
+    });
+  }
   bool is_at_complexity() const {
     return !(spec_.complexity > 0) || std::abs(complexity_ / spec_.complexity - 1) < kNearComplexity;
   }

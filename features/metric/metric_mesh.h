@@ -21,6 +21,8 @@ struct MetricMesh {
   std::vector<Tensor2> metric;         ///< at each point, within its limits
   std::vector<CurveSegment> segments;  ///< of all curves
   double complexity = 0;
+  double scale = 1;           ///< of the tensors that were given, for the complexity
+  bool is_isotropic = false;  ///< whether these have no directions, within their limits
 };
 
 /// `domain`: with its curves as coarse as they may be; its nodes come first, in their order. Throws

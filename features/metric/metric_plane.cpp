@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/located.h"
 #include "base/parallel.h"
 #include "base/segment.h"
 #include "base/text.h"
@@ -27,8 +28,6 @@ namespace {
 
 /// Edges of curves before they are resolved, in diagonals of the domain.
 constexpr double kCoarseEdge = 1.0 / 100;
-/// Lengths that differ by less, as a logarithm, are a size without directions.
-constexpr double kIsotropic = 1e-9;
 /// Maps with a larger FlatQuality::sigma_95 are told of.
 constexpr double kPoorSigma = 1.3;
 /// Between the parts of a domain that are laid flat each by itself, in their widths.
@@ -354,11 +353,20 @@ class CurveSamples {
   std::vector<int> curve_;  ///< of the mesh, of each piece; -1: none
 };
 
-bool has_no_directions(const std::vector<Tensor2>& metric) {
-  return std::ranges::all_of(metric, [](const Tensor2& m) {
-    const MetricAxes axes = axes_of(m);
-    return std::log(axes.h2 / axes.h1) < kIsotropic;
+/// The problem by the size that a metric without directions is.
+MeshProblem by_its_size(MeshProblem problem, double scale) {
+  const MetricSpec spec = std::exchange(problem.metric, {});
+  if (problem.cross.kind == CrossKind::kMetric) problem.cross.kind = CrossKind::kSizeAware;
+  problem.size.field = size_by([spec, scale](const Vec3& x, int&) {
+    Tensor2 m;
+    const Vec2 at{x.x, x.y};
+    located(spec.where, [&] { spec.function({&at, 1}, {&m, 1}); });
+    return 1 / std::sqrt(limited(times(scale, m), spec.limits).xx);
   });
+  problem.size.where = spec.where;
+  // 1 + l log(gradation) by the length l in the metric is that slope.
+  if (spec.gradation > 1) problem.size.gradation = std::log(spec.gradation);
+  return problem;
 }
 
 Vec2 by_weights(const TriPatch& from, int triangle, Vec2 at, const TriPatch& to) {
@@ -436,23 +444,7 @@ MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings)
   const PlanarDomain domain = make_domain(model, [edge](const Vec3&) { return edge; });
   const MetricMesh made =
       resolve_metric(domain, problem.metric.function, problem.metric, problem.max_elements);
-  if (has_no_directions(made.metric)) {
-    // Without limits the very size that was given.
-    const MetricSpec& spec = problem.metric;
-    const bool is_as_given =
-        spec.complexity == 0 && spec.gradation == 0 && spec.limits.min == 0 && spec.limits.max == 0;
-    if (is_as_given) {
-      if (problem.cross.kind == CrossKind::kMetric) problem.cross.kind = CrossKind::kSizeAware;
-      problem.size.field = size_by([f = spec.function](const Vec3& x, int&) {
-        Tensor2 m;
-        const Vec2 at{x.x, x.y};
-        f({&at, 1}, {&m, 1});
-        return 1 / std::sqrt(m.xx);
-      });
-      problem.metric = {};
-      return problem;
-    }
-  }
+  if (made.is_isotropic) return by_its_size(std::move(problem), made.scale);
   auto [plane, vertex] = lay_flat(made, domain, problem);
   PlanarModel flat = model;
   const CurveSamples samples(model, made, domain);
