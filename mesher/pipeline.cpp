@@ -197,6 +197,14 @@ Mesh put_together(Finishing& on) {
 
 namespace {
 
+/// Brings what was made in the flat plane of a metric to the domain's own.
+void to_plane(const PreparedProblem& prepared, SurfaceNodes& nodes, Mesh& mesh) {
+  Mesh curves = prepared.boundary;
+  curves.points = std::move(nodes.points);
+  for (Mesh* flat : {&curves, &mesh}) to_plane(*prepared.metric_plane, *flat);
+  nodes.points = std::move(curves.points);
+}
+
 /// Tells how far nodes lie from a model as it was read, where what is small in it went.
 void tell_farthest_node(const PreparedProblem& prepared, MeshResult& result) {
   if (!prepared.surface || !prepared.surface->model.before || !has_finite_points(result.mesh)) return;
@@ -223,8 +231,8 @@ MeshResult finish_meshing(const PreparedProblem& prepared, const std::string& la
   result.log = std::move(state.log);
   result.mesh = put_together(on);
   state.patches.clear();
+  if (prepared.metric_plane) to_plane(prepared, state.nodes, result.mesh);
   run_finish_steps(FinishAt::kMesh, on);
-  if (prepared.metric_plane) to_plane(*prepared.metric_plane, result.mesh);
   result.seconds = state.seconds + watch.seconds();
   measure(prepared, on.left_out, result);
   run_finish_steps(FinishAt::kMeasured, on);

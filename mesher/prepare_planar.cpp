@@ -160,10 +160,12 @@ class PlanarSteps final : public ModelSteps {
     if (const auto* model = std::get_if<PlanarModel>(&problem_.model))
       warn_of_coarse_turns(*model, domain_, p.warnings);
     given_cross_ = given_cross(problem_.cross, domain_.boundary, p);
+    auto shapes = domain_.curve_shapes;
     if (problem_.seed != 0) turn(problem_, domain_, given_, p);
     p.boundary = std::move(domain_.boundary);
     p.plane.curve_places = std::move(domain_.places);
-    p.plane.curve_shapes = std::move(domain_.curve_shapes);
+    p.plane.curve_shapes =
+        p.metric_plane ? true_curves(*p.metric_plane, std::move(shapes)) : std::move(domain_.curve_shapes);
   }
 
   void make_patches(PreparedProblem& p) override {

@@ -234,6 +234,13 @@ std::vector<double> allowed_by(const std::vector<CurveCorner>& corners, std::siz
   return allowed;
 }
 
+/// A metric wants sharp corners: no more than those of the straight quads have.
+void allow_as_straight(const Mesh& straight, std::vector<double>& allowed) {
+  const std::vector<JacobianBounds> bounds = jacobian_bounds(straight);
+  for (std::size_t q = 0; q < allowed.size(); ++q)
+    allowed[q] = std::min(allowed[q], std::max(0.0, bounds[q].proven));
+}
+
 /// Vertices that no untangling moves: of layers, and of grids that were asked for.
 std::vector<int> held_vertices(const PreparedProblem& prepared, const Mesh& mesh) {
   std::vector<char> is_grid(prepared.boundary.regions.size(), 0);
@@ -260,7 +267,7 @@ std::string show_element(const Mesh& mesh, std::size_t q) {
 
 /// Counts elements with little, and tells of those that are positive.
 void count_low(const std::vector<JacobianBounds>& bounds, const std::vector<double>& allowed,
-               const Mesh& mesh, const std::string& name, CurvingSummary& summary,
+               const Mesh& mesh, const PreparedProblem& prepared, CurvingSummary& summary,
                std::vector<Warning>& warnings) {
   std::vector<std::pair<double, std::size_t>> low[2];  // elsewhere, in corners
   for (std::size_t q = 0; q < bounds.size(); ++q) {
@@ -275,7 +282,7 @@ void count_low(const std::vector<JacobianBounds>& bounds, const std::vector<doub
   }
   for (const bool in_corner : {false, true}) {
     auto& these = low[in_corner];
-    if (these.empty()) continue;
+    if (these.empty() || (in_corner && prepared.has_metric())) continue;
     std::ranges::sort(these);
     constexpr std::size_t kShown = 3;
     std::string text;
@@ -283,7 +290,8 @@ void count_low(const std::vector<JacobianBounds>& bounds, const std::vector<doub
       text += fmt::format("{}{:.2g} at {}", i > 0 ? ", " : "", these[i].first,
                           show_element(mesh, these[i].second));
     warnings.push_back(fmt::format(
-        "{}: {} curved element(s) with a scaled Jacobian below {} {}: {}{}", name, these.size(), kLowJacobian,
+        "{}: {} curved element(s) with a scaled Jacobian below {} {}: {}{}", prepared.settings.name,
+        these.size(), kLowJacobian,
         in_corner ? "lie in corners of the model that allow no more" : "that no corner of the model explains",
         text, these.size() > kShown ? ", ..." : ""));
   }
@@ -329,7 +337,8 @@ bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh
   std::vector<JacobianBounds> bounds = jacobian_bounds(mesh);
   const std::vector<CurveCorner> corners = curve_corners(straight, *geometry);
   open_cusps(mesh, *geometry, corners, bounds);
-  const UntanglingLimits limits{allowed_by(corners, mesh.quads.size()), held_vertices(prepared, straight)};
+  UntanglingLimits limits{allowed_by(corners, mesh.quads.size()), held_vertices(prepared, straight)};
+  if (prepared.has_metric()) allow_as_straight(straight, limits.allowed);
   const UntanglingSummary untangled = untangle_curved(mesh, *geometry, limits, bounds);
   summary.poor = untangled.poor;
   summary.improved = untangled.improved;
@@ -337,7 +346,7 @@ bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh
   summary.unproven = proven.unproven;
   summary.least_jacobian = proven.least;
   summary.mean_jacobian = proven.mean;
-  count_low(bounds, limits.allowed, mesh, prepared.settings.name, summary, warnings);
+  count_low(bounds, limits.allowed, mesh, prepared, summary, warnings);
   summary.distance = distance_to_model(mesh, *geometry);
   tell_unproven(mesh, bounds, soundness);
   return untangled.moved_vertices;

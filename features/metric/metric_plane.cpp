@@ -98,7 +98,6 @@ void check_metric(const MeshProblem& problem) {
   if (!problem.periodic.empty()) refuse("periodic sides do", problem.periodic[0].where);
   if (problem.symmetry.automatic || !problem.symmetry.planes.empty())
     refuse("planes of symmetry do", problem.symmetry.where);
-  if (problem.order > 1) refuse("elements of order 2 and more do", problem.where);
   if (!problem.criteria.empty()) refuse("criteria do", problem.criteria.where);
   const SizeSpec& size = problem.size;
   if (size.field || size.function || size.from_boundary || !size.sources.empty() || !size.named.empty() ||
@@ -279,6 +278,7 @@ std::pair<MetricPlane, std::vector<int>> lay_flat(const MetricMesh& made, const 
                      std::move(segments),
                      BoxTree<Vec2>(boxes),
                      {},
+                     {},
                      worst};
   return {std::move(result), std::move(vertex)};
 }
@@ -448,9 +448,12 @@ MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings)
   auto [plane, vertex] = lay_flat(made, domain, problem);
   PlanarModel flat = model;
   const CurveSamples samples(model, made, domain);
-  for (int c = 0; c < std::ssize(flat.curves); ++c)
+  for (int c = 0; c < std::ssize(flat.curves); ++c) {
+    const std::shared_ptr<const Curve>& shape = model.curves[c].shape;
     flat.curves[c].shape =
-        std::make_shared<FlatCurve>(samples.of(c, plane, vertex), model.curves[c].shape->fixed_parameters());
+        std::make_shared<FlatCurve>(samples.of(c, plane, vertex), shape->fixed_parameters());
+    plane.true_curve[flat.curves[c].shape.get()] = shape;
+  }
   int hint = -1;
   for (ModelPoint& point : flat.points) point.at = plane.to_flat(point.at, hint);
   if (problem.seed != 0) plane.turn = Rotation::by_seed(problem.seed);
@@ -470,6 +473,15 @@ MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings)
                     "changes faster than it is sampled",
                     problem.metric.where, quality.sigma_95));
   return problem;
+}
+
+std::vector<std::vector<std::shared_ptr<const Curve>>> true_curves(
+    const MetricPlane& plane, std::vector<std::vector<std::shared_ptr<const Curve>>> flat) {
+  for (auto& shapes : flat) {
+    std::erase_if(shapes, [&](const auto& shape) { return !plane.true_curve.contains(shape.get()); });
+    for (auto& shape : shapes) shape = plane.true_curve.at(shape.get());
+  }
+  return flat;
 }
 
 void to_plane(const MetricPlane& plane, Mesh& mesh) {

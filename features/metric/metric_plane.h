@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,10 +31,11 @@ struct MetricPlane {
     std::array<double, 2> t;
     std::array<Vec2, 2> flat;
   };
-  std::vector<Segment> segments;  ///< of all curves
-  BoxTree<Vec2> segment_tree;     ///< of their flat images
-  Rotation turn;                  ///< of what is meshed, against `flat`
-  FlatQuality quality;            ///< of the worst part
+  std::vector<Segment> segments;                                    ///< of all curves
+  BoxTree<Vec2> segment_tree;                                       ///< of their flat images
+  Rotation turn;                                                    ///< of what is meshed, against `flat`
+  std::map<const Curve*, std::shared_ptr<const Curve>> true_curve;  ///< of each of the flat model
+  FlatQuality quality;                                              ///< of the worst part
 
   /// The place of the domain that lies at a place of the turned flat one, which may be a little outside.
   Vec2 to_plane(Vec2 u, int& hint) const;
@@ -60,6 +62,10 @@ void check_metric(const MeshProblem& problem);
 
 /// The pull to an axis of a metric that has this direction in a flat plane.
 CrossPull pull_to(Vec2 along, const MetricAxes& axes);
+
+/// The true curves of those of the flat model; what was made of several of these has none.
+std::vector<std::vector<std::shared_ptr<const Curve>>> true_curves(
+    const MetricPlane& plane, std::vector<std::vector<std::shared_ptr<const Curve>>> flat);
 
 /// Brings a mesh of the flat plane to the domain's own, its nodes on lines to the true curves.
 void to_plane(const MetricPlane& plane, Mesh& mesh);
