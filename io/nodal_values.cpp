@@ -57,7 +57,7 @@ NodalValues read_msh_view(const std::filesystem::path& path, const std::string& 
   const std::vector<msh::View> views = std::move(contents.views);
   std::vector<FieldInFile> fields;
   for (const msh::View& view : views) fields.push_back({view.name, view.is_of_nodes, view.n_components});
-  const msh::View& view = views[choose_field(fields, name, path.string(), n_components)];
+  const msh::View& view = views[choose_field(fields, name, path.string(), std::array{n_components})];
   msh::MeshTags tags;
   NodalValues result{msh::to_mesh(std::move(contents), scanner, &tags), {}};
   result.values.resize(which.size() * result.mesh.points.size());
@@ -72,42 +72,61 @@ NodalValues read_msh_view(const std::filesystem::path& path, const std::string& 
   return result;
 }
 
-/// A solution file of Medit, as Mmg and BAMG write metrics, of the mesh with the same name. `width`: numbers
-/// at each point: 1, or 6 of a tensor (m11, m12, m13, m22, m23, m33; m11, m12, m22 in the plane's file).
-NodalValues read_sol(const std::filesystem::path& path, std::size_t width) {
-  const std::filesystem::path mesh_file = std::filesystem::path(path).replace_extension(".mesh");
-  if (!std::filesystem::exists(mesh_file))
-    refuse("{}: its mesh is missing: expected '{}'", path.string(), mesh_file.string());
-  NodalValues result{read_mesh(mesh_file), {}};
+void check_number(TextScanner& in, std::size_t n_points) {
+  const long long n = in.count("the number of values");
+  if (n != static_cast<long long>(n_points))
+    in.fail("values of {} points: expected {}, as its mesh has", n, n_points);
+}
+
+/// Goes to the values of a solution file of Medit and returns how many numbers there are for each of them.
+std::size_t find_solution(TextScanner& in, std::size_t width, std::size_t n_points) {
   constexpr int kTensor = 3;
-  TextScanner in(path);
   long long dimension = 0;
   while (!in.at_end()) {
     const std::string keyword(in.token("a keyword"));
     if (keyword == "MeshVersionFormatted") in.integer("the version", 1, 4);
     if (keyword == "Dimension") dimension = in.integer("the dimension", 2, 3);
     if (keyword != "SolAtVertices") continue;
-    const long long n = in.count("the number of values");
-    if (n != std::ssize(result.mesh.points))
-      in.fail("values of {} points: expected {}, as '{}' has", n, result.mesh.points.size(),
-              mesh_file.string());
+    check_number(in, n_points);
     const long long n_fields = in.integer("the number of solutions", 1, 100);
     const long long kind = in.integer("the type of a solution", 1, kTensor);
     if (n_fields != 1 || kind != (width == 1 ? 1 : kTensor))
       in.fail("{} solution(s), the first of type {}: expected one of type {}", n_fields, kind,
               width == 1 ? 1 : kTensor);
-    const std::size_t given = width == 1 ? 1 : dimension == 3 ? 6 : 3;
-    for (long long i = 0; i < n; ++i) {
-      std::array<double, 6> value{};
-      for (std::size_t k = 0; k < given; ++k) value[k] = in.real("a value", Strays::kKept);
-      if (given == 3) value = {value[0], value[1], 0, value[2], 0, 1};
-      // Medit has m11, m12, m22, m13, m23 and m33.
-      if (given == 6) std::swap(value[2], value[3]);
-      result.values.insert(result.values.end(), value.begin(), value.begin() + static_cast<long>(width));
-    }
-    return result;
+    return width == 1 ? 1 : dimension == 3 ? 6 : 3;
   }
   in.fail("no SolAtVertices");
+}
+
+/// The same of a metric of BAMG, which begins with them.
+std::size_t find_bamg_metric(TextScanner& in, std::size_t width, std::size_t n_points) {
+  check_number(in, n_points);
+  const std::size_t wanted = width == 1 ? 1 : 3;
+  const long long n = in.integer("how many numbers a point has", 1, 3);
+  if (n != static_cast<long long>(wanted)) in.fail("{} numbers at each point: expected {}", n, wanted);
+  return wanted;
+}
+
+/// A file of values alone, of the mesh with the same name. `width`: numbers at each point: 1, or 6 of a
+/// tensor (m11, m12, m13, m22, m23, m33; m11, m12, m22 in the plane's files).
+NodalValues read_beside_mesh(const std::filesystem::path& path, std::size_t width) {
+  std::filesystem::path mesh_file = path;
+  if (!std::filesystem::exists(mesh_file.replace_extension(".mesh")))
+    refuse("{}: its mesh is missing: expected '{}'", path.string(), mesh_file.string());
+  NodalValues result{read_mesh(mesh_file), {}};
+  TextScanner in(path);
+  const std::size_t n_points = result.mesh.points.size();
+  const std::size_t given =
+      (kind_of_file(path) == ".sol" ? find_solution : find_bamg_metric)(in, width, n_points);
+  for (std::size_t i = 0; i < n_points; ++i) {
+    std::array<double, 6> value{};
+    for (std::size_t k = 0; k < given; ++k) value[k] = in.real("a value", Strays::kKept);
+    if (given == 3) value = {value[0], value[1], 0, value[2], 0, 1};
+    // Medit has m11, m12, m22, m13, m23 and m33.
+    if (given == 6) std::swap(value[2], value[3]);
+    result.values.insert(result.values.end(), value.begin(), value.begin() + static_cast<long>(width));
+  }
+  return result;
 }
 
 /// Lines' own points, which a field on faces says nothing of, go.
@@ -133,7 +152,7 @@ void require_values(NodalValues& field, const std::string& file) {
 }  // namespace
 
 std::size_t choose_field(const std::vector<FieldInFile>& fields, const std::string& name,
-                         const std::string& file, int n_components) {
+                         const std::string& file, std::span<const int> n_components) {
   std::set<std::string> names;
   for (const FieldInFile& field : fields) names.insert(TextScanner::printable(field.name));
   if (fields.empty())
@@ -144,54 +163,60 @@ std::size_t choose_field(const std::vector<FieldInFile>& fields, const std::stri
            std::filesystem::path(file).filename().string());
   for (std::size_t i = fields.size(); i-- > 0;) {
     if (!name.empty() && fields[i].name != name) continue;
-    if (fields[i].n_components == n_components) return i;
+    if (std::ranges::find(n_components, fields[i].n_components) != n_components.end()) return i;
     refuse("{}: the field {} has {} components: expected {}", file, TextScanner::printable(fields[i].name),
-           fields[i].n_components, n_components == 1 ? "one" : std::to_string(n_components));
+           fields[i].n_components, fmt::join(n_components, ", "));
   }
   refuse("{}: has no field {}: expected {}", file, TextScanner::printable(name), fmt::join(names, ", "));
 }
 
 std::vector<double> means_at_points(const Mesh& mesh, const std::vector<double>& of_triangles,
-                                    const std::vector<double>& of_quads) {
-  std::vector<double> sum(mesh.points.size(), 0), weight(mesh.points.size(), 0);
-  const auto add = [&](const auto& element, double size, double value) {
+                                    const std::vector<double>& of_quads, std::size_t width) {
+  std::vector<double> sum(width * mesh.points.size(), 0), weight(mesh.points.size(), 0);
+  const auto add = [&](const auto& element, double size, const double* values) {
     for (const int v : element) {
-      sum[v] += size * value;
+      for (std::size_t k = 0; k < width; ++k) sum[width * v + k] += size * values[k];
       weight[v] += size;
     }
   };
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    add(mesh.triangles[i], area(mesh, mesh.triangles[i]), of_triangles[i]);
+    add(mesh.triangles[i], area(mesh, mesh.triangles[i]), &of_triangles[width * i]);
   for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
     const auto [a, b, c, d] = mesh.quads[i];
-    add(mesh.quads[i], area(mesh, {a, b, c}) + area(mesh, {a, c, d}), of_quads[i]);
+    add(mesh.quads[i], area(mesh, {a, b, c}) + area(mesh, {a, c, d}), &of_quads[width * i]);
   }
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = weight[i] > 0 ? sum[i] / weight[i] : kNoValue;
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    sum[i] = weight[i / width] > 0 ? sum[i] / weight[i / width] : kNoValue;
   return sum;
 }
 
-bool holds_values(const std::filesystem::path& path) {
+namespace {
+
+/// `width`: 1, or 6 of tensors.
+NodalValues read_field(const std::filesystem::path& path, const std::string& name, std::size_t width) {
   const std::string kind = kind_of_file(path);
-  return kind == ".msh" || kind == ".vtu" || kind == ".sol";
+  NodalValues field = kind == ".vtu"   ? read_vtu_field(path, name, width)
+                      : kind != ".msh" ? read_beside_mesh(path, width)
+                      : width == 1     ? read_msh_view(path, name, 1, std::array{0})
+                                   // Rows of three by three.
+                                   : read_msh_view(path, name, 9, std::array{0, 1, 2, 4, 5, 8});
+  require_values(field, path.string());
+  return field;
+}
+
+}  // namespace
+
+bool holds_values(const std::filesystem::path& path) {
+  constexpr std::array kKinds = {".msh", ".vtu", ".sol", ".mtr", ".metric"};
+  return std::ranges::find(kKinds, kind_of_file(path)) != kKinds.end();
 }
 
 NodalValues read_values(const std::filesystem::path& path, const std::string& name) {
-  const std::string kind = kind_of_file(path);
-  NodalValues field = kind == ".vtu"   ? read_vtu_field(path, name)
-                      : kind == ".sol" ? read_sol(path, 1)
-                                       : read_msh_view(path, name, 1, std::array{0});
-  require_values(field, path.string());
-  return field;
+  return read_field(path, name, 1);
 }
 
 NodalValues read_tensors(const std::filesystem::path& path, const std::string& name) {
-  const std::string kind = kind_of_file(path);
-  if (kind == ".vtu") refuse("{}: tensors are read from MSH and SOL files", path.string());
-  // MSH has rows of three by three.
-  NodalValues field =
-      kind == ".sol" ? read_sol(path, 6) : read_msh_view(path, name, 9, std::array{0, 1, 2, 4, 5, 8});
-  require_values(field, path.string());
-  return field;
+  return read_field(path, name, 6);
 }
 
 }  // namespace delquad

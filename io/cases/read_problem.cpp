@@ -106,7 +106,9 @@ double hessian_step(const Model& model) {
 
 SizeFile file_of_metric(const MetricSpec& metric) {
   const auto file = size_file_of(metric.file, metric.folder);
-  if (!file) throw InputError("the metric '" + metric.file + "': expected FILE or FILE:FIELD, .msh or .sol");
+  if (!file)
+    throw InputError("the metric '" + metric.file +
+                     "': expected FILE or FILE:FIELD, .msh, .vtu, .sol, .mtr or .metric");
   return *file;
 }
 

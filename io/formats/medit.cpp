@@ -25,7 +25,7 @@ class MeditReader {
     refuse_other_kinds(in_, "Medit");
     if (word("MeshVersionFormatted") != "MeshVersionFormatted")
       in_.fail("not a Medit file: expected MeshVersionFormatted");
-    in_.integer("the version", 1, 4);
+    in_.integer("the version", 0, 4);
     while (true) {
       skip_comments();
       if (in_.at_end()) break;

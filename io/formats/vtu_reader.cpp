@@ -105,11 +105,12 @@ class VtuReader {
   }
 
   /// Points that no element uses stay.
-  NodalValues read_field(const std::string& name) {
+  NodalValues read_field(const std::string& name, std::size_t width) {
     field_ = name;
+    width_ = width;
     NodalValues result{read(), {}};
-    result.values =
-        is_of_points_ ? std::move(values_) : means_at_points(result.mesh, triangle_values_, quad_values_);
+    result.values = is_of_points_ ? std::move(values_)
+                                  : means_at_points(result.mesh, triangle_values_, quad_values_, width_);
     return result;
   }
 
@@ -314,8 +315,10 @@ class VtuReader {
       }
       add_cell(as_int(types[c]), v, curve[c], region[c]);
       if (field_ && !is_of_points_) {
-        if (v.size() == 3) triangle_values_.push_back(field[c]);
-        if (v.size() == 4) quad_values_.push_back(field[c]);
+        auto& target = v.size() == 3 ? triangle_values_ : quad_values_;
+        const auto of_cell = field.begin() + static_cast<std::ptrdiff_t>(width_ * c);
+        if (v.size() == 3 || v.size() == 4)
+          target.insert(target.end(), of_cell, of_cell + static_cast<std::ptrdiff_t>(width_));
       }
       begin = offsets[c];
     }
@@ -336,14 +339,32 @@ class VtuReader {
         arrays.push_back(&array);
       }
     }
-    const size_t chosen = choose_field(fields, *field_, path_);
+    constexpr std::array kNumber = {1}, kTensor = {3, 4, 6, 9};
+    const size_t chosen = width_ == 1 ? choose_field(fields, *field_, path_, kNumber)
+                                      : choose_field(fields, *field_, path_, kTensor);
     is_of_points_ = fields[chosen].is_of_points;
     std::vector<double> all = read_array(*arrays[chosen]);
     const size_t n = is_of_points_ ? n_points : n_cells;
-    if (all.size() != n)
+    const auto n_components = static_cast<size_t>(fields[chosen].n_components);
+    if (all.size() != n * n_components)
       fail("data array {}: {} values for {} {}", shown(fields[chosen].name), all.size(), n,
            is_of_points_ ? "points" : "cells");
-    return all;
+    return width_ == 1 ? all : as_tensors(all, n_components);
+  }
+
+  /// m11, m12, m13, m22, m23 and m33 of arrays as VTK has them: rows of 2 x 2 or 3 x 3, or of symmetric ones
+  /// the diagonal first (xx, yy, xy, or xx, yy, zz, xy, yz, xz).
+  static std::vector<double> as_tensors(const std::vector<double>& all, size_t n_components) {
+    constexpr int kZero = -1, kOne = -2;
+    static const std::map<size_t, std::array<int, 6>> places = {{3, {0, 2, kZero, 1, kZero, kOne}},
+                                                                {4, {0, 1, kZero, 3, kZero, kOne}},
+                                                                {6, {0, 3, 5, 1, 4, 2}},
+                                                                {9, {0, 1, 2, 4, 5, 8}}};
+    std::vector<double> tensors;
+    for (size_t at = 0; at < all.size(); at += n_components)
+      for (const int k : places.at(n_components))
+        tensors.push_back(k == kZero ? 0 : k == kOne ? 1 : all[at + static_cast<size_t>(k)]);
+    return tensors;
   }
 
   std::vector<double> tags(const Tree& piece, const std::string& name, size_t n) const {
@@ -436,6 +457,7 @@ class VtuReader {
   std::map<std::pair<int, int>, int> index_;  // by dimension and tag
   NamedPoints point_names_;
   std::optional<std::string> field_;  // the name of the field that is asked for
+  std::size_t width_ = 1;             // numbers of each value: 6 of tensors
   bool is_of_points_ = false;
   std::vector<double> values_, triangle_values_, quad_values_;
 };
@@ -444,8 +466,8 @@ class VtuReader {
 
 Mesh read_vtu(const std::filesystem::path& path) { return VtuReader(path).read(); }
 
-NodalValues read_vtu_field(const std::filesystem::path& path, const std::string& name) {
-  return VtuReader(path).read_field(name);
+NodalValues read_vtu_field(const std::filesystem::path& path, const std::string& name, std::size_t width) {
+  return VtuReader(path).read_field(name, width);
 }
 
 }  // namespace delquad

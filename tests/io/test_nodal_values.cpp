@@ -60,7 +60,7 @@ TEST(NodalValues, TheLastStepCounts) {
   expect_input_error([&] { read_values(file, ""); },
                      {"a.msh: has the fields 'h', 'velocity': say which, as a.msh:NAME"});
   expect_input_error([&] { read_values(file, "velocity"); },
-                     {"the field 'velocity' has 3 components: expected one"});
+                     {"the field 'velocity' has 3 components: expected 1"});
   expect_input_error([&] { read_values(file, "H"); }, {"has no field 'H': expected 'h', 'velocity'"});
 }
 

@@ -188,6 +188,58 @@ TEST(MetricPlane, WithoutDirectionsItIsASize) {
   for (std::size_t i = 0; i < a.points.size(); ++i) EXPECT_LT(norm(a.points[i] - b.points[i]), 1e-9);
 }
 
+// Of constants to the last bit, around a hole that is smaller, too.
+TEST(MetricPlane, AConstantWithoutDirectionsIsThatSize) {
+  for (const char* h : {"0.1", "0.25"}) {
+    MeshProblem by_size = ring(1, 0.05);
+    by_size.size.text = h;
+    const Mesh expected = mesh(by_size, "good").mesh,
+               found = mesh(by_sizes(ring(1, 0.05), h, h), "good").mesh;
+    EXPECT_EQ(expected.points, found.points);
+    EXPECT_EQ(expected.quads, found.quads);
+  }
+}
+
+// Limits, a complexity and the gradation of a metric are those of the size that it is.
+TEST(MetricPlane, WithoutDirectionsItsLimitsAreThoseOfASize) {
+  const std::string h = "0.01+abs(x-0.5)";
+  MeshProblem problem = by_sizes(square(), h, h);
+  problem.metric.limits = {.min = 0.02, .max = 0.1};
+  problem.metric.gradation = std::exp(0.2);
+  MeshProblem by_size = square();
+  by_size.size.text = "max(0.02, min(0.1, " + h + "))";
+  by_size.size.gradation = 0.2;
+  const Mesh expected = mesh(by_size, "good").mesh, found = mesh(problem, "good").mesh;
+  ASSERT_EQ(expected.quads, found.quads);
+  for (std::size_t i = 0; i < found.points.size(); ++i)
+    EXPECT_LT(norm(expected.points[i] - found.points[i]), 1e-9);
+  problem.metric.limits = {};
+  problem.metric.complexity = 800;
+  EXPECT_NEAR(prepare(problem)->size.expected_quads, 800, 24);
+}
+
+// Rows whose height is a five-hundredth of their length, and elements with nodes on the true circle, which
+// none of them crosses.
+TEST(MetricPlane, CurvedElementsOfThinRowsAreProven) {
+  MeshProblem problem = by_sizes(ring(1, 0.5), "0.0002+0.2*(sqrt(x^2+y^2)-0.5)", "0.1", "atan2(y,x)");
+  problem.metric.gradation = 2;
+  for (const int order : {2, 3}) {
+    problem.order = order;
+    problem.seed = order == 3 ? 5 : 0;
+    const MeshResult result = mesh(problem, "good");
+    ASSERT_TRUE(result.soundness.sound());
+    const Mesh& made = result.mesh;
+    EXPECT_EQ(proven_jacobians(made).unproven, 0);
+    ASSERT_EQ(made.order, order);
+    for (std::size_t l = 0; l < made.lines.size(); ++l)
+      for (int k = 0; k < order - 1; ++k) {
+        const Vec3& p = made.points[made.line_nodes[l * (order - 1) + k]];
+        const bool is_inner = made.curves[made.line_curve[l]].names.at(0) == "inner";
+        EXPECT_NEAR(std::hypot(p.x, p.y), is_inner ? 0.5 : 1, 1e-9);
+      }
+  }
+}
+
 TEST(MetricPlane, ASeedTurnsTheMeshAndNotTheDomain) {
   MeshProblem problem = by_sizes(square(), "0.1", "0.02");
   problem.seed = 3;
@@ -247,7 +299,28 @@ TEST(MetricPlane, ReadsTensorsFromFiles) {
             "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
             "$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n$EndElements\n" +
                 view + "$EndNodeData\n");
-  for (const std::string& file : {sol, msh, msh + ":M"}) {
+  // BAMG beside the same mesh, and VTU with its orders of components, at points and cells.
+  const std::string rows = "100 0 2500\n100 0 2500\n100 0 2500\n100 0 2500\n";
+  const std::string mtr = write("a.mtr", "4 3\n" + rows), metric = write("a.metric", "4 3\n" + rows);
+  const auto vtu = [&](const char* name, bool is_of_points, int n, const std::string& tensor) {
+    std::string values;
+    for (int i = 0; i < (is_of_points ? 4 : 2); ++i) values += tensor + "\n";
+    const std::string data = is_of_points ? "PointData" : "CellData";
+    return write(
+        name,
+        "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"4\" "
+        "NumberOfCells=\"2\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 0 1 0 0 1 1 0 "
+        "0 "
+        "1 0</DataArray></Points><Cells><DataArray Name=\"connectivity\">0 1 2 0 2 3</DataArray><DataArray "
+        "Name=\"offsets\">3 6</DataArray><DataArray Name=\"types\">5 5</DataArray></Cells><" +
+            data + "><DataArray Name=\"M\" NumberOfComponents=\"" + std::to_string(n) + "\">" + values +
+            "</DataArray></" + data + "></Piece></UnstructuredGrid></VTKFile>");
+  };
+  const std::string three = vtu("3.vtu", true, 3, "100 2500 0"),
+                    four = vtu("4.vtu", false, 4, "100 0 0 2500"),
+                    six = vtu("6.vtu", false, 6, "100 2500 7 0 0 0"),
+                    nine = vtu("9.vtu", true, 9, "100 0 0 0 2500 0 0 0 7");
+  for (const std::string& file : {sol, msh, msh + ":M", mtr, metric, three, four, six + ":M", nine}) {
     MeshProblem problem = square();
     problem.metric.file = file;
     EXPECT_EQ(mesh(problem, "DB").mesh.quads.size(), 500u) << file;
@@ -264,6 +337,17 @@ TEST(MetricPlane, ReadsTensorsFromFiles) {
       refused(head + "4\n1 3\n1 2 1\n1 0 1\n1 0 1\n1 0 1\n").find("[1, 2, 1] (m11, m12, m22) at (0, 0)"),
       std::string::npos);
   EXPECT_NE(refused("MeshVersionFormatted 2\n").find("no SolAtVertices"), std::string::npos);
+  const auto refused_file = [&](const std::string& file, std::initializer_list<const char*> parts) {
+    MeshProblem problem = square();
+    problem.metric.file = file;
+    expect_input_error([&] { mesh(problem, "DB"); }, parts);
+  };
+  refused_file(write("a.mtr", "3 3\n" + rows), {"a.mtr:1: values of 3 points: expected 4"});
+  refused_file(write("a.mtr", "4 1\n1\n1\n1\n1\n"), {"a.mtr:1: 1 numbers at each point: expected 3"});
+  refused_file(write("a.mtr", "4 3\nnan 0 1\n" + rows), {"a.mtr: the field has no value at (0, 0"});
+  refused_file(vtu("5.vtu", true, 5, "1 1 1 1 1"), {"M", "5 components: expected 3, 4, 6, 9"});
+  refused_file(vtu("bad.vtu", true, 3, "1 1 2"), {"bad.vtu", "[1, 2, 1] (m11, m12, m22) at (0, 0)"});
+  refused_file(vtu("few.vtu", true, 4, "1 0 1"), {"few.vtu: data array 'M': 12 values for 4 points"});
 }
 
 TEST(MetricPlane, RefusesWhatDoesNotGoWithIt) {
@@ -271,9 +355,6 @@ TEST(MetricPlane, RefusesWhatDoesNotGoWithIt) {
   MeshProblem other = problem;
   other.size.field = make_constant_size(0.1);
   expect_input_error([&] { mesh(other, "DB"); }, {"a size does", "not go with a metric"});
-  other = problem;
-  other.order = 2;
-  expect_input_error([&] { mesh(other, "DB"); }, {"order 2", "not go with a metric"});
   other = problem;
   other.symmetry.automatic = true;
   expect_input_error([&] { mesh(other, "DB"); }, {"planes of symmetry"});
