@@ -13,6 +13,7 @@
 #include "features/metric/metric_plane.h"
 #include "features/metric/metric_surface.h"
 #include "features/scaling/scale_sizes.h"
+#include "fields/tangent_metric.h"
 #include "io/cases/read_problem.h"
 #include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
@@ -51,8 +52,10 @@ Prepared prepare_now(MeshProblem problem, Steps& steps) {
   const Stopwatch reading;
   problem = read_files(std::move(problem));
   std::vector<Warning> of_metric;
-  if (problem.metric.asks()) check_metric(problem);
-  if (problem.metric.function) problem = in_metric_plane(std::move(problem), of_metric);
+  if (problem.metric.asks() && !problem.metric.plane) {
+    check_metric(problem);
+    if (problem.metric.function) problem = in_metric_plane(std::move(problem), of_metric);
+  }
   problem = refined(std::move(problem));
   const TimeSpent time = reading.time();
   PreparedProblem made = problem.quads ? prepare_for_quads(problem) : prepare_problem(problem);
@@ -222,6 +225,23 @@ double Prepared::row_ends() const { return expected_row_ends(*made_); }
 
 const TriPatch* Prepared::background() const {
   return made_->plane.background ? &made_->plane.background->triangles() : nullptr;
+}
+
+std::optional<NodalMetric> Prepared::metric() const {
+  if (!made_->metric_plane) return std::nullopt;
+  const MetricPlane& plane = *made_->metric_plane;
+  const TriPatch& tri = plane.plane.triangles();
+  NodalMetric result{{}, plane.metric};
+  Mesh& mesh = result.mesh;
+  for (const Vec2& x : tri.points) mesh.points.push_back({x.x, x.y, 0});
+  mesh.triangles = tri.triangles;
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  for (const MetricPlane::Segment& s : plane.segments) mesh.lines.push_back(s.vertices);
+  mesh.line_curve.assign(mesh.lines.size(), 0);
+  mesh.curves = mesh.regions = {{1, {}}};
+  const double scale = scale_of(*made_);
+  for (Tensor2& m : result.at) m = times(1 / (scale * scale), m);
+  return result;
 }
 
 std::optional<Cross> Prepared::cross_at(Vec2 u, int& hint) const {

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""BAMG's quads: bamg_quads.py INPUT.mesh OUTPUT.obj SIZES.sol
+"""BAMG's quads: bamg_quads.py INPUT.mesh OUTPUT.obj SIZES.sol [ANGLE]
 
-INPUT: triangles of a planar domain, whose boundary is kept. SIZES: at the points of SIZES.mesh, its background.
+INPUT: triangles of a planar domain, whose boundary is kept. SIZES: at the points of INPUT, its background: numbers or
+tensors. ANGLE: by which corners of quads may differ from 90 degrees (45); 0: triangles stay.
 """
 import shutil
 import subprocess
@@ -11,9 +12,9 @@ import meshio
 
 if not shutil.which("ffbamg"):
     sys.exit(print("ffbamg of freefem++ is not installed") or 77)
-source, output, sizes = sys.argv[1:4]
+source, output, sizes, angle = [*sys.argv[1:], "45"][:4]
 mesh = meshio.read(source)
-delta = open(sizes).read().split("1 1\n")[1].split("End")[0].split()
+head, values = open(sizes).read().split("SolAtVertices\n")[1].split("\n1 ")
 with open("background.mesh", "w") as out:
     out.write(f"MeshVersionFormatted 0\nDimension 2\nVertices {len(mesh.points)}\n")
     out.writelines("%.17g %.17g 1\n" % tuple(p[:2]) for p in mesh.points)
@@ -24,8 +25,9 @@ with open("background.mesh", "w") as out:
     out.write(f"RequiredEdges {len(mesh.cells_dict['line'])}\n")
     out.writelines(f"{i + 1}\n" for i in range(len(mesh.cells_dict["line"])))
     out.write("End\n")
-open("background.mtr", "w").write(f"{len(delta)} 1\n" + "\n".join(delta) + "\n")
-subprocess.run(["ffbamg", "-b", "background.mesh", "-M", "background.mtr", "-noKeepBackVertices", "-thetaquad", "45", "-oftq", "out.ftq"], check=True)
+open("background.mtr", "w").write(head + " " + values.split("End")[0])
+quads = ["-thetaquad", angle] if angle != "0" else []
+subprocess.run(["ffbamg", "-b", "background.mesh", "-M", "background.mtr", "-noKeepBackVertices", *quads, "-oftq", "out.ftq"], check=True)
 numbers = open("out.ftq").read().split()
 faces, at = [], 4
 for _ in range(int(numbers[1])):

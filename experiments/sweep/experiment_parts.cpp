@@ -175,6 +175,7 @@ void read_domains(const TomlTable& table, Peer& peer) {
   if (has_placeholder(peer.command, "{size_field}") == peer.size_field.empty())
     refuse("{}: {{size_field}} in 'command' and the key 'size_field' need each other",
            table.where("command"));
+  peer.metrics = table.flag("metrics", peer.metrics);
 }
 
 }  // namespace

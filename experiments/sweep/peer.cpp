@@ -182,17 +182,19 @@ void check_planar(const Peer& peer, const Prepared& prepared, Mesh& mesh) {
     for (auto& v : mesh.triangles) std::ranges::reverse(v);
     for (auto& v : mesh.quads) std::ranges::reverse(v);
   }
+  const Mesh boundary = boundary_of(prepared);
   double area = 0;
-  for (std::size_t i = 0; i < prepared.n_patches(); ++i)
+  for (std::size_t i = 0; i < prepared.n_patches(); ++i) {
+    const std::vector<int>& node = prepared.patch(i).point_node;
     for (const auto& [a, b] : prepared.patch(i).edges)
-      area += 0.5 * cross(prepared.patch(i).points[a], prepared.patch(i).points[b]);
+      area += 0.5 * cross(boundary.points[node[a]], boundary.points[node[b]]).z;
+  }
   const double tolerance = peer.keeps_boundary ? 1e-6 : 0.02;  // chords of another boundary
   const double covered = area_in_plane(mesh) / area;
   if (!(std::abs(covered - 1) <= tolerance))
     refuse<PeerError>("its mesh covers {:.6g} % of the domain's area", 100 * covered);
-  if (const int missing = peer.keeps_boundary ? missing_edges(prepared->boundary, mesh) : 0; missing > 0)
-    refuse<PeerError>("{} of {} boundary edges are not in its mesh", missing,
-                      prepared->boundary.lines.size());
+  if (const int missing = peer.keeps_boundary ? missing_edges(boundary, mesh) : 0; missing > 0)
+    refuse<PeerError>("{} of {} boundary edges are not in its mesh", missing, boundary.lines.size());
 }
 
 void check_surface(const Prepared& prepared, const Mesh& mesh) {
@@ -209,7 +211,7 @@ void check_surface(const Prepared& prepared, const Mesh& mesh) {
 /// Its size where that is uniform; for a peer that has a field besides, the largest.
 double told_size(const PeerTask& task) {
   if (const auto size = uniform_size(task.c)) return task.scale * *size;
-  if (task.peer.size_field.empty())
+  if (task.peer.size_field.empty() || task.prepared.metric())
     throw NotApplicable("'" + task.peer.name + "' is told one number for the size, which varies here");
   return std::ranges::max(sample_sizes(task).delta);
 }
@@ -234,6 +236,8 @@ void check_end(const Peer& peer, const std::string& program, const ProgramRun& r
 /// In `folder`, which is empty.
 PeerRun run_once(const PeerTask& task, const fs::path& folder) {
   const Peer& peer = task.peer;
+  if (task.prepared.problem().metric.asks() && !(peer.metrics && task.prepared.metric()))
+    throw NotApplicable("'" + peer.name + "' is told sizes, and the case has a metric");
   const fs::path log = folder / "peer.log", input = write_peer_input(task, folder);
   const fs::path field =
       peer.size_field.empty() ? fs::path() : write_size_field(sample_sizes(task), peer.size_field, folder);
@@ -368,13 +372,16 @@ std::vector<std::string> peer_command(const PeerTask& task, const fs::path& inpu
     word = replace_all(word, "{input}", input.string());
     word = replace_all(word, "{output}", output);
     word = replace_all(word, "{seed}", std::to_string(task.c.seed));
+    word = replace_all(word, "{case}", task.c.name);
+    if (word.find("{data}") != std::string::npos)
+      word = replace_all(word, "{data}", fs::absolute(task.c.data_folder).lexically_normal().string());
   }
   return words;
 }
 
 const std::vector<std::string>& peer_placeholders() {
-  static const std::vector<std::string> all = {"{input}",      "{output}", "{size}",
-                                               "{size_field}", "{quads}",  "{seed}"};
+  static const std::vector<std::string> all = {"{input}", "{output}", "{size}", "{size_field}",
+                                               "{quads}", "{seed}",   "{case}", "{data}"};
   return all;
 }
 

@@ -42,6 +42,7 @@ struct Peer {
   bool optional = false;  ///< where its program is not there, its cells are not applicable
   HandOver planar = HandOver::kModel, surfaces = HandOver::kModel;
   std::string size_field = {};    ///< format of the file that {size_field} stands for; empty: none
+  bool metrics = false;           ///< it knows metrics, whose tensors that file has then
   std::string calibrate_to = {};  ///< word whose number of quads it shall have; empty: the size is as given
   std::filesystem::path file = {}, folder = {};  ///< that it was read from
 };
@@ -100,18 +101,23 @@ std::optional<double> uniform_size(const Case& c);
 std::vector<std::string> peer_command(const PeerTask& task, const std::filesystem::path& input,
                                       const std::string& output, const std::filesystem::path& size_field);
 
-/// A size field by its values at the nodes of triangles that are as large as it says.
+/// A size field by its values at the nodes of triangles that are as large as it says, or a metric.
 struct SampledSize {
   Mesh mesh;
-  std::vector<double> delta;  ///< at its points
+  std::vector<double> delta;    ///< at its points; none of a metric
+  std::vector<Tensor2> metric;  ///< the same of that
 };
 /// What the peer is told.
 SampledSize sample_sizes(const PeerTask& task);
 
 /// Writes size.FORMAT, one of size_field_formats(), and returns the file: "pos", a view of Gmsh; "sol",
-/// values for Medit's size.mesh beside it; "points", lines "x y z delta".
+/// values for Medit's size.mesh beside it; "points", lines "x y z delta". Of metrics: 3 x 3 numbers, or m11,
+/// m12 and m22.
 std::filesystem::path write_size_field(const SampledSize& size, const std::string& format,
                                        const std::filesystem::path& folder);
+
+/// The lines of a planar domain, in its own plane also where a metric has another.
+Mesh boundary_of(const Prepared& prepared);
 
 /// Writes what the peer reads to `folder`; returns the file. Throws NotApplicable when the case cannot be
 /// told.

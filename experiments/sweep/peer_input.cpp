@@ -45,7 +45,7 @@ std::vector<std::vector<int>> loops_of(const PatchBoundary& boundary) {
 
 /// Every edge of the boundary is a straight curve with one element.
 void write_boundary(TextWriter& out, const Prepared& prepared) {
-  const Mesh& boundary = prepared->boundary;
+  const Mesh boundary = boundary_of(prepared);
   for (std::size_t i = 0; i < boundary.points.size(); ++i) {
     const Vec3& p = boundary.points[i];
     out << "Point(" << i + 1 << ") = {" << p.x << ", " << p.y << ", " << p.z << "};\n";
@@ -147,34 +147,63 @@ void write_script(const PeerTask& task, const fs::path& script) {
   });
 }
 
+/// The numbers of a point.
+void write_values(TextWriter& out, const SampledSize& size, std::size_t point) {
+  if (!size.delta.empty()) {
+    out << size.delta[point];
+    return;
+  }
+  const Tensor2& m = size.metric[point];
+  out << m.xx << " " << m.xy << " " << m.yy;
+}
+
 void write_view(TextWriter& out, const SampledSize& size) {
   const Mesh& mesh = size.mesh;
+  const bool is_metric = size.delta.empty();
   out << "View \"delta\" {\n";
   for (const auto& v : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
       const Vec3& p = mesh.points[v[k]];
-      out << (k == 0 ? "ST(" : ", ") << p.x << ", " << p.y << ", " << p.z;
+      out << (k > 0 ? ", " : is_metric ? "TT(" : "ST(") << p.x << ", " << p.y << ", " << p.z;
     }
-    out << "){" << size.delta[v[0]] << ", " << size.delta[v[1]] << ", " << size.delta[v[2]] << "};\n";
+    for (int k = 0; k < 3; ++k) {
+      out << (k == 0 ? "){" : ", ");
+      if (!is_metric) {
+        out << size.delta[v[k]];
+        continue;
+      }
+      const Tensor2& m = size.metric[v[k]];
+      out << m.xx << ", " << m.xy << ", 0, " << m.xy << ", " << m.yy << ", 0, 0, 0, 1";
+    }
+    out << "};\n";
   }
   out << "};\n";
 }
 
 void write_solution(TextWriter& out, const SampledSize& size) {
-  out << "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n" << size.delta.size() << "\n1 1\n";
-  for (const double delta : size.delta) out << delta << "\n";
+  const bool is_metric = size.delta.empty();
+  out << "MeshVersionFormatted 2\nDimension " << (is_metric ? 2 : 3) << "\nSolAtVertices\n"
+      << size.mesh.points.size() << (is_metric ? "\n1 3\n" : "\n1 1\n");
+  for (std::size_t i = 0; i < size.mesh.points.size(); ++i) {
+    write_values(out, size, i);
+    out << "\n";
+  }
   out << "End\n";
 }
 
 void write_points(TextWriter& out, const SampledSize& size) {
-  for (std::size_t i = 0; i < size.delta.size(); ++i) {
+  for (std::size_t i = 0; i < size.mesh.points.size(); ++i) {
     const Vec3& p = size.mesh.points[i];
-    out << p.x << " " << p.y << " " << p.z << " " << size.delta[i] << "\n";
+    out << p.x << " " << p.y << " " << p.z << " ";
+    write_values(out, size, i);
+    out << "\n";
   }
 }
 
-/// The triangles of F, of the wanted size: in the plane, or on the surface.
+/// The triangles of F, of the wanted size: in the plane, or on the surface. Of a metric those that it is
+/// known at: others might be inverted where it bends.
 Mesh triangles_of_domain(const Prepared& prepared) {
+  if (std::optional<NodalMetric> metric = prepared.metric()) return std::move(metric->mesh);
   Meshing meshing(prepared);
   for (const Stage* stage : parse_word("F").stages) meshing.run(*stage);
   return meshing.mesh();
@@ -203,13 +232,22 @@ fs::path write_peer_input(const PeerTask& task, const fs::path& folder) {
   if (peer.input == kGmshScript)
     write_script(task, file);
   else
-    write_mesh(file,
-               given == HandOver::kTriangles ? triangles_of_domain(task.prepared) : task.prepared->boundary);
+    write_mesh(file, given == HandOver::kTriangles ? triangles_of_domain(task.prepared)
+                                                   : boundary_of(task.prepared));
   return file;
 }
 
+Mesh boundary_of(const Prepared& prepared) {
+  return prepared.metric() ? Meshing(prepared).mesh() : prepared->boundary;
+}
+
 SampledSize sample_sizes(const PeerTask& task) {
-  SampledSize size{triangles_of_domain(task.prepared), {}};
+  if (std::optional<NodalMetric> metric = task.prepared.metric()) {
+    const double factor = 1 / (task.field_scale * task.field_scale);
+    for (Tensor2& m : metric->at) m = {factor * m.xx, factor * m.xy, factor * m.yy};
+    return {std::move(metric->mesh), {}, std::move(metric->at)};
+  }
+  SampledSize size{triangles_of_domain(task.prepared), {}, {}};
   int hint = -1;
   for (const Vec3& p : size.mesh.points)
     size.delta.push_back(task.field_scale * task.prepared->size.field->at(p, hint));

@@ -474,6 +474,7 @@ Json peer_json(const CellIdentity& cell) {
           {"planar", name_of(peer.planar, "boundary")},
           {"surfaces", name_of(peer.surfaces, "file")},
           {"size_field", peer.size_field},
+          {"metrics", peer.metrics},
           {"calibrate_to", peer.calibrate_to}};
 }
 

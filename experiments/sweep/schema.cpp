@@ -90,6 +90,7 @@ TomlKeys peer_keys() {
           {"planar", "what it gets of planar domains", one_of({"boundary", "triangles", "none"})},
           {"surfaces", "what it gets of surfaces", one_of({"file", "triangles", "none"})},
           {"size_field", "format of the file that {size_field} stands for", one_of(size_field_formats())},
+          {"metrics", "whether it knows metrics, and finds their tensors in that file", kFlag},
           {"calibrate", "whether its size is changed until it has our number of quads", kCalibrate},
           {"calibrate_to", "the word whose number that is", kText},
           {"optional", "whether it may be missing", kFlag}};

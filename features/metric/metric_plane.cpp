@@ -267,9 +267,9 @@ std::pair<MetricPlane, std::vector<int>> lay_flat(const MetricMesh& made, const 
   std::vector<MetricPlane::Segment> segments;
   std::vector<Box<Vec2>> boxes;
   for (const CurveSegment& s : made.segments) {
-    const Vec2 a = flat.points[vertex[s.nodes[0]]], b = flat.points[vertex[s.nodes[1]]];
+    const int a = vertex[s.nodes[0]], b = vertex[s.nodes[1]];
     segments.push_back({domain.pieces[s.piece].shape, s.t, {a, b}});
-    boxes.push_back(Box<Vec2>::around({a, b}));
+    boxes.push_back(Box<Vec2>::around({flat.points[a], flat.points[b]}));
   }
   MetricPlane result{BackgroundMesh(std::move(flat)),
                      BackgroundMesh(std::move(plane)),
@@ -393,7 +393,8 @@ Vec2 MetricPlane::curve_to_plane(Vec2 u) const {
   double part = 0, least2 = std::numeric_limits<double>::infinity();
   int first = -1;
   segment_tree.nearest(u, least2, [&](int i) {
-    const auto& [a, b] = segments[i].flat;
+    const auto& [from, to] = segments[i].vertices;
+    const Vec2 a = flat.triangles().points[from], b = flat.triangles().points[to];
     const double t = nearest_part(u, a, b);
     const Vec2 d = a + t * (b - a) - u;
     if (dot(d, d) > least2 || (dot(d, d) == least2 && i > first)) return;

@@ -29,7 +29,7 @@ struct MetricPlane {
   struct Segment {
     std::shared_ptr<const Curve> shape;
     std::array<double, 2> t;
-    std::array<Vec2, 2> flat;
+    std::array<int, 2> vertices;
   };
   std::vector<Segment> segments;                                    ///< of all curves
   BoxTree<Vec2> segment_tree;                                       ///< of their flat images

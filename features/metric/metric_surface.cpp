@@ -41,6 +41,10 @@ CrossPull pull_at(const PreparedSurface& surface, int patch, Vec2 u, int& hint) 
   return pull_to(of_p * (at[v[1]] - at[v[0]]) + of_q * (at[v[2]] - at[v[0]]), axes);
 }
 
+double scale_of(const PreparedProblem& prepared) {
+  return prepared.metric_plane->scale_of(prepared.size.asked ? *prepared.size.asked : *prepared.size.field);
+}
+
 MetricAt metric_of(const PreparedProblem& prepared) {
   if (prepared.surface && prepared.surface->metric)
     return [metric = prepared.surface->metric](int region, const Vec3& x, int&) {
@@ -48,7 +52,7 @@ MetricAt metric_of(const PreparedProblem& prepared) {
     };
   if (!prepared.metric_plane) return nullptr;
   const MetricPlane& plane = *prepared.metric_plane;
-  const double scale = plane.scale_of(prepared.size.asked ? *prepared.size.asked : *prepared.size.field);
+  const double scale = scale_of(prepared);
   return [&plane, factor = 1 / (scale * scale)](int, const Vec3& x, int& hint) {
     const Tensor2 m = plane.metric_at({x.x, x.y}, hint);
     return TangentMetric{.m = {factor * m.xx, factor * m.xy, factor * m.yy}};

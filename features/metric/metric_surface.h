@@ -22,6 +22,9 @@ Flattening flatten_by_metric(SurfaceModel& model, const SurfaceMetric& metric);
 /// How much the field of a patch is drawn to the metric's axes.
 CrossPull pull_at(const PreparedSurface& surface, int patch, Vec2 u, int& hint);
 
+/// By which factor lengths in a plane are larger than the metric's own: where it is told to be finer, or not.
+double scale_of(const PreparedProblem& prepared);
+
 /// The metric that meshes are measured by; null: none.
 MetricAt metric_of(const PreparedProblem& prepared);
 
