@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <map>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -79,6 +80,20 @@ NodalValues read_values(const std::filesystem::path& path, const std::string& na
 /// The same of tensors: xx, xy, xz, yy, yz and zz of each point, from MSH fields of 3 x 3 numbers, VTU arrays
 /// of 3 (xx, yy, xy), 4, 6 or 9, and SOL and BAMG files; those of the plane have no z, and zz = 1.
 NodalValues read_tensors(const std::filesystem::path& path, const std::string& name);
+/// Numbers by name, each list with one at each point.
+using PointData = std::map<std::string, std::vector<double>>;
+
+/// A field of up to three components at the points of a mesh, each of which has a name: "u", or "u_x", "u_y"
+/// and "u_z". Points that no element uses stay; NaN: a point has no value.
+struct PointField {
+  Mesh mesh;
+  PointData components;
+};
+/// As read_values(), but fields of elements are refused.
+PointField read_point_field(const std::filesystem::path& path, const std::string& name);
+/// Writes MSH or VTU with values at points, whole or not at all.
+void write_point_data(const std::filesystem::path& path, const Mesh& mesh, const PointData& data,
+                      const MshOptions& options = {});
 /// Whether it reads files of that name.
 bool holds_values(const std::filesystem::path& path);
 

@@ -8,13 +8,14 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <span>
 #include <string>
 #include <unordered_map>
 
 #include "base/located.h"
 #include "base/text.h"
+#include "io/formats/msh.h"
 #include "io/formats/msh_raw.h"
+#include "io/formats/vtu.h"
 
 namespace delquad {
 
@@ -48,16 +49,20 @@ std::vector<std::pair<long long, double>> component(const msh::View& view, int k
   return values;
 }
 
-/// The components `which` of a field that has `n_components`, those of a point side by side.
-NodalValues read_msh_view(const std::filesystem::path& path, const std::string& name, int n_components,
-                          std::span<const int> which) {
+/// All components of a field of that form, those of a point side by side; of tensors, which are rows of three
+/// by three, six. `name` becomes that of the field.
+NodalValues read_msh_view(const std::filesystem::path& path, std::string& name, const FieldForm& form) {
   TextScanner scanner(path);
   refuse_other_kinds(scanner, "MSH");
   msh::Contents contents = msh::read_contents(scanner, true);
   const std::vector<msh::View> views = std::move(contents.views);
   std::vector<FieldInFile> fields;
   for (const msh::View& view : views) fields.push_back({view.name, view.is_of_nodes, view.n_components});
-  const msh::View& view = views[choose_field(fields, name, path.string(), std::array{n_components})];
+  const msh::View& view = views[choose_field(fields, name, path.string(), form)];
+  name = view.name;
+  std::vector<int> which;
+  if (form.are_tensors) which = {0, 1, 2, 4, 5, 8};
+  for (int c = 0; !form.are_tensors && c < view.n_components; ++c) which.push_back(c);
   msh::MeshTags tags;
   NodalValues result{msh::to_mesh(std::move(contents), scanner, &tags), {}};
   result.values.resize(which.size() * result.mesh.points.size());
@@ -152,7 +157,7 @@ void require_values(NodalValues& field, const std::string& file) {
 }  // namespace
 
 std::size_t choose_field(const std::vector<FieldInFile>& fields, const std::string& name,
-                         const std::string& file, std::span<const int> n_components) {
+                         const std::string& file, const FieldForm& form) {
   std::set<std::string> names;
   for (const FieldInFile& field : fields) names.insert(TextScanner::printable(field.name));
   if (fields.empty())
@@ -163,9 +168,12 @@ std::size_t choose_field(const std::vector<FieldInFile>& fields, const std::stri
            std::filesystem::path(file).filename().string());
   for (std::size_t i = fields.size(); i-- > 0;) {
     if (!name.empty() && fields[i].name != name) continue;
-    if (std::ranges::find(n_components, fields[i].n_components) != n_components.end()) return i;
+    if (form.of_points && !fields[i].is_of_points)
+      refuse("{}: the field {} is of elements: expected one of points", file,
+             TextScanner::printable(fields[i].name));
+    if (std::ranges::find(form.n_components, fields[i].n_components) != form.n_components.end()) return i;
     refuse("{}: the field {} has {} components: expected {}", file, TextScanner::printable(fields[i].name),
-           fields[i].n_components, fmt::join(n_components, ", "));
+           fields[i].n_components, fmt::join(form.n_components, ", "));
   }
   refuse("{}: has no field {}: expected {}", file, TextScanner::printable(name), fmt::join(names, ", "));
 }
@@ -192,14 +200,13 @@ std::vector<double> means_at_points(const Mesh& mesh, const std::vector<double>&
 
 namespace {
 
-/// `width`: 1, or 6 of tensors.
-NodalValues read_field(const std::filesystem::path& path, const std::string& name, std::size_t width) {
+NodalValues read_field(const std::filesystem::path& path, std::string name, bool are_tensors) {
   const std::string kind = kind_of_file(path);
-  NodalValues field = kind == ".vtu"   ? read_vtu_field(path, name, width)
-                      : kind != ".msh" ? read_beside_mesh(path, width)
-                      : width == 1     ? read_msh_view(path, name, 1, std::array{0})
-                                   // Rows of three by three.
-                                   : read_msh_view(path, name, 9, std::array{0, 1, 2, 4, 5, 8});
+  FieldForm form{{1}, false, are_tensors};
+  if (are_tensors) form.n_components = kind == ".vtu" ? std::vector{3, 4, 6, 9} : std::vector{9};
+  NodalValues field = kind == ".vtu"   ? read_vtu_field(path, name, form)
+                      : kind == ".msh" ? read_msh_view(path, name, form)
+                                       : read_beside_mesh(path, are_tensors ? 6 : 1);
   require_values(field, path.string());
   return field;
 }
@@ -211,12 +218,40 @@ bool holds_values(const std::filesystem::path& path) {
   return std::ranges::find(kKinds, kind_of_file(path)) != kKinds.end();
 }
 
+PointField read_point_field(const std::filesystem::path& path, const std::string& name) {
+  const std::string kind = kind_of_file(path);
+  if (kind != ".msh" && kind != ".vtu") refuse("{}: fields are read from .msh and .vtu files", path.string());
+  std::string found = name;
+  const FieldForm form{{1, 2, 3}, true};
+  NodalValues all = kind == ".vtu" ? read_vtu_field(path, found, form) : read_msh_view(path, found, form);
+  const std::size_t width = all.values.size() / std::max<std::size_t>(1, all.mesh.points.size());
+  PointField field{std::move(all.mesh), {}};
+  for (std::size_t c = 0; c < width; ++c) {
+    std::vector<double>& values = field.components[width == 1 ? found : found + "_" + "xyz"[c]];
+    for (std::size_t i = c; i < all.values.size(); i += width) values.push_back(all.values[i]);
+  }
+  return field;
+}
+
+void write_point_data(const std::filesystem::path& path, const Mesh& mesh, const PointData& data,
+                      const MshOptions& options) {
+  check_mesh_format(path, options, mesh.order);
+  const std::string kind = kind_of_file(path);
+  if (kind == ".vtu")
+    write_vtu(path, mesh, {}, QuadNodes::kAll, data);
+  else if (kind == ".msh")
+    write_file_atomically(
+        path, [&](std::ostream& stream) { write_msh(stream, mesh, options, QuadNodes::kAll, data); });
+  else
+    refuse("{}: values at points are written to .msh and .vtu files", path.string());
+}
+
 NodalValues read_values(const std::filesystem::path& path, const std::string& name) {
-  return read_field(path, name, 1);
+  return read_field(path, name, false);
 }
 
 NodalValues read_tensors(const std::filesystem::path& path, const std::string& name) {
-  return read_field(path, name, 6);
+  return read_field(path, name, true);
 }
 
 }  // namespace delquad

@@ -22,8 +22,9 @@ Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nu
 /// gets that number as its tag. The unit of lengths, where it is known, is a section $Unit after these.
 void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {},
                QuadNodes nodes = QuadNodes::kAll);
+/// `data`: becomes views ($NodeData).
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {},
-               QuadNodes nodes = QuadNodes::kAll);
+               QuadNodes nodes = QuadNodes::kAll, const PointData& data = {});
 /// As write_msh() does: volumes, faces and curves are entities of dimension 3, 2 and 1, each in one physical
 /// group.
 void write_hex_msh(const std::filesystem::path& path, const HexMesh& mesh, bool binary);

@@ -291,15 +291,29 @@ void write_more_names(std::ostream& stream, const std::vector<MshBlock>& blocks)
   out.flush();
 }
 
+void write_views(MshNumbers& out, const std::vector<MshBlock>& blocks, const PointData& data) {
+  for (const auto& [name, values] : data) {
+    std::size_t count = 0;
+    for (const MshBlock& block : blocks) count += block.nodes.size();
+    // One text, one time, and three numbers: of the step, of components and of values.
+    out.line("$NodeData\n1\n\"" + quotable(name) + "\"\n1\n0\n3\n0\n1\n" + std::to_string(count));
+    for (const MshBlock& block : blocks)
+      for (const int i : block.nodes) out.integer(i + 1).real(values[i]).end_line();
+    out.end_section("$EndNodeData");
+  }
+}
+
 /// `mesh`: with pairs of periodic entities; null: of hexahedra, which have none.
 void write_blocks(std::ostream& stream, bool binary, const std::vector<Vec3>& points,
-                  std::vector<MshBlock> blocks, const std::string& unit, const Mesh* mesh) {
+                  std::vector<MshBlock> blocks, const std::string& unit, const Mesh* mesh,
+                  const PointData& data = {}) {
   MshNumbers out(stream, binary);
   write_head(out, binary, number_groups(blocks));
   write_entities(out, blocks);
   write_nodes(out, points, blocks);
   write_elements(out, blocks);
   if (mesh != nullptr) write_periodic(out, *mesh, blocks);
+  write_views(out, blocks, data);
   out.flush();
   write_more_names(stream, blocks);
   if (!unit.empty()) stream << "$Unit\n" << unit << "\n$EndUnit\n";
@@ -363,9 +377,10 @@ std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
 
 }  // namespace
 
-void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options, QuadNodes nodes) {
+void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options, QuadNodes nodes,
+               const PointData& data) {
   with_blocks(mesh, options.curves, nodes, [&](std::vector<MshBlock> blocks) {
-    write_blocks(stream, options.binary, mesh.points, std::move(blocks), mesh.unit, &mesh);
+    write_blocks(stream, options.binary, mesh.points, std::move(blocks), mesh.unit, &mesh, data);
   });
 }
 

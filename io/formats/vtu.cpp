@@ -29,6 +29,7 @@ struct VtuContent {
   std::vector<std::pair<std::string, NumbersOfNames>> names;
   std::vector<std::pair<std::string, std::vector<std::int32_t>>> tags;  ///< of cells; 0: none
   std::map<std::string, std::vector<double>> values = {};               ///< of cells
+  PointData point_values = {};
   std::vector<std::int64_t> connectivity = {}, offsets = {};
   std::vector<std::uint8_t> types = {};
 
@@ -80,7 +81,12 @@ void write_content(TextWriter& out, const VtuContent& content) {
   write_array(out, "type=\"Int64\" Name=\"connectivity\"", content.connectivity);
   write_array(out, "type=\"Int64\" Name=\"offsets\"", content.offsets);
   write_array(out, "type=\"UInt8\" Name=\"types\"", content.types);
-  out << "      </Cells>\n      <CellData>\n";
+  out << "      </Cells>\n";
+  if (!content.point_values.empty()) out << "      <PointData>\n";
+  for (const auto& [name, values] : content.point_values)
+    write_array(out, "type=\"Float64\" Name=\"" + xml_escaped(name) + "\"", values);
+  if (!content.point_values.empty()) out << "      </PointData>\n";
+  out << "      <CellData>\n";
   for (const auto& [name, tags] : content.tags) write_array(out, "type=\"Int32\" Name=\"" + name + '"', tags);
   for (const auto& [name, values] : content.values)
     write_array(out, "type=\"Float64\" Name=\"" + xml_escaped(name) + "\"", values);
@@ -105,7 +111,8 @@ void write_with_eta(const std::filesystem::path& path, const Mesh& mesh, const M
 }  // namespace
 
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
-               const std::map<std::string, std::vector<double>>& cell_data, QuadNodes nodes) {
+               const std::map<std::string, std::vector<double>>& cell_data, QuadNodes nodes,
+               const PointData& point_data) {
   // VTK's cell types: straight, quadratic and biquadratic, Lagrange.
   constexpr std::array<std::uint8_t, 4> kLines = {3, 21, 68, 68}, kQuads = {9, 28, 70, 70};
   constexpr std::uint8_t kTriangle = 5, kEightNodes = 23;
@@ -116,7 +123,8 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                       {"region", tags_of_names(mesh.regions)},
                       {"point", points_of_names(mesh)}},
                      {{"curve", {}}, {"region", {}}},
-                     cell_data};
+                     cell_data,
+                     point_data};
   for (size_t i = 0; i < mesh.lines.size(); ++i)
     content.add(nodes_ends_first(mesh, i), kLines[order], {mesh.curves[mesh.line_curve[i]].tag, 0});
   for (size_t i = 0; i < mesh.triangles.size(); ++i)

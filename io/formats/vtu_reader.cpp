@@ -104,11 +104,12 @@ class VtuReader {
     return std::move(mesh_);
   }
 
-  /// Points that no element uses stay.
-  NodalValues read_field(const std::string& name, std::size_t width) {
+  /// Points that no element uses stay. `name` becomes that of the field.
+  NodalValues read_field(std::string& name, const FieldForm& form) {
     field_ = name;
-    width_ = width;
+    form_ = form;
     NodalValues result{read(), {}};
+    name = *field_;
     result.values = is_of_points_ ? std::move(values_)
                                   : means_at_points(result.mesh, triangle_values_, quad_values_, width_);
     return result;
@@ -339,17 +340,17 @@ class VtuReader {
         arrays.push_back(&array);
       }
     }
-    constexpr std::array kNumber = {1}, kTensor = {3, 4, 6, 9};
-    const size_t chosen = width_ == 1 ? choose_field(fields, *field_, path_, kNumber)
-                                      : choose_field(fields, *field_, path_, kTensor);
+    const size_t chosen = choose_field(fields, *field_, path_, form_);
     is_of_points_ = fields[chosen].is_of_points;
+    field_ = fields[chosen].name;
     std::vector<double> all = read_array(*arrays[chosen]);
     const size_t n = is_of_points_ ? n_points : n_cells;
     const auto n_components = static_cast<size_t>(fields[chosen].n_components);
     if (all.size() != n * n_components)
       fail("data array {}: {} values for {} {}", shown(fields[chosen].name), all.size(), n,
            is_of_points_ ? "points" : "cells");
-    return width_ == 1 ? all : as_tensors(all, n_components);
+    width_ = form_.are_tensors ? 6 : n_components;
+    return form_.are_tensors ? as_tensors(all, n_components) : all;
   }
 
   /// m11, m12, m13, m22, m23 and m33 of arrays as VTK has them: rows of 2 x 2 or 3 x 3, or of symmetric ones
@@ -457,6 +458,7 @@ class VtuReader {
   std::map<std::pair<int, int>, int> index_;  // by dimension and tag
   NamedPoints point_names_;
   std::optional<std::string> field_;  // the name of the field that is asked for
+  FieldForm form_;                    // and its form
   std::size_t width_ = 1;             // numbers of each value: 6 of tensors
   bool is_of_points_ = false;
   std::vector<double> values_, triangle_values_, quad_values_;
@@ -466,8 +468,8 @@ class VtuReader {
 
 Mesh read_vtu(const std::filesystem::path& path) { return VtuReader(path).read(); }
 
-NodalValues read_vtu_field(const std::filesystem::path& path, const std::string& name, std::size_t width) {
-  return VtuReader(path).read_field(name, width);
+NodalValues read_vtu_field(const std::filesystem::path& path, std::string& name, const FieldForm& form) {
+  return VtuReader(path).read_field(name, form);
 }
 
 }  // namespace delquad
