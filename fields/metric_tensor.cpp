@@ -106,7 +106,9 @@ Tensor2 grown(const Tensor2& m, double length, double gradation) {
   return {scale * m.xx, scale * m.xy, scale * m.yy};
 }
 
-Tensor2 l2_metric(const Tensor2& hessian) {
+Tensor2 l2_metric(const Tensor2& hessian) { return lp_metric(hessian, 2); }
+
+Tensor2 lp_metric(const Tensor2& hessian, double p) {
   constexpr double kLeast = 1e-6, kTiny = 1e-100;
   const double mean = (hessian.xx + hessian.yy) / 2, half = (hessian.xx - hessian.yy) / 2;
   const double radius = std::hypot(half, hessian.xy);
@@ -118,7 +120,7 @@ Tensor2 l2_metric(const Tensor2& hessian) {
   // Where one curvature changes its sign the determinant says too little.
   constexpr double kLeastInFactor = 1e-3;
   const double most = std::max(along, across);
-  const double factor = std::pow(std::max(along * across, kLeastInFactor * most * most), -1.0 / 6);
+  const double factor = std::pow(std::max(along * across, kLeastInFactor * most * most), -1 / (2 * p + 2));
   return tensor_by(factor * along, factor * across, {std::cos(theta), std::sin(theta)});
 }
 

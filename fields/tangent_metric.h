@@ -17,6 +17,9 @@ inline bool is_finer(const Tensor2& a, const Tensor2& b) {
   return d.xx >= 0 && d.yy >= 0 && d.xx * d.yy >= d.xy * d.xy;
 }
 
+/// |H| det(|H|)^(-1/(2p + 2)): as l2_metric(), for the Lp error, 1 <= p <= infinity [loseille2011].
+Tensor2 lp_metric(const Tensor2& hessian, double p);
+
 /// A metric of the tangent plane at a point.
 struct TangentMetric {
   Vec3 e = {1, 0, 0}, f = {0, 1, 0};  ///< of length 1, perpendicular

@@ -1,0 +1,133 @@
+#include "adapt/adapt.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "adapt/elements.h"
+#include "base/located.h"
+
+namespace delquad {
+namespace {
+
+/// What fits of linear fields leave, of their greatest value.
+constexpr double kNoError = 1e-12;
+/// How near the number of quads, or the error on the new mesh, comes to what is asked, and after how many
+/// meshes that is given up.
+constexpr double kNearWanted = 0.05;
+constexpr int kMostMeshes = 3;
+
+/// Where it is linear there is nothing to adapt to.
+bool is_linear(const Recovery& solution) {
+  double most = 0;
+  for (std::size_t i = 0; i < solution.values.size(); ++i)
+    if (std::isfinite(solution.values[i])) most = std::max(most, std::abs(solution.values[i]));
+  return interpolation_error(solution, std::numeric_limits<double>::infinity()).whole <= kNoError * most;
+}
+
+/// Each curve needs an edge, and with n edges around it a mesh has n / 2 - 1 quads at least.
+void require_quads(const PlanarModel& model, double quads) {
+  std::size_t sides = 0;
+  for (const ModelCurve& curve : model.curves) sides += 1 + curve.shape->fixed_parameters().size();
+  const double least = std::ceil(static_cast<double>(sides) / 2) - 1;
+  if (quads < std::max(1.0, least))
+    refuse("{:g} quads: the {} sides of the outline need {:g} at least", quads, sides, std::max(1.0, least));
+}
+
+/// The names and numbers of the mesh in place of indices, and what has the same becomes one.
+void take_names(const Mesh& from, Mesh& mesh) {
+  const auto take = [](std::vector<Entity>& entities, const std::vector<Entity>& given, std::vector<int>& of,
+                       auto... more) {
+    const auto index = [&](int e) { return std::stoi(entities[e].names.at(0)); };
+    const auto renumber = [&](std::vector<int>& list) {
+      for (int& e : list) e = index(e);
+    };
+    renumber(of);
+    (renumber(*more), ...);
+    entities = given;
+  };
+  std::vector<Entity> curves = from.curves;
+  int last_tag = 0;
+  for (const Entity& curve : curves) last_tag = std::max(last_tag, curve.tag);
+  if (std::ranges::any_of(mesh.curves, [&](const Entity& e) {
+        return e.names == std::vector{std::to_string(curves.size())};
+      }))
+    curves.push_back({last_tag + 1, {}});
+  take(mesh.curves, curves, mesh.line_curve);
+  take(mesh.regions, from.regions, mesh.triangle_region, &mesh.quad_region);
+  for (NamedPoint& named : mesh.named_points)
+    named.entity = from.named_points[std::stoi(named.entity.names.at(0))].entity;
+  mesh.unit = from.unit;
+}
+
+/// The same solution as an other mesh sees its second derivatives.
+Recovery seen_on(const Recovery& solution, const Mesh& mesh) {
+  Recovery seen;
+  seen.mesh = mesh;
+  seen.hessian.resize(mesh.points.size());
+  for (double Tensor2::*part : {&Tensor2::xx, &Tensor2::xy, &Tensor2::yy}) {
+    std::vector<double> values;
+    for (const Tensor2& h : solution.hessian) values.push_back(h.*part);
+    const std::vector<double> there = transfer_points(solution.mesh, values, mesh);
+    for (std::size_t i = 0; i < there.size(); ++i) seen.hessian[i].*part = there[i];
+  }
+  return seen;
+}
+
+}  // namespace
+
+Adapted adapt(const Mesh& mesh, const std::vector<NodalField>& fields, const AdaptSpec& spec,
+              const MeshProblem* given, const Context& context) {
+  require_planar(mesh, "the mesh of the solution");
+  std::vector<Recovery> solutions, curved;
+  std::vector<std::string> names;
+  for (const NodalField& field : fields) {
+    require_values(mesh, field.values, field.name);
+    solutions.push_back(recover(mesh, field.values));
+    names.push_back(field.name);
+    if (!is_linear(solutions.back())) curved.push_back(solutions.back());
+  }
+  if (curved.empty())
+    refuse("{}: constant or linear: no mesh has an error, expected a field that bends",
+           fields.empty() ? "there is no field" : fmt::format("{}", fmt::join(names, ", ")));
+  AdaptSpec wanted = spec;
+  MeshProblem problem;
+  if (given != nullptr)
+    problem = *given;
+  else
+    problem.model = trace_mesh(mesh), problem.name = problem.where = "the mesh of the solution";
+  problem.size = {};
+  problem.quads.reset();
+  Adapted made;
+  for (int meshes = 1;; ++meshes) {
+    std::vector<Tensor2> metric = adapted_metric(mesh, curved, wanted);
+    const double quads = wanted.quads > 0 ? wanted.quads : complexity_of(mesh, metric);
+    const auto* model = std::get_if<PlanarModel>(&problem.model);
+    if (meshes == 1 && model != nullptr) require_quads(*model, quads);
+    problem.metric = {.limits = spec.limits, .gradation = spec.gradation, .complexity = quads};
+    problem.metric.function = make_nodal_metric(mesh, std::move(metric));
+    made.result = delquad::mesh(problem, spec.quality, context);
+    made.errors.clear();
+    double most = 0;
+    for (const Recovery& solution : solutions) {
+      const Recovery seen = seen_on(solution, made.result.mesh);
+      made.errors.push_back({interpolation_error(solution, spec.norm).whole, gradient_error(solution).whole,
+                             interpolation_error(seen, spec.norm).whole});
+      most = std::max(most, made.errors.back().after);
+    }
+    const double more =
+        spec.error > 0 ? most / spec.error : spec.quads / static_cast<double>(made.result.mesh.quads.size());
+    if (std::abs(more - 1) < kNearWanted || meshes == kMostMeshes) break;
+    wanted.quads = quads * more;
+    wanted.error = 0;
+  }
+  if (given == nullptr) take_names(mesh, made.result.mesh);
+  return made;
+}
+
+}  // namespace delquad

@@ -1,0 +1,165 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "adapt/elements.h"
+#include "base/parallel.h"
+#include "base/parallel_each.h"
+#include "base/sort_unique.h"
+#include "delquad/adapt.h"
+
+namespace delquad {
+namespace {
+
+constexpr int kFewestRings = 2, kMostRings = 6;
+/// A degree is well determined where no diagonal entry of R is less than this part of the first.
+constexpr double kWellDetermined = 0.02;
+
+/// Points between regions stand once for each of them.
+Recovery parted(const Mesh& mesh, std::span<const double> values) {
+  Recovery made;
+  made.mesh = mesh;
+  made.origin.resize(mesh.points.size());
+  std::iota(made.origin.begin(), made.origin.end(), 0);
+  made.values.assign(values.begin(), values.end());
+  std::vector<std::vector<std::array<int, 2>>> known(mesh.points.size());  // region and point
+  const auto take = [&](int& node, int region) {
+    auto& sides = known[node];
+    const auto at = std::ranges::find(sides, region, [](const auto& side) { return side[0]; });
+    const int origin = node;
+    if (at != sides.end()) {
+      node = (*at)[1];
+      return;
+    }
+    if (!sides.empty()) {
+      node = static_cast<int>(made.origin.size());
+      made.origin.push_back(origin);
+      made.mesh.points.push_back(mesh.points[origin]);
+      made.values.push_back(values[origin]);
+    }
+    sides.push_back({region, node});
+  };
+  for (std::size_t e = 0; e < mesh.triangles.size(); ++e)
+    for (int& node : made.mesh.triangles[e]) take(node, mesh.triangle_region[e]);
+  const std::size_t each = mesh.quads.empty() ? 0 : mesh.quad_nodes.size() / mesh.quads.size();
+  for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+    for (int& node : made.mesh.quads[e]) take(node, mesh.quad_region[e]);
+    for (std::size_t k = 0; k < each; ++k) take(made.mesh.quad_nodes[e * each + k], mesh.quad_region[e]);
+  }
+  return made;
+}
+
+/// The numbers of the points of rings of elements around points.
+class Rings {
+ public:
+  explicit Rings(const Elements& elements) : elements_(elements), start_(elements.points().size() + 1, 0) {
+    for (int e = 0; e < elements.size(); ++e)
+      for (const int v : elements.nodes(e)) ++start_[v + 1];
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    at_.resize(start_.back());
+    std::vector<int> next(start_.begin(), start_.end() - 1);
+    for (int e = 0; e < elements.size(); ++e)
+      for (const int v : elements.nodes(e)) at_[next[v]++] = e;
+  }
+
+  /// Adds the next ring; the patch is sorted. Returns whether there was one.
+  bool grow(std::vector<int>& patch) const {
+    const std::size_t before = patch.size();
+    for (std::size_t i = 0; i < before; ++i)
+      for (int k = start_[patch[i]]; k < start_[patch[i] + 1]; ++k)
+        for (const int v : elements_.nodes(at_[k])) patch.push_back(v);
+    sort_unique(patch);
+    return patch.size() > before;
+  }
+
+ private:
+  const Elements& elements_;
+  std::vector<int> start_, at_;
+};
+
+constexpr int terms_of(int degree) { return (degree + 1) * (degree + 2) / 2; }
+
+/// A polynomial around a point in the principal axes of its patch.
+class Fit {
+ public:
+  Fit(const std::vector<Vec3>& points, const std::vector<double>& values, int centre,
+      const std::vector<int>& patch) {
+    const auto n = static_cast<Eigen::Index>(patch.size());
+    Eigen::MatrixX2d offset(n, 2);
+    values_.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Vec3 d = points[patch[i]] - points[centre];
+      offset.row(i) << d.x, d.y;
+      values_[i] = values[patch[i]] - values[centre];
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(offset.transpose() * offset /
+                                                              static_cast<double>(n));
+    // By the axes again: the smaller eigenvalue has lost its digits where the patch is thin.
+    placed_ = offset * axes.eigenvectors();
+    for (int k = 0; k < 2; ++k) {
+      const double scale = std::sqrt(placed_.col(k).squaredNorm() / static_cast<double>(n));
+      to_axes_.row(k) = axes.eigenvectors().col(k).transpose() / scale;
+      placed_.col(k) /= scale;
+    }
+  }
+
+  /// False: the points do not determine it.
+  bool solve(int degree, Vec2& gradient, Tensor2& hessian) const {
+    const int terms = terms_of(degree);
+    if (values_.size() < terms || !to_axes_.allFinite()) return false;
+    Eigen::MatrixXd matrix(values_.size(), terms);
+    for (int sum = 0, column = 0; sum <= degree; ++sum)
+      for (int k = 0; k <= sum; ++k, ++column)
+        matrix.col(column) = placed_.col(0).array().pow(sum - k) * placed_.col(1).array().pow(k);
+    const Eigen::VectorXd lengths = matrix.colwise().norm();
+    if (!(lengths.minCoeff() > 0)) return false;
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix * lengths.cwiseInverse().asDiagonal());
+    const auto diagonal = qr.matrixR().diagonal().cwiseAbs();
+    if (!(diagonal.minCoeff() >= kWellDetermined * diagonal.maxCoeff())) return false;
+    const Eigen::VectorXd c = qr.solve(values_).cwiseQuotient(lengths);
+    const Eigen::Vector2d g = to_axes_.transpose() * Eigen::Vector2d(c[1], c[2]);
+    gradient = {g[0], g[1]};
+    hessian = {0, 0, 0};
+    if (degree < 2) return true;
+    Eigen::Matrix2d h;
+    h << 2 * c[3], c[4], c[4], 2 * c[5];
+    h = to_axes_.transpose() * h * to_axes_;
+    hessian = {h(0, 0), h(0, 1), h(1, 1)};
+    return true;
+  }
+
+ private:
+  Eigen::MatrixX2d placed_;
+  Eigen::Matrix2d to_axes_;
+  Eigen::VectorXd values_;
+};
+
+}  // namespace
+
+Recovery recover(const Mesh& mesh, std::span<const double> values) {
+  require_planar(mesh, "the mesh of the field");
+  require_values(mesh, values, "that is to be recovered");
+  Recovery made = parted(mesh, values);
+  const std::size_t n = made.mesh.points.size();
+  made.gradient.assign(n, {0, 0});
+  made.hessian.assign(n, {0, 0, 0});
+  const Elements elements(made.mesh);
+  const Rings rings(elements);
+  parallel_each(n, [&](std::size_t i) {
+    const int centre = static_cast<int>(i);
+    for (int degree = mesh.order + 2; degree > 0; --degree) {
+      std::vector<int> patch{centre};
+      for (int ring = 1; ring <= kMostRings && rings.grow(patch); ++ring)
+        if (ring >= kFewestRings && Fit(made.mesh.points, made.values, centre, patch)
+                                        .solve(degree, made.gradient[i], made.hessian[i]))
+          return;
+      // Where one ring is all that there is.
+      if (Fit(made.mesh.points, made.values, centre, patch).solve(degree, made.gradient[i], made.hessian[i]))
+        return;
+    }
+  });
+  return made;
+}
+
+}  // namespace delquad
