@@ -43,6 +43,7 @@ void add_lists(CLI::App& app, Commands& commands);
 /// mesh and improve.
 void add_mesh(CLI::App& app, Commands& commands);
 void add_metrics(CLI::App& app, Commands& commands);
+void add_adapt(CLI::App& app, Commands& commands);
 void add_extrude(CLI::App& app, Commands& commands);
 void add_compare(CLI::App& app, Commands& commands);
 void add_info(CLI::App& app, Commands& commands);
