@@ -464,6 +464,7 @@ PYBIND11_MODULE(_core, m) {
   define_models(m);
   define_problem(m);
   define_hexahedra(m);
+  define_adapt(m);
   m.attr("__version__") = version();
   m.def("check_quality", [](const std::string& name) { quality_named(name); });
   m.def("qualities", [] {

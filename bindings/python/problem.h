@@ -59,6 +59,9 @@ void define_models(py::module_& m);
 /// HexMesh, and extrude() for each way.
 void define_hexahedra(py::module_& m);
 
+/// adapt(), and what it is made of.
+void define_adapt(py::module_& m);
+
 /// Functions that a problem calls; they are called in the thread that is there while it is meshed.
 struct Callbacks {
   py::object size, metric, cross, progress;  ///< None: not given

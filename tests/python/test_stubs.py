@@ -78,7 +78,7 @@ def test_classes(name):
             assert parameters(node) == actual_parameters(attribute), key
 
 
-@pytest.mark.parametrize("name", ["mesh", "extrude"])
+@pytest.mark.parametrize("name", ["mesh", "extrude", "adapt"])
 def test_help_has_every_argument(name):
     function = getattr(delquad, name)
     for parameter in inspect.signature(function).parameters:

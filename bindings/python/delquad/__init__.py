@@ -36,6 +36,7 @@ from ._core import (
     segment,
     triangles,
 )
+from ._adapt import adapt, estimate_error, recover_gradient, recover_hessian, transfer
 from ._exchange import from_meshio, read_mesh
 from ._hexahedra import extrude
 from ._mesh import UnsoundError, cad, improve, judge, mesh, planar, polygons

@@ -227,3 +227,27 @@ def mesh(
     time_limit: float = 0,
     progress: bool | Callable[[str, float], object] | None = None,
 ) -> Result: ...
+def adapt(
+    mesh: Mesh | _Path,
+    fields: npt.ArrayLike | Mapping[str, npt.ArrayLike],
+    *,
+    quads: float | None = None,
+    error: float | None = None,
+    norm: float = 2.0,
+    model: Any = None,
+    weight: npt.ArrayLike | None = None,
+    isotropic: bool = False,
+    min_size: float = 0.0,
+    max_size: float = 0.0,
+    aspect: float = 0.0,
+    gradation: float = 1.5,
+    quality: str = "good",
+    threads: int = 0,
+    time_limit: float = 0.0,
+) -> tuple[Result, dict[str, dict[str, float]]]: ...
+def recover_hessian(mesh: Mesh | _Path, values: npt.ArrayLike) -> _Floats: ...
+def recover_gradient(mesh: Mesh | _Path, values: npt.ArrayLike) -> _Floats: ...
+def estimate_error(mesh: Mesh | _Path, values: npt.ArrayLike, norm: float = 2.0) -> dict[str, Any]: ...
+def transfer(
+    mesh: Mesh | _Path, values: npt.ArrayLike, to: Mesh | _Path, how: str = "interpolated", of_elements: bool = False
+) -> _Floats: ...

@@ -1,0 +1,101 @@
+"""From a solution to the next mesh."""
+
+import os
+
+import numpy as np
+
+from . import _core
+from ._mesh import _as_model
+
+
+def _as_mesh(mesh):
+    if isinstance(mesh, (str, os.PathLike)):
+        return _core.read_mesh(os.fspath(mesh))
+    if not isinstance(mesh, _core.Mesh):
+        raise TypeError(f"mesh: expected a delquad.Mesh or the path of a file, got {type(mesh).__name__}")
+    return mesh
+
+
+def _columns(fields):
+    """(name, values) of each component."""
+    named = fields.items() if isinstance(fields, dict) else [("field", fields)]
+    columns = []
+    for name, values in named:
+        values = np.asarray(values)
+        if values.ndim == 2:
+            columns += [(f"{name}_{k}", values[:, k]) for k in range(values.shape[1])]
+        else:
+            columns.append((str(name), values))
+    return columns
+
+
+def adapt(
+    mesh,
+    fields,
+    *,
+    quads=None,
+    error=None,
+    norm=2.0,
+    model=None,
+    weight=None,
+    isotropic=False,
+    min_size=0.0,
+    max_size=0.0,
+    aspect=0.0,
+    gradation=1.5,
+    quality="good",
+    threads=0,
+    time_limit=0.0,
+):
+    """The mesh on which solutions have the least error, and their errors: (Result, {name: {"now", "gradient", "expected"}}).
+
+    mesh: that of the solutions, planar, of triangles and quads; a Mesh or the path of a file.
+    fields: values at its points of shape (n,) or (n, k), where each component counts, or {name: such values}.
+    quads, error: about how many quads, or how much of the interpolation's error there is to be: one of both.
+    norm: p of the Lp norm of that error, from 1 to float("inf").
+    model: what is meshed, as for mesh(); None: what the mesh bounds. Its size does not count.
+    weight: at each point, at least 0, how much errors count, such as an adjoint solution.
+    isotropic: squares. min_size, max_size, aspect, gradation: limits of lengths, of their ratio and of their growth; 0: none.
+    quality, threads, time_limit: as for mesh().
+
+    "now" is the estimated error of interpolation in the norm, "gradient" that of the gradient in L2, "expected" the former on the new
+    mesh. Raises what mesh() raises.
+    """
+    spec = _core.AdaptSpec(quads or 0, error or 0, norm, min_size, max_size, aspect, gradation, isotropic, quality)
+    return _core.adapt(
+        _as_mesh(mesh), _columns(fields), spec, weight, None if model is None else _as_model(model), threads, time_limit
+    )
+
+
+def recover_hessian(mesh, values):
+    """Second derivatives xx, xy and yy at the points, of shape (n, 3), of values there; between regions those of the side where they
+    are larger. They are those of the polynomial that fits best around each point."""
+    return _core.recover(_as_mesh(mesh), values)[1]
+
+
+def recover_gradient(mesh, values):
+    """The gradient of the same polynomials, of shape (n, 2)."""
+    return _core.recover(_as_mesh(mesh), values)[0]
+
+
+def estimate_error(mesh, values, norm=2.0):
+    """Estimates of the errors of a solution: {"interpolation", "interpolation_of_elements", "gradient", "gradient_of_elements"}.
+
+    Interpolation in the Lp norm, 1 <= norm <= inf, by recovered Hessians; the gradient in L2, by recovered gradients. Elements are
+    triangles, then quads.
+    """
+    whole, each, gradient, each_gradient = _core.estimate(_as_mesh(mesh), values, norm)
+    return {
+        "interpolation": whole,
+        "interpolation_of_elements": each,
+        "gradient": gradient,
+        "gradient_of_elements": each_gradient,
+    }
+
+
+def transfer(mesh, values, to, how="interpolated", of_elements=False):
+    """Values on another mesh, `to`, at points, or with `of_elements` of triangles and then quads.
+
+    how: "interpolated", "conservative" (their integral stays), or "bounded" (so, and within the extremes nearby).
+    """
+    return _core.transfer(_as_mesh(mesh), values, _as_mesh(to), how, of_elements)
