@@ -54,6 +54,9 @@ class CurveSearch {
 };
 
 constexpr int kSamplesOfCurve = 64, kSamplesOfEdge = 8;
+/// A curve is closed whose ends are no further apart, in its extent: formulas of a full turn miss it by
+/// rounding.
+constexpr double kClosed = 1e-7;
 /// Chords along which the length of a span is measured.
 constexpr int kSpanChords = 64;
 constexpr int kGoldenSteps = 60;
@@ -75,7 +78,8 @@ CurveSearch::CurveSearch(std::shared_ptr<const Curve> curve, int edges) : curve_
   for (std::size_t i = 0; i + 1 < samples_.size(); ++i)
     boxes.push_back(Box<Vec2>::around({samples_[i], samples_[i + 1]}));
   chords_ = BoxTree<Vec2>(boxes);
-  closed_ = samples_.front() == samples_.back();
+  const auto box = Box<Vec2>::around(std::span<const Vec2>(samples_));
+  closed_ = norm(samples_.back() - samples_.front()) <= kClosed * norm(box.high - box.low);
 }
 
 Vec2 CurveSearch::point(double t) const {
