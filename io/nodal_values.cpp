@@ -125,7 +125,7 @@ NodalValues read_beside_mesh(const std::filesystem::path& path, std::size_t widt
       (kind_of_file(path) == ".sol" ? find_solution : find_bamg_metric)(in, width, n_points);
   for (std::size_t i = 0; i < n_points; ++i) {
     std::array<double, 6> value{};
-    for (std::size_t k = 0; k < given; ++k) value[k] = in.real("a value", Strays::kKept);
+    for (std::size_t k = 0; k < given; ++k) value[k] = in.real("a value");
     if (given == 3) value = {value[0], value[1], 0, value[2], 0, 1};
     // Medit has m11, m12, m22, m13, m23 and m33.
     if (given == 6) std::swap(value[2], value[3]);

@@ -9,6 +9,7 @@
 #include "base/nearest_name.h"
 #include "base/stopwatch.h"
 #include "delquad/mesher.h"
+#include "delquad/metric.h"
 #include "features/crosses/size_aware.h"
 #include "features/metric/metric_plane.h"
 #include "features/metric/metric_surface.h"
@@ -227,9 +228,9 @@ const TriPatch* Prepared::background() const {
   return made_->plane.background ? &made_->plane.background->triangles() : nullptr;
 }
 
-std::optional<NodalMetric> Prepared::metric() const {
-  if (!made_->metric_plane) return std::nullopt;
-  const MetricPlane& plane = *made_->metric_plane;
+std::optional<NodalMetric> followed_metric(const Prepared& prepared) {
+  if (!prepared.inside().metric_plane) return std::nullopt;
+  const MetricPlane& plane = *prepared.inside().metric_plane;
   const TriPatch& tri = plane.plane.triangles();
   NodalMetric result{{}, plane.metric};
   Mesh& mesh = result.mesh;
@@ -239,7 +240,7 @@ std::optional<NodalMetric> Prepared::metric() const {
   for (const MetricPlane::Segment& s : plane.segments) mesh.lines.push_back(s.vertices);
   mesh.line_curve.assign(mesh.lines.size(), 0);
   mesh.curves = mesh.regions = {{1, {}}};
-  const double scale = scale_of(*made_);
+  const double scale = scale_of(prepared.inside());
   for (Tensor2& m : result.at) m = times(1 / (scale * scale), m);
   return result;
 }

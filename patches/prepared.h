@@ -106,7 +106,6 @@ struct PreparedProblem : Preparation {
       metric_plane;                       ///< in which all of this lies; null: it is the domain's own
   std::optional<GivenWorst> given_worst;  ///< of a GivenMesh with quads
 
-  bool has_metric() const { return metric_plane || (surface && surface->metric); }
   /// Whether the model is a GivenMesh in space.
   bool is_given_surface() const { return surface && surface->given; }
   /// Those of a surface that forbid a quad an eta of kBadEta.

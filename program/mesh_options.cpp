@@ -296,7 +296,8 @@ CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
   add_sizes(*mesh, arguments);
   mesh->add_option(
       "--metric", arguments.metric,
-      "lengths by direction, in place of a size: FILE or FILE:FIELD, an MSH or SOL file with tensors at "
+      "lengths by direction, in place of a size: FILE or FILE:FIELD, an MSH, VTU, SOL or MTR file with "
+      "tensors at "
       "the points of its mesh; of surfaces also KEY=NUMBER,... with the keys chord (how far sides stray "
       "from an arc), min, max, aspect, gradation and complexity (formulas: [metric] in model files)");
   add_surface(*mesh, arguments);

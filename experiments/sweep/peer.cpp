@@ -13,6 +13,7 @@
 #include "base/activity.h"
 #include "base/calibration.h"
 #include "base/located.h"
+#include "delquad/metric.h"
 #include "experiments/sweep/folders.h"
 #include "experiments/sweep/process_tree.h"
 #include "experiments/sweep/run_program.h"
@@ -211,7 +212,7 @@ void check_surface(const Prepared& prepared, const Mesh& mesh) {
 /// Its size where that is uniform; for a peer that has a field besides, the largest.
 double told_size(const PeerTask& task) {
   if (const auto size = uniform_size(task.c)) return task.scale * *size;
-  if (task.peer.size_field.empty() || task.prepared.metric())
+  if (task.peer.size_field.empty() || followed_metric(task.prepared))
     throw NotApplicable("'" + task.peer.name + "' is told one number for the size, which varies here");
   return std::ranges::max(sample_sizes(task).delta);
 }
@@ -236,7 +237,7 @@ void check_end(const Peer& peer, const std::string& program, const ProgramRun& r
 /// In `folder`, which is empty.
 PeerRun run_once(const PeerTask& task, const fs::path& folder) {
   const Peer& peer = task.peer;
-  if (task.prepared.problem().metric.asks() && !(peer.metrics && task.prepared.metric()))
+  if (task.prepared.problem().metric.asks() && !(peer.metrics && followed_metric(task.prepared)))
     throw NotApplicable("'" + peer.name + "' is told sizes, and the case has a metric");
   const fs::path log = folder / "peer.log", input = write_peer_input(task, folder);
   const fs::path field =

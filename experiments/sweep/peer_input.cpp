@@ -7,6 +7,7 @@
 
 #include "base/located.h"
 #include "base/text.h"
+#include "delquad/metric.h"
 #include "experiments/sweep/peer.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/mesh/check_mesh.h"
@@ -203,7 +204,7 @@ void write_points(TextWriter& out, const SampledSize& size) {
 /// The triangles of F, of the wanted size: in the plane, or on the surface. Of a metric those that it is
 /// known at: others might be inverted where it bends.
 Mesh triangles_of_domain(const Prepared& prepared) {
-  if (std::optional<NodalMetric> metric = prepared.metric()) return std::move(metric->mesh);
+  if (std::optional<NodalMetric> metric = followed_metric(prepared)) return std::move(metric->mesh);
   Meshing meshing(prepared);
   for (const Stage* stage : parse_word("F").stages) meshing.run(*stage);
   return meshing.mesh();
@@ -238,11 +239,11 @@ fs::path write_peer_input(const PeerTask& task, const fs::path& folder) {
 }
 
 Mesh boundary_of(const Prepared& prepared) {
-  return prepared.metric() ? Meshing(prepared).mesh() : prepared->boundary;
+  return followed_metric(prepared) ? Meshing(prepared).mesh() : prepared->boundary;
 }
 
 SampledSize sample_sizes(const PeerTask& task) {
-  if (std::optional<NodalMetric> metric = task.prepared.metric()) {
+  if (std::optional<NodalMetric> metric = followed_metric(task.prepared)) {
     const double factor = 1 / (task.field_scale * task.field_scale);
     for (Tensor2& m : metric->at) m = {factor * m.xx, factor * m.xy, factor * m.yy};
     return {std::move(metric->mesh), {}, std::move(metric->at)};

@@ -234,6 +234,8 @@ std::vector<double> allowed_by(const std::vector<CurveCorner>& corners, std::siz
   return allowed;
 }
 
+bool has_metric(const PreparedProblem& p) { return p.metric_plane || (p.surface && p.surface->metric); }
+
 /// A metric wants sharp corners: no more than those of the straight quads have.
 void allow_as_straight(const Mesh& straight, std::vector<double>& allowed) {
   const std::vector<JacobianBounds> bounds = jacobian_bounds(straight);
@@ -282,7 +284,7 @@ void count_low(const std::vector<JacobianBounds>& bounds, const std::vector<doub
   }
   for (const bool in_corner : {false, true}) {
     auto& these = low[in_corner];
-    if (these.empty() || (in_corner && prepared.has_metric())) continue;
+    if (these.empty() || (in_corner && has_metric(prepared))) continue;
     std::ranges::sort(these);
     constexpr std::size_t kShown = 3;
     std::string text;
@@ -338,7 +340,7 @@ bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh
   const std::vector<CurveCorner> corners = curve_corners(straight, *geometry);
   open_cusps(mesh, *geometry, corners, bounds);
   UntanglingLimits limits{allowed_by(corners, mesh.quads.size()), held_vertices(prepared, straight)};
-  if (prepared.has_metric()) allow_as_straight(straight, limits.allowed);
+  if (has_metric(prepared)) allow_as_straight(straight, limits.allowed);
   const UntanglingSummary untangled = untangle_curved(mesh, *geometry, limits, bounds);
   summary.poor = untangled.poor;
   summary.improved = untangled.improved;

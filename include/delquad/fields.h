@@ -239,11 +239,6 @@ MetricFunction make_expression_metric(const std::array<std::string, 3>& tensor);
 MetricFunction make_sizes_metric(const std::string& h1, const std::string& h2, const std::string& theta);
 /// l2_metric() of a formula's Hessian, taken by differences over `step`.
 MetricFunction make_solution_metric(const std::string& solution, double step);
-/// A metric by its values.
-struct NodalMetric {
-  Mesh mesh;
-  std::vector<Tensor2> at;  ///< its points
-};
 /// At the points of a mesh of triangles or quads, exp(linear) between them. Throws InputError unless there is
 /// one metric for each point.
 MetricFunction make_nodal_metric(const Mesh& mesh, std::vector<Tensor2> metric);

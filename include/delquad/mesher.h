@@ -233,9 +233,6 @@ class Prepared {
   MapReport maps() const;
   /// The triangles that carry the fields of a planar domain; null on surfaces.
   const TriPatch* background() const;
-  /// The metric of a planar domain as it is followed, at the points of triangles with lines along all curves;
-  /// nothing where there is none.
-  std::optional<NodalMetric> metric() const;
   /// The cross of a planar domain at a place; nothing outside. `hint`: as in SizeField::at.
   std::optional<Cross> cross_at(Vec2 u, int& hint) const;
   /// Rows of quads that have to end along the fields of all patches so that sizes are as wanted, in the mean.

@@ -228,8 +228,9 @@ BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, 
                           quads_on_purpose(prepared, mesh)};
   BadQuads bad;
   // Most meshes have none.
-  if (!prepared.has_metric() && (values.at("eta_worst") < kBadEta || values.at("aspect_max") > kPoorAspect ||
-                                 values.at("edge_min") < kPoorEdge)) {
+  const bool by_size = !prepared.metric_plane && !(prepared.surface && prepared.surface->metric);
+  if (by_size && (values.at("eta_worst") < kBadEta || values.at("aspect_max") > kPoorAspect ||
+                  values.at("edge_min") < kPoorEdge)) {
     FailingElements poor(judged, poor_criteria(), false);
     poor.explain();
     for (const FailingElement& quad : poor.elements)

@@ -213,15 +213,20 @@ TEST(MetricPlane, WithoutDirectionsItsLimitsAreThoseOfASize) {
   ASSERT_EQ(expected.quads, found.quads);
   for (std::size_t i = 0; i < found.points.size(); ++i)
     EXPECT_LT(norm(expected.points[i] - found.points[i]), 1e-9);
-  problem.metric.limits = {};
+  problem.metric.sizes = {"0.02+0.3*x^2", "0.02+0.3*x^2", "0"};
   problem.metric.complexity = 800;
   EXPECT_NEAR(prepare(problem)->size.expected_quads, 800, 24);
 }
 
-// Rows whose height is a five-hundredth of their length, and elements with nodes on the true circle, which
-// none of them crosses.
+// Rows whose height is a five-hundredth of their length, and elements with nodes on the true circles, of
+// which one closes but for rounding.
 TEST(MetricPlane, CurvedElementsOfThinRowsAreProven) {
   MeshProblem problem = by_sizes(ring(1, 0.5), "0.0002+0.2*(sqrt(x^2+y^2)-0.5)", "0.1", "atan2(y,x)");
+  std::get<PlanarModel>(problem.model).curves[1].shape = make_parametric_curve(
+      [](double t) {
+        return Vec2{0.5 * std::cos(t), 0.5 * std::sin(t)};
+      },
+      0, 2 * std::numbers::pi);
   problem.metric.gradation = 2;
   for (const int order : {2, 3}) {
     problem.order = order;
@@ -323,7 +328,7 @@ TEST(MetricPlane, ReadsTensorsFromFiles) {
   for (const std::string& file : {sol, msh, msh + ":M", mtr, metric, three, four, six + ":M", nine}) {
     MeshProblem problem = square();
     problem.metric.file = file;
-    EXPECT_EQ(mesh(problem, "DB").mesh.quads.size(), 500u) << file;
+    EXPECT_NEAR(prepare(problem)->size.expected_quads, 500, 1) << file;
   }
   const auto refused = [&](const std::string& text) {
     MeshProblem problem = square();
@@ -344,7 +349,7 @@ TEST(MetricPlane, ReadsTensorsFromFiles) {
   };
   refused_file(write("a.mtr", "3 3\n" + rows), {"a.mtr:1: values of 3 points: expected 4"});
   refused_file(write("a.mtr", "4 1\n1\n1\n1\n1\n"), {"a.mtr:1: 1 numbers at each point: expected 3"});
-  refused_file(write("a.mtr", "4 3\nnan 0 1\n" + rows), {"a.mtr: the field has no value at (0, 0"});
+  refused_file(write("a.mtr", "4 3\nnan 0 1\n" + rows), {"a.mtr:2: ", "nan"});
   refused_file(vtu("5.vtu", true, 5, "1 1 1 1 1"), {"M", "5 components: expected 3, 4, 6, 9"});
   refused_file(vtu("bad.vtu", true, 3, "1 1 2"), {"bad.vtu", "[1, 2, 1] (m11, m12, m22) at (0, 0)"});
   refused_file(vtu("few.vtu", true, 4, "1 0 1"), {"few.vtu: data array 'M': 12 values for 4 points"});

@@ -54,6 +54,15 @@ TEST(MetricSurface, QuadsOfACylinderAreLong) {
   EXPECT_LT(result.surface->mesh_to_surface.max * extent, 1.5 * chord);
 }
 
+TEST(MetricSurface, CurvedElementsAreProven) {
+  MeshProblem problem = by_chord(tall_can(), 0.03, 3);
+  problem.order = 2;
+  const MeshResult result = mesh(problem, "DBCO");
+  EXPECT_TRUE(result.soundness.sound());
+  EXPECT_EQ(result.mesh.order, 2);
+  EXPECT_EQ(proven_jacobians(result.mesh).unproven, 0);
+}
+
 /// [0, 1]^2 in the plane that e and f span.
 TriangleModel tilted_square(const Vec3& e, const Vec3& f) {
   constexpr int kCells = 8;
@@ -167,7 +176,6 @@ TEST(MetricSurface, RefusesWhatDoesNotGoWithIt) {
   };
   refuses([](MeshProblem& p) { p.size.text = "1"; }, {"a size does not go with a metric"});
   refuses([](MeshProblem& p) { p.size.curvature = 12; }, {"a size does not go with a metric"});
-  refuses([](MeshProblem& p) { p.order = 2; }, {"order 2", "not go with a metric"});
   refuses([](MeshProblem& p) { p.symmetry.automatic = true; }, {"symmetry", "not go with a metric"});
   refuses([](MeshProblem& p) { p.metric = {.sizes = {"1", "2"}}; }, {"expected of a surface 'chord'"});
   refuses(
