@@ -39,33 +39,23 @@ void require_quads(const PlanarModel& model, double quads) {
     refuse("{:g} quads: the {} sides of the outline need {:g} at least", quads, sides, std::max(1.0, least));
 }
 
-/// The names and numbers of the mesh in place of indices, and what has the same becomes one.
+/// The names and numbers of the mesh in place of indices, see trace_mesh().
 void take_names(const Mesh& from, Mesh& mesh) {
-  const auto take = [](std::vector<Entity>& entities, const std::vector<Entity>& given, std::vector<int>& of,
-                       auto... more) {
-    const auto index = [&](int e) { return std::stoi(entities[e].names.at(0)); };
-    const auto renumber = [&](std::vector<int>& list) {
-      for (int& e : list) e = index(e);
-    };
-    renumber(of);
-    (renumber(*more), ...);
-    entities = given;
-  };
-  std::vector<Entity> curves = from.curves;
-  int last_tag = 0;
-  for (const Entity& curve : curves) last_tag = std::max(last_tag, curve.tag);
-  if (std::ranges::any_of(mesh.curves, [&](const Entity& e) {
-        return e.names == std::vector{std::to_string(curves.size())};
-      }))
-    curves.push_back({last_tag + 1, {}});
-  take(mesh.curves, curves, mesh.line_curve);
-  take(mesh.regions, from.regions, mesh.triangle_region, &mesh.quad_region);
-  for (NamedPoint& named : mesh.named_points)
-    named.entity = from.named_points[std::stoi(named.entity.names.at(0))].entity;
+  const auto index = [](const Entity& entity) { return std::stoi(entity.names.at(0)); };
+  for (int& curve : mesh.line_curve) curve = index(mesh.curves[curve]);
+  for (std::vector<int>* list : {&mesh.triangle_region, &mesh.quad_region})
+    for (int& region : *list) region = index(mesh.regions[region]);
+  for (NamedPoint& named : mesh.named_points) named.entity = from.named_points[index(named.entity)].entity;
+  mesh.curves = from.curves;
+  mesh.regions = from.regions;
   mesh.unit = from.unit;
+  if (std::ranges::find(mesh.line_curve, std::ssize(from.curves)) == mesh.line_curve.end()) return;
+  int last_tag = 0;
+  for (const Entity& curve : from.curves) last_tag = std::max(last_tag, curve.tag);
+  mesh.curves.push_back({last_tag + 1, {}});
 }
 
-/// The same solution as an other mesh sees its second derivatives.
+/// The same solution as another mesh sees its second derivatives.
 Recovery seen_on(const Recovery& solution, const Mesh& mesh) {
   Recovery seen;
   seen.mesh = mesh;

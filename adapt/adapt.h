@@ -9,8 +9,10 @@ namespace delquad {
 /// The integral of sqrt(det M), by the values at points.
 double complexity_of(const Mesh& mesh, const std::vector<Tensor2>& metric);
 
-/// model_of_mesh() whose names are indices into lists of the mesh: of curves (one more: sides that have no
-/// line), regions and named points.
+/// What a planar mesh bounds, with names that are indices into lists of the mesh: of curves (one more: sides
+/// that have no line), regions and named points. Curves end where the outline turns by more than kCornerTurn
+/// (degrees), at the ends of straight sides, and where other things meet.
 PlanarModel trace_mesh(const Mesh& mesh);
+inline constexpr double kCornerTurn = 40;
 
 }  // namespace delquad

@@ -82,7 +82,7 @@ Elements::Elements(const Mesh& mesh, bool corners_only)
 }
 
 Shape Elements::shape(int element, double s, double t) const {
-  Shape shape;
+  Shape shape{};
   if (is_triangle(element)) {
     shape.value = {1 - s - t, s, t};
     shape.along_s = {-1, 1, 0};
@@ -102,7 +102,11 @@ Shape Elements::shape(int element, double s, double t) const {
 }
 
 Shape Elements::shape_at(int element, const Vec3& x, double s, double t) const {
-  if (is_triangle(element)) return shape(element, s, t);
+  if (is_triangle(element)) {
+    const auto v = nodes(element);
+    const auto w = nearest_weights(points_[v[0]], points_[v[1]], points_[v[2]], x);
+    return shape(element, w[1], w[2]);
+  }
   constexpr int kMostSteps = 20;
   constexpr double kFar = 1, kStill = 1e-15;
   double best_s = s, best_t = t;
@@ -185,10 +189,13 @@ ElementFinder::Found ElementFinder::at(const Vec3& x, int& hint) const {
   return half % 2 == 0 ? Found{element, w[1] + w[2], w[2]} : Found{element, w[1], w[1] + w[2]};
 }
 
-void require_planar(const Mesh& mesh, const std::string& what) {
+void require_elements(const Mesh& mesh, const std::string& what) {
   require_readable(mesh, what);
-  if (mesh.triangles.empty() && mesh.quads.empty())
-    refuse("{} has neither triangles nor quads: expected a planar mesh with some", what);
+  if (mesh.triangles.empty() && mesh.quads.empty()) refuse("{} has neither triangles nor quads", what);
+}
+
+void require_planar(const Mesh& mesh, const std::string& what) {
+  require_elements(mesh, what);
   if (holds_surface(mesh)) refuse("{} is no planar one: expected one z for all points", what);
 }
 

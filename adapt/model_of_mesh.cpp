@@ -21,10 +21,6 @@ constexpr double kStraight = 1e-6;
 Vec2 flat(const Vec3& p) { return {p.x, p.y}; }
 double turn_between(Vec2 in, Vec2 out) { return std::atan2(cross(in, out), dot(in, out)); }
 
-std::string region_name(const Entity& region) {
-  return region.names.empty() ? fmt::format("region_{}", region.tag) : region.names[0];
-}
-
 /// Cubic between nodes, with the tangents of circles through three of them: arcs stay arcs, to the sixth
 /// power of their angle.
 class SmoothChain final : public Curve {
@@ -92,12 +88,12 @@ class MeshTracer {
   PlanarModel trace() {
     find_sides();
     mark_ends();
-    is_done_.assign(sides_.size(), -1);
+    curve_of_.assign(sides_.size(), -1);
     for (int s = 0; s < std::ssize(sides_); ++s)
       for (const int v : sides_[s].nodes)
-        if (is_end_[v] && is_done_[s] < 0) follow(s, v);
+        if (is_end_[v] && curve_of_[s] < 0) follow(s, v);
     for (int s = 0; s < std::ssize(sides_); ++s)
-      if (is_done_[s] < 0) follow(s, sides_[s].nodes[0]);
+      if (curve_of_[s] < 0) follow(s, sides_[s].nodes[0]);
     add_loops();
     for (const NamedPoint& named : mesh_.named_points)
       made_.points.push_back(
@@ -116,13 +112,19 @@ class MeshTracer {
     for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
       curve_of[std::minmax(mesh_.lines[l][0], mesh_.lines[l][1])] = mesh_.line_curve[l];
     const auto n_curves = static_cast<int>(mesh_.curves.size());
+    std::vector<char> is_clockwise;
+    for_each_element(mesh_, [&](int, const auto& v) {
+      const Vec2 a = flat(mesh_.points[v[0]]), c = flat(mesh_.points[v[2]]);
+      is_clockwise.push_back(cross(c - a, flat(mesh_.points[v.back()] - mesh_.points[v[1]])) < 0);
+    });
     for_each_edge(sorted_half_edges(mesh_), [&](std::span<const HalfEdge> edge) {
       if (edge.size() > 2)
         refuse("more than two elements meet at {}: expected a planar mesh",
                show_point(mesh_.points[edge[0].lo]));
       const int lo = edge[0].lo, hi = edge[0].hi;
       std::array<int, 2> regions{-1, -1};
-      for (const HalfEdge& side : edge) regions[side.forward ? 0 : 1] = region_of(side);
+      for (const HalfEdge& side : edge)
+        regions[side.forward == (is_clockwise[side.element] == 0) ? 0 : 1] = region_of(side);
       const auto line = curve_of.find({lo, hi});
       if (line == curve_of.end() && regions[0] == regions[1]) return;
       for (const int v : {lo, hi}) sides_at_[v].push_back(static_cast<int>(sides_.size()));
@@ -172,7 +174,7 @@ class MeshTracer {
     const int curve = static_cast<int>(made_.curves.size());
     std::vector<int> chain{from};
     for (;;) {
-      is_done_[side] = curve;
+      curve_of_[side] = curve;
       chain.push_back(other_end(side, chain.back()));
       const int node = chain.back();
       if (is_end_[node] || node == from) break;
@@ -206,8 +208,8 @@ class MeshTracer {
         const Vec2 a = flat(mesh_.points[way == 0 ? lo : hi]), b = flat(mesh_.points[way == 0 ? hi : lo]);
         area += cross(a, b) / 2;
         has_void = has_void || sides_[side].regions[1 - way] < 0;
-        if (loop.curves.empty() || loop.curves.back() != is_done_[side])
-          loop.curves.push_back(is_done_[side]);
+        if (loop.curves.empty() || loop.curves.back() != curve_of_[side])
+          loop.curves.push_back(curve_of_[side]);
         std::tie(side, way) = next_of(side, way, region);
       }
       if (loop.curves.size() > 1 && loop.curves.back() == loop.curves.front()) loop.curves.pop_back();
@@ -240,7 +242,7 @@ class MeshTracer {
   std::vector<Side> sides_;
   std::vector<std::vector<int>> sides_at_;
   std::vector<char> is_end_;
-  std::vector<int> is_done_;  ///< curve of each side
+  std::vector<int> curve_of_;  ///< curve of each side
   PlanarModel made_;
 };
 
@@ -250,20 +252,6 @@ PlanarModel trace_mesh(const Mesh& mesh) {
   require_planar(mesh, "the mesh of the solution");
   PlanarModel made = MeshTracer(mesh).trace();
   made.source = "the mesh of the solution";
-  return made;
-}
-
-PlanarModel model_of_mesh(const Mesh& mesh) {
-  PlanarModel made = trace_mesh(mesh);
-  const auto first_name = [](const Entity& entity) { return entity.names.empty() ? "" : entity.names[0]; };
-  for (ModelCurve& curve : made.curves) {
-    const int of = std::stoi(curve.name);
-    curve.name = of < std::ssize(mesh.curves) ? first_name(mesh.curves[of]) : "";
-  }
-  for (ModelLoop& loop : made.loops)
-    if (!loop.region.empty()) loop.region = region_name(mesh.regions[std::stoi(loop.region)]);
-  for (ModelPoint& point : made.points)
-    point.name = first_name(mesh.named_points[std::stoi(point.name)].entity);
   return made;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "adapt/elements.h"
 #include "base/box_tree.h"
@@ -16,7 +15,7 @@
 namespace delquad {
 namespace {
 
-Vec2 seen_from_above(const Vec3& p) { return {p.x, p.y}; }
+double area_of(const std::array<Vec2, 3>& x) { return cross(x[1] - x[0], x[2] - x[0]) / 2; }
 
 using Polygon = std::vector<Vec2>;
 
@@ -43,47 +42,48 @@ struct Half {
 /// Quads are parted by a diagonal that lies inside.
 std::vector<Half> halves(const Mesh& mesh) {
   std::vector<Half> made;
+  const auto at = [&](int node) { return Vec2{mesh.points[node].x, mesh.points[node].y}; };
   const auto add = [&](int element, int a, int b, int c) {
-    std::array<Vec2, 3> x{seen_from_above(mesh.points[a]), seen_from_above(mesh.points[b]),
-                          seen_from_above(mesh.points[c])};
-    const double area = cross(x[1] - x[0], x[2] - x[0]);
-    if (area < 0) std::swap(x[1], x[2]);
-    if (area != 0) made.push_back({element, x});
+    std::array x{at(a), at(b), at(c)};
+    if (area_of(x) < 0) std::swap(x[1], x[2]);
+    if (area_of(x) > 0) made.push_back({element, x});
   };
   int element = 0;
   for (const auto& [a, b, c] : mesh.triangles) add(element++, a, b, c);
   for (const auto& [a, b, c, d] : mesh.quads) {
-    const Vec2 ac = seen_from_above(mesh.points[c] - mesh.points[a]);
-    const bool is_inside = cross(ac, seen_from_above(mesh.points[b] - mesh.points[a])) *
-                               cross(ac, seen_from_above(mesh.points[d] - mesh.points[a])) <=
-                           0;
+    const bool is_inside = area_of({at(a), at(b), at(c)}) * area_of({at(a), at(c), at(d)}) >= 0;
     add(element, a, b, is_inside ? c : d);
     add(element++, is_inside ? a : b, c, d);
   }
   return made;
 }
 
-double double_area(const std::array<Vec2, 3>& x) { return cross(x[1] - x[0], x[2] - x[0]); }
+/// Below this part of an element's area nothing is missing but rounding.
+constexpr double kCovered = 1e-10;
 
-/// The overlaps of the elements of two meshes.
+/// The elements of two meshes over each other.
 class Overlaps {
  public:
-  Overlaps(const Mesh& from, const Mesh& to) : from_(halves(from)), to_(halves(to)) {
+  Overlaps(const Mesh& from, const Mesh& to)
+      : from_(halves(from)), to_(halves(to)), finder_(from), new_(to), z_(from.points[0].z) {
     std::vector<Box<Vec2>> boxes;
     for (const Half& half : from_) boxes.push_back(Box<Vec2>::around(half.corners));
     tree_ = BoxTree<Vec2>(boxes);
-    first_.assign(to.triangles.size() + to.quads.size() + 1, 0);
+    first_.assign(static_cast<std::size_t>(new_.size()) + 1, 0);
     for (const Half& half : to_) ++first_[half.element + 1];
     for (std::size_t e = 1; e < first_.size(); ++e) first_[e] += first_[e - 1];
   }
 
-  /// Calls visit(element of `from`, triangle) for triangles that make up what both meshes have of an element.
+  /// Calls visit(weight, point, place) for places of elements of `from` whose weights make up the area of one
+  /// of `to`: three in each triangle of an overlap, exact for degree 2; beyond the old outline the nearest.
   template <class Visit>
   void visit(int element, Visit visit) const {
     std::vector<int> near;
     Polygon polygon, spare;
+    double area = 0, covered = 0;
     for (int h = first_[element]; h < first_[element + 1]; ++h) {
       const auto& x = to_[h].corners;
+      area += area_of(x);
       near.clear();
       tree_.overlapping(Box<Vec2>::around(x), [&](int other) { near.push_back(other); });
       std::ranges::sort(near);
@@ -91,22 +91,33 @@ class Overlaps {
         const auto& y = from_[other].corners;
         polygon.assign(y.begin(), y.end());
         for (int k = 0; k < 3; ++k) clip(polygon, x[k], x[(k + 1) % 3], spare);
-        for (std::size_t k = 2; k < polygon.size(); ++k)
-          if (const std::array part{polygon[0], polygon[k - 1], polygon[k]}; double_area(part) > 0)
-            visit(from_[other].element, part);
+        for (std::size_t k = 2; k < polygon.size(); ++k) {
+          const std::array part{polygon[0], polygon[k - 1], polygon[k]};
+          if (!(area_of(part) > 0)) continue;
+          covered += area_of(part);
+          for (const Vec2 corner : part) {
+            const Vec2 p = (1.0 / 6) * (part[0] + part[1] + part[2] + 3 * corner);
+            visit(area_of(part) / 3, Vec3{p.x, p.y, z_},
+                  ElementFinder::Found{from_[other].element, 0.5, 0.5});
+          }
+        }
       }
     }
-  }
-  /// Of an element of `to`.
-  double area(int element) const {
-    double sum = 0;
-    for (int h = first_[element]; h < first_[element + 1]; ++h) sum += double_area(to_[h].corners) / 2;
-    return sum;
+    if (!(area - covered > kCovered * area)) return;
+    int hint = -1;
+    for (const Quadrature& q : new_.quadrature(element)) {
+      Shape at = new_.shape(element, q.s, q.t);
+      const Vec3 x = new_.point(element, at);
+      visit((1 - covered / area) * q.weight * new_.to_plane(element, at), x, finder_.at(x, hint));
+    }
   }
 
  private:
   std::vector<Half> from_, to_;
   std::vector<int> first_;  ///< of the halves of each element of `to`
+  ElementFinder finder_;
+  Elements new_;
+  double z_;
   BoxTree<Vec2> tree_;
 };
 
@@ -131,141 +142,80 @@ double integral(const std::vector<double>& mass, std::span<const double> values)
   return sum;
 }
 
-/// Makes the integral what it was: all values change by as much, or, within bounds, by as much of what they
-/// may.
 struct Bounds {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   void take(double x) { low = std::min(low, x), high = std::max(high, x); }
 };
+
+/// Makes the integral what it was: all values change by as much, or, if they are bounded, by as much of what
+/// they may.
 void keep_integral(double wanted, const std::vector<double>& mass, const std::vector<Bounds>& bounds,
-                   std::vector<double>& values) {
-  if (bounds.empty()) {
-    double whole = 0;
-    for (const double m : mass) whole += m;
-    const double shift = (wanted - integral(mass, values)) / whole;
-    for (double& value : values) value += shift;
-    return;
-  }
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (mass[i] != 0) values[i] = std::clamp(values[i], bounds[i].low, bounds[i].high);
+                   Transfer how, std::vector<double>& values) {
+  std::vector<double> room(values.size(), 1);
+  if (how == Transfer::kBounded)
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (mass[i] != 0) values[i] = std::clamp(values[i], bounds[i].low, bounds[i].high);
   const double lacking = wanted - integral(mass, values);
-  std::vector<double> room(values.size(), 0);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (mass[i] != 0) room[i] = (lacking > 0 ? bounds[i].high : bounds[i].low) - values[i];
+  if (how == Transfer::kBounded)
+    for (std::size_t i = 0; i < values.size(); ++i)
+      room[i] = mass[i] == 0 ? 0 : (lacking > 0 ? bounds[i].high : bounds[i].low) - values[i];
   const double all = integral(mass, room);
   if (all == 0) return;
-  const double part = std::min(1.0, lacking / all);
+  const double part = how == Transfer::kBounded ? std::min(1.0, lacking / all) : lacking / all;
   for (std::size_t i = 0; i < values.size(); ++i) values[i] += part * room[i];
 }
 
-/// Of one element of the new mesh.
-struct Projection {
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd right;
-  Bounds bounds;
-};
-
-/// Below this part of an element's area nothing is missing but rounding.
-constexpr double kCovered = 1e-10;
-
-class Projector {
- public:
-  Projector(const Mesh& from, std::span<const double> values, const Mesh& to)
-      : values_(values), old_(from), new_(to), finder_(from), overlaps_(from, to) {}
-
-  /// The same quadrature on both sides of the equation: linear fields stay as they are.
-  Projection of(int element) const {
-    const auto n = static_cast<Eigen::Index>(new_.nodes(element).size());
-    Projection made{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), {}};
-    const auto add = [&](const Shape& at, double weight, double value) {
-      const Eigen::Map<const Eigen::VectorXd> shape(at.value.data(), n);
-      made.matrix += weight * shape * shape.transpose();
-      made.right += weight * value * shape;
-    };
-    int hint = -1;
-    const double area = overlaps_.area(element);
-    double covered = 0;
-    overlaps_.visit(element, [&](int other, const std::array<Vec2, 3>& part) {
-      const double size = double_area(part) / 2;
-      covered += size;
-      for (const int v : old_.nodes(other)) made.bounds.take(values_[v]);
-      for (int k = 0; k < 3; ++k) {  // exact for degree 2
-        const Vec2 p = (1.0 / 6) * (part[0] + part[1] + part[2] + 3 * part[k]);
-        const Vec3 x{p.x, p.y, old_.points()[old_.nodes(other)[0]].z};
-        add(inside(new_, element, x), size / 3, old_.value(other, inside(old_, other, x), values_));
-      }
+/// The L2 projection. The same places on both sides of the equation: linear fields stay as they are.
+std::vector<double> project(const Mesh& from, std::span<const double> values, const Mesh& to,
+                            std::vector<Bounds>& bounds) {
+  struct Local {
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    Bounds bounds = {};
+  };
+  const Elements old(from), fresh(to);
+  const Overlaps overlaps(from, to);
+  std::vector<Local> each(static_cast<std::size_t>(fresh.size()));
+  parallel_each(each.size(), [&](std::size_t i) {
+    Local& local = each[i];
+    overlaps.visit(static_cast<int>(i), [&](double weight, const Vec3& x, const ElementFinder::Found& place) {
+      const Shape there = old.shape_at(place.element, x, place.s, place.t);
+      const Shape here = fresh.shape_at(static_cast<int>(i), x, 0.5, 0.5);
+      const Eigen::Map<const Eigen::Vector4d> shape(here.value.data());
+      local.matrix += weight * shape * shape.transpose();
+      local.right += weight * old.value(place.element, there, values) * shape;
+      for (const int v : old.nodes(place.element)) local.bounds.take(values[v]);
     });
-    // Beyond the old outline it is as at the nearest point there.
-    if (area - covered > kCovered * area)
-      for (const Quadrature& q : new_.quadrature(element)) {
-        Shape at = new_.shape(element, q.s, q.t);
-        const Vec3 x = new_.point(element, at);
-        const auto found = finder_.at(x, hint);
-        const double value =
-            old_.value(found.element, old_.shape_at(found.element, x, found.s, found.t), values_);
-        made.bounds.take(value);
-        const double weight = (1 - covered / area) * q.weight * new_.to_plane(element, at);
-        add(at, weight, value);
-      }
-    return made;
-  }
-
-  std::vector<double> solve(std::vector<Bounds>* bounds) const {
-    std::vector<Projection> each(static_cast<std::size_t>(new_.size()));
-    parallel_each(each.size(), [&](std::size_t e) { each[e] = of(static_cast<int>(e)); });
-    const auto n = static_cast<Eigen::Index>(new_.points().size());
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
-    std::vector<char> is_used(static_cast<std::size_t>(n), 0);
-    if (bounds != nullptr) bounds->resize(static_cast<std::size_t>(n));
-    for (int e = 0; e < new_.size(); ++e) {
-      const auto v = new_.nodes(e);
-      const auto m = static_cast<Eigen::Index>(v.size());
-      for (Eigen::Index i = 0; i < m; ++i) {
-        is_used[v[i]] = 1;
-        right[v[i]] += each[e].right[i];
-        for (Eigen::Index k = 0; k < m; ++k) entries.emplace_back(v[i], v[k], each[e].matrix(i, k));
-        if (bounds == nullptr) continue;
-        (*bounds)[v[i]].take(each[e].bounds.low);
-        (*bounds)[v[i]].take(each[e].bounds.high);
-      }
+  });
+  const auto n = static_cast<Eigen::Index>(to.points.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n), is_free = Eigen::VectorXd::Ones(n);
+  for (int e = 0; e < fresh.size(); ++e) {
+    const auto v = fresh.nodes(e);
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      is_free[v[i]] = 0;
+      right[v[i]] += each[e].right[i];
+      for (std::size_t k = 0; k < v.size(); ++k) entries.emplace_back(v[i], v[k], each[e].matrix(i, k));
+      bounds[v[i]].take(each[e].bounds.low);
+      bounds[v[i]].take(each[e].bounds.high);
     }
-    for (int i = 0; i < n; ++i)
-      if (!is_used[i]) entries.emplace_back(i, i, 1);
-    Eigen::SparseMatrix<double> matrix(n, n);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-    if (solver.info() != Eigen::Success) refuse("the mesh to be filled has elements without area");
-    const Eigen::VectorXd solution = solver.solve(right);
-    return {solution.begin(), solution.end()};
   }
-
- private:
-  /// Triangles' own places of a point need no search.
-  static Shape inside(const Elements& elements, int element, const Vec3& x) {
-    if (!elements.is_triangle(element)) return elements.shape_at(element, x, 0.5, 0.5);
-    const auto v = elements.nodes(element);
-    const auto w =
-        nearest_weights(elements.points()[v[0]], elements.points()[v[1]], elements.points()[v[2]], x);
-    return elements.shape(element, w[1], w[2]);
-  }
-
-  std::span<const double> values_;
-  Elements old_, new_;
-  ElementFinder finder_;
-  Overlaps overlaps_;
-};
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, is_free[i]);
+  Eigen::SparseMatrix<double> matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+  if (solver.info() != Eigen::Success) refuse("the mesh to be filled has elements without area");
+  const Eigen::VectorXd solution = solver.solve(right);
+  return {solution.begin(), solution.end()};
+}
 
 void require_pair(const Mesh& from, const Mesh& to, Transfer how) {
   for (const Mesh* mesh : {&from, &to}) {
     const std::string what = mesh == &from ? "the mesh of the field" : "the mesh to be filled";
-    if (how == Transfer::kInterpolated) {
-      require_readable(*mesh, what);
-      if (mesh->triangles.empty() && mesh->quads.empty()) refuse("{} has neither triangles nor quads", what);
-    } else {
-      require_planar(*mesh, what);
-      require_straight(*mesh, what);
-    }
+    require_elements(*mesh, what);
+    if (how == Transfer::kInterpolated) continue;
+    require_planar(*mesh, what);
+    require_straight(*mesh, what);
   }
 }
 
@@ -275,23 +225,22 @@ std::vector<double> transfer_points(const Mesh& from, std::span<const double> va
                                     Transfer how) {
   require_pair(from, to, how);
   require_values(from, values, "that is to be transferred");
-  if (how == Transfer::kInterpolated) {
-    const Elements elements(from);
-    const ElementFinder finder(from);
-    std::vector<double> made(to.points.size());
-    parallel_ranges(made.size(), [&](std::size_t begin, std::size_t end) {
-      int hint = -1;
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto found = finder.at(to.points[i], hint);
-        made[i] = elements.value(found.element,
-                                 elements.shape_at(found.element, to.points[i], found.s, found.t), values);
-      }
-    });
+  std::vector<double> made(to.points.size());
+  if (how != Transfer::kInterpolated) {
+    std::vector<Bounds> bounds(made.size());
+    made = project(from, values, to, bounds);
+    keep_integral(integral(masses(from), values), masses(to), bounds, how, made);
     return made;
   }
-  std::vector<Bounds> bounds;
-  std::vector<double> made = Projector(from, values, to).solve(how == Transfer::kBounded ? &bounds : nullptr);
-  keep_integral(integral(masses(from), values), masses(to), bounds, made);
+  const Elements elements(from);
+  const ElementFinder finder(from);
+  parallel_ranges(made.size(), [&](std::size_t begin, std::size_t end) {
+    int hint = -1;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [element, s, t] = finder.at(to.points[i], hint);
+      made[i] = elements.value(element, elements.shape_at(element, to.points[i], s, t), values);
+    }
+  });
   return made;
 }
 
@@ -302,39 +251,32 @@ std::vector<double> transfer_elements(const Mesh& from, std::span<const double> 
   if (std::ssize(values) != old.size())
     refuse("there are {} values for the {} triangles and quads of the mesh of the field", values.size(),
            old.size());
-  if (const auto bad = std::ranges::find_if(values, [](double x) { return !std::isfinite(x); });
-      bad != values.end())
-    refuse("the value {} of elements is {}: expected finite ones", bad - values.begin(), *bad);
-  const ElementFinder finder(from);
-  std::vector<double> made(static_cast<std::size_t>(fresh.size())), mass(made.size());
-  std::vector<Bounds> bounds(made.size());
-  std::optional<Overlaps> overlaps;
-  if (how != Transfer::kInterpolated) overlaps.emplace(from, to);
-  parallel_ranges(made.size(), [&](std::size_t begin, std::size_t end) {
+  for (std::size_t e = 0; e < values.size(); ++e)
+    if (!std::isfinite(values[e]))
+      refuse("the value of element {} is {}: expected finite values", e, values[e]);
+  std::vector<double> made(static_cast<std::size_t>(fresh.size()), 0), mass(made.size(), 0);
+  if (how == Transfer::kInterpolated) {
+    const ElementFinder finder(from);
     int hint = -1;
-    for (std::size_t i = begin; i < end; ++i) {
-      const int e = static_cast<int>(i);
+    for (int e = 0; e < fresh.size(); ++e) {
       const double middle = fresh.is_triangle(e) ? 1.0 / 3 : 0.5;
-      const double near = values[finder.at(fresh.point(e, fresh.shape(e, middle, middle)), hint).element];
-      made[i] = near;
-      if (!overlaps) continue;
-      double sum = 0, covered = 0;
-      overlaps->visit(e, [&](int other, const std::array<Vec2, 3>& part) {
-        covered += double_area(part) / 2;
-        sum += double_area(part) / 2 * values[other];
-        bounds[i].take(values[other]);
-      });
-      mass[i] = overlaps->area(e);
-      bounds[i].take(near);
-      if (mass[i] - covered > kCovered * mass[i]) sum += (mass[i] - covered) * near, covered = mass[i];
-      if (covered > 0) made[i] = sum / covered;
+      made[e] = values[finder.at(fresh.point(e, fresh.shape(e, middle, middle)), hint).element];
     }
+    return made;
+  }
+  std::vector<Bounds> bounds(made.size());
+  const Overlaps overlaps(from, to);
+  parallel_each(made.size(), [&](std::size_t e) {
+    overlaps.visit(static_cast<int>(e), [&](double weight, const Vec3&, const ElementFinder::Found& place) {
+      mass[e] += weight;
+      made[e] += weight * values[place.element];
+      bounds[e].take(values[place.element]);
+    });
+    if (mass[e] > 0) made[e] /= mass[e];
   });
-  if (!overlaps) return made;
   double wanted = 0;
-  for (const Half& half : halves(from)) wanted += double_area(half.corners) / 2 * values[half.element];
-  if (how == Transfer::kConservative) bounds.clear();
-  keep_integral(wanted, mass, bounds, made);
+  for (const Half& half : halves(from)) wanted += area_of(half.corners) * values[half.element];
+  keep_integral(wanted, mass, bounds, how, made);
   return made;
 }
 

@@ -69,7 +69,7 @@ def main():
     square = delquad.polygons([[(0, 0), (1, 0), (1, 1), (0, 1)]])
     last = {}
     print("loop        mesh  quads  vertices  L2 error   H1 error  estimated L2   H1     seconds")
-    for loop, settings in (("stretched", {}), ("squares", {"isotropic": True})):
+    for loop, settings in (("stretched", {}), ("aspect 8", {"aspect": 8}), ("squares", {"isotropic": True})):
         mesh = delquad.mesh(square, quads=int(arguments.quads))
         for k in range(arguments.meshes + 1):
             began = time.perf_counter()
@@ -88,10 +88,11 @@ def main():
                 began = time.perf_counter()
                 mesh, _ = delquad.adapt(mesh, u, quads=arguments.quads, model=square, **settings)
                 seconds = time.perf_counter() - began
-    n, l2, h1 = last["stretched"]
-    for other in ("squares", "uniform"):
-        m, other_l2, other_h1 = last[other]
-        print(f"vertices at equal error, {other} over stretched: {other_l2 * m / (l2 * n):.1f} (L2), {(other_h1 / h1) ** 2 * m / n:.1f} (H1)")
+    for loop in ("stretched", "aspect 8"):
+        n, l2, h1 = last[loop]
+        for other in ("squares", "uniform"):
+            m, other_l2, other_h1 = last[other]
+            print(f"vertices at equal error, {other} over {loop}: {other_l2 * m / (l2 * n):.1f} (L2), {(other_h1 / h1) ** 2 * m / n:.1f} (H1)")
 
 
 if __name__ == "__main__":

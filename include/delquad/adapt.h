@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -77,15 +76,11 @@ struct Adapted {
 std::vector<Tensor2> adapted_metric(const Mesh& mesh, const std::vector<Recovery>& solutions,
                                     const AdaptSpec& spec);
 
-/// What a planar mesh bounds. A chain of sides on the outline, between regions and of lines is a curve, from
-/// corner to corner (kCornerTurn, or where straight sides end): straight, or smooth through its nodes.
-PlanarModel model_of_mesh(const Mesh& mesh);
-/// Degrees by which the outline turns at a corner.
-inline constexpr double kCornerTurn = 40;
-
-/// Meshes `problem`, or, where it is null, what the mesh bounds, with the curves, regions and names of the
-/// mesh, for the fields at its points. Fields that are constant do not count, one must not be. The problem's
-/// own size and metric do not count. Throws also what mesh() throws.
+/// Meshes `problem`, or, where it is null, what the mesh bounds, with its curves, regions and names, for the
+/// fields at its points. Curves of a mesh are chains of sides on its outline, between regions and of lines,
+/// from corner to corner (see docs/adaptation.md): straight, or smooth through their nodes. Fields that are
+/// constant do not count, one must not be. The problem's own size and metric do not count. Throws also what
+/// mesh() throws.
 Adapted adapt(const Mesh& mesh, const std::vector<NodalField>& fields, const AdaptSpec& spec,
               const MeshProblem* problem = nullptr, const Context& context = {});
 
