@@ -34,24 +34,24 @@ struct AdaptArguments : AdaptSpec {
 
 /// The mesh of the first field, and all fields.
 struct Solution {
-  std::filesystem::path file;
+  std::vector<std::filesystem::path> files;
   Mesh mesh;
   std::vector<NodalField> fields;
 };
 
 /// The components of FILE:FIELD, or of another FIELD of the first file.
 std::vector<NodalField> read_fields(const std::string& text, Solution& solution) {
-  SizeFile from{solution.file, text};
+  SizeFile from{solution.files.empty() ? "" : solution.files[0], text};
   if (const auto given = size_file_of(text, {})) from = *given;
   if (from.path.empty()) refuse("'{}': expected FILE:FIELD with a .msh or .vtu file", text);
   PointField read = read_point_field(from.path, from.field);
-  if (solution.file.empty()) {
-    solution.file = from.path;
+  solution.files.push_back(from.path);
+  if (solution.files.size() == 1) {
     solution.mesh = read.mesh;
   } else if (read.mesh.points != solution.mesh.points || read.mesh.triangles != solution.mesh.triangles ||
              read.mesh.quads != solution.mesh.quads)
     refuse("{}: its mesh is another one than that of {}: expected fields on the same", text,
-           solution.file.string());
+           solution.files[0].string());
   std::vector<NodalField> fields;
   for (auto& [name, values] : read.components) fields.push_back({name, std::move(values)});
   return fields;
@@ -89,6 +89,15 @@ int adapt_command(const AdaptArguments& arguments) {
   }
   std::optional<MeshProblem> problem;
   if (!arguments.model.empty()) problem = read_model_file(arguments.model);
+  const std::string kind = kind_of_file(arguments.output);
+  const bool holds = kind == ".msh" || kind == ".vtu";
+  const std::filesystem::path with_fields =
+      holds ? arguments.output : std::filesystem::path(arguments.output).replace_extension(".vtu");
+  for (const std::filesystem::path& file : solution.files)
+    check_distinct({{"the solution", file},
+                    {"the model", arguments.model},
+                    {"-o", arguments.output},
+                    {"the fields beside it", holds ? "" : with_fields}});
   Progress progress;
   Adapted made = adapt(solution.mesh, solution.fields, spec, problem ? &*problem : nullptr);
   progress.warn(made.result.warnings);
@@ -99,12 +108,8 @@ int adapt_command(const AdaptArguments& arguments) {
     PointData data;
     for (const NodalField& field : solution.fields)
       data[field.name] = transfer_points(solution.mesh, field.values, mesh, arguments.transfer);
-    const std::string kind = kind_of_file(arguments.output);
-    const bool holds = kind == ".msh" || kind == ".vtu";
     if (!holds) write_mesh(arguments.output, mesh, arguments.msh);
-    write_point_data(
-        holds ? arguments.output : std::filesystem::path(arguments.output).replace_extension(".vtu"), mesh,
-        data, holds ? arguments.msh : MshOptions{});
+    write_point_data(with_fields, mesh, data, holds ? arguments.msh : MshOptions{});
   }
   fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", arguments.output.string(),
              made.result.mesh.quads.size(), made.result.mesh.triangles.size(), made.result.mesh.points.size(),

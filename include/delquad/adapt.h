@@ -24,7 +24,7 @@ struct Recovery {
   std::vector<Tensor2> hessian;  ///< second derivatives
 };
 
-/// The polynomial of degree order + 1 that fits the values best on two rings of elements around each point,
+/// The polynomial of degree order + 2 that fits the values best on two rings of elements around each point,
 /// or more where these do not determine it, scaled to the principal axes of their points [zhang2005]. No ring
 /// crosses from one region to another. Where a region has too few points for a degree, it becomes less;
 /// points without elements have 0.

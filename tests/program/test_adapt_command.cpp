@@ -90,6 +90,8 @@ TEST(AdaptCommand, WrongFields) {
   EXPECT_TRUE(contains(said({a + ":u", b + ":u", "--quads", "100"}), "its mesh is another one"));
   EXPECT_TRUE(contains(said({c + ":eta", "--quads", "100"}),
                        "the field 'eta' is of elements: expected one of points"));
+  EXPECT_TRUE(contains(delquad({"adapt", a + ":u", "--quads", "9", "-o", folder / "a.inp"}).err,
+                       "is the same file as the solution"));
   EXPECT_TRUE(contains(said({a + ":u"}), "expected one of both"));
   EXPECT_TRUE(
       contains(said({a + ":u", "--quads", "100", "--goal-weight", "bad"}), "the field of weights is nan"));
