@@ -29,7 +29,8 @@ def read_msh(path):
             version = next(tokens)
         elif token == "$Nodes" and version.startswith("2"):
             for _ in range(int(next(tokens))):
-                points[int(next(tokens))] = (float(next(tokens)), float(next(tokens)))
+                tag = int(next(tokens))
+                points[tag] = (float(next(tokens)), float(next(tokens)))
                 next(tokens)
         elif token == "$Nodes":
             blocks = int(next(tokens))
@@ -105,4 +106,5 @@ def main(path, solution):
                       "h1_constant": h1 * n}))
 
 
-main(sys.argv[1], sys.argv[2])
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2])
