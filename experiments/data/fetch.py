@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Fetches the models of files.toml that are missing in a folder, with curl.
+"""Fetches the models of a list that are missing in a folder: files with curl, repositories with git.
 
-Usage: fetch.py FOLDER [--mirror URL]. A file appears when its SHA-256 is right, and not otherwise.
+Usage: fetch.py FOLDER [--list LIST.toml] [--mirror URL]. The list is files.toml if absent. A file appears when its SHA-256 is right, a repository at its commit, and not otherwise.
 --mirror (or DELQUAD_MIRROR) is asked first, for URL/NAME; then the urls of the list.
 """
 import argparse
 import hashlib
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -57,15 +58,50 @@ def fetch(file, folder, mirror):
     return False
 
 
+def git(*arguments):
+    run = subprocess.run(["git", *arguments], capture_output=True, text=True)
+    return run.stdout.strip(), (run.stderr.strip().splitlines() or ["git failed"])[0] if run.returncode else ""
+
+
+def clone(repository, folder, mirror):
+    """Whether the repository is there in the end."""
+    path, commit = folder / repository["name"], repository["commit"]
+    if path.exists():
+        head = git("-C", path, "rev-parse", "HEAD")[0]
+        if head == commit:
+            print(f"{path}: is there")
+            return True
+        print(f"error: {path}: is not at commit {commit}; move it away to fetch it anew", file=sys.stderr)
+        return False
+    for url in ([f"{mirror.rstrip('/')}/{repository['name']}"] if mirror else []) + [repository["url"]]:
+        part = path.with_name(f".{path.name}.{os.getpid()}.part")
+        try:
+            for step in (["init", "--quiet"], ["fetch", "--quiet", "--depth", "1", url, commit], ["checkout", "--quiet", commit]):
+                part.mkdir(parents=True, exist_ok=True)
+                reason = git("-C", part, *step)[1]
+                if reason:
+                    break
+            else:
+                part.rename(path)
+                print(f"{path}: fetched from {url}\n  {repository['what']}; {repository['licence']}")
+                return True
+            print(f"warning: {url}: {reason}", file=sys.stderr)
+        finally:
+            shutil.rmtree(part, ignore_errors=True)
+    print(f"error: {path}: not fetched. By hand: put commit {commit} of {repository['url']} there", file=sys.stderr)
+    return False
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--mirror", default=os.environ.get("DELQUAD_MIRROR"))
     parser.add_argument("--list", type=pathlib.Path, default=LIST)
     arguments = parser.parse_args()
-    files = tomllib.loads(arguments.list.read_text())["file"]
+    models = tomllib.loads(arguments.list.read_text())
     try:
-        there = [fetch(file, arguments.folder, arguments.mirror) for file in files]
+        there = [fetch(file, arguments.folder, arguments.mirror) for file in models.get("file", [])]
+        there += [clone(repository, arguments.folder, arguments.mirror) for repository in models.get("repository", [])]
     except OSError as error:
         sys.exit(f"error: {error.filename or arguments.folder}: {error.strerror}")
     return 0 if all(there) else 1

@@ -122,12 +122,44 @@ class Fetch(unittest.TestCase):
         self.assertNotIn("Traceback", run.stderr)
 
 
+class Repository(unittest.TestCase):
+    def test_is_there_at_its_commit(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            origin, data, models = folder / "origin", folder / "data", folder / "list.toml"
+
+            def git(*arguments):
+                return subprocess.run(["git", "-C", origin, "-c", "user.name=a", "-c", "user.email=a@b", *arguments],
+                                      check=True, capture_output=True, text=True).stdout.strip()
+
+            def fetch(url, commit):
+                models.write_text(f'[[repository]]\nname = "parts"\nwhat = "parts"\nurl = "{url}"\ncommit = "{commit}"\nlicence = "free"\n')
+                return subprocess.run([sys.executable, FETCH, data, "--list", models], capture_output=True, text=True)
+
+            origin.mkdir()
+            git("init", "--quiet")
+            (origin / "part.step").write_bytes(CONTENT)
+            git("add", "part.step")
+            git("commit", "--quiet", "--message", "A part")
+            commit = git("rev-parse", "HEAD")
+            self.assertEqual(fetch(folder / "nothing", commit).returncode, 1)
+            self.assertEqual(fetch(origin, "0" * 40).returncode, 1)
+            self.assertEqual(list(data.iterdir()), [])
+            self.assertEqual(fetch(origin, commit).returncode, 0)
+            self.assertEqual((data / "parts/part.step").read_bytes(), CONTENT)
+            self.assertIn("is there", fetch(folder / "nothing", commit).stdout)
+            self.assertIn("move it away", fetch(origin, "0" * 40).stderr)
+
+
 class List(unittest.TestCase):
     def test_is_complete(self):
         files = tomllib.loads((FETCH.parent / "files.toml").read_text())["file"]
         for file in files:
             self.assertEqual(sorted(file), ["licence", "name", "sha256", "urls", "what"])
             self.assertRegex(file["sha256"], "^[0-9a-f]{64}$")
+        for repository in tomllib.loads((FETCH.parent / "public.toml").read_text())["repository"]:
+            self.assertEqual(sorted(repository), ["commit", "licence", "name", "url", "what"])
+            self.assertRegex(repository["commit"], "^[0-9a-f]{40}$")
         names = {file["name"] for file in files}
         used = set()
         for experiment in FETCH.parent.parent.glob("*.toml"):
