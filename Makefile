@@ -9,7 +9,7 @@ CMAKE_FLAGS ?=
 # How long `make fuzz` tries its targets, all of them together.
 SECONDS ?= 120
 
-.PHONY: packages build dev lint test python data paper peers suite bench fuzz
+.PHONY: packages build dev lint test python data paper peers public public_models suite bench fuzz
 
 packages:
 	@cmake/install-packages.sh
@@ -40,12 +40,26 @@ paper: EXPERIMENTS = $(filter-out $(PEERS),$(wildcard experiments/*.toml))
 # Those; failed cells are part of their tables.
 peers: EXPERIMENTS = $(PEERS)
 peers: MAY_FAIL = ||:
-paper peers: build
+# Models of other projects, beside what these published.
+public: EXPERIMENTS = $(wildcard experiments/public/*.toml)
+public: MAY_FAIL = ||:
+public: INTO = $(RESULTS)/public
+public: public_models
+paper peers public: INTO ?= $(RESULTS)
+paper peers public: build
 	@for e in $(EXPERIMENTS); do \
-	  build/$(PRESET)/delquad run $$e --data $(DATA) -o $(RESULTS)/$$(basename $$e .toml) $(MAY_FAIL) || exit $$?; \
+	  build/$(PRESET)/delquad run $$e --data $(DATA) -o $(INTO)/$$(basename $$e .toml) $(MAY_FAIL) || exit $$?; \
 	done
-	build/$(PRESET)/delquad report $(RESULTS) -o $(RESULTS)/report.html
-	@echo "Tables and pictures lie in $(RESULTS)/; $(RESULTS)/report.html shows them."
+	build/$(PRESET)/delquad report $(INTO) -o $(INTO)/report.html
+	@echo "Tables and pictures lie in $(INTO)/; $(INTO)/report.html shows them."
+
+# Fetches these models, and writes those in formats of others anew: as model files, and with gmsh, where it is, as .brep.
+public_models:
+	@python3 experiments/data/fetch.py $(DATA) --list experiments/data/public.toml
+	@python3 experiments/public/hohqmesh.py $(DATA)/hohqmesh/Benchmarks/ControlFiles/*.control experiments/public/models
+	@python3 experiments/public/geo.py $(DATA)/marmousi.geo experiments/public/models/marmousi_lines.toml polyline
+	@python3 experiments/public/geo.py $(DATA)/marmousi.geo experiments/public/models/marmousi_splines.toml spline
+	@! command -v gmsh > /dev/null || for f in $(DATA)/hexme/original/*.geo; do gmsh $$f -0 -o $${f%.geo}.brep -v 2; done
 
 # Fetches what is missing of the paper's own models, and checks what is there.
 data:

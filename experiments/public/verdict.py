@@ -1,0 +1,38 @@
+#!/usr/bin/env python3
+"""Measures of others that the program does not have: verdict.py MESH.msh prints them for the quads of a planar mesh.
+
+shape: least 2 J / (a^2 + b^2) over the corners, J the cross product of the sides a and b there; aspect: longest side times the sum of the sides over four times the area [stimpson2007].
+least_angle and largest_angle: a quad's own, degrees. All these are means over quads. libmesh_shape: the harmonic mean over the corners in place of the least one, and the mean by area, as MOOSE takes it.
+"""
+import json
+import math
+import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from interpolation_error import read_msh  # noqa: E402
+
+
+def measure(corners):
+    sides = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(corners, corners[1:] + corners[:1])]
+    length = [math.hypot(*side) for side in sides]
+    cross = [sides[k - 1][0] * sides[k][1] - sides[k - 1][1] * sides[k][0] for k in range(4)]
+    dot = [-sides[k - 1][0] * sides[k][0] - sides[k - 1][1] * sides[k][1] for k in range(4)]
+    angles = [math.degrees(math.atan2(c, d)) % 360 for c, d in zip(cross, dot)]
+    shapes = [2 * c / (length[k - 1] ** 2 + length[k] ** 2) for k, c in enumerate(cross)]
+    area = sum(cross) / 4
+    return (min(shapes), min(angles), max(angles), max(length) * sum(length) / (4 * area), area,
+            area * 4 / sum(1 / s for s in shapes))
+
+
+def main(path):
+    points, elements = read_msh(path)
+    quads = [measure([points[n] for n in nodes]) for nodes in elements if nodes[2] != nodes[3]]
+    shape, least, largest, aspect, area, weighted = zip(*quads)
+    n = len(quads)
+    print(json.dumps({"shape_mean": sum(shape) / n, "shape_min": min(shape), "least_angle": sum(least) / n,
+                      "largest_angle": sum(largest) / n, "aspect": sum(aspect) / n, "libmesh_shape": sum(weighted) / sum(area)}))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
