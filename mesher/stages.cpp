@@ -32,7 +32,7 @@
 namespace delquad {
 namespace {
 
-/// `mesh`: mesh_frontal or mesh_packing.
+/// `mesh`: mesh_frontal, mesh_delquad or mesh_packing.
 void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement, const StageInput& in,
                    PatchMesh& patch, StageLog& log) {
   const Stopwatch watch;
@@ -89,7 +89,8 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const DoingStage matching("matching");
   const RecombinationOptions options = recombination_options(in.options);
   RecombineSummary summary;
-  patch.quads = recombine(patch.triangles, *matching_solver(options.solver, in.options), &summary);
+  const long long extra = is_astray(in.boundary, in.cross, in.size) ? kAstrayExtraEdgeCost : kExtraEdgeCost;
+  patch.quads = recombine(patch.triangles, *matching_solver(options.solver, in.options), &summary, extra);
   patch.triangles = {};
   patch.form = PatchForm::kQuads;
   add_summary(log, summary);
@@ -325,7 +326,10 @@ void optimise_quads(const AllPatches& in, StageLog& log) {
 std::deque<Stage>& stages() {
   static std::deque<Stage> all = {
       insertion_stage('F', "L2 insertion", [](const Options&) { return make_l2_frontal(); }),
-      insertion_stage('D', "L-infinity insertion", [](const Options&) { return make_linf_delquad(); }),
+      {'D', "L-infinity insertion", PatchForm::kBoundary, PatchForm::kTriangles,
+       [](const StageInput& in, PatchMesh& patch, StageLog& log) {
+         insert_points(mesh_delquad, *make_linf_delquad(), in, patch, log);
+       }},
       {'P', "packing along the cross", PatchForm::kBoundary, PatchForm::kTriangles,
        [](const StageInput& in, PatchMesh& patch, StageLog& log) {
          insert_points(mesh_packing, *make_linf_delquad(), in, patch, log);

@@ -71,15 +71,25 @@ TriPatch fill_frontal(const TriPatch& initial, const PointPlacement& placement, 
                       const ParametricSize& size, const FrontalOptions& options = {},
                       FrontalSummary* summary = nullptr);
 
+/// Whether a boundary strays from the cross: beside more than half of its length there are grids, by cross
+/// and size, whose rows do not run along it, nor into it at a right angle.
+bool is_astray(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size);
+
 /// P: packs vertices along the cross, then fills what is left by the frontal mesher with `filler`.
 ///
-/// First in, first out from the boundary's points, each vertex proposes its four neighbours in a grid: one
-/// step of length delta' along each direction of the cross, by the midpoint rule. A proposal is refused
-/// outside the domain and by the same tests as in mesh_frontal(). A vertex knows of no front and no
-/// triangles, so that legs and diagonals of half squares cannot be taken for each other.
+/// First in, first out from the boundary's points (where the boundary is astray, from the point farthest from
+/// it), each vertex proposes its four neighbours in a grid: one step of length delta' along each direction of
+/// the cross, by the midpoint rule. A proposal is refused outside the domain and by the same tests as in
+/// mesh_frontal(). A vertex knows of no front and no triangles, so that legs and diagonals of half squares
+/// cannot be taken for each other.
 ///
 /// After the packing of parallelograms in Gmsh (algorithm 9).
 TriPatch mesh_packing(const PatchBoundary& boundary, const PointPlacement& filler, const CrossField& cross,
+                      const ParametricSize& size, const FrontalOptions& options = {},
+                      FrontalSummary* summary = nullptr);
+
+/// D: mesh_frontal(), but mesh_packing() where the boundary is astray, which would lead the front astray.
+TriPatch mesh_delquad(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options = {},
                       FrontalSummary* summary = nullptr);
 

@@ -14,6 +14,14 @@ namespace delquad {
 
 namespace {
 
+/// An edge follows the cross where its slope against the nearest direction of it is at most this: 7 degrees.
+constexpr double kFollowedSlope = 0.125;
+/// There is a grid beside an edge over which the cross turns by no more than 2 degrees (the cosine of four
+/// times that) and delta' changes by no more than this part.
+constexpr double kSameCross = 0.99, kSameSize = 0.05;
+/// The share of the boundary's length beside which grids may stray from it.
+constexpr double kMostAstray = 0.5;
+
 /// Of the four directions of the frame, the one nearest to d.
 Vec2 nearest_direction(const Frame& frame, Vec2 d) {
   const Vec2 local = frame.to_local(d);
@@ -37,10 +45,10 @@ class Packer {
     }
   }
 
-  /// The vertices' own order is the queue: each is appended when it is inserted. Ends as the frontal mesher
-  /// does.
-  FrontalSummary run() {
-    for (int v = 0; v < static_cast<int>(vertices_.size()); ++v) {
+  /// Begins at vertex `first`. The vertices' own order is the queue: each is appended when it is inserted.
+  /// Ends as the frontal mesher does.
+  FrontalSummary run(int first) {
+    for (int v = first; v < static_cast<int>(vertices_.size()); ++v) {
       check_cancelled();
       const Frame frame = Frame::from_cross(vertices_[v].cross);
       for (const Vec2 d : {frame.e1, frame.e2, -frame.e1, -frame.e2}) {
@@ -52,6 +60,30 @@ class Packer {
       }
     }
     return summary_;
+  }
+
+  /// Inserts the middle of the circle around a triangle that is largest, in delta' there; the number of its
+  /// vertex.
+  int insert_innermost() {
+    const int number = static_cast<int>(vertices_.size());
+    const auto& p = kernel_.points();
+    Vec2 innermost;
+    VertexFields near;
+    double most = 0;
+    int in = -1;
+    for (int t = 0; t < static_cast<int>(kernel_.triangles().size()); ++t) {
+      const auto& v = kernel_.triangles()[t].v;
+      const Vec2 a = p[v[1]] - p[v[0]], b = p[v[2]] - p[v[0]];
+      const Vec2 way = (0.5 / ::delquad::cross(a, b)) * (dot(b, b) * perp(a) - dot(a, a) * perp(b));
+      const int holder = kernel_.locate(p[v[0]] + way, t);
+      if (holder < 0) continue;
+      const VertexFields there = sample(p[v[0]] + way, vertices_[v[0]]);
+      if (norm(way) <= most * there.delta) continue;
+      most = norm(way) / there.delta;
+      innermost = p[v[0]] + way, near = there, in = holder;
+    }
+    if (in >= 0 && kernel_.find_cavity(innermost, in)) insert(innermost, near), ++summary_.inserted;
+    return number;
   }
 
   TriPatch result(int n_boundary) const { return kernel_.to_patch(n_boundary); }
@@ -70,13 +102,16 @@ class Packer {
     const Vec2 x = from + middle.delta * nearest_direction(frame, d);
     const int holder = kernel_.locate(x, on_the_way);
     if (holder < 0 || !kernel_.find_cavity(x, holder) || !acceptable(x, frame, middle.delta)) return false;
+    insert(x, middle);
+    return true;
+  }
 
-    vertices_.push_back(sample(x, middle));
+  void insert(Vec2 x, const VertexFields& near) {
+    vertices_.push_back(sample(x, near));
     triangle_.push_back(-1);
     for (const int t : kernel_.insert(x)) {
       for (const int w : kernel_.triangles()[t].v) triangle_[w] = t;
     }
-    return true;
   }
 
   bool acceptable(Vec2 x, const Frame& frame, double delta) const {
@@ -101,12 +136,28 @@ class Packer {
 
 }  // namespace
 
+bool is_astray(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size) {
+  double length = 0, astray = 0;
+  VertexFields last;
+  for (const auto& [i, j] : boundary.edges) {
+    const Vec2 p = boundary.points[i], q = boundary.points[j];
+    const VertexFields a = sample_fields(cross, size, p, last), b = last = sample_fields(cross, size, q, a);
+    const CanonicalEdge edge(p, q, Frame::from_cross(a.cross + b.cross));
+    length += norm(q - p);
+    if (std::abs(edge.beta) > kFollowedSlope * edge.alpha &&
+        a.cross.c * b.cross.c + a.cross.s * b.cross.s >= kSameCross &&
+        std::abs(a.delta - b.delta) <= kSameSize * a.delta)
+      astray += norm(q - p);
+  }
+  return astray > kMostAstray * length;
+}
+
 TriPatch mesh_packing(const PatchBoundary& boundary, const PointPlacement& filler, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options, FrontalSummary* summary) {
   const Stopwatch watch;
   const int n_boundary = static_cast<int>(boundary.points.size());
   Packer packer(boundary, cross, size, options);
-  const FrontalSummary packed = packer.run();
+  const FrontalSummary packed = packer.run(is_astray(boundary, cross, size) ? packer.insert_innermost() : 0);
   FrontalOptions left = options;
   left.max_points -= packed.inserted;
   FrontalSummary done;
@@ -118,6 +169,12 @@ TriPatch mesh_packing(const PatchBoundary& boundary, const PointPlacement& fille
   done.seconds = watch.seconds();
   if (summary) *summary = done;
   return patch;
+}
+
+TriPatch mesh_delquad(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
+                      const ParametricSize& size, const FrontalOptions& options, FrontalSummary* summary) {
+  const auto mesh = is_astray(boundary, cross, size) ? mesh_packing : mesh_frontal;
+  return mesh(boundary, placement, cross, size, options, summary);
 }
 
 }  // namespace delquad

@@ -190,7 +190,7 @@ std::vector<BoundarySide> boundary_sides(const TriPatch& tri) {
       });
 }
 
-void add_extra_edges(const TriPatch& tri, const std::vector<int>& node, DualGraph& dual) {
+void add_extra_edges(const TriPatch& tri, const std::vector<int>& node, long long cost, DualGraph& dual) {
   std::vector<int> first(tri.n_boundary, -1), last(tri.n_boundary, -1);
   for (const BoundarySide& side : boundary_sides(tri)) {
     first[side.from] = side.triangle;
@@ -198,7 +198,7 @@ void add_extra_edges(const TriPatch& tri, const std::vector<int>& node, DualGrap
   }
   for (int b = 0; b < tri.n_boundary; ++b) {
     if (first[b] < 0 || first[b] == last[b] || facing_side(tri, first[b], last[b]) >= 0) continue;
-    dual.graph.edges.push_back({node[first[b]], node[last[b]], kExtraEdgeCost});
+    dual.graph.edges.push_back({node[first[b]], node[last[b]], cost});
     dual.extra_vertex.push_back(b);
   }
 }
@@ -245,7 +245,7 @@ std::array<int, 4> merged_quad(const TriPatch& tri, int t, int side, int u) {
   return {v[side], a, opposite, b};
 }
 
-DualGraph build_dual_graph(const TriPatch& tri) {
+DualGraph build_dual_graph(const TriPatch& tri, long long extra_edge_cost) {
   DualGraph dual;
   dual.triangle = triangles_along_curve(tri);
   dual.graph.n_nodes = static_cast<int>(tri.triangles.size());
@@ -254,7 +254,7 @@ DualGraph build_dual_graph(const TriPatch& tri) {
   const std::vector<std::size_t> first_edge = first_edges(tri, node);
   dual.graph.edges = interior_sides(tri, dual.triangle, node, first_edge);
   dual.first_extra = static_cast<int>(dual.graph.edges.size());
-  add_extra_edges(tri, node, dual);
+  add_extra_edges(tri, node, extra_edge_cost, dual);
   check_cancelled();
   add_spares(dual, first_edge);
   return dual;

@@ -14,6 +14,9 @@ namespace delquad {
 inline constexpr long long kCostUnit = 1'000'000;
 /// Cost of an extra edge: dearer than the worst of any hundred good quads.
 inline constexpr long long kExtraEdgeCost = 100 * kCostUnit;
+/// The same along boundaries that stray from the cross: less than what rows of rhombs cost, which carry a
+/// triangle without partner from one side of a grid to the other, and shear it.
+inline constexpr long long kAstrayExtraEdgeCost = 5 * kCostUnit / 2;
 
 /// The graph whose perfect matchings are the ways to merge the triangles of a patch two by two.
 ///
@@ -37,7 +40,7 @@ std::vector<int> hilbert_order(std::span<const Vec2> points);
 /// The quad that triangle t and its neighbour u across a side of t make, from t's corner opposite of it.
 std::array<int, 4> merged_quad(const TriPatch& tri, int t, int side, int u);
 
-DualGraph build_dual_graph(const TriPatch& tri);
+DualGraph build_dual_graph(const TriPatch& tri, long long extra_edge_cost = kExtraEdgeCost);
 
 /// eta of a quad with a sign [paper, equation (4), extended]: 1 - max |90 deg - angle| / 90 deg over the four
 /// interior angles, taken in [0, 360) degrees. 1 for a rectangle, 0 with an angle of 0 or 180, below 0 (down

@@ -103,11 +103,12 @@ std::vector<FanEnds> matched_extra_edges(const TriPatch& tri, const DualGraph& d
 
 }  // namespace
 
-QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, RecombineSummary* summary) {
+QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, RecombineSummary* summary,
+                    long long extra_edge_cost) {
   RecombineSummary s;
   s.triangles = static_cast<int>(tri.triangles.size());
   Lap lap;
-  DualGraph dual = build_dual_graph(tri);
+  DualGraph dual = build_dual_graph(tri, extra_edge_cost);
   s.graph_seconds = lap();
   MatchingResult matching = solver.solve(dual.graph);
   s.matching_seconds = lap();
@@ -118,7 +119,7 @@ QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, Recombine
     cut = tri;
     s.split_chords = split_spanning_sides(cut);
     mesh = &cut;
-    dual = build_dual_graph(cut);
+    dual = build_dual_graph(cut, extra_edge_cost);
     s.graph_seconds += lap();
     matching = solver.solve(dual.graph);
     s.matching_seconds += lap();

@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -19,7 +23,11 @@ namespace {
 
 using testing_support::check_quad_patch;
 using testing_support::count_loops;
+using testing_support::FunctionCross;
+using testing_support::FunctionSize;
 using testing_support::random_inner_points;
+
+constexpr double kPerDegree = std::numbers::pi / 180;
 
 double area(const QuadPatch& mesh, const std::array<int, 4>& q) {
   return cross(mesh.points[q[2]] - mesh.points[q[0]], mesh.points[q[3]] - mesh.points[q[1]]) / 2;
@@ -204,6 +212,43 @@ TEST(Recombine, SameInputSameMeshAndNumberingDoesNotMatter) {
   const TriPatch shuffled = testing_support::make_patch(tri.points, triangles, tri.n_boundary);
   const QuadPatch third = checked(shuffled, boundary, shuffled_summary);
   EXPECT_EQ(summary.cost, shuffled_summary.cost);
+}
+
+/// The share of inner edges within 8 degrees of the cross.
+double aligned_share(const QuadPatch& mesh, double theta) {
+  std::map<std::array<int, 2>, int> edges;
+  for (const auto& q : mesh.quads)
+    for (int k = 0; k < 4; ++k) ++edges[{std::min(q[k], q[(k + 1) % 4]), std::max(q[k], q[(k + 1) % 4])}];
+  double inner = 0, aligned = 0;
+  for (const auto& [edge, quads] : edges) {
+    if (quads < 2) continue;
+    const Vec2 d = mesh.points[edge[1]] - mesh.points[edge[0]];
+    ++inner;
+    aligned += std::abs(std::remainder(std::atan2(d.y, d.x) - theta, std::numbers::pi / 2)) <= 8 * kPerDegree;
+  }
+  return aligned / inner;
+}
+
+// Squares with sides that the cross does not follow: a grid from the middle, with the triangles without
+// partner joined along the sides, not by rows of rhombs across it.
+TEST(Recombine, FollowsTheCrossWhereTheBoundaryIsAstray) {
+  const auto boundary = shapes::rectangle(1, 1, 40, 40);
+  const FunctionSize size(0.025), steep([](Vec2 u) { return 0.02 * std::exp(3 * (u.x + u.y)); });
+  const auto placement = make_linf_delquad();
+  const auto solver = make_primal_dual_solver();
+  for (const double degrees : {0.0, 5.0, 87.0})
+    EXPECT_FALSE(is_astray(boundary, FunctionCross(degrees * kPerDegree), size)) << degrees;
+  for (const double degrees : {10.0, 20.0, 30.0, 45.0, 70.0}) {
+    SCOPED_TRACE(degrees);
+    const double theta = degrees * kPerDegree;
+    const FunctionCross cross(theta);
+    EXPECT_TRUE(is_astray(boundary, cross, size));
+    EXPECT_FALSE(is_astray(boundary, cross, steep));
+    const TriPatch tri = mesh_delquad(boundary, *placement, cross, size);
+    EXPECT_GT(aligned_share(recombine(tri, *solver, nullptr, kAstrayExtraEdgeCost), theta), 0.9);
+    const TriPatch from_boundary = mesh_frontal(boundary, *placement, cross, size);
+    EXPECT_LT(aligned_share(recombine(from_boundary, *solver), theta), 0.85);
+  }
 }
 
 }  // namespace
