@@ -25,7 +25,7 @@ using Triangulation = CGAL::Constrained_triangulation_plus_2<
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>>;
 
 /// Chords of a curve that is no polyline, which stays.
-constexpr int kChords = 256;
+constexpr int kChordsThatStay = 256;
 
 /// The largest distance of points that went from the chord in their place, in tolerances, squared.
 struct RelativeDistance {
@@ -94,8 +94,8 @@ class OutlineSimplifier {
 
   void add_that_stays(const Curve& curve) {
     std::vector<Point> points;
-    for (int k = 0; k <= kChords; ++k) {
-      const Vec2 p = curve.point(double(k) / kChords);
+    for (int k = 0; k <= kChordsThatStay; ++k) {
+      const Vec2 p = curve.point(double(k) / kChordsThatStay);
       points.emplace_back(p.x, p.y);
     }
     const auto constraint = triangulation_.insert_constraint(points.begin(), points.end());
