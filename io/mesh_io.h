@@ -71,13 +71,14 @@ struct NodalValues {
 };
 
 /// Reads the field `name` of an MSH file (a view: $NodeData or $ElementData) or a VTU file (an array of
-/// PointData or CellData), or what a SOL file of Medit has at the points of the .mesh file beside it; without
-/// a name the only one that there is. Values of elements become means, by area, of the elements at a point.
-/// Of several steps in time it is the last one. Throws InputError where there is none, naming those that
-/// there are, where it is no field of numbers, and where points have none.
+/// PointData or CellData), or what a SOL file of Medit (Mmg) or an MTR or METRIC file of BAMG has at the
+/// points of the .mesh file beside it; without a name the only one that there is. Values of elements become
+/// means, by area, of the elements at a point. Of several steps in time it is the last one. Throws InputError
+/// where there is none, naming those that there are, where it is no field of numbers, and where points have
+/// none.
 NodalValues read_values(const std::filesystem::path& path, const std::string& name);
-/// The same of tensors of the plane: xx, xy and yy of each point, from MSH fields of 3 x 3 numbers, and SOL
-/// files of Medit (Mmg, BAMG) beside their .mesh file.
+/// The same of tensors: xx, xy, xz, yy, yz and zz of each point, from MSH fields of 3 x 3 numbers, VTU arrays
+/// of 3 (xx, yy, xy), 4, 6 or 9, and SOL and BAMG files; those of the plane have no z, and zz = 1.
 NodalValues read_tensors(const std::filesystem::path& path, const std::string& name);
 /// Numbers by name, each list with one at each point.
 using PointData = std::map<std::string, std::vector<double>>;

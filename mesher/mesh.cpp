@@ -9,7 +9,6 @@
 #include "base/nearest_name.h"
 #include "base/stopwatch.h"
 #include "delquad/mesher.h"
-#include "delquad/metric.h"
 #include "features/crosses/size_aware.h"
 #include "features/metric/metric_plane.h"
 #include "features/metric/metric_surface.h"

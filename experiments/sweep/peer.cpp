@@ -13,7 +13,6 @@
 #include "base/activity.h"
 #include "base/calibration.h"
 #include "base/located.h"
-#include "delquad/metric.h"
 #include "experiments/sweep/folders.h"
 #include "experiments/sweep/process_tree.h"
 #include "experiments/sweep/run_program.h"

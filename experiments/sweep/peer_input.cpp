@@ -7,7 +7,6 @@
 
 #include "base/located.h"
 #include "base/text.h"
-#include "delquad/metric.h"
 #include "experiments/sweep/peer.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/mesh/check_mesh.h"

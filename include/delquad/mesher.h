@@ -251,6 +251,16 @@ class Prepared {
   std::shared_ptr<const PreparedProblem> made_;
 };
 
+/// A metric by its values.
+struct NodalMetric {
+  Mesh mesh;
+  std::vector<Tensor2> at;  ///< its points
+};
+
+/// The metric of a planar domain as its meshes follow it, at the points of triangles with lines along all
+/// curves; nothing where there is none.
+std::optional<NodalMetric> followed_metric(const Prepared& prepared);
+
 /// A mesh, and what is known of it.
 struct MeshResult {
   Mesh mesh;

@@ -218,10 +218,10 @@ TEST(MetricPlane, WithoutDirectionsItsLimitsAreThoseOfASize) {
   EXPECT_NEAR(prepare(problem)->size.expected_quads, 800, 24);
 }
 
-// Rows whose height is a five-hundredth of their length, and elements with nodes on the true circles, of
-// which one closes but for rounding.
+// Rows whose height is a hundredth of their length, and elements with nodes on the true circles, of which one
+// closes but for rounding.
 TEST(MetricPlane, CurvedElementsOfThinRowsAreProven) {
-  MeshProblem problem = by_sizes(ring(1, 0.5), "0.0002+0.2*(sqrt(x^2+y^2)-0.5)", "0.1", "atan2(y,x)");
+  MeshProblem problem = by_sizes(ring(1, 0.5), "0.001+0.2*(sqrt(x^2+y^2)-0.5)", "0.1", "atan2(y,x)");
   std::get<PlanarModel>(problem.model).curves[1].shape = make_parametric_curve(
       [](double t) {
         return Vec2{0.5 * std::cos(t), 0.5 * std::sin(t)};
@@ -325,10 +325,18 @@ TEST(MetricPlane, ReadsTensorsFromFiles) {
                     four = vtu("4.vtu", false, 4, "100 0 0 2500"),
                     six = vtu("6.vtu", false, 6, "100 2500 7 0 0 0"),
                     nine = vtu("9.vtu", true, 9, "100 0 0 0 2500 0 0 0 7");
-  for (const std::string& file : {sol, msh, msh + ":M", mtr, metric, three, four, six + ":M", nine}) {
+  for (const std::string& file : {sol, msh, msh + ":M"}) {
     MeshProblem problem = square();
     problem.metric.file = file;
     EXPECT_NEAR(prepare(problem)->size.expected_quads, 500, 1) << file;
+  }
+  for (const std::string& file : {mtr, metric, three, four, six, nine}) {
+    const Vec2 at{0.5, 0.25};
+    Tensor2 m;
+    make_file_metric(file, file.ends_with(".vtu") ? "M" : "")({&at, 1}, {&m, 1});
+    EXPECT_NEAR(m.xx, 100, 1e-9) << file;
+    EXPECT_NEAR(m.xy, 0, 1e-9) << file;
+    EXPECT_NEAR(m.yy, 2500, 1e-9) << file;
   }
   const auto refused = [&](const std::string& text) {
     MeshProblem problem = square();
@@ -343,9 +351,7 @@ TEST(MetricPlane, ReadsTensorsFromFiles) {
       std::string::npos);
   EXPECT_NE(refused("MeshVersionFormatted 2\n").find("no SolAtVertices"), std::string::npos);
   const auto refused_file = [&](const std::string& file, std::initializer_list<const char*> parts) {
-    MeshProblem problem = square();
-    problem.metric.file = file;
-    expect_input_error([&] { mesh(problem, "DB"); }, parts);
+    expect_input_error([&] { make_file_metric(file); }, parts);
   };
   refused_file(write("a.mtr", "3 3\n" + rows), {"a.mtr:1: values of 3 points: expected 4"});
   refused_file(write("a.mtr", "4 1\n1\n1\n1\n1\n"), {"a.mtr:1: 1 numbers at each point: expected 3"});
