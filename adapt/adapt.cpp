@@ -39,8 +39,10 @@ void require_quads(const PlanarModel& model, double quads) {
     refuse("{:g} quads: the {} sides of the outline need {:g} at least", quads, sides, std::max(1.0, least));
 }
 
-/// The names and numbers of the mesh in place of indices, see trace_mesh().
+/// The height, names and numbers of the mesh in place of indices, see trace_mesh().
 void take_names(const Mesh& from, Mesh& mesh) {
+  for (Vec3& p : mesh.points)
+    p.z = from.points[from.quads.empty() ? from.triangles[0][0] : from.quads[0][0]].z;
   const auto index = [](const Entity& entity) { return std::stoi(entity.names.at(0)); };
   for (int& curve : mesh.line_curve) curve = index(mesh.curves[curve]);
   for (std::vector<int>* list : {&mesh.triangle_region, &mesh.quad_region})
@@ -82,9 +84,9 @@ Adapted adapt(const Mesh& mesh, const std::vector<NodalField>& fields, const Ada
     names.push_back(field.name);
     if (!is_linear(solutions.back())) curved.push_back(solutions.back());
   }
-  if (curved.empty())
+  if (curved.empty() && !fields.empty())
     refuse("{}: constant or linear: no mesh has an error, expected a field that bends",
-           fields.empty() ? "there is no field" : fmt::format("{}", fmt::join(names, ", ")));
+           fmt::join(names, ", "));
   AdaptSpec wanted = spec;
   MeshProblem problem;
   if (given != nullptr)

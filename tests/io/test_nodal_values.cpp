@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/mesh_io.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/grid_mesh.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
@@ -110,6 +112,39 @@ TEST(NodalValues, OfVtuFiles) {
       two_triangles_vtu(
           R"(<PointData><DataArray type="Float64" Name="h" format="ascii">1 2 3</DataArray></PointData>)"));
   expect_input_error([&] { read_values(wrong, ""); }, {"b.vtu: data array 'h': 3 values for 4 points"});
+}
+
+TEST(PointData, WhatIsWrittenIsRead) {
+  const TemporaryFolder folder;
+  Mesh mesh = testing_support::quad_grid(3, 2);
+  PointData data;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    data["a b"].push_back(1.0 / (1.0 + static_cast<double>(i)));
+    data["c"].push_back(static_cast<double>(i));
+  }
+  for (const auto& [name, binary] : {std::pair("a.msh", false), {"b.msh", true}, {"c.vtu", false}}) {
+    write_point_data(folder / name, mesh, data, {.binary = binary});
+    const PointField read = read_point_field(folder / name, "a b");
+    EXPECT_EQ(read.components, (PointData{{"a b", data["a b"]}})) << name;
+    EXPECT_EQ(read.mesh.quads, mesh.quads);
+    EXPECT_EQ(read.mesh.regions[0].names[0], "inside");
+  }
+  expect_input_error([&] { write_point_data(folder / "a.obj", mesh, data); }, {"a.obj", ".msh and .vtu"});
+}
+
+TEST(PointData, ComponentsAndRefusals) {
+  const TemporaryFolder folder;
+  const auto file = write_text(
+      folder / "a.msh", kTwoTriangles22 +
+                            msh_view("NodeData", "v", 0, 3, {"3 1 2 3", "5 1 2 3", "6 4 5 6", "9 1 2 3"}) +
+                            msh_view("NodeData", "t", 0, 9, {"3 1 0 0 0 1 0 0 0 1"}) +
+                            msh_view("ElementData", "h", 0, 1, {"4 7"}));
+  const PointData read = read_point_field(file, "v").components;
+  ASSERT_EQ(read.size(), 3u);
+  for (const int i : {0, 1, 2, 3}) EXPECT_EQ(read.at("v_y")[i], i == 2 ? 5 : 2);
+  EXPECT_TRUE(std::isnan(read.at("v_y")[4]));  // the line's own point
+  expect_input_error([&] { read_point_field(file, "t"); }, {"'t' has 9 components: expected three at most"});
+  expect_input_error([&] { read_point_field(file, "h"); }, {"'h' is of elements: expected one of points"});
 }
 
 }  // namespace
