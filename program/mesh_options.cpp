@@ -207,10 +207,8 @@ void add_surface(CLI::App& command, SurfaceArguments& arguments) {
                      "name of a face or curve that is not left out; may be repeated");
   command.add_option("--fill-holes", arguments.fill_holes, "diameter: close holes that are not wider")
       ->check(kLength);
-  command
-      .add_option("--simplify", arguments.simplify,
-                  "sizes: planar polylines lose points nearer than that to what stays (0.1 for GeoJSON)")
-      ->check(CLI::NonNegativeNumber);
+  command.add_option("--simplify", arguments.simplify,
+                     "sizes: planar polylines lose points nearer than that to what stays (0.1 for GeoJSON)");
   command.add_flag("--glue", arguments.glue,
                    "bodies of a CAD model that touch share faces, curves and nodes there");
   command.add_option("--unit", arguments.unit,
@@ -248,6 +246,8 @@ void set_surface(const SurfaceArguments& arguments, Case& c) {
     surface.fill_holes = *arguments.fill_holes;
   }
   if (arguments.simplify) {
+    if (!(*arguments.simplify >= 0) || !std::isfinite(*arguments.simplify))
+      refuse("--simplify {}: expected a number of sizes, at least 0", *arguments.simplify);
     given("--simplify");
     surface.simplify = arguments.simplify;
   }
