@@ -23,7 +23,7 @@ std::vector<Vec2> noisy_ring(Vec2 centre, double radius, double noise) {
   return points;
 }
 
-PlanarModel model_of(const std::vector<std::vector<Vec2>>& rings) {
+PlanarModel model_of_rings(const std::vector<std::vector<Vec2>>& rings) {
   PlanarModel model{"test", {}, {}};
   for (const auto& ring : rings) {
     model.loops.push_back({{static_cast<int>(model.curves.size())}, "", ""});
@@ -44,7 +44,7 @@ TEST(SimplifyOutlines, WhatGoesLiesWithinTheTolerance) {
   const std::vector<Vec2> ring = noisy_ring({0, 0}, 1, 0.004);
   std::vector<Warning> warnings;
   const PlanarModel model = simplify_outlines(
-      model_of({ring}), [](const Vec3&) { return kTolerance; }, false, warnings);
+      model_of_rings({ring}), [](const Vec3&) { return kTolerance; }, false, warnings);
   ASSERT_EQ(warnings.size(), 1u);
   const Curve& shape = *model.curves[0].shape;
   EXPECT_LE(shape.fixed_parameters().size(), 40u);
@@ -60,7 +60,7 @@ TEST(SimplifyOutlines, ChannelsThatAreNarrowerThanTheToleranceStayOpen) {
   const auto outer = noisy_ring({0, 0}, 1, 0.01), inner = noisy_ring({0, 0}, 0.998, 0.01);
   std::vector<Warning> warnings;
   const PlanarModel model = simplify_outlines(
-      model_of({outer, inner}), [](const Vec3&) { return 0.02; }, false, warnings);
+      model_of_rings({outer, inner}), [](const Vec3&) { return 0.02; }, false, warnings);
   double least = 1e300;
   for (int i = 0; i < kPoints; ++i) {
     const double t = i / double(kPoints);
@@ -77,7 +77,7 @@ TEST(SimplifyOutlines, SharedPointsAndWhatIsNoDataStay) {
   std::vector<Vec2> left = side, right = side;
   for (const Vec2 p : {Vec2{-1, 1}, Vec2{-1, 0}, side[0]}) left.push_back(p);
   for (const Vec2 p : {Vec2{1, 1}, Vec2{1, 0}, side[0]}) right.push_back(p);
-  PlanarModel model = model_of({left, right});
+  PlanarModel model = model_of_rings({left, right});
   model.curves.push_back({make_circle({0.5, 0.5}, 0.2), "", ""});
   const auto circle = model.curves[2].shape;
   std::vector<Warning> warnings;
@@ -90,7 +90,7 @@ TEST(SimplifyOutlines, SharedPointsAndWhatIsNoDataStay) {
     EXPECT_EQ(model.curves[c].shape->point(corners[0]), side.back());
   }
   for (const ModelCurve& curve : model.curves) EXPECT_FALSE(curve.is_data);
-  PlanarModel by_hand = model_of({left});
+  PlanarModel by_hand = model_of_rings({left});
   by_hand.curves[0].is_data = false;
   const auto shape = by_hand.curves[0].shape;
   EXPECT_EQ(simplify_outlines(
