@@ -51,7 +51,8 @@ def cloud(mesh):
 
 def disc():
     def half(name, turned):
-        return delquad.loop([delquad.arc((0, 0), 1, turned, turned + math.pi, "rim"), delquad.segment((0, 1), (0, -1), "seam")], name)
+        rim = delquad.arc((0, 0), 1, turned, turned + math.pi, "rim")
+        return delquad.loop([rim, delquad.segment((0, 1), (0, -1), "seam")], name)
 
     return delquad.planar([half("left", math.pi / 2), half("right", -math.pi / 2)])
 
@@ -86,7 +87,8 @@ def main():
         mesh = following
         quads += len(mesh.quads) / options.meshes
     print(f"{options.meshes} meshes of {quads:.0f} quads, {time.perf_counter() - began:.1f} s")
-    print(f"names: {'the same' if (mesh.curves, mesh.regions) == names else 'others'}; nodes of the rim off the circle: {off_rim(mesh):.1e}")
+    print(f"names: {'the same' if (mesh.curves, mesh.regions) == names else 'others'}")
+    print(f"nodes of the rim off the circle: {off_rim(mesh):.1e}")
     print("transfer      mass changes by   least    most  beyond extremes")
     for how, u in clouds.items():
         print(f"{how:13} {total(mesh, u) / mass - 1:15.1e} {u.min():7.3f} {u.max():7.3f} {beyond[how]:16.1e}")

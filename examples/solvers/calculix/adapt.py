@@ -19,7 +19,7 @@ try:
     import delquad
     import numpy as np
 except ImportError as error:
-    sys.exit(f"{error.name} is not installed (delquad: see bindings/python)")
+    sys.exit(f"{error.name} is not installed (delquad: see docs/python.md)")
 
 from run import read_results
 

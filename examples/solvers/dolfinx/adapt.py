@@ -20,7 +20,7 @@ try:
     from dolfinx.mesh import create_mesh, exterior_facet_indices
     from mpi4py import MPI
 except ImportError as error:
-    sys.exit(f"{error.name} is not installed (Debian: python3-dolfinx; delquad: see bindings/python)")
+    sys.exit(f"{error.name} is not installed (Debian: python3-dolfinx; delquad: see docs/python.md)")
 
 EPSILON = 0.005
 PLACES = {"quadrature_degree": 16}  # the layers of the true solution within one quad of a coarse mesh
@@ -86,7 +86,8 @@ def main():
                 u, errors = solve(mesh, PROBLEMS[name])
                 print(f"{name:10} {loop:10}{len(mesh.quads):7}", end="")
                 for k, error in enumerate(errors):
-                    order = f"{2 * math.log(last[1][k] / error) / math.log(n / last[0]):.2f}" if last and n > last[0] else ""
+                    doubled = last is not None and n > last[0]
+                    order = f"{2 * math.log(last[1][k] / error) / math.log(n / last[0]):.2f}" if doubled else ""
                     print(f"{error:11.3e}{order:>7}", end="")
                 print(f"{time.perf_counter() - began:9.1f}")
                 last = n, errors

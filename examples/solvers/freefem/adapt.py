@@ -17,7 +17,7 @@ try:
     import delquad
     import numpy as np
 except ImportError as error:
-    sys.exit(f"{error.name} is not installed (delquad: see bindings/python)")
+    sys.exit(f"{error.name} is not installed (delquad: see docs/python.md)")
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -26,7 +26,8 @@ def write_halves(mesh, path):
     a, b, c, d = mesh.quads.T
     length = np.linalg.norm(mesh.points[[a, b]] - mesh.points[[c, d]], axis=2)
     first = np.where(length[0] <= length[1], [a, b, c, d], [b, c, d, a])  # from which the shorter diagonal goes
-    rows = {"Vertices": mesh.points[:, :2], "Edges": mesh.lines + 1, "Triangles": np.concatenate([first[[0, 1, 2]].T, first[[0, 2, 3]].T]) + 1}
+    triangles = np.concatenate([first[[0, 1, 2]].T, first[[0, 2, 3]].T])
+    rows = {"Vertices": mesh.points[:, :2], "Edges": mesh.lines + 1, "Triangles": triangles + 1}
     with open(path, "w", encoding="utf-8") as file:
         file.write("MeshVersionFormatted 2\nDimension 2\n")
         for keyword, values in rows.items():
@@ -40,7 +41,8 @@ def solve(mesh, meshes=0, vertices=1, isotropic=False):
         folder = pathlib.Path(work)
         write_halves(mesh, folder / "given.mesh")
         shutil.copy(HERE / "adapt.edp", folder)
-        (folder / "settings.idp").write_text(f"int meshes = {meshes};\nreal vertices = {vertices};\nbool isotropic = {str(isotropic).lower()};\n")
+        settings = f"int meshes = {meshes};\nreal vertices = {vertices};\nbool isotropic = {str(isotropic).lower()};\n"
+        (folder / "settings.idp").write_text(settings)
         solved = subprocess.run(["FreeFem++", "-nw", "-ne", "-v", "0", "adapt.edp"], cwd=folder, capture_output=True, text=True)
         if solved.returncode != 0:
             sys.exit(f"FreeFem++ failed: {solved.stdout[-2000:]}{solved.stderr[-2000:]}")
@@ -49,7 +51,7 @@ def solve(mesh, meshes=0, vertices=1, isotropic=False):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--vertices", type=int, default=2000)
+    parser.add_argument("--vertices", type=int, default=1000)
     parser.add_argument("--meshes", type=int, default=6)
     options = parser.parse_args()
     if not shutil.which("FreeFem++"):
@@ -65,7 +67,8 @@ def main():
         for k in range(options.meshes + 1):
             began = time.perf_counter()
             if k > 0:
-                mesh, _ = delquad.adapt(mesh, u, quads=options.vertices * (len(mesh.quads) / len(mesh.points)), model=square, isotropic=isotropic)
+                quads = options.vertices * len(mesh.quads) / len(mesh.points)
+                mesh, _ = delquad.adapt(mesh, u, quads=quads, model=square, isotropic=isotropic)
             rows, u = solve(mesh)
             show(loop, len(mesh.quads), rows[0], time.perf_counter() - began)
     for loop, isotropic in (("adaptmesh, iso", True), ("adaptmesh", False)):
