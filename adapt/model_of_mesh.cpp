@@ -17,6 +17,9 @@ namespace {
 
 /// Radians by which a line turns that is still straight: coordinates in files have rounding.
 constexpr double kStraight = 1e-6;
+/// Radians by which a smooth curve turns between nodes at most: less than at a corner, so that it is smooth
+/// when it is traced again.
+constexpr double kMostTurn = 30 * std::numbers::pi / 180;
 
 Vec2 flat(const Vec3& p) { return {p.x, p.y}; }
 double turn_between(Vec2 in, Vec2 out) { return std::atan2(cross(in, out), dot(in, out)); }
@@ -39,6 +42,13 @@ class SmoothChain final : public Curve {
       const int middle = std::clamp(i, 1, n - 2);
       tangent_.push_back(tangent(points_[middle - 1], points_[middle], points_[middle + 1], i - middle + 1));
     }
+    double turned = 0;
+    for (int i = 1; i < n - 1; ++i) {
+      turned += std::abs(turn_between(tangent_[i - 1], tangent_[i]));
+      if (turned + std::abs(turn_between(tangent_[i], tangent_[i + 1])) <= kMostTurn) continue;
+      nodes_.push_back(at_[i]);
+      turned = 0;
+    }
   }
 
   Vec2 point(double t) const override {
@@ -56,6 +66,8 @@ class SmoothChain final : public Curve {
     return (y * y * y) * a + (3 * x * y * y) * b + (3 * x * x * y) * c + (x * x * x) * d;
   }
 
+  std::vector<double> fixed_parameters() const override { return nodes_; }
+
  private:
   /// Of the circle through three points at one of them.
   static Vec2 tangent(Vec2 a, Vec2 b, Vec2 c, int which) {
@@ -72,6 +84,7 @@ class SmoothChain final : public Curve {
   std::vector<Vec2> points_;
   std::vector<double> at_;  ///< parameters of the points
   std::vector<Vec2> tangent_;
+  std::vector<double> nodes_;  ///< parameters at which the mesh has them
 };
 
 /// A side that is to be an edge again.

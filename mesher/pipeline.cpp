@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -101,7 +102,14 @@ bool is_to_be_simplified(const MeshProblem& problem) {
 
 MeshProblem simplified(MeshProblem problem, std::vector<Warning>& told) {
   const double part = problem.surface.simplify.value_or(kSimplify);
-  const PointSize tolerance = [part, size = size_of(problem)](const Vec3& x) { return part * size(x); };
+  const PlanarModel& model = std::get<PlanarModel>(problem.model);
+  std::vector<double> named(model.curves.size(), std::numeric_limits<double>::infinity());
+  for (const NamedSize& size : problem.size.named)
+    for (std::size_t c = 0; c < named.size(); ++c)
+      if (size.size > 0 && model.curves[c].name == size.name) named[c] = std::min(named[c], size.size);
+  const OutlineTolerance tolerance = [part, named, size = size_of(problem)](int curve, const Vec3& x) {
+    return part * std::min(named[curve], size(x));
+  };
   problem.model = simplify_outlines(std::move(std::get<PlanarModel>(problem.model)), tolerance,
                                     problem.surface.simplify.has_value(), told);
   problem.surface.simplify = 0;

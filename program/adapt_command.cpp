@@ -114,6 +114,7 @@ int adapt_command(const AdaptArguments& arguments) {
   fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", arguments.output.string(),
              made.result.mesh.quads.size(), made.result.mesh.triangles.size(), made.result.mesh.points.size(),
              command.seconds());
+  if (!holds) fmt::print("{}: the same mesh with the fields\n", with_fields.string());
   print_errors(spec.norm, solution, made);
   print_metrics(made.result.metrics);
   return kDone;

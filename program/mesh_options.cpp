@@ -263,10 +263,10 @@ void set_surface(const SurfaceArguments& arguments, Case& c) {
 
 CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
   CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar domain or a surface");
-  mesh->add_option(
-          "model", arguments.model,
-          "a model file (.toml), lines or triangles (.msh), triangles (.stl, .obj, .off, .ply, .3mf) or CAD "
-          "(.step, .stp, .iges, .igs, .brep)")
+  mesh->add_option("model", arguments.model,
+                   "a model file (.toml), outlines (.geojson), lines or triangles (.msh), triangles (.stl, "
+                   ".obj, .off, .ply, .3mf) or CAD "
+                   "(.step, .stp, .iges, .igs, .brep)")
       ->required();
   add_size(*mesh, arguments.size, kSizeHelp);
   mesh->add_option("--size-on", arguments.size_on,

@@ -88,7 +88,8 @@ class MetricMesher {
     flip_all(editor);
     editor.finish();
     const bool is_isotropic = has_no_directions();
-    MetricMesh made{std::move(model_.fine), std::move(metric_), {}, complexity_, scale_, is_isotropic};
+    MetricMesh made{
+        std::move(model_.fine), std::move(metric_), {}, complexity_, scale_, shortened_, is_isotropic};
     for (const auto& [a, b] : made.fine.lines) made.segments.push_back(segments_.at(key_of(a, b)));
     return made;
   }
@@ -164,6 +165,7 @@ class MetricMesher {
     metric_.clear();
     for (const Tensor2& m : given_) metric_.push_back(within_limits(m));
     std::vector<char> is_less(metric_.size(), 0);
+    shortened_ = {};
     follow_bends(is_less);
     follow_curves(is_less);
     // What bends ask for must not jump.
@@ -199,6 +201,10 @@ class MetricMesher {
     return std::sqrt(8 * kMostSagitta * across / curvature);
   }
 
+  void note_shortened(const ShortenedLength& length) {
+    if (shortened_.to == 0 || length.from * shortened_.to > shortened_.from * length.to) shortened_ = length;
+  }
+
   /// The same where the metric's own directions bend: its larger lengths become less.
   void follow_bends(std::vector<char>& is_less) {
     std::vector<double> bend(metric_.size(), 0);
@@ -220,7 +226,8 @@ class MetricMesher {
     for (std::size_t i = 0; i < bend.size(); ++i) {
       MetricAxes& a = axes[i];
       if (!(bend[i] > 0) || a.h2 <= longest_along(bend[i], a.h1)) continue;
-      a.h2 = std::max(longest_along(bend[i], a.h1), a.h1);
+      const double from = std::exchange(a.h2, std::max(longest_along(bend[i], a.h1), a.h1));
+      note_shortened({at(static_cast<int>(i)), from, a.h2});
       metric_[i] = tensor_of(a);
       is_less[i] = 1;
     }
@@ -245,7 +252,9 @@ class MetricMesher {
       along = (1 / norm(along)) * along;
       const Vec2 across = perp(along);
       const double most = longest_along(curvature, 1 / std::sqrt(product(across, metric_[i], across)));
-      if (product(along, metric_[i], along) * most * most >= 1) continue;
+      const double from = 1 / std::sqrt(product(along, metric_[i], along));
+      if (from <= most) continue;
+      note_shortened({at(i), from, most});
       metric_[i] =
           intersection(metric_[i], tensor_of({most, most * kMostAspect / 10, std::atan2(along.y, along.x)}));
       is_less[i] = 1;
@@ -446,6 +455,7 @@ class MetricMesher {
   long long max_elements_;
   MetricLimits limits_;
   double longest_ = 0;
+  ShortenedLength shortened_;
   double scale_ = 1;       ///< of the tensors
   double complexity_ = 0;  ///< of `metric_`
   SurfaceModel model_;

@@ -15,13 +15,20 @@ struct CurveSegment {
   std::array<double, 2> t;  ///< of the piece's shape
 };
 
+/// Where a length along a bend was shortened most.
+struct ShortenedLength {
+  Vec2 at;
+  double from = 0, to = 0;  ///< 0: nowhere
+};
+
 /// A triangulation of a planar domain that is fine where its metric changes, and Delaunay in it.
 struct MetricMesh {
   Mesh fine;                           ///< triangles of all regions, which share their points
   std::vector<Tensor2> metric;         ///< at each point, within its limits
   std::vector<CurveSegment> segments;  ///< of all curves
   double complexity = 0;
-  double scale = 1;           ///< of the tensors that were given, for the complexity
+  double scale = 1;  ///< of the tensors that were given, for the complexity
+  ShortenedLength shortened;
   bool is_isotropic = false;  ///< whether these have no directions, within their limits
 };
 

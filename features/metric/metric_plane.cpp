@@ -28,6 +28,8 @@ namespace {
 
 /// Edges of curves before they are resolved, in diagonals of the domain.
 constexpr double kCoarseEdge = 1.0 / 100;
+/// Lengths that are shortened by more than this factor are told of, where no complexity scales them anyway.
+constexpr double kTold = 1.2;
 /// Maps with a larger FlatQuality::sigma_95 are told of.
 constexpr double kPoorSigma = 1.3;
 /// Between the parts of a domain that are laid flat each by itself, in their widths.
@@ -467,6 +469,12 @@ MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings)
   });
   problem.size.where = problem.metric.where;
   problem.model = std::move(flat);
+  if (const ShortenedLength& length = made.shortened;
+      problem.metric.complexity == 0 && length.from > kTold * length.to)
+    warnings.emplace_back(fmt::format(
+        "{}: the metric is followed with shorter lengths where it bends, {:.3g} in place of {:.3g} at {}: "
+        "straight sides would stray there by more than a fifth of the length across",
+        problem.metric.where, length.to, length.from, show_point(length.at)));
   if (const FlatQuality& quality = shared->quality; quality.sigma_95 > kPoorSigma)
     warnings.emplace_back(
         fmt::format("{}: the map to the flat plane of the metric distorts angles by {:.3g} in 5 % of the "

@@ -47,16 +47,10 @@ double turn(Vec2 a, Vec2 b, Vec2 c) { return std::abs(std::atan2(cross(b - a, c 
 
 class Polyline final : public Curve {
  public:
-  Polyline(std::vector<Vec2> points, double corner) : points_(std::move(points)) {
-    // Equal parameter spans, not lengths, where each point is a node: a tiny edge beside a huge one keeps a
-    // span of its own.
+  explicit Polyline(std::vector<Vec2> points) : points_(std::move(points)) {
+    // Equal parameter spans, not lengths: a tiny edge beside a huge one keeps a span of its own.
     const std::size_t n = points_.size() - 1;
-    for (std::size_t i = 0; i < n; ++i)
-      knots_.push_back(knots_[i] + (corner < 0 ? 1 : norm(points_[i + 1] - points_[i])));
-    const double all = knots_[n];
-    for (double& t : knots_) t /= all;
-    for (std::size_t i = 1; i < n; ++i)
-      if (turn(points_[i - 1], points_[i], points_[i + 1]) > corner) fixed_.push_back(knots_[i]);
+    for (std::size_t i = 0; i <= n; ++i) knots_.push_back(static_cast<double>(i) / static_cast<double>(n));
   }
 
   Vec2 point(double t) const override {
@@ -69,11 +63,11 @@ class Polyline final : public Curve {
     return s < 0.5 ? a + s * (b - a) : b + (1 - s) * (a - b);
   }
 
-  std::vector<double> fixed_parameters() const override { return fixed_; }
+  std::vector<double> fixed_parameters() const override { return {knots_.begin() + 1, knots_.end() - 1}; }
 
  private:
   std::vector<Vec2> points_;
-  std::vector<double> knots_{0}, fixed_;
+  std::vector<double> knots_;
 };
 
 /// Second derivatives by t at the knots of the cubic spline through these points: natural, or periodic.
@@ -189,12 +183,12 @@ std::shared_ptr<const Curve> make_segment(Vec2 a, Vec2 b) {
   require_finite(a, "the segment's start");
   require_finite(b, "the segment's end");
   if (a == b) throw InputError(fmt::format("the segment has no length: both ends are ({}, {})", a.x, a.y));
-  return std::make_shared<Polyline>(std::vector{a, b}, -1);
+  return std::make_shared<Polyline>(std::vector{a, b});
 }
 
-std::shared_ptr<const Curve> make_polyline(std::vector<Vec2> points, double corner) {
+std::shared_ptr<const Curve> make_polyline(std::vector<Vec2> points) {
   check_points(points, "polyline");
-  return std::make_shared<Polyline>(std::move(points), corner);
+  return std::make_shared<Polyline>(std::move(points));
 }
 
 std::shared_ptr<const Curve> make_spline(std::vector<Vec2> points, double corner) {

@@ -7,10 +7,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
-#include "base/text.h"
 #include "geometry/planar/model_chain.h"
 
 namespace delquad {
@@ -27,17 +28,21 @@ using Triangulation = CGAL::Constrained_triangulation_plus_2<
 /// Chords of a curve that is no polyline, which stays.
 constexpr int kChordsThatStay = 256;
 
+/// Of each point that was given the least of its curves.
+using Tolerances = std::map<Point, double>;
+
 /// The largest distance of points that went from the chord in their place, in tolerances, squared.
 struct RelativeDistance {
-  const PointSize& tolerance;
+  const Tolerances& tolerances;
   boost::optional<double> operator()(const Triangulation&,
                                      Triangulation::Vertices_in_constraint_iterator at) const {
     const Triangulation::Points_in_constraint_iterator from(boost::prior(at)), to(boost::next(at));
     const Kernel::Segment_2 chord(*from, *to);
     double most = 0;
     for (auto p = boost::next(from); p != to; ++p) {
-      const double allowed = tolerance({p->x(), p->y(), 0});
-      most = std::max(most, CGAL::squared_distance(chord, *p) / (allowed * allowed));
+      const auto allowed = tolerances.find(*p);
+      if (allowed == tolerances.end()) return boost::none;  // outlines that cross
+      most = std::max(most, CGAL::squared_distance(chord, *p) / (allowed->second * allowed->second));
     }
     return most;
   }
@@ -62,7 +67,8 @@ std::optional<std::vector<Vec2>> polyline_of(const Curve& curve) {
 
 class OutlineSimplifier {
  public:
-  OutlineSimplifier(PlanarModel& model, const PointSize& tolerance, bool all, std::vector<Warning>& warnings)
+  OutlineSimplifier(PlanarModel& model, const OutlineTolerance& tolerance, bool all,
+                    std::vector<Warning>& warnings)
       : model_(model), tolerance_(tolerance), warnings_(warnings) {
     for (std::size_t c = 0; c < model.curves.size(); ++c) {
       const ModelCurve& curve = model.curves[c];
@@ -73,7 +79,7 @@ class OutlineSimplifier {
   }
 
   void run() {
-    simplification::simplify(triangulation_, RelativeDistance{tolerance_},
+    simplification::simplify(triangulation_, RelativeDistance{tolerances_},
                              simplification::Stop_above_cost_threshold(1), true);
     for (const Outline& outline : outlines_) take(outline);
   }
@@ -87,7 +93,12 @@ class OutlineSimplifier {
 
   void add(int curve, const std::vector<Vec2>& points) {
     std::vector<Point> corners;
-    for (const Vec2 p : points) corners.emplace_back(p.x, p.y);
+    for (const Vec2 p : points) {
+      corners.emplace_back(p.x, p.y);
+      const double allowed = tolerance_(curve, {p.x, p.y, 0});
+      double& least = tolerances_.try_emplace(corners.back(), allowed).first->second;
+      least = std::min(least, allowed);
+    }
     outlines_.push_back(
         {curve, points.size(), triangulation_.insert_constraint(corners.begin(), corners.end())});
   }
@@ -106,19 +117,29 @@ class OutlineSimplifier {
 
   void take(const Outline& outline) {
     std::vector<Vec2> points;
-    for (auto v = triangulation_.vertices_in_constraint_begin(outline.constraint);
-         v != triangulation_.vertices_in_constraint_end(outline.constraint); ++v)
+    double farthest = 0;
+    const auto begin = triangulation_.vertices_in_constraint_begin(outline.constraint),
+               end = triangulation_.vertices_in_constraint_end(outline.constraint);
+    for (auto v = begin; v != end; ++v) {
       points.push_back({(*v)->point().x(), (*v)->point().y()});
+      if (boost::next(v) == end) break;
+      const Triangulation::Points_in_constraint_iterator from(v), to(boost::next(v));
+      for (auto p = from; p != to; ++p)
+        farthest = std::max(farthest, CGAL::squared_distance(Kernel::Segment_2(*from, *to), *p));
+    }
     if (points.size() >= outline.n_points) return;
     ModelCurve& curve = model_.curves[outline.curve];
-    curve.shape = make_polyline(points, kSimplifiedCorner);
-    warnings_.emplace_back("outlines of fewer points", static_cast<double>(outline.n_points),
-                           fmt::format("{}: {} of {} points stay", curve_label(model_, outline.curve),
-                                       points.size(), outline.n_points));
+    curve.shape = make_polyline(points);
+    farthest = std::sqrt(farthest);
+    warnings_.emplace_back(
+        "outlines with fewer points", farthest,
+        fmt::format("{}: {} of {} points stay, and the others lie up to {:.3g} from the lines between them",
+                    curve_label(model_, outline.curve), points.size(), outline.n_points, farthest));
   }
 
   PlanarModel& model_;
-  const PointSize& tolerance_;
+  const OutlineTolerance& tolerance_;
+  Tolerances tolerances_;
   std::vector<Warning>& warnings_;
   Triangulation triangulation_;
   std::vector<Outline> outlines_;
@@ -126,7 +147,7 @@ class OutlineSimplifier {
 
 }  // namespace
 
-PlanarModel simplify_outlines(PlanarModel model, const PointSize& tolerance, bool all,
+PlanarModel simplify_outlines(PlanarModel model, const OutlineTolerance& tolerance, bool all,
                               std::vector<Warning>& warnings) {
   if (all || std::ranges::any_of(model.curves, &ModelCurve::is_data))
     OutlineSimplifier(model, tolerance, all, warnings).run();

@@ -1,22 +1,21 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "delquad/error.h"
 #include "delquad/model.h"
-#include "geometry/planar/planar_model.h"
 
 namespace delquad {
 
-/// A turn by more is a corner of a simplified polyline, with a node (radians).
-inline constexpr double kSimplifiedCorner = 0.6;
+/// How far a point of a curve, by its index, may lie from what stays.
+using OutlineTolerance = std::function<double(int curve, const Vec3& at)>;
 
 /// The model with polylines of fewer points, in place of those of data, or of all: the points that go lie
-/// within the tolerance at their place of what stays, and no outlines touch or cross that did not. Ends,
-/// points of several curves, and four points of a ring stay. Nodes are compulsory at sharp turns alone. By
-/// topology-preserving simplification [Dyken, Daehlen, Sevaldrud 2009], as CGAL has it. Warnings tell of each
-/// curve how many points went, and of rings that are narrower than their tolerance.
-PlanarModel simplify_outlines(PlanarModel model, const PointSize& tolerance, bool all,
+/// within their tolerance of what stays, and no outlines touch or cross that did not. Ends, points of several
+/// curves, and three points of a ring stay. By topology-preserving simplification [dyken2009], as CGAL has
+/// it. Warnings tell of each curve how many points stay, and how far the others are from it.
+PlanarModel simplify_outlines(PlanarModel model, const OutlineTolerance& tolerance, bool all,
                               std::vector<Warning>& warnings);
 
 }  // namespace delquad

@@ -32,9 +32,8 @@ class Curve {
 
 std::shared_ptr<const Curve> make_segment(Vec2 a, Vec2 b);
 
-/// At least two points, none equal to the one before; the last may equal the first. Every corner that turns
-/// by more than `corner` (radians) gets a node; below 0: every point.
-std::shared_ptr<const Curve> make_polyline(std::vector<Vec2> points, double corner = -1);
+/// At least two points, none equal to the one before; the last may equal the first. Every corner gets a node.
+std::shared_ptr<const Curve> make_polyline(std::vector<Vec2> points);
 
 /// The cubic spline through two points or more, none equal to the one before, twice differentiable by the
 /// length of chords; natural at its ends, periodic if the last point equals the first. Where chords turn by
@@ -60,8 +59,8 @@ struct ModelCurve {
   std::string name;       ///< physical group of the boundary; may be empty
   std::string where;      ///< file and line (or entity) it was read from, for messages
   bool is_crack = false;  ///< its nodes are doubled, except where it ends inside: the mesh comes apart there
-  bool is_data = false;   ///< its points were measured: they need not all be nodes, see SurfaceSpec::simplify
   bool is_gone = false;   ///< it only keeps its number, and no loop has it
+  bool is_data = false;   ///< its points were measured: they need not all be nodes, see SurfaceSpec::simplify
 };
 
 /// How curves are divided into edges, whatever the size asks for.
@@ -289,8 +288,8 @@ struct SurfaceSpec {
   bool idealize = false;  ///< ignore_below is min_length of the criteria, where nothing else is said
   std::vector<std::string> keep = {};  ///< what has these names is not left out
   double fill_holes = 0;               ///< holes and tubes not wider than this diameter are closed; 0: none
-  /// Planar polylines lose the points that lie so many sizes from what stays, at most, and have nodes at
-  /// sharp corners alone; 0: all are nodes. Absent: 0.1 of those of data, 0 of others.
+  /// Planar polylines lose the points that lie within so many sizes of what stays; 0: all points stay.
+  /// Absent: 0.1 of those of data, 0 of others.
   std::optional<double> simplify;
   std::optional<double> feature_angle;   ///< degrees in (0, 180]; absent: 40
   std::optional<double> weld_tolerance;  ///< part of the diagonal in [0, 0.1]; absent: 1e-9

@@ -143,7 +143,7 @@ TEST(PointData, ComponentsAndRefusals) {
   ASSERT_EQ(read.size(), 3u);
   for (const int i : {0, 1, 2, 3}) EXPECT_EQ(read.at("v_y")[i], i == 2 ? 5 : 2);
   EXPECT_TRUE(std::isnan(read.at("v_y")[4]));  // the line's own point
-  expect_input_error([&] { read_point_field(file, "t"); }, {"'t' has 9 components: expected three at most"});
+  expect_input_error([&] { read_point_field(file, "t"); }, {"'t' has 9 components: expected 1, 2, 3"});
   expect_input_error([&] { read_point_field(file, "h"); }, {"'h' is of elements: expected one of points"});
 }
 

@@ -44,7 +44,7 @@ TEST(SimplifyOutlines, WhatGoesLiesWithinTheTolerance) {
   const std::vector<Vec2> ring = noisy_ring({0, 0}, 1, 0.004);
   std::vector<Warning> warnings;
   const PlanarModel model = simplify_outlines(
-      model_of_rings({ring}), [](const Vec3&) { return kTolerance; }, false, warnings);
+      model_of_rings({ring}), [](int, const Vec3&) { return kTolerance; }, false, warnings);
   ASSERT_EQ(warnings.size(), 1u);
   const Curve& shape = *model.curves[0].shape;
   EXPECT_LE(shape.fixed_parameters().size(), 40u);
@@ -60,7 +60,7 @@ TEST(SimplifyOutlines, ChannelsThatAreNarrowerThanTheToleranceStayOpen) {
   const auto outer = noisy_ring({0, 0}, 1, 0.01), inner = noisy_ring({0, 0}, 0.998, 0.01);
   std::vector<Warning> warnings;
   const PlanarModel model = simplify_outlines(
-      model_of_rings({outer, inner}), [](const Vec3&) { return 0.02; }, false, warnings);
+      model_of_rings({outer, inner}), [](int, const Vec3&) { return 0.02; }, false, warnings);
   double least = 1e300;
   for (int i = 0; i < kPoints; ++i) {
     const double t = i / double(kPoints);
@@ -82,7 +82,7 @@ TEST(SimplifyOutlines, SharedPointsAndWhatIsNoDataStay) {
   const auto circle = model.curves[2].shape;
   std::vector<Warning> warnings;
   model = simplify_outlines(
-      std::move(model), [](const Vec3&) { return 0.05; }, false, warnings);
+      std::move(model), [](int, const Vec3&) { return 0.05; }, false, warnings);
   EXPECT_EQ(model.curves[2].shape, circle);
   for (const int c : {0, 1}) {
     const std::vector<double> corners = model.curves[c].shape->fixed_parameters();
@@ -94,7 +94,7 @@ TEST(SimplifyOutlines, SharedPointsAndWhatIsNoDataStay) {
   by_hand.curves[0].is_data = false;
   const auto shape = by_hand.curves[0].shape;
   EXPECT_EQ(simplify_outlines(
-                by_hand, [](const Vec3&) { return 0.05; }, false, warnings)
+                by_hand, [](int, const Vec3&) { return 0.05; }, false, warnings)
                 .curves[0]
                 .shape,
             shape);
