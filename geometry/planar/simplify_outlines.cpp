@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/segment.h"
 #include "geometry/planar/model_chain.h"
 
 namespace delquad {
@@ -87,7 +88,7 @@ class OutlineSimplifier {
  private:
   struct Outline {
     int curve;
-    std::size_t n_points;
+    std::vector<Vec2> points;
     Triangulation::Constraint_id constraint;
   };
 
@@ -99,8 +100,7 @@ class OutlineSimplifier {
       double& least = tolerances_.try_emplace(corners.back(), allowed).first->second;
       least = std::min(least, allowed);
     }
-    outlines_.push_back(
-        {curve, points.size(), triangulation_.insert_constraint(corners.begin(), corners.end())});
+    outlines_.push_back({curve, points, triangulation_.insert_constraint(corners.begin(), corners.end())});
   }
 
   void add_that_stays(const Curve& curve) {
@@ -117,24 +117,22 @@ class OutlineSimplifier {
 
   void take(const Outline& outline) {
     std::vector<Vec2> points;
-    double farthest = 0;
-    const auto begin = triangulation_.vertices_in_constraint_begin(outline.constraint),
-               end = triangulation_.vertices_in_constraint_end(outline.constraint);
-    for (auto v = begin; v != end; ++v) {
+    for (auto v = triangulation_.vertices_in_constraint_begin(outline.constraint);
+         v != triangulation_.vertices_in_constraint_end(outline.constraint); ++v)
       points.push_back({(*v)->point().x(), (*v)->point().y()});
-      if (boost::next(v) == end) break;
-      const Triangulation::Points_in_constraint_iterator from(v), to(boost::next(v));
-      for (auto p = from; p != to; ++p)
-        farthest = std::max(farthest, CGAL::squared_distance(Kernel::Segment_2(*from, *to), *p));
+    if (points.size() >= outline.points.size()) return;
+    double farthest = 0;
+    std::size_t next = 1;
+    for (const Vec2 x : outline.points) {
+      farthest = std::max(farthest, distance_to_segment(x, points[next - 1], points[next]));
+      if (x == points[next] && next + 1 < points.size()) ++next;
     }
-    if (points.size() >= outline.n_points) return;
     ModelCurve& curve = model_.curves[outline.curve];
     curve.shape = make_polyline(points);
-    farthest = std::sqrt(farthest);
     warnings_.emplace_back(
         "outlines with fewer points", farthest,
         fmt::format("{}: {} of {} points stay, and the others lie up to {:.3g} from the lines between them",
-                    curve_label(model_, outline.curve), points.size(), outline.n_points, farthest));
+                    curve_label(model_, outline.curve), points.size(), outline.points.size(), farthest));
   }
 
   PlanarModel& model_;
