@@ -25,7 +25,7 @@ class GeoJsonReader {
     Json root;
     try {
       root = Json::parse(read_whole_file(path));
-    } catch (const Json::parse_error& error) {
+    } catch (const Json::exception& error) {
       refuse("{}: no GeoJSON: {}", path_, error.what());
     }
     model_.source = path_;
@@ -41,20 +41,23 @@ class GeoJsonReader {
   PlanarModel model() { return std::move(model_); }
 
  private:
-  void read(const Json& object, const std::string& where, const std::string& name) {
+  void read(const Json& object, const std::string& where, const std::string& name, int depth = 0) {
     where_ = where;
+    constexpr int kMostDepth = 3;  // a collection of features, of geometries in collections
+    if (depth > kMostDepth) refuse("{}: collections that stand in each other", where);
     if (!object.is_object() || !object.contains("type")) refuse("{}: expected an object with a type", where);
     const std::string type = object.at("type");
     int n = 0;
     if (type == "FeatureCollection") {
       for (const Json& feature : object.at("features"))
-        read(feature, fmt::format("{}: feature {}", where, ++n), "");
+        read(feature, fmt::format("{}: feature {}", where, ++n), "", depth + 1);
     } else if (type == "GeometryCollection") {
-      for (const Json& geometry : object.at("geometries")) read(geometry, where, name);
+      for (const Json& geometry : object.at("geometries")) read(geometry, where, name, depth + 1);
     } else if (type == "Feature") {
       const std::string of_feature = name_of(object);
       if (!object.at("geometry").is_null())
-        read(object["geometry"], of_feature.empty() ? where : where + " ('" + of_feature + "')", of_feature);
+        read(object["geometry"], of_feature.empty() ? where : where + " ('" + of_feature + "')", of_feature,
+             depth + 1);
     } else if (type == "Polygon") {
       add_polygon(object.at("coordinates"), where, name);
     } else if (type == "MultiPolygon") {
@@ -102,13 +105,13 @@ class GeoJsonReader {
   void add_polygon(const Json& rings, const std::string& where, const std::string& name) {
     int n = 0;
     for (const Json& ring : rings) {
-      const bool is_hole = n++ > 0;
-      const std::string place = rings.size() == 1 ? where : fmt::format("{}, ring {}", where, n);
+      const std::string place = rings.size() == 1 ? where : fmt::format("{}, ring {}", where, n + 1);
       if (ring.size() < 4 || ring.front() != ring.back())
         refuse("{}: a ring has four points or more, and the last is the first", place);
-      const int curve =
-          add_curve(ring, place, is_hole && !name.empty() ? fmt::format("{}_hole_{}", name, n) : name);
-      model_.loops.push_back({{curve}, is_hole ? "" : name, place, is_hole});
+      const std::string part = n == 0 ? "_outline" : fmt::format("_hole_{}", n);
+      const int curve = add_curve(ring, place, name.empty() ? "" : name + part);
+      model_.loops.push_back({{curve}, n == 0 ? name : "", place, n > 0});
+      ++n;
     }
   }
 

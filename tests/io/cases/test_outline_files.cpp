@@ -32,7 +32,9 @@ TEST_F(OutlineFiles, PolygonsWithHolesLinesAndPoints) {
       "," + feature("LineString", "[[700, 100], [800, 200]]") + "," + feature("Point", "[900, 300]"));
   ASSERT_EQ(model.curves.size(), 3u);
   EXPECT_EQ(model.curves[0].shape->fixed_parameters().size(), 2u);
-  EXPECT_EQ(model.curves[1].name, "lake_hole_2");
+  EXPECT_EQ(model.curves[0].name, "lake_outline");
+  EXPECT_EQ(model.curves[1].name, "lake_hole_1");
+  EXPECT_EQ(model.curves[2].name, "lake");
   for (const ModelCurve& curve : model.curves) EXPECT_TRUE(curve.is_data);
   ASSERT_EQ(model.loops.size(), 2u);
   EXPECT_EQ(model.loops[0].region, "lake");
@@ -47,6 +49,11 @@ TEST_F(OutlineFiles, MessagesNameFeatureAndRing) {
                      {"feature 1 ('lake'): a ring has four points"});
   expect_input_error([&] { read(feature("Polygon", "[[[0, 0], [500, 0], [1], [0, 0]]]")); },
                      {"feature 1 ('lake')"});
+  std::string nested;
+  for (int i = 0; i < 100000; ++i) nested += R"({"type": "GeometryCollection", "geometries": [)";
+  for (int i = 0; i < 100000; ++i) nested += "]}";
+  expect_input_error([&] { read(nested); }, {"in each other"});
+  expect_input_error([&] { read(feature("Polygon", "[[[0, 0], [1e999, 0], [1, 1], [0, 0]]]")); }, {"1e999"});
   expect_input_error([&] { read(feature("Hexagon", "[]")); }, {"'Hexagon'"});
   expect_input_error([&] { read_geojson(write_text(folder_ / "b.geojson", "{")); },
                      {"b.geojson: no GeoJSON"});
