@@ -95,6 +95,9 @@ Adapted adapt(const Mesh& mesh, const std::vector<NodalField>& fields, const Ada
     problem.model = trace_mesh(mesh), problem.name = problem.where = "the mesh of the solution";
   problem.size = {};
   problem.quads.reset();
+  std::vector<Adapted::Error> errors;
+  for (const Recovery& solution : solutions)
+    errors.push_back({interpolation_error(solution, spec.norm).whole, gradient_error(solution).whole, 0});
   Adapted made;
   for (int meshes = 1;; ++meshes) {
     std::vector<Tensor2> metric = adapted_metric(mesh, curved, wanted);
@@ -104,20 +107,25 @@ Adapted adapt(const Mesh& mesh, const std::vector<NodalField>& fields, const Ada
     problem.metric = {.limits = spec.limits, .gradation = spec.gradation, .complexity = quads};
     problem.metric.function = make_nodal_metric(mesh, std::move(metric));
     made.result = delquad::mesh(problem, spec.quality, context);
-    made.errors.clear();
     double most = 0;
-    for (const Recovery& solution : solutions) {
-      const Recovery seen = seen_on(solution, made.result.mesh);
-      made.errors.push_back({interpolation_error(solution, spec.norm).whole, gradient_error(solution).whole,
-                             interpolation_error(seen, spec.norm).whole});
-      most = std::max(most, made.errors.back().after);
+    for (std::size_t f = 0; f < solutions.size(); ++f) {
+      errors[f].after = interpolation_error(seen_on(solutions[f], made.result.mesh), spec.norm).whole;
+      most = std::max(most, errors[f].after);
     }
-    const double more =
-        spec.error > 0 ? most / spec.error : spec.quads / static_cast<double>(made.result.mesh.quads.size());
-    if (std::abs(more - 1) < kNearWanted || meshes == kMostMeshes) break;
+    const auto n_quads = static_cast<double>(made.result.mesh.quads.size());
+    const double more = spec.error > 0 ? most / spec.error : spec.quads / n_quads;
+    if (std::abs(more - 1) < kNearWanted) break;
+    if (meshes == kMostMeshes) {
+      made.result.warnings.emplace_back(
+          spec.error > 0
+              ? fmt::format("an error of {:.3g} is expected, and {:.3g} was asked for", most, spec.error)
+              : fmt::format("there are {} quads, and {:g} were asked for", n_quads, spec.quads));
+      break;
+    }
     wanted.quads = quads * more;
     wanted.error = 0;
   }
+  made.errors = std::move(errors);
   if (given == nullptr) take_names(mesh, made.result.mesh);
   return made;
 }

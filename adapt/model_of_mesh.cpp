@@ -100,6 +100,7 @@ class MeshTracer {
 
   PlanarModel trace() {
     find_sides();
+    refuse_cracks();
     mark_ends();
     curve_of_.assign(sides_.size(), -1);
     for (int s = 0; s < std::ssize(sides_); ++s)
@@ -118,6 +119,17 @@ class MeshTracer {
   int region_of(const HalfEdge& side) const {
     const int n = static_cast<int>(mesh_.triangles.size());
     return side.element < n ? mesh_.triangle_region[side.element] : mesh_.quad_region[side.element - n];
+  }
+
+  /// Where two points lie at the same place, a curve would close what is open.
+  void refuse_cracks() const {
+    std::vector<std::array<double, 2>> places;
+    for (std::size_t v = 0; v < sides_at_.size(); ++v)
+      if (!sides_at_[v].empty()) places.push_back({mesh_.points[v].x, mesh_.points[v].y});
+    std::ranges::sort(places);
+    if (const auto twice = std::ranges::adjacent_find(places); twice != places.end())
+      refuse("two points of the mesh lie at {}, as at a crack, which cannot be traced: expected a model",
+             show_point(Vec2{(*twice)[0], (*twice)[1]}));
   }
 
   void find_sides() {

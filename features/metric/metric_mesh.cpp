@@ -62,8 +62,6 @@ class MetricMesher {
       : domain_(domain), function_(function), spec_(spec), max_elements_(max_elements) {
     take_domain();
     longest_ = diagonal(model_.fine) * kLargestSide;
-    limits_ = spec.limits;
-    if (!(limits_.max > 0)) limits_.max = diagonal(model_.fine);
   }
 
   MetricMesh run() {
@@ -139,7 +137,7 @@ class MetricMesher {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Tensor2& m = metric[i];
       if (m.xx > 0 && m.yy > 0 && determinant(m) > 0 &&
-          is_metric(limits_.aspect > 0 ? limited(m, {.aspect = limits_.aspect}) : m))
+          is_metric(spec_.limits.aspect > 0 ? limited(m, {.aspect = spec_.limits.aspect}) : m))
         continue;
       throw InputError(fmt::format(
           "{}: the metric is [{:.6g}, {:.6g}, {:.6g}] (m11, m12, m22) at {}: expected a finite, "
@@ -185,7 +183,7 @@ class MetricMesher {
                       "allowed (max-elements)",
                       spec_.where, asked, max_elements_));
   }
-  Tensor2 within_limits(const Tensor2& m) const { return limited(times(scale_, m), limits_); }
+  Tensor2 within_limits(const Tensor2& m) const { return limited(times(scale_, m), spec_.limits); }
   bool has_no_directions() const {
     return std::ranges::all_of(given_, [&](const Tensor2& m) {
       const MetricAxes axes = axes_of(within_limits(m));
@@ -453,7 +451,6 @@ class MetricMesher {
   const MetricFunction& function_;
   const MetricSpec& spec_;
   long long max_elements_;
-  MetricLimits limits_;
   double longest_ = 0;
   ShortenedLength shortened_;
   double scale_ = 1;       ///< of the tensors

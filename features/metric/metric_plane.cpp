@@ -355,19 +355,24 @@ class CurveSamples {
   std::vector<int> curve_;  ///< of the mesh, of each piece; -1: none
 };
 
-/// The problem by the size that a metric without directions is.
-MeshProblem by_its_size(MeshProblem problem, double scale) {
+/// The problem by the size that a metric without directions is: as its formulas have it, or, where there are
+/// none or it is graded, on the triangulation.
+MeshProblem by_its_size(MeshProblem problem, MetricMesh made) {
   const MetricSpec spec = std::exchange(problem.metric, {});
   if (problem.cross.kind == CrossKind::kMetric) problem.cross.kind = CrossKind::kSizeAware;
-  problem.size.field = size_by([spec, scale](const Vec3& x, int&) {
-    Tensor2 m;
-    const Vec2 at{x.x, x.y};
-    located(spec.where, [&] { spec.function({&at, 1}, {&m, 1}); });
-    return 1 / std::sqrt(limited(times(scale, m), spec.limits).xx);
-  });
   problem.size.where = spec.where;
-  // 1 + l log(gradation) by the length l in the metric is that slope.
-  if (spec.gradation > 1) problem.size.gradation = std::log(spec.gradation);
+  if (spec.gradation > 1 || (spec.tensor.empty() && spec.sizes.empty())) {
+    std::vector<double> size;
+    for (const Tensor2& m : made.metric) size.push_back(axes_of(m).h1);
+    problem.size.field = make_nodal_size(made.fine, std::move(size));
+  } else {
+    problem.size.field = size_by([spec, scale = made.scale](const Vec3& x, int&) {
+      Tensor2 m;
+      const Vec2 at{x.x, x.y};
+      located(spec.where, [&] { spec.function({&at, 1}, {&m, 1}); });
+      return 1 / std::sqrt(limited(times(scale, m), spec.limits).xx);
+    });
+  }
   return problem;
 }
 
@@ -444,10 +449,10 @@ MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings)
   const PlanarModel& model = std::get<PlanarModel>(problem.model);
   const Vec2 low = box_of(model, 64).low, high = box_of(model, 64).high;
   const double edge = kCoarseEdge * norm(high - low);
+  if (!(problem.metric.limits.max > 0)) problem.metric.limits.max = norm(high - low);
   const PlanarDomain domain = make_domain(model, [edge](const Vec3&) { return edge; });
-  const MetricMesh made =
-      resolve_metric(domain, problem.metric.function, problem.metric, problem.max_elements);
-  if (made.is_isotropic) return by_its_size(std::move(problem), made.scale);
+  MetricMesh made = resolve_metric(domain, problem.metric.function, problem.metric, problem.max_elements);
+  if (made.is_isotropic) return by_its_size(std::move(problem), std::move(made));
   auto [plane, vertex] = lay_flat(made, domain, problem);
   PlanarModel flat = model;
   const CurveSamples samples(model, made, domain);
