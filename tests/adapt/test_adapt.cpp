@@ -112,6 +112,31 @@ double error_of(const Mesh& mesh) {
   return std::sqrt(sum);
 }
 
+// Where nothing happens sides are as long as they may be: a rim is round again in the next mesh.
+TEST(Adapt, ARimStaysRound) {
+  MeshProblem problem;
+  PlanarModel disc{"disc", {{make_circle({0, 0}, 1), "rim", ""}}, {{{0}, "", ""}}};
+  problem.model = disc;
+  problem.size.text = "0.2";
+  Mesh mesh = delquad::mesh(problem, "fast").mesh;
+  for (int round = 0; round < 3; ++round) {
+    const auto values = values_of(mesh, [](double x, double) { return std::tanh(30 * (x - 0.6)); });
+    mesh = adapt(mesh, {{"u", values}}, {.quads = 120, .quality = "fast"}).result.mesh;
+    for (const auto& line : mesh.lines)
+      for (const int v : line) EXPECT_NEAR(norm(mesh.points[v]), 1, 1e-3);
+  }
+}
+
+TEST(Adapt, CracksAreNotTraced) {
+  MeshProblem problem;
+  PlanarModel model = polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
+  model.curves.push_back({make_segment({0.2, 0.5}, {0.7, 0.5}), "crack", "", true});
+  problem.model = model;
+  problem.size.text = "0.1";
+  const Mesh mesh = delquad::mesh(problem, "fast").mesh;
+  expect_input_error([&] { adapt(mesh, {{"u", values_of(mesh, shock)}}, {.quads = 200}); }, {"crack"});
+}
+
 TEST(Adapt, ErrorsFallAndAreExpected) {
   Mesh mesh = quad_grid(24, 24);
   const double uniform = error_of(mesh);
