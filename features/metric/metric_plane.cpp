@@ -356,12 +356,12 @@ class CurveSamples {
 };
 
 /// The problem by the size that a metric without directions is: as its formulas have it, or, where there are
-/// none or it is graded, on the triangulation.
+/// none, on the triangulation.
 MeshProblem by_its_size(MeshProblem problem, MetricMesh made) {
   const MetricSpec spec = std::exchange(problem.metric, {});
   if (problem.cross.kind == CrossKind::kMetric) problem.cross.kind = CrossKind::kSizeAware;
   problem.size.where = spec.where;
-  if (spec.gradation > 1 || (spec.tensor.empty() && spec.sizes.empty())) {
+  if (spec.tensor.empty() && spec.sizes.empty()) {
     std::vector<double> size;
     for (const Tensor2& m : made.metric) size.push_back(axes_of(m).h1);
     problem.size.field = make_nodal_size(made.fine, std::move(size));
@@ -372,6 +372,8 @@ MeshProblem by_its_size(MeshProblem problem, MetricMesh made) {
       located(spec.where, [&] { spec.function({&at, 1}, {&m, 1}); });
       return 1 / std::sqrt(limited(times(scale, m), spec.limits).xx);
     });
+    // 1 + l log(gradation) by the length l in the metric is that slope.
+    if (spec.gradation > 1) problem.size.gradation = std::log(spec.gradation);
   }
   return problem;
 }
