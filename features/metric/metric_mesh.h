@@ -32,8 +32,9 @@ struct MetricMesh {
   bool is_isotropic = false;  ///< whether these have no directions, within their limits
 };
 
-/// `spec`: with a largest length. `domain`: with its curves as coarse as they may be; its nodes come first, in their order. Throws
-/// InputError for what is no metric, with the place and the tensor, and for more quads than are allowed.
+/// `spec`: with a largest length. `domain`: with its curves as coarse as they may be; its nodes come first,
+/// in their order. Throws InputError for what is no metric, with the place and the tensor, and for more quads
+/// than are allowed.
 MetricMesh resolve_metric(const PlanarDomain& domain, const MetricFunction& metric, const MetricSpec& spec,
                           long long max_elements);
 

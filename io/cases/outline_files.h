@@ -9,9 +9,9 @@ namespace delquad {
 
 /// The polygons of a GeoJSON file [RFC 7946]: each ring is a curve of data, inner ones are holes. The name of
 /// a feature, of its properties "name", "NAME" or "id", is that of its region, and rings have it with
-/// "_outline", "_hole_1" and so on behind it. Lines and points stand in the regions. Throws InputError, with the feature
-/// and ring, for what is no such file, and for longitudes and latitudes: those are no lengths. Such are all
-/// coordinates within 180 and 90, unless the file has a "crs" of another name.
+/// "_outline", "_hole_1" and so on behind it. Lines and points stand in the regions. Throws InputError, with
+/// the feature and ring, for what is no such file, and for longitudes and latitudes: those are no lengths.
+/// Such are all coordinates within 180 and 90, unless the file has a "crs" of another name.
 PlanarModel read_geojson(const std::filesystem::path& path);
 
 /// Points, one a line: x and y, with comments behind '#'. Of an airfoil the first line may be its name, and
