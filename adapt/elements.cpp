@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/gauss_rule.h"
 #include "base/located.h"
 #include "base/text.h"
 #include "geometry/mesh/check_mesh.h"
@@ -25,25 +25,6 @@ constexpr std::array<Quadrature, 6> kTriangle{{{kA, kA, kWa},
                                                {kB, kB, kWb},
                                                {1 - 2 * kB, kB, kWb},
                                                {kB, 1 - 2 * kB, kWb}}};
-
-/// Nodes and weights of Gauss on [0, 1].
-std::vector<std::array<double, 2>> gauss(int n) {
-  std::vector<std::array<double, 2>> rule;
-  for (int i = 1; i <= n; ++i) {
-    double x = std::cos(std::numbers::pi * (i - 0.25) / (n + 0.5)), slope = 0;
-    for (int step = 0; step < 50; ++step) {
-      double p = 1, before = 0;
-      for (int k = 1; k <= n; ++k) {
-        const double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
-        before = p, p = next;
-      }
-      slope = n * (x * p - before) / (x * x - 1);
-      x -= p / slope;
-    }
-    rule.push_back({(1 + x) / 2, 1 / ((1 - x * x) * slope * slope)});
-  }
-  return rule;
-}
 
 /// Polynomials of Lagrange over equal distances, and their slopes.
 void lagrange(int order, double x, std::array<double, kMostOrder + 1>& value,
@@ -76,7 +57,7 @@ Elements::Elements(const Mesh& mesh, bool corners_only)
     nodes_.insert(nodes_.end(), v.begin(), v.end());
     start_.push_back(nodes_.size());
   }
-  const auto rule = gauss(order_ + 2);
+  const auto rule = gauss_rule(order_ + 2);
   for (const auto& [t, wt] : rule)
     for (const auto& [s, ws] : rule) of_quads_.push_back({s, t, ws * wt});
 }

@@ -7,6 +7,7 @@
 #include "base/activity.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
+#include "experiments/sweep/adapt_loop.h"
 #include "experiments/sweep/run_program.h"
 #include "geometry/cad/cad_reader.h"
 #include "io/digest.h"
@@ -127,13 +128,13 @@ std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Cas
   return failures;
 }
 
-std::vector<std::string> measure_by_solvers(const CellIdentity& cell, MeshResult& result) {
+std::vector<std::string> measure_by_solvers(const CellIdentity& cell, const Case& c, MeshResult& result) {
   if (cell.solvers.empty()) return {};
   const DoingStage measuring("solvers");
   const Stopwatch watch;
   std::vector<std::string> failures;
   for (const std::string& solver : cell.solvers) {
-    SolverOutcome outcome = measure_by_solver(result.mesh, solver);
+    SolverOutcome outcome = measure_by_solver(result.mesh, solver, solution_of(c));
     result.metrics.values.merge(outcome.values);
     if (outcome.undefined.empty()) continue;
     failures.push_back(fmt::format("no '{}': {}", solver, outcome.undefined));

@@ -28,6 +28,6 @@ std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Cas
 
 /// Solves on the mesh of a cell, as its experiment asks. Adds values, failures and the time to the result.
 /// Returns what failed, a line each.
-std::vector<std::string> measure_by_solvers(const CellIdentity& cell, MeshResult& result);
+std::vector<std::string> measure_by_solvers(const CellIdentity& cell, const Case& c, MeshResult& result);
 
 }  // namespace delquad

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/located.h"
+#include "experiments/sweep/adapt_loop.h"
 #include "experiments/sweep/run_program.h"
 #include "experiments/sweep/schema.h"
 #include "io/cases/case_file.h"
@@ -48,6 +49,19 @@ CorrelationRequest read_correlation(const TomlTable& table, const std::vector<st
     for (const std::string& metric : *list) check_known(table, key, metric, metrics);
   }
   table.finish(correlate_keys());
+  return request;
+}
+
+SlopeRequest read_slopes(const TomlTable& table, std::vector<std::string> metrics,
+                         const std::vector<Axis>& axes) {
+  SlopeRequest request{table.texts("of"), table.text("along"), table.text("against", SlopeRequest().against)};
+  metrics.emplace_back("seconds");
+  for (const std::string& metric : request.of) check_known(table, "of", metric, metrics);
+  check_known(table, "against", request.against, metrics);
+  if (std::ranges::find(axes, request.along, &Axis::title) == axes.end())
+    refuse("{}: '{}' does not vary: expected the last part of a key of [matrix]", table.where("along"),
+           request.along);
+  table.finish(slope_keys());
   return request;
 }
 
@@ -189,6 +203,7 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
   c.where = table.where();
   c.folder = c.name;
   read_case_keys(table, c);
+  read_adapt_keys(table, c);
   check_comparisons(table, c);
   table.finish(experiment_case_keys());
   if (!has_model(c))
@@ -273,10 +288,13 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   }
   if (const auto study = table.optional_table("linf_delaunay")) experiment.linf = read_linf_study(*study);
   if (const auto matrix = table.optional_table("matrix")) experiment.read_matrix(*matrix);
+  if (const auto slopes = table.optional_table("slopes"))
+    experiment.slopes = read_slopes(*slopes, metrics, experiment.axes);
 
   experiment.defaults_.where = file.string();
   experiment.defaults_.data_folder = data;
   read_case_keys(table, experiment.defaults_);
+  read_adapt_keys(table, experiment.defaults_);
   table.finish(experiment_keys());
   if (experiment.cases_.empty() && !experiment.linf)
     refuse("{}: no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'", file.string());
@@ -290,6 +308,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
     for (std::size_t v = 0; v < experiment.n_variants(); ++v) {
       const Case c = experiment.read_variant(i, v);
       check_case(c);
+      check_adapt(c);
       for (const Word& word : experiment.words)
         if (!word.stages.empty()) located(c.where, [&] { parse_word(word.text, word_start(c.model)); });
     }

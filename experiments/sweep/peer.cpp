@@ -13,6 +13,7 @@
 #include "base/activity.h"
 #include "base/calibration.h"
 #include "base/located.h"
+#include "experiments/sweep/adapt_loop.h"
 #include "experiments/sweep/folders.h"
 #include "experiments/sweep/process_tree.h"
 #include "experiments/sweep/run_program.h"
@@ -429,9 +430,13 @@ MeshResult run_peer(const Peer& peer, const Case& c, const Prepared& prepared, c
 }
 
 MeshResult mesh_cell(const Case& c, const Word& word, const Peer* peer, const fs::path& scratch) {
-  const Prepared prepared = prepare(c);
-  return peer != nullptr ? run_peer(*peer, c, prepared, c.name + " " + word.text, scratch)
-                         : mesh(prepared, word.text);
+  return mesh_in_loop(c, [&](const Case& task) {
+    const Prepared prepared = prepare(task);
+    if (peer == nullptr) return mesh(prepared, word.text);
+    Peer alone = *peer;
+    if (c.adapt) alone.calibrate_to.clear();
+    return run_peer(alone, task, prepared, c.name + " " + word.text, scratch);
+  });
 }
 
 }  // namespace delquad

@@ -91,7 +91,8 @@ struct ReferenceCell {
 /// so.
 MeshResult run_peer(const Peer& peer, const Case& c, const Prepared& prepared, const std::string& label,
                     const std::filesystem::path& scratch, const ReferenceCell& reference = {});
-/// The mesh of a cell, by the word or, unless it is null, by the peer.
+/// The mesh of a cell, by the word or, unless it is null, by the peer; in a loop where the case asks for it,
+/// by peers at the sizes that they are told.
 MeshResult mesh_cell(const Case& c, const Word& word, const Peer* peer, const std::filesystem::path& scratch);
 
 /// delta where it is the same everywhere, as it was written.

@@ -77,6 +77,13 @@ Json metric_field_json(const MetricSpec& metric) {
   return json;
 }
 
+Json adapt_json(const AdaptLoop& loop) {
+  const AdaptSpec& spec = loop.spec;
+  return {{"kind", loop.kind},          {"meshes", loop.meshes},  {"norm", spec.norm},
+          {"min", spec.limits.min},     {"max", spec.limits.max}, {"aspect", spec.limits.aspect},
+          {"gradation", spec.gradation}};
+}
+
 Json compound_json(const SurfaceSpec& surface) {
   switch (surface.compounds) {
     case Compounds::kNone:
@@ -166,6 +173,8 @@ Json options_json(const Case& c) {
                {"max_points", 4 * c.max_elements},
                {"max_elements", c.max_elements}};
   if (c.metric.asks()) json["metric"] = metric_field_json(c.metric);
+  if (!c.solution.empty()) json["solution"] = c.solution;
+  if (c.adapt) json["adapt"] = adapt_json(*c.adapt);
   if (c.refine != 1) json["refine"] = c.refine;
   if (c.quads) json["quads"] = *c.quads;
   for (const CurveDivision& d : c.divisions)

@@ -30,16 +30,17 @@ struct Branch {
   std::vector<Branch> next;
 };
 
-Branch make_tree(const std::vector<Cell>& cells) {
+Branch make_tree(const std::vector<Cell>& cells, bool are_loops) {
   Branch root;
   for (const Cell& cell : cells) {
     Branch* at = &root;
-    for (const Stage* stage : cell.word->stages) {
+    const bool is_alone = are_loops || cell.word->stages.empty();
+    for (const Stage* stage : is_alone ? std::vector<const Stage*>() : cell.word->stages) {
       auto found = std::ranges::find(at->next, stage, &Branch::stage);
       if (found == at->next.end()) found = at->next.insert(found, Branch{stage, nullptr, {}});
       at = &*found;
     }
-    if (cell.word->stages.empty()) at = &root.next.emplace_back();
+    if (is_alone) at = &root.next.emplace_back();
     at->cell = &cell;
   }
   std::ranges::stable_partition(root.next, [](const Branch& branch) { return branch.stage != nullptr; });
@@ -157,7 +158,7 @@ class Sweep {
         continue;
       }
       for (const Cell& cell : work->cells) remove_cell(cell.folder);
-      const auto tree = std::make_shared<const Branch>(make_tree(work->cells));
+      const auto tree = std::make_shared<const Branch>(make_tree(work->cells, work->c.adapt.has_value()));
       Job job = job_of(work, *tree);
       job.work = [tree, run = std::move(job.work)] { run(); };  // keeps the tree alive
       return job;

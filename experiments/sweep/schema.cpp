@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "experiments/sweep/adapt_loop.h"
 #include "experiments/sweep/peer.h"
 #include "io/cases/case_keys.h"
 
@@ -28,8 +29,8 @@ const std::string kSolvers =
     R"({"type": "array", "items": {"enum": ["poisson", "elasticity"]}, "uniqueItems": true})";
 const std::string kCalibrate = one_of({"quads", "none"});
 /// What a model is made of, which does not vary.
-const std::vector<std::string> kModels = {"loop", "pattern", "curve", "embed",  "example",
-                                          "mesh", "model",   "data",  "compare"};
+const std::vector<std::string> kModels = {"name",    "loop", "pattern", "curve", "embed",
+                                          "example", "mesh", "model",   "data",  "compare"};
 
 Json table_schema(const TomlKeys& keys);
 
@@ -71,7 +72,7 @@ Json matrix_schema(const TomlKeys& keys) {
 }
 
 Json whole_matrix_schema() {
-  Json json = matrix_schema(case_keys());
+  Json json = matrix_schema(experiment_case_keys());
   json["patternProperties"] = {{"\\.", list_of(true)}};  // quoted keys with dots
   json["description"] = "keys of a case, each with a list of values: every combination is run";
   return json;
@@ -122,14 +123,31 @@ TomlKeys correlate_keys() {
           {"with", "keys of others", kColumnList, nullptr, false, true}};
 }
 
+TomlKeys slope_keys() {
+  return {{"of", "keys of measures", kColumnList, nullptr, false, true},
+          {"along", "what varies, by its title", kText, nullptr, false, true},
+          {"against", "the measure that they go with, or seconds; else n_vertices", kText}};
+}
+
 TomlKeys linf_study_keys() {
   return {{"points", "how many", kPoints, nullptr, false, true},
           {"seeds", "of the points", kSeeds, nullptr, false, true}};
 }
 
+namespace {
+
+/// What cases have that models lack.
+TomlKeys computing_keys() {
+  return {{"solution", "a formula in x and y, for Poisson's equation", kText},
+          {"adapt", "meshes that follow the solution", "", adapt_keys}};
+}
+
+}  // namespace
+
 TomlKeys experiment_case_keys() {
   TomlKeys keys = case_keys();
   keys.insert(keys.begin(), {"name", "of its folder", kFolderName, nullptr, false, true});
+  std::ranges::move(computing_keys(), std::back_inserter(keys));
   return keys;
 }
 
@@ -143,6 +161,7 @@ TomlKeys experiment_keys() {
                    {"metric", "measures that other programs take", "", metric_keys, true},
                    {"solver", "finite elements that measure every mesh", kSolvers},
                    {"correlate", "measures with others, within domains", "", correlate_keys},
+                   {"slopes", "powers by which measures go with another", "", slope_keys},
                    {"reference", "a file of published rows", kText},
                    {"step_times", "whether tables have a column for each step's time", kFlag},
                    {"columns", "of tables in Markdown and LaTeX, by key", kColumnList},
@@ -153,6 +172,7 @@ TomlKeys experiment_keys() {
                    // Its keys are those of cases, see whole_matrix_schema().
                    {"matrix", "what varies", R"({"type": "object"})"},
                    {"case", "what is meshed", "", experiment_case_keys, true}};
+  std::ranges::move(computing_keys(), std::back_inserter(keys));
   for (TomlKey& key : case_keys())  // here 'metric' is a measure
     if (key.name != "metric") keys.push_back(std::move(key));
   return keys;

@@ -245,19 +245,20 @@ void VariantWork::finish(const Cell& cell) {
   const std::string label = c.folder + " " + cell.word->text;
   const fs::path scratch = scratch_of(cell.folder);
   const std::string name = c.name + " " + cell.word->text;
-  MeshResult result = cell.identity.peer != nullptr
-                          ? run_peer(*cell.identity.peer, c, prepared, name, scratch, cell.reference)
-                          : meshing->finish();
+  const Peer* peer = cell.identity.peer;
+  MeshResult result = c.adapt           ? mesh_cell(c, *cell.word, peer, scratch)
+                      : peer != nullptr ? run_peer(*peer, c, prepared, name, scratch, cell.reference)
+                                        : meshing->finish();
   if (const std::string& why = cell.identity.no_peer_version; !why.empty())
     result.warnings.push_back(name + ": its version is unknown: " + why);
   say_warnings(c, result.warnings_on_mesh());
   // What others make is shown as it is.
-  if (cell.identity.peer == nullptr && !allow_unsound) require_sound(name, result);
+  if (peer == nullptr && !allow_unsound) require_sound(name, result);
   if (!result.soundness.accepted()) say(fmt::format("warning: {}: {}", name, result.soundness.complaint()));
-  for (const std::string& failure : measure_by_solvers(cell.identity, result))
+  for (const std::string& failure : measure_by_solvers(cell.identity, c, result))
     say(fmt::format("warning: {} {}: {}", c.folder, cell.word->text, failure));
   // Before anything of the cell is in place: it may take long.
-  if (cell.identity.peer == nullptr) fs::remove_all(scratch);
+  if (peer == nullptr) fs::remove_all(scratch);
   for (const std::string& failure : measure_by_commands(cell.identity, c, cell.word->text, scratch, result))
     say(fmt::format("error: {} {}: {}", c.folder, cell.word->text, failure));
   write_cell(cell.folder, [&](const fs::path& at) {

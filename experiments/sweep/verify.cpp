@@ -196,7 +196,7 @@ Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::pat
   const ScratchFolder scratch;
   const std::filesystem::path work = scratch.path() / "cell";
   MeshResult result = mesh_cell(c, word, cell.peer, work);
-  measure_by_solvers(cell, result);
+  measure_by_solvers(cell, c, result);
   measure_by_commands(cell, c, word.text, work, result);
   std::ostringstream mesh;
   write_msh(mesh, result.mesh);

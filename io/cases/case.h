@@ -2,16 +2,25 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "delquad/adapt.h"
 #include "delquad/mesher.h"
 
 namespace delquad {
 
 /// Where data lies, seen from the folder that the program is called in, unless it is told otherwise.
 inline constexpr const char* kDataFolder = "../shared/data";
+
+/// Meshes that follow a solution, of which the last one counts.
+struct AdaptLoop {
+  std::string kind = "stretched";  ///< one of adapt_kinds()
+  int meshes = 6;                  ///< the first of which is uniform
+  AdaptSpec spec = {};             ///< its number of quads is that of the case
+};
 
 /// A problem, and what else its file says: what a pipeline works on.
 struct Case : MeshProblem {
@@ -23,6 +32,8 @@ struct Case : MeshProblem {
   std::filesystem::path model_file;            ///< the .toml file that the model comes from; empty: none
   bool may_be_absent = false;                  ///< the model's file is data that the case is skipped without
   std::filesystem::path data_folder;           ///< that the key `data` counts from; empty: it is not allowed
+  std::string solution;            ///< a formula in x and y, that is computed with; empty: the domain's own
+  std::optional<AdaptLoop> adapt;  ///< to it
   std::map<std::string, std::string> compare;  ///< pipeline -> name of the published row to show beside it
 };
 

@@ -82,12 +82,16 @@ Criteria read_criteria_key(const TomlTable& table) {
   return located(where, [&] { return read_text(table.text("criteria"), table.file().parent_path(), where); });
 }
 
+}  // namespace
+
 double number_at_least(const TomlTable& table, const std::string& key, double least, double absent) {
   const double value = table.number(key, absent);
   if (table.has(key) && value < least)
     refuse("{}: '{}' is {}: expected at least {}", table.where(key), key, value, least);
   return value;
 }
+
+namespace {
 
 /// A whole number between `least` and `most`.
 long long integer_between(const TomlTable& table, const std::string& key, long long least, long long most,

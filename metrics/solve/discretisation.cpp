@@ -40,27 +40,17 @@ std::vector<int> parts_of(const Mesh& mesh) {
   return parts.roots();
 }
 
-struct GaussPoint {
-  double at, weight;
-};
-
-const std::vector<GaussPoint>& gauss_rule(int n) {
-  static const std::vector<GaussPoint> two = {{-1 / std::sqrt(3.0), 1}, {1 / std::sqrt(3.0), 1}};
-  static const std::vector<GaussPoint> three = {
-      {-std::sqrt(0.6), 5.0 / 9}, {0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}};
-  return n == 2 ? two : three;
-}
-
 ElementPoint point_of(const std::array<Vec3, 4>& corners, const GaussPoint& r, const GaussPoint& s) {
-  constexpr std::array<std::array<int, 2>, 4> kSigns = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  constexpr std::array<std::array<int, 2>, 4> kCorners = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
   ElementPoint p{0, {}, {}, {}, {}};
   std::array<double, 4> by_r, by_s;
   Vec3 along_r, along_s;
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto [i, j] = kSigns[k];
-    p.value[k] = (1 + i * r.at) * (1 + j * s.at) / 4;
-    by_r[k] = i * (1 + j * s.at) / 4;
-    by_s[k] = j * (1 + i * r.at) / 4;
+    const auto [i, j] = kCorners[k];
+    const double u = i == 1 ? r.at : 1 - r.at, v = j == 1 ? s.at : 1 - s.at;
+    p.value[k] = u * v;
+    by_r[k] = (2 * i - 1) * v;
+    by_s[k] = (2 * j - 1) * u;
     p.at = p.at + p.value[k] * corners[k];
     along_r = along_r + by_r[k] * corners[k];
     along_s = along_s + by_s[k] * corners[k];
@@ -122,10 +112,11 @@ void Discretisation::find_floating() {
   }
 }
 
-std::vector<ElementPoint> element_points(const std::array<Vec3, 4>& corners, int n) {
+std::vector<ElementPoint> element_points(const std::array<Vec3, 4>& corners,
+                                         const std::vector<GaussPoint>& rule) {
   std::vector<ElementPoint> points;
-  for (const GaussPoint& s : gauss_rule(n))
-    for (const GaussPoint& r : gauss_rule(n)) points.push_back(point_of(corners, r, s));
+  for (const GaussPoint& s : rule)
+    for (const GaussPoint& r : rule) points.push_back(point_of(corners, r, s));
   return points;
 }
 

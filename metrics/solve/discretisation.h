@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/cancel.h"
+#include "base/gauss_rule.h"
 #include "delquad/mesh.h"
 
 namespace delquad {
@@ -20,10 +21,11 @@ struct ElementPoint {
   std::array<Vec3, 4> gradient;  ///< of each, tangent to the element
 };
 
-/// Gauss's rule of `n` x `n` points, 2 or 3, on the bilinear quad through `corners`, in the plane or in space
+/// Gauss's rule in both directions on the bilinear quad through `corners`, in the plane or in space
 /// [hughes2000, sections 3.2 and 3.8]. With its last two corners at one place it is a linear triangle, whose
 /// shape functions 2 and 3 count together [hughes2000, section 3.6].
-std::vector<ElementPoint> element_points(const std::array<Vec3, 4>& corners, int n);
+std::vector<ElementPoint> element_points(const std::array<Vec3, 4>& corners,
+                                         const std::vector<GaussPoint>& rule);
 
 /// The nodes and elements of a mesh that is to be computed with. Nodes are the mesh's points; those on edges
 /// of a single element are fixed.
@@ -50,11 +52,12 @@ class Discretisation {
   /// their third node twice.
   template <class Visit>
   void for_each_point(int n, Visit visit) const {
+    const std::vector<GaussPoint> rule = gauss_rule(n);
     const auto on = [&](const std::array<int, 4>& v) {
       check_cancelled();
       const std::array corners = {mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]],
                                   mesh_.points[v[3]]};
-      for (const ElementPoint& p : element_points(corners, n)) visit(v, p);
+      for (const ElementPoint& p : element_points(corners, rule)) visit(v, p);
     };
     for (const auto& v : mesh_.triangles) on({v[0], v[1], v[2], v[2]});
     for (const auto& v : mesh_.quads) on(v);

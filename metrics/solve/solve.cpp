@@ -98,8 +98,13 @@ std::array<Vec3, 2> stress(const std::array<Vec3, 2>& gradient) {
 template <std::size_t C>
 class Problem {
  public:
-  Problem(const Discretisation& elements, const Exact<C>& exact, Flux<C> flux)
-      : elements_(elements), exact_(exact), flux_(flux), given_(elements.n_nodes() * C) {
+  /// The right side by so many x so many Gauss points, means and errors by one more.
+  Problem(const Discretisation& elements, const Exact<C>& exact, Flux<C> flux, int gauss_points)
+      : elements_(elements),
+        exact_(exact),
+        flux_(flux),
+        gauss_points_(gauss_points),
+        given_(elements.n_nodes() * C) {
     for (std::size_t i = 0; i < elements.n_nodes(); ++i) {
       if (!elements.is_fixed(i)) continue;
       const Field<C> u = exact(elements.point(i));
@@ -108,14 +113,19 @@ class Problem {
     assemble();
   }
 
-  SolverErrors solve() const {
+  /// By node and component.
+  std::vector<double> values() const {
     const Eigen::VectorXd free = solve_directly(system_);
     std::vector<double> values = given_;
     for (std::size_t i = 0; i < elements_.n_nodes(); ++i)
       for (std::size_t c = 0; c < C; ++c)
         if (const int row = row_of(i, c); row >= 0) values[C * i + c] = free[row];
     shift_floating(values);
-    SolverErrors result = errors(values);
+    return values;
+  }
+
+  SolverErrors solve() const {
+    SolverErrors result = errors(values());
     result.condition = condition_number(system_);
     result.cg_iterations = cg_iterations(system_);
     return result;
@@ -135,14 +145,19 @@ class Problem {
     system_.matrix.resize(n, n);
     system_.right = Eigen::VectorXd::Zero(n);
     Triplets entries;
-    elements_.for_each_point(2, [&](const std::array<int, 4>& nodes, const ElementPoint& p) {
-      const std::array<Vec3, C> load = flux_(exact_(p.at).gradient);
+    const auto for_rows = [&](const std::array<int, 4>& nodes, const auto& visit) {
       for (std::size_t i = 0; i < 4; ++i)
         for (std::size_t a = 0; a < C; ++a)
-          if (const int row = row_of(static_cast<std::size_t>(nodes[i]), a); row >= 0) {
-            system_.right[row] += p.weight * dot(load[a], p.gradient[i]);
-            add_row(nodes, p, i, a, row, entries);
-          }
+          if (const int row = row_of(static_cast<std::size_t>(nodes[i]), a); row >= 0) visit(i, a, row);
+    };
+    elements_.for_each_point(2, [&](const std::array<int, 4>& nodes, const ElementPoint& p) {
+      for_rows(nodes, [&](std::size_t i, std::size_t a, int row) { add_row(nodes, p, i, a, row, entries); });
+    });
+    elements_.for_each_point(gauss_points_, [&](const std::array<int, 4>& nodes, const ElementPoint& p) {
+      const std::array<Vec3, C> load = flux_(exact_(p.at).gradient);
+      for_rows(nodes, [&](std::size_t i, std::size_t a, int row) {
+        system_.right[row] += p.weight * dot(load[a], p.gradient[i]);
+      });
     });
     system_.matrix.setFromTriplets(entries.begin(), entries.end());
     set_scale();
@@ -192,7 +207,7 @@ class Problem {
   void shift_floating(std::vector<double>& values) const {
     const std::size_t n = elements_.floating().size();
     std::vector<double> area(n), excess(n);
-    elements_.for_each_point(3, [&](const std::array<int, 4>& nodes, const ElementPoint& p) {
+    elements_.for_each_point(gauss_points_ + 1, [&](const std::array<int, 4>& nodes, const ElementPoint& p) {
       const int part = elements_.floating_part(static_cast<std::size_t>(nodes[0]));
       if (part < 0) return;
       area[static_cast<std::size_t>(part)] += p.weight;
@@ -206,7 +221,7 @@ class Problem {
 
   SolverErrors errors(const std::vector<double>& values) const {
     double off = 0, whole = 0, steep_off = 0, steep = 0;
-    elements_.for_each_point(3, [&](const std::array<int, 4>& nodes, const ElementPoint& p) {
+    elements_.for_each_point(gauss_points_ + 1, [&](const std::array<int, 4>& nodes, const ElementPoint& p) {
       const Field<C> ours = field_at(values, nodes, p), u = exact_(p.at);
       for (std::size_t c = 0; c < C; ++c) {
         const double d = u.value[c] - ours.value[c];
@@ -225,16 +240,23 @@ class Problem {
   const Discretisation& elements_;
   const Exact<C>& exact_;
   Flux<C> flux_;
+  int gauss_points_;
   std::vector<double> given_;  ///< by node and component
   LinearSystem system_;
 };
 
-SolverErrors poisson_on(const Discretisation& elements, const std::function<ScalarSolution(const Vec3&)>& u) {
-  const Exact<1> exact = [&](const Vec3& at) {
+constexpr int kGaussPoints = 2;
+
+Exact<1> as_field(const Solution& u) {
+  return [&u](const Vec3& at) {
     const ScalarSolution s = u(at);
     return Field<1>{{s.value}, {s.gradient}};
   };
-  return Problem<1>(elements, exact, heat_flux).solve();
+}
+
+SolverErrors poisson_on(const Discretisation& elements, const Solution& u, int gauss_points = kGaussPoints) {
+  const Exact<1> exact = as_field(u);
+  return Problem<1>(elements, exact, heat_flux, gauss_points).solve();
 }
 
 SolverErrors elasticity_on(const Discretisation& elements,
@@ -245,13 +267,19 @@ SolverErrors elasticity_on(const Discretisation& elements,
     const VectorSolution s = u(at);
     return Field<2>{s.value, s.gradient};
   };
-  return Problem<2>(elements, exact, stress).solve();
+  return Problem<2>(elements, exact, stress, kGaussPoints).solve();
 }
 
 }  // namespace
 
-SolverErrors solve_poisson(const Mesh& mesh, const std::function<ScalarSolution(const Vec3&)>& exact) {
-  return poisson_on(Discretisation(mesh), exact);
+SolverErrors solve_poisson(const Mesh& mesh, const Solution& exact, int gauss_points) {
+  return poisson_on(Discretisation(mesh), exact, gauss_points);
+}
+
+std::vector<double> poisson_solution(const Mesh& mesh, const Solution& u, int gauss_points) {
+  const Discretisation elements(mesh);
+  const Exact<1> exact = as_field(u);
+  return Problem<1>(elements, exact, heat_flux, gauss_points).values();
 }
 
 SolverErrors solve_poisson(const Mesh& mesh) {
@@ -291,10 +319,11 @@ std::array<Vec3, 4> flattened(std::array<Vec3, 4> p) {
 }
 
 /// Adds its mass to those of its nodes. False where it is inverted at a point.
-bool add_element(const std::array<Vec3, 4>& corners, StiffElement& element, StepVector& mass) {
+bool add_element(const std::array<Vec3, 4>& corners, const std::vector<GaussPoint>& rule,
+                 StiffElement& element, StepVector& mass) {
   const std::array<Vec3, 4> flat = flattened(corners);
   const Vec3 normal = area_vector(flat);
-  for (const ElementPoint& p : element_points(flat, 2)) {
+  for (const ElementPoint& p : element_points(flat, rule)) {
     if (!(p.weight > 0) || !(dot(p.normal, normal) > 0)) return false;
     for (std::size_t i = 0; i < 4; ++i) {
       mass[element.nodes[i]] += p.weight * p.value[i];
@@ -312,10 +341,11 @@ double critical_step(const Mesh& mesh) {
   StepVector mass = StepVector::Zero(n);
   std::vector<StiffElement> elements;
   bool is_sound = true;
+  const std::vector<GaussPoint> rule = gauss_rule(2);
   for_each_element(mesh, [&](int, const auto& v) {
     const std::array<int, 4> nodes = {v[0], v[1], v[2], v.back()};
     elements.push_back({nodes});
-    is_sound &= add_element(corners_of(mesh, nodes), elements.back(), mass);
+    is_sound &= add_element(corners_of(mesh, nodes), rule, elements.back(), mass);
   });
   if (!is_sound) return 0;
   const StepVector scale =

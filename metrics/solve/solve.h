@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <vector>
 
 #include "delquad/mesh.h"
 
@@ -26,16 +27,24 @@ struct VectorSolution {
   std::array<Vec3, 2> gradient;  ///< of each component
 };
 
+using Solution = std::function<ScalarSolution(const Vec3&)>;
+
+/// Gauss points for solutions that have layers, which elements need not resolve.
+inline constexpr int kGaussPointsInLayers = 5;
+
 /// Poisson's equation on a mesh of the plane or of a surface (Laplace-Beltrami), with bilinear quads and
 /// linear triangles. Nodes on free edges have the values of `exact`; parts without any are solved up to a
 /// constant, by which u_h then has the mean of u.
 ///
 /// The right side is the weak one, the integral of grad u . grad v: u_h is the Ritz projection of u, and its
-/// error that of the approximation [brenner2008, section 5.4]. Matrix and right side by 2 x 2 Gauss points,
-/// errors by 3 x 3. On a surface u is taken on the mesh itself, not on what it approximates.
+/// error that of the approximation [brenner2008, section 5.4]. The matrix by 2 x 2 Gauss points, the right
+/// side by n x n, errors by one more in each direction. On a surface u is taken on the mesh itself, not on
+/// what it approximates.
 ///
 /// Throws InputError for a mesh with inverted or degenerate elements, or without unknowns, saying so.
-SolverErrors solve_poisson(const Mesh& mesh, const std::function<ScalarSolution(const Vec3&)>& exact);
+SolverErrors solve_poisson(const Mesh& mesh, const Solution& exact, int gauss_points = 2);
+/// u_h alone, at the points of the mesh.
+std::vector<double> poisson_solution(const Mesh& mesh, const Solution& exact, int gauss_points);
 /// The solution that belongs to the domain: in the plane a sine of the squared distance from its centroid, so
 /// that it turns, moves and grows with the domain; in space a product of sines of the coordinates, scaled by
 /// the radius of gyration.

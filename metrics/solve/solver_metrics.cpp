@@ -12,13 +12,16 @@ namespace {
 
 struct Solver {
   std::string name, title;
-  SolverErrors (*solve)(const Mesh&);
+  SolverErrors (*solve)(const Mesh&, const Solution&);
 };
 
 const std::vector<Solver>& solvers() {
   static const std::vector<Solver> all = {
-      {"poisson", "Poisson", [](const Mesh& mesh) { return solve_poisson(mesh); }},
-      {"elasticity", "elasticity", [](const Mesh& mesh) { return solve_elasticity(mesh); }}};
+      {"poisson", "Poisson",
+       [](const Mesh& mesh, const Solution& exact) {
+         return exact ? solve_poisson(mesh, exact, kGaussPointsInLayers) : solve_poisson(mesh);
+       }},
+      {"elasticity", "elasticity", [](const Mesh& mesh, const Solution&) { return solve_elasticity(mesh); }}};
   return all;
 }
 
@@ -67,12 +70,12 @@ std::vector<Metric> metrics_of_solver(const std::string& name) {
   return metrics;
 }
 
-SolverOutcome measure_by_solver(const Mesh& mesh, const std::string& name) {
+SolverOutcome measure_by_solver(const Mesh& mesh, const std::string& name, const Solution& exact) {
   const Solver& solver = find_solver(name);
   SolverOutcome outcome;
   for (const Part& part : kParts) outcome.values[name + part.key] = std::numeric_limits<double>::quiet_NaN();
   try {
-    const SolverErrors errors = solver.solve(mesh);
+    const SolverErrors errors = solver.solve(mesh, exact);
     for (const Part& part : kParts) outcome.values[name + part.key] = part.of(errors);
   } catch (const InputError& error) {
     outcome.undefined = error.what();

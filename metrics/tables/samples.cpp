@@ -9,8 +9,6 @@
 namespace delquad {
 namespace {
 
-constexpr const char* kSeedAxis = "seed";  // the axis whose values are samples of the same thing
-
 double tested_value(const CellRecord& record, const std::string& key, ValueKind kind) {
   if (kind == ValueKind::kMeasure) return value_of(record, key);
   const auto at = record.times.find(key);

@@ -10,6 +10,9 @@
 
 namespace delquad {
 
+/// The axis whose values are samples of the same thing.
+inline constexpr const char* kSeedAxis = "seed";
+
 /// The value of a measure; NaN: not known.
 double value_of(const CellRecord& record, const std::string& key);
 /// The mesh has quads.

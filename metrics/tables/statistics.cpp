@@ -129,15 +129,23 @@ double median(std::span<const double> samples) {
   return (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
 }
 
+namespace {
+
+/// That leaves out 5 %, half of it on either side.
+double student_quantile(double degrees_of_freedom) {
+  constexpr double kTail = 0.025;
+  return quantile(complement(boost::math::students_t(degrees_of_freedom), kTail));
+}
+
+}  // namespace
+
 double confidence_half_width(std::span<const double> samples) {
   const auto n = static_cast<double>(samples.size());
   if (n < 2) return kNone;
   const double centre = mean(samples);
   double squares = 0;
   for (const double s : samples) squares += (s - centre) * (s - centre);
-  constexpr double kTail = 0.025;
-  const double t = quantile(complement(boost::math::students_t(n - 1), kTail));
-  return t * std::sqrt(squares / (n - 1) / n);
+  return student_quantile(n - 1) * std::sqrt(squares / (n - 1) / n);
 }
 
 RankTest wilcoxon(std::span<const double> differences) {
@@ -202,7 +210,14 @@ std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const
   }
   if (!(squares > 0)) return std::nullopt;
   const double exponent = products / squares;
-  return PowerLaw{std::exp(v0 - exponent * u0), exponent};
+  double off = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const double d = v[i] - v0 - exponent * (u[i] - u0);
+    off += d * d;
+  }
+  const double free = static_cast<double>(u.size()) - 2;
+  const double half_width = free < 1 ? kNone : student_quantile(free) * std::sqrt(off / free / squares);
+  return PowerLaw{std::exp(v0 - exponent * u0), exponent, half_width};
 }
 
 double domain_mean(const DomainSamples& domain) {

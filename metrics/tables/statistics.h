@@ -41,6 +41,7 @@ std::vector<double> holm(std::span<const double> p);
 /// y = factor * x^exponent.
 struct PowerLaw {
   double factor, exponent;
+  double half_width;  ///< of the 95 % interval of the exponent, by Student's t; NaN of fewer than three pairs
 };
 /// The law that fits positive pairs best, by least squares of the logarithms; nothing where all x are alike.
 std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y);

@@ -61,6 +61,8 @@ Json to_json(const StudyFile& study) {
                {"published", Json::array()}, {"ratio", Json()}};
   if (study.repeat_times > 0) json["repeat_times"] = study.repeat_times;
   if (!study.columns.empty()) json["columns"] = study.columns;
+  if (const auto& slopes = study.slopes)
+    json["slopes"] = {{"of", slopes->of}, {"along", slopes->along}, {"against", slopes->against}};
   if (study.correlation)
     json["correlate"] = {{"of", study.correlation->of}, {"with", study.correlation->with}};
   for (const PublishedRow& row : study.published)
@@ -85,6 +87,10 @@ StudyFile from_json(const Json& json) {
   json.at("step_times").get_to(study.step_times);
   study.repeat_times = json.value("repeat_times", 0);
   study.columns = json.value("columns", study.columns);
+  if (json.contains("slopes")) {
+    const Json& slopes = json.at("slopes");
+    study.slopes = SlopeRequest{slopes.at("of"), slopes.at("along"), slopes.at("against")};
+  }
   if (json.contains("correlate"))
     study.correlation = CorrelationRequest{json.at("correlate").at("of"), json.at("correlate").at("with")};
   json.at("compare").get_to(study.compare);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "metrics/tables/correlation.h"
+#include "metrics/tables/slopes.h"
 
 namespace delquad {
 
@@ -45,9 +46,10 @@ struct TablePlan {
   std::string title;
   std::vector<PublishedRow> published;
   std::optional<ExpectedRatio> ratio;
-  bool step_times = false;           ///< the table has a column for each step's time
-  int repeat_times = 0;              ///< how often every pipeline is run again for its time; 0: not at all
-  std::vector<std::string> columns;  ///< of tables in Markdown and LaTeX, by key; empty: all
+  bool step_times = false;             ///< the table has a column for each step's time
+  int repeat_times = 0;                ///< how often every pipeline is run again for its time; 0: not at all
+  std::vector<std::string> columns;    ///< of tables in Markdown and LaTeX, by key; empty: all
+  std::optional<SlopeRequest> slopes;  ///< by which powers they go
   std::optional<CorrelationRequest> correlation;  ///< what its results are to say of measures
 };
 

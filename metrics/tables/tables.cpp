@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCorrelations = "correlations";
+constexpr const char *kCorrelations = "correlations", *kSlopes = "slopes";
 
 class Tabulation {
  public:
@@ -257,6 +257,8 @@ Outcome make_tables(const StudyResults& results) {
   if (results.study.correlation)
     outcome.correlations =
         correlation_table(results.study.title, correlate(*results.study.correlation, results.records));
+  if (results.study.slopes)
+    outcome.slopes = slope_table(results.study.title, *results.study.slopes, results.records);
   outcome.figures = make_figures(results.records);
   outcome.metrics_failed = std::ranges::count_if(results.records, &CellRecord::metric_failed);
   outcome.table.notes.insert(outcome.table.notes.end(), results.time_problems.begin(),
@@ -271,8 +273,9 @@ Outcome make_tables(const fs::path& folder) { return make_tables(read_results(fo
 
 std::vector<std::string> write_tables(const fs::path& folder, const Outcome& outcome) {
   std::vector<std::string> errors;
-  for (const auto& [name, table] : {std::pair("table", &outcome.table), std::pair("pairs", &outcome.pairs),
-                                    std::pair(kCorrelations, &outcome.correlations)})
+  for (const auto& [name, table] :
+       {std::pair("table", &outcome.table), std::pair("pairs", &outcome.pairs),
+        std::pair(kCorrelations, &outcome.correlations), std::pair(kSlopes, &outcome.slopes)})
     for (const TableFormat& format : table_formats()) {
       const fs::path file = folder / (std::string(name) + format.extension);
       try {
@@ -287,7 +290,7 @@ std::vector<std::string> write_tables(const fs::path& folder, const Outcome& out
 
 std::vector<std::string> result_files() {
   std::vector<std::string> files = {"study.json", "experiment", kFigures};
-  for (const char* name : {"table", "pairs", kCorrelations})
+  for (const char* name : {"table", "pairs", kCorrelations, kSlopes})
     for (const TableFormat& format : table_formats()) files.push_back(std::string(name) + format.extension);
   return files;
 }

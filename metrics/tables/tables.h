@@ -17,9 +17,9 @@ struct Outcome {
   Table table;
   /// Pairs of pipelines over the domains that both ran on; no rows where they have fewer than two in common.
   Table pairs;
-  Table correlations = {};           ///< that the experiment asks for; no rows where it does not
-  std::vector<Figure> figures;       ///< of several pipelines over several cases
-  long long leftover_triangles = 0;  ///< in cells whose pipeline makes quads only
+  Table correlations = {}, slopes = {};  ///< that the experiment asks for; no rows where it does not
+  std::vector<Figure> figures;           ///< of several pipelines over several cases
+  long long leftover_triangles = 0;      ///< in cells whose pipeline makes quads only
   int bad_inputs = 0, unsound = 0, others_failed = 0;  ///< cells that failed
   long long metrics_failed = 0;  ///< cells with a mesh, in which a measure by command failed
 };

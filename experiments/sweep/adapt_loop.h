@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+
+#include "io/cases/case.h"
+#include "io/cases/toml_reader.h"
+#include "metrics/solve/solve.h"
+
+/// Experiments that compute: a solution that is known, and meshes that follow it.
+
+namespace delquad {
+
+/// Reads `solution` and `adapt` of a case. Throws InputError with file and line.
+void read_adapt_keys(const TomlTable& table, Case& target);
+/// They do not go with everything: throws InputError with file and line.
+void check_adapt(const Case& c);
+TomlKeys adapt_keys();
+
+/// Its solution with the gradient; empty where it has none. `c` need not outlive it.
+Solution solution_of(const Case& c);
+
+/// What `make` makes of the case; where this asks for a loop, the last of the meshes of it: Poisson's
+/// equation is solved on each, and its solution asks for the next one. Times are those of all.
+MeshResult mesh_in_loop(const Case& c, const std::function<MeshResult(const Case&)>& make);
+
+}  // namespace delquad
