@@ -64,7 +64,7 @@ Json matrix_schema(const TomlKeys& keys) {
   for (const TomlKey& key : keys) {
     if (std::ranges::find(kModels, key.name) != kModels.end()) continue;
     Json choices = Json::array();
-    if (!key.type.empty() || key.many) choices.push_back(list_of(value_schema(key)));
+    choices.push_back(list_of(value_schema(key)));
     if (key.table != nullptr && !key.many) choices.push_back(matrix_schema(key.table()));
     json["properties"][key.name] = choices.size() == 1 ? choices[0] : Json{{"anyOf", choices}};
   }

@@ -8,6 +8,7 @@
 #include "experiments/sweep/cells.h"
 #include "experiments/sweep/run_experiment.h"
 #include "experiments/sweep/schema.h"
+#include "experiments/sweep/verify.h"
 #include "metrics/solve/solver_metrics.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -93,6 +94,46 @@ TEST_F(Solvers, UnknownOnesAreRefused) {
                      {"'solvre'", "did you mean 'solver'"});
   const Json names = Json::parse(experiment_schema())["properties"]["solver"]["items"]["enum"];
   EXPECT_EQ(names.get<std::vector<std::string>>(), solver_names());
+}
+
+constexpr const char* kLayer =
+    "[[case]]\nname = \"layer\"\nloop = { rectangle = [[0, 0], [1, 1]] }\nquads = 300\n"
+    "solution = \"tanh(30*(x^2+y^2-0.5))\"\nsize = \"0.02+0.2*abs(x^2+y^2-0.5)\"\n";
+
+TEST_F(Solvers, MeshesFollowASolution) {
+  const Outcome outcome =
+      run("pipelines = [\"DB\"]\nsolver = [\"poisson\"]\n[matrix]\nadapt.kind = [\"uniform\", \"given\", "
+          "\"squares\", \"stretched\"]\nadapt.meshes = [3]\n",
+          kLayer);
+  EXPECT_EQ(outcome.bad_inputs + outcome.others_failed, 0);
+  std::map<std::string, double> h1;
+  for (const std::string kind : {"uniform", "given", "squares", "stretched"}) {
+    const Json json = record("layer@kind=" + kind + ",meshes=3/DB");
+    h1[kind] = json["metrics"]["poisson_h1"];
+    EXPECT_NEAR(json["metrics"]["n_quads"].get<double>(), 300, 45) << kind;
+    EXPECT_EQ(json["seconds"].contains("loop"), kind == "squares" || kind == "stretched");
+  }
+  EXPECT_LT(h1["given"], 0.8 * h1["uniform"]);
+  EXPECT_LT(h1["squares"], 0.8 * h1["uniform"]);
+  EXPECT_LT(h1["stretched"], 0.75 * h1["squares"]);
+  const Rerun again = rerun_record(folder_ / "out" / "layer@kind=stretched,meshes=3" / "DB" / "record.json");
+  EXPECT_TRUE(again.same_mesh);
+  EXPECT_TRUE(again.values.empty());
+}
+
+TEST_F(Solvers, LoopsSayWhatTheyMiss) {
+  const auto fails = [&](const std::string& keys, const char* why) {
+    const std::string head = "[[case]]\nname = \"c\"\n";
+    expect_input_error([&] { read("", head + keys); }, {why});
+  };
+  const std::string square = "loop = { rectangle = [[0, 0], [1, 1]] }\n", ask = "adapt = { }\n";
+  fails(square + "quads = 10\n" + ask, "'solution'");
+  fails(square + "size = 0.1\nsolution = \"x*y\"\n" + ask, "'quads'");
+  fails("example = \"sphere\"\nquads = 10\nsolution = \"x\"\n" + ask, "planar");
+  fails(square + "quads = 10\nsolution = \"x*z\"\n", "e.toml:");
+  fails(square + "quads = 10\nsolution = \"x\"\nadapt = { kind = \"square\" }\n", "did you mean 'squares'");
+  expect_input_error([&] { read("[slopes]\nof = [\"eta_mean\"]\nalong = \"quads\"\n"); },
+                     {"'quads' does not vary"});
 }
 
 }  // namespace
