@@ -8,6 +8,7 @@
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "experiments/sweep/adapt_loop.h"
+#include "experiments/sweep/geometry_moments.h"
 #include "experiments/sweep/run_program.h"
 #include "geometry/cad/cad_reader.h"
 #include "io/digest.h"
@@ -84,6 +85,7 @@ CellIdentity identify(const Experiment& experiment, const Case& c, const std::st
                       const Word& word) {
   CellIdentity cell;
   cell.model_digest = model;
+  if (const PlanarModel* planar = planar_model(c)) cell.geometry = geometry_moments(*planar);
   cell.program_digest = program_digest();
   std::string pipeline = word.text;
   if ((cell.peer = experiment.peer_of(word)) != nullptr) {

@@ -204,6 +204,7 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
   c.folder = c.name;
   read_case_keys(table, c);
   read_adapt_keys(table, c);
+  c.domain = table.text("domain", "");
   check_comparisons(table, c);
   table.finish(experiment_case_keys());
   if (!has_model(c))
@@ -295,6 +296,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   experiment.defaults_.data_folder = data;
   read_case_keys(table, experiment.defaults_);
   read_adapt_keys(table, experiment.defaults_);
+  if (table.has("domain")) refuse("{}: 'domain' is a key of cases", table.where("domain"));
   table.finish(experiment_keys());
   if (experiment.cases_.empty() && !experiment.linf)
     refuse("{}: no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'", file.string());

@@ -136,9 +136,10 @@ TomlKeys linf_study_keys() {
 
 namespace {
 
-/// What cases have that models lack.
-TomlKeys computing_keys() {
-  return {{"solution", "a formula in x and y, for Poisson's equation", kText},
+/// What cases have that models lack, beside their name.
+TomlKeys study_keys() {
+  return {{"domain", "that results count as, with others of the name; else the geometry", kText},
+          {"solution", "a formula in x and y, for Poisson's equation", kText},
           {"adapt", "meshes that follow the solution", "", adapt_keys}};
 }
 
@@ -147,7 +148,7 @@ TomlKeys computing_keys() {
 TomlKeys experiment_case_keys() {
   TomlKeys keys = case_keys();
   keys.insert(keys.begin(), {"name", "of its folder", kFolderName, nullptr, false, true});
-  std::ranges::move(computing_keys(), std::back_inserter(keys));
+  std::ranges::move(study_keys(), std::back_inserter(keys));
   return keys;
 }
 
@@ -172,7 +173,7 @@ TomlKeys experiment_keys() {
                    // Its keys are those of cases, see whole_matrix_schema().
                    {"matrix", "what varies", R"({"type": "object"})"},
                    {"case", "what is meshed", "", experiment_case_keys, true}};
-  std::ranges::move(computing_keys(), std::back_inserter(keys));
+  std::ranges::move(study_keys(), std::back_inserter(keys));
   for (TomlKey& key : case_keys())  // here 'metric' is a measure
     if (key.name != "metric") keys.push_back(std::move(key));
   return keys;

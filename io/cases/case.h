@@ -32,6 +32,7 @@ struct Case : MeshProblem {
   std::filesystem::path model_file;   ///< the .toml file that the model comes from; empty: none
   bool may_be_absent = false;         ///< the model's file is data that the case is skipped without
   std::filesystem::path data_folder;  ///< that the key `data` counts from; empty: it is not allowed
+  std::string domain;                 ///< what its results count as, with others; empty: its geometry
   std::string solution;            ///< a formula in x and y, that is computed with; empty: the domain's own
   std::optional<AdaptLoop> adapt;  ///< to it
   std::map<std::string, std::string> compare;  ///< pipeline -> name of the published row to show beside it

@@ -200,8 +200,7 @@ struct OverDomains {
       // What is too little to prove over domains is told of its rows.
       if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) verdict = Verdict::kNotProven;
     }
-    return {pipeline,     metric, domains.names.size(),
-            domains.runs, change, bootstrap_interval(domains.differences),
+    return {pipeline, metric, domains.names.size(), domains.runs, change, interval_of_mean(domains.means()),
             verdict};
   }
 };

@@ -32,7 +32,7 @@ struct DomainChange {
   std::string pipeline, metric;
   std::size_t domains, runs;
   double change;                     ///< after minus before, the mean of the domains' means
-  std::optional<Interval> interval;  ///< as bootstrap_interval()
+  std::optional<Interval> interval;  ///< by interval_of_mean()
   Verdict verdict;
 };
 

@@ -45,22 +45,21 @@ Correlation correlate_pair(const std::string& of, const std::string& with,
   std::map<std::string, std::map<std::string, Pairs>> domains;
   for (const CellRecord& record : records) {
     if (!record.reason.empty()) continue;
-    if (!domains.contains(record.name)) names.push_back(record.name);
-    Pairs& pairs = domains[record.name][row_group(record)];
+    const std::string& domain = domain_of(record);
+    if (!domains.contains(domain)) names.push_back(domain);
+    Pairs& pairs = domains[domain][row_group(record)];
     const double a = cleared_value(record, of), b = cleared_value(record, with);
     if (std::isnan(a) || std::isnan(b)) continue;
     pairs.a.push_back(a);
     pairs.b.push_back(b);
   }
   Correlation result{of, with, {}, names.size()};
-  std::vector<DomainSamples> samples;
   for (const std::string& name : names)
     if (const auto rho = of_domain(domains[name], result.runs)) {
       result.by_domain.push_back(*rho);
-      samples.push_back({{*rho}});
     }
-  result.mean = samples.empty() ? std::numeric_limits<double>::quiet_NaN() : mean(result.by_domain);
-  if (samples.size() >= kLeastDomains) result.interval = bootstrap_interval(samples);
+  result.mean = result.by_domain.empty() ? std::numeric_limits<double>::quiet_NaN() : mean(result.by_domain);
+  if (result.by_domain.size() >= kLeastDomains) result.interval = interval_of_mean(result.by_domain);
   return result;
 }
 

@@ -31,10 +31,10 @@ struct Correlation {
   std::size_t domains = 0;                ///< with and without
   std::size_t runs = 0;                   ///< in those where it is defined
   double mean = 0;                        ///< over domains; NaN of none
-  std::optional<Interval> interval = {};  ///< 95 %, as bootstrap_interval() draws domains; of six or more
+  std::optional<Interval> interval = {};  ///< 95 %, by interval_of_mean(); of six or more
 };
 
-/// Spearman's coefficients over the runs (words and seeds) of each variant of each domain (case), meaned over
+/// Spearman's coefficients over the runs (words and seeds) of each variant of each domain, meaned over
 /// the variants of a domain. Measures of solvers are multiplied by the power of the number of vertices that
 /// makes them independent of it under refinement, see power_of_vertices(): pipelines that make more elements
 /// get no credit for it. The records have to be of meshes; others are left out.

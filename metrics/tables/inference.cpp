@@ -146,7 +146,7 @@ TableRow row_of(const PairComparison& pair, const ClaimFamily& family) {
                 {"effect", effect},
                 {"p", family.test(pair.test).p},
                 {"p_corrected", family.adjusted_p(pair.test)}};
-  const auto interval = bootstrap_interval(pair.domains.differences);
+  const auto interval = interval_of_mean(means);
   if (interval) {
     row.values["low"] = interval->low;
     row.values["high"] = interval->high;
@@ -200,9 +200,9 @@ Table pairs_table(const std::string& title, const std::vector<PairComparison>& p
   for (const PairComparison& pair : pairs) table.rows.push_back(row_of(pair, family));
   if (pairs.empty()) return table;
   table.notes = {
-      "First minus second, averaged over the seeds and variants of each domain (case); domains are the "
+      "First minus second, averaged over the seeds and variants of each domain (geometry); domains are the "
       "sample. Better, worse: on how many of them the first is. Difference: the mean of the domains, "
-      "with its 95 % bootstrap interval (percentiles of 2000 resamples of domains, then seeds).",
+      "with its 95 % interval (bootstrap-t over domains, of fewer than six Student's).",
       "p: Wilcoxon's signed-rank test over the domains, two-sided." +
           (std::ranges::all_of(pairs, has_few) ? "" : " " + family.note())};
   if (std::ranges::any_of(pairs, has_few))

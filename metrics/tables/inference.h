@@ -65,9 +65,9 @@ class Marking {
 /// With fewer domains Wilcoxon's test can prove nothing at 5 %.
 inline constexpr std::size_t kFewestDomains = 6;
 
-/// Two pipelines in one measure, over the domains on which both have a value. The sample is the domain (the
-/// case): the differences of its seeds are averaged, then those of its variants, since neither are
-/// independent of each other.
+/// Two pipelines in one measure, over the domains on which both have a value. The sample is the domain: the
+/// differences of its seeds are averaged, then those of its variants, since neither are independent of each
+/// other.
 struct PairComparison {
   std::string first, second;
   Metric metric;
@@ -82,7 +82,7 @@ std::vector<PairComparison> compare_pairs(const std::vector<CellRecord>& records
                                           const std::vector<TestedMeasure>& measures, ClaimFamily& family);
 
 /// A row for each: domains and runs, on how many domains the first is better and worse, the mean of the
-/// domains' means with its 95 % bootstrap interval, p-values, and what is proven, in words.
+/// domains' means with its 95 % interval, p-values, and what is proven, in words.
 Table pairs_table(const std::string& title, const std::vector<PairComparison>& pairs,
                   const ClaimFamily& family);
 

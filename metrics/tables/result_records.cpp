@@ -105,6 +105,10 @@ CellRecord parse(const Json& json) {
     record.variant.emplace_back(title, value.get<std::string>());
   record.group = record.name + text_of_variant(record.variant);
   record.quads_only = json.value("quads_only", true);
+  record.model = json.value("/digests/model"_json_pointer, "");
+  const Json geometry = json.value("geometry", Json::object());
+  record.moments = geometry.value("moments", record.moments);
+  if (const Json domain = geometry.value("domain", Json()); domain.is_string()) domain.get_to(record.domain);
   if (const auto status = json.at("status").get<std::string>(); status != "ok") {
     json.at("reason").get_to(record.reason);
     record.skipped = status == "skipped" || status == kNotApplicable;
@@ -236,6 +240,39 @@ std::vector<fs::path> record_files(const fs::path& folder) {
   return files;
 }
 
+const std::string& domain_of(const CellRecord& record) {
+  return record.domain.empty() ? record.name : record.domain;
+}
+
+namespace {
+
+bool have_same_geometry(const CellRecord& a, const CellRecord& b) {
+  constexpr double kSame = 1e-5;
+  if (!a.model.empty() && a.model == b.model) return true;
+  return !a.moments.empty() && std::ranges::equal(a.moments, b.moments, [](double x, double y) {
+    return std::abs(x - y) <= kSame * (1 + std::abs(x));
+  });
+}
+
+/// Those that say it have a domain already.
+void find_domains(std::vector<CellRecord>& records) {
+  std::map<std::string, const CellRecord*> first;  // by name, of its geometry
+  for (CellRecord& record : records) {
+    if (!record.domain.empty() || !record.reason.empty()) continue;
+    const auto [at, is_new] = first.try_emplace(record.name, &record);
+    if (is_new)
+      for (const CellRecord& other : records) {
+        if (&other == &record) break;
+        if (!other.reason.empty() || !have_same_geometry(other, record)) continue;
+        at->second = first.contains(other.name) ? first.at(other.name) : &other;
+        break;
+      }
+    if (at->second->name != record.name) record.domain = domain_of(*at->second);
+  }
+}
+
+}  // namespace
+
 std::vector<CellRecord> read_records(const fs::path& folder) {
   const std::vector<fs::path> files = record_files(folder);
   if (files.empty()) throw InputError(folder.string() + ": holds no record.json of an experiment");
@@ -253,6 +290,7 @@ std::vector<CellRecord> read_records(const fs::path& folder) {
     std::ranges::stable_sort(records, {}, [&](const CellRecord& r) {
       return place_of(*study, {r.name, r.variant, r.pipeline}).value_or(kNoPlace);
     });
+  find_domains(records);
   return records;
 }
 

@@ -32,6 +32,11 @@ struct CellRecord {
   std::string reason;                    ///< why there are no values; empty: there are
   std::map<std::string, double> values;  ///< by metric key, "seconds" and those of steps; NaN: not defined
   std::string name = {};                 ///< of the case alone
+  /// What it is a look at: of cases of the same geometry the name of the first one, or what the case says.
+  /// Empty: the case is a domain of its own.
+  std::string domain = {};
+  std::string model = {};            ///< digest of what the case is made from
+  std::vector<double> moments = {};  ///< of its geometry, none of surfaces
   std::vector<std::pair<std::string, std::string>> variant = {};
   std::string kind = {};  ///< of the reason: as in failure_record(), or "damaged": the record cannot be read
   bool skipped = false;   ///< for that reason, and not failed
@@ -68,6 +73,8 @@ std::vector<CellRecord> read_records(const std::filesystem::path& folder);
 /// kNotApplicable by its record; "to do": there is none; "damaged": the record was changed or cut off, or its
 /// mesh has not as many bytes as it says; "outdated": of another key. Costs little: meshes are not read.
 std::string state_of_cell(const std::filesystem::path& folder, const std::string& key);
+/// What the record counts as among domains.
+const std::string& domain_of(const CellRecord& record);
 /// By its state, whether a cell has its mesh: measures by command may have failed.
 bool has_mesh(const std::string& state);
 

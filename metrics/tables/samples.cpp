@@ -117,8 +117,9 @@ PairedDomains pair_by_domain(std::span<const CellRecord* const> a, std::span<con
   std::map<std::string, std::map<std::string, std::vector<double>>> by_domain;  // then by variant
   PairedDomains result;
   for (const Difference& d : differences(a, b, key, kind)) {
-    if (!by_domain.contains(d.record->name)) result.names.push_back(d.record->name);
-    by_domain[d.record->name][row_group(*d.record)].push_back(d.value);
+    const std::string& domain = domain_of(*d.record);
+    if (!by_domain.contains(domain)) result.names.push_back(domain);
+    by_domain[domain][row_group(*d.record)].push_back(d.value);
     ++result.runs;
   }
   for (const std::string& name : result.names) {

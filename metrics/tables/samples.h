@@ -41,7 +41,7 @@ std::vector<Samples> group_samples(const std::vector<CellRecord>& records);
 /// What a value is tested by: that of the record, or the median of repeated runs where there are any.
 enum class ValueKind { kMeasure, kRepeatedTime };
 
-/// a - b on every domain (case) where both have a value for the same variant and seed.
+/// a - b on every domain where both have a value for the same case, variant and seed.
 struct PairedDomains {
   std::vector<std::string> names;
   std::vector<DomainSamples> differences;

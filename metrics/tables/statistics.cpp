@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/binomial.hpp>
@@ -70,16 +71,6 @@ double normal_choice_tail(const std::vector<int>& ranks, std::size_t n, double o
 constexpr int kResamples = 2000;
 constexpr std::uint64_t kSeed = 20130903;  // any will do, as long as it stays
 
-double redrawn_mean(const DomainSamples& domain, RandomIndex& draw) {
-  double sum = 0;
-  for (const std::vector<double>& seeds : domain) {
-    double of_variant = 0;
-    for (std::size_t k = 0; k < seeds.size(); ++k) of_variant += seeds[draw(seeds.size())];
-    sum += of_variant / static_cast<double>(seeds.size());
-  }
-  return sum / static_cast<double>(domain.size());
-}
-
 /// With linear interpolation between sorted values.
 double quantile_of(const std::vector<double>& sorted, double part) {
   assert(!sorted.empty() && std::ranges::is_sorted(sorted) && part >= 0 && part <= 1);
@@ -137,15 +128,20 @@ double student_quantile(double degrees_of_freedom) {
   return quantile(complement(boost::math::students_t(degrees_of_freedom), kTail));
 }
 
+/// And the standard error of the mean, of two or more.
+std::array<double, 2> mean_and_error(std::span<const double> samples) {
+  const auto n = static_cast<double>(samples.size());
+  const double centre = mean(samples);
+  double squares = 0;
+  for (const double s : samples) squares += (s - centre) * (s - centre);
+  return {centre, std::sqrt(squares / (n - 1) / n)};
+}
+
 }  // namespace
 
 double confidence_half_width(std::span<const double> samples) {
   const auto n = static_cast<double>(samples.size());
-  if (n < 2) return kNone;
-  const double centre = mean(samples);
-  double squares = 0;
-  for (const double s : samples) squares += (s - centre) * (s - centre);
-  return student_quantile(n - 1) * std::sqrt(squares / (n - 1) / n);
+  return n < 2 ? kNone : student_quantile(n - 1) * mean_and_error(samples)[1];
 }
 
 RankTest wilcoxon(std::span<const double> differences) {
@@ -227,18 +223,26 @@ double domain_mean(const DomainSamples& domain) {
   return sum / static_cast<double>(domain.size());
 }
 
-std::optional<Interval> bootstrap_interval(const std::vector<DomainSamples>& domains) {
-  if (domains.size() < 2) return std::nullopt;
-  RandomIndex draw(kSeed);
-  std::vector<double> means;
-  for (int i = 0; i < kResamples; ++i) {
-    double sum = 0;
-    for (std::size_t k = 0; k < domains.size(); ++k) sum += redrawn_mean(domains[draw(domains.size())], draw);
-    means.push_back(sum / static_cast<double>(domains.size()));
-  }
-  std::ranges::sort(means);
+std::optional<Interval> interval_of_mean(std::span<const double> values) {
+  constexpr std::size_t kFewest = 6;
   constexpr double kTail = 0.025;
-  return Interval{quantile_of(means, kTail), quantile_of(means, 1 - kTail)};
+  const std::size_t n = values.size();
+  if (n < 2) return std::nullopt;
+  const auto [centre, error] = mean_and_error(values);
+  const double half = confidence_half_width(values);
+  const Interval student = {centre - half, centre + half};
+  if (n < kFewest || error == 0) return student;
+  RandomIndex draw(kSeed);
+  std::vector<double> statistics, sample(n);
+  for (int i = 0; i < kResamples; ++i) {
+    for (double& value : sample) value = values[draw(n)];
+    const auto [m, e] = mean_and_error(sample);
+    if (e > 0) statistics.push_back((m - centre) / e);
+  }
+  if (static_cast<double>(statistics.size()) < (1 - kTail) * kResamples) return student;
+  std::ranges::sort(statistics);
+  return Interval{centre - quantile_of(statistics, 1 - kTail) * error,
+                  centre - quantile_of(statistics, kTail) * error};
 }
 
 std::size_t ClaimFamily::add(const RankTest& test) {

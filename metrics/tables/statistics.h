@@ -70,10 +70,10 @@ struct Interval {
   double low, high;
 };
 
-/// The 95 % interval of the mean of domain means by the bootstrap in two stages [davison1997, section 3.8]:
-/// domains are drawn with replacement, then in each of them the seeds of every variant; the 2.5th and 97.5th
-/// percentile of 2000 means. The same numbers every time. Nothing of fewer than two domains.
-std::optional<Interval> bootstrap_interval(const std::vector<DomainSamples>& domains);
+/// The 95 % interval of the mean by the bootstrap of Student's statistic [davison1997, section 2.4], of 2000
+/// resamples; by Student's t of fewer than six values, and where too many resamples have no deviation. The
+/// same numbers every time. Nothing of fewer than two values.
+std::optional<Interval> interval_of_mean(std::span<const double> values);
 
 /// The probability of any false claim in all tables of a study.
 inline constexpr double kSignificance = 0.05;

@@ -170,6 +170,8 @@ class Tabulation {
       if (said.insert(text).second) notes.push_back(text);
     };
     for (const CellRecord& record : records_) {
+      if (domain_of(record) != record.name)
+        say(fmt::format("{} is the domain {}, and counts with it", record.name, record.domain));
       if (record.kind == kNotApplicable)
         say(fmt::format("{} {} is not applicable: {}", record.group, record.pipeline, record.reason));
       else if (record.skipped)

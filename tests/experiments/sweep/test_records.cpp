@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -452,6 +453,27 @@ TEST_F(Records, MergingTakesWhatWasDone) {
   merge_results({out(), out("done")}, out("all"));
   EXPECT_EQ(read_records(out("all"))[0].reason, "");
   EXPECT_TRUE(verify_results(out("all"), folder_ / "data").findings.empty());
+}
+
+/// Turned, scaled, mirrored and renamed copies are one domain; so are those that the file calls so.
+TEST_F(Records, TellWhichCasesAreOneGeometry) {
+  run("pipelines = [\"DB\"]\nquads = 20\n"
+      "[[case]]\nname = \"plate\"\nloop = [{ rectangle = [[0, 0], [3, 2]] }, { circle = { centre = [1, 1], "
+      "radius = 0.5 } }]\n"
+      "[[case]]\nname = \"turned\"\nloop = [{ polygon = [[10, 0], [10, 6], [6, 6], [6, 0]] }, { circle = { "
+      "centre = [8, 4], radius = 1 } }]\n"
+      "[[case]]\nname = \"other\"\nloop = [{ rectangle = [[0, 0], [3, 2]] }, { circle = { centre = [1.001, "
+      "1], radius = 0.5 } }]\n"
+      "[[case]]\nname = \"disc\"\nloop = { circle = { centre = [0, 0], radius = 1 } }\n"
+      "[[case]]\nname = \"square\"\ndomain = \"disc\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
+  std::map<std::string, std::string> domains;
+  for (const CellRecord& record : read_records(out())) domains[record.name] = domain_of(record);
+  EXPECT_EQ(domains, (std::map<std::string, std::string>{{"plate", "plate"},
+                                                         {"turned", "plate"},
+                                                         {"other", "other"},
+                                                         {"disc", "disc"},
+                                                         {"square", "disc"}}));
+  EXPECT_NE(read_text(out() / "table.md").find("turned is the domain plate"), std::string::npos);
 }
 
 }  // namespace

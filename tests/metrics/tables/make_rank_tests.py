@@ -75,12 +75,13 @@ def main():
             most = max(most, min(1, (len(p) - k) * p[i]))
             adjusted[i] = most
         print(f"    {{{text(p)}, {text(adjusted)}}},")
-    print("};\n\n/// Percentiles of all n^n resamples of n values.\nconst std::vector<AllResamples> kBootstrap = {")
-    for n in (4, 6):
+    print("};\n\n/// Bootstrap-t by all n^n resamples of n values.\nconst std::vector<AllResamples> kBootstrap = {")
+    for n in (6, 7):
         x = sample(n, 1)
-        means = sorted(sum(c) / n for c in itertools.product(x, repeat=n))
-        low, high = (stats.mstats.mquantiles(means, [q], alphap=1, betap=1)[0] for q in (0.025, 0.975))
-        print(f"    {{{text(x)}, {float(low)!r}, {float(high)!r}}},")
+        centre, error = sum(x) / n, stats.sem(x)
+        all_of_them = ((sum(c) / n - centre) / stats.sem(c) for c in itertools.product(x, repeat=n) if len(set(c)) > 1)
+        high, low = stats.mstats.mquantiles(list(all_of_them), [0.025, 0.975], alphap=1, betap=1)
+        print(f"    {{{text(x)}, {float(centre - low * error)!r}, {float(centre - high * error)!r}}},")
     print("};")
 
 
