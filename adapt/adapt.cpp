@@ -17,17 +17,30 @@ namespace {
 
 /// What fits of linear fields leave, of their greatest value.
 constexpr double kNoError = 1e-12;
+/// Powers of second derivatives are still numbers.
+constexpr double kMostValue = 1e90;
 /// How near the number of quads, or the error on the new mesh, comes to what is asked, and after how many
 /// meshes that is given up.
 constexpr double kNearWanted = 0.05;
 constexpr int kMostMeshes = 3;
 
 /// Where it is linear there is nothing to adapt to.
-bool is_linear(const Recovery& solution) {
+bool is_linear(const Recovery& solution, const std::string& name) {
   double most = 0;
-  for (std::size_t i = 0; i < solution.values.size(); ++i)
-    if (std::isfinite(solution.values[i])) most = std::max(most, std::abs(solution.values[i]));
+  for (const double value : solution.values)
+    if (std::isfinite(value)) most = std::max(most, std::abs(value));
+  if (most > kMostValue || (most > 0 && most < 1 / kMostValue))
+    refuse("the field {} has values up to {:g}: expected between {:g} and {:g}, in a larger or smaller unit",
+           name, most, 1 / kMostValue, kMostValue);
   return interpolation_error(solution, std::numeric_limits<double>::infinity()).whole <= kNoError * most;
+}
+
+/// What goes with a size, and not with a metric.
+bool needs_size(const MeshProblem& problem) {
+  const auto* model = std::get_if<PlanarModel>(&problem.model);
+  return !problem.layers.empty() || !problem.periodic.empty() || !problem.washers.empty() ||
+         problem.symmetry.automatic || !problem.symmetry.planes.empty() || !problem.criteria.empty() ||
+         (model != nullptr && std::ranges::any_of(model->curves, &ModelCurve::is_crack));
 }
 
 /// Each curve needs an edge, and with n edges around it a mesh has n / 2 - 1 quads at least.
@@ -82,7 +95,7 @@ Adapted adapt(const Mesh& mesh, const std::vector<NodalField>& fields, const Ada
     require_values(mesh, field.values, field.name);
     solutions.push_back(recover(mesh, field.values));
     names.push_back(field.name);
-    if (!is_linear(solutions.back())) curved.push_back(solutions.back());
+    if (!is_linear(solutions.back(), field.name)) curved.push_back(solutions.back());
   }
   if (curved.empty() && !fields.empty())
     refuse("{}: constant or linear: no mesh has an error, expected a field that bends",
@@ -93,6 +106,7 @@ Adapted adapt(const Mesh& mesh, const std::vector<NodalField>& fields, const Ada
     problem = *given;
   else
     problem.model = trace_mesh(mesh), problem.name = problem.where = "the mesh of the solution";
+  problem.order = std::max(problem.order, mesh.order);
   problem.size = {};
   problem.quads.reset();
   std::vector<Adapted::Error> errors;
@@ -104,8 +118,15 @@ Adapted adapt(const Mesh& mesh, const std::vector<NodalField>& fields, const Ada
     const double quads = wanted.quads > 0 ? wanted.quads : complexity_of(mesh, metric);
     const auto* model = std::get_if<PlanarModel>(&problem.model);
     if (meshes == 1 && model != nullptr) require_quads(*model, quads);
-    problem.metric = {.limits = spec.limits, .gradation = spec.gradation, .complexity = quads};
-    problem.metric.function = make_nodal_metric(mesh, std::move(metric));
+    if (spec.isotropic && needs_size(problem)) {
+      std::vector<double> size;
+      for (const Tensor2& m : metric) size.push_back(1 / std::sqrt(m.xx));
+      problem.size.field = make_nodal_size(mesh, std::move(size));
+      if (spec.gradation > 1) problem.size.gradation = std::log(spec.gradation);
+    } else {
+      problem.metric = {.limits = spec.limits, .gradation = spec.gradation, .complexity = quads};
+      problem.metric.function = make_nodal_metric(mesh, std::move(metric));
+    }
     made.result = delquad::mesh(problem, spec.quality, context);
     double most = 0;
     for (std::size_t f = 0; f < solutions.size(); ++f) {

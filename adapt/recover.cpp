@@ -1,5 +1,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -78,13 +79,13 @@ class Rings {
   std::vector<int> start_, at_;
 };
 
-constexpr int terms_of(int degree) { return (degree + 1) * (degree + 2) / 2; }
-
 /// A polynomial around a point in the principal axes of its patch.
 class Fit {
  public:
+  /// `across`: the axis (0, 1) along which it is linear at most; -1: none.
   Fit(const std::vector<Vec3>& points, const std::vector<double>& values, int centre,
-      const std::vector<int>& patch) {
+      const std::vector<int>& patch, int across)
+      : across_(across) {
     const auto n = static_cast<Eigen::Index>(patch.size());
     Eigen::MatrixX2d offset(n, 2);
     values_.resize(n);
@@ -93,7 +94,9 @@ class Fit {
       offset.row(i) << d.x, d.y;
       values_[i] = values[patch[i]] - values[centre];
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(offset.transpose() * offset /
+    Eigen::MatrixX2d spread = offset;
+    if (across >= 0) spread.rowwise() -= offset.colwise().mean();  // else axes of half a row are oblique
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread.transpose() * spread /
                                                               static_cast<double>(n));
     // By the axes again: the smaller eigenvalue has lost its digits where the patch is thin.
     placed_ = offset * axes.eigenvectors();
@@ -106,30 +109,37 @@ class Fit {
 
   /// False: the points do not determine it.
   bool solve(int degree, Vec2& gradient, Tensor2& hessian) const {
-    const int terms = terms_of(degree);
+    std::vector<std::array<int, 2>> powers;
+    for (int sum = 0; sum <= degree; ++sum)
+      for (int k = 0; k <= sum; ++k)
+        if ((across_ != 0 || sum - k < 2) && (across_ != 1 || k < 2)) powers.push_back({sum - k, k});
+    const auto terms = static_cast<Eigen::Index>(powers.size());
     if (values_.size() < terms || !to_axes_.allFinite()) return false;
     Eigen::MatrixXd matrix(values_.size(), terms);
-    for (int sum = 0, column = 0; sum <= degree; ++sum)
-      for (int k = 0; k <= sum; ++k, ++column)
-        matrix.col(column) = placed_.col(0).array().pow(sum - k) * placed_.col(1).array().pow(k);
+    for (Eigen::Index t = 0; t < terms; ++t)
+      matrix.col(t) = placed_.col(0).array().pow(powers[t][0]) * placed_.col(1).array().pow(powers[t][1]);
     const Eigen::VectorXd lengths = matrix.colwise().norm();
     if (!(lengths.minCoeff() > 0)) return false;
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix * lengths.cwiseInverse().asDiagonal());
     const auto diagonal = qr.matrixR().diagonal().cwiseAbs();
     if (!(diagonal.minCoeff() >= kWellDetermined * diagonal.maxCoeff())) return false;
     const Eigen::VectorXd c = qr.solve(values_).cwiseQuotient(lengths);
-    const Eigen::Vector2d g = to_axes_.transpose() * Eigen::Vector2d(c[1], c[2]);
-    gradient = {g[0], g[1]};
-    hessian = {0, 0, 0};
-    if (degree < 2) return true;
-    Eigen::Matrix2d h;
-    h << 2 * c[3], c[4], c[4], 2 * c[5];
+    Eigen::Vector2d g(0, 0);
+    Eigen::Matrix2d h = Eigen::Matrix2d::Zero();
+    for (Eigen::Index t = 0; t < terms; ++t) {
+      const auto [i, k] = powers[t];
+      if (i + k == 1) g[k] = c[t];
+      if (i + k == 2) h(i == 0, k > 0) += c[t], h(k > 0, i == 0) += c[t];
+    }
+    g = to_axes_.transpose() * g;
     h = to_axes_.transpose() * h * to_axes_;
+    gradient = {g[0], g[1]};
     hessian = {h(0, 0), h(0, 1), h(1, 1)};
     return true;
   }
 
  private:
+  int across_;
   Eigen::MatrixX2d placed_;
   Eigen::Matrix2d to_axes_;
   Eigen::VectorXd values_;
@@ -148,16 +158,22 @@ Recovery recover(const Mesh& mesh, std::span<const double> values) {
   const Rings rings(elements);
   parallel_each(n, [&](std::size_t i) {
     const int centre = static_cast<int>(i);
-    for (int degree = mesh.order + 2; degree > 0; --degree) {
+    const auto fits = [&](int degree, int across) {
       std::vector<int> patch{centre};
+      const auto solve = [&] {
+        return Fit(made.mesh.points, made.values, centre, patch, across)
+            .solve(degree, made.gradient[i], made.hessian[i]);
+      };
       for (int ring = 1; ring <= kMostRings && rings.grow(patch); ++ring)
-        if (ring >= kFewestRings && Fit(made.mesh.points, made.values, centre, patch)
-                                        .solve(degree, made.gradient[i], made.hessian[i]))
-          return;
-      // Where one ring is all that there is.
-      if (Fit(made.mesh.points, made.values, centre, patch).solve(degree, made.gradient[i], made.hessian[i]))
-        return;
-    }
+        if (ring >= kFewestRings && solve()) return true;
+      return solve();  // where one ring is all that there is
+    };
+    for (int degree = mesh.order + 2; degree > 1; --degree)
+      if (fits(degree, -1)) return;
+    // A single row of elements says no more across.
+    for (int degree = mesh.order + 2; degree > 1; --degree)
+      if (fits(degree, 0) || fits(degree, 1)) return;
+    fits(1, -1);
   });
   return made;
 }

@@ -26,8 +26,8 @@ struct Recovery {
 
 /// The polynomial of degree order + 2 that fits the values best on two rings of elements around each point,
 /// or more where these do not determine it, scaled to the principal axes of their points [zhang2005]. No ring
-/// crosses from one region to another. Where a region has too few points for a degree, it becomes less;
-/// points without elements have 0.
+/// crosses from one region to another. Where a region has too few points for a degree, it becomes less, and
+/// linear across single rows of elements; points without elements have 0.
 Recovery recover(const Mesh& mesh, std::span<const double> values);
 
 struct ErrorEstimate {

@@ -52,6 +52,19 @@ TEST(Recover, QuadraticsAreExact) {
     }
 }
 
+// As loops make them for solutions that vary along one axis.
+TEST(Recover, ASingleRowOfElements) {
+  for (const double height : {1e-3, 1.0, 1e3}) {
+    const Mesh mesh = quad_grid(8, 1, 1, height);
+    const Recovery made =
+        recover(mesh, values_of(mesh, [&](double x, double y) { return x * x + 3 * (x + 1) * y / height; }));
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      const Tensor2& h = made.hessian[i];
+      EXPECT_LT(most({h.xx, h.xy * height, h.yy}, {2, 3, 0}), 1e-10);
+    }
+  }
+}
+
 TEST(Recover, ConvergesUpToTheBoundary) {
   std::vector<double> of_hessian, of_gradient;
   for (const int n : {12, 24, 48}) {
