@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
-#include <map>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -80,20 +79,25 @@ NodalValues read_values(const std::filesystem::path& path, const std::string& na
 /// The same of tensors: xx, xy, xz, yy, yz and zz of each point, from MSH fields of 3 x 3 numbers, VTU arrays
 /// of 3 (xx, yy, xy), 4, 6 or 9, and SOL and BAMG files; those of the plane have no z, and zz = 1.
 NodalValues read_tensors(const std::filesystem::path& path, const std::string& name);
-/// Numbers by name, each list with one at each point.
-using PointData = std::map<std::string, std::vector<double>>;
 
-/// A field of up to three components at the points of a mesh, each of which has a name: "u", or "u_x", "u_y"
-/// and "u_z". Points that no element uses stay; NaN: a point has no value.
-struct PointField {
-  Mesh mesh;
-  PointData components;
+/// Numbers at each point of a mesh, or of each of its triangles, then quads: so many side by side. NaN: there
+/// is none.
+struct MeshField {
+  std::string name;
+  bool is_of_points;
+  int n_components;
+  std::vector<double> values;
 };
-/// As read_values(), but fields of elements are refused.
-PointField read_point_field(const std::filesystem::path& path, const std::string& name);
-/// Writes MSH or VTU with values at points, whole or not at all.
-void write_point_data(const std::filesystem::path& path, const Mesh& mesh, const PointData& data,
-                      const MshOptions& options = {});
+struct MeshWithFields {
+  Mesh mesh;
+  std::vector<MeshField> fields;
+};
+/// All fields of an MSH or VTU file. Of several steps in time it is the last one; points that no element uses
+/// stay. Throws InputError for quads of 8 nodes, and MSH fields of more than 9 components.
+MeshWithFields read_fields(const std::filesystem::path& path);
+/// Writes MSH or VTU with fields, whole or not at all.
+void write_fields(const std::filesystem::path& path, const Mesh& mesh, const std::vector<MeshField>& fields,
+                  const MshOptions& options = {});
 /// Whether it reads files of that name.
 bool holds_values(const std::filesystem::path& path);
 

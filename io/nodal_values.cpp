@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -28,53 +29,41 @@ double area(const Mesh& mesh, const std::array<int, 3>& v) {
 }
 
 /// The values of tags, in their order; NaN where there is none.
-std::vector<double> in_order(const std::vector<std::pair<long long, double>>& values,
-                             const std::vector<long long>& tags) {
-  const std::unordered_map<long long, double> of_tag(values.begin(), values.end());
+std::vector<double> in_order(const msh::View& view, const std::vector<long long>& tags) {
+  std::unordered_map<long long, std::size_t> place;
+  for (std::size_t i = 0; i < view.values.size(); ++i) place[view.values[i].first] = i;
+  const auto further = static_cast<std::size_t>(view.n_components - 1);
   std::vector<double> result;
   for (const long long tag : tags) {
-    const auto found = of_tag.find(tag);
-    result.push_back(found == of_tag.end() ? kNoValue : found->second);
+    const auto found = place.find(tag);
+    result.push_back(found == place.end() ? kNoValue : view.values[found->second].second);
+    for (std::size_t k = 0; k < further; ++k)
+      result.push_back(found == place.end() ? kNoValue : view.further[found->second * further + k]);
   }
   return result;
 }
 
-/// One of the components of a field that has so many.
-std::vector<std::pair<long long, double>> component(const msh::View& view, int k) {
-  if (k == 0) return view.values;
-  std::vector<std::pair<long long, double>> values = view.values;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i].second =
-        view.further[i * static_cast<std::size_t>(view.n_components - 1) + static_cast<std::size_t>(k - 1)];
-  return values;
-}
-
-/// All components of a field of that form, those of a point side by side; of tensors, which are rows of three
-/// by three, six. `name` becomes that of the field.
-NodalValues read_msh_view(const std::filesystem::path& path, std::string& name, const FieldForm& form) {
+MeshWithFields read_msh_fields(const std::filesystem::path& path, const FieldChoice& choice) {
   TextScanner scanner(path);
   refuse_other_kinds(scanner, "MSH");
   msh::Contents contents = msh::read_contents(scanner, true);
   const std::vector<msh::View> views = std::move(contents.views);
-  std::vector<FieldInFile> fields;
-  for (const msh::View& view : views) fields.push_back({view.name, view.is_of_nodes, view.n_components});
-  const msh::View& view = views[choose_field(fields, name, path.string(), form)];
-  name = view.name;
-  std::vector<int> which;
-  if (form.are_tensors) which = {0, 1, 2, 4, 5, 8};
-  for (int c = 0; !form.are_tensors && c < view.n_components; ++c) which.push_back(c);
+  std::vector<MeshField> all;
+  for (const msh::View& view : views) all.push_back({view.name, view.is_of_nodes, view.n_components, {}});
+  const std::vector<std::size_t> chosen = choice(all);
   msh::MeshTags tags;
-  NodalValues result{msh::to_mesh(std::move(contents), scanner, &tags), {}};
-  result.values.resize(which.size() * result.mesh.points.size());
-  for (std::size_t c = 0; c < which.size(); ++c) {
-    const auto values = component(view, which[c]);
-    const std::vector<double> at_points =
-        view.is_of_nodes
-            ? in_order(values, tags.points)
-            : means_at_points(result.mesh, in_order(values, tags.triangles), in_order(values, tags.quads));
-    for (std::size_t i = 0; i < at_points.size(); ++i) result.values[which.size() * i + c] = at_points[i];
+  MeshWithFields result{msh::to_mesh(std::move(contents), scanner, &tags), {}};
+  require_own_points(result.mesh, tags.points.size(), path);
+  tags.triangles.insert(tags.triangles.end(), tags.quads.begin(), tags.quads.end());
+  for (const std::size_t i : chosen) {
+    all[i].values = in_order(views[i], all[i].is_of_points ? tags.points : tags.triangles);
+    result.fields.push_back(std::move(all[i]));
   }
   return result;
+}
+
+MeshWithFields read_chosen(const std::filesystem::path& path, const FieldChoice& choice) {
+  return (kind_of_file(path) == ".vtu" ? read_vtu_fields : read_msh_fields)(path, choice);
 }
 
 void check_number(TextScanner& in, std::size_t n_points) {
@@ -156,30 +145,40 @@ void require_values(NodalValues& field, const std::string& file) {
 
 }  // namespace
 
-std::size_t choose_field(const std::vector<FieldInFile>& fields, const std::string& name,
+std::size_t choose_field(const std::vector<MeshField>& fields, const std::string& name,
                          const std::string& file, const FieldForm& form) {
   std::set<std::string> names;
-  for (const FieldInFile& field : fields) names.insert(TextScanner::printable(field.name));
+  for (const MeshField& field : fields)
+    if (field.is_of_points || !form.of_points) names.insert(TextScanner::printable(field.name));
   if (fields.empty())
     refuse("{}: has no field: expected $NodeData or $ElementData, or in a VTU file point data or cell data",
            file);
   if (name.empty() && names.size() > 1)
     refuse("{}: has the fields {}: say which, as {}:NAME", file, fmt::join(names, ", "),
            std::filesystem::path(file).filename().string());
+  const MeshField* of_elements = nullptr;
   for (std::size_t i = fields.size(); i-- > 0;) {
     if (!name.empty() && fields[i].name != name) continue;
-    if (form.of_points && !fields[i].is_of_points)
-      refuse("{}: the field {} is of elements: expected one of points", file,
-             TextScanner::printable(fields[i].name));
+    if (form.of_points && !fields[i].is_of_points) {
+      of_elements = &fields[i];
+      continue;
+    }
     if (std::ranges::find(form.n_components, fields[i].n_components) != form.n_components.end()) return i;
     refuse("{}: the field {} has {} components: expected {}", file, TextScanner::printable(fields[i].name),
            fields[i].n_components, fmt::join(form.n_components, ", "));
   }
+  if (of_elements != nullptr)
+    refuse("{}: the field {} is of elements: expected one of points", file,
+           TextScanner::printable(of_elements->name));
   refuse("{}: has no field {}: expected {}", file, TextScanner::printable(name), fmt::join(names, ", "));
 }
 
-std::vector<double> means_at_points(const Mesh& mesh, const std::vector<double>& of_triangles,
-                                    const std::vector<double>& of_quads, std::size_t width) {
+namespace {
+
+/// Means, by area, of the values of the elements at each point, `width` side by side; NaN where there is no
+/// element.
+std::vector<double> means_at_points(const Mesh& mesh, const std::vector<double>& of_elements,
+                                    std::size_t width) {
   std::vector<double> sum(width * mesh.points.size(), 0), weight(mesh.points.size(), 0);
   const auto add = [&](const auto& element, double size, const double* values) {
     for (const int v : element) {
@@ -188,62 +187,94 @@ std::vector<double> means_at_points(const Mesh& mesh, const std::vector<double>&
     }
   };
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    add(mesh.triangles[i], area(mesh, mesh.triangles[i]), &of_triangles[width * i]);
+    add(mesh.triangles[i], area(mesh, mesh.triangles[i]), &of_elements[width * i]);
   for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
     const auto [a, b, c, d] = mesh.quads[i];
-    add(mesh.quads[i], area(mesh, {a, b, c}) + area(mesh, {a, c, d}), &of_quads[width * i]);
+    add(mesh.quads[i], area(mesh, {a, b, c}) + area(mesh, {a, c, d}),
+        &of_elements[width * (mesh.triangles.size() + i)]);
   }
   for (std::size_t i = 0; i < sum.size(); ++i)
     sum[i] = weight[i / width] > 0 ? sum[i] / weight[i / width] : kNoValue;
   return sum;
 }
 
-namespace {
+/// m11, m12, m13, m22, m23 and m33 of rows of 2 x 2 or 3 x 3 numbers, or of symmetric ones as VTK has them,
+/// the diagonal first (xx, yy, xy, or xx, yy, zz, xy, yz, xz).
+std::vector<double> as_tensors(const std::vector<double>& all, int n_components) {
+  constexpr int kZero = -1, kOne = -2;
+  static const std::map<int, std::array<int, 6>> places = {{3, {0, 2, kZero, 1, kZero, kOne}},
+                                                           {4, {0, 1, kZero, 3, kZero, kOne}},
+                                                           {6, {0, 3, 5, 1, 4, 2}},
+                                                           {9, {0, 1, 2, 4, 5, 8}}};
+  std::vector<double> tensors;
+  for (std::size_t at = 0; at < all.size(); at += static_cast<std::size_t>(n_components))
+    for (const int k : places.at(n_components))
+      tensors.push_back(k == kZero ? 0 : k == kOne ? 1 : all[at + static_cast<std::size_t>(k)]);
+  return tensors;
+}
 
-NodalValues read_field(const std::filesystem::path& path, std::string name, bool are_tensors) {
+NodalValues read_field(const std::filesystem::path& path, const std::string& name, bool are_tensors) {
   const std::string kind = kind_of_file(path);
-  FieldForm form{{1}, false, are_tensors};
-  if (are_tensors) form.n_components = kind == ".vtu" ? std::vector{3, 4, 6, 9} : std::vector{9};
-  NodalValues field = kind == ".vtu"   ? read_vtu_field(path, name, form)
-                      : kind == ".msh" ? read_msh_view(path, name, form)
-                                       : read_beside_mesh(path, are_tensors ? 6 : 1);
-  require_values(field, path.string());
-  return field;
+  const std::size_t width = are_tensors ? 6 : 1;
+  NodalValues result;
+  if (kind == ".vtu" || kind == ".msh") {
+    FieldForm form;
+    if (are_tensors) form.n_components = kind == ".vtu" ? std::vector{3, 4, 6, 9} : std::vector{9};
+    auto [mesh, fields] = read_chosen(path, [&](const std::vector<MeshField>& all) {
+      return std::vector{choose_field(all, name, path.string(), form)};
+    });
+    if (mesh.order > 1)
+      refuse("{}: a field on elements of order {}: expected order 1", path.string(), mesh.order);
+    MeshField& field = fields[0];
+    if (are_tensors) field.values = as_tensors(field.values, field.n_components);
+    if (!field.is_of_points) field.values = means_at_points(mesh, field.values, width);
+    result = {std::move(mesh), std::move(field.values)};
+  } else {
+    result = read_beside_mesh(path, width);
+  }
+  require_values(result, path.string());
+  return result;
 }
 
 }  // namespace
+
+void require_own_points(const Mesh& mesh, std::size_t n_points, const std::filesystem::path& path) {
+  if (mesh.points.size() != n_points)
+    refuse("{}: fields on quads of 8 nodes: expected 4, 9, 16 or 25", path.string());
+}
 
 bool holds_values(const std::filesystem::path& path) {
   constexpr std::array kKinds = {".msh", ".vtu", ".sol", ".mtr", ".metric"};
   return std::ranges::find(kKinds, kind_of_file(path)) != kKinds.end();
 }
 
-PointField read_point_field(const std::filesystem::path& path, const std::string& name) {
-  const std::string kind = kind_of_file(path);
-  if (kind != ".msh" && kind != ".vtu") refuse("{}: fields are read from .msh and .vtu files", path.string());
-  std::string found = name;
-  const FieldForm form{{1, 2, 3}, true};
-  NodalValues all = kind == ".vtu" ? read_vtu_field(path, found, form) : read_msh_view(path, found, form);
-  const std::size_t width = all.values.size() / std::max<std::size_t>(1, all.mesh.points.size());
-  PointField field{std::move(all.mesh), {}};
-  for (std::size_t c = 0; c < width; ++c) {
-    std::vector<double>& values = field.components[width == 1 ? found : found + "_" + "xyz"[c]];
-    for (std::size_t i = c; i < all.values.size(); i += width) values.push_back(all.values[i]);
-  }
-  return field;
+MeshWithFields read_fields(const std::filesystem::path& path) {
+  constexpr int kMostComponents = 9;
+  return read_chosen(path, [&](const std::vector<MeshField>& all) {
+    std::map<std::pair<bool, std::string>, std::size_t> last;
+    for (std::size_t i = 0; i < all.size(); ++i) last[{all[i].is_of_points, all[i].name}] = i;
+    std::vector<std::size_t> chosen;
+    for (const auto& [key, i] : last) {
+      if (kind_of_file(path) == ".msh" && all[i].n_components > kMostComponents)
+        refuse("{}: the field {} has {} components: expected up to {}", path.string(),
+               TextScanner::printable(all[i].name), all[i].n_components, kMostComponents);
+      chosen.push_back(i);
+    }
+    return chosen;
+  });
 }
 
-void write_point_data(const std::filesystem::path& path, const Mesh& mesh, const PointData& data,
-                      const MshOptions& options) {
+void write_fields(const std::filesystem::path& path, const Mesh& mesh, const std::vector<MeshField>& fields,
+                  const MshOptions& options) {
   check_mesh_format(path, options, mesh.order);
   const std::string kind = kind_of_file(path);
   if (kind == ".vtu")
-    write_vtu(path, mesh, {}, QuadNodes::kAll, data);
+    write_vtu(path, mesh, {}, QuadNodes::kAll, fields);
   else if (kind == ".msh")
     write_file_atomically(
-        path, [&](std::ostream& stream) { write_msh(stream, mesh, options, QuadNodes::kAll, data); });
+        path, [&](std::ostream& stream) { write_msh(stream, mesh, options, QuadNodes::kAll, fields); });
   else
-    refuse("{}: values at points are written to .msh and .vtu files", path.string());
+    refuse("{}: fields are written to .msh and .vtu files", path.string());
 }
 
 NodalValues read_values(const std::filesystem::path& path, const std::string& name) {

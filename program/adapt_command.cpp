@@ -1,9 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "base/context.h"
 #include "base/located.h"
@@ -16,6 +19,7 @@
 #include "experiments/console/progress.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
+#include "io/nodal_values.h"
 #include "program/commands.h"
 #include "program/options.h"
 #include "program/print.h"
@@ -32,42 +36,99 @@ struct AdaptArguments : AdaptSpec {
   int threads = thread_count();
 };
 
-/// The mesh of the first field, and all fields.
-struct Solution {
-  std::vector<std::filesystem::path> files;
-  Mesh mesh;
-  std::vector<NodalField> fields;
+struct SolutionFile {
+  std::filesystem::path path;
+  MeshWithFields content;  ///< the mesh is that of the first file
+};
+struct SolutionField {
+  std::filesystem::path file;
+  MeshField field;
 };
 
-/// The components of FILE:FIELD, or of another FIELD of the first file.
-std::vector<NodalField> read_fields(const std::string& text, Solution& solution) {
-  SizeFile from{solution.files.empty() ? "" : solution.files[0], text};
+/// FILE:FIELD, or another FIELD of the first file.
+SolutionField find_field(const std::string& text, std::vector<SolutionFile>& files) {
+  SizeFile from{files.empty() ? "" : files[0].path, text};
   if (const auto given = size_file_of(text, {})) from = *given;
   if (from.path.empty()) refuse("'{}': expected FILE:FIELD with a .msh or .vtu file", text);
-  PointField read = read_point_field(from.path, from.field);
-  solution.files.push_back(from.path);
-  if (solution.files.size() == 1) {
-    solution.mesh = read.mesh;
-  } else if (read.mesh.points != solution.mesh.points || read.mesh.triangles != solution.mesh.triangles ||
-             read.mesh.quads != solution.mesh.quads)
-    refuse("{}: its mesh is another one than that of {}: expected fields on the same", text,
-           solution.files[0].string());
-  std::vector<NodalField> fields;
-  for (auto& [name, values] : read.components) fields.push_back({name, std::move(values)});
-  return fields;
+  auto file = std::ranges::find(files, from.path, &SolutionFile::path);
+  if (file == files.end()) {
+    MeshWithFields read = read_fields(from.path);
+    const Mesh& first = files.empty() ? read.mesh : files[0].content.mesh;
+    if (read.mesh.points != first.points || read.mesh.triangles != first.triangles ||
+        read.mesh.quads != first.quads)
+      refuse("{}: its mesh is another one than that of {}: expected fields on the same", text,
+             files[0].path.string());
+    if (!files.empty()) read.mesh = {};
+    file = files.insert(files.end(), {from.path, std::move(read)});
+  }
+  const std::vector<MeshField>& fields = file->content.fields;
+  return {from.path, fields[choose_field(fields, from.field, from.path.string(), {{1, 2, 3}, true})]};
+}
+
+/// Each component by its name: u, or u_x, u_y and u_z.
+std::vector<NodalField> components_of(const MeshField& field, const std::string& name) {
+  const auto width = static_cast<std::size_t>(field.n_components);
+  std::vector<NodalField> components;
+  for (std::size_t k = 0; k < width; ++k) {
+    NodalField& one = components.emplace_back(NodalField{width == 1 ? name : name + "_" + "xyz" [k], {}});
+    for (std::size_t i = k; i < field.values.size(); i += width) one.values.push_back(field.values[i]);
+  }
+  return components;
+}
+
+MeshField transferred(const Mesh& from, const MeshField& field, const Mesh& to, Transfer how) {
+  const auto width = static_cast<std::size_t>(field.n_components);
+  MeshField made{field.name, field.is_of_points, field.n_components, {}};
+  std::vector<double> old(field.values.size() / width);
+  for (std::size_t k = 0; k < width; ++k) {
+    for (std::size_t i = 0; i < old.size(); ++i) old[i] = field.values[width * i + k];
+    const std::vector<double> values =
+        (field.is_of_points ? transfer_points : transfer_elements)(from, old, to, how);
+    made.values.resize(width * values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) made.values[width * i + k] = values[i];
+  }
+  return made;
+}
+
+/// All fields of the files on the next mesh, of those of one name the last. What is left out for its values
+/// is told, but for those that were asked for.
+std::vector<MeshField> carried_over(const Mesh& from, std::span<const SolutionFile> files,
+                                    const std::vector<SolutionField>& asked, const Mesh& to, Transfer how,
+                                    std::vector<Warning>& warnings) {
+  std::map<std::pair<bool, std::string>, const MeshField*> last;
+  for (const SolutionFile& file : files)
+    for (const MeshField& field : file.content.fields) last[{!field.is_of_points, field.name}] = &field;
+  last.erase({true, "eta"});  // write_mesh()'s of the old quads
+  std::vector<MeshField> carried;
+  for (const auto& [key, field] : last) try {
+      carried.push_back(transferred(from, *field, to, how));
+    } catch (const InputError& error) {
+      if (std::ranges::any_of(asked, [&](const SolutionField& a) {
+            return field->is_of_points && a.field.name == field->name;
+          }))
+        throw;
+      warnings.emplace_back(fmt::format("the field {} is not carried over: {}", field->name, error.what()));
+    }
+  return carried;
 }
 
 std::string name_of_norm(double p) { return std::isinf(p) ? "maximum" : fmt::format("L{:g}", p); }
 
-void print_errors(double norm, const Solution& solution, const Adapted& made) {
-  for (std::size_t f = 0; f < solution.fields.size(); ++f) {
+void print_errors(double norm, const Mesh& mesh, const std::vector<NodalField>& fields, const Adapted& made) {
+  for (std::size_t f = 0; f < fields.size(); ++f) {
     const auto& [now, gradient, after] = made.errors[f];
     fmt::print(
         "  {}: error {:.4g} ({} of interpolation), gradient {:.4g} (L2), estimated by {} elements; "
         "expected {:.4g}\n",
-        solution.fields[f].name, now, name_of_norm(norm), gradient,
-        solution.mesh.triangles.size() + solution.mesh.quads.size(), after);
+        fields[f].name, now, name_of_norm(norm), gradient, mesh.triangles.size() + mesh.quads.size(), after);
   }
+}
+
+void print_carried(const std::vector<MeshField>& carried) {
+  std::vector<std::string> names;
+  for (const MeshField& field : carried)
+    names.push_back(field.name + (field.is_of_points ? "" : " (of elements)"));
+  fmt::print("  with the fields {}\n", fmt::join(names, ", "));
 }
 
 int adapt_command(const AdaptArguments& arguments) {
@@ -78,44 +139,51 @@ int adapt_command(const AdaptArguments& arguments) {
   AdaptSpec spec = arguments;
   const auto norm = as_number(arguments.norm_text);
   spec.norm = arguments.norm_text == "inf" ? std::numeric_limits<double>::infinity() : norm.value_or(0);
-  Solution solution;
-  for (const std::string& text : arguments.fields)
-    for (NodalField& field : read_fields(text, solution)) solution.fields.push_back(std::move(field));
+  std::vector<SolutionFile> files;
+  std::vector<SolutionField> asked;
+  for (const std::string& text : arguments.fields) asked.push_back(find_field(text, files));
+  std::vector<NodalField> fields;
+  for (const auto& [file, field] : asked)
+    for (NodalField& one :
+         components_of(field, files.size() > 1 ? file.string() + ":" + field.name : field.name))
+      fields.push_back(std::move(one));
+  const std::size_t n_solutions = files.size();
   if (!arguments.weight_field.empty()) {
-    std::vector<NodalField> weight = read_fields(arguments.weight_field, solution);
-    if (weight.size() > 1)
+    MeshField weight = find_field(arguments.weight_field, files).field;
+    if (weight.n_components > 1)
       refuse("--goal-weight {}: expected one number at each point", arguments.weight_field);
-    spec.weight = std::move(weight[0].values);
+    spec.weight = std::move(weight.values);
   }
+  const Mesh& mesh = files[0].content.mesh;
   std::optional<MeshProblem> problem;
   if (!arguments.model.empty()) problem = read_model_file(arguments.model);
+  check_mesh_format(arguments.output, arguments.msh, std::max(mesh.order, problem ? problem->order : 1));
   const std::string kind = kind_of_file(arguments.output);
   const bool holds = kind == ".msh" || kind == ".vtu";
   const std::filesystem::path with_fields =
       holds ? arguments.output : std::filesystem::path(arguments.output).replace_extension(".vtu");
-  for (const std::filesystem::path& file : solution.files)
-    check_distinct({{"the solution", file},
+  for (const SolutionFile& file : files)
+    check_distinct({{"the solution", file.path},
                     {"the model", arguments.model},
                     {"-o", arguments.output},
                     {"the fields beside it", holds ? "" : with_fields}});
   Progress progress;
-  Adapted made = adapt(solution.mesh, solution.fields, spec, problem ? &*problem : nullptr);
+  Adapted made = adapt(mesh, fields, spec, problem ? &*problem : nullptr);
+  Mesh& next = made.result.mesh;
+  reduce_bandwidth(next);
+  const std::vector<MeshField> carried = carried_over(mesh, std::span(files).first(n_solutions), asked, next,
+                                                      arguments.transfer, made.result.warnings);
   progress.warn(made.result.warnings);
   {
     const Uninterrupted whole;
-    Mesh& mesh = made.result.mesh;
-    reduce_bandwidth(mesh);
-    PointData data;
-    for (const NodalField& field : solution.fields)
-      data[field.name] = transfer_points(solution.mesh, field.values, mesh, arguments.transfer);
-    if (!holds) write_mesh(arguments.output, mesh, arguments.msh);
-    write_point_data(with_fields, mesh, data, holds ? arguments.msh : MshOptions{});
+    if (!holds) write_mesh(arguments.output, next, arguments.msh);
+    write_fields(with_fields, next, carried, holds ? arguments.msh : MshOptions{});
   }
   fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", arguments.output.string(),
-             made.result.mesh.quads.size(), made.result.mesh.triangles.size(), made.result.mesh.points.size(),
-             command.seconds());
+             next.quads.size(), next.triangles.size(), next.points.size(), command.seconds());
   if (!holds) fmt::print("{}: the same mesh with the fields\n", with_fields.string());
-  print_errors(spec.norm, solution, made);
+  print_carried(carried);
+  print_errors(spec.norm, mesh, fields, made);
   print_metrics(made.result.metrics);
   return kDone;
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <ostream>
+#include <vector>
 
 #include "delquad/hexahedra.h"
 #include "delquad/model.h"
@@ -22,9 +23,9 @@ Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nu
 /// gets that number as its tag. The unit of lengths, where it is known, is a section $Unit after these.
 void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {},
                QuadNodes nodes = QuadNodes::kAll);
-/// `data`: becomes views ($NodeData).
+/// `fields`: become views ($NodeData, $ElementData).
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {},
-               QuadNodes nodes = QuadNodes::kAll, const PointData& data = {});
+               QuadNodes nodes = QuadNodes::kAll, const std::vector<MeshField>& fields = {});
 /// As write_msh() does: volumes, faces and curves are entities of dimension 3, 2 and 1, each in one physical
 /// group.
 void write_hex_msh(const std::filesystem::path& path, const HexMesh& mesh, bool binary);

@@ -82,7 +82,7 @@ void settle_physicals(Contents& contents);
 std::vector<std::string> names_of(const Contents& contents, DimTag entity);
 
 /// Tags become indices: nodes in the order of their tags, without those that no element uses. Elements must
-/// be of one order, of the first where `tags` are asked for.
+/// be of one order. `tags.points`: without the middles that quads of 8 nodes get.
 Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags = nullptr);
 
 }  // namespace delquad::msh

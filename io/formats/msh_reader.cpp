@@ -130,7 +130,6 @@ void add_elements(const Contents& contents, const std::vector<int>& new_index, c
     const std::string wrong = add_element(mesh, e.n_nodes, nodes, entities.index(e.dim(), e.entity));
     if (!wrong.empty()) scanner.fail_at(e.line, "{}", wrong);
     if (!tags) continue;
-    if (mesh.order > 1) scanner.fail_at(e.line, "elements of order {}: expected order 1", mesh.order);
     if (e.n_nodes == 3) tags->triangles.push_back(e.tag);
     if (e.n_nodes == 4) tags->quads.push_back(e.tag);
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -291,29 +292,53 @@ void write_more_names(std::ostream& stream, const std::vector<MshBlock>& blocks)
   out.flush();
 }
 
-void write_views(MshNumbers& out, const std::vector<MshBlock>& blocks, const PointData& data) {
-  for (const auto& [name, values] : data) {
-    std::size_t count = 0;
-    for (const MshBlock& block : blocks) count += block.nodes.size();
+/// Vectors of the plane get a third component, for Gmsh knows 1, 3 and 9; a NaN is not written.
+void write_views(MshNumbers& out, const std::vector<MshBlock>& blocks, const std::vector<MeshField>& fields,
+                 std::size_t n_triangles) {
+  constexpr int kTriangle = 2;
+  for (const MeshField& field : fields) {
+    const auto width = static_cast<std::size_t>(field.n_components);
+    const std::size_t written = width == 2 ? 3 : width;
+    std::vector<std::pair<int, const double*>> rows;  // by tag
+    const auto add = [&](int tag, std::size_t i) {
+      const double* const row = &field.values[width * i];
+      if (!std::isnan(*row)) rows.emplace_back(tag, row);
+    };
+    int tag = 0;
+    for (const MshBlock& block : blocks) {
+      if (field.is_of_points)
+        for (const int i : block.nodes) add(i + 1, i);
+      else
+        for (const auto& [kind, items] : block.elements)
+          for (const std::size_t i : items)
+            if (++tag; block.dim == 2) add(tag, kind->type == kTriangle ? i : n_triangles + i);
+    }
+    const std::string section = field.is_of_points ? "NodeData" : "ElementData";
     // One text, one time, and three numbers: of the step, of components and of values.
-    out.line("$NodeData\n1\n\"" + quotable(name) + "\"\n1\n0\n3\n0\n1\n" + std::to_string(count));
-    for (const MshBlock& block : blocks)
-      for (const int i : block.nodes) out.integer(i + 1).real(values[i]).end_line();
-    out.end_section("$EndNodeData");
+    out.line("$" + section + "\n1\n\"" + quotable(field.name) + "\"\n1\n0\n3\n0\n" + std::to_string(written) +
+             "\n" + std::to_string(rows.size()));
+    for (const auto& [number, row] : rows) {
+      out.integer(number);
+      for (std::size_t k = 0; k < written; ++k) out.real(k < width ? row[k] : 0);
+      out.end_line();
+    }
+    out.end_section("$End" + section);
   }
 }
 
 /// `mesh`: with pairs of periodic entities; null: of hexahedra, which have none.
 void write_blocks(std::ostream& stream, bool binary, const std::vector<Vec3>& points,
                   std::vector<MshBlock> blocks, const std::string& unit, const Mesh* mesh,
-                  const PointData& data = {}) {
+                  const std::vector<MeshField>& fields = {}) {
   MshNumbers out(stream, binary);
   write_head(out, binary, number_groups(blocks));
   write_entities(out, blocks);
   write_nodes(out, points, blocks);
   write_elements(out, blocks);
-  if (mesh != nullptr) write_periodic(out, *mesh, blocks);
-  write_views(out, blocks, data);
+  if (mesh != nullptr) {
+    write_periodic(out, *mesh, blocks);
+    write_views(out, blocks, fields, mesh->triangles.size());
+  }
   out.flush();
   write_more_names(stream, blocks);
   if (!unit.empty()) stream << "$Unit\n" << unit << "\n$EndUnit\n";
@@ -378,9 +403,9 @@ std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
 }  // namespace
 
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options, QuadNodes nodes,
-               const PointData& data) {
+               const std::vector<MeshField>& fields) {
   with_blocks(mesh, options.curves, nodes, [&](std::vector<MshBlock> blocks) {
-    write_blocks(stream, options.binary, mesh.points, std::move(blocks), mesh.unit, &mesh, data);
+    write_blocks(stream, options.binary, mesh.points, std::move(blocks), mesh.unit, &mesh, fields);
   });
 }
 

@@ -1,5 +1,6 @@
 #include "io/formats/vtu.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -28,8 +29,7 @@ struct VtuContent {
   /// Kind of entity -> numbers of each name, which become arrays "KIND NAME".
   std::vector<std::pair<std::string, NumbersOfNames>> names;
   std::vector<std::pair<std::string, std::vector<std::int32_t>>> tags;  ///< of cells; 0: none
-  std::map<std::string, std::vector<double>> values = {};               ///< of cells
-  PointData point_values = {};
+  std::vector<MeshField> fields = {};                                   ///< of points, and of all cells
   std::vector<std::int64_t> connectivity = {}, offsets = {};
   std::vector<std::uint8_t> types = {};
 
@@ -82,14 +82,22 @@ void write_content(TextWriter& out, const VtuContent& content) {
   write_array(out, "type=\"Int64\" Name=\"offsets\"", content.offsets);
   write_array(out, "type=\"UInt8\" Name=\"types\"", content.types);
   out << "      </Cells>\n";
-  if (!content.point_values.empty()) out << "      <PointData>\n";
-  for (const auto& [name, values] : content.point_values)
-    write_array(out, "type=\"Float64\" Name=\"" + xml_escaped(name) + "\"", values);
-  if (!content.point_values.empty()) out << "      </PointData>\n";
+  const auto write_fields = [&](bool of_points) {
+    for (const auto& [name, is_of_points, n_components, values] : content.fields)
+      if (is_of_points == of_points)
+        write_array(
+            out,
+            "type=\"Float64\" Name=\"" + xml_escaped(name) + '"' +
+                (n_components == 1 ? "" : " NumberOfComponents=\"" + std::to_string(n_components) + '"'),
+            values);
+  };
+  const bool has_of_points = std::ranges::any_of(content.fields, &MeshField::is_of_points);
+  if (has_of_points) out << "      <PointData>\n";
+  write_fields(true);
+  if (has_of_points) out << "      </PointData>\n";
   out << "      <CellData>\n";
   for (const auto& [name, tags] : content.tags) write_array(out, "type=\"Int32\" Name=\"" + name + '"', tags);
-  for (const auto& [name, values] : content.values)
-    write_array(out, "type=\"Float64\" Name=\"" + xml_escaped(name) + "\"", values);
+  write_fields(false);
   out << "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
 }
 
@@ -112,7 +120,7 @@ void write_with_eta(const std::filesystem::path& path, const Mesh& mesh, const M
 
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data, QuadNodes nodes,
-               const PointData& point_data) {
+               const std::vector<MeshField>& fields) {
   // VTK's cell types: straight, quadratic and biquadratic, Lagrange.
   constexpr std::array<std::uint8_t, 4> kLines = {3, 21, 68, 68}, kQuads = {9, 28, 70, 70};
   constexpr std::uint8_t kTriangle = 5, kEightNodes = 23;
@@ -122,9 +130,7 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                      {{"curve", tags_of_names(mesh.curves)},
                       {"region", tags_of_names(mesh.regions)},
                       {"point", points_of_names(mesh)}},
-                     {{"curve", {}}, {"region", {}}},
-                     cell_data,
-                     point_data};
+                     {{"curve", {}}, {"region", {}}}};
   for (size_t i = 0; i < mesh.lines.size(); ++i)
     content.add(nodes_ends_first(mesh, i), kLines[order], {mesh.curves[mesh.line_curve[i]].tag, 0});
   for (size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -139,6 +145,13 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
       throw std::invalid_argument("cell data '" + name + "': " + std::to_string(values.size()) +
                                   " values for " + std::to_string(content.types.size()) + " cells");
     }
+    content.fields.push_back({name, false, 1, values});
+  }
+  for (MeshField field : fields) {
+    if (!field.is_of_points)
+      field.values.insert(field.values.begin(), field.n_components * mesh.lines.size(),
+                          std::numeric_limits<double>::quiet_NaN());
+    content.fields.push_back(std::move(field));
   }
   write_text_file(path, [&](TextWriter& out) { write_content(out, content); });
 }
@@ -157,9 +170,9 @@ void write_hex_vtu(const std::filesystem::path& path, const HexMesh& mesh) {
     content.add(mesh.quads[i], kQuad, {0, mesh.faces[mesh.quad_face[i]].tag, 0});
   for (std::size_t i = 0; i < mesh.lines.size(); ++i)
     content.add(mesh.lines[i], kLine, {0, 0, mesh.curves[mesh.line_curve[i]].tag});
-  std::vector<double>& jacobian = content.values["scaled Jacobian"];
-  jacobian = measure(mesh).jacobian;
+  std::vector<double> jacobian = measure(mesh).jacobian;
   jacobian.resize(content.types.size(), std::numeric_limits<double>::quiet_NaN());
+  content.fields.push_back({"scaled Jacobian", false, 1, std::move(jacobian)});
   write_text_file(path, [&](TextWriter& out) { write_content(out, content); });
 }
 

@@ -15,13 +15,12 @@ namespace delquad {
 /// files of other programs have one curve and one region.
 Mesh read_vtu(const std::filesystem::path& path);
 /// VTK XML (base64). Each cell has the tag of its curve or its region (arrays `curve` and `region`; 0: none),
-/// and one value per cell (lines, then triangles, then quads) for each field in `cell_data`, one per point
-/// for each in `point_data`; a NaN there means that it has no value. Names are field data: an array "curve
-/// NAME" or "region NAME" lists the tags. A known unit of lengths is a comment, here and in OBJ, Abaqus input
-/// and Medit text.
+/// and one value per cell (lines, then triangles, then quads) for each field in `cell_data`, NaN where there
+/// is none, as lines have of `fields`. Names are field data: an array "curve NAME" or "region NAME" lists the
+/// tags. A known unit of lengths is a comment, here and in OBJ, Abaqus input and Medit text.
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data = {},
-               QuadNodes nodes = QuadNodes::kAll, const PointData& point_data = {});
+               QuadNodes nodes = QuadNodes::kAll, const std::vector<MeshField>& fields = {});
 /// Hexahedra first, then quads and lines, with the numbers of their volumes, faces and curves (arrays
 /// `volume`, `face`, `curve`; 0: none) and of hexahedra the least scaled Jacobian.
 void write_hex_vtu(const std::filesystem::path& path, const HexMesh& mesh);

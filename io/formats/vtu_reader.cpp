@@ -97,21 +97,22 @@ class VtuReader {
       if (name == "Piece") read_piece(piece);
     if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty())
       fail("the file holds no lines, triangles or quads");
-    if (field_ && mesh_.order > 1) fail("a field on elements of order {}: expected order 1", mesh_.order);
     for (const auto& [name, data] : grid)
       if (name == "FieldData") read_names(data);
-    if (!field_) drop_unused_points(mesh_);
+    if (choice_ == nullptr) drop_unused_points(mesh_);
     return std::move(mesh_);
   }
 
-  /// Points that no element uses stay. `name` becomes that of the field.
-  NodalValues read_field(std::string& name, const FieldForm& form) {
-    field_ = name;
-    form_ = form;
-    NodalValues result{read(), {}};
-    name = *field_;
-    result.values = is_of_points_ ? std::move(values_)
-                                  : means_at_points(result.mesh, triangle_values_, quad_values_, width_);
+  /// Points that no element uses stay.
+  MeshWithFields read_fields(const FieldChoice& choice) {
+    choice_ = &choice;
+    MeshWithFields result{read(), {}};
+    require_own_points(result.mesh, n_points_, path_);
+    for (std::size_t k = 0; k < fields_.size(); ++k) {
+      std::vector<double>& values = fields_[k].values;
+      values.insert(values.end(), of_quads_[k].begin(), of_quads_[k].end());
+    }
+    result.fields = std::move(fields_);
     return result;
   }
 
@@ -302,8 +303,8 @@ class VtuReader {
     check_number(piece, "NumberOfCells", types.size());
     const std::vector<double> curve = tags(piece, "curve", types.size()),
                               region = tags(piece, "region", types.size());
-    std::vector<double> field;
-    if (field_) field = read_field_of(piece, n_points, types.size());
+    std::vector<MeshField> fields;
+    if (choice_ != nullptr) fields = read_fields_of(piece, n_points, types.size());
     double begin = 0;
     for (size_t c = 0; c < types.size(); ++c) {
       if (!(begin <= offsets[c] && offsets[c] <= static_cast<double>(corners.size())))
@@ -315,19 +316,23 @@ class VtuReader {
         v.push_back(static_cast<int>(first) + static_cast<int>(corners[k]));
       }
       add_cell(as_int(types[c]), v, curve[c], region[c]);
-      if (field_ && !is_of_points_) {
-        auto& target = v.size() == 3 ? triangle_values_ : quad_values_;
-        const auto of_cell = field.begin() + static_cast<std::ptrdiff_t>(width_ * c);
-        if (v.size() == 3 || v.size() == 4)
-          target.insert(target.end(), of_cell, of_cell + static_cast<std::ptrdiff_t>(width_));
+      const int n_corners = corners_of_type(as_int(types[c]));
+      for (size_t k = 0; k < fields.size() && n_corners >= 3; ++k) {
+        if (fields[k].is_of_points) continue;
+        auto& target = n_corners == 3 ? fields_[k].values : of_quads_[k];
+        const auto of_cell =
+            fields[k].values.begin() + static_cast<std::ptrdiff_t>(c) * fields[k].n_components;
+        target.insert(target.end(), of_cell, of_cell + fields[k].n_components);
       }
       begin = offsets[c];
     }
-    if (field_ && is_of_points_) values_.insert(values_.end(), field.begin(), field.end());
+    for (size_t k = 0; k < fields.size(); ++k)
+      if (fields[k].is_of_points)
+        fields_[k].values.insert(fields_[k].values.end(), fields[k].values.begin(), fields[k].values.end());
   }
 
-  std::vector<double> read_field_of(const Tree& piece, size_t n_points, size_t n_cells) {
-    std::vector<FieldInFile> fields;
+  std::vector<MeshField> read_fields_of(const Tree& piece, size_t n_points, size_t n_cells) {
+    std::vector<MeshField> all, chosen;
     std::vector<const Tree*> arrays;
     for (const char* kind : {"PointData", "CellData"}) {
       const auto data = piece.find(kind);
@@ -335,37 +340,32 @@ class VtuReader {
       for (const auto& [tag, array] : data->second) {
         const std::string name = attribute(array, "Name");
         if (tag != "DataArray" || name == "curve" || name == "region") continue;
-        fields.push_back(
-            {name, std::string_view(kind) == "PointData", array.get<int>("<xmlattr>.NumberOfComponents", 1)});
+        all.push_back({name,
+                       std::string_view(kind) == "PointData",
+                       array.get<int>("<xmlattr>.NumberOfComponents", 1),
+                       {}});
         arrays.push_back(&array);
       }
     }
-    const size_t chosen = choose_field(fields, *field_, path_, form_);
-    is_of_points_ = fields[chosen].is_of_points;
-    field_ = fields[chosen].name;
-    std::vector<double> all = read_array(*arrays[chosen]);
-    const size_t n = is_of_points_ ? n_points : n_cells;
-    const auto n_components = static_cast<size_t>(fields[chosen].n_components);
-    if (all.size() != n * n_components)
-      fail("data array {}: {} values for {} {}", shown(fields[chosen].name), all.size(), n,
-           is_of_points_ ? "points" : "cells");
-    width_ = form_.are_tensors ? 6 : n_components;
-    return form_.are_tensors ? as_tensors(all, n_components) : all;
-  }
-
-  /// m11, m12, m13, m22, m23 and m33 of arrays as VTK has them: rows of 2 x 2 or 3 x 3, or of symmetric ones
-  /// the diagonal first (xx, yy, xy, or xx, yy, zz, xy, yz, xz).
-  static std::vector<double> as_tensors(const std::vector<double>& all, size_t n_components) {
-    constexpr int kZero = -1, kOne = -2;
-    static const std::map<size_t, std::array<int, 6>> places = {{3, {0, 2, kZero, 1, kZero, kOne}},
-                                                                {4, {0, 1, kZero, 3, kZero, kOne}},
-                                                                {6, {0, 3, 5, 1, 4, 2}},
-                                                                {9, {0, 1, 2, 4, 5, 8}}};
-    std::vector<double> tensors;
-    for (size_t at = 0; at < all.size(); at += n_components)
-      for (const int k : places.at(n_components))
-        tensors.push_back(k == kZero ? 0 : k == kOne ? 1 : all[at + static_cast<size_t>(k)]);
-    return tensors;
+    for (const size_t i : (*choice_)(all)) {
+      MeshField& field = chosen.emplace_back(all[i]);
+      field.values = read_array(*arrays[i]);
+      const size_t n = field.is_of_points ? n_points : n_cells;
+      if (field.n_components < 1 || field.values.size() != n * static_cast<size_t>(field.n_components))
+        fail("data array {}: {} values for {} {}", shown(field.name), field.values.size(), n,
+             field.is_of_points ? "points" : "cells");
+    }
+    if (fields_.empty() && n_points_ == 0)
+      for (const MeshField& field : chosen) {
+        fields_.push_back({field.name, field.is_of_points, field.n_components, {}});
+        of_quads_.emplace_back();
+      }
+    const auto is_like = [](const MeshField& a, const MeshField& b) {
+      return a.name == b.name && a.is_of_points == b.is_of_points && a.n_components == b.n_components;
+    };
+    if (!std::ranges::equal(chosen, fields_, is_like)) fail("its pieces have other fields each");
+    n_points_ += n_points;
+    return chosen;
   }
 
   std::vector<double> tags(const Tree& piece, const std::string& name, size_t n) const {
@@ -457,19 +457,18 @@ class VtuReader {
   Mesh mesh_;
   std::map<std::pair<int, int>, int> index_;  // by dimension and tag
   NamedPoints point_names_;
-  std::optional<std::string> field_;  // the name of the field that is asked for
-  FieldForm form_;                    // and its form
-  std::size_t width_ = 1;             // numbers of each value: 6 of tensors
-  bool is_of_points_ = false;
-  std::vector<double> values_, triangle_values_, quad_values_;
+  const FieldChoice* choice_ = nullptr;  // of fields; null: none are read
+  std::vector<MeshField> fields_;        // of cells those of triangles
+  std::vector<std::vector<double>> of_quads_;
+  size_t n_points_ = 0;  // of the file
 };
 
 }  // namespace
 
 Mesh read_vtu(const std::filesystem::path& path) { return VtuReader(path).read(); }
 
-NodalValues read_vtu_field(const std::filesystem::path& path, std::string& name, const FieldForm& form) {
-  return VtuReader(path).read_field(name, form);
+MeshWithFields read_vtu_fields(const std::filesystem::path& path, const FieldChoice& choice) {
+  return VtuReader(path).read_fields(choice);
 }
 
 }  // namespace delquad

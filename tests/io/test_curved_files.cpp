@@ -150,7 +150,7 @@ TEST(CurvedFiles, FieldsOnCurvedElementsAreRefused) {
                        kEightMsh + "$ElementData\n1\n\"h\"\n1\n0\n3\n0\n1\n1\n1 0.5\n$EndElementData\n"),
             "h");
       },
-      {"a.msh", "order 2", "expected order 1"});
+      {"a.msh", "quads of 8 nodes"});
 }
 
 /// Files of eight nodes have no others, and give the same places where the middle one is where eight have it.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/mesh_io.h"
+#include "tests/support/curved_grid.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/grid_mesh.h"
 #include "tests/support/temporary_folder.h"
@@ -114,37 +115,57 @@ TEST(NodalValues, OfVtuFiles) {
   expect_input_error([&] { read_values(wrong, ""); }, {"b.vtu: data array 'h': 3 values for 4 points"});
 }
 
-TEST(PointData, WhatIsWrittenIsRead) {
-  const TemporaryFolder folder;
-  Mesh mesh = testing_support::quad_grid(3, 2);
-  PointData data;
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    data["a b"].push_back(1.0 / (1.0 + static_cast<double>(i)));
-    data["c"].push_back(static_cast<double>(i));
-  }
-  for (const auto& [name, binary] : {std::pair("a.msh", false), {"b.msh", true}, {"c.vtu", false}}) {
-    write_point_data(folder / name, mesh, data, {.binary = binary});
-    const PointField read = read_point_field(folder / name, "a b");
-    EXPECT_EQ(read.components, (PointData{{"a b", data["a b"]}})) << name;
-    EXPECT_EQ(read.mesh.quads, mesh.quads);
-    EXPECT_EQ(read.mesh.regions[0].names[0], "inside");
-  }
-  expect_input_error([&] { write_point_data(folder / "a.obj", mesh, data); }, {"a.obj", ".msh and .vtu"});
+bool same(const MeshField& a, const MeshField& b) {
+  return a.name == b.name && a.is_of_points == b.is_of_points && a.n_components == b.n_components &&
+         a.values == b.values;
 }
 
-TEST(PointData, ComponentsAndRefusals) {
+TEST(MeshFields, WhatIsWrittenIsRead) {
   const TemporaryFolder folder;
-  const auto file = write_text(
-      folder / "a.msh", kTwoTriangles22 +
-                            msh_view("NodeData", "v", 0, 3, {"3 1 2 3", "5 1 2 3", "6 4 5 6", "9 1 2 3"}) +
-                            msh_view("NodeData", "t", 0, 9, {"3 1 0 0 0 1 0 0 0 1"}) +
-                            msh_view("ElementData", "h", 0, 1, {"4 7"}));
-  const PointData read = read_point_field(file, "v").components;
-  ASSERT_EQ(read.size(), 3u);
-  for (const int i : {0, 1, 2, 3}) EXPECT_EQ(read.at("v_y")[i], i == 2 ? 5 : 2);
-  EXPECT_TRUE(std::isnan(read.at("v_y")[4]));  // the line's own point
-  expect_input_error([&] { read_point_field(file, "t"); }, {"'t' has 9 components: expected 1, 2, 3"});
-  expect_input_error([&] { read_point_field(file, "h"); }, {"'h' is of elements: expected one of points"});
+  for (const int order : {1, 2}) {
+    Mesh mesh = testing_support::curved_grid(3, 2, order, false);
+    if (order == 1) mesh.triangles = {{0, 1, 3}}, mesh.triangle_region = {0};
+    const std::size_t n = mesh.triangles.size() + mesh.quads.size();
+    std::vector<MeshField> fields{
+        {"a b", false, 1, {}}, {"v", false, 3, {}}, {"a b", true, 1, {}}, {"w", true, 9, {}}};
+    for (MeshField& field : fields)
+      for (std::size_t i = 0; i < (field.is_of_points ? mesh.points.size() : n) * field.n_components; ++i)
+        field.values.push_back(1.0 / (1.0 + static_cast<double>(i)));
+    for (const auto& [name, binary] : {std::pair("a.msh", false), {"b.msh", true}, {"c.vtu", false}}) {
+      write_fields(folder / name, mesh, fields, {.binary = binary});
+      const MeshWithFields read = read_fields(folder / name);
+      ASSERT_EQ(read.mesh.quads, mesh.quads) << name;
+      EXPECT_EQ(read.mesh.order, order);
+      EXPECT_TRUE(std::ranges::equal(read.fields, fields, same)) << name;
+    }
+  }
+  expect_input_error([&] { write_fields(folder / "a.obj", testing_support::quad_grid(1, 1), {}); },
+                     {"a.obj", ".msh and .vtu"});
+}
+
+TEST(MeshFields, StepsGapsAndRefusals) {
+  const TemporaryFolder folder;
+  const auto of_plane =
+      write_text(folder / "a.msh", kTwoTriangles22 +
+                                       msh_view("NodeData", "v", 0, 2, {"3 9 9", "5 9 9", "6 9 9", "9 9 9"}) +
+                                       msh_view("NodeData", "v", 1, 2, {"3 1 2", "5 1 2", "6 4 5", "9 1 2"}) +
+                                       msh_view("ElementData", "h", 0, 1, {"4 7"}));
+  MeshWithFields read = read_fields(of_plane);
+  ASSERT_EQ(read.fields.size(), 2u);
+  EXPECT_TRUE(std::isnan(read.fields[0].values[0]) && read.fields[0].values[1] == 7);
+  EXPECT_EQ(read.fields[1].values[4], 4);
+  EXPECT_TRUE(std::isnan(read.fields[1].values[8]));  // the line's own point
+  // Gmsh knows no vectors of two.
+  write_fields(folder / "b.msh", read.mesh, {read.fields[1]});
+  const MeshField vector = read_fields(folder / "b.msh").fields[0];
+  EXPECT_EQ(vector.n_components, 3);
+  EXPECT_EQ(std::vector(vector.values.begin(), vector.values.begin() + 3), (std::vector<double>{1, 2, 0}));
+  const auto long_view =
+      write_text(folder / "c.msh", kTwoTriangles22 + msh_view("NodeData", "t", 0, 1000, {}));
+  expect_input_error([&] { read_fields(long_view); }, {"c.msh: the field 't' has 1000 components"});
+  Mesh mesh = testing_support::curved_grid(2, 2, 2, false);
+  write_serendipity(folder / "d.vtu", mesh);
+  expect_input_error([&] { read_fields(folder / "d.vtu"); }, {"d.vtu: fields on quads of 8 nodes"});
 }
 
 }  // namespace

@@ -1,58 +1,72 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <filesystem>
 
 #include "io/mesh_io.h"
 #include "tests/program/program.h"
+#include "tests/support/curved_grid.h"
 #include "tests/support/grid_mesh.h"
 
 namespace delquad::testing_support {
 namespace {
 
-PointData two_fields(const Mesh& mesh) {
-  PointData data;
+/// "u", "w", a vector "flow" and "k" of elements.
+std::vector<MeshField> some_fields(const Mesh& mesh) {
+  std::vector<MeshField> fields{
+      {"u", true, 1, {}}, {"w", true, 1, {}}, {"flow", true, 3, {}}, {"k", false, 1, {}}};
   for (const Vec3& p : mesh.points) {
-    data["u"].push_back(std::tanh(10 * (p.x + p.y - 1)));
-    data["w"].push_back(p.x > 0.5 ? 1 : 0);
+    fields[0].values.push_back(std::tanh(10 * (p.x + p.y - 1)));
+    fields[1].values.push_back(p.x > 0.5 ? 1 : 0);
+    fields[2].values.insert(fields[2].values.end(), {p.x, 2 * p.y, 3});
   }
-  return data;
+  fields[3].values.assign(mesh.quads.size(), 7);
+  return fields;
+}
+
+const MeshField& field_of(const MeshWithFields& read, const std::string& name) {
+  return *std::ranges::find(read.fields, name, &MeshField::name);
 }
 
 TEST(AdaptCommand, ASolutionAndTheNextMesh) {
   const TemporaryFolder folder;
   const Mesh mesh = quad_grid(16, 16);
   for (const auto& [name, next] : {std::pair("a.vtu", "b.msh"), {"a.msh", "b.vtu"}}) {
-    write_point_data(folder / name, mesh, two_fields(mesh));
+    write_fields(folder / name, mesh, some_fields(mesh));
     const ProgramResult result =
         delquad({"adapt", (folder / name).string() + ":u", "--quads", "500", "-o", folder / next,
                  "--goal-weight", "w", "--h-max", "0.3", "--quality", "fast"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(contains(result.out, "u: error ")) << result.out;
     EXPECT_TRUE(contains(result.out, "estimated by 256 elements; expected ")) << result.out;
-    const PointField made = read_point_field(folder / next, "");
+    EXPECT_TRUE(contains(result.out, "with the fields flow, u, w, k (of elements)\n")) << result.out;
+    const MeshWithFields made = read_fields(folder / next);
     EXPECT_NEAR(static_cast<double>(made.mesh.quads.size()), 500, 60);
     EXPECT_EQ(made.mesh.curves[0].names[0], "south");
-    const std::vector<double>& u = made.components.at("u");
+    const std::vector<double>&u = field_of(made, "u").values, &flow = field_of(made, "flow").values;
     for (std::size_t i = 0; i < u.size(); ++i) {
       const Vec3& p = made.mesh.points[i];
       EXPECT_NEAR(u[i], std::tanh(10 * (p.x + p.y - 1)), 0.1);
+      EXPECT_NEAR(flow[3 * i], p.x, 1e-12);
+      EXPECT_NEAR(flow[3 * i + 1], 2 * p.y, 1e-12);
     }
+    EXPECT_EQ(field_of(made, "k").values, std::vector<double>(made.mesh.quads.size(), 7));
   }
 }
 
 TEST(AdaptCommand, ModelsAndOtherFormats) {
   const TemporaryFolder folder;
   const Mesh mesh = quad_grid(16, 16);
-  write_point_data(folder / "a.vtu", mesh, two_fields(mesh));
+  write_fields(folder / "a.vtu", mesh, some_fields(mesh));
   const auto model = write_text(folder / "m.toml", kSquare + "size = 0.25\n");
   const std::string u = (folder / "a.vtu").string() + ":u";
   const ProgramResult result = delquad({"adapt", u, "--error", "0.03", "--norm", "inf", "--model", model,
                                         "-o", folder / "b.inp", "--transfer", "bounded", "--isotropic"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(contains(result.out, "maximum of interpolation")) << result.out;
-  const PointField beside = read_point_field(folder / "b.vtu", "u");
+  const MeshWithFields beside = read_fields(folder / "b.vtu");
   EXPECT_EQ(beside.mesh.quads.size(), read_mesh(folder / "b.inp").quads.size());
   EXPECT_EQ(beside.mesh.curves[0].names[0], "bottom");
   const auto layered =
@@ -60,17 +74,90 @@ TEST(AdaptCommand, ModelsAndOtherFormats) {
   EXPECT_TRUE(
       contains(delquad({"adapt", u, "--quads", "300", "--model", layered, "-o", folder / "c.msh"}).err,
                "layers do not go with a metric"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "c.msh"));
+}
+
+// Steps in time: the mesh is fine where any of them asks for it, and has the last one's values.
+TEST(AdaptCommand, SeveralFiles) {
+  const TemporaryFolder folder;
+  const Mesh mesh = quad_grid(16, 16);
+  const auto step = [&](const char* name, double at) {
+    std::vector<MeshField> fields = some_fields(mesh);
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      fields[0].values[i] = std::tanh(20 * (mesh.points[i].x - at));
+    write_fields(folder / name, mesh, fields);
+    return (folder / name).string() + ":u";
+  };
+  const std::string first = step("a.vtu", 0.2), last = step("b.msh", 0.8);
+  const ProgramResult result =
+      delquad({"adapt", first, last, "--quads", "400", "-o", folder / "n.vtu", "--quality", "fast"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, first + ": error ") && contains(result.out, last + ": error "))
+      << result.out;
+  const MeshWithFields made = read_fields(folder / "n.vtu");
+  const std::vector<double>& u = field_of(made, "u").values;
+  std::array<int, 3> near{};
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const double x = made.mesh.points[i].x;
+    EXPECT_NEAR(u[i], std::tanh(20 * (x - 0.8)), 0.2);
+    for (int k = 0; k < 3; ++k)
+      if (std::abs(x - 0.2 - 0.3 * k) < 0.1) ++near[k];
+  }
+  EXPECT_GT(std::min(near[0], near[2]), 2 * near[1]);
+}
+
+// The elements of the next mesh have the order of those of this one.
+TEST(AdaptCommand, CurvedElements) {
+  const TemporaryFolder folder;
+  const Mesh mesh = curved_grid(12, 12, 2, false);
+  std::vector<double> u;
+  for (const Vec3& p : mesh.points) u.push_back(std::tanh(p.x + p.y - 12));
+  write_fields(folder / "a.msh", mesh, {{"u", true, 1, u}});
+  const ProgramResult result = delquad({"adapt", (folder / "a.msh").string() + ":u", "--quads", "150", "-o",
+                                        folder / "b.vtu", "--quality", "fast"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const MeshWithFields made = read_fields(folder / "b.vtu");
+  EXPECT_EQ(made.mesh.order, 2);
+  for (std::size_t i = 0; i < made.mesh.points.size(); ++i)
+    EXPECT_NEAR(made.fields[0].values[i], std::tanh(made.mesh.points[i].x + made.mesh.points[i].y - 12), 0.1);
+}
+
+// Squares are a size, which goes with what a metric does not.
+TEST(AdaptCommand, SquaresKeepLayersAndPeriodicSides) {
+  const TemporaryFolder folder;
+  write_fields(folder / "a.vtu", quad_grid(16, 16), some_fields(quad_grid(16, 16)));
+  const auto model = write_text(folder / "m.toml",
+                                kSquare +
+                                    "periodic = [{ from = \"left\", to = \"right\", translate = [1, 0] }]\n"
+                                    "[[layer]]\non = \"bottom\"\nfirst = 0.004\nnumber = 3\n");
+  const ProgramResult result =
+      delquad({"adapt", (folder / "a.vtu").string() + ":u", "--quads", "500", "--isotropic", "--model", model,
+               "-o", folder / "b.vtu", "--quality", "fast"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Mesh mesh = read_mesh(folder / "b.vtu");
+  EXPECT_NEAR(static_cast<double>(mesh.quads.size()), 500, 50);
+  std::vector<double> left, right;
+  for (const Vec3& p : mesh.points) {
+    if (p.x == 0) left.push_back(p.y);
+    if (p.x == 1) right.push_back(p.y);
+  }
+  std::ranges::sort(left);
+  std::ranges::sort(right);
+  EXPECT_EQ(left, right);
+  EXPECT_NEAR(left[1], 0.004, 1e-12);
 }
 
 TEST(AdaptCommand, WrongFields) {
   const TemporaryFolder folder;
   const Mesh mesh = quad_grid(4, 4), other = quad_grid(5, 5);
-  PointData data = two_fields(mesh);
-  data["bad"].assign(25, 0);
-  data["bad"][12] = std::numeric_limits<double>::quiet_NaN();
-  data["flat"].assign(25, 3);
-  write_point_data(folder / "a.vtu", mesh, data);
-  write_point_data(folder / "b.msh", other, two_fields(other));
+  std::vector<MeshField> fields = some_fields(mesh);
+  for (const auto& [name, value] :
+       {std::pair("bad", 0.0), {"flat", 3.0}, {"huge", 1e300}, {"tiny", 1e-300}}) {
+    fields.push_back({name, true, 1, std::vector<double>(25, value)});
+    if (value != 3) fields.back().values[12] = value == 0 ? std::nan("") : 0;
+  }
+  write_fields(folder / "a.vtu", mesh, fields);
+  write_fields(folder / "b.msh", other, some_fields(other));
   write_mesh(folder / "c.vtu", mesh);
   const auto said = [&](std::vector<std::string> words) {
     words.insert(words.begin(), "adapt");
@@ -78,14 +165,21 @@ TEST(AdaptCommand, WrongFields) {
     const ProgramResult result = delquad(words);
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "n.msh"));
     return result.err;
   };
   const std::string a = folder / "a.vtu", b = folder / "b.msh", c = folder / "c.vtu";
   EXPECT_TRUE(contains(said({"u", "--quads", "100"}), "expected FILE:FIELD"));
-  EXPECT_TRUE(contains(said({a, "--quads", "100"}), "has the fields 'bad', 'flat', 'u', 'w': say which"));
+  EXPECT_TRUE(contains(said({a, "--quads", "100"}),
+                       "has the fields 'bad', 'flat', 'flow', 'huge', 'tiny', 'u', 'w': say which"));
   EXPECT_TRUE(contains(said({a + ":nothing", "--quads", "100"}), "has no field 'nothing'"));
   EXPECT_TRUE(contains(said({a + ":bad", "--quads", "100"}), "the field bad is nan at (0.5, 0.5)"));
   EXPECT_TRUE(contains(said({a + ":flat", "--quads", "100"}), "flat: constant or linear"));
+  EXPECT_TRUE(contains(said({a + ":huge", "--quads", "100"}),
+                       "the field huge has values up to 1e+300: expected between 1e-90 and 1e+90"));
+  EXPECT_TRUE(contains(said({a + ":tiny", "--quads", "100"}), "the field tiny has values up to 1e-300"));
+  EXPECT_TRUE(contains(said({a + ":u", "--quads", "0.5"}), "the 4 sides of the outline need 1 at least"));
+  EXPECT_TRUE(contains(said({a + ":u", "--quads", "9", "--goal-weight", "flow"}), "expected one number"));
   EXPECT_TRUE(contains(said({a + ":u", b + ":u", "--quads", "100"}), "its mesh is another one"));
   EXPECT_TRUE(contains(said({c + ":eta", "--quads", "100"}),
                        "the field 'eta' is of elements: expected one of points"));
