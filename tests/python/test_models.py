@@ -139,6 +139,8 @@ def test_files(tmp_path):
     drawn = delquad.mesh(tmp_path / "drawn.toml")
     assert len(drawn.quads) == 200 and drawn.regions == [(1, ["fluid"])]
     assert len(delquad.mesh(tmp_path / "drawn.toml", size=0.2).quads) == 50
+    (tmp_path / "curved.toml").write_text("order = 2\nsize = 0.5\nloop = { circle = { centre = [0, 0], radius = 1 } }\n")
+    assert [delquad.mesh(tmp_path / "curved.toml", order=order).order for order in (None, 1)] == [2, 1]
 
 
 def test_a_mesh_is_a_model():

@@ -214,7 +214,7 @@ def mesh(
     options: Mapping[str, bool | int | float | str] | None = None,
     name: str | None = None,
     seed: int | None = None,
-    order: int = 1,
+    order: int | None = None,
     refine: float | None = None,
     quads: int | None = None,
     max_elements: int = 50_000_000,

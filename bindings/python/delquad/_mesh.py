@@ -229,7 +229,7 @@ def mesh(
     options=None,
     name=None,
     seed=None,
-    order=1,
+    order=None,
     refine=None,
     quads=None,
     max_elements=_MAX_ELEMENTS,
@@ -287,7 +287,8 @@ def mesh(
     quads: about how many, by sizes that are all larger or smaller, or without a size by one.
     max_elements: sizes that ask for more are refused. keep_going: faces that cannot be meshed are left out.
     allow_unsound: meshes that are not sound are returned, too.
-    order: of the elements, 1 to 4: above 1 they are curved along the model, and arrays hold their corners only.
+    order: of the elements, 1 to 4; None: as the model's file says, or 1. Above 1 they are curved along the model, and arrays hold
+        their corners only.
     min_angle, max_aspect: degrees, and longest over shortest side (but in layers), beyond which an element is an error.
     criteria: that elements are judged by (Result.criteria): "batch", "crash", "static", the path of a file, or limits
         {"preset": "batch", "min_length": "0.4 size", "max_aspect": 4, "on": {name: {"min_length": 2}}, "material":
@@ -354,7 +355,8 @@ def mesh(
         problem.name(name)
     if seed is not None:
         problem.seed(seed)
-    problem.order(order)
+    if order is not None:
+        problem.order(order)
     if refine is not None:
         problem.refine(refine)
     if quads is not None:
