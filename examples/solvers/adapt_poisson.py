@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""Solves Poisson's equation and adapts the mesh to the solution, in a loop: adapt_poisson.py [--quads N] [--meshes M]
+"""Solves Poisson's equation and adapts the mesh to the solution, in a loop: adapt_poisson.py [--quads N] [--meshes M] [-o PICTURE.svg]
 
 The solution is tanh(50 (x^2 + y^2 - 1/2)) on the unit square: a layer along a circle. Elements are bilinear. Prints the errors of
 each mesh: of stretched quads, of squares, and of a uniform mesh. Needs numpy, scipy and the Python module delquad.
 """
 
-import argparse
 import time
 
 import delquad
 import numpy as np
 import scipy.sparse
 import scipy.sparse.linalg
+
+import driver
 
 
 def solution(x, y):
@@ -62,15 +63,12 @@ def errors(mesh, u):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quads", type=float, default=2000)
-    parser.add_argument("--meshes", type=int, default=6)
-    arguments = parser.parse_args()
+    arguments = driver.parser(__doc__, "adapt.svg", quads=2000, meshes=6).parse_args()
     square = delquad.polygons([[(0, 0), (1, 0), (1, 1), (0, 1)]])
     last = {}
     print("loop        mesh  quads  vertices  L2 error   H1 error  estimated L2   H1     seconds")
     for loop, settings in (("stretched", {}), ("aspect 8", {"aspect": 8}), ("squares", {"isotropic": True})):
-        mesh = delquad.mesh(square, quads=int(arguments.quads))
+        mesh = delquad.mesh(square, quads=arguments.quads)
         for k in range(arguments.meshes + 1):
             began = time.perf_counter()
             u = solve(mesh)
@@ -84,6 +82,8 @@ def main():
                 f" {guess['gradient']:8.4f} {made:5.2f} + {solved:.2f}"
             )
             last[name] = len(mesh.points), l2, h1
+            if k == arguments.meshes and loop == "stretched":
+                driver.draw(mesh, u, arguments.output, loop)
             if k < arguments.meshes:
                 began = time.perf_counter()
                 mesh, _ = delquad.adapt(mesh, u, quads=arguments.quads, model=square, **settings)

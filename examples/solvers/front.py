@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Carries a cloud once around a disc, on meshes that follow its front: front.py [--quads N] [--meshes M]
+"""Carries a cloud once around a disc, on meshes that follow its front: front.py [--quads N] [--meshes M] [-o PICTURE.svg]
 
 The front is 0.1 wide and the disc, of two regions, turns under it: bilinear elements, the rule of Crank and Nicolson, a diffusion
 of 1e-5 and no flow through the rim, so that the mass stays. Each mesh is made from the one before, without the model, for the
@@ -7,7 +7,6 @@ cloud now and where a try on that mesh brings it. On the same meshes the values 
 and the Python module delquad.
 """
 
-import argparse
 import math
 import time
 
@@ -16,6 +15,7 @@ import numpy as np
 import scipy.sparse
 import scipy.sparse.linalg
 
+import driver
 from adapt_poisson import places
 
 DIFFUSION = 1e-5
@@ -64,10 +64,7 @@ def off_rim(mesh):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quads", type=int, default=400)
-    parser.add_argument("--meshes", type=int, default=50)
-    options = parser.parse_args()
+    options = driver.parser(__doc__, "front.svg", quads=400, meshes=50).parse_args()
     settings = {"quads": options.quads, "max_size": 0.25, "quality": "fast"}  # on longer sides the circle is lost
     began = time.perf_counter()
     mesh = delquad.mesh(disc(), quads=options.quads)
@@ -92,6 +89,7 @@ def main():
     print("transfer      mass changes by   least    most  beyond extremes")
     for how, u in clouds.items():
         print(f"{how:13} {total(mesh, u) / mass - 1:15.1e} {u.min():7.3f} {u.max():7.3f} {beyond[how]:16.1e}")
+    driver.draw(mesh, clouds["bounded"], options.output, "cloud")
 
 
 if __name__ == "__main__":

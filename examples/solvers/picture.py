@@ -5,6 +5,7 @@ SOLUTION.json: a list of elements; each is a list of its nodes [x, y, z, value],
 four corners and then the four middles of sides.
 """
 import json
+import os
 import sys
 
 COLOURS = [(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)]  # from small to large values
@@ -74,6 +75,7 @@ def draw(elements, path, title=""):
         file.write(f'<svg xmlns="http://www.w3.org/2000/svg" width="{max(360, width * scale + 40):.0f}" height="{bottom + 50:.0f}" '
                    'font-family="sans-serif" font-size="14" stroke-width=".5"><rect width="100%" height="100%" fill="white"/>\n'
                    + "\n".join([*shapes, '<g stroke="none">', *bar, *text, "</g></svg>", ""]))
+    print(f"the picture is {os.path.abspath(path)}")
 
 
 if __name__ == "__main__":

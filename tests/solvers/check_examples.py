@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Runs an example of a solver, and checks what it prints and draws: check_examples.py FOLDER DELQUAD EXAMPLE HEAT
+"""Runs an example of a solver, and checks what it prints and draws: check_examples.py FOLDER DELQUAD EXAMPLE POISSON
 
-FOLDER: examples/solvers. HEAT: the program of the example of deal.II, whose own script would build it anew. Exit code 77: the
+FOLDER: examples/solvers. POISSON: the program of the examples of deal.II, whose own scripts would build it anew. Exit code 77: the
 solver, or the Python module, is not installed.
 """
 import math
@@ -22,6 +22,7 @@ EXAMPLES = {
     "pipes": (["calculix/run.py", "pipes"], r"displacement: 0 to (.*)", 0.0306, 0.02),
     "dolfinx": (["dolfinx/heat.py"], PRINTED, HEAT, 1e-5),
     "freefem": (["freefem/run.py"], PRINTED, HEAT, 0.005),
+    "dealii": (["dealii/run.py"], PRINTED, HEAT, 0.005),
 }
 
 
@@ -34,23 +35,15 @@ def run(command):
     return result.stdout
 
 
-def run_dealii(examples, delquad, program):
-    """As run.sh does, once its program is built."""
-    run([delquad, "-q", "mesh", os.path.join(examples, "heat.toml"), "-o", "heat.msh"])
-    printed = run([program, "heat.msh", "heat.json"])
-    run([sys.executable, os.path.join(examples, "picture.py"), "heat.json", "picture.svg"])
-    return printed
-
-
 def rows(printed, word):
     """The numbers of each line that begins so."""
     return [[float(x) for x in re.findall(r"[-+]?\d[\d.]*(?:e[-+]\d+)?", line)] for line in printed.splitlines() if line.startswith(word)]
 
 
-def check_dolfinx(printed):
-    """Squares halve the L2 error of a uniform mesh at least, stretched quads both errors of squares."""
-    uniform, squares, stretched = (rows(printed, "advection  " + loop)[-1] for loop in ("uniform", "squares", "stretched"))
-    return squares[1] < uniform[1] / 2 and stretched[1] < squares[1] / 2 and stretched[3] < squares[3] / 2
+def check_pairs(printed, problem="advection", gain=2):
+    """The L2 error of squares is that of a uniform mesh over the gain, or less; stretched quads halve both errors of squares."""
+    uniform, squares, stretched = (rows(printed, f"{problem:11}{loop}")[-1] for loop in ("uniform", "squares", "stretched"))
+    return squares[1] < uniform[1] / gain and stretched[1] < squares[1] / 2 and stretched[3] < squares[3] / 2
 
 
 def check_freefem(printed):
@@ -76,7 +69,8 @@ def check_front(printed):
 
 # Loops that adapt meshes print tables.
 LOOPS = {
-    "adapt_dolfinx": (["dolfinx/adapt.py", "advection", "--quads", "200", "--doublings", "1"], check_dolfinx),
+    "adapt_dolfinx": (["dolfinx/adapt.py", "advection", "--quads", "200", "--doublings", "1"], check_pairs),
+    "adapt_dealii": (["dealii/adapt.py", "--quads", "300", "--doublings", "0"], lambda printed: check_pairs(printed, "shock", 1.3)),
     "adapt_freefem": (["freefem/adapt.py", "--vertices", "400", "--meshes", "3"], check_freefem),
     "adapt_calculix": (["calculix/adapt.py", "--quads", "200", "--meshes", "3"], check_calculix),
     "adapt_front": (["front.py", "--quads", "150", "--meshes", "6"], check_front),
@@ -84,23 +78,21 @@ LOOPS = {
 
 
 def main():
-    examples, delquad, name, heat = sys.argv[1:]
-    if name in LOOPS:
-        command, holds = LOOPS[name]
-        printed = run([sys.executable, os.path.join(examples, command[0]), *command[1:]])
-        print(printed)
-        return 0 if holds(printed) else 1
-    if name == "dealii" and not os.path.exists(heat):
+    examples, delquad, name, poisson = sys.argv[1:]
+    if "dealii" in name and not os.path.exists(poisson):
         print("deal.II is not installed (libdeal.ii-dev)")
         return 77
+    command = (LOOPS if name in LOOPS else EXAMPLES)[name][0]
+    programs = ["--delquad", delquad] if name in EXAMPLES or name == "adapt_dealii" else []
+    programs += ["--poisson", poisson] if "dealii" in name else []
     with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        if name == "dealii":
-            printed, (_, pattern, value, tolerance) = run_dealii(examples, delquad, heat), ([], PRINTED, HEAT, 0.005)
-        else:
-            command, pattern, value, tolerance = EXAMPLES[name]
-            printed = run([sys.executable, os.path.join(examples, command[0]), *command[1:], "--delquad", delquad, "-o", "picture.svg"])
-        shapes = len(list(xml.etree.ElementTree.parse("picture.svg").iter("{http://www.w3.org/2000/svg}polygon")))
+        picture = os.path.join(folder, "picture.svg")
+        printed = run([sys.executable, os.path.join(examples, command[0]), *command[1:], *programs, "-o", picture])
+        shapes = len(list(xml.etree.ElementTree.parse(picture).iter("{http://www.w3.org/2000/svg}polygon")))
+    if name in LOOPS:
+        print(printed)
+        return 0 if LOOPS[name][1](printed) and shapes > 0 else 1
+    _, pattern, value, tolerance = EXAMPLES[name]
     elements = int(re.search(r"(\d+) (elements|triangles)", printed)[1])
     each = 2 if name == "freefem" else 5  # polygons in the picture: an outline, and its parts
     found = float(re.search(pattern, printed)[1])

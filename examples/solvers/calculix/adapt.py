@@ -1,16 +1,13 @@
 #!/usr/bin/python3
-"""Pulls a plate with a round hole by CalculiX, on meshes that follow its stresses: adapt.py [--quads N] [--meshes M]
+"""Pulls a plate with a round hole by CalculiX, on meshes that follow its stresses: adapt.py [--quads N] [--meshes M] [-o PICTURE.svg]
 
 A quarter of the plate, ten times as wide as the hole, moves on its outer sides as an endless one does, so that the stress at the
 hole is three times that far away (Kirsch, 1898). Elements are CPS4, straight. Prints that stress for loops of M meshes of N quads,
 which begin from a uniform one, and for M uniform meshes, of sides as long as the radius, half as long, and so on. Needs ccx
 (Debian: calculix-ccx) and the Python module delquad.
 """
-import argparse
 import math
 import pathlib
-import shutil
-import subprocess
 import sys
 import tempfile
 import time
@@ -21,7 +18,7 @@ try:
 except ImportError as error:
     sys.exit(f"{error.name} is not installed (delquad: see docs/python.md)")
 
-from run import read_results
+import run
 
 WIDTH, YOUNG, POISSON = 10.0, 210e3, 0.3
 DECK = f"""*INCLUDE, INPUT=mesh.inp
@@ -64,20 +61,12 @@ def solve(mesh):
         mesh.write(folder / "mesh.inp")
         moves = [f"{n + 1}, {d}, {d}, {u:.12g}\n" for n, both in zip(outer, kirsch(mesh.points[outer, :2])) for d, u in enumerate(both, 1)]
         (folder / "deck.inp").write_text(DECK + "".join(moves) + "*END STEP\n")
-        log = subprocess.run(["ccx", "-i", "deck"], cwd=folder, capture_output=True, text=True).stdout
-        if "*ERROR" in log or not (folder / "deck.frd").exists():
-            sys.exit(f"ccx failed: {log[-2000:]}")
-        stress = read_results(folder / "deck.frd")["STRESS"]
+        stress = run.solve(folder)["STRESS"]
     return np.array([[stress[n + 1][k] for k in (0, 1, 3)] for n in range(len(mesh.points))])
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quads", type=int, default=400)
-    parser.add_argument("--meshes", type=int, default=5)
-    options = parser.parse_args()
-    if not shutil.which("ccx"):
-        sys.exit("CalculiX is not installed: expected ccx on the PATH (Debian: calculix-ccx)")
+    options = run.driver.parser(__doc__, "adapt.svg", quads=400, meshes=5).parse_args()
     print("loop        quads  stress     error  seconds")
     for loop, settings in (("uniform", None), ("squares", {"isotropic": True}), ("stretched", {})):
         for k in range(options.meshes):
@@ -91,6 +80,7 @@ def main():
             stresses = solve(mesh)
             at = stresses[np.argmin(np.hypot(mesh.points[:, 0], mesh.points[:, 1] - 1)), 0]
             print(f"{loop:10}{len(mesh.quads):7}{at:8.4f}{100 * (at / 3 - 1):+8.2f} %{time.perf_counter() - began:9.1f}", flush=True)
+    run.driver.draw(mesh, stresses[:, 0], options.output, "stress along x")
 
 
 if __name__ == "__main__":

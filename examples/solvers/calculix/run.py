@@ -3,17 +3,15 @@
 
 MODEL is strip or bracket, or one of your own beside them. Needs ccx (Debian: calculix-ccx).
 """
-import argparse
 import math
-import os
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
+import driver  # noqa: E402
 import picture  # noqa: E402
 
 
@@ -44,32 +42,33 @@ def read_results(path):
     return results
 
 
+def solve(folder):
+    """The results of deck.inp in a folder."""
+    log = driver.run(["ccx", "-i", "deck"], "Debian: calculix-ccx", folder)
+    if "*ERROR" in log or not (folder / "deck.frd").exists():
+        sys.exit(f"ccx failed: {log[-2000:]}")
+    return read_results(folder / "deck.frd")
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = driver.parser(__doc__, None)
     parser.add_argument("model")
     parser.add_argument("--delquad", default="delquad", help="the program")
-    parser.add_argument("-o", "--output", help="default: MODEL.svg")
     options = parser.parse_args()
-    if not shutil.which("ccx"):
-        sys.exit("CalculiX is not installed: expected ccx on the PATH (Debian: calculix-ccx)")
     with tempfile.TemporaryDirectory() as work:
         folder = pathlib.Path(work)
-        subprocess.run([options.delquad, "-q", "mesh", HERE / f"{options.model}.toml", "-o", folder / "mesh.inp"], check=True)
+        driver.run([options.delquad, "-q", "mesh", HERE / f"{options.model}.toml", "-o", folder / "mesh.inp"], "see README.md")
         shutil.copy(HERE / f"{options.model}.inp", folder / "deck.inp")
-        log = subprocess.run(["ccx", "-i", "deck"], cwd=folder, capture_output=True, text=True).stdout
-        if "*ERROR" in log or not (folder / "deck.frd").exists():
-            sys.exit(f"ccx failed: {log[-2000:]}")
+        results = solve(folder)
         nodes, elements = read_mesh(folder / "mesh.inp")
-        results = read_results(folder / "deck.frd")
     print(f"{len(elements)} elements, {len(nodes)} nodes")
     if "STRESS" in results:
         title, values = "stress along x", {n: row[0] for n, row in results["STRESS"].items()}
     else:
         title, values = "displacement", {n: math.hypot(*row[:3]) for n, row in results["DISP"].items()}
     print(f"{title}: {min(values.values()):.6g} to {max(values.values()):.6g}")
-    path = options.output or f"{options.model}.svg"
-    picture.draw([[[*nodes[n], values[n]] for n in row] for row in elements], path, f"{options.model}: {title}")
-    print(f"the picture is {os.path.abspath(path)}")
+    output = options.output or f"{options.model}.svg"
+    picture.draw([[[*nodes[n], values[n]] for n in row] for row in elements], output, f"{options.model}: {title}")
 
 
 if __name__ == "__main__":

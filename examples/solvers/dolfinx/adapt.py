@@ -1,15 +1,17 @@
 #!/usr/bin/python3
-"""Solves by dolfinx in a loop of meshes that follow the solution: adapt.py [--quads N] [--doublings D] [PROBLEM ...]
+"""Solves by dolfinx in a loop of meshes that follow the solution: adapt.py [--quads N] [--doublings D] [-o PICTURE.svg] [PROBLEM ...]
 
 shock: Poisson's equation for atan(60 (r - pi/3)), r from (1.25, -0.25), a layer along an arc. advection: along (1, 1)
 with diffusion 0.005, which makes layers at two sides, by SUPG. Of each loop there are three meshes of N quads, then D that have
-twice as many each. Order: of the error in the mean size of quads. Needs dolfinx (0.5, as in Debian 12: python3-dolfinx) and the
+twice as many each; the picture is of the last. Order: of the error in the mean size of quads. Needs dolfinx (0.5, as in Debian 12: python3-dolfinx) and the
 Python module delquad.
 """
-import argparse
 import math
+import pathlib
 import sys
-import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import driver  # noqa: E402
 
 try:
     import delquad
@@ -48,7 +50,7 @@ PROBLEMS = {"shock": shock, "advection": advection}
 
 
 def solve(quads, problem):
-    """Values at the points of a mesh, and errors: of the solution and of its gradient, in L2."""
+    """Values at the points of a mesh, its quads, and errors: of the solution and of its gradient, in L2."""
     cell = ufl.VectorElement("Lagrange", "quadrilateral", 1)
     mesh = create_mesh(MPI.COMM_SELF, quads.quads[:, [0, 1, 3, 2]].astype(np.int64), quads.points[:, :2], ufl.Mesh(cell))
     space = fem.FunctionSpace(mesh, ("Lagrange", 1))
@@ -62,35 +64,22 @@ def solve(quads, problem):
     parts = [ufl.inner(e, e) * ufl.dx(metadata=PLACES) for e in (u - true, ufl.grad(u - true))]
     values = np.zeros(len(quads.points))
     values[np.array(mesh.geometry.input_global_indices)[mesh.geometry.dofmap.array]] = u.x.array[space.dofmap.list.array]
-    return values, [fem.assemble_scalar(fem.form(part)) ** 0.5 for part in parts]
+    return values, len(quads.quads), [fem.assemble_scalar(fem.form(part)) ** 0.5 for part in parts]
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = driver.parser(__doc__, "adapt.svg", quads=500, doublings=3)
     parser.add_argument("problems", nargs="*", metavar="PROBLEM", default=["shock", "advection"], help="shock, advection")
-    parser.add_argument("--quads", type=int, default=500)
-    parser.add_argument("--doublings", type=int, default=3)
     options = parser.parse_args()
     square = delquad.polygons([[(0, 0), (1, 0), (1, 1), (0, 1)]])
-    print("problem    loop        quads   L2 error  order   H1 error  order  seconds")
+
+    def next_mesh(mesh, u, quads, isotropic):
+        return delquad.adapt(mesh, u, quads=quads, model=square, isotropic=isotropic)[0]
+
     for name in options.problems:
-        for loop, settings in (("uniform", None), ("squares", {"isotropic": True}), ("stretched", {})):
-            mesh, last = delquad.mesh(square, quads=options.quads), None
-            start = [] if settings is None else [options.quads] * 2
-            for n in start + [options.quads * 2**k for k in range(options.doublings + 1)]:
-                began = time.perf_counter()
-                if settings is None:
-                    mesh = delquad.mesh(square, quads=n)
-                elif last:
-                    mesh, _ = delquad.adapt(mesh, u, quads=n, model=square, **settings)
-                u, errors = solve(mesh, PROBLEMS[name])
-                print(f"{name:10} {loop:10}{len(mesh.quads):7}", end="")
-                for k, error in enumerate(errors):
-                    doubled = last is not None and n > last[0]
-                    order = f"{2 * math.log(last[1][k] / error) / math.log(n / last[0]):.2f}" if doubled else ""
-                    print(f"{error:11.3e}{order:>7}", end="")
-                print(f"{time.perf_counter() - began:9.1f}")
-                last = n, errors
+        last = driver.compare(name, options.quads, options.doublings, lambda n: delquad.mesh(square, quads=n), next_mesh,
+                              lambda mesh: solve(mesh, PROBLEMS[name]))
+    driver.draw(*last, options.output, name)
 
 
 if __name__ == "__main__":

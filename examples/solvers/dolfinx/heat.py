@@ -4,14 +4,13 @@
 Elements are curved, of 9 nodes, unless another order is given. Needs dolfinx (0.5, as in Debian 12: python3-dolfinx) and
 python3-gmsh, by which it reads MSH files.
 """
-import argparse
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
+import driver  # noqa: E402
 import picture  # noqa: E402
 
 try:
@@ -48,14 +47,13 @@ def solve(mesh, lines, tags, order):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = driver.parser(__doc__, "heat.svg")
     parser.add_argument("--delquad", default="delquad", help="the program")
     parser.add_argument("--order", type=int, choices=(1, 2), default=2)
-    parser.add_argument("-o", "--output", default="heat.svg")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as work:
         path = pathlib.Path(work, "heat.msh")
-        subprocess.run([options.delquad, "-q", "mesh", HERE.parent / "heat.toml", "-o", path, "--order", str(options.order)], check=True)
+        driver.run([options.delquad, "-q", "mesh", HERE.parent / "heat.toml", "-o", path, "--order", str(options.order)], "see README.md")
         mesh, lines, tags = read(path)
     u = solve(mesh, lines, tags, options.order)
     # Between a difference of temperatures of one, the heat that flows is the energy.
@@ -65,7 +63,6 @@ def main():
     cells, _, points = create_vtk_mesh(u.function_space)
     nodes = cells.reshape(mesh.topology.index_map(2).size_local, -1)[:, 1:9]
     picture.draw([[[*points[n], u.x.array[n]] for n in row] for row in nodes], options.output, "temperature")
-    print(f"the picture is {pathlib.Path(options.output).resolve()}")
 
 
 if __name__ == "__main__":

@@ -4,18 +4,16 @@
 FreeFem++ knows no quads: each is halved along its shorter diagonal, so that this computes with triangles. Needs FreeFem++
 (Debian: freefem++).
 """
-import argparse
 import json
 import math
-import os
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
+import driver  # noqa: E402
 import picture  # noqa: E402
 
 
@@ -38,38 +36,40 @@ def halves(quad, xy):
     return [[a, b, c, region], [a, c, d, region]] if short else [[a, b, d, region], [b, c, d, region]]
 
 
-def write_for_freefem(folder):
-    vertices, edges, quads, names = read_medit(folder / "quads.mesh")
-    xy = [[float(row[0]), float(row[1])] for row in vertices]
-    labels = {name: k + 1 for k, name in enumerate(sorted(set(names.values())))}
-    sections = {"Vertices": [[x, y, 0] for x, y in xy], "Edges": [[a, b, labels[names[int(curve)]]] for a, b, curve in edges],
-                "Triangles": [half for quad in quads for half in halves(quad, xy)]}
-    with open(folder / "heat.mesh", "w", encoding="utf-8") as file:
+def write_medit(path, xy, edges, quads):
+    """Quads by halves; nodes count from 1, and edges and quads end with a label."""
+    sections = {"Vertices": [[x, y, 0] for x, y in xy], "Edges": edges, "Triangles": [half for quad in quads for half in halves(quad, xy)]}
+    with open(path, "w", encoding="utf-8") as file:
         file.write("MeshVersionFormatted 2\nDimension 2\n")
         for keyword, rows in sections.items():
             file.write(f"{keyword}\n{len(rows)}\n" + "".join(" ".join(map(str, row)) + "\n" for row in rows))
         file.write("End\n")
+
+
+def solve(script, folder):
+    """What a script prints that runs in a folder."""
+    shutil.copy(HERE / script, folder)
+    return driver.run(["FreeFem++", "-nw", "-ne", "-v", "0", script], "Debian: freefem++", folder)
+
+
+def write_for_freefem(folder):
+    vertices, edges, quads, names = read_medit(folder / "quads.mesh")
+    xy = [[float(row[0]), float(row[1])] for row in vertices]
+    labels = {name: k + 1 for k, name in enumerate(sorted(set(names.values())))}
+    write_medit(folder / "heat.mesh", xy, [[a, b, labels[names[int(curve)]]] for a, b, curve in edges], quads)
     (folder / "labels.idp").write_text("".join(f"int {name} = {label};\n" for name, label in labels.items()))
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = driver.parser(__doc__, "heat.svg")
     parser.add_argument("--delquad", default="delquad", help="the program")
-    parser.add_argument("-o", "--output", default="heat.svg")
     options = parser.parse_args()
-    if not shutil.which("FreeFem++"):
-        sys.exit("FreeFem++ is not installed: expected FreeFem++ on the PATH (Debian: freefem++)")
     with tempfile.TemporaryDirectory() as work:
         folder = pathlib.Path(work)
-        subprocess.run([options.delquad, "-q", "mesh", HERE.parent / "heat.toml", "-o", folder / "quads.mesh"], check=True)
+        driver.run([options.delquad, "-q", "mesh", HERE.parent / "heat.toml", "-o", folder / "quads.mesh"], "see README.md")
         write_for_freefem(folder)
-        shutil.copy(HERE / "heat.edp", folder)
-        solved = subprocess.run(["FreeFem++", "-nw", "-ne", "heat.edp"], cwd=folder, capture_output=True, text=True)
-        if solved.returncode != 0:
-            sys.exit(f"FreeFem++ failed: {solved.stdout[-2000:]}{solved.stderr[-2000:]}")
-        print(solved.stdout.strip())
+        print(solve("heat.edp", folder).strip())
         picture.draw(json.loads((folder / "heat.json").read_text()), options.output, "temperature")
-    print(f"the picture is {os.path.abspath(options.output)}")
 
 
 if __name__ == "__main__":
