@@ -70,7 +70,7 @@ def check_front(printed):
 # Loops that adapt meshes print tables.
 LOOPS = {
     "adapt_dolfinx": (["dolfinx/adapt.py", "advection", "--quads", "200", "--doublings", "1"], check_pairs),
-    "adapt_dealii": (["dealii/adapt.py", "--quads", "300", "--doublings", "0"], lambda printed: check_pairs(printed, "shock", 1.3)),
+    "adapt_dealii": (["dealii/adapt.py", "--quads", "200", "--doublings", "1"], lambda printed: check_pairs(printed, "shock", 1.3)),
     "adapt_freefem": (["freefem/adapt.py", "--vertices", "400", "--meshes", "3"], check_freefem),
     "adapt_calculix": (["calculix/adapt.py", "--quads", "200", "--meshes", "3"], check_calculix),
     "adapt_front": (["front.py", "--quads", "150", "--meshes", "6"], check_front),
