@@ -97,6 +97,14 @@ void check_spec(const Mesh& mesh, const AdaptSpec& spec) {
   const auto is_good = [](double x) { return x > 0 && std::isfinite(x); };
   if (is_good(spec.quads) == is_good(spec.error) || spec.quads < 0 || spec.error < 0)
     refuse("{} quads and an error of {}: expected one of both above 0", spec.quads, spec.error);
+  const auto& [min, max, aspect] = spec.limits;
+  const auto is_none_or = [](double x, bool is_right) { return x == 0 || (is_right && std::isfinite(x)); };
+  if (!is_none_or(min, min > 0) || !is_none_or(max, max > 0 && max >= min) ||
+      !is_none_or(aspect, aspect >= 1) || !is_none_or(spec.gradation, spec.gradation > 1))
+    refuse(
+        "lengths from {} to {}, aspect {}, gradation {}: expected 0 for none, or lengths above 0, the least "
+        "first, an aspect of at least 1 and a gradation above 1",
+        min, max, aspect, spec.gradation);
   if (spec.weight.empty()) return;
   require_values(mesh, spec.weight, "of weights");
   const auto least = std::ranges::min_element(spec.weight);
