@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -266,6 +267,10 @@ MeshWithFields read_fields(const std::filesystem::path& path) {
 
 void write_fields(const std::filesystem::path& path, const Mesh& mesh, const std::vector<MeshField>& fields,
                   const MshOptions& options) {
+  assert(std::ranges::all_of(fields, [&](const MeshField& field) {
+    const std::size_t n = field.is_of_points ? mesh.points.size() : mesh.triangles.size() + mesh.quads.size();
+    return field.values.size() == n * static_cast<std::size_t>(field.n_components);
+  }));
   check_mesh_format(path, options, mesh.order);
   const std::string kind = kind_of_file(path);
   if (kind == ".vtu")

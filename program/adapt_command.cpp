@@ -90,8 +90,8 @@ MeshField transferred(const Mesh& from, const MeshField& field, const Mesh& to, 
   return made;
 }
 
-/// All fields of the files on the next mesh, of those of one name the last. What is left out for its values
-/// is told, but for those that were asked for.
+/// All fields of the files on the next mesh, of those of one name the last. Those whose values are no numbers
+/// are left out, which is told.
 std::vector<MeshField> carried_over(const Mesh& from, std::span<const SolutionFile> files,
                                     const std::vector<SolutionField>& asked, const Mesh& to, Transfer how,
                                     std::vector<Warning>& warnings) {
@@ -100,15 +100,17 @@ std::vector<MeshField> carried_over(const Mesh& from, std::span<const SolutionFi
     for (const MeshField& field : file.content.fields) last[{!field.is_of_points, field.name}] = &field;
   last.erase({true, "eta"});  // write_mesh()'s of the old quads
   std::vector<MeshField> carried;
-  for (const auto& [key, field] : last) try {
+  for (const auto& [key, field] : last) {
+    const bool is_asked = field->is_of_points && std::ranges::any_of(asked, [&](const SolutionField& other) {
+                            return other.field.name == field->name;
+                          });
+    try {
       carried.push_back(transferred(from, *field, to, how));
     } catch (const InputError& error) {
-      if (std::ranges::any_of(asked, [&](const SolutionField& a) {
-            return field->is_of_points && a.field.name == field->name;
-          }))
-        throw;
+      if (is_asked) throw;
       warnings.emplace_back(fmt::format("the field {} is not carried over: {}", field->name, error.what()));
     }
+  }
   return carried;
 }
 
