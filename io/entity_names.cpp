@@ -220,6 +220,11 @@ bool is_planar(const Mesh& mesh) {
   return area >= 0;
 }
 
+void require_planar(const std::filesystem::path& path, const std::string& format, const Mesh& mesh) {
+  if (!is_planar(mesh))
+    refuse("{}: {} is for planar meshes: this is a surface in space, or looks down", path.string(), format);
+}
+
 void require_fits(const std::filesystem::path& path, const std::string& format, std::size_t n,
                   const std::string& what, std::size_t most) {
   if (n > most)
@@ -247,8 +252,21 @@ std::string ascii_label(const std::string& name) {
   return label;
 }
 
+namespace {
+
+bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+
+}  // namespace
+
+std::string word_label(const std::string& name) {
+  constexpr std::string_view kMore = "0123456789_-.+@";
+  std::string label = name.empty() ? "_" : name;
+  for (char& c : label)
+    if (!is_letter(c) && kMore.find(c) == std::string_view::npos) c = '_';
+  return label;
+}
+
 std::string plain_label(const std::string& name) {
-  const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
   std::string label = name.empty() || !is_letter(name[0]) ? "SET_" : "";
   for (const char c : name) label += is_letter(c) || (c >= '0' && c <= '9') ? c : '_';
   return label;

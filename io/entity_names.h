@@ -109,6 +109,9 @@ std::vector<ElementSide> sides_at_line(const Mesh& mesh, std::span<const HalfEdg
 /// Whether all points have one z and the elements run counterclockwise as seen from above.
 bool is_planar(const Mesh& mesh);
 
+/// Throws InputError where is_planar() is false.
+void require_planar(const std::filesystem::path& path, const std::string& format, const Mesh& mesh);
+
 /// Throws InputError where there are more of something than numbers that a format can hold.
 void require_fits(const std::filesystem::path& path, const std::string& format, std::size_t n,
                   const std::string& what, std::size_t most);
@@ -127,6 +130,8 @@ std::string ascii_label(const std::string& name);
 inline constexpr UniqueLabels::Rules kExodusLabels{one_line_label, false, 70};
 inline constexpr UniqueLabels::Rules kCgnsLabels{cgns_label, false, 22};
 inline constexpr UniqueLabels::Rules kMedLabels{ascii_label, false, 70};
+/// A name of ASCII letters, digits and _-.+@, as flag_meanings of netCDF are.
+std::string word_label(const std::string& name);
 /// A name of letters, digits and underscores that begins with a letter.
 std::string plain_label(const std::string& name);
 

@@ -7,6 +7,7 @@
 #include "bindings/python/arrays.h"
 #include "bindings/python/problem.h"
 #include "geometry/mesh/check_mesh.h"
+#include "io/mesh_formats.h"
 
 namespace delquad::python {
 
@@ -57,6 +58,15 @@ Mesh read(const std::string& path) {
   return read_mesh(path);
 }
 
+/// Of files that are written, or read, as "delquad formats" has them.
+std::vector<std::string> extensions(bool written) {
+  std::vector<std::string> all;
+  for (const MeshFormat& format : mesh_formats())
+    if (written ? can_write(format) : format.read != nullptr)
+      all.insert(all.end(), format.extensions.begin(), format.extensions.end());
+  return all;
+}
+
 /// (image, master, (n, 2) nodes), each beside that of which it is the image.
 py::tuple pair_of(int image, int master, const std::vector<std::array<int, 2>>& nodes) {
   const auto n = static_cast<py::ssize_t>(nodes.size());
@@ -102,6 +112,7 @@ void define_mesh(py::module_& m) {
       .def_readonly("unit", &Mesh::unit, "of lengths; empty: not known")
       .def("_write_file", &write, arg("path"), arg("binary") = false);
   m.def("read_mesh", &read, arg("path"));
+  m.def("_extensions", &extensions, arg("written"));
 }
 
 py::dict dict_of(const Summaries& summaries) {

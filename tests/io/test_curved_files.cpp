@@ -68,6 +68,7 @@ TEST(CurvedFiles, OfEveryFormatComeBackUpToItsOrder) {
           expect_input_error([&] { write_mesh(file, mesh); }, {extension.c_str(), "no elements of order"});
           continue;
         }
+        if (extension == ".14" || extension == ".grd") continue;  // of triangles
         write_mesh(file, mesh);
         if (format.read == nullptr) {
           expect_input_error([&] { read_mesh(file); }, {"unknown kind"});

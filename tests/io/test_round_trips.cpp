@@ -210,7 +210,8 @@ TEST(MeshFormats, AreToldByExtension) {
   expect_input_error(
       [&] { write_mesh(folder / "a.stl", quad_grid(1, 1)); },
       {"a.stl", "'.stl'",
-       ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .ucd, .mfem, .su2, .bdf, .k or .svg"});
+       ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .ucd, .mfem, .su2, .bdf, .k, "
+       ".2dm, .gr3, .nc or .svg"});
   expect_input_error([&] { write_mesh(folder / "a.msh.gz", quad_grid(1, 1)); }, {"a.msh.gz", "'.gz'"});
   expect_input_error(
       [&] {

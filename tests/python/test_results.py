@@ -93,6 +93,11 @@ def test_files_hold_the_mesh(tmp_path, kind):
     assert len(again.quads) == len(r.quads) and np.allclose(again.points, r.points)
 
 
+def test_help_tells_all_formats():
+    assert all(kind in delquad.Mesh.write.__doc__ for kind in (".msh", ".gr3", ".svg"))
+    assert ".mfem" in delquad.read_mesh.__doc__ and ".gr3" not in delquad.read_mesh.__doc__
+
+
 def test_meshio_there_and_back():
     pytest.importorskip("meshio")
     r = delquad.mesh(two_regions(), size=0.1)

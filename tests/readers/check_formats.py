@@ -207,6 +207,92 @@ def read_su2(path):
     return found
 
 
+def read_2dm(path):
+    """By Aquaveo's description of the format: cards of a letter code, and node strings whose last node is negative."""
+    with open(path, encoding="utf-8") as text:
+        cards = [line.split(maxsplit=1) for line in text]
+    assert cards[0] == ["MESH2D"]
+    found = Found([[float(x) for x in rest.split()[1:]] for card, *rest in cards if card == "ND" for rest in rest])
+    materials = {number: word(name.strip()[1:-1]) for card, *rest in cards if card == "MAT" for number, name in [rest[0].split(maxsplit=1)]}
+    for card, *rest in cards:
+        if card in ("E3T", "E4Q"):
+            _, *nodes, material = rest[0].split()
+            assert len(nodes) == int(card[1])
+            found.add(found.elements, materials[material], [[int(v) - 1 for v in nodes]])
+        if card == "NS":
+            *nodes, last, name = rest[0].split()
+            nodes = [int(v) - 1 for v in nodes] + [-int(last) - 1]
+            found.add(found.lines, name, zip(nodes, nodes[1:]))
+    return found
+
+
+def read_gr3(path):
+    """By SCHISM's manual, "Horizontal grid": Fortran reads the first numbers of each line."""
+    with open(path, encoding="utf-8") as text:
+        lines = text.read().splitlines()[1:]
+    rows = iter(lines)
+    n_elements, n_nodes = (int(word) for word in next(rows).split())
+    found = Found([[float(x) for x in next(rows).split()[1:4]] for _ in range(n_nodes)])
+    for _ in range(n_elements):
+        _, n, *nodes = (int(word) for word in next(rows).split())
+        assert n == len(nodes)
+        found.add(found.elements, "", [[v - 1 for v in nodes]])
+    for _ in ("open", "land"):
+        n_pieces, n_all = int(next(rows).split()[0]), int(next(rows).split()[0])
+        for _ in range(n_pieces):
+            head = next(rows)
+            n = int(head.split()[0])
+            nodes = [int(next(rows)) - 1 for _ in range(n)]
+            n_all -= n
+            found.add(found.lines, head.split(" boundary ")[1], zip(nodes, nodes[1:] + nodes[:1] if "island" in head else nodes[1:]))
+        assert n_all == 0
+    assert next(rows, None) is None
+    return found
+
+
+def read_ugrid(path):
+    """By the UGRID conventions 1.0: what the topology variable names is there, and edges are those of faces."""
+    try:
+        import netCDF4
+    except ImportError as error:
+        raise Absent("python3-netcdf4") from error
+    data = netCDF4.Dataset(path)
+    assert "UGRID-1.0" in data.Conventions
+    topology, = (v for v in data.variables.values() if getattr(v, "cf_role", "") == "mesh_topology")
+    assert topology.topology_dimension == 2
+
+    def connectivity(role, dimension):
+        variable = data.variables[getattr(topology, role)]
+        assert variable.cf_role == role and variable.dimensions[0] == dimension and variable.start_index == 1
+        return [[int(v) - 1 for v in row.compressed()] for row in numpy.ma.asarray(variable[:])]
+
+    def names(variable):
+        meanings = dict(zip(variable.flag_values.tolist(), variable.flag_meanings.split(" ")))
+        assert variable.mesh == topology.name and len(meanings) == len(variable.flag_values)
+        return [meanings[v] for v in variable[:].tolist()]
+
+    coordinates = [data.variables[name] for name in topology.node_coordinates.split()]
+    assert [v.standard_name for v in coordinates] == ["projection_x_coordinate", "projection_y_coordinate"]
+    assert all(v.dimensions == (topology.node_dimension,) and v.units for v in coordinates)
+    found = Found(numpy.array([v[:] for v in coordinates]).T)
+    faces, edges, beside = (connectivity(role, dimension) for role, dimension in (("face_node_connectivity", topology.face_dimension), (
+        "edge_node_connectivity", topology.edge_dimension), ("edge_face_connectivity", topology.edge_dimension)))
+    sides = {}
+    for f, face in enumerate(faces):
+        for a, b in zip(face, face[1:] + face[:1]):
+            sides.setdefault(frozenset((a, b)), []).append(f)
+    assert {frozenset(edge): sorted(at) for edge, at in zip(edges, beside)} == sides and len(edges) == len(sides)
+    for face, name in zip(faces, names(data.variables["mesh2d_face_region"])):
+        found.add(found.elements, name, [face])
+    for edge, name in zip(edges, names(data.variables["mesh2d_edge_curve"])):
+        if name != "none":
+            found.add(found.lines, name, [edge])
+    for v, name in enumerate(names(data.variables["mesh2d_node_point"])):
+        if name != "none":
+            found.add(found.points_of, name, [(v,)])
+    return found
+
+
 def read_bdf(path):
     mesh = meshio.read(path, file_format="nastran")
     found = Found(mesh.points)
@@ -320,6 +406,10 @@ def plain(name):
     return re.sub(r"[^A-Za-z0-9_]", "_", name)
 
 
+def word(name):
+    return re.sub(r"[^A-Za-z0-9_.+@-]", "_", name)
+
+
 def cut(name):
     return name[:22]
 
@@ -328,12 +418,14 @@ def cut(name):
 FORMATS = {"e": (read_exodus, True, 12, str, False), "cgns": (read_cgns, True, 12, cut, False), "med": (read_med, True, 12, str, False),
            "xdmf": (read_xdmf, True, 12, str, False), "vtk": (read_vtk, True, 12, lambda name: name.replace(" ", "_"), False),
            "ucd": (read_ucd, False, 12, str, False), "su2": (read_su2, False, 12, plain, True), "bdf": (read_bdf, True, 9, str, False),
-           "mfem": (read_mfem, True, 12, str, True), "k": (read_k, False, 6, str, False)}
+           "mfem": (read_mfem, True, 12, str, True), "k": (read_k, False, 6, str, False),
+           "2dm": (read_2dm, False, 12, word, False), "gr3": (read_gr3, False, 12, str, True), "nc": (read_ugrid, False, 12, word, False)}
+PLANAR = ("su2", "2dm", "gr3", "nc")
 
 
 def check(program, folder, model, arguments, order, kind):
     reader, has_curved, digits, label, boundary_only = FORMATS[kind]
-    if order > 1 and not has_curved or kind == "su2" and model.endswith(".off"):
+    if order > 1 and not has_curved or kind in PLANAR and model.endswith(".off"):
         return None
     path = os.path.join(folder, f"{os.path.splitext(os.path.basename(model))[0]}_{order}.{kind}")
     msh = os.path.join(folder, "reference.msh")

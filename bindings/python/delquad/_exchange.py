@@ -9,13 +9,17 @@ _MOST_SHOWN = 20_000
 
 
 def read_mesh(path):
-    """Reads .msh, .obj, .off, .stl, .vtu, .inp or .mesh, perhaps with .gz behind."""
     return _core.read_mesh(os.fspath(path))
 
 
+read_mesh.__doc__ = f"Reads {', '.join(_core._extensions(written=False))}, perhaps with .gz behind."
+
+
 def _write(self, path, binary=False):
-    """Writes .msh, .vtu, .obj, .inp, .mesh or .svg, whole or not at all."""
     _core.Mesh._write_file(self, os.fspath(path), binary)
+
+
+_write.__doc__ = f"Writes {', '.join(_core._extensions(written=True))} (docs/meshing.md tells more), whole or not at all."
 
 
 def _names(entities, kind):

@@ -1,0 +1,56 @@
+#include "base/located.h"
+#include "io/boundary_chains.h"
+#include "io/entity_names.h"
+#include "io/mesh_formats.h"
+#include "io/mesh_io.h"
+#include "io/text_writer.h"
+
+namespace delquad {
+namespace {
+
+/// SCHISM's hgrid.gr3 (its manual, "Horizontal grid"), depth 0 everywhere. ADCIRC's fort.14 is the same, of
+/// triangles.
+void write_gr3(const std::filesystem::path& path, const Mesh& mesh) {
+  if (kind_of_file(path) != ".gr3" && !mesh.quads.empty())
+    refuse("{}: ADCIRC has triangles only, and there are {} quads: expected .gr3, for SCHISM, which has both",
+           path.string(), mesh.quads.size());
+  require_planar(path, "SCHISM's and ADCIRC's grid", mesh);
+  const std::vector<CoastPiece> pieces = coast_pieces(mesh);
+  write_text_file(path, [&](TextWriter& out) {
+    out << "quad mesh by Delquad" << (mesh.unit.empty() ? "" : ", lengths in " + mesh.unit) << '\n'
+        << mesh.triangles.size() + mesh.quads.size() << ' ' << mesh.points.size() << '\n';
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      out << i + 1 << ' ' << mesh.points[i].x << ' ' << mesh.points[i].y << " 0\n";
+    for_each_element(mesh, [&](int e, const auto& v) {
+      out << e + 1 << ' ' << v.size();
+      for (const int i : v) out << ' ' << i + 1;
+      out << '\n';
+    });
+    for (const bool open : {true, false}) {
+      const char* const kind = open ? "open" : "land";
+      std::size_t n_pieces = 0, n_nodes = 0;
+      for (const CoastPiece& piece : pieces)
+        if (piece.open == open) ++n_pieces, n_nodes += piece.nodes.size();
+      out << n_pieces << " = number of " << kind << " boundaries\n"
+          << n_nodes << " = total number of " << kind << " boundary nodes\n";
+      for (const CoastPiece& piece : pieces) {
+        if (piece.open != open) continue;
+        out << piece.nodes.size()
+            << (open           ? ""
+                : piece.island ? " 1"
+                               : " 0")
+            << " = number of nodes of " << (piece.island ? "island" : kind) << " boundary " << piece.name
+            << '\n';
+        for (const int v : piece.nodes) out << v + 1 << '\n';
+      }
+    }
+  });
+}
+
+}  // namespace
+
+MeshFormat gr3_format() {
+  return {{".gr3", ".14", ".grd"}, "SCHISM; ADCIRC's fort.14, of triangles", nullptr, write_by<write_gr3>};
+}
+
+}  // namespace delquad

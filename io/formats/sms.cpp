@@ -1,0 +1,66 @@
+#include "io/boundary_chains.h"
+#include "io/entity_names.h"
+#include "io/mesh_formats.h"
+#include "io/mesh_io.h"
+#include "io/text_writer.h"
+
+namespace delquad {
+namespace {
+
+/// The node strings of SMS: the lines of each curve, on the boundary with the mesh on their left.
+std::vector<std::pair<std::string, std::vector<int>>> node_strings(const Mesh& mesh,
+                                                                   const std::vector<MeshGroup>& groups) {
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::vector<std::pair<std::string, std::vector<int>>> strings;
+  for (const MeshGroup& group : groups) {
+    if (group.dim != 1) continue;
+    std::vector<std::array<int, 2>> runs;
+    for (const int l : group.items) {
+      const auto at = sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]);
+      runs.push_back(at.size() == 1 ? at[0].run() : mesh.lines[l]);
+    }
+    for (std::vector<int>& nodes : join_edges(runs)) strings.emplace_back(group.name, std::move(nodes));
+  }
+  return strings;
+}
+
+/// SMS's two-dimensional mesh, as Aquaveo's wiki has it ("2D Mesh Files *.2dm"): one material for each name
+/// of regions. A node string is one line with its name behind the last node, which is negative, as Basement
+/// and TUFLOW FV want it.
+void write_sms(const std::filesystem::path& path, const Mesh& mesh) {
+  require_planar(path, "SMS's .2dm", mesh);
+  const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
+  const std::vector<int> material = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
+  const auto strings = node_strings(mesh, groups);
+  std::vector<UniqueLabels::Key> keys;
+  for (const auto& [name, nodes] : strings) keys.emplace_back(static_cast<int>(keys.size()), name);
+  const UniqueLabels labels(keys, {word_label});
+  write_text_file(path, [&](TextWriter& out) {
+    out << "MESH2D\nMESHNAME \"quad mesh by Delquad\"\nNUM_MATERIALS_PER_ELEM 1\n";
+    for_each_element(mesh, [&](int e, const auto& v) {
+      out << (v.size() == 3 ? "E3T " : "E4Q ") << e + 1;
+      for (const int i : v) out << ' ' << i + 1;
+      out << ' ' << material[e] << '\n';
+    });
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      const Vec3& p = mesh.points[i];
+      out << "ND " << i + 1 << ' ' << p.x << ' ' << p.y << ' ' << p.z << '\n';
+    }
+    for (std::size_t s = 0; s < strings.size(); ++s) {
+      const std::vector<int>& nodes = strings[s].second;
+      out << "NS";
+      for (const int& v : nodes) out << ' ' << (&v == &nodes.back() ? -v - 1 : v + 1);
+      out << ' ' << labels.of(keys[s]) << '\n';
+    }
+    out << "BEGPARAMDEF\n";
+    for (const MeshGroup& group : groups)
+      if (group.dim == 2) out << "MAT " << group.number << " \"" << group.label << "\"\n";
+    out << "ENDPARAMDEF\n";
+  });
+}
+
+}  // namespace
+
+MeshFormat sms_format() { return {{".2dm"}, "SMS: TUFLOW FV, Basement, QGIS", nullptr, write_by<write_sms>}; }
+
+}  // namespace delquad

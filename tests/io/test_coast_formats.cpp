@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include "io/boundary_chains.h"
+#include "io/mesh_formats.h"
+#include "io/mesh_io.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/grid_mesh.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::quad_grid;
+using testing_support::read_text;
+using testing_support::TemporaryFolder;
+using testing_support::triangle_grid;
+
+using Nodes = std::vector<int>;
+
+/// Three by three cells, numbered by rows, without the middle one, whose sides have the name.
+Mesh ring(const std::string& hole) {
+  Mesh mesh = quad_grid(3, 3);
+  mesh.quads.erase(mesh.quads.begin() + 4);
+  mesh.quad_region.pop_back();
+  for (const auto& line : {std::array{5, 6}, {6, 10}, {10, 9}, {9, 5}}) {
+    mesh.lines.push_back(line);
+    mesh.line_curve.push_back(4);
+  }
+  mesh.curves.push_back({5, {hole}});
+  return mesh;
+}
+
+TEST(JoinedEdges, EndWhereSeveralGoOn) {
+  EXPECT_EQ(join_edges({{3, 1}, {1, 2}, {5, 3}}), (std::vector<Nodes>{{5, 3, 1, 2}}));
+  EXPECT_EQ(join_edges({{2, 0}, {0, 1}, {1, 2}}), (std::vector<Nodes>{{0, 1, 2, 0}}));
+  // Two rings that touch in 0.
+  EXPECT_EQ(join_edges({{0, 1}, {1, 2}, {2, 0}, {0, 3}, {3, 4}, {4, 0}}),
+            (std::vector<Nodes>{{0, 1, 2, 0}, {0, 3, 4, 0}}));
+}
+
+TEST(CoastPieces, OpenOnesComeFirstAndHolesAreIslands) {
+  Mesh mesh = ring("rock");
+  mesh.curves[1].names = {"Open sea"};
+  mesh.curves[2].names = mesh.curves[3].names = {"shore"};
+  const std::vector<CoastPiece> pieces = coast_pieces(mesh);
+  ASSERT_EQ(pieces.size(), 4u);
+  EXPECT_EQ(pieces[0].nodes, (Nodes{3, 7, 11, 15}));
+  EXPECT_EQ(pieces[0].name, "Open sea");
+  EXPECT_TRUE(pieces[0].open);
+  EXPECT_EQ(pieces[1].nodes, (Nodes{0, 1, 2, 3}));
+  EXPECT_EQ(pieces[2].nodes, (Nodes{15, 14, 13, 12, 8, 4, 0}));
+  EXPECT_EQ(pieces[2].name, "shore");
+  EXPECT_EQ(pieces[3].nodes, (Nodes{5, 9, 10, 6}));  // the mesh on the left
+  EXPECT_TRUE(pieces[3].island && !pieces[3].open);
+}
+
+TEST(CoastPieces, ARingOfOneNameIsTwoPieces) {
+  Mesh mesh = ring("opening");
+  for (int k = 0; k < 4; ++k) mesh.curves[k].names = {"shore"};
+  const std::vector<CoastPiece> pieces = coast_pieces(mesh);
+  ASSERT_EQ(pieces.size(), 4u);
+  EXPECT_EQ(pieces[0].nodes, (Nodes{5, 9, 10}));
+  EXPECT_EQ(pieces[1].nodes, (Nodes{10, 6, 5}));
+  EXPECT_TRUE(pieces[1].open && !pieces[1].island);
+  EXPECT_EQ(pieces[2].nodes, (Nodes{0, 1, 2, 3, 7, 11, 15}));
+  EXPECT_EQ(pieces[3].nodes, (Nodes{15, 14, 13, 12, 8, 4, 0}));
+}
+
+TEST(Gr3, IsTheDocumentedFormat) {
+  const TemporaryFolder folder;
+  Mesh mesh = quad_grid(1, 1, 2, 0.5);
+  mesh.curves[1].names = {"the open"};
+  mesh.unit = "m";
+  write_mesh(folder / "a.gr3", mesh);
+  EXPECT_EQ(read_text(folder / "a.gr3"),
+            "quad mesh by Delquad, lengths in m\n1 4\n1 0 0 0\n2 2 0 0\n3 0 0.5 0\n4 2 0.5 0\n1 4 1 2 4 3\n"
+            "1 = number of open boundaries\n2 = total number of open boundary nodes\n"
+            "2 = number of nodes of open boundary the open\n2\n4\n"
+            "3 = number of land boundaries\n6 = total number of land boundary nodes\n"
+            "2 0 = number of nodes of land boundary south\n1\n2\n"
+            "2 0 = number of nodes of land boundary north\n4\n3\n"
+            "2 0 = number of nodes of land boundary west\n3\n1\n");
+}
+
+TEST(Adcirc, TakesTrianglesOnly) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "fort.14", triangle_grid(2, 2));
+  write_mesh(folder / "a.gr3", triangle_grid(2, 2));
+  EXPECT_EQ(read_text(folder / "fort.14"), read_text(folder / "a.gr3"));
+  expect_input_error([&] { write_mesh(folder / "fort.14", quad_grid(2, 2)); },
+                     {"fort.14: ADCIRC has triangles only, and there are 4 quads", ".gr3"});
+}
+
+TEST(Sms, NodeStringsOfOneNameHaveTheirOwn) {
+  const TemporaryFolder folder;
+  Mesh mesh = quad_grid(1, 1);
+  mesh.curves[0].names = mesh.curves[2].names = {"the shore"};
+  write_mesh(folder / "a.2dm", mesh);
+  EXPECT_EQ(read_text(folder / "a.2dm"),
+            "MESH2D\nMESHNAME \"quad mesh by Delquad\"\nNUM_MATERIALS_PER_ELEM 1\nE4Q 1 1 2 4 3 1\n"
+            "ND 1 0 0 0\nND 2 1 0 0\nND 3 0 1 0\nND 4 1 1 0\n"
+            "NS 1 -2 the_shore\nNS 4 -3 the_shore_2\nNS 2 -4 east\nNS 3 -1 west\n"
+            "BEGPARAMDEF\nMAT 1 \"inside\"\nENDPARAMDEF\n");
+}
+
+TEST(PlanarFormats, RefuseSurfaces) {
+  const TemporaryFolder folder;
+  Mesh mesh = quad_grid(1, 1);
+  mesh.points[0].z = 1;
+  for (const char* name : {"a.2dm", "a.gr3", "a.nc"}) {
+    const auto format = std::ranges::find_if(mesh_formats(), [&](const MeshFormat& one) {
+      return one.extensions[0] == std::filesystem::path(name).extension();
+    });
+    if (format->package.empty())
+      expect_input_error([&] { write_mesh(folder / name, mesh); }, {name, "surface in space"});
+  }
+  EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace delquad
