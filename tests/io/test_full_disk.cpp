@@ -127,7 +127,7 @@ std::vector<Writer> writers() {
     if (can_write(format))
       add("flat" + extension, [](const auto& path) { write_mesh(path, quad_grid(kAcross, kAcross)); });
     if (can_write(format) && format.most_order > 1)
-      add("curved" + extension, [](const auto& path) { write_mesh(path, curved_grid(8, 8, 2, true)); });
+      add("curved" + extension, [](const auto& path) { write_mesh(path, curved_grid(8, 8, 2, false)); });
     if (format.write_hexahedra != nullptr)
       add("hexahedra" + extension, [](const auto& path) {
         HexMesh mesh;

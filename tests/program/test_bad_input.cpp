@@ -219,7 +219,7 @@ TEST(BadArguments, AreRefused) {
   expect_refusal(delquad({"mesh", model, "-o", folder / "out.stl", "--size", "0.1"}),
                  {".stl",
                   ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .ucd, .mfem, .su2, .bdf, .k, "
-                  ".2dm, .gr3, .nc or .svg"});
+                  ".2dm, .gr3, .nc, .ism, .abq or .svg"});
   expect_refusal(delquad({"mesh", model, "-o", folder / "nowhere" / "out.msh", "--size", "0.1"}),
                  {"nowhere"});
   expect_refusal(delquad({"mesh", folder / "model.sat", "-o", out, "--size", "0.1"}),
