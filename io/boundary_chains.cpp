@@ -6,15 +6,6 @@
 
 namespace delquad {
 
-namespace {
-
-bool is_open(std::string name) {
-  for (char& c : name) c = static_cast<char>(c | ('A' <= c && c <= 'Z' ? ' ' : 0));
-  return name.find("open") != std::string::npos;
-}
-
-}  // namespace
-
 std::vector<std::vector<int>> join_edges(const std::vector<std::array<int, 2>>& edges) {
   struct Node {
     int in = 0, out = 0, next = -1;
@@ -83,7 +74,7 @@ std::vector<CoastPiece> coast_pieces(const Mesh& mesh) {
     bool any_open = false;
     for (std::size_t i = 0; i < n; ++i) {
       area += cross(mesh.points[loop[i]], mesh.points[loop[i + 1]]).z;
-      any_open = any_open || is_open(name_at(i));
+      any_open = any_open || name_says(name_at(i), "open");
     }
     if (area < 0 && !any_open) {
       loop.pop_back();
@@ -99,7 +90,7 @@ std::vector<CoastPiece> coast_pieces(const Mesh& mesh) {
     }
     for (std::size_t i = 0; i < n; ++i) {
       if (i == 0 || name_at(i) != name_at(i - 1) || (single && i == n / 2))
-        pieces.push_back({{loop[i]}, name_at(i), is_open(name_at(i)), false});
+        pieces.push_back({{loop[i]}, name_at(i), name_says(name_at(i), "open"), false});
       pieces.back().nodes.push_back(loop[i + 1]);
     }
   }

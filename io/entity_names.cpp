@@ -42,6 +42,12 @@ std::map<std::string, std::vector<std::int32_t>> tags_of_names(const std::vector
   return tags;
 }
 
+bool name_says(std::string name, std::string_view word) {
+  for (char& c : name)
+    if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return name.find(word) != std::string::npos;
+}
+
 std::string one_line(std::string_view name) {
   std::string text;
   for (const char c : name) text += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
@@ -223,6 +229,11 @@ bool is_planar(const Mesh& mesh) {
 void require_planar(const std::filesystem::path& path, const std::string& format, const Mesh& mesh) {
   if (!is_planar(mesh))
     refuse("{}: {} is for planar meshes: this is a surface in space, or looks down", path.string(), format);
+}
+
+void require_quads(const std::filesystem::path& path, const std::string& format, const Mesh& mesh) {
+  if (!mesh.triangles.empty())
+    refuse("{}: {} has quads only, and there are {} triangles", path.string(), format, mesh.triangles.size());
 }
 
 void require_fits(const std::filesystem::path& path, const std::string& format, std::size_t n,

@@ -29,6 +29,9 @@ std::vector<std::string> group_names(const std::vector<Entity>& entities, int di
 /// The tags of the entities that have each name.
 std::map<std::string, std::vector<std::int32_t>> tags_of_names(const std::vector<Entity>& entities);
 
+/// Whether a name has the word in it, in small letters or large ones.
+bool name_says(std::string name, std::string_view word);
+
 /// The name in one line of at most 200 bytes, for comments.
 std::string one_line(std::string_view name);
 
@@ -111,6 +114,8 @@ bool is_planar(const Mesh& mesh);
 
 /// Throws InputError where is_planar() is false.
 void require_planar(const std::filesystem::path& path, const std::string& format, const Mesh& mesh);
+/// Throws InputError where there are triangles.
+void require_quads(const std::filesystem::path& path, const std::string& format, const Mesh& mesh);
 
 /// Throws InputError where there are more of something than numbers that a format can hold.
 void require_fits(const std::filesystem::path& path, const std::string& format, std::size_t n,

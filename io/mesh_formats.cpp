@@ -63,7 +63,8 @@ bool can_write(const MeshFormat& format) { return format.write != nullptr || !fo
 MeshFormat msh_format(), vtu_format(), obj_format(), inp_format(), medit_format(), vtk_format(),
     exodus_format(), cgns_format(), med_format(), xdmf_format(), ucd_format(), mfem_format(), su2_format(),
     nastran_format(), ls_dyna_format(), sms_format(), gr3_format(), ugrid_format(), ism_format(),
-    hohqmesh_abaqus_format(), off_format(), stl_format(), ply_format(), three_mf_format();
+    hohqmesh_abaqus_format(), re2_format(), specfem_format(), foam_format(), off_format(), stl_format(),
+    ply_format(), three_mf_format();
 
 const std::vector<MeshFormat>& mesh_formats() {
   static const std::vector<MeshFormat> all = {msh_format(),
@@ -87,6 +88,9 @@ const std::vector<MeshFormat>& mesh_formats() {
                                               ugrid_format(),
                                               ism_format(),
                                               hohqmesh_abaqus_format(),
+                                              re2_format(),
+                                              specfem_format(),
+                                              foam_format(),
                                               off_format(),
                                               stl_format(),
                                               ply_format(),

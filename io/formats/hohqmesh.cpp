@@ -1,7 +1,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/located.h"
 #include "geometry/mesh/element_nodes.h"
 #include "io/boundary_chains.h"
 #include "io/entity_names.h"
@@ -22,9 +21,7 @@ class HohqMesh {
   HohqMesh(const std::filesystem::path& path, const Mesh& mesh)
       : mesh_(mesh), number_(mesh.points.size(), 0), names_(mesh.quads.size(), {"---", "---", "---", "---"}) {
     require_planar(path, "HOHQMesh's format", mesh);
-    if (!mesh.triangles.empty())
-      refuse("{}: HOHQMesh's formats have quads only, and there are {} triangles", path.string(),
-             mesh.triangles.size());
+    require_quads(path, "HOHQMesh's format", mesh);
     for (const auto& quad : mesh.quads)
       for (const int v : quad) number_[v] = 1;
     for (std::size_t i = 0; i < number_.size(); ++i)

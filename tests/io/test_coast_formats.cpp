@@ -107,7 +107,7 @@ TEST(PlanarFormats, RefuseSurfaces) {
   const TemporaryFolder folder;
   Mesh mesh = quad_grid(1, 1);
   mesh.points[0].z = 1;
-  for (const char* name : {"a.2dm", "a.gr3", "a.nc", "a.ism"}) {
+  for (const char* name : {"a.2dm", "a.gr3", "a.nc", "a.ism", "a.re2", "a.specfem", "a.foam"}) {
     const auto format = std::ranges::find_if(mesh_formats(), [&](const MeshFormat& one) {
       return one.extensions[0] == std::filesystem::path(name).extension();
     });

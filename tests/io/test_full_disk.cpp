@@ -26,7 +26,8 @@ using testing_support::write_text;
 /// What a folder holds.
 std::map<std::string, std::string> contents(const TemporaryFolder& folder) {
   std::map<std::string, std::string> all;
-  for (const std::string& name : folder.names()) all[name] = read_text(folder / name);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
+    all[entry.path().lexically_relative(folder.path())] = entry.is_directory() ? "" : read_text(entry);
   return all;
 }
 

@@ -219,7 +219,8 @@ TEST(BadArguments, AreRefused) {
   expect_refusal(delquad({"mesh", model, "-o", folder / "out.stl", "--size", "0.1"}),
                  {".stl",
                   ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .ucd, .mfem, .su2, .bdf, .k, "
-                  ".2dm, .gr3, .nc, .ism, .abq or .svg"});
+                  ".2dm, .gr3, .nc, .ism, .abq, .re2, "
+                  ".specfem, .foam or .svg"});
   expect_refusal(delquad({"mesh", model, "-o", folder / "nowhere" / "out.msh", "--size", "0.1"}),
                  {"nowhere"});
   expect_refusal(delquad({"mesh", folder / "model.sat", "-o", out, "--size", "0.1"}),
@@ -303,7 +304,7 @@ TEST(Output, FullDiskLeavesNothing) {
     const std::string name = "out" + format.extensions[0], link = "link" + format.extensions[0];
     expect_refusal(
         run_program(DELQUAD_PROGRAM, {{"mesh", model, "-o", folder / name, "--size", "0.04"}, 4096, {}}),
-        {format.extensions[0] == ".xdmf" ? "out.h5" : name.c_str(), "File too large"});
+        {folder.path().c_str(), "File too large"});
     EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
     std::filesystem::create_symlink("/dev/full", folder / link);
     if (format.extensions[0] == ".xdmf") std::filesystem::create_symlink("/dev/full", folder / "link.h5");

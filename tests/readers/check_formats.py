@@ -20,12 +20,13 @@ except ImportError:
     sys.exit(77)
 
 PLATE = """loop = [
-  { rectangle = [[0, 0], [2, 1]], boundary = ["bottom side", "right", "top", "left"], region = "steel" },
+  { rectangle = [[0, 0], [2, 1]], boundary = ["bottom side", "right", "top (free)", "left absorbing"], region = "steel" },
   { circle = { centre = [0.8, 0.5], radius = 0.2 }, boundary = "interface", region = "a name of a region that is longer than thirty-two letters" },
 ]
 embed = [{ point = [1.5, 0.5], name = "sensor" }]
 size = 0.2
 """
+CURVES = ("bottom side", "right", "top (free)", "left absorbing", "interface")
 TETRAHEDRON = "OFF\n4 4 6\n0 0 0\n3 0 0\n0 2 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
 
 
@@ -40,6 +41,7 @@ class Found:
         points = numpy.asarray(points, float)
         self.points = points if points.shape[1] == 3 else numpy.c_[points, numpy.zeros(len(points))]
         self.elements, self.lines, self.points_of = {}, {}, {}
+        self.some_lines = False  # the format has those of some names alone
 
     def add(self, kind, name, nodes):
         kind.setdefault(name, []).extend(tuple(int(v) for v in row) for row in nodes)
@@ -293,6 +295,103 @@ def read_ugrid(path):
     return found
 
 
+def read_re2(path):
+    """By Nek5000's reader (core/reader_re2.f): a header of 80 letters, a tag for the order of bytes, and 8 bytes for each number or code."""
+    with open(path, "rb") as file:
+        header, tag, data = file.read(80).decode(), file.read(4), file.read()
+    n, dim, n_fluid = int(header[5:14]), int(header[14:17]), int(header[17:26])
+    assert header[:5] == "#v002" and dim == 2 and n == n_fluid and abs(numpy.frombuffer(tag, numpy.float32)[0] - 6.54321) < 1e-6
+    corners = numpy.frombuffer(data, float, 9 * n).reshape(n, 9)[:, 1:].reshape(n, 2, 4).transpose(0, 2, 1)
+    at, sides = 72 * n, []
+    for _ in ("curves", "conditions"):
+        count = int(numpy.frombuffer(data, float, 1, at)[0])
+        rows = numpy.frombuffer(data, "7f8, S8", count, at + 8)
+        sides.append({(int(row[0]) - 1, int(row[1]) - 1): (row[2:], code.decode().rstrip()) for row, code in rows})
+        at += 8 + 64 * count
+    assert at == len(data)
+    curves, conditions = sides
+    points = [list(corners[e]) + [curves[e, k][0][:2] if (e, k) in curves else (corners[e, k] + corners[e, (k + 1) % 4]) / 2 for k in range(4)] for e in range(n)]
+    assert all(code == "m" for _, code in curves.values())
+    found = Found(numpy.array(points).reshape(-1, 2))
+    found.add(found.elements, "", numpy.arange(8 * n).reshape(n, 8)[:, :8 if curves else 4])
+    for (e, k), (values, code) in conditions.items():
+        row = [8 * e + k, 8 * e + (k + 1) % 4] + ([8 * e + 4 + k] if curves else [])
+        found.add(found.lines, f"{code} {values[4]:.0f}", [row])
+    # Conditions have numbers in the place of names: those of the names in the order of the mesh.
+    found.lines = {word(name): rows for name, (_, rows) in zip(CURVES[:4], sorted(found.lines.items()), strict=True)}
+    return found
+
+
+def read_specfem(path):
+    """By SPECFEM2D's reader (meshfem2D/read_external_mesh_files.F90)."""
+    with open(path, encoding="utf-8") as text:
+        keys = dict(line.split(" = ") for line in text.read().splitlines() if not line.startswith("#"))
+
+    def rows(key):
+        with open(os.path.join(os.path.dirname(path), keys[key].removeprefix("./DATA/")), encoding="utf-8") as text:
+            return [[float(item) for item in line.split()] for line in text]
+
+    def counted(key):
+        (count,), *rest = rows(key)
+        assert count == len(rest)
+        return rest
+
+    found = Found(counted("nodes_coords_file"))
+    found.some_lines = True
+    names = named_comments(path, r"^# material (\d+): (.*)$")
+    elements = [[int(v) - 1 for v in row] for row in counted("mesh_file")]
+    assert {len(row) for row in elements} == {int(keys["NGNOD"])}
+    for row, (material,) in zip(elements, rows("materials_file"), strict=True):
+        found.add(found.elements, names[str(int(material))], [row])
+    for key, name in (("free_surface_file", "top (free)"), ("absorbing_surface_file", "left absorbing")):
+        assert counted(key)
+        for e, two, a, b, *side in counted(key):
+            assert two == 2 and {a - 1, b - 1} <= set(elements[int(e) - 1][:4]) and side in ([], [4])
+            found.add(found.lines, name, [[int(a) - 1, int(b) - 1]])
+    return found
+
+
+def read_foam(path):
+    """By VTK: cells one thick, of which the lower faces are the elements, and patches, of which the lower edges are lines."""
+    try:
+        import vtk
+    except ImportError as error:
+        raise Absent("python3-vtk9") from error
+    reader = vtk.vtkOpenFOAMReader()
+    reader.SetFileName(path)
+    reader.UpdateInformation()
+    reader.EnableAllPatchArrays()
+    reader.ReadZonesOn()
+    reader.Update()
+    found, pieces = None, []
+
+    def visit(block, name):
+        for k in range(block.GetNumberOfBlocks()):
+            piece, label = block.GetBlock(k), block.GetMetaData(k).Get(vtk.vtkCompositeDataSet.NAME())
+            if piece is None:
+                continue
+            if piece.IsA("vtkMultiBlockDataSet"):
+                visit(piece, label)
+            else:
+                pieces.append((name, label, piece))
+
+    visit(reader.GetOutput(), "")
+    points = []
+    for _, label, piece in pieces:
+        first, lowest = len(points), piece.GetBounds()[4]
+        points += [piece.GetPoint(i) for i in range(piece.GetNumberOfPoints())]
+        found = found or Found([[0, 0]])
+        for i in range(piece.GetNumberOfCells()):
+            cell = piece.GetCell(i)
+            row = [first + cell.GetPointId(k) for k in range(cell.GetNumberOfPoints()) if abs(piece.GetPoint(cell.GetPointId(k))[2] - lowest) < 1e-9]
+            volume = cell.GetCellDimension() == 3
+            assert len(row) * 2 == cell.GetNumberOfPoints() or label == "frontAndBack"
+            if label != "frontAndBack":
+                found.add(found.elements if volume else found.lines, label, [row])
+    found.points = numpy.array(points)
+    return found
+
+
 def read_bdf(path):
     mesh = meshio.read(path, file_format="nastran")
     found = Found(mesh.points)
@@ -377,9 +476,9 @@ def differences(found, wanted, planar_boundary_only, digits, label):
         if kind == "lines" and not have:
             continue  # the format has node sets in their place
         for name, rows in want.items():
-            if kind == "lines" and planar_boundary_only and name == "interface":
-                continue
             text = label(name)
+            if kind == "lines" and (planar_boundary_only and name == "interface" or found.some_lines and text not in have):
+                continue
             mine = have.get(text, have.get("")) if kind == "elements" else have.get(text)
             if "" in have and kind == "elements":
                 rows = [row for all_rows in want.values() for row in all_rows]
@@ -419,8 +518,9 @@ FORMATS = {"e": (read_exodus, True, 12, str, False), "cgns": (read_cgns, True, 1
            "xdmf": (read_xdmf, True, 12, str, False), "vtk": (read_vtk, True, 12, lambda name: name.replace(" ", "_"), False),
            "ucd": (read_ucd, False, 12, str, False), "su2": (read_su2, False, 12, plain, True), "bdf": (read_bdf, True, 9, str, False),
            "mfem": (read_mfem, True, 12, str, True), "k": (read_k, False, 6, str, False),
-           "2dm": (read_2dm, False, 12, word, False), "gr3": (read_gr3, False, 12, str, True), "nc": (read_ugrid, False, 12, word, False)}
-PLANAR = ("su2", "2dm", "gr3", "nc")
+           "2dm": (read_2dm, False, 12, word, False), "gr3": (read_gr3, False, 12, str, True), "nc": (read_ugrid, False, 12, word, False),
+           "re2": (read_re2, True, 12, word, True), "specfem": (read_specfem, True, 12, str, True), "foam": (read_foam, False, 5, plain, True)}
+PLANAR = ("su2", "2dm", "gr3", "nc", "re2", "specfem", "foam")
 
 
 def check(program, folder, model, arguments, order, kind):
