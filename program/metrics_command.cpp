@@ -8,9 +8,12 @@
 #include "delquad/error.h"
 #include "experiments/sweep/record.h"
 #include "geometry/mesh/check_mesh.h"
+#include "geometry/mesh/outline.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
+#include "metrics/flow_links.h"
 #include "metrics/judgement/criteria.h"
+#include "metrics/judgement/soundness.h"
 #include "metrics/solve/solver_metrics.h"
 #include "program/commands.h"
 #include "program/options.h"
@@ -25,6 +28,7 @@ struct MetricsArguments {
   std::optional<std::string> size;
   std::string criteria;  ///< a preset or file; empty: none
   bool strict = false;
+  bool links = false;  ///< those of flow, too
 };
 
 void add_solver(const Mesh& mesh, const std::string& solver, MeshMetrics& metrics) {
@@ -54,6 +58,28 @@ void print_curved(const MeshMetrics& metrics) {
     fmt::print("  {:<10} {:>12.6g} {}\n", title, metrics.values.at(key), what);
 }
 
+/// The metrics of links of flow, for who asks.
+FlowLinks add_links(const Mesh& mesh, MeshMetrics& metrics) {
+  const FlowLinks links = measure_flow_links(mesh);
+  metrics.values["n_links"] = links.links;
+  metrics.values["link_cos_max"] = links.cos_max;
+  metrics.values["link_cos_mean"] = links.cos_mean;
+  metrics.values["n_oblique_links"] = links.oblique;
+  metrics.values["n_small_links"] = links.small;
+  metrics.values["link_ratio_min"] = links.least_ratio;
+  return links;
+}
+
+void print_links(const FlowLinks& links, const Mesh& mesh) {
+  fmt::print("  links of flow: {}\n", links.links);
+  if (links.links == 0) return;
+  fmt::print("    |cos| of link and edge: mean {:.4g}, largest {:.4g}{}; above 0.5: {}\n", links.cos_mean,
+             links.cos_max, links.cos_max > 0 ? " (" + show_place(mesh, links.worst) + ")" : "",
+             links.oblique);
+  fmt::print("    length over the mean size of both elements: least {:.4g} ({}); small, below 0.1: {}\n",
+             links.least_ratio, show_place(mesh, links.shortest), links.small);
+}
+
 void print_solver(const MeshMetrics& metrics, const std::string& solver) {
   for (const Metric& metric : metrics_of_solver(solver)) print_metric(metric, metrics);
   if (const auto at = metrics.failures.find(solver); at != metrics.failures.end())
@@ -76,9 +102,13 @@ int metrics_command(const MetricsArguments& arguments) {
   std::shared_ptr<const SizeField> size;
   if (arguments.size) size = size_of_mesh(mesh, *arguments.size);
   MeshMetrics metrics = evaluate_metrics(mesh, size.get());
-  if (!arguments.solvers.empty()) require_straight(mesh, arguments.mesh.string());
+  if (!arguments.solvers.empty() || arguments.links) require_straight(mesh, arguments.mesh.string());
+  if (arguments.links && holds_surface(mesh))
+    throw InputError(arguments.mesh.string() + ": --links is for planar meshes: this is a surface in space");
   if (mesh.order > 1) add_curved(mesh, metrics);
   for (const std::string& solver : arguments.solvers) add_solver(mesh, solver, metrics);
+  FlowLinks links;
+  if (arguments.links) links = add_links(mesh, metrics);
   std::optional<CriteriaReport> report;
   if (!arguments.criteria.empty()) {
     report = judge(mesh, criteria, size.get());
@@ -91,6 +121,7 @@ int metrics_command(const MetricsArguments& arguments) {
   print_metrics(metrics);
   if (mesh.order > 1) print_curved(metrics);
   for (const std::string& solver : arguments.solvers) print_solver(metrics, solver);
+  if (arguments.links) print_links(links, mesh);
   if (report) print_criteria(*report, mesh);
   if (!report || !criteria.strict || report->beyond().empty()) return kDone;
   fmt::print(stderr, "error: {}: {}\n", arguments.mesh.string(), fmt::join(report->beyond(), "; "));
@@ -108,6 +139,7 @@ void add_metrics(CLI::App& app, Commands& commands) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(solver_names()));
+  metrics->add_flag("--links", arguments.links, "links of flow, too, as Delft3D FM measures them");
   add_criteria(*metrics, arguments.criteria, arguments.strict);
   metrics->add_option("--json", arguments.json, "record to write");
 }

@@ -302,13 +302,13 @@ TEST(Output, FullDiskLeavesNothing) {
   for (const MeshFormat& format : mesh_formats()) {
     if (!can_write(format) || !format.package.empty()) continue;
     const std::string name = "out" + format.extensions[0], link = "link" + format.extensions[0];
-    expect_refusal(
-        run_program(DELQUAD_PROGRAM, {{"mesh", model, "-o", folder / name, "--size", "0.04"}, 4096, {}}),
-        {folder.path().c_str(), "File too large"});
+    expect_refusal(run_program(DELQUAD_PROGRAM,
+                               {{"mesh", "-q", model, "-o", folder / name, "--size", "0.04"}, 4096, {}}),
+                   {folder.path().c_str(), "File too large"});
     EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
     std::filesystem::create_symlink("/dev/full", folder / link);
     if (format.extensions[0] == ".xdmf") std::filesystem::create_symlink("/dev/full", folder / "link.h5");
-    expect_refusal(delquad({"mesh", model, "-o", folder / link, "--size", "0.04"}),
+    expect_refusal(delquad({"mesh", "-q", model, "-o", folder / link, "--size", "0.04"}),
                    {"link.", "No space left"});
     std::filesystem::remove(folder / link);
     std::filesystem::remove(folder / "link.h5");
