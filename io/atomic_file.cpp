@@ -118,11 +118,7 @@ void write_text_file(const fs::path& path, std::string_view text) {
 }
 
 void write_text_file(const fs::path& path, const std::function<void(TextWriter&)>& write) {
-  write_file_atomically(path, [&](std::ostream& stream) {
-    TextWriter out(stream);
-    write(out);
-    out.flush();
-  });
+  write_file_atomically(path, as_text(write));
 }
 
 void write_files_atomically(const std::vector<FileToWrite>& files) {

@@ -2,9 +2,11 @@
 
 #include <charconv>
 #include <concepts>
+#include <functional>
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace delquad {
 
@@ -43,5 +45,14 @@ class TextWriter {
   std::ostream& out_;
   std::string buffer_;
 };
+
+/// What writes a text, for FileToWrite.
+inline std::function<void(std::ostream&)> as_text(std::function<void(TextWriter&)> write) {
+  return [write = std::move(write)](std::ostream& stream) {
+    TextWriter out(stream);
+    write(out);
+    out.flush();
+  };
+}
 
 }  // namespace delquad

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <ostream>
 #include <set>
 

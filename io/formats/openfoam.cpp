@@ -1,8 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
+#include <functional>
+#include <utility>
 
 #include "io/boundary_chains.h"
 #include "io/entity_names.h"
@@ -83,13 +83,11 @@ void write_foam(const std::filesystem::path& path, const Mesh& mesh) {
   std::vector<FileToWrite> files;
   const auto add = [&](const std::string& name, const std::string& kind,
                        const std::function<void(TextWriter&)>& write) {
-    files.push_back({home / name, [=](std::ostream& stream) {
-                       TextWriter out(stream);
+    files.push_back({home / name, as_text([=](TextWriter& out) {
                        out << "FoamFile\n{\n    version 2.0;\n    format ascii;\n    class " << kind
                            << ";\n    location \"constant/polyMesh\";\n    object " << name << ";\n}\n";
                        write(out);
-                       out.flush();
-                     }});
+                     })});
   };
   add("points", "vectorField", [&](TextWriter& out) {
     std::vector<Vec3> points = mesh.points;

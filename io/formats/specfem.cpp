@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 
 #include "geometry/mesh/element_nodes.h"
 #include "io/boundary_chains.h"
@@ -39,18 +40,16 @@ void write_specfem(const std::filesystem::path& path, const Mesh& mesh) {
   const auto add = [&](const char* key, const std::function<void(TextWriter&)>& write) {
     const std::string name = fmt::format("{}_{}", stem, key);
     parameters += fmt::format("{} = ./DATA/{}\n", key, name);
-    files.push_back({path.parent_path() / name, [write](std::ostream& stream) {
-                       TextWriter out(stream);
-                       write(out);
-                       out.flush();
-                     }});
+    files.push_back({path.parent_path() / name, as_text(write)});
   };
   add("mesh_file", [&](TextWriter& out) {
     out << mesh.quads.size() << '\n';
     const std::vector<int> places = gmsh_places(mesh.order);
-    for (std::size_t q = 0; q < mesh.quads.size(); ++q)
-      for (std::size_t k = 0; k < places.size(); ++k)
-        out << nodes_of_quad(mesh, q, places)[k] + 1 << (k + 1 == places.size() ? '\n' : ' ');
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+      const std::vector<int> nodes = nodes_of_quad(mesh, q, places);
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        out << nodes[k] + 1 << (k + 1 == nodes.size() ? '\n' : ' ');
+    }
   });
   add("nodes_coords_file", [&](TextWriter& out) {
     out << mesh.points.size() << '\n';

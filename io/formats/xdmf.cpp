@@ -139,11 +139,9 @@ void write_xdmf(const std::filesystem::path& path, const Mesh& mesh) {
     }
     file.close();
   };
-  const auto write_text = [&](std::ostream& stream) {
-    TextWriter out(stream);
+  const auto write_text = as_text([&](TextWriter& out) {
     write_xdmf_text(out, mesh, groups, grids, numbers.filename().string(), planar);
-    out.flush();
-  };
+  });
   write_files_atomically({{numbers, by_library(numbers, write_numbers)}, {path, write_text}});
 }
 
