@@ -54,6 +54,7 @@ TEST(CurvedCommand, WhatNeedsStraightQuadsRefusesOthers) {
            {"mesh", flat, "--size", "0.1", "-o", out},
            {"mesh", folder / "space.msh", "--size", "0.1", "-o", out},
            {"extrude", flat, "--along", "0,0,1", "--layers", "2", "-o", out},
+           {"metrics", flat, "--links"},
            {"metrics", flat, "--solve", "poisson"}}) {
     const ProgramResult result = delquad(arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments[0];

@@ -342,5 +342,21 @@ TEST(MetricsCommand, MeasuresWhatWasWritten) {
   }
 }
 
+TEST(MetricsCommand, LinksOfFlowAreForThePlane) {
+  const TemporaryFolder folder;
+  const auto square = write_text(folder / "square.obj",
+                                 "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n"
+                                 "f 1 2 3 4\nf 2 5 6 3\n");
+  ProgramResult result = delquad({"metrics", square, "--links", "--json", folder / "m.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "links of flow: 1\n")) << result.out;
+  EXPECT_TRUE(contains(result.out, "least 1 (at (1, 0.5, 0))")) << result.out;
+  EXPECT_TRUE(contains(read_text(folder / "m.json"), "\"link_cos_max\": 0")) << result.out;
+  const auto bent = write_text(folder / "bent.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 1\nf 1 2 3 4\n");
+  result = delquad({"metrics", bent, "--links"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "bent.obj: --links is for planar meshes")) << result.err;
+}
+
 }  // namespace
 }  // namespace delquad::testing_support
