@@ -8,6 +8,7 @@
 #include "base/located.h"
 #include "base/stopwatch.h"
 #include "experiments/sweep/schema.h"
+#include "features/seed/perturb.h"
 #include "io/cases/case_file.h"
 #include "io/cases/case_keys.h"
 #include "io/cases/expression.h"
@@ -25,6 +26,36 @@ const std::vector<std::string> kKinds = {kGiven, kUniform, kSquares, kStretched}
 constexpr int kMostMeshes = 100;
 
 bool is_loop(const AdaptLoop& loop) { return loop.kind == kSquares || loop.kind == kStretched; }
+
+Solution solution_of(const Case& c) {
+  const Expression u(c.solution, {"x", "y"});
+  return [u](const Vec3& at) -> ScalarSolution {
+    const auto value = [&](double x, double y) {
+      const double values[] = {x, y};
+      return u(values);
+    };
+    // Of central differences: the cube root of the rounding balances it and the third derivative.
+    const double step = std::cbrt(std::numeric_limits<double>::epsilon()) / 8;
+    return {value(at.x, at.y),
+            {(value(at.x + step, at.y) - value(at.x - step, at.y)) / (2 * step),
+             (value(at.x, at.y + step) - value(at.x, at.y - step)) / (2 * step), 0}};
+  };
+}
+
+/// By which the mesh lies off the case's coordinates: those of metrics are turned back.
+Rotation turn_of(const Case& c, const MeshResult& result) {
+  return c.seed == 0 || followed_metric(result.prepared) ? Rotation{} : Rotation::by_seed(c.seed);
+}
+
+Mesh turned_back(const Case& c, const MeshResult& result) {
+  const Rotation turn = turn_of(c, result);
+  Mesh mesh = result.mesh;
+  for (Vec3& p : mesh.points) {
+    const Vec2 at = turn.back({p.x, p.y});
+    p = {at.x, at.y, p.z};
+  }
+  return mesh;
+}
 
 }  // namespace
 
@@ -72,19 +103,14 @@ void check_adapt(const Case& c) {
   if (c.metric.asks()) refuse("{}: 'adapt' makes metrics of its own: expected no 'metric'", c.where);
 }
 
-Solution solution_of(const Case& c) {
+Solution solution_on(const Case& c, const MeshResult& result) {
   if (c.solution.empty()) return {};
-  const Expression u(c.solution, {"x", "y"});
-  return [u](const Vec3& at) -> ScalarSolution {
-    const auto value = [&](double x, double y) {
-      const double values[] = {x, y};
-      return u(values);
-    };
-    // Central differences: the cube root of the rounding balances it and the third derivative.
-    const double step = std::cbrt(std::numeric_limits<double>::epsilon()) / 8;
-    return {value(at.x, at.y),
-            {(value(at.x + step, at.y) - value(at.x - step, at.y)) / (2 * step),
-             (value(at.x, at.y + step) - value(at.x, at.y - step)) / (2 * step), 0}};
+  return [u = solution_of(c), turn = turn_of(c, result)](const Vec3& at) {
+    const Vec2 home = turn.back({at.x, at.y});
+    ScalarSolution found = u({home.x, home.y, at.z});
+    const Vec2 gradient = turn({found.gradient.x, found.gradient.y});
+    found.gradient = {gradient.x, gradient.y, 0};
+    return found;
   };
 }
 
@@ -102,10 +128,11 @@ MeshResult mesh_in_loop(const Case& c, const std::function<MeshResult(const Case
   const auto exact = solution_of(c);
   for (int k = 1; k < c.adapt->meshes; ++k) {
     const Stopwatch watch;
-    const std::vector<double> u = poisson_solution(result.mesh, exact, kGaussPointsInLayers);
-    const std::vector<Recovery> recovered = {recover(result.mesh, u)};
+    const Mesh mesh = turned_back(c, result);
+    const std::vector<double> u = poisson_solution(mesh, exact, kGaussPointsInLayers);
+    const std::vector<Recovery> recovered = {recover(mesh, u)};
     next.metric = {.limits = spec.limits, .gradation = spec.gradation, .complexity = spec.quads};
-    next.metric.function = make_nodal_metric(result.mesh, adapted_metric(result.mesh, recovered, spec));
+    next.metric.function = make_nodal_metric(mesh, adapted_metric(mesh, recovered, spec));
     const TimeSpent between = watch.time();
     MeshResult made = make(next);
     made.log.add_time("loop", between);

@@ -296,7 +296,6 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   experiment.defaults_.data_folder = data;
   read_case_keys(table, experiment.defaults_);
   read_adapt_keys(table, experiment.defaults_);
-  if (table.has("domain")) refuse("{}: 'domain' is a key of cases", table.where("domain"));
   table.finish(experiment_keys());
   if (experiment.cases_.empty() && !experiment.linf)
     refuse("{}: no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'", file.string());

@@ -138,8 +138,7 @@ namespace {
 
 /// What cases have that models lack, beside their name.
 TomlKeys study_keys() {
-  return {{"domain", "that results count as, with others of the name; else the geometry", kText},
-          {"solution", "a formula in x and y, for Poisson's equation", kText},
+  return {{"solution", "a formula in x and y, for Poisson's equation", kText},
           {"adapt", "meshes that follow the solution", "", adapt_keys}};
 }
 
@@ -148,6 +147,7 @@ TomlKeys study_keys() {
 TomlKeys experiment_case_keys() {
   TomlKeys keys = case_keys();
   keys.insert(keys.begin(), {"name", "of its folder", kFolderName, nullptr, false, true});
+  keys.push_back({"domain", "that results count as, with others of the name; else the geometry", kText});
   std::ranges::move(study_keys(), std::back_inserter(keys));
   return keys;
 }

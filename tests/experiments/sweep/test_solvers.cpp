@@ -119,6 +119,14 @@ TEST_F(Solvers, MeshesFollowASolution) {
   const Rerun again = rerun_record(folder_ / "out" / "layer@kind=stretched,meshes=3" / "DB" / "record.json");
   EXPECT_TRUE(again.same_mesh);
   EXPECT_TRUE(again.values.empty());
+  fs::remove_all(folder_ / "out");
+  // A seed turns the domain, and the solution with it.
+  run("pipelines = [\"DB\"]\nsolver = [\"poisson\"]\n[matrix]\nadapt.kind = [\"uniform\", "
+      "\"stretched\"]\nseed = [3]\n",
+      kLayer);
+  EXPECT_NEAR(record("layer@kind=uniform,seed=3/DB")["metrics"]["poisson_h1"], h1["uniform"],
+              0.2 * h1["uniform"]);
+  EXPECT_LT(record("layer@kind=stretched,seed=3/DB")["metrics"]["poisson_h1"], 1.1 * h1["stretched"]);
 }
 
 TEST_F(Solvers, LoopsSayWhatTheyMiss) {
