@@ -8,7 +8,6 @@
 #include "base/located.h"
 #include "base/stopwatch.h"
 #include "experiments/sweep/schema.h"
-#include "features/seed/perturb.h"
 #include "io/cases/case_file.h"
 #include "io/cases/case_keys.h"
 #include "io/cases/expression.h"
@@ -27,34 +26,14 @@ constexpr int kMostMeshes = 100;
 
 bool is_loop(const AdaptLoop& loop) { return loop.kind == kSquares || loop.kind == kStretched; }
 
-Solution solution_of(const Case& c) {
-  const Expression u(c.solution, {"x", "y"});
-  return [u](const Vec3& at) -> ScalarSolution {
-    const auto value = [&](double x, double y) {
-      const double values[] = {x, y};
-      return u(values);
-    };
-    // Of central differences: the cube root of the rounding balances it and the third derivative.
-    const double step = std::cbrt(std::numeric_limits<double>::epsilon()) / 8;
-    return {value(at.x, at.y),
-            {(value(at.x + step, at.y) - value(at.x - step, at.y)) / (2 * step),
-             (value(at.x, at.y + step) - value(at.x, at.y - step)) / (2 * step), 0}};
-  };
-}
-
-/// By which the mesh lies off the case's coordinates: those of metrics are turned back.
-Rotation turn_of(const Case& c, const MeshResult& result) {
-  return c.seed == 0 || followed_metric(result.prepared) ? Rotation{} : Rotation::by_seed(c.seed);
-}
-
-Mesh turned_back(const Case& c, const MeshResult& result) {
-  const Rotation turn = turn_of(c, result);
-  Mesh mesh = result.mesh;
-  for (Vec3& p : mesh.points) {
-    const Vec2 at = turn.back({p.x, p.y});
-    p = {at.x, at.y, p.z};
-  }
-  return mesh;
+/// A seed would turn the domain away from its solution: it asks for a few more quads instead.
+Case without_seed(const Case& c) {
+  constexpr double kMost = 0.03, kGolden = 0.618;
+  Case same = c;
+  same.seed = 0;
+  const double part = std::fmod(kGolden * static_cast<double>(c.seed), 1);
+  if (same.quads) same.quads = std::llround(static_cast<double>(*c.quads) * (1 + kMost * part));
+  return same;
 }
 
 }  // namespace
@@ -96,6 +75,9 @@ void read_adapt_keys(const TomlTable& table, Case& target) {
 }
 
 void check_adapt(const Case& c) {
+  if (!c.adapt && !c.solution.empty() && c.seed != 0)
+    refuse("{}: a seed turns the domain, and not the 'solution': expected 'adapt', such as kind = \"given\"",
+           c.where);
   if (!c.adapt) return;
   if (c.solution.empty()) refuse("{}: 'adapt' needs a 'solution', a formula in x and y", c.where);
   if (!c.quads) refuse("{}: 'adapt' needs 'quads', how many", c.where);
@@ -103,36 +85,41 @@ void check_adapt(const Case& c) {
   if (c.metric.asks()) refuse("{}: 'adapt' makes metrics of its own: expected no 'metric'", c.where);
 }
 
-Solution solution_on(const Case& c, const MeshResult& result) {
+Solution solution_of(const Case& c) {
   if (c.solution.empty()) return {};
-  return [u = solution_of(c), turn = turn_of(c, result)](const Vec3& at) {
-    const Vec2 home = turn.back({at.x, at.y});
-    ScalarSolution found = u({home.x, home.y, at.z});
-    const Vec2 gradient = turn({found.gradient.x, found.gradient.y});
-    found.gradient = {gradient.x, gradient.y, 0};
-    return found;
+  const Expression u(c.solution, {"x", "y"});
+  return [u](const Vec3& at) -> ScalarSolution {
+    const auto value = [&](double x, double y) {
+      const double values[] = {x, y};
+      return u(values);
+    };
+    // Central differences: the cube root of the rounding balances it and the third derivative.
+    const double step = std::cbrt(std::numeric_limits<double>::epsilon()) / 8;
+    return {value(at.x, at.y),
+            {(value(at.x + step, at.y) - value(at.x - step, at.y)) / (2 * step),
+             (value(at.x, at.y + step) - value(at.x, at.y - step)) / (2 * step), 0}};
   };
 }
 
 MeshResult mesh_in_loop(const Case& c, const std::function<MeshResult(const Case&)>& make) {
-  if (!c.adapt || c.adapt->kind == kGiven) return make(c);
-  Case next = c;
+  if (!c.adapt) return make(c);
+  Case next = without_seed(c);
+  if (c.adapt->kind == kGiven) return make(next);
   next.size = {.text = "1"};  // of which 'quads' makes what it asks for
   MeshResult result = make(next);
   if (!is_loop(*c.adapt)) return result;
   next.size = {};
-  next.quads.reset();
   AdaptSpec spec = c.adapt->spec;
-  spec.quads = static_cast<double>(*c.quads);
+  spec.quads = static_cast<double>(*next.quads);
+  next.quads.reset();
   spec.isotropic = c.adapt->kind == kSquares;
   const auto exact = solution_of(c);
   for (int k = 1; k < c.adapt->meshes; ++k) {
     const Stopwatch watch;
-    const Mesh mesh = turned_back(c, result);
-    const std::vector<double> u = poisson_solution(mesh, exact, kGaussPointsInLayers);
-    const std::vector<Recovery> recovered = {recover(mesh, u)};
+    const std::vector<double> u = poisson_solution(result.mesh, exact, kGaussPointsInLayers);
+    const std::vector<Recovery> recovered = {recover(result.mesh, u)};
     next.metric = {.limits = spec.limits, .gradation = spec.gradation, .complexity = spec.quads};
-    next.metric.function = make_nodal_metric(mesh, adapted_metric(mesh, recovered, spec));
+    next.metric.function = make_nodal_metric(result.mesh, adapted_metric(result.mesh, recovered, spec));
     const TimeSpent between = watch.time();
     MeshResult made = make(next);
     made.log.add_time("loop", between);

@@ -16,12 +16,12 @@ void read_adapt_keys(const TomlTable& table, Case& target);
 void check_adapt(const Case& c);
 TomlKeys adapt_keys();
 
-/// Its solution on a mesh of it, which its seed may have turned; empty where it has none. `c` need not
-/// outlive it.
-Solution solution_on(const Case& c, const MeshResult& result);
+/// Its solution with the gradient; empty where it has none. `c` need not outlive it.
+Solution solution_of(const Case& c);
 
 /// What `make` makes of the case; where this asks for a loop, the last of the meshes of it: Poisson's
-/// equation is solved on each, and its solution asks for the next one. Times are those of all.
+/// equation is solved on each, and its solution asks for the next one. Times are those of all. A seed does
+/// not turn the domain, but asks for up to 3 % more quads.
 MeshResult mesh_in_loop(const Case& c, const std::function<MeshResult(const Case&)>& make);
 
 }  // namespace delquad

@@ -136,7 +136,7 @@ std::vector<std::string> measure_by_solvers(const CellIdentity& cell, const Case
   const Stopwatch watch;
   std::vector<std::string> failures;
   for (const std::string& solver : cell.solvers) {
-    SolverOutcome outcome = measure_by_solver(result.mesh, solver, solution_on(c, result));
+    SolverOutcome outcome = measure_by_solver(result.mesh, solver, solution_of(c));
     result.metrics.values.merge(outcome.values);
     if (outcome.undefined.empty()) continue;
     failures.push_back(fmt::format("no '{}': {}", solver, outcome.undefined));

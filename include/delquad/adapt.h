@@ -79,8 +79,8 @@ std::vector<Tensor2> adapted_metric(const Mesh& mesh, const std::vector<Recovery
 /// Meshes `problem`, or, where it is null, what the mesh bounds, with its curves, regions and names, for the
 /// fields at its points. Curves of a mesh are chains of sides on its outline, between regions and of lines,
 /// from corner to corner (see docs/adaptation.md): straight, or smooth through their nodes. Fields that are
-/// constant do not count, one must not be. The problem's own size and metric do not count. Throws also what
-/// mesh() throws.
+/// constant do not count, one must not be. The problem's own size, metric and seed do not count. Throws also
+/// what mesh() throws.
 Adapted adapt(const Mesh& mesh, const std::vector<NodalField>& fields, const AdaptSpec& spec,
               const MeshProblem* problem = nullptr, const Context& context = {});
 

@@ -120,7 +120,7 @@ TEST_F(Solvers, MeshesFollowASolution) {
   EXPECT_TRUE(again.same_mesh);
   EXPECT_TRUE(again.values.empty());
   fs::remove_all(folder_ / "out");
-  // A seed turns the domain, and the solution with it.
+  // The domain stays where its solution is.
   run("pipelines = [\"DB\"]\nsolver = [\"poisson\"]\n[matrix]\nadapt.kind = [\"uniform\", "
       "\"stretched\"]\nseed = [3]\n",
       kLayer);
@@ -139,6 +139,7 @@ TEST_F(Solvers, LoopsSayWhatTheyMiss) {
   fails(square + "size = 0.1\nsolution = \"x*y\"\n" + ask, "'quads'");
   fails("example = \"sphere\"\nquads = 10\nsolution = \"x\"\n" + ask, "planar");
   fails(square + "quads = 10\nsolution = \"x*z\"\n", "e.toml:");
+  fails(square + "size = 0.1\nseed = 1\nsolution = \"x\"\n", "a seed turns the domain");
   fails(square + "quads = 10\nsolution = \"x\"\nadapt = { kind = \"square\" }\n", "did you mean 'squares'");
   expect_input_error([&] { read("[slopes]\nof = [\"eta_mean\"]\nalong = \"quads\"\n"); },
                      {"'quads' does not vary"});
