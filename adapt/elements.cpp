@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/gauss_rule.h"
 #include "base/located.h"
@@ -178,6 +179,17 @@ void require_elements(const Mesh& mesh, const std::string& what) {
 void require_planar(const Mesh& mesh, const std::string& what) {
   require_elements(mesh, what);
   if (holds_surface(mesh)) refuse("{} is no planar one: expected one z for all points", what);
+}
+
+void require_joined(const Mesh& mesh, const std::string& what) {
+  std::vector<char> is_used(mesh.points.size(), 0);
+  bool is_joined = mesh.triangles.size() + mesh.quads.size() < 2;
+  for_each_element(mesh, [&](int, const auto& v) {
+    for (const int i : v) is_joined = std::exchange(is_used[i], 1) != 0 || is_joined;
+  });
+  if (!is_joined)
+    refuse("{}: no two elements share a point, as where a field is discontinuous: expected elements that do",
+           what);
 }
 
 void require_values(const Mesh& mesh, std::span<const double> values, const std::string& name) {

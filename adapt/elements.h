@@ -72,6 +72,8 @@ class ElementFinder {
 
 /// Throw InputError for what is no mesh of elements, and no planar one; `what` names it.
 void require_elements(const Mesh& mesh, const std::string& what);
+/// Throws InputError where no two elements share a point, as in files of discontinuous fields.
+void require_joined(const Mesh& mesh, const std::string& what);
 void require_planar(const Mesh& mesh, const std::string& what);
 /// Throws InputError unless there is a finite value for each point that elements have.
 void require_values(const Mesh& mesh, std::span<const double> values, const std::string& name);

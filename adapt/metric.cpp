@@ -18,6 +18,8 @@ constexpr int kMostRounds = 60;
 /// How near complexities and errors come to what is asked.
 constexpr double kNear = 1e-3;
 constexpr double kMostQuads = 1e9;
+/// Of a metric whose lengths may not become as small as they would have to be.
+constexpr double kMostScale = 1e60;
 
 /// The part of the area that belongs to each point.
 std::vector<double> areas_at_points(const Mesh& mesh) {
@@ -46,7 +48,7 @@ std::vector<Tensor2> at_complexity(const std::vector<Tensor2>& metric, const std
     for (std::size_t i = 0; i < metric.size(); ++i) made[i] = limited(times(scale, metric[i]), limits);
     const double factor = complexity / complexity_of(made, area);
     if (std::abs(factor - 1) < kNear) break;
-    scale *= factor;
+    scale = std::min(kMostScale, scale * factor);
   }
   return made;
 }

@@ -149,6 +149,7 @@ class Fit {
 
 Recovery recover(const Mesh& mesh, std::span<const double> values) {
   require_planar(mesh, "the mesh of the field");
+  require_joined(mesh, "the mesh of the field");
   require_values(mesh, values, "that is to be recovered");
   Recovery made = parted(mesh, values);
   const std::size_t n = made.mesh.points.size();

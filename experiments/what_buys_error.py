@@ -15,10 +15,10 @@ SQUARES = "kind = 'squares'"
 
 with open(sys.argv[1] + "/slopes.json") as file:
     rows = [row for row in json.load(file)["rows"] if row["values"].get("at.poisson_h1")]
-cases = list(dict.fromkeys(row["group"] for row in rows))
+cases = list(dict.fromkeys(row["case"] for row in rows))
 found = collections.defaultdict(dict)
 for row in rows:
-    found[row["name"]][row["group"]] = row["values"]
+    found[row["pipeline"]][row["case"]] = row["values"]
 base = next((values for name, values in found.items() if SQUARES in name), None)
 if base is None:
     sys.exit(f"{sys.argv[1]}: no rows of squares: expected the results of experiments/what_buys_error.toml")

@@ -171,6 +171,7 @@ std::size_t choose_field(const std::vector<MeshField>& fields, const std::string
   if (of_elements != nullptr)
     refuse("{}: the field {} is of elements: expected one of points", file,
            TextScanner::printable(of_elements->name));
+  if (names.empty()) refuse("{}: has no field of points", file);
   refuse("{}: has no field {}: expected {}", file, TextScanner::printable(name), fmt::join(names, ", "));
 }
 

@@ -120,10 +120,21 @@ void print_errors(double norm, const Mesh& mesh, const std::vector<NodalField>& 
   for (std::size_t f = 0; f < fields.size(); ++f) {
     const auto& [now, gradient, after] = made.errors[f];
     fmt::print(
-        "  {}: error {:.4g} ({} of interpolation), gradient {:.4g} (L2), estimated by {} elements; "
-        "expected {:.4g}\n",
+        "  {}: error of interpolation {:.4g} ({}), of its gradient {:.4g} (L2), estimated on the {} elements "
+        "of before; {:.4g} expected now\n",
         fields[f].name, now, name_of_norm(norm), gradient, mesh.triangles.size() + mesh.quads.size(), after);
   }
+}
+
+/// What was meshed, so that names that a file lost on its way are missed.
+void print_traced(const Mesh& mesh) {
+  const auto count = [](const std::vector<Entity>& entities, const std::string& kind) {
+    const auto named = std::ranges::count_if(entities, [](const Entity& e) { return !e.names.empty(); });
+    return fmt::format("{} {}{} ({} with names)", entities.size(), kind, entities.size() == 1 ? "" : "s",
+                       named);
+  };
+  fmt::print("  of what the mesh bounds: {}, {}\n", count(mesh.regions, "region"),
+             count(mesh.curves, "curve"));
 }
 
 void print_carried(const std::vector<MeshField>& carried) {
@@ -139,6 +150,8 @@ int adapt_command(const AdaptArguments& arguments) {
   check_mesh_format(arguments.output, arguments.msh);
   check_output(arguments.output);
   AdaptSpec spec = arguments;
+  if (spec.quads == 0 && spec.error == 0)
+    refuse("expected --quads or --error: how many, or how much is to be left");
   const auto norm = as_number(arguments.norm_text);
   spec.norm = arguments.norm_text == "inf" ? std::numeric_limits<double>::infinity() : norm.value_or(0);
   std::vector<SolutionFile> files;
@@ -184,6 +197,7 @@ int adapt_command(const AdaptArguments& arguments) {
   fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", arguments.output.string(),
              next.quads.size(), next.triangles.size(), next.points.size(), command.seconds());
   if (!holds) fmt::print("{}: the same mesh with the fields\n", with_fields.string());
+  if (!problem) print_traced(mesh);
   print_carried(carried);
   print_errors(spec.norm, mesh, fields, made);
   print_metrics(made.result.metrics);

@@ -60,7 +60,7 @@ void read_adapt_keys(const TomlTable& table, Case& target) {
   AdaptLoop loop = target.adapt.value_or(AdaptLoop());
   loop.kind = adapt->text("kind", loop.kind);
   if (std::ranges::find(kKinds, loop.kind) == kKinds.end())
-    refuse("{}: kind '{}'{}", adapt->where("kind"), loop.kind, suggestion(loop.kind, kKinds));
+    refuse("{}: kind '{}'{}", adapt->where("kind"), loop.kind, suggestion_or_all(loop.kind, kKinds));
   loop.meshes = read_count(*adapt, "meshes", 2, kMostMeshes, loop.meshes);
   loop.spec.norm = number_at_least(*adapt, "norm", 1, loop.spec.norm);
   const auto length = [&](const char* key, double absent) {

@@ -58,9 +58,11 @@ SlopeRequest read_slopes(const TomlTable& table, std::vector<std::string> metric
   metrics.emplace_back("seconds");
   for (const std::string& metric : request.of) check_known(table, "of", metric, metrics);
   check_known(table, "against", request.against, metrics);
-  if (std::ranges::find(axes, request.along, &Axis::title) == axes.end())
-    refuse("{}: '{}' does not vary: expected the last part of a key of [matrix]", table.where("along"),
-           request.along);
+  std::vector<std::string> titles;
+  for (const Axis& axis : axes) titles.push_back(axis.title);
+  if (std::ranges::find(titles, request.along) == titles.end())
+    refuse("{}: '{}' does not vary: expected what tables call a key of [matrix]{}", table.where("along"),
+           request.along, suggestion_or_all(request.along, titles));
   table.finish(slope_keys());
   return request;
 }

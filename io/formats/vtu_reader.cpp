@@ -29,6 +29,9 @@ namespace delquad {
 
 namespace {
 
+/// Numbers of entities of all dimensions in one array, as meshio calls them.
+constexpr const char* kTagsOfGmsh = "gmsh:physical";
+
 using Tree = boost::property_tree::ptree;
 
 /// Boost's parser calls itself for each element in another.
@@ -302,7 +305,7 @@ class VtuReader {
       fail("{} types of cells and {} offsets", types.size(), offsets.size());
     check_number(piece, "NumberOfCells", types.size());
     const std::vector<double> curve = tags(piece, "curve", types.size()),
-                              region = tags(piece, "region", types.size());
+                              region = tags(piece, "region", types.size());  // or kTagsOfGmsh
     std::vector<MeshField> fields;
     if (choice_ != nullptr) fields = read_fields_of(piece, n_points, types.size());
     double begin = 0;
@@ -339,7 +342,7 @@ class VtuReader {
       if (data == piece.not_found()) continue;
       for (const auto& [tag, array] : data->second) {
         const std::string name = attribute(array, "Name");
-        if (tag != "DataArray" || name == "curve" || name == "region") continue;
+        if (tag != "DataArray" || name == "curve" || name == "region" || name == kTagsOfGmsh) continue;
         all.push_back({name,
                        std::string_view(kind) == "PointData",
                        array.get<int>("<xmlattr>.NumberOfComponents", 1),
@@ -371,6 +374,7 @@ class VtuReader {
   std::vector<double> tags(const Tree& piece, const std::string& name, size_t n) const {
     const auto data = piece.find("CellData");
     const Tree* array = data == piece.not_found() ? nullptr : array_named(data->second, name);
+    if (!array && data != piece.not_found()) array = array_named(data->second, kTagsOfGmsh);
     if (!array) return std::vector<double>(n, 0);
     std::vector<double> all = read_array(*array);
     if (all.size() != n) fail("data array '{}': {} values for {} cells", name, all.size(), n);
