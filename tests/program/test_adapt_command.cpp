@@ -65,7 +65,7 @@ TEST(AdaptCommand, ModelsAndOtherFormats) {
   const ProgramResult result = delquad({"adapt", u, "--error", "0.03", "--norm", "inf", "--model", model,
                                         "-o", folder / "b.inp", "--transfer", "bounded", "--isotropic"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_TRUE(contains(result.out, "maximum of interpolation")) << result.out;
+  EXPECT_TRUE(contains(result.out, "(maximum), of its gradient")) << result.out;
   const MeshWithFields beside = read_fields(folder / "b.vtu");
   EXPECT_EQ(beside.mesh.quads.size(), read_mesh(folder / "b.inp").quads.size());
   EXPECT_EQ(beside.mesh.curves[0].names[0], "bottom");
