@@ -17,11 +17,12 @@ struct Piece {
 };
 
 std::vector<Piece> pieces_of(const PlanarModel& model) {
-  constexpr int kPieces = 2000;  // of a circle: lengths to 1e-6
+  constexpr int kAll = 20'000, kFewest = 16, kMost = 2000;  // of a circle: lengths to 1e-6
+  const int of_curve = std::clamp(kAll / std::max(1, static_cast<int>(model.curves.size())), kFewest, kMost);
   std::vector<Piece> pieces;
   for (const ModelCurve& curve : model.curves) {
     std::vector<double> at = curve.shape->fixed_parameters();
-    for (int k = 0; k <= kPieces; ++k) at.push_back(static_cast<double>(k) / kPieces);
+    for (int k = 0; k <= of_curve; ++k) at.push_back(static_cast<double>(k) / of_curve);
     std::ranges::sort(at);
     Vec2 before = curve.shape->point(at[0]);
     for (const double t : at) {
@@ -42,6 +43,7 @@ std::vector<double> geometry_moments(const PlanarModel& model) {
   Complex centre = 0;
   double length = 0, square = 0;
   for (const Piece& p : pieces) length += p.length, centre += p.length * p.at;
+  if (!(length > 0)) return {};
   centre /= length;
   for (const Piece& p : pieces) square += p.length * std::norm(p.at - centre);
   const double radius = std::sqrt(square / length);
@@ -50,7 +52,10 @@ std::vector<double> geometry_moments(const PlanarModel& model) {
     Complex sum = 0;
     for (const Piece& p : pieces) {
       const Complex z = (p.at - centre) / radius;
-      sum += p.length / length * std::pow(z, a) * std::pow(std::conj(z), b);
+      Complex product = p.length / length;
+      for (int k = 0; k < a; ++k) product *= z;
+      for (int k = 0; k < b; ++k) product *= std::conj(z);
+      sum += product;
     }
     moments.push_back(std::abs(sum));
   }
