@@ -9,7 +9,7 @@ CMAKE_FLAGS ?=
 # How long `make fuzz` tries its targets, all of them together.
 SECONDS ?= 120
 
-.PHONY: packages build dev lint test python data paper peers public public_models suite bench fuzz
+.PHONY: packages build dev lint test sanitize python data paper peers public public_models suite bench fuzz
 
 packages:
 	@cmake/install-packages.sh
@@ -73,6 +73,14 @@ suite: build
 	build/$(PRESET)/delquad suite table $(RESULTS)/suite
 	build/$(PRESET)/delquad report $(RESULTS)/suite -o $(RESULTS)/suite/report.html
 	@echo "$(RESULTS)/suite/ranking has the table; $(RESULTS)/suite/report.html shows the meshes."
+
+# The rooms below the mesher, under the address and undefined-behaviour sanitizers; `make test PRESET=asan` takes all up to it.
+SANITIZED = base matching mesh geometry_surface io boundaries insertion treatment recombination cleanup regularity cvt optimisation metrics
+space = $(subst ,, )
+sanitize: packages
+	cmake --preset asan $(CMAKE_FLAGS)
+	cmake --build --preset asan --target $(SANITIZED:%=test_%)
+	ctest --preset asan -j $$(nproc) -R '^($(subst $(space),|,$(strip $(SANITIZED))))\.'
 
 # The Python module, in build/$(PRESET)/python, and its tests.
 python: packages

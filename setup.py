@@ -17,7 +17,7 @@ class Build(build_ext):
         source = pathlib.Path(__file__).resolve().parent
         build = pathlib.Path(self.build_temp).resolve()
         target = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve().parent.parent
-        options = ["-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=OFF", "-DDELQUAD_BENCHMARKS=OFF",
+        options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON", "-DBUILD_TESTING=OFF", "-DDELQUAD_BENCHMARKS=OFF",
                    "-DDELQUAD_PYTHON=ON", "-DDELQUAD_PYTHON_DESTINATION=.", f"-DPython3_EXECUTABLE={sys.executable}"]
         options += shlex.split(os.environ.get("CMAKE_ARGS", ""))
         for command in (

@@ -15,7 +15,7 @@ namespace {
 using testing_support::box;
 
 /// A square with a hole, of which the curves have names.
-MeshProblem plate() {
+MeshProblem plate_of_quads() {
   MeshProblem problem;
   problem.name = problem.where = "plate";
   PlanarModel model = polygons({{{0, 0}, {4, 0}, {4, 3}, {0, 3}}});
@@ -28,7 +28,7 @@ MeshProblem plate() {
   return problem;
 }
 
-void expect_same(const Mesh& a, const Mesh& b) {
+void expect_equal(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.points, b.points);
   EXPECT_EQ(a.quads, b.quads);
 }
@@ -40,7 +40,7 @@ double size_at(const Prepared& prepared, const Vec3& x) {
 
 /// What is divided by two has the same bytes as what is asked for at half of everything.
 TEST(Refine, DividesEverySize) {
-  MeshProblem asked = plate(), half = plate();
+  MeshProblem asked = plate_of_quads(), half = plate_of_quads();
   asked.size = {.text = "0.3 + 0.05*x",
                 .sources = {{{0, 0, 0}, {0, 0, 0}, 0.1, 0.4, 0.2, 2}},
                 .named = {{.name = "hole", .size = 0.1, .reach = 0.2, .growth = 0.4, .where = "hole"}},
@@ -52,7 +52,7 @@ TEST(Refine, DividesEverySize) {
                .gradation = 0.1,
                .max = 0.175};
   asked.refine = 2;
-  expect_same(mesh(asked, "DB").mesh, mesh(half, "DB").mesh);
+  expect_equal(mesh(asked, "DB").mesh, mesh(half, "DB").mesh);
   asked.size = {.function = [](std::span<const Vec3> points, std::span<double> delta) {
     for (std::size_t i = 0; i < points.size(); ++i) delta[i] = 0.2 + 0.1 * points[i].y;
   }};
@@ -63,7 +63,7 @@ TEST(Refine, DividesEverySize) {
   for (const Vec3& x : {Vec3{0.1, 0.1, 0}, Vec3{3.2, 1.1, 0}, Vec3{2, 2.7, 0}})
     EXPECT_NEAR(size_at(coarse, x) / size_at(fine, x), 3, 0.03);
   EXPECT_EQ(fine.problem().refine, 1) << "its sizes are those that it has";
-  expect_same(mesh(prepare(fine.problem()), "DB").mesh, mesh(fine, "DB").mesh);
+  expect_equal(mesh(prepare(fine.problem()), "DB").mesh, mesh(fine, "DB").mesh);
 }
 
 TEST(Refine, DividesSizesByCurvature) {
@@ -73,14 +73,14 @@ TEST(Refine, DividesSizesByCurvature) {
   MeshProblem half = problem;
   half.size = {.text = "2", .gradation = kCurvatureGradation / 2, .curvature = 24};
   problem.refine = 2;
-  expect_same(mesh(problem, "DB").mesh, mesh(half, "DB").mesh);
+  expect_equal(mesh(problem, "DB").mesh, mesh(half, "DB").mesh);
   problem.refine = 0.01;
   EXPECT_EQ(prepare(problem).problem().size.curvature, kLeastPerTurn);
 }
 
 TEST(Refine, MakesKSquaredAsManyQuads) {
   for (const double k : {0.5, 1.5, 3.0}) {
-    MeshProblem problem = plate(), surface;
+    MeshProblem problem = plate_of_quads(), surface;
     surface.model = TriangleModel{box(1)};
     problem.size.text = surface.size.text = "0.05";
     for (MeshProblem p : {problem, surface}) {
@@ -93,7 +93,7 @@ TEST(Refine, MakesKSquaredAsManyQuads) {
 
 /// Edges and rows of a refined mesh lie in those of the one before.
 TEST(Refine, DividesEdgesAndLayers) {
-  MeshProblem problem = plate();
+  MeshProblem problem = plate_of_quads();
   problem.size.text = "0.3";
   problem.divisions = {{.name = "hole", .edges = 12, .progression = 1.1, .where = "hole"}};
   const Prepared coarse = prepare(problem);
@@ -123,7 +123,7 @@ TEST(Refine, DividesEdgesAndLayers) {
 }
 
 TEST(Refine, RefusesWhatItCannotDo) {
-  MeshProblem problem = plate();
+  MeshProblem problem = plate_of_quads();
   problem.size.text = "0.3";
   for (const double k : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
     problem.refine = k;
@@ -152,22 +152,22 @@ void expect_quads(const MeshProblem& problem, const std::string& word) {
 }
 
 TEST(NumberOfQuads, IsMetWithoutASize) {
-  MeshProblem surface = plate();
+  MeshProblem surface = plate_of_quads();
   surface.name = "box";
   surface.model = TriangleModel{box(1)};
-  MeshProblem cad = plate();
+  MeshProblem cad = plate_of_quads();
   cad.name = "bracket";
   cad.model = ExampleModel{"bracket"};
   for (const auto& [model, numbers] :
-       {std::pair(plate(), std::array{800, 3000}), std::pair(surface, std::array{6 * 12 * 12, 6 * 22 * 22}),
-        std::pair(cad, std::array{1500, 3000})})
+       {std::pair(plate_of_quads(), std::array{800, 3000}),
+        std::pair(surface, std::array{6 * 12 * 12, 6 * 22 * 22}), std::pair(cad, std::array{1500, 3000})})
     for (const int wanted : numbers) {
       MeshProblem problem = model;
       problem.quads = wanted;
       expect_quads(problem, "DB");
     }
   for (const char* quality : {"fast", "good", "best"}) {
-    MeshProblem problem = plate();
+    MeshProblem problem = plate_of_quads();
     problem.quads = 2500;
     expect_quads(problem, quality);
   }
@@ -181,7 +181,7 @@ TEST(NumberOfQuads, IsMetWithoutASize) {
 /// Sizes of a problem say where quads are small; there are as many whatever their scale.
 TEST(NumberOfQuads, KeepsWhatSizesSay) {
   for (const char* size : {"0.01 + 0.02*x", "1 + 2*x"}) {
-    MeshProblem problem = plate();
+    MeshProblem problem = plate_of_quads();
     problem.quads = 2000;
     problem.size.text = size;
     expect_quads(problem, "DB");
@@ -191,7 +191,7 @@ TEST(NumberOfQuads, KeepsWhatSizesSay) {
 }
 
 TEST(NumberOfQuads, CountsLayersAndGrids) {
-  MeshProblem problem = plate();
+  MeshProblem problem = plate_of_quads();
   problem.quads = 3000;
   problem.layers = {{.on = {"hole"}, .first = 0.001, .growth = 1.2, .number = 12, .where = "hole"}};
   expect_quads(problem, "good");
@@ -202,7 +202,7 @@ TEST(NumberOfQuads, CountsLayersAndGrids) {
   expect_quads(problem, "good");
 }
 
-bool says(const MeshResult& result, const std::string& what) {
+bool tells(const MeshResult& result, const std::string& what) {
   return std::ranges::any_of(result.warnings,
                              [&](const Warning& w) { return w.text.find(what) != std::string::npos; });
 }
@@ -215,17 +215,17 @@ TEST(NumberOfQuads, SaysWhereItIsOutOfReach) {
   const MeshResult result = mesh(problem, "DB");
   EXPECT_GT(count_of_quads(result.mesh), 8);
   EXPECT_TRUE(result.soundness.accepted());
-  EXPECT_TRUE(says(result, "flange: 4 quads were asked for"));
+  EXPECT_TRUE(tells(result, "flange: 4 quads were asked for"));
   // A box has six times a square of an even number.
   problem.model = TriangleModel{box(1)};
   problem.quads = 800;
   const MeshResult near = mesh(problem, "DB");
   EXPECT_EQ(count_of_quads(near.mesh), 6 * 12 * 12);
-  EXPECT_TRUE(says(near, "has 864"));
+  EXPECT_TRUE(tells(near, "has 864"));
 }
 
 TEST(NumberOfQuads, RefusesNumbersThatCannotBe) {
-  MeshProblem problem = plate();
+  MeshProblem problem = plate_of_quads();
   for (const long long n : {0LL, -5LL, 60'000'000LL}) {
     problem.quads = n;
     expect_input_error([&] { prepare(problem); }, {"plate", "quads", "1 to 50000000"});

@@ -19,7 +19,7 @@ namespace {
 using namespace testing_support;
 using std::numbers::pi;
 
-TopoDS_Compound compound_of(const std::vector<TopoDS_Shape>& shapes) {
+TopoDS_Compound all_of(const std::vector<TopoDS_Shape>& shapes) {
   TopoDS_Compound compound;
   const BRep_Builder builder;
   builder.MakeCompound(compound);
@@ -33,7 +33,7 @@ class LateFaces : public ::testing::Test {
   TemporaryFolder folder_;
   std::filesystem::path file_ =
       write_brep(folder_ / "late.brep",
-                 compound_of({BRepPrimAPI_MakeBox(1, 1, 1).Shape(), BRepPrimAPI_MakeTorus(20, 5).Shape()}));
+                 all_of({BRepPrimAPI_MakeBox(1, 1, 1).Shape(), BRepPrimAPI_MakeTorus(20, 5).Shape()}));
   CadOptions options_{.deflection = 1e-6, .face_seconds = 0.2};
 };
 
@@ -62,7 +62,7 @@ TEST(LateHealing, IsLeftOut) {
   const TemporaryFolder folder;
   std::vector<TopoDS_Shape> boxes;
   for (int i = 0; i < 300; ++i) boxes.push_back(BRepPrimAPI_MakeBox(gp_Pnt(2.0 * i, 0, 0), 1, 1, 1).Shape());
-  const auto file = write_brep(folder / "boxes.brep", compound_of(boxes));
+  const auto file = write_brep(folder / "boxes.brep", all_of(boxes));
   EXPECT_TRUE(read_cad(file).warnings.empty());
   const SurfaceModel model = read_cad(file, {.healing_seconds = 1e-6});
   ASSERT_EQ(model.warnings.size(), 1u);
