@@ -11,17 +11,20 @@ namespace {
 
 struct SuiteArguments {
   std::filesystem::path folder, result;
+  std::vector<std::string> models, families;
 };
 
 int suite_models_command(const SuiteArguments& given) {
-  write_suite(given.folder);
-  fmt::print("{}: {} models\n{}\n", suite_title(), suite().models.size(), given.folder.string());
+  const std::vector<SuiteModel> models = select_models(given.models, given.families);
+  write_suite(given.folder, models);
+  fmt::print("{}: {} models\n{}\n", suite_title(), models.size(), given.folder.string());
   return kDone;
 }
 
 int suite_add_command(const SuiteArguments& given) {
   const Submission submission = read_submission(given.result);
-  const SubmissionCount count = add_submission(submission, given.folder);
+  const SubmissionCount count =
+      add_submission(submission, given.folder, select_models(given.models, given.families));
   fmt::print("{}: {} meshes measured, {} refused, {} missing: {}\n", submission.program, count.measured,
              count.refused, count.missing, (given.folder / submission.program / "table.md").string());
   return kDone;
@@ -34,6 +37,11 @@ int suite_table_command(const SuiteArguments& given) {
   return kDone;
 }
 
+void add_selection(CLI::App* command, SuiteArguments& given) {
+  command->add_option("--models", given.models, "of these names alone: gear, knot, ...");
+  command->add_option("--family", given.families, "of these alone: planar, CAD, triangles");
+}
+
 }  // namespace
 
 void add_suite(CLI::App& app, Commands& commands) {
@@ -43,10 +51,12 @@ void add_suite(CLI::App& app, Commands& commands) {
       add_command(*suite, commands, "models", "Write the suite's models and sizes, and the experiment",
                   suite_models_command);
   models->add_option("-o,--output", of_models.folder, "folder to write to")->required();
+  add_selection(models, of_models);
   const auto [add, of_add] =
       add_command(*suite, commands, "add", "Measure the meshes of another program", suite_add_command);
   add->add_option("result", of_add.result, "folder of its meshes, with result.toml")->required();
   add->add_option("-o,--output", of_add.folder, "folder of results")->required();
+  add_selection(add, of_add);
   const auto [table, of_table] =
       add_command(*suite, commands, "table", "Rank the programs of a folder of results", suite_table_command);
   table->add_option("folder", of_table.folder, "folder of results")->required();

@@ -254,19 +254,20 @@ Submission read_submission(const fs::path& folder) {
   return submission;
 }
 
-SubmissionCount add_submission(const Submission& submission, const fs::path& results) {
+SubmissionCount add_submission(const Submission& submission, const fs::path& results,
+                               const std::vector<SuiteModel>& models) {
   const auto has_mesh = [&](const SuiteModel& model) {
     for (std::size_t k = 0; k < model.sizes.size(); ++k)
       if (!find_mesh(submission.folder, case_name(model, k)).empty()) return true;
     return false;
   };
-  if (std::ranges::none_of(suite().models, has_mesh))
+  if (std::ranges::none_of(models, has_mesh))
     refuse("{}: no mesh of any case: expected {}.msh or .obj and so on", submission.folder.string(),
-           case_name(suite().models[0], 0));
+           case_name(models[0], 0));
   const fs::path folder = results / submission.program;
   if (const auto study = read_study(folder); study && study->pipelines != std::vector{submission.program})
     throw InputError(folder.string() + ": holds the results of a run: call the program otherwise");
-  Experiment experiment = write_suite_experiment(results / kModelsFolder);
+  Experiment experiment = write_suite_experiment(results / kModelsFolder, models);
   return Adding(submission, experiment, results).run();
 }
 
@@ -288,6 +289,8 @@ namespace fs = std::filesystem;
 
 /// In place of a family.
 constexpr const char* kAll = "all";
+/// The column of the programs that one is proven to be better than.
+constexpr const char* kBetterThan = "better_than";
 
 /// What a program made of the cases, by their names.
 struct Program {
@@ -336,18 +339,42 @@ bool is_sound(const CellRecord& record) {
   return record.reason.empty() && !record.skipped && record.unsound.empty();
 }
 
+/// NaN: it was not run.
+double score_of(const CellRecord* record) {
+  if (record == nullptr) return std::nan("");
+  const double quads = is_sound(*record) ? value_of(*record, "percent_quads") : 0;
+  // Without any quad there is no eta.
+  return quads > 0 ? value_of(*record, "eta_mean") * value_of(*record, "tau") * quads / 100 : 0;
+}
+
+const CellRecord* find_record(const Program& program, const std::string& name) {
+  const auto at = program.records.find(name);
+  return at == program.records.end() ? nullptr : &at->second;
+}
+
+/// By their names, those of a family (null: all) that were run: the means over their cases.
+using ModelScores = std::map<std::string, double>;
+ModelScores score_models(const Program& program, const SuiteFamily* family) {
+  ModelScores scores;
+  for (const SuiteModel& model : suite().models) {
+    std::vector<double> run;
+    for (std::size_t k = 0; k < model.sizes.size(); ++k)
+      if (const double score = score_of(find_record(program, case_name(model, k))); !std::isnan(score))
+        run.push_back(score);
+    if (!run.empty() && (family == nullptr || model.family == *family)) scores[model.name] = mean(run);
+  }
+  return scores;
+}
+
 /// What is added up over the cases of a family.
 class Sums {
  public:
   void add_case(const CellRecord* record) {
+    if (record == nullptr) return;
     ++cases_;
-    if (record == nullptr) ++not_run_;
-    if (record == nullptr || !is_sound(*record)) return;
+    if (!is_sound(*record)) return;
     ++sound_;
-    const double quads = value_of(*record, "percent_quads");
-    solved_ += quads == 100;
-    // Without any quad there is no eta.
-    if (quads > 0) score_ += value_of(*record, "eta_mean") * value_of(*record, "tau") / 100 * quads / 100;
+    solved_ += value_of(*record, "percent_quads") == 100;
     for (const char* key : {"eta_mean", "d4", "tau"})
       if (const double value = value_of(*record, key); !std::isnan(value)) values_[key].push_back(value);
     worst_ = std::min(worst_, value_of(*record, "eta_worst"));
@@ -355,12 +382,10 @@ class Sums {
   }
 
   std::map<std::string, double> values() const {
-    std::map<std::string, double> values = {{"score", 100 * score_ / cases_},
-                                            {"cases", cases_},
+    std::map<std::string, double> values = {{"cases", cases_},
                                             {"solved", solved_},
                                             {"with_triangles", sound_ - solved_},
-                                            {"failed", cases_ - sound_ - not_run_},
-                                            {"not_run", not_run_}};
+                                            {"failed", cases_ - sound_}};
     if (sound_ == 0) return values;
     values["eta_worst"] = worst_;
     for (const auto& [key, list] : values_) values[key] = mean(list);
@@ -369,33 +394,81 @@ class Sums {
   }
 
  private:
-  int cases_ = 0, sound_ = 0, solved_ = 0, not_run_ = 0;
-  double score_ = 0, worst_ = 1, seconds_ = 0;
+  int cases_ = 0, sound_ = 0, solved_ = 0;
+  double worst_ = 1, seconds_ = 0;
   std::map<std::string, std::vector<double>> values_;
 };
 
-/// `family`: null: all of them.
-TableRow row_of(const Program& program, const SuiteFamily* family) {
-  Sums sums;
-  for (const SuiteModel& model : suite().models) {
-    if (family != nullptr && model.family != *family) continue;
-    for (std::size_t k = 0; k < model.sizes.size(); ++k) {
-      const auto at = program.records.find(case_name(model, k));
-      sums.add_case(at == program.records.end() ? nullptr : &at->second);
-    }
-  }
+/// A program in a group (all models, or a family).
+struct Entry {
   TableRow row;
-  row.group = family != nullptr ? name_of(*family) : kAll;
-  row.name = program.name;
-  row.values = sums.values();
-  return row;
+  ModelScores scores;
+};
+
+/// `family`: null: all of them.
+Entry entry_of(const Program& program, const SuiteFamily* family) {
+  Sums sums;
+  for (const SuiteModel& model : suite().models)
+    for (std::size_t k = 0; k < model.sizes.size(); ++k)
+      if (family == nullptr || model.family == *family)
+        sums.add_case(find_record(program, case_name(model, k)));
+  Entry entry{{}, score_models(program, family)};
+  entry.row.group = family != nullptr ? name_of(*family) : kAll;
+  entry.row.name = program.name;
+  entry.row.values = sums.values();
+  std::vector<double> scores;
+  for (const auto& [model, score] : entry.scores) scores.push_back(score);
+  entry.row.values["models"] = static_cast<double>(scores.size());
+  if (scores.empty()) return entry;
+  entry.row.values["score"] = mean(scores);
+  entry.row.half_widths["score"] = confidence_half_width(scores);
+  return entry;
 }
 
-void add_rows(const std::vector<Program>& programs, const SuiteFamily* family, Table& table) {
-  std::vector<TableRow> rows;
-  for (const Program& program : programs) rows.push_back(row_of(program, family));
-  std::ranges::stable_sort(rows, std::greater(), [](const TableRow& row) { return row.values.at("score"); });
-  table.rows.insert(table.rows.end(), rows.begin(), rows.end());
+/// The best first, those that ran fewer cases below the others.
+std::vector<Entry> rank(const std::vector<Program>& programs, const SuiteFamily* family) {
+  std::vector<Entry> entries;
+  for (const Program& program : programs) entries.push_back(entry_of(program, family));
+  std::erase_if(entries, [](const Entry& entry) { return entry.scores.empty(); });
+  std::ranges::stable_sort(entries, std::greater(), [](const Entry& entry) {
+    return std::pair(entry.row.values.at("cases"), entry.row.values.at("score"));
+  });
+  return entries;
+}
+
+/// First minus second, on the models that both ran.
+std::vector<double> differences(const Entry& first, const Entry& second) {
+  std::vector<double> differences;
+  for (const auto& [model, score] : first.scores)
+    if (const auto at = second.scores.find(model); at != second.scores.end())
+      differences.push_back(score - at->second);
+  return differences;
+}
+
+/// Writes to each which programs it is proven to be better than: a family of tests over every two of every
+/// group. Returns a note on them.
+std::string test_groups(std::vector<std::vector<Entry>>& groups) {
+  struct Duel {
+    Entry *first, *second;
+    double effect;
+    std::size_t test;
+  };
+  ClaimFamily family;
+  std::vector<Duel> duels;
+  for (std::vector<Entry>& group : groups)
+    for (std::size_t i = 0; i < group.size(); ++i)
+      for (std::size_t j = i + 1; j < group.size(); ++j)
+        if (const auto d = differences(group[i], group[j]); !d.empty())
+          duels.push_back({&group[i], &group[j], mean(d), family.add(wilcoxon(d))});
+  family.decide();
+  for (const Duel& duel : duels) {
+    if (family.finding(duel.test) != Finding::kProven || duel.effect * family.test(duel.test).lean <= 0)
+      continue;
+    std::string& beaten = (duel.effect > 0 ? duel.first : duel.second)->row.texts[kBetterThan];
+    beaten += (beaten.empty() ? "" : ", ") + (duel.effect > 0 ? duel.second : duel.first)->row.name;
+  }
+  return "better than: is proven by Wilcoxon's signed-rank test over the models that both ran. " +
+         family.note();
 }
 
 /// A row below those that are ranked, and a note with the reason.
@@ -420,28 +493,35 @@ Table rank_programs(const fs::path& results) {
   table.title = suite_title() + ", ranked";
   table.group_title = "family";
   table.name_title = "program";
-  table.columns = {{"score", "score", 2},
+  table.columns = {{"score", "score", 1},
+                   {"models", "models", 0},
                    {"cases", "cases", 0},
                    {"solved", "solved", 0},
                    {"with_triangles", "with triangles", 0},
                    {"failed", "failed", 0},
-                   {"not_run", "not run", 0},
                    {"eta_worst", "eta worst", 3},
                    {"eta_mean", "eta mean", 3},
                    {"d4", "d4", 1},
                    {"tau", "tau", 1},
-                   {"seconds_total", "CPU s", 1}};
-  add_rows(programs, nullptr, table);
-  for (const Program& program : not_ranked) add_absent(program, table);
-  for (const SuiteFamily family : {SuiteFamily::kPlanar, SuiteFamily::kCad, SuiteFamily::kTriangles})
-    add_rows(programs, &family, table);
-  const std::vector<std::string> legend = {
-      "score: mean over all cases of mean eta x tau x share of quads, 0 for a case without a sound mesh, in "
-      "percent",
-      "solved: sound and quads only; failed: no mesh, or one that is not sound or not of its model; not run: "
-      "without a result, which counts as 0, too",
+                   {"seconds_total", "CPU s", 1},
+                   {kBetterThan, "better than", 0}};
+  table.notes = {
+      "score: mean over the models of mean eta x tau x share of quads, averaged over a model's cases; 0 for "
+      "a "
+      "case without a sound mesh; in percent",
+      "cases: that were run; who ran fewer stands below. Solved: sound and quads only; failed: no mesh, or "
+      "one "
+      "that is not sound or not of its model",
       "eta worst: the least; eta mean, d4, tau: means over the sound meshes; CPU s: their sum, where known"};
-  table.notes.insert(table.notes.begin(), legend.begin(), legend.end());
+  std::vector<std::vector<Entry>> groups = {rank(programs, nullptr)};
+  for (const SuiteFamily family : {SuiteFamily::kPlanar, SuiteFamily::kCad, SuiteFamily::kTriangles})
+    groups.push_back(rank(programs, &family));
+  table.notes.push_back(test_groups(groups));
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const Entry& entry : groups[g]) table.rows.push_back(entry.row);
+    for (const Program& program : not_ranked)
+      if (g == 0) add_absent(program, table);
+  }
   return table;
 }
 

@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
 #include "base/located.h"
+#include "base/nearest_name.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "experiments/suite/model_makers.h"
@@ -28,8 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-void write_models(const fs::path& folder) {
-  for (const SuiteModel& model : suite().models) {
+void write_models(const fs::path& folder, const std::vector<SuiteModel>& models) {
+  for (const SuiteModel& model : models) {
     const std::string content = make_suite_model(model), digest = suite_digest(model, content);
     if (digest != model.sha256)
       refuse(
@@ -40,18 +42,18 @@ void write_models(const fs::path& folder) {
   }
 }
 
-std::string experiment_text() {
+std::string experiment_text(const std::vector<SuiteModel>& models) {
   std::string text = fmt::format("title = \"{}\"\npipelines = [\"DB\", \"DBCO\"]\n", suite_title());
-  for (const SuiteModel& model : suite().models)
+  for (const SuiteModel& model : models)
     for (std::size_t k = 0; k < model.sizes.size(); ++k)
       text += fmt::format("\n[[case]]\nname = \"{}\"\nmodel = \"{}\"\nsize = \"{}\"\n", case_name(model, k),
                           file_name(model), model.sizes[k]);
   return text;
 }
 
-std::string cases_text() {
+std::string cases_text(const std::vector<SuiteModel>& models) {
   Json json = {{"suite", suite().version}, {"cases", Json::array()}};
-  for (const SuiteModel& model : suite().models)
+  for (const SuiteModel& model : models)
     for (std::size_t k = 0; k < model.sizes.size(); ++k) {
       const std::string name = case_name(model, k);
       const bool planar = model.family == SuiteFamily::kPlanar;
@@ -67,26 +69,26 @@ std::string cases_text() {
 
 }  // namespace
 
-Experiment write_suite_experiment(const fs::path& folder) {
+Experiment write_suite_experiment(const fs::path& folder, const std::vector<SuiteModel>& models) {
   prepare_folder(folder);
-  write_models(folder);
-  write_text_file(folder / "suite.toml", experiment_text());
+  write_models(folder, models);
+  write_text_file(folder / "suite.toml", experiment_text(models));
   return Experiment::read(folder / "suite.toml");
 }
 
-void write_suite(const fs::path& folder) {
-  const Experiment experiment = write_suite_experiment(folder);
+void write_suite(const fs::path& folder, const std::vector<SuiteModel>& models) {
+  const Experiment experiment = write_suite_experiment(folder, models);
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const Case c = experiment.read_variant(i);
     if (planar_model(c) != nullptr) write_mesh(folder / (c.name + ".msh"), prepare(c)->boundary);
   }
-  write_text_file(folder / "cases.json", cases_text());
+  write_text_file(folder / "cases.json", cases_text(models));
 }
 
 namespace {
 
 /// By family: as the list calls it, and what its files are.
-constexpr std::array kFamilies = {"planar", "CAD", "triangles"};
+constexpr std::array<std::string_view, 3> kFamilies = {"planar", "CAD", "triangles"};
 constexpr std::array kExtensions = {".toml", ".step", ".obj"};
 
 SuiteFamily family_of(const std::string& name) {
@@ -169,7 +171,7 @@ std::string rounded_step(const std::string& content) {
 
 }  // namespace
 
-const char* name_of(SuiteFamily family) { return kFamilies[static_cast<std::size_t>(family)]; }
+const char* name_of(SuiteFamily family) { return kFamilies[static_cast<std::size_t>(family)].data(); }
 
 const Suite& suite() {
   static const Suite list = [] {
@@ -180,6 +182,25 @@ const Suite& suite() {
     return result;
   }();
   return list;
+}
+
+std::vector<SuiteModel> select_models(const std::vector<std::string>& names,
+                                      const std::vector<std::string>& families) {
+  std::vector<std::string> known;
+  for (const SuiteModel& model : suite().models) known.push_back(model.name);
+  for (const std::string& name : names)
+    if (std::ranges::find(known, name) == known.end())
+      refuse("--models: the suite has no '{}'{}", name, suggestion(name, known));
+  for (const std::string& family : families)
+    if (std::ranges::find(kFamilies, family) == kFamilies.end())
+      refuse("--family: '{}': expected {}", family, fmt::join(kFamilies, ", "));
+  if (names.empty() && families.empty()) return suite().models;
+  std::vector<SuiteModel> selected;
+  std::ranges::copy_if(suite().models, std::back_inserter(selected), [&](const SuiteModel& model) {
+    return std::ranges::find(names, model.name) != names.end() ||
+           std::ranges::find(families, name_of(model.family)) != families.end();
+  });
+  return selected;
 }
 
 std::string case_name(const SuiteModel& model, std::size_t size) {

@@ -47,13 +47,18 @@ std::string make_suite_model(const SuiteModel& model);
 /// after the point, so that it does not depend on the machine.
 std::string suite_digest(const SuiteModel& model, const std::string& content);
 
-/// Writes all that other programs and ours need to mesh the suite's cases to a folder, which is made: the
-/// models (.toml, .step, .obj), of planar cases the boundary as lines (NAME_1.msh, ...), cases.json with the
-/// sizes, and suite.toml, the experiment. Throws InputError when something cannot be written, and when a
+/// The models of these names, and those of these families; all where none are given. Throws InputError for a
+/// name that the suite does not have.
+std::vector<SuiteModel> select_models(const std::vector<std::string>& names,
+                                      const std::vector<std::string>& families);
+
+/// Writes all that other programs and ours need to mesh the cases of these models to a folder, which is made:
+/// the models (.toml, .step, .obj), of planar cases the boundary as lines (NAME_1.msh, ...), cases.json with
+/// the sizes, and suite.toml, the experiment. Throws InputError when something cannot be written, and when a
 /// model is not the one that the list has the SHA-256 of: results could not be compared.
-void write_suite(const std::filesystem::path& folder);
+void write_suite(const std::filesystem::path& folder, const std::vector<SuiteModel>& models);
 
 /// The models and suite.toml alone, as an experiment with one case for each model and size, in their order.
-Experiment write_suite_experiment(const std::filesystem::path& folder);
+Experiment write_suite_experiment(const std::filesystem::path& folder, const std::vector<SuiteModel>& models);
 
 }  // namespace delquad

@@ -58,26 +58,54 @@ TEST(Ranking, KeepsWhatFailedApartFromWhatIsMissing) {
     for (int k = 0; k < 3; ++k) write_cell(folder / "b", case_name(model, k), "more", metrics(0.5, 80, 100));
 
   const Table table = rank_programs(folder.path());
-  ASSERT_EQ(table.rows.size(), 8u);
+  ASSERT_EQ(table.rows.size(), 7u);
   EXPECT_EQ(table.rows[0].name, "more");
   EXPECT_EQ(table.rows[0].group, "all");
   EXPECT_NEAR(table.rows[0].values.at("score"), 40, 1e-9);
   EXPECT_EQ(table.rows[0].values.at("solved"), 120);
   const auto& few = table.rows[1].values;
-  EXPECT_EQ(few.at("cases"), 120);
+  EXPECT_EQ(few.at("models"), 2);
+  EXPECT_EQ(few.at("cases"), 5);
   EXPECT_EQ(few.at("solved"), 1);
   EXPECT_EQ(few.at("with_triangles"), 2);
   EXPECT_EQ(few.at("failed"), 2);
-  EXPECT_EQ(few.at("not_run"), 115);
-  EXPECT_NEAR(few.at("score"), 100 * 1.5 / 120, 1e-9);
+  // The gear's three cases have 100, 50 and 0, the bracket's two 0.
+  EXPECT_NEAR(few.at("score"), 25, 1e-9);
+  EXPECT_NEAR(table.rows[1].half_widths.at("score"), 12.706205 * 25, 1e-4);
   EXPECT_NEAR(few.at("eta_worst"), 0.5, 1e-9);
   EXPECT_NEAR(few.at("eta_mean"), 1, 1e-9);
   EXPECT_NEAR(few.at("tau"), 90, 1e-9);
-  // By family: none of the CAD cases has a sound mesh, and then there is nothing to take a mean of.
+  // By family: none of the CAD cases has a sound mesh, and then there is nothing to take a mean of; of
+  // triangles nothing was run.
   EXPECT_EQ(table.rows[5].group, "CAD");
   EXPECT_EQ(table.rows[5].values.at("failed"), 2);
-  EXPECT_EQ(table.rows[5].values.at("not_run"), 40);
+  EXPECT_EQ(table.rows[5].values.at("cases"), 2);
   EXPECT_FALSE(table.rows[5].values.contains("eta_mean"));
+  EXPECT_EQ(table.rows[6].group, "triangles");
+  EXPECT_EQ(table.rows[6].name, "more");
+}
+
+TEST(Ranking, TestsOverModels) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& program, std::size_t n_models, double eta) {
+    write_study_of(folder / program, program, suite_title());
+    for (std::size_t i = 0; i < n_models; ++i)
+      for (int k = 0; k < 3; ++k)
+        write_cell(folder / program, case_name(suite().models[i], k), program, metrics(eta, 100, 100));
+  };
+  write("all", 14, 0.8);
+  write("low", 14, 0.7);
+  write("six", 6, 0.9);
+  const Table table = rank_programs(folder.path());
+  // In both groups all models agree: p is 2^-13 over 14 models and 2^-5 over six, which is too much for a
+  // family of six tests, though it would be 18 cases.
+  ASSERT_EQ(table.rows.size(), 6u);
+  for (const std::size_t group : {0, 3}) {
+    EXPECT_EQ(table.rows[group].name, "all");
+    EXPECT_EQ(table.rows[group].texts.at("better_than"), "low");
+    EXPECT_EQ(table.rows[group + 2].name, "six") << "fewer cases stand below";
+    EXPECT_TRUE(table.rows[group + 2].texts.empty());
+  }
 }
 
 TEST(Ranking, ShowsWhatIsNotInstalledWithoutARank) {
@@ -89,7 +117,7 @@ TEST(Ranking, ShowsWhatIsNotInstalledWithoutARank) {
   write_cell(folder / "b", "gear_1", "failing",
              {{"status", "failed"}, {"kind", "peer"}, {"reason", "crashed"}});
   const Table table = rank_programs(folder.path());
-  ASSERT_EQ(table.rows.size(), 5u);
+  ASSERT_EQ(table.rows.size(), 3u);
   for (const TableRow& row : table.rows) EXPECT_EQ(row.name == "absent", row.skipped == "not applicable");
   EXPECT_EQ(table.rows[1].group, "all");
   EXPECT_EQ(table.rows[1].name, "absent");

@@ -71,6 +71,13 @@ TEST(SuiteCommands, ModelsAreWrittenForOthers) {
     EXPECT_FALSE(lines.lines.empty()) << c;
     EXPECT_TRUE(lines.quads.empty()) << c;
   }
+  const auto part =
+      delquad({"suite", "models", "-o", folder / "part", "--models", "gear", "--family", "triangles"});
+  ASSERT_EQ(part.exit_code, 0) << part.err;
+  EXPECT_EQ(read_json(folder / "part/cases.json").at("cases").size(), 13u * 3);
+  const auto unknown = delquad({"suite", "models", "-o", folder / "none", "--models", "gaer"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_TRUE(contains(unknown.err, "the suite has no 'gaer'; did you mean 'gear'")) << unknown.err;
   const auto dry = delquad({"run", models / "suite.toml", "-o", folder / "none", "--dry-run"});
   EXPECT_EQ(dry.exit_code, 0) << dry.err;
   EXPECT_EQ(std::ranges::count(dry.out, '\n'), 240);
