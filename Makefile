@@ -36,7 +36,7 @@ test: build
 PEERS = $(wildcard experiments/peers*.toml)
 
 # Every experiment but those with other meshers: tables, pictures and a page that shows them, under $(RESULTS)/.
-paper: EXPERIMENTS = $(filter-out $(PEERS),$(wildcard experiments/*.toml))
+paper: EXPERIMENTS = $(filter-out $(PEERS),$(wildcard experiments/*.toml experiments/made/*.toml))
 # Those; failed cells are part of their tables.
 peers: EXPERIMENTS = $(PEERS)
 peers: MAY_FAIL = ||:
@@ -47,6 +47,7 @@ public: INTO = $(RESULTS)/public
 public: public_models
 paper peers public: INTO ?= $(RESULTS)
 paper peers public: build
+	@build/$(PRESET)/delquad suite models -o experiments/made/models > /dev/null
 	@for e in $(EXPERIMENTS); do \
 	  build/$(PRESET)/delquad run $$e --data $(DATA) -o $(INTO)/$$(basename $$e .toml) $(MAY_FAIL) || exit $$?; \
 	done
@@ -88,9 +89,11 @@ python: packages
 	cmake --build --preset $(PRESET) --target delquad_python
 	ctest --preset $(PRESET) -R '^python\.'
 
+# BENCH_FLAGS: for Google Benchmark, or --record.
 bench: build
-	@for b in build/$(PRESET)/benchmarks/bench_*; do [ -x $$b ] && [ -f $$b ] && { echo "$$b"; $$b $(BENCH_FLAGS) || exit $$?; }; done
+	@cmake/install-packages.sh python3-scipy
 	python3 benchmarks/cleanup_cost.py --counts 60000 250000 --words DB DBCO DLBCO --delquad build/$(PRESET)/delquad --data $(DATA)
+	/usr/bin/python3 benchmarks/ratios.py build/$(PRESET) $(BENCH_FLAGS)
 
 # Readers, experiments and the mesher against inputs that nobody would write: ends with an error when something was found,
 # see CONTRIBUTING.md. TARGETS: some of them by name.
