@@ -226,6 +226,7 @@ double domain_mean(const DomainSamples& domain) {
 std::optional<Interval> interval_of_mean(std::span<const double> values) {
   constexpr std::size_t kFewest = 6;
   constexpr double kTail = 0.025;
+  constexpr double kRounding = 1e-9;  // of resamples of one value, in deviations
   const std::size_t n = values.size();
   if (n < 2) return std::nullopt;
   const auto [centre, error] = mean_and_error(values);
@@ -237,7 +238,7 @@ std::optional<Interval> interval_of_mean(std::span<const double> values) {
   for (int i = 0; i < kResamples; ++i) {
     for (double& value : sample) value = values[draw(n)];
     const auto [m, e] = mean_and_error(sample);
-    if (e > 0) statistics.push_back((m - centre) / e);
+    if (e > kRounding * error) statistics.push_back((m - centre) / e);
   }
   if (static_cast<double>(statistics.size()) < (1 - kTail) * kResamples) return student;
   std::ranges::sort(statistics);
