@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <ostream>
 
 #include "io/mesh_io.h"
 #include "io/xml.h"
@@ -83,7 +82,7 @@ std::string axes(const Diagram& diagram, const AxisScale& x, const AxisScale& y)
                    "<path d=\"M{0:.1f} {1}v{2}\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" y=\"{3}\" "
                    "text-anchor=\"middle\">{4:.{5}g}</text>\n",
                    x_pixel(x, v), kPlotTop, kPlotHeight, kPlotTop + kPlotHeight + kLegendLine, v, digits);
-  for (const double v : y.ticks())
+  for (const double v : diagram.kind == DiagramKind::kIntervals ? std::vector<double>() : y.ticks())
     fmt::format_to(to,
                    "<path d=\"M{0} {1:.1f}h{2}\" stroke=\"#ddd\"/><text x=\"{3}\" y=\"{4:.1f}\" "
                    "text-anchor=\"end\">{5:.{6}g}</text>\n",
@@ -128,7 +127,26 @@ std::string joined(const DiagramSeries& series, const AxisScale& x, const AxisSc
       line, dots);
 }
 
+/// The height of the series' name, and of its interval.
+double line_of_legend(const Diagram& diagram, std::size_t k) {
+  const auto line = static_cast<double>(k), lines = static_cast<double>(diagram.series.size());
+  return diagram.kind == DiagramKind::kIntervals ? kPlotTop + kPlotHeight * (line + 0.5) / lines
+                                                 : kPlotTop + 8 + kLegendLine * line;
+}
+
+std::string interval(const Diagram& diagram, std::size_t k, const AxisScale& x) {
+  const auto& [name, points, marked] = diagram.series[k];
+  const double y = line_of_legend(diagram, k);
+  return fmt::format(
+      "<path d=\"M{0:.1f} {1}v{2}\" stroke=\"#000\"/>\n<path d=\"M{3:.1f} {4:.1f}H{5:.1f}\" "
+      "stroke=\"#0072b2\" "
+      "stroke-width=\"2\"/>\n<path d=\"M{6:.1f} {4:.1f}{7}\" fill=\"{8}\" stroke=\"#0072b2\"/>\n",
+      x_pixel(x, 0), kPlotTop, kPlotHeight, x_pixel(x, points[0].x), y, x_pixel(x, points[2].x),
+      x_pixel(x, points[1].x), kShapes[0], marked.empty() ? "#fff" : "#0072b2");
+}
+
 std::string drawn(const Diagram& diagram, std::size_t k, const AxisScale& x, const AxisScale& y) {
+  if (diagram.kind == DiagramKind::kIntervals) return interval(diagram, k, x);
   if (diagram.kind == DiagramKind::kLines) return joined(diagram.series[k], x, y);
   std::string path;
   for (const Vec2& p : diagram.series[k].points) {
@@ -147,9 +165,10 @@ std::string drawn(const Diagram& diagram, std::size_t k, const AxisScale& x, con
 std::string legend(const Diagram& diagram) {
   std::string out;
   for (std::size_t k = 0; k < diagram.series.size(); ++k) {
-    const double x = kPlotLeft + kPlotWidth + 20, y = kPlotTop + 8 + kLegendLine * static_cast<double>(k);
-    out += paint(k, diagram.kind,
-                 diagram.kind == DiagramKind::kDots ? dot(k, x + 10, y) : fmt::format("M{} {}h20", x, y));
+    const double x = kPlotLeft + kPlotWidth + 20, y = line_of_legend(diagram, k);
+    if (diagram.kind != DiagramKind::kIntervals)
+      out += paint(k, diagram.kind,
+                   diagram.kind == DiagramKind::kDots ? dot(k, x + 10, y) : fmt::format("M{} {}h20", x, y));
     out += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", x + 28, y + 4,
                        xml_escaped(diagram.series[k].name));
   }
@@ -158,8 +177,9 @@ std::string legend(const Diagram& diagram) {
 
 }  // namespace
 
-void draw_diagram(const std::filesystem::path& path, const Diagram& diagram) {
+std::string drawn_diagram(const Diagram& diagram) {
   std::vector<double> all_x, all_y;
+  if (diagram.kind == DiagramKind::kIntervals) all_x = {0};
   for (const DiagramSeries& series : diagram.series)
     for (const Vec2& p : series.points) {
       all_x.push_back(p.x);
@@ -169,22 +189,24 @@ void draw_diagram(const std::filesystem::path& path, const Diagram& diagram) {
   const std::size_t in_legend = diagram.kind == DiagramKind::kLines ? 0 : diagram.series.size();
   const double below = std::max(kPlotTop + kPlotHeight + kBelow,
                                 kPlotTop + kLegendLine * (1 + static_cast<double>(in_legend)));
-  write_file_atomically(path, [&](std::ostream& out) {
-    out << fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
-        "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
-        "<g font-family=\"sans-serif\" font-size=\"12\">\n"
-        "<text x=\"{2}\" y=\"28\" font-size=\"15\">{3}</text>\n",
-        kPlotLeft + kPlotWidth + kLegend, below + kLegendLine * static_cast<double>(diagram.notes.size()),
-        kPlotLeft, xml_escaped(diagram.title));
-    out << axes(diagram, x, y);
-    for (std::size_t k = 0; k < diagram.series.size(); ++k) out << drawn(diagram, k, x, y);
-    if (diagram.kind != DiagramKind::kLines) out << legend(diagram);
-    for (std::size_t k = 0; k < diagram.notes.size(); ++k)
-      out << fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", kPlotLeft,
-                         below + kLegendLine * static_cast<double>(k), xml_escaped(diagram.notes[k]));
-    out << "</g>\n</svg>\n";
-  });
+  std::string out = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
+      "<g font-family=\"sans-serif\" font-size=\"12\">\n"
+      "<text x=\"{2}\" y=\"28\" font-size=\"15\">{3}</text>\n",
+      kPlotLeft + kPlotWidth + kLegend, below + kLegendLine * static_cast<double>(diagram.notes.size()),
+      kPlotLeft, xml_escaped(diagram.title));
+  out += axes(diagram, x, y);
+  for (std::size_t k = 0; k < diagram.series.size(); ++k) out += drawn(diagram, k, x, y);
+  if (diagram.kind != DiagramKind::kLines) out += legend(diagram);
+  for (std::size_t k = 0; k < diagram.notes.size(); ++k)
+    out += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", kPlotLeft,
+                       below + kLegendLine * static_cast<double>(k), xml_escaped(diagram.notes[k]));
+  return out + "</g>\n</svg>\n";
+}
+
+void draw_diagram(const std::filesystem::path& path, const Diagram& diagram) {
+  write_text_file(path, drawn_diagram(diagram));
 }
 
 }  // namespace delquad
