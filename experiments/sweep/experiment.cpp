@@ -71,7 +71,7 @@ SlopeRequest read_slopes(const TomlTable& table, std::vector<std::string> metric
 std::vector<std::string> read_columns(const TomlTable& table, std::vector<std::string> known) {
   if (!table.has("columns")) return {};
   for (const char* key : {kRuns, "seconds"}) known.push_back(key);
-  for (const TableColumn& column : columns_of_records()) known.push_back(column.key);
+  for (const Metric& one : columns_of_records()) known.push_back(one.key);
   for (const StepTime& time : step_times_of_tables()) known.push_back(time.key);
   std::vector<std::string> columns = table.texts("columns");
   for (const std::string& key : columns) {

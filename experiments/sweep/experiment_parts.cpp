@@ -204,7 +204,7 @@ void Experiment::read_metric(const TomlTable& table) {
   std::vector<std::string> taken = keys_of_metrics();
   for (const StepTime& time : step_times_of_tables()) taken.push_back(time.key);
   taken.emplace_back("seconds");
-  for (const TableColumn& column : columns_of_records()) taken.push_back(column.key);
+  for (const Metric& one : columns_of_records()) taken.push_back(one.key);
   if (std::ranges::find(taken, metric.key) != taken.end())
     throw InputError(table.where("name") + ": there is a metric '" + metric.key + "' already");
   command.command = read_command(table, "command");

@@ -10,6 +10,7 @@
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
+#include "io/svg_to_pdf.h"
 #include "metrics/tables/samples.h"
 #include "metrics/tables/table.h"
 
@@ -24,6 +25,13 @@ constexpr double kLeastCost = 1e-6;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 const std::vector<const char*> kNames = {"time_quality", "irregular_tau", "profile_eta", "profile_tau",
                                          "profile_time"};
+constexpr const char *kEffects = "effects_", *kAgainst = "_against_";
+
+/// Whether a file has the name of a figure of ours.
+bool is_own(const std::string& name) {
+  return std::ranges::find(kNames, name) != kNames.end() || name.starts_with(kEffects) ||
+         name.find(kAgainst) != std::string::npos;
+}
 
 bool is_sound(const CellRecord& record) {
   return record.reason.empty() && record.unsound.empty() && value_of(record, "n_quads") > 0;
@@ -162,19 +170,76 @@ std::vector<Figure> make_figures(const std::vector<CellRecord>& records) {
       profile(c, kNames[4], "Performance profile: seconds from the model to the mesh", of("seconds_total"))};
 }
 
+std::vector<Figure> figures_of_effects(const Inference& inference) {
+  std::vector<Figure> figures;
+  for (const PairComparison& pair : inference.pairs()) {
+    const std::vector<double> means = pair.domains.means();
+    const auto interval = interval_of_mean(means);
+    if (!interval) continue;
+    const std::string name = kEffects + pair.metric.key;
+    auto at = std::ranges::find(figures, name, &Figure::name);
+    if (at == figures.end()) {
+      Diagram frame{"Differences of " + pair.metric.title,
+                    {"first minus second, mean over domains, with 95 % interval"},
+                    {},
+                    DiagramKind::kIntervals,
+                    {}};
+      frame.notes = {pair.metric.better == Better::kHigher
+                         ? "Above 0: the first is better. Full: proven at 5 %."
+                         : "Below 0: the first is better. Full: proven at 5 %."};
+      at = figures.insert(at, {name, std::move(frame), "pair,low,effect,high,proven\n"});
+    }
+    const double effect = mean(means);
+    const bool proven = first_is_better(pair, inference.family()).has_value();
+    DiagramSeries series{pair.first + " - " + pair.second,
+                         {{interval->low, 0}, {effect, 0}, {interval->high, 0}}};
+    if (proven) series.marked = {{effect, 0}};
+    at->csv += fmt::format("{},{},{},{},{}\n", csv_quoted(series.name), interval->low, effect, interval->high,
+                           proven ? "yes" : "no");
+    at->diagram.series.push_back(std::move(series));
+  }
+  return figures;
+}
+
+std::vector<Figure> figures_of_slopes(const SlopeRequest& request, const std::vector<CellRecord>& records) {
+  std::vector<Figure> figures;
+  for (const std::string& key : request.of) {
+    Figure figure{key + kAgainst + request.against,
+                  {key + " against " + request.against, {request.against, true}, {key, true}, {}, {}},
+                  "case,pipeline,x,y\n"};
+    for (const CellRecord& record : records) {
+      const Vec2 at = {value_of(record, request.against), value_of(record, key)};
+      if (!(at.x > 0 && at.y > 0)) continue;
+      auto series = std::ranges::find(figure.diagram.series, record.pipeline, &DiagramSeries::name);
+      if (series == figure.diagram.series.end())
+        series = figure.diagram.series.insert(series, {record.pipeline, {}});
+      series->points.push_back(at);
+      figure.csv +=
+          fmt::format("{},{},{},{}\n", csv_quoted(record.group), csv_quoted(record.pipeline), at.x, at.y);
+    }
+    if (!figure.diagram.series.empty()) figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
 std::vector<std::string> write_figures(const fs::path& folder, const std::vector<Figure>& figures) {
   const fs::path at = folder / kFigures;
   std::error_code status;
+  for (fs::directory_iterator file(at, status), end; !status && file != end; file.increment(status)) {
+    const std::string name = file->path().stem().string();
+    if (is_own(name) && std::ranges::find(figures, name, &Figure::name) == figures.end())
+      fs::remove(file->path(), status);
+  }
   if (figures.empty()) {
-    for (const char* name : kNames)
-      for (const char* extension : {".svg", ".csv"}) fs::remove(at / (std::string(name) + extension), status);
     fs::remove(at, status);  // where nothing else is in it
     return {};
   }
   fs::create_directories(at, status);
   std::vector<std::string> errors;
   for (const Figure& figure : figures) try {
-      draw_diagram(at / (figure.name + ".svg"), figure.diagram);
+      const std::string svg = drawn_diagram(figure.diagram);
+      write_text_file(at / (figure.name + ".svg"), svg);
+      write_text_file(at / (figure.name + ".pdf"), svg_to_pdf(svg));
       write_text_file(at / (figure.name + ".csv"), figure.csv);
     } catch (const InputError& error) {
       errors.push_back(error.what());

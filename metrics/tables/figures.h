@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/diagram.h"
+#include "metrics/tables/inference.h"
 #include "metrics/tables/result_records.h"
 
 namespace delquad {
@@ -25,8 +26,13 @@ inline constexpr const char* kFigures = "figures";
 /// makes quads. Variants that some pipeline has no record of yet, or whose data was absent, are left out.
 std::vector<Figure> make_figures(const std::vector<CellRecord>& records);
 
-/// Writes them to DIR/figures as SVG and CSV, and removes those of earlier runs that there are no longer;
-/// returns what could not be written.
+/// For each measure of pairs their effects, with 95 % intervals: dots of what is proven are full.
+std::vector<Figure> figures_of_effects(const Inference& inference);
+/// Each measure of the request against what it goes with, over all runs.
+std::vector<Figure> figures_of_slopes(const SlopeRequest& request, const std::vector<CellRecord>& records);
+
+/// Writes them to DIR/figures as SVG, PDF and CSV, and removes those of earlier runs that there are no
+/// longer; returns what could not be written.
 std::vector<std::string> write_figures(const std::filesystem::path& folder,
                                        const std::vector<Figure>& figures);
 

@@ -117,13 +117,16 @@ bool all_quads(const Runs& runs) {
   return std::ranges::none_of(runs, [](const CellRecord* r) { return leaves_triangles(*r); });
 }
 
-/// Whether the first is proven to be better; not where the mean and most of the ranks disagree.
+}  // namespace
+
 std::optional<bool> first_is_better(const PairComparison& pair, const ClaimFamily& family) {
   const double effect = mean(pair.domains.means());
   const double lean = family.test(pair.test).lean;
   if (family.finding(pair.test) != Finding::kProven || effect * lean <= 0) return std::nullopt;
   return (effect > 0) == (pair.metric.better == Better::kHigher);
 }
+
+namespace {
 
 std::string in_words(const PairComparison& pair, const ClaimFamily& family) {
   if (pair.domains.names.size() < kFewestDomains || family.finding(pair.test) == Finding::kTooFew)
@@ -246,6 +249,8 @@ void add_time(const StudyFile& study, std::vector<TestedMeasure>& measures) {
       {{key, "s", "s", Better::kLower, std::nan(""), "", kTimeDigits}, ValueKind::kRepeatedTime});
 }
 
+}  // namespace
+
 std::vector<TestedMeasure> marked_measures(const StudyFile& study, const std::vector<CellRecord>& records) {
   const std::vector<Metric> own = own_metrics_of(records);
   std::vector<TestedMeasure> measures;
@@ -264,7 +269,6 @@ std::vector<TestedMeasure> compared_measures(const StudyFile& study, const std::
   return measures;
 }
 
-/// What no value of a measure of the project's own can leave.
 Interval range_of(const std::string& key) {
   if (key.starts_with("eta_")) return {0, 1};
   if (key.starts_with("scaled_jacobian_")) return {-1, 1};
@@ -272,6 +276,8 @@ Interval range_of(const std::string& key) {
   if (std::ranges::find(percentages, key) != percentages.end()) return {0, 100};
   return TableColumn().range;
 }
+
+namespace {
 
 void add_times(const StudyFile& study, std::vector<TableColumn>& columns) {
   const bool repeated = study.repeat_times > 0;
@@ -304,8 +310,8 @@ std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector
   for (const std::string& key : study.columns) {
     if (std::ranges::find(columns, key, &TableColumn::key) != columns.end()) continue;
     if (key == kSeconds) columns.push_back({key, "s", kTimeDigits});
-    for (const TableColumn& column : columns_of_records())
-      if (key == column.key) columns.push_back(column);
+    for (const Metric& metric : columns_of_records())
+      if (key == metric.key) columns.push_back({key, metric.title, metric.digits});
     if (const auto metric = metric_of(key, own)) columns.push_back({key, metric->title, metric->digits});
     for (const StepTime& step : step_times_of_tables())
       if (key == step.key) columns.push_back({key, step.title, kTimeDigits});

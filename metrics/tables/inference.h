@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -75,6 +76,10 @@ struct PairComparison {
   std::size_t test;       ///< of the family: Wilcoxon's over the means of the domains
 };
 
+/// Whether the first is proven to be better; nothing where nothing is, or the mean and most of the ranks
+/// disagree.
+std::optional<bool> first_is_better(const PairComparison& pair, const ClaimFamily& family);
+
 /// Every two pipelines that share two domains or more, in every measure; of quads alone only where both leave
 /// no triangles on them. Unsound meshes count as they are. Adds a test to the family for each.
 std::vector<PairComparison> compare_pairs(const std::vector<CellRecord>& records,
@@ -106,6 +111,12 @@ class Inference {
   Marking marking_;
   std::vector<PairComparison> pairs_;
 };
+
+/// What values of a table are marked by, within a variant, and what pairs are compared by, over domains.
+std::vector<TestedMeasure> marked_measures(const StudyFile& study, const std::vector<CellRecord>& records);
+std::vector<TestedMeasure> compared_measures(const StudyFile& study, const std::vector<CellRecord>& records);
+/// What no value of a measure of the project's own can leave.
+Interval range_of(const std::string& key);
 
 /// Its columns: of how many runs, what the paper's tables show, measures of the study's own, those that it
 /// asks for, and times.

@@ -70,25 +70,29 @@ double at(const Json& json, const char* pointer) {
 }
 
 struct Derived {
-  TableColumn column;
+  Metric column;
   std::function<double(const Json& record)> value;
 };
 
 const std::vector<Derived>& derived() {
+  using enum Better;
   static const std::vector<Derived> all = {
-      {{"row_ends", "row ends", 0}, [](const Json& r) { return at(r, "/cross_field/row_ends"); }},
-      {{kFinishSeconds, "finish s", 2}, [](const Json& r) { return at(r, "/finish/seconds"); }},
-      {{"finish_eta", "finish eta", 4},
+      {{"row_ends", "row ends", "", kNeither, kNoNumber, "rows of quads that are expected to end", 0},
+       [](const Json& r) { return at(r, "/cross_field/row_ends"); }},
+      {{kFinishSeconds, "finish s", "s", kNeither, kNoNumber, "what finish steps took, of all threads", 2},
+       [](const Json& r) { return at(r, "/finish/seconds"); }},
+      {{"finish_eta", "finish eta", "", kNeither, kNoNumber, "by how much finish steps raised eta_mean", 4},
        [](const Json& r) {
          return r.contains("finish") ? number(r["finish"].value("eta_mean", Json(0))) : kNoNumber;
        }},
-      {{"deviation", "deviation, sizes", 3},
+      {{"deviation", "deviation, sizes", "delta", kNeither, kNoNumber, "largest distance of mesh and surface",
+        3},
        [](const Json& r) {
          const std::string distances = "/surface/distances_in_diagonals/";
          return std::fmax(at(r, (distances + "mesh_to_surface/max_in_sizes").c_str()),
                           at(r, (distances + "surface_to_mesh/max_in_sizes").c_str()));
        }},
-      {{"warnings", "warnings", 0},
+      {{"warnings", "warnings", "", kNeither, kNoNumber, "count", 0},
        [](const Json& r) {
          return r.contains("warnings") ? static_cast<double>(r["warnings"].size()) : kNoNumber;
        }},
@@ -106,6 +110,8 @@ CellRecord parse(const Json& json) {
   record.group = record.name + text_of_variant(record.variant);
   record.quads_only = json.value("quads_only", true);
   record.model = json.value("/digests/model"_json_pointer, "");
+  record.is_peer = json.contains("peer");
+  record.seed = json.value("seed", 0LL);
   const Json geometry = json.value("geometry", Json::object());
   record.moments = geometry.value("moments", record.moments);
   if (const Json domain = geometry.value("domain", Json()); domain.is_string()) domain.get_to(record.domain);
@@ -197,9 +203,9 @@ std::string head_value(std::string_view head, const std::string& key) {
 
 }  // namespace
 
-const std::vector<TableColumn>& columns_of_records() {
-  static const std::vector<TableColumn> all = [] {
-    std::vector<TableColumn> columns;
+const std::vector<Metric>& columns_of_records() {
+  static const std::vector<Metric> all = [] {
+    std::vector<Metric> columns;
     for (const Derived& one : derived()) columns.push_back(one.column);
     return columns;
   }();

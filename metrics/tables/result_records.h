@@ -35,7 +35,9 @@ struct CellRecord {
   /// What it is a look at: of cases of the same geometry the name of the first one, or what the case says.
   /// Empty: the case is a domain of its own.
   std::string domain = {};
-  std::string model = {};            ///< digest of what the case is made from
+  std::string model = {};  ///< digest of what the case is made from
+  bool is_peer = false;    ///< another mesher, and no word
+  long long seed = 0;
   std::vector<double> moments = {};  ///< of its geometry, none of surfaces
   std::vector<std::pair<std::string, std::string>> variant = {};
   std::string kind = {};  ///< of the reason: as in failure_record(), or "damaged": the record cannot be read
@@ -61,8 +63,8 @@ std::vector<std::filesystem::path> record_files(const std::filesystem::path& fol
 /// The measures of records that the project itself does not have, each once, in the order of records: with a
 /// measure for each of the values that a command gave, "name.part".
 std::vector<Metric> own_metrics_of(const std::vector<CellRecord>& records);
-/// Columns for what records say beside measures and times: tables have them where an experiment asks for it.
-const std::vector<TableColumn>& columns_of_records();
+/// What records say beside measures and times: tables have it where an experiment asks for it.
+const std::vector<Metric>& columns_of_records();
 
 /// The records of an experiment below a folder, in the order of its study.json, if there is one, and by path.
 /// What is no record, or was changed since its digest was taken, is a cell that failed, "damaged record: "

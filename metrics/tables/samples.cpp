@@ -112,11 +112,12 @@ std::vector<double> PairedDomains::means() const {
   return result;
 }
 
-PairedDomains pair_by_domain(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,
-                             const std::string& key, ValueKind kind) {
+namespace {
+
+PairedDomains grouped_by_domain(const std::vector<Difference>& differences_of_runs) {
   std::map<std::string, std::map<std::string, std::vector<double>>> by_domain;  // then by variant
   PairedDomains result;
-  for (const Difference& d : differences(a, b, key, kind)) {
+  for (const Difference& d : differences_of_runs) {
     const std::string& domain = domain_of(*d.record);
     if (!by_domain.contains(domain)) result.names.push_back(domain);
     by_domain[domain][row_group(*d.record)].push_back(d.value);
@@ -127,6 +128,21 @@ PairedDomains pair_by_domain(std::span<const CellRecord* const> a, std::span<con
     for (auto& [variant, seeds] : by_domain[name]) domain.push_back(std::move(seeds));
   }
   return result;
+}
+
+}  // namespace
+
+PairedDomains pair_by_domain(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,
+                             const std::string& key, ValueKind kind) {
+  return grouped_by_domain(differences(a, b, key, kind));
+}
+
+std::vector<double> means_by_domain(std::span<const CellRecord* const> runs, const std::string& key,
+                                    ValueKind kind) {
+  std::vector<Difference> values;  // from 0
+  for (const CellRecord* record : runs)
+    if (const double v = tested_value(*record, key, kind); !std::isnan(v)) values.push_back({record, v});
+  return grouped_by_domain(values).means();
 }
 
 std::vector<double> pair_by_run(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,

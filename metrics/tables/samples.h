@@ -51,6 +51,9 @@ struct PairedDomains {
 };
 PairedDomains pair_by_domain(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,
                              const std::string& key, ValueKind kind = ValueKind::kMeasure);
+/// The mean of each domain on which there are values.
+std::vector<double> means_by_domain(std::span<const CellRecord* const> runs, const std::string& key,
+                                    ValueKind kind = ValueKind::kMeasure);
 
 /// a - b of the runs of the same variant and seed, whatever their domain.
 std::vector<double> pair_by_run(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,

@@ -63,6 +63,13 @@ std::string seconds_text(double seconds) {
   return seconds < kTwoDecimals ? fmt::format("{:.3g}", seconds) : number_text(seconds, 2);
 }
 
+std::string csv_quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  return fmt::format("\"{}\"", replace_all(text, "\"", "\"\""));
+}
+
+std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -90,19 +97,12 @@ std::vector<std::string> cells_of(const RenderedTable::Line& line) {
   return cells;
 }
 
-std::string csv_quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  return fmt::format("\"{}\"", replace_all(text, "\"", "\"\""));
-}
-
 std::string status(const TableRow& row) {
   if (!row.failure.empty()) return "failed: " + row.failure;
   if (!row.skipped.empty()) return row.skipped == kNotApplicable ? row.skipped : "skipped: " + row.skipped;
   if (row.unsound.empty() && row.incomplete.empty()) return "ok";
   return row.unsound + (row.unsound.empty() || row.incomplete.empty() ? "" : ", ") + row.incomplete;
 }
-
-std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
 /// The number; where there is none, what stands for it.
 std::string csv_value(const TableRow& row, const std::string& key) {

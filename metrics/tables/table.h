@@ -76,6 +76,10 @@ std::string to_markdown(const Table& table);
 /// Booktabs, at 8 points: columns that do not fit beside each other on an A4 page stand below each other, and
 /// the notes below them. More than 40 rows go over pages, by longtable.
 std::string to_tex(const Table& table);
+/// As floats over all columns of a page, with caption and label, in the least width that classes have: a line
+/// above each group in place of a column, and more floats where the groups fill more than a page. `caption`:
+/// behind the title, in LaTeX.
+std::string to_tex_floats(const Table& table, const std::string& label, const std::string& caption);
 /// For each column: value, published value, difference.
 std::string to_csv(const Table& table);
 /// What the JSON of a table begins with: title, heads, columns; rows that are still empty; notes.
@@ -106,6 +110,10 @@ struct RenderedTable {
 /// The columns that are to be shown. `notes` say why rows failed, what the marks and brackets mean, and where
 /// published values stand.
 RenderedTable render(const Table& table, const TableStyle& style);
+
+/// As fields of CSV: in quotes where it must be; every digit, and nothing of NaN.
+std::string csv_quoted(const std::string& text);
+std::string csv_number(double value);
 
 double value_or_nan(const std::map<std::string, double>& values, const std::string& key);
 std::string replace_all(std::string text, const std::string& from, const std::string& to);

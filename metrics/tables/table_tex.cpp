@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/locale/utf.hpp>
 #include <cctype>
+#include <numeric>
 #include <string_view>
 
 #include "metrics/tables/table.h"
@@ -20,7 +21,10 @@ constexpr double kColumnSpace = 6;    ///< points: twice \tabcolsep as set below
 constexpr double kMostOfNames = 100;  ///< points that one of the names' columns takes; longer ones are broken
 constexpr std::size_t kLongestPiece = 12;  ///< characters of a name without a place to break it
 constexpr std::size_t kLongestWord = 30;   ///< characters of a note without one
-constexpr std::size_t kMostRows = 40;      ///< that fit on a page, with head and notes
+constexpr std::size_t kFullPage = 32;     ///< lines of groups, after which the next one has a page of its own
+constexpr std::size_t kMostRows = 40;     ///< that fit on a page, with head and notes
+constexpr double kLeastOfTexts = 70;      ///< points that a column of broken values takes
+constexpr std::size_t kLongestText = 16;  ///< characters of a word in it
 
 /// The next character of UTF-8 and its bytes; U+FFFD for what is none.
 std::pair<char32_t, std::size_t> decode(std::string_view text) {
@@ -137,13 +141,13 @@ std::string breakable(const std::string& text, std::size_t longest) {
   return result;
 }
 
-/// Only what is too long for a word, such as a path, may be broken anywhere but at spaces.
-std::string breakable_note(const std::string& note) {
+/// Only what is longer than words are, such as a path, may be broken anywhere but at spaces.
+std::string breakable_note(const std::string& note, std::size_t longest = kLongestWord) {
   std::string result;
   for (std::size_t begin = 0, end; begin <= note.size(); begin = end + 1) {
     end = std::min(note.find(' ', begin), note.size());
     const std::string word = note.substr(begin, end - begin);
-    result += (begin > 0 ? " " : "") + (word.size() > kLongestWord ? breakable(word, kLongestWord) : word);
+    result += (begin > 0 ? " " : "") + (word.size() > longest ? breakable(word, kLongestPiece) : word);
   }
   return result;
 }
@@ -155,8 +159,10 @@ struct Block {
 
 class TexTable {
  public:
-  explicit TexTable(const Table& table) : title_(table.title), rendered_(render(table, kTex)) {
-    for (std::size_t k = 0; k < 2; ++k) {
+  /// `in_groups`: each group has its name above it, in place of a column of names.
+  explicit TexTable(const Table& table, bool in_groups = false)
+      : title_(table.title), rendered_(render(table, kTex)), in_groups_(in_groups) {
+    for (std::size_t k = in_groups ? 1 : 0; k < 2; ++k) {
       double width = width_of(rendered_.head.names[k]);
       for (const auto& line : rendered_.lines) width = std::max(width, width_of(line.names[k]));
       names_[k] = std::min(width, kMostOfNames);
@@ -169,32 +175,46 @@ class TexTable {
       for (const auto& line : rendered_.lines) width = std::max(width, width_of(line.values[k]));
       values_.push_back(width + kColumnSpace);
     }
+    // What is too wide is broken: alone, or the widest of a table that is to stay in one piece.
+    paragraphs_.assign(values_.size(), 0);
+    const double excess = std::accumulate(values_.begin(), values_.end(), -room());
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+      const bool is_widest = in_groups_ && values_[k] == *std::ranges::max_element(values_);
+      const double most = std::max(is_widest ? std::min(values_[k] - excess, room()) : room(), kLeastOfTexts);
+      if (values_[k] > most) paragraphs_[k] = values_[k] = most;
+    }
   }
 
   std::string text() const {
-    std::string text = fmt::format(
-        "% {}\n% Set at 8 points; to be input between paragraphs{}.\n"
-        "\\begingroup\\footnotesize\\setlength{{\\tabcolsep}}{{3pt}}%\n",
-        in_one_line(title_),
-        is_long() ? ", not in a float, with booktabs and longtable" : " or in a float, with booktabs");
+    return fmt::format("% {}\n% Set at 8 points; to be input between paragraphs{}.\n", in_one_line(title_),
+                       is_long() ? ", not in a float, with booktabs and longtable"
+                                 : " or in a float, with booktabs") +
+           body();
+  }
+
+  std::string body() const {
+    std::string text = "\\begingroup\\fontsize{8}{9.5}\\selectfont\\setlength{\\tabcolsep}{3pt}%\n";
     for (const Block& block : blocks()) text += tabular(block) + "\\par\\medskip\n";
     if (!rendered_.notes.empty()) {
       text += "{\\raggedright\n";
       for (const std::string& note : rendered_.notes)
-        text += fmt::format("\\noindent {}\\par\n", breakable_note(tex_escaped(in_one_line(note))));
+        text += fmt::format("\\noindent {}\\par\n",
+                            replace_all(breakable_note(tex_escaped(in_one_line(note))), " \\%", "~\\%"));
       text += "}\n";
     }
     return text + "\\endgroup\n";
   }
 
  private:
+  /// Points for columns beside those of names.
+  double room() const { return kPageWidth - names_[0] - names_[1] - 2 * kColumnSpace; }
+
   /// As many columns beside each other as fit, at least one.
   std::vector<Block> blocks() const {
-    const double room = kPageWidth - names_[0] - names_[1] - 2 * kColumnSpace;
     std::vector<Block> result = {{0, 0}};
     double used = 0;
     for (std::size_t k = 0; k < values_.size(); ++k) {
-      if (used + values_[k] > room && result.back().last > result.back().first) {
+      if (used + values_[k] > room() && result.back().last > result.back().first) {
         result.push_back({k, k});
         used = 0;
       }
@@ -209,7 +229,7 @@ class TexTable {
   }
 
   std::string line(const RenderedTable::Line& line, const Block& block) const {
-    std::string text = name(0, line.names[0]) + " & " + name(1, line.names[1]);
+    std::string text = (in_groups_ ? "" : name(0, line.names[0]) + " & ") + name(1, line.names[1]);
     bool said = line.missing.empty();
     for (std::size_t k = block.first; k < block.last; ++k) {
       std::string value = line.values[k];
@@ -217,33 +237,64 @@ class TexTable {
         value = line.missing;
         said = true;
       }
+      if (paragraphs_[k] > 0) value = "{\\raggedright " + breakable_note(value, kLongestText) + "\\par}";
       text += " & " + value;
     }
     return text + " \\\\\n";
   }
 
-  bool is_long() const { return rendered_.lines.size() > kMostRows; }
+  bool is_long() const { return !in_groups_ && rendered_.lines.size() > kMostRows; }
 
   /// One that is long runs over pages, with its head on each of them.
   std::string tabular(const Block& block) const {
     std::string text = is_long() ? "\\begin{longtable}[l]{@{}" : "\\noindent\\begin{tabular}{@{}";
-    for (std::size_t k = 0; k < 2; ++k) text += broken_[k] ? fmt::format("p{{{:.0f}pt}}", kMostOfNames) : "l";
-    text += std::string(block.last - block.first, 'r') + "@{}}\n\\toprule\n" + line(rendered_.head, block) +
-            "\\midrule\n";
+    for (std::size_t k = in_groups_ ? 1 : 0; k < 2; ++k)
+      text += broken_[k] ? fmt::format("p{{{:.0f}pt}}", kMostOfNames) : "l";
+    for (std::size_t k = block.first; k < block.last; ++k)
+      text += paragraphs_[k] > 0 ? fmt::format("p{{{:.0f}pt}}", paragraphs_[k] - kColumnSpace) : "r";
+    text += "@{}}\n\\toprule\n" + line(rendered_.head, block) + "\\midrule\n";
     if (is_long()) text += "\\endhead\n\\bottomrule\n\\endfoot\n";
-    for (const auto& l : rendered_.lines) text += line(l, block);
+    for (std::size_t i = 0; i < rendered_.lines.size(); ++i) {
+      const std::string& group = rendered_.lines[i].names[0];
+      if (in_groups_ && (i == 0 || group != rendered_.lines[i - 1].names[0]))
+        text += fmt::format("{}\\multicolumn{{{}}}{{@{{}}l@{{}}}}{{\\emph{{{}}}}} \\\\\n",
+                            i == 0 ? "" : "\\addlinespace\n", 1 + block.last - block.first, group);
+      text += line(rendered_.lines[i], block);
+    }
     return text + (is_long() ? "\\end{longtable}" : "\\bottomrule\n\\end{tabular}");
   }
 
   std::string title_;
   RenderedTable rendered_;
-  double names_[2];  ///< widths
-  bool broken_[2];
-  std::vector<double> values_;
+  bool in_groups_;
+  double names_[2] = {0, 0};  ///< widths
+  bool broken_[2] = {false, false};
+  std::vector<double> values_;      ///< widths, with the space between columns
+  std::vector<double> paragraphs_;  ///< the same of values that are broken; 0: they are not
 };
 
 }  // namespace
 
 std::string to_tex(const Table& table) { return TexTable(table).text(); }
+
+std::string to_tex_floats(const Table& table, const std::string& label, const std::string& caption) {
+  std::string text;
+  Table page = table;
+  page.rows.clear();
+  page.notes.clear();
+  for (std::size_t i = 0, lines = 0; i < table.rows.size(); ++i) {
+    const bool is_last = i + 1 == table.rows.size();
+    page.rows.push_back(table.rows[i]);
+    lines += page.rows.size() == 1 || table.rows[i].group != table.rows[i - 1].group ? 2 : 1;
+    if (!is_last && (table.rows[i + 1].group == table.rows[i].group || lines < kFullPage)) continue;
+    if (is_last) page.notes = table.notes;
+    const std::string begin = "\\begin{table*}[tbp]\n\\caption{" + in_one_line(tex_escaped(table.title));
+    text += text.empty() ? begin + ". " + caption + "}\\label{" + label + "}\n" : begin + ", continued.}\n";
+    text += "\\smallskip\n" + TexTable(page, true).body() + "\\end{table*}\n";
+    page.rows.clear();
+    lines = 0;
+  }
+  return text;
+}
 
 }  // namespace delquad

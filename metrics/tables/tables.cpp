@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "base/located.h"
@@ -10,14 +11,22 @@
 #include "io/mesh_io.h"
 #include "metrics/tables/inference.h"
 #include "metrics/tables/notes.h"
+#include "metrics/tables/runs.h"
 #include "metrics/tables/statistics.h"
+#include "metrics/tables/summary.h"
 
 namespace delquad {
+
+/// Entries of docs/bibliography.bib that captions of tables and figures cite.
+extern const char* const kBibliography;
+
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kCorrelations = "correlations", *kSlopes = "slopes";
+constexpr const char *kCorrelations = "correlations", *kSlopes = "slopes", *kSummary = "summary";
+constexpr const char *kRunsFile = "runs.csv", *kRunColumns = "runs_columns.csv", *kPrinted = "tables.tex",
+                     *kReferences = "references.bib";
 
 class Tabulation {
  public:
@@ -46,7 +55,15 @@ class Tabulation {
     note_failed_metrics();
     if (study_.ratio) note_ratio(*study_.ratio);
     outcome_.pairs = pairs_table(study_.title, inference_.pairs(), inference_.family());
-    note_pairs();
+    note_pairs(outcome_.pairs);
+    outcome_.figures = make_figures(records_);
+    std::ranges::move(figures_of_effects(inference_), std::back_inserter(outcome_.figures));
+    if (study_.slopes)
+      std::ranges::move(figures_of_slopes(*study_.slopes, records_), std::back_inserter(outcome_.figures));
+    const auto [by_word, by_measure] = summarise(study_, records_, inference_);
+    outcome_.summary = by_word;
+    note_pairs(outcome_.summary);
+    print(by_measure);
     return std::move(outcome_);
   }
 
@@ -142,13 +159,49 @@ class Tabulation {
   }
 
   /// What pairs lack, and why.
-  void note_pairs() {
+  void note_pairs(Table& table) const {
+    if (table.rows.empty()) return;
     add_notes(triangle_notes(records_,
                              "no pair with it is compared in measures of quads (eta, d4 and the like), from "
                              "which the triangles are missing"),
-              outcome_.pairs);
-    add_notes(quadless_notes(records_), outcome_.pairs);
-    add_notes(quad_count_notes(records_), outcome_.pairs);
+              table);
+    add_notes(quadless_notes(records_), table);
+    add_notes(quad_count_notes(records_), table);
+  }
+
+  /// Summary and pairs in as few columns as say all, and with captions.
+  void print(Table summary) {
+    if (summary.rows.empty()) return;
+    const std::string interval = "with its 95\\,\\% interval by bootstrap-t over domains~\\cite{davison1997}";
+    const std::string proof =
+        "Wilcoxon's signed-rank test over domains~\\cite{wilcoxon1945}, corrected by Holm's "
+        "method~\\cite{holm1979} over all tests of the study that could prove a "
+        "difference~\\cite{tarone1990}";
+    summary.notes = {inference_.family().note()};
+    note_pairs(summary);
+    std::string text = to_tex_floats(
+        summary, "tab:summary",
+        "Mean over domains " + interval +
+            ". Won, lost: on how many domains a word is better, or worse, than every other one. Proven at "
+            "5\\,\\%: " +
+            proof + ". Bold: proven better than all others.");
+    Table pairs = outcome_.pairs;
+    pairs.columns = {{"domains", "domains", 0},
+                     {"won_lost", "won/lost", 0},
+                     {"effect", "difference", 4},
+                     {"p_corrected", "p", 4},
+                     {"first_is", "first is", 0}};
+    pairs.shown.clear();
+    pairs.notes.clear();
+    for (TableRow& row : pairs.rows)
+      row.texts["won_lost"] = fmt::format("{}/{}", row.values.at("better"), row.values.at("worse"));
+    text +=
+        to_tex_floats(pairs, "tab:pairs",
+                      "Won/lost: on how many domains the first is better and worse. Difference: first minus "
+                      "second, mean over domains " +
+                          interval + ". p: " + proof + ". Bold: proven at 5\\,\\%.");
+    outcome_.files[kPrinted] = "% To be input with booktabs; references.bib has what is cited.\n" + text;
+    outcome_.files[kReferences] = kBibliography;
   }
 
   void note_times() {
@@ -261,7 +314,9 @@ Outcome make_tables(const StudyResults& results) {
         correlation_table(results.study.title, correlate(*results.study.correlation, results.records));
   if (results.study.slopes)
     outcome.slopes = slope_table(results.study.title, *results.study.slopes, results.records);
-  outcome.figures = make_figures(results.records);
+  const RunsCsv runs = runs_csv(results.study, results.records);
+  outcome.files[kRunsFile] = runs.lines;
+  outcome.files[kRunColumns] = runs.columns;
   outcome.metrics_failed = std::ranges::count_if(results.records, &CellRecord::metric_failed);
   outcome.table.notes.insert(outcome.table.notes.end(), results.time_problems.begin(),
                              results.time_problems.end());
@@ -274,25 +329,27 @@ Outcome make_tables(const StudyResults& results) {
 Outcome make_tables(const fs::path& folder) { return make_tables(read_results(folder)); }
 
 std::vector<std::string> write_tables(const fs::path& folder, const Outcome& outcome) {
-  std::vector<std::string> errors;
+  std::map<std::string, std::string> files = outcome.files;
   for (const auto& [name, table] :
        {std::pair("table", &outcome.table), std::pair("pairs", &outcome.pairs),
-        std::pair(kCorrelations, &outcome.correlations), std::pair(kSlopes, &outcome.slopes)})
-    for (const TableFormat& format : table_formats()) {
-      const fs::path file = folder / (std::string(name) + format.extension);
-      try {
-        if (!table->rows.empty()) write_text_file(file, format.print(*table));
-      } catch (const InputError& error) {
-        errors.push_back(error.what());
-      }
+        std::pair(kSummary, &outcome.summary), std::pair(kCorrelations, &outcome.correlations),
+        std::pair(kSlopes, &outcome.slopes)})
+    for (const TableFormat& format : table_formats())
+      if (!table->rows.empty()) files[std::string(name) + format.extension] = format.print(*table);
+  std::vector<std::string> errors;
+  for (const auto& [name, text] : files) try {
+      write_text_file(folder / name, text);
+    } catch (const InputError& error) {
+      errors.push_back(error.what());
     }
   for (const std::string& error : write_figures(folder, outcome.figures)) errors.push_back(error);
   return errors;
 }
 
 std::vector<std::string> result_files() {
-  std::vector<std::string> files = {"study.json", "experiment", kFigures};
-  for (const char* name : {"table", "pairs", kCorrelations, kSlopes})
+  std::vector<std::string> files = {"study.json", "experiment", kFigures,   kRunsFile,
+                                    kRunColumns,  kPrinted,     kReferences};
+  for (const char* name : {"table", "pairs", kSummary, kCorrelations, kSlopes})
     for (const TableFormat& format : table_formats()) files.push_back(std::string(name) + format.extension);
   return files;
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,13 @@ struct Outcome {
   Table table;
   /// Pairs of pipelines over the domains that both ran on; no rows where they have fewer than two in common.
   Table pairs;
+  Table summary = {};  ///< a row for each pipeline; no rows where there are fewer than two domains
   Table correlations = {}, slopes = {};  ///< that the experiment asks for; no rows where it does not
-  std::vector<Figure> figures;           ///< of several pipelines over several cases
-  long long leftover_triangles = 0;      ///< in cells whose pipeline makes quads only
+  /// By name, with their texts: every run with what its columns mean, tables as they are printed with the
+  /// works that their captions cite.
+  std::map<std::string, std::string> files = {};
+  std::vector<Figure> figures;                         ///< of several pipelines over several cases
+  long long leftover_triangles = 0;                    ///< in cells whose pipeline makes quads only
   int bad_inputs = 0, unsound = 0, others_failed = 0;  ///< cells that failed
   long long metrics_failed = 0;  ///< cells with a mesh, in which a measure by command failed
 };
@@ -40,7 +45,8 @@ StudyResults read_results(const std::filesystem::path& folder);
 Outcome make_tables(const StudyResults& results);
 /// Throws InputError as read_results() does.
 Outcome make_tables(const std::filesystem::path& folder);
-/// Writes the tables that have rows in every format, and the figures; returns what could not be written.
+/// Writes the tables that have rows in every format, the files and the figures; returns what could not be
+/// written.
 std::vector<std::string> write_tables(const std::filesystem::path& folder, const Outcome& outcome);
 /// Every name that an experiment itself takes in the folder of its results.
 std::vector<std::string> result_files();

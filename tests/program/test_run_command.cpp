@@ -41,11 +41,12 @@ TEST(RunCommand, WritesCellsTablesAndPictures) {
   // The experiment, the published rows and the list of both lie below a name that is a digest.
   std::vector<std::string> files = all_files(folder / "results");
   EXPECT_EQ(std::erase_if(files, [](const std::string& name) { return name.starts_with("experiment/"); }), 3);
-  EXPECT_EQ(files, (std::vector<std::string>{
-                       ".lock", "square/D/mesh.msh", "square/D/mesh.vtu", "square/D/picture.svg",
-                       "square/D/record.json", "square/DB/mesh.msh", "square/DB/mesh.vtu",
-                       "square/DB/picture.svg", "square/DB/record.json", "square/cross.svg",
-                       "square/size.svg", "study.json", "table.csv", "table.json", "table.md", "table.tex"}));
+  EXPECT_EQ(files,
+            (std::vector<std::string>{".lock", "runs.csv", "runs_columns.csv", "square/D/mesh.msh",
+                                      "square/D/mesh.vtu", "square/D/picture.svg", "square/D/record.json",
+                                      "square/DB/mesh.msh", "square/DB/mesh.vtu", "square/DB/picture.svg",
+                                      "square/DB/record.json", "square/cross.svg", "square/size.svg",
+                                      "study.json", "table.csv", "table.json", "table.md", "table.tex"}));
   const std::string table = read_text(folder / "results" / "table.md");
   EXPECT_TRUE(contains(result.out, table));
   EXPECT_TRUE(contains(table, "1.000 (0.75, +0.250)")) << table;

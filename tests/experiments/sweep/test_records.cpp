@@ -225,7 +225,7 @@ TEST_F(Records, VerifyFindsWhatWasChanged) {
       << findings()[1];
   restore();
   fs::remove_all(cell());
-  EXPECT_EQ(findings().size(), 5u) << "a cell, and tables in four formats";
+  EXPECT_EQ(findings().size(), 6u) << "a cell, tables in four formats, and runs";
   EXPECT_NE(findings()[0].find("1 of 8 cells have no result"), std::string::npos) << findings()[0];
   restore();
   write_text(record, "{}");
@@ -239,7 +239,8 @@ TEST_F(Records, VerifyMeasuresAgain) {
   std::string text = read_text(file);
   replace(text, "\"seed\": 1", "\"seed\": 1 ");
   write_text(file, text);
-  EXPECT_EQ(findings().size(), 5u) << "the record, and tables in four formats, in which it has failed now";
+  EXPECT_EQ(findings().size(), 6u)
+      << "the record, tables in four formats and runs, in which it has failed now";
   EXPECT_NE(findings()[0].find("record.json: was changed"), std::string::npos) << findings()[0];
   nlohmann::ordered_json record = nlohmann::ordered_json::parse(text);
   record.erase("digest");

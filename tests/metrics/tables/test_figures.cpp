@@ -97,6 +97,7 @@ TEST(Figures, GoWhenThereAreNoneAnyLonger) {
   const std::string svg = read_text(folder / kFigures / "profile_time.svg");
   EXPECT_NE(svg.find("peer: 1 failed of 3"), std::string::npos);
   EXPECT_NE(svg.find("times the least"), std::string::npos);
+  EXPECT_TRUE(read_text(folder / kFigures / "profile_time.pdf").starts_with("%PDF-"));
   EXPECT_EQ(read_text(folder / kFigures / "profile_time.csv").substr(0, 24), "pipeline,factor,percent\n");
   EXPECT_TRUE(write_figures(folder.path(), {}).empty());
   EXPECT_FALSE(fs::exists(folder / kFigures));

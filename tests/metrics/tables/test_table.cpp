@@ -90,6 +90,31 @@ TEST(Tables, WideOnesAreBrokenIntoTabularsOverTheSameRows) {
   for (int k = 0; k < 20; ++k) EXPECT_TRUE(holds(text, "column " + std::to_string(k) + " ")) << k;
 }
 
+/// A journal's page takes them: no longtable, groups in lines of their own, nothing wider than the page.
+TEST(Tables, FloatsHaveGroupsAndGoOn) {
+  Table table = example();
+  table.rows.erase(table.rows.begin() + 2);
+  for (int k = 0; k < 40; ++k) {
+    table.rows.push_back(table.rows[0]);
+    table.rows.back().group = "pair " + std::to_string(k / 4);
+  }
+  table.columns.push_back({"words", "a text", 0});
+  table.rows[0].texts["words"] =
+      "one_two three four five six seven eight nine ten eleven twelve thirteen fourteen";
+  const std::string text = to_tex_floats(table, "tab:x", "Of it");
+  EXPECT_TRUE(text.starts_with("\\begin{table*}[tbp]\n\\caption{")) << text;
+  EXPECT_TRUE(holds(text, ". Of it}\\label{tab:x}\n")) << text;
+  EXPECT_TRUE(holds(text, ", continued.}\n")) << text;
+  EXPECT_TRUE(
+      holds(text, "\\multicolumn{4}{@{}l@{}}{\\emph{case\\_1}} \\\\\nDB & 0.875 (0.75, +0.125) & 88.3 & "))
+      << text;
+  EXPECT_TRUE(holds(text, "{\\raggedright one\\_two three")) << text;
+  EXPECT_FALSE(holds(text, "longtable"));
+  std::size_t rows = 0;
+  for (std::size_t at = 0; (at = text.find("\nDB & ", at)) != text.npos; ++at) ++rows;
+  EXPECT_EQ(rows, 41u);
+}
+
 /// A tabular would run off the page, and in a float it would do so without a word.
 TEST(Tables, LongOnesGoOverPagesInTex) {
   Table table = example();
