@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <memory>
 
 #include "metrics/tables/tables.h"
 #include "tests/report/report_results.h"
@@ -26,14 +27,51 @@ std::string compile(const fs::path& folder, const std::string& name) {
   return whole && result.out.find("Overfull") == std::string::npos ? "" : "said: " + result.out;
 }
 
-TEST(Latex, TheStudyOfTheReadme) {
+/// The results of the study, and the paper about it.
+class Study : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<TemporaryFolder>();
+    for (const char* file : {"study.toml", "paper.tex"})
+      fs::copy_file(fs::path(DELQUAD_EXAMPLES) / "study" / file, *folder_ / file);
+    ASSERT_EQ(delquad({"run", *folder_ / "study.toml", "-o", results(), "--pictures", "none"}).exit_code, 0);
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+  static fs::path results() { return *folder_ / "results"; }
+
+  static ProgramResult check_claims() {
+    return run_program("/usr/bin/python3", {{DELQUAD_EXPERIMENTS "/check_claims.py", results()}, 0, {}});
+  }
+
+  static inline std::unique_ptr<TemporaryFolder> folder_;
+};
+
+TEST_F(Study, IsAPaperWithProvenClaims) {
   if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
-  const TemporaryFolder folder;
-  for (const char* file : {"study.toml", "paper.tex"})
-    fs::copy_file(fs::path(DELQUAD_EXAMPLES) / "study" / file, folder / file);
-  ASSERT_EQ(delquad({"run", folder / "study.toml", "-o", folder / "results"}).exit_code, 0);
-  EXPECT_EQ(compile(folder.path(), "paper.tex"), "");
-  EXPECT_NE(read_text(folder / "results/table.tex").find("$\\pm$"), std::string::npos);
+  EXPECT_EQ(compile(folder_->path(), "paper.tex"), "");
+  const std::string tables = read_text(results() / "tables.tex");
+  EXPECT_NE(tables.find("\\textbf{"), std::string::npos) << "something is proven";
+  EXPECT_EQ(tables.find("longtable"), std::string::npos);
+  if (std::system("command -v pdffonts >/dev/null") != 0) return;
+  const ProgramResult fonts =
+      run_program("/bin/sh", {{"-c", "pdffonts '" + (*folder_ / "paper.pdf").string() + "'"}, 0, {}});
+  EXPECT_NE(fonts.out.find("DejaVuSans"), std::string::npos) << fonts.out;
+  EXPECT_EQ(fonts.out.find(" no  yes"), std::string::npos) << "a font that is not inside: " << fonts.out;
+}
+
+TEST_F(Study, ClaimsAreConfirmedByAnotherProgram) {
+  if (std::system("/usr/bin/python3 -c 'import scipy' 2>/dev/null") != 0) GTEST_SKIP() << "no SciPy";
+  const ProgramResult whole = check_claims();
+  EXPECT_EQ(whole.exit_code, 0) << whole.out << whole.err;
+  EXPECT_NE(whole.out.find("24 comparisons"), std::string::npos) << whole.out;
+  std::string pairs = read_text(results() / "pairs.csv");
+  const std::string claim = ",not proven,";
+  const auto at = pairs.find(claim);
+  ASSERT_NE(at, std::string::npos) << pairs;
+  write_text(results() / "pairs.csv", pairs.replace(at, claim.size(), ",better,"));
+  const ProgramResult tampered = check_claims();
+  EXPECT_EQ(tampered.exit_code, 1);
+  EXPECT_NE(tampered.out.find("is 'better', by runs.csv 'not proven'"), std::string::npos) << tampered.out;
 }
 
 /// Every tabular is measured by LaTeX itself, at 8 points: the widest that tables of ours become by default,
@@ -66,9 +104,10 @@ TEST(Latex, DefaultColumnsFitAPage) {
   const Outcome outcome = make_tables(results);
   write_text(folder / "table.tex", to_tex(outcome.table));
   write_text(folder / "pairs.tex", to_tex(outcome.pairs));
+  write_text(folder / "tables.tex", outcome.files.at("tables.tex"));
   write_text(folder / "t.tex",
              "\\documentclass[a4paper]{article}\\usepackage{booktabs}\\hfuzz=0.1pt\\begin{document}\n"
-             "\\input{table}\n\\input{pairs}\n\\begin{table}\\input{pairs}\\end{table}\n"
+             "\\input{tables}\n\\input{table}\n\\input{pairs}\n\\begin{table}\\input{pairs}\\end{table}\n"
              "\\footnotesize\\typeout{size \\csname f@size\\endcsname}\\end{document}\n");
   EXPECT_EQ(compile(folder.path(), "t.tex"), "");
   EXPECT_NE(read_text(folder / "t.log").find("size 8"), std::string::npos);
