@@ -96,7 +96,8 @@ void print_surface_report(const Prepared& prepared, const SurfaceReport& report)
 
 void print_tables(const Outcome& outcome) {
   fmt::print("{}\n", to_markdown(outcome.table));
-  if (!outcome.pairs.rows.empty()) fmt::print("{}\n", to_markdown(outcome.pairs));
+  for (const Table* table : {&outcome.pairs, &outcome.hypotheses})
+    if (!table->rows.empty()) fmt::print("{}\n", to_markdown(*table));
 }
 
 }  // namespace delquad

@@ -24,7 +24,8 @@ struct RunArguments : SweepArguments {
   std::optional<std::string> pipelines;      ///< words separated by commas; else those of the file
   std::vector<std::filesystem::path> peers;  ///< files of further meshers, which are run, too
   long long max_elements = 50'000'000;
-  bool dry_run = false;  ///< only list the cells
+  bool dry_run = false;          ///< only say what would be done
+  std::optional<double> effect;  ///< whose power is told then
   bool allow_triangles = false;
 };
 
@@ -63,9 +64,10 @@ int run_command(const RunArguments& arguments) {
   choose_pipelines(arguments, experiment);
   experiment.check_calibration();
   if (arguments.dry_run) {
-    fmt::print("{}", list_cells(experiment, arguments.folder));
+    fmt::print("{}", dry_run(experiment, arguments.folder, arguments.effect));
     return kDone;
   }
+  if (arguments.folder.empty()) throw InputError("--output is required: only --dry-run goes without");
   return exit_code(run_and_print(arguments, experiment), arguments.allow_triangles);
 }
 
@@ -126,7 +128,7 @@ void add_run(CLI::App& app, Commands& commands) {
       add_command(app, commands, "run",
                   "Run an experiment: every pipeline on every case, with tables and pictures", run_command);
   run->add_option("experiment", arguments.experiment, "experiment file (.toml)")->required();
-  run->add_option("-o,--output", arguments.folder, "folder for the results")->required();
+  run->add_option("-o,--output", arguments.folder, "folder for the results");
   add_data(*run, arguments.data);
   run->add_option("--pipelines", arguments.pipelines, "words such as F,D,FB,DB; else as the file says");
   run->add_option("--peer", arguments.peers, "file of other meshers, which are run beside; may be repeated")
@@ -139,7 +141,16 @@ void add_run(CLI::App& app, Commands& commands) {
   run->add_option("--pictures", arguments.options.pictures,
                   "of fields and meshes: 'svg' (the default) or 'none'")
       ->transform(CLI::CheckedTransformer(pictures).description("none or svg"));
-  run->add_flag("--dry-run", arguments.dry_run, "list the cells, and which of them are done");
+  CLI::Option* dry =
+      run->add_flag("--dry-run", arguments.dry_run,
+                    "list the cells and which of them are done, about how long the rest takes, "
+                    "and what could be proven");
+  run->add_option(
+         "--effect", arguments.effect,
+         "for --dry-run: a difference in standard deviations of those of the domains, such as 0.5, whose "
+         "power is told")
+      ->check(kLength)
+      ->needs(dry);
   commands.back().only_prints = [&given = arguments] { return given.dry_run; };
 }
 

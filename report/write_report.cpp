@@ -157,9 +157,11 @@ class Page {
  private:
   Json study_json(const Study& study) {
     const Outcome outcome = make_tables(study.results);
+    const Json tables = {table_json(outcome.table), table_json(outcome.pairs),
+                         table_json(outcome.hypotheses)};
     Json json = {{"name", study.name},
                  {"title", study.results.study.title},
-                 {"tables", {table_json(outcome.table), table_json(outcome.pairs)}},
+                 {"tables", tables},
                  {"growth", growth_json(study.results.records)},
                  {"samples", add_samples(study.results.records, outcome.table.columns)},
                  {"drawings", drawings_json(study.drawings)},

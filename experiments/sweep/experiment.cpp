@@ -58,11 +58,7 @@ SlopeRequest read_slopes(const TomlTable& table, std::vector<std::string> metric
   metrics.emplace_back("seconds");
   for (const std::string& metric : request.of) check_known(table, "of", metric, metrics);
   check_known(table, "against", request.against, metrics);
-  std::vector<std::string> titles;
-  for (const Axis& axis : axes) titles.push_back(axis.title);
-  if (std::ranges::find(titles, request.along) == titles.end())
-    refuse("{}: '{}' does not vary: expected what tables call a key of [matrix]{}", table.where("along"),
-           request.along, suggestion_or_all(request.along, titles));
+  find_axis(axes, request.along, table, "along");
   table.finish(slope_keys());
   return request;
 }
@@ -293,6 +289,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   if (const auto matrix = table.optional_table("matrix")) experiment.read_matrix(*matrix);
   if (const auto slopes = table.optional_table("slopes"))
     experiment.slopes = read_slopes(*slopes, metrics, experiment.axes);
+  experiment.read_plan(table);
 
   experiment.defaults_.where = file.string();
   experiment.defaults_.data_folder = data;

@@ -53,6 +53,9 @@ class Experiment : public TablePlan {
   /// Throws InputError with file and line where a calibration is asked for that is none of any peer. To be
   /// called when all peers are there.
   void check_calibration() const;
+  /// Throws InputError with file and line where a hypothesis is about a pipeline that is not run, or about
+  /// two that have no domain with quads in common. To be called when all pipelines are known.
+  void check_hypotheses() const;
   /// Pipelines by their texts: words, and names of peers. Throws InputError for none, and for one given
   /// twice.
   std::vector<Word> find_pipelines(const std::vector<std::string>& texts) const;
@@ -84,6 +87,9 @@ class Experiment : public TablePlan {
   void read_peer(const TomlTable& table);
   void read_peers(const TomlTable& table, const std::vector<std::string>& pipelines);
   void read_metric(const TomlTable& table);
+  void read_plan(const TomlTable& table);
+  void read_hypothesis(const TomlTable& table);
+  std::vector<Metric> known_metrics() const;
   std::vector<std::string> keys_of_metrics() const;
   Word find_pipeline(const std::string& text) const;
   void check_comparisons(const TomlTable& table, const Case& c) const;
@@ -92,8 +98,13 @@ class Experiment : public TablePlan {
   WordStart word_start_ = WordStart::kBoundary;  ///< a given mesh, where one of the cases has one
   std::vector<TomlTable> cases_;
   std::optional<TomlTable> matrix_;
-  std::vector<std::string> leaves_;  ///< of the matrix, as in axes
+  std::vector<std::string> leaves_;           ///< of the matrix, as in axes
+  std::vector<TomlTable> hypothesis_tables_;  ///< that hypotheses were read from
 };
+
+/// By its title; throws InputError with file and line of the key for one that does not vary, and the seed.
+const Axis& find_axis(const std::vector<Axis>& axes, const std::string& title, const TomlTable& table,
+                      const char* key);
 
 /// What its folder of results says of it.
 StudyFile describe(const Experiment& experiment);

@@ -180,14 +180,19 @@ void read_domains(const TomlTable& table, Peer& peer) {
 
 }  // namespace
 
+std::vector<Metric> Experiment::known_metrics() const {
+  std::vector<Metric> all(metric_registry().begin(), metric_registry().end());
+  const auto add = [&](const std::vector<Metric>& more) { all.insert(all.end(), more.begin(), more.end()); };
+  add(criteria_metrics());
+  add(metrics_by_metric());
+  for (const std::string& solver : solvers) add(metrics_of_solver(solver));
+  for (const MetricCommand& command : metrics) all.push_back(command.metric);
+  return all;
+}
+
 std::vector<std::string> Experiment::keys_of_metrics() const {
   std::vector<std::string> keys;
-  for (const Metric& m : metric_registry()) keys.push_back(m.key);
-  for (const Metric& m : criteria_metrics()) keys.push_back(m.key);
-  for (const Metric& m : metrics_by_metric()) keys.push_back(m.key);
-  for (const std::string& solver : solvers)
-    for (const Metric& m : metrics_of_solver(solver)) keys.push_back(m.key);
-  for (const MetricCommand& command : metrics) keys.push_back(command.metric.key);
+  for (const Metric& metric : known_metrics()) keys.push_back(metric.key);
   return keys;
 }
 
@@ -262,6 +267,97 @@ void Experiment::read_peer(const TomlTable& table) {
   }
   table.finish(peer_keys());
   peers.push_back(std::move(peer));
+}
+
+const Axis& find_axis(const std::vector<Axis>& axes, const std::string& title, const TomlTable& table,
+                      const char* key) {
+  std::vector<std::string> titles;
+  for (const Axis& axis : axes) {
+    if (axis.title == kSeedAxis) continue;
+    if (axis.title == title) return axis;
+    titles.push_back(axis.title);
+  }
+  refuse("{}: '{}' does not vary: expected what tables call a key of [matrix]{}", table.where(key), title,
+         suggestion_or_all(title, titles));
+}
+
+void Experiment::read_plan(const TomlTable& table) {
+  if (table.has("pairs")) pairs = table.texts("pairs");
+  for (const std::string& axis : pairs) find_axis(axes, axis, table, "pairs");
+  hypothesis_tables_ = table.tables("hypotheses");
+  if (linf && !hypothesis_tables_.empty())
+    throw InputError(table.where("hypotheses") + ": 'linf_delaunay' has no hypotheses");
+  for (const TomlTable& hypothesis : hypothesis_tables_) read_hypothesis(hypothesis);
+}
+
+void Experiment::read_hypothesis(const TomlTable& table) {
+  Hypothesis h{table.text("along", ""), table.expression("better"),     table.expression("than"),
+               table.texts("measures"), table.flag("two_sided", false), table.flag("secondary", false)};
+  table.finish(hypothesis_keys());
+  if (h.better == h.than) refuse("{}: '{}' is compared with itself", table.where("than"), h.than);
+  if (!h.along.empty()) {
+    const std::vector<std::string>& values = find_axis(axes, h.along, table, "along").values;
+    for (const auto& [key, value] : {std::pair("better", h.better), std::pair("than", h.than)})
+      if (std::ranges::find(values, value) == values.end())
+        refuse("{}: '{}' is no value of '{}'{}", table.where(key), value, h.along,
+               suggestion_or_all(value, values));
+  }
+  if (h.measures.empty())
+    refuse("{}: 'measures' is empty: expected keys of measures", table.where("measures"));
+  const std::vector<Metric> known = known_metrics();
+  for (const std::string& key : h.measures) {
+    const auto refuse_measure = [&](const std::string& why) {
+      refuse("{}: the hypothesis has the measure '{}': {}", table.where("measures"), key, why);
+    };
+    if (std::ranges::count(h.measures, key) > 1) refuse_measure("it stands there twice");
+    if (key == time_key(*this)) {
+      if (repeat_times == 0)
+        refuse_measure("times are compared of repeated runs alone: expected 'repeat_times'");
+      if (!h.along.empty()) refuse_measure("times are compared of pipelines alone");
+      continue;
+    }
+    const auto at = std::ranges::find(known, key.substr(0, key.find('.')), &Metric::key);
+    if (at == known.end()) refuse_measure("there is none of that key" + suggestion(key, keys_of_metrics()));
+    if (at->better == Better::kNeither) refuse_measure("neither more nor less of it is better");
+  }
+  hypotheses.push_back(std::move(h));
+}
+
+void Experiment::check_hypotheses() const {
+  // What a peer can be told is known of these without looking into files.
+  const auto may_mesh = [&](const Word& word, const Case& c) {
+    const Peer* peer = peer_of(word);
+    if (peer == nullptr) return word.result == PatchForm::kQuads;
+    const bool planar = planar_model(c) != nullptr, on_surface = !example_of(c).empty();
+    return (peer->planar != HandOver::kNothing && !on_surface) ||
+           (peer->surfaces != HandOver::kNothing && !planar);
+  };
+  std::vector<std::string> run;
+  for (const Word& word : words) run.push_back(word.text);
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    const Hypothesis& h = hypotheses[i];
+    const TomlTable& table = hypothesis_tables_[i];
+    std::vector<Word> compared;
+    for (const auto& [key, text] : {std::pair("better", h.better), std::pair("than", h.than)}) {
+      const auto at = std::ranges::find(words, text, &Word::text);
+      if (!h.along.empty()) continue;
+      if (at == words.end())
+        refuse("{}: '{}' is none of the pipelines that are run{}", table.where(key), text,
+               suggestion_or_all(text, run));
+      compared.push_back(*at);
+    }
+    const std::size_t needed = h.along.empty() ? 2 : 1;
+    bool shared = false;
+    for (std::size_t k = 0; k < n_cases() && !shared; ++k) {
+      const Case c = read_variant(k);
+      const auto makes_quads_of_it = [&](const Word& word) { return may_mesh(word, c); };
+      const auto made = std::ranges::count_if(h.along.empty() ? compared : words, makes_quads_of_it);
+      shared = static_cast<std::size_t>(made) >= needed;
+    }
+    if (!shared)
+      refuse("{}: there is no case of which '{}' and '{}' have quads to compare", table.where("than"),
+             h.better, h.than);
+  }
 }
 
 void Experiment::check_calibration() const {

@@ -40,6 +40,7 @@ void add_study(const StudyFile& other, const fs::path& folder, StudyFile& study)
   if (titles(other) != titles(study))
     refuse("{}: its [matrix] varies {}, not {}", folder.string(), Json(titles(other)).dump(),
            Json(titles(study)).dump());
+  study.plan_changed |= other.plan_changed || !have_same_plan(other, study);
   unite(study.cases, other.cases);
   unite(study.pipelines, other.pipelines);
   for (std::size_t k = 0; k < study.axes.size(); ++k) unite(study.axes[k].second, other.axes[k].second);

@@ -218,6 +218,12 @@ void check_study(const Experiment& experiment, const fs::path& folder) {
            study->experiment, experiment.file.stem().string());
 }
 
+/// Whether there were records already when the plan was made, or made otherwise.
+bool is_plan_changed(const StudyFile& study, const fs::path& folder) {
+  const StudyFile before = read_study(folder).value_or(StudyFile());
+  return before.plan_changed || (!have_same_plan(before, study) && !record_files(folder).empty());
+}
+
 Outcome run_study(const Experiment& experiment, const fs::path& folder) {
   Outcome outcome;
   Progress progress(linf_study_steps(*experiment.linf));
@@ -236,8 +242,11 @@ Outcome run_experiment(const Experiment& experiment, const fs::path& folder, con
     outcome = run_study(experiment, folder);
   } else {
     check_study(experiment, folder);
+    experiment.check_hypotheses();
+    StudyFile study = describe(experiment);
+    study.plan_changed = is_plan_changed(study, folder);
     const fs::path copy = keep_experiment(experiment, folder);
-    write_study(folder, describe(experiment));
+    write_study(folder, study);
     const std::size_t interrupted = Sweep(experiment, folder, copy, options).run();
     if (experiment.repeat_times > 0) repeat_times(experiment, folder, options);
     outcome = make_tables(folder);
@@ -248,23 +257,6 @@ Outcome run_experiment(const Experiment& experiment, const fs::path& folder, con
     say("error: " + error);
   }
   return outcome;
-}
-
-std::string list_cells(const Experiment& experiment, const fs::path& folder) {
-  std::string text;
-  for (std::size_t i = 0; i < experiment.n_cases(); ++i)
-    for (std::size_t v = 0; v < experiment.n_variants(); ++v) {
-      const Case c = experiment.read_variant(i, v);
-      const bool absent = c.may_be_absent && !fs::exists(model_path(c));
-      const std::string model = absent ? "" : model_digest(c);
-      for (const Word& word : experiment.words) {
-        const std::string key = identify(experiment, c, model, word).key;
-        text += fmt::format("{:<14} {} {}\n",
-                            absent ? "data not found" : state_of_cell(cell_folder(folder, c, word), key),
-                            c.folder, word.text);
-      }
-    }
-  return text;
 }
 
 }  // namespace delquad

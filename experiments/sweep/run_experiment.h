@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "experiments/sweep/experiment.h"
@@ -43,5 +44,10 @@ Outcome run_experiment(const Experiment& experiment, const std::filesystem::path
 /// The cells in their order, a line each, and what there is of them: as in state_of_cell(), or "data not
 /// found".
 std::string list_cells(const Experiment& experiment, const std::filesystem::path& folder);
+/// The same, then what the run would take, by records in the folder (which may be of another experiment), and
+/// what it could prove, with which power for an effect in standard deviations of domains' differences. An
+/// empty folder has none. Throws InputError as check_hypotheses() does.
+std::string dry_run(const Experiment& experiment, const std::filesystem::path& folder,
+                    std::optional<double> effect);
 
 }  // namespace delquad

@@ -129,6 +129,16 @@ TomlKeys slope_keys() {
           {"against", "the measure that they go with, or seconds; else n_vertices", kText}};
 }
 
+TomlKeys hypothesis_keys() {
+  return {{"better", "what is expected to be better: a pipeline, or a value of 'along'", kExpression, nullptr,
+           false, true},
+          {"than", "what it is expected to be better than", kExpression, nullptr, false, true},
+          {"along", "what varies, by its title; else pipelines are compared", kText},
+          {"measures", "keys of measures, each of them a test", kColumnList, nullptr, false, true},
+          {"two_sided", "whether the contrary is tested, too", kFlag},
+          {"secondary", "whether it counts only where all that are not are proven", kFlag}};
+}
+
 TomlKeys linf_study_keys() {
   return {{"points", "how many", kPoints, nullptr, false, true},
           {"seeds", "of the points", kSeeds, nullptr, false, true}};
@@ -163,6 +173,8 @@ TomlKeys experiment_keys() {
                    {"solver", "finite elements that measure every mesh", kSolvers},
                    {"correlate", "measures with others, within domains", "", correlate_keys},
                    {"slopes", "powers by which measures go with another", "", slope_keys},
+                   {"pairs", "what varies, by titles: compared as pipelines are", kColumnList},
+                   {"hypotheses", "claims that are fixed before the run", "", hypothesis_keys, true},
                    {"reference", "a file of published rows", kText},
                    {"step_times", "whether tables have a column for each step's time", kFlag},
                    {"columns", "of tables in Markdown and LaTeX, by key", kColumnList},

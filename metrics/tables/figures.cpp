@@ -190,7 +190,7 @@ std::vector<Figure> figures_of_effects(const Inference& inference) {
       at = figures.insert(at, {name, std::move(frame), "pair,low,effect,high,proven\n"});
     }
     const double effect = mean(means);
-    const bool proven = first_is_better(pair, inference.family()).has_value();
+    const bool proven = inference.first_is_better(pair).has_value();
     DiagramSeries series{pair.first + " - " + pair.second,
                          {{interval->low, 0}, {effect, 0}, {interval->high, 0}}};
     if (proven) series.marked = {{effect, 0}};

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <optional>
+#include <set>
 
 #include "metrics/metrics.h"
 
@@ -61,7 +62,7 @@ RankTest Marking::test(const TestedMeasure& measure, std::size_t first, std::siz
 
 bool Marking::can_prove(const ClaimFamily& family, const Contest& contest) {
   return std::ranges::any_of(contest.duels,
-                             [&](const Duel& d) { return family.finding(d.test) != Finding::kTooFew; });
+                             [&](const Duel& d) { return !std::isnan(family.adjusted_p(d.test)); });
 }
 
 bool Marking::can_prove(const ClaimFamily& family) const {
@@ -91,6 +92,7 @@ void Marking::mark(const ClaimFamily& family, std::span<TableRow> rows) const {
 
 std::vector<std::string> Marking::notes(const ClaimFamily& family, std::span<const TableRow> rows) const {
   if (contests_.empty()) return {};
+  if (family.is_exploratory()) return {family.note() + " Nothing is marked."};
   bool best = false, as_good = false, single = true;
   for (const TableRow& row : rows)
     for (const auto& [key, mark] : row.marks) (mark == Mark::kBest ? best : as_good) = true;
@@ -111,14 +113,37 @@ std::vector<std::string> Marking::notes(const ClaimFamily& family, std::span<con
 
 namespace {
 
-using Runs = std::vector<const CellRecord*>;
+/// Compares runs with quads; in measures of quads alone those of pipelines that leave no triangles.
+class Comparing {
+ public:
+  explicit Comparing(const std::vector<CellRecord>& records) : records_(records) {
+    for (const CellRecord& record : records)
+      if (record.reason.empty() && leaves_triangles(record)) with_triangles_.insert(record.pipeline);
+  }
 
-bool all_quads(const Runs& runs) {
-  return std::ranges::none_of(runs, [](const CellRecord* r) { return leaves_triangles(*r); });
-}
+  PairComparison operator()(const std::string& along, const std::string& first, const std::string& second,
+                            const TestedMeasure& measure) const {
+    const std::string head = along.empty() ? "" : along + "=", &key = measure.metric.key;
+    return {head + first, head + second, measure.metric,
+            pair_by_domain(runs(along, first, key), runs(along, second, key), key, measure.kind, along), 0};
+  }
 
-}  // namespace
+ private:
+  std::vector<const CellRecord*> runs(const std::string& along, const std::string& value,
+                                      const std::string& key) const {
+    std::vector<const CellRecord*> result;
+    for (const CellRecord& record : records_)
+      if (record.reason.empty() && makes_quads(record) && value_along(record, along) == value &&
+          !(is_of_quads(key) && with_triangles_.contains(record.pipeline)))
+        result.push_back(&record);
+    return result;
+  }
 
+  const std::vector<CellRecord>& records_;
+  std::set<std::string> with_triangles_;
+};
+
+/// Whether the first is proven to be better; not where the mean and most of the ranks disagree.
 std::optional<bool> first_is_better(const PairComparison& pair, const ClaimFamily& family) {
   const double effect = mean(pair.domains.means());
   const double lean = family.test(pair.test).lean;
@@ -126,16 +151,17 @@ std::optional<bool> first_is_better(const PairComparison& pair, const ClaimFamil
   return (effect > 0) == (pair.metric.better == Better::kHigher);
 }
 
-namespace {
+/// What is said where the first is proven to be better, and to be worse.
+using Words = std::array<const char*, 2>;
 
-std::string in_words(const PairComparison& pair, const ClaimFamily& family) {
-  if (pair.domains.names.size() < kFewestDomains || family.finding(pair.test) == Finding::kTooFew)
-    return "too few domains";
+std::string in_words(const PairComparison& pair, const ClaimFamily& family, const Words& words) {
+  if (family.is_exploratory()) return "exploratory";
+  if (family.finding(pair.test) == Finding::kTooFew) return "too few domains";
   const auto better = first_is_better(pair, family);
-  return !better ? "not proven" : *better ? "better" : "worse";
+  return !better ? "not proven" : *better ? words[0] : words[1];
 }
 
-TableRow row_of(const PairComparison& pair, const ClaimFamily& family) {
+TableRow row_of(const PairComparison& pair, const ClaimFamily& family, const Words& words) {
   const std::vector<double> means = pair.domains.means();
   const double sign = pair.metric.better == Better::kHigher ? 1 : -1, effect = mean(means);
   const auto count = [&](double side) {
@@ -157,37 +183,38 @@ TableRow row_of(const PairComparison& pair, const ClaimFamily& family) {
   }
   for (const char* key : {"p", "p_corrected"})
     if (!std::isnan(row.values[key])) row.texts[key] = p_text(row.values[key]);
-  row.texts["first_is"] = in_words(pair, family);
+  row.texts["first_is"] = in_words(pair, family, words);
   if (first_is_better(pair, family)) row.marks["effect"] = Mark::kBest;
   return row;
 }
 
 }  // namespace
 
-std::vector<PairComparison> compare_pairs(const std::vector<CellRecord>& records,
-                                          const std::vector<std::string>& pipelines,
+std::vector<PairComparison> compare_pairs(const StudyFile& study, const std::vector<CellRecord>& records,
                                           const std::vector<TestedMeasure>& measures, ClaimFamily& family) {
-  std::map<std::string, Runs> by_word;
-  for (const CellRecord& record : records)
-    if (record.reason.empty() && makes_quads(record)) by_word[record.pipeline].push_back(&record);
+  const Comparing compare(records);
   std::vector<PairComparison> pairs;
-  for (std::size_t i = 0; i < pipelines.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const Runs &a = by_word[pipelines[i]], &b = by_word[pipelines[j]];
-      for (const auto& [metric, kind] : measures) {
-        if (is_of_quads(metric.key) && !(all_quads(a) && all_quads(b))) continue;
-        PairedDomains domains = pair_by_domain(a, b, metric.key, kind);
-        if (domains.names.size() < 2) continue;
-        const std::size_t test = family.add(wilcoxon(domains.means()));
-        pairs.push_back({pipelines[i], pipelines[j], metric, std::move(domains), test});
-      }
-    }
+  const auto add_all = [&](const std::string& along, const std::vector<std::string>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        for (const TestedMeasure& measure : measures) {
+          if (!along.empty() && measure.kind == ValueKind::kRepeatedTime) continue;
+          PairComparison pair = compare(along, values[i], values[j], measure);
+          if (pair.domains.names.size() < 2) continue;
+          pair.test = family.add(wilcoxon(pair.domains.means()));
+          pairs.push_back(std::move(pair));
+        }
+  };
+  add_all("", study.pipelines);
+  for (const auto& [title, values] : study.axes)
+    if (std::ranges::find(study.pairs, title) != study.pairs.end()) add_all(title, values);
   return pairs;
 }
 
-Table pairs_table(const std::string& title, const std::vector<PairComparison>& pairs,
-                  const ClaimFamily& family) {
-  Table table{title + ": pairs of pipelines", "pipelines", "measure", {}, {}, {}};
+namespace {
+
+Table comparison_table(const std::string& title, const char* pairs, const char* verdict) {
+  Table table{title, pairs, "measure", {}, {}, {}};
   table.columns = {{"domains", "domains", 0},
                    {"runs", "runs", 0},
                    {"better", "better", 0},
@@ -197,19 +224,51 @@ Table pairs_table(const std::string& title, const std::vector<PairComparison>& p
                    {"high", "high", 4},
                    {"p", "p", 4},
                    {"p_corrected", "p corrected", 4},
-                   {"first_is", "first is", 0}};
+                   {"first_is", verdict, 0}};
   table.shown = {"domains", "runs", "better", "worse", "effect", "p", "p_corrected", "first_is"};
-  const auto has_few = [](const PairComparison& pair) { return pair.domains.names.size() < kFewestDomains; };
-  for (const PairComparison& pair : pairs) table.rows.push_back(row_of(pair, family));
-  if (pairs.empty()) return table;
   table.notes = {
       "First minus second, averaged over the seeds and variants of each domain (geometry); domains are the "
       "sample. Better, worse: on how many of them the first is. Difference: the mean of the domains, "
-      "with its 95 % interval (bootstrap-t over domains, of fewer than six Student's).",
-      "p: Wilcoxon's signed-rank test over the domains, two-sided." +
-          (std::ranges::all_of(pairs, has_few) ? "" : " " + family.note())};
+      "with its 95 % interval (bootstrap-t over domains, of fewer than six Student's)."};
+  return table;
+}
+
+}  // namespace
+
+Table pairs_table(const std::string& title, const std::vector<PairComparison>& pairs,
+                  const ClaimFamily& family) {
+  Table table = comparison_table(title + ": pairs of pipelines", "pipelines", "first is");
+  const auto has_few = [](const PairComparison& pair) { return pair.domains.names.size() < kFewestDomains; };
+  for (const PairComparison& pair : pairs) table.rows.push_back(row_of(pair, family, {"better", "worse"}));
+  const bool says_nothing = std::ranges::all_of(pairs, has_few) && !family.is_exploratory();
+  table.notes.push_back("p: Wilcoxon's signed-rank test over the domains, two-sided." +
+                        (says_nothing ? "" : " " + family.note()));
   if (std::ranges::any_of(pairs, has_few))
     table.notes.push_back(fmt::format("With fewer than {} domains nothing can be proven.", kFewestDomains));
+  return table;
+}
+
+Table hypotheses_table(const StudyFile& study, const Inference& inference) {
+  Table table = comparison_table(study.title + ": hypotheses", "hypothesis", "verdict");
+  for (const PairComparison& pair : inference.hypotheses()) {
+    TableRow& row =
+        table.rows.emplace_back(row_of(pair, inference.planned(pair.secondary), {"proven", "refuted"}));
+    row.group = fmt::format("{} better than {}{}{}", pair.first, pair.second,
+                            pair.one_sided ? "" : ", two-sided", pair.secondary ? ", secondary" : "");
+  }
+  const ClaimFamily &primary = inference.planned(false), &secondary = inference.planned(true);
+  if (study.plan_changed)
+    table.notes.insert(
+        table.notes.begin(),
+        "Not planned: hypotheses, cases or [matrix] were changed after the first mesh was made.");
+  table.notes.emplace_back(
+      "p: Wilcoxon's signed-rank test over the domains; one-sided, so that the contrary is never proven, but "
+      "for hypotheses that say two-sided.");
+  if (primary.size() > 0) table.notes.push_back(primary.note("of the primary hypotheses"));
+  if (secondary.size() > 0)
+    table.notes.push_back(
+        "Secondary hypotheses count where all primary ones are proven: p corrected is no less than theirs. " +
+        secondary.note("of the secondary hypotheses"));
   return table;
 }
 
@@ -269,6 +328,33 @@ std::vector<TestedMeasure> compared_measures(const StudyFile& study, const std::
   return measures;
 }
 
+/// Wilcoxon's tests of all hypotheses, those of primary ones in the first family.
+std::vector<PairComparison> compare_hypotheses(const StudyFile& study, const std::vector<CellRecord>& records,
+                                               std::array<ClaimFamily, 2>& families) {
+  const std::vector<Metric> own = own_metrics_of(records);
+  std::vector<TestedMeasure> times;
+  add_time(study, times);
+  const Comparing compare(records);
+  std::vector<PairComparison> all;
+  for (const Hypothesis& h : study.hypotheses)
+    for (const std::string& key : h.measures) {
+      // Of a measure that no record knows there is nothing to compare.
+      TestedMeasure measure = {metric_of(key, own).value_or(Metric{key, key, "", Better::kHigher, 0, ""})};
+      if (!times.empty() && key == times[0].metric.key) measure = times[0];
+      PairComparison pair = compare(h.along, h.better, h.than, measure);
+      pair.one_sided = !h.two_sided;
+      pair.secondary = h.secondary;
+      const double sign = measure.metric.better == Better::kHigher ? 1 : -1;
+      std::vector<double> gains = pair.domains.means();
+      for (double& gain : gains) gain *= sign;
+      RankTest test = wilcoxon(gains, pair.one_sided);
+      test.lean *= sign;
+      pair.test = families[h.secondary ? 1 : 0].add(test);
+      all.push_back(std::move(pair));
+    }
+  return all;
+}
+
 Interval range_of(const std::string& key) {
   if (key.starts_with("eta_")) return {0, 1};
   if (key.starts_with("scaled_jacobian_")) return {-1, 1};
@@ -293,7 +379,7 @@ void add_times(const StudyFile& study, std::vector<TableColumn>& columns) {
 
 }  // namespace
 
-const char* time_key(const StudyFile& study) { return study.step_times ? kSecondsTotal : kSeconds; }
+const char* time_key(const TablePlan& study) { return study.step_times ? kSecondsTotal : kSeconds; }
 
 std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector<CellRecord>& records) {
   const bool adapted =
@@ -324,8 +410,24 @@ std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector
 Inference::Inference(const StudyFile& study, const std::vector<CellRecord>& records)
     : samples_(group_samples(records)),
       marking_(samples_, marked_measures(study, records), family_),
-      pairs_(compare_pairs(records, study.pipelines, compared_measures(study, records), family_)) {
-  family_.decide();
+      pairs_(compare_pairs(study, records, compared_measures(study, records), family_)),
+      hypotheses_(compare_hypotheses(study, records, planned_)) {
+  study.hypotheses.empty() ? family_.decide() : family_.explore();
+  planned_[0].decide();
+  planned_[1].decide(planned_[0].largest_p());
+}
+
+std::optional<bool> Inference::first_is_better(const PairComparison& pair) const {
+  if (!family_.is_exploratory()) return delquad::first_is_better(pair, family_);
+  for (const PairComparison& planned : hypotheses_) {
+    const bool is_same = planned.first == pair.first && planned.second == pair.second;
+    if (planned.metric.key != pair.metric.key ||
+        !(is_same || (planned.first == pair.second && planned.second == pair.first)))
+      continue;
+    if (const auto better = delquad::first_is_better(planned, planned_[planned.secondary ? 1 : 0]))
+      return *better == is_same;
+  }
+  return std::nullopt;
 }
 
 }  // namespace delquad

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -66,24 +67,21 @@ class Marking {
 /// With fewer domains Wilcoxon's test can prove nothing at 5 %.
 inline constexpr std::size_t kFewestDomains = 6;
 
-/// Two pipelines in one measure, over the domains on which both have a value. The sample is the domain: the
-/// differences of its seeds are averaged, then those of its variants, since neither are independent of each
-/// other.
+/// Two pipelines, or two values of an axis, in one measure, over the domains on which both have a value. The
+/// sample is the domain: the differences of its seeds are averaged, then those of its variants (along an axis
+/// of all pipelines), since neither are independent of each other.
 struct PairComparison {
   std::string first, second;
   Metric metric;
-  PairedDomains domains;  ///< first minus second
-  std::size_t test;       ///< of the family: Wilcoxon's over the means of the domains
+  PairedDomains domains;                      ///< first minus second
+  std::size_t test;                           ///< of its family: Wilcoxon's over the means of the domains
+  bool one_sided = false, secondary = false;  ///< of hypotheses
 };
 
-/// Whether the first is proven to be better; nothing where nothing is, or the mean and most of the ranks
-/// disagree.
-std::optional<bool> first_is_better(const PairComparison& pair, const ClaimFamily& family);
-
-/// Every two pipelines that share two domains or more, in every measure; of quads alone only where both leave
-/// no triangles on them. Unsound meshes count as they are. Adds a test to the family for each.
-std::vector<PairComparison> compare_pairs(const std::vector<CellRecord>& records,
-                                          const std::vector<std::string>& pipelines,
+/// Every two pipelines, and values of the axes that the study asks for, that share two domains or more, in
+/// every measure; of quads alone those of pipelines that leave no triangles. Unsound meshes count as they
+/// are. Times are compared of pipelines alone. Adds a test to the family for each.
+std::vector<PairComparison> compare_pairs(const StudyFile& study, const std::vector<CellRecord>& records,
                                           const std::vector<TestedMeasure>& measures, ClaimFamily& family);
 
 /// A row for each: domains and runs, on how many domains the first is better and worse, the mean of the
@@ -91,8 +89,8 @@ std::vector<PairComparison> compare_pairs(const std::vector<CellRecord>& records
 Table pairs_table(const std::string& title, const std::vector<PairComparison>& pairs,
                   const ClaimFamily& family);
 
-/// Everything that the tables of a study may claim: one family of tests, of the marks in its table and of the
-/// pairs of its pipelines. See docs/statistics.md.
+/// Everything that the tables of a study may claim: of the marks in its table and the pairs of its pipelines,
+/// as one family of tests; where it has hypotheses, these alone. See docs/statistics.md.
 class Inference {
  public:
   /// `records` have to outlive it.
@@ -104,12 +102,21 @@ class Inference {
   const ClaimFamily& family() const { return family_; }
   const Marking& marking() const { return marking_; }
   const std::vector<PairComparison>& pairs() const { return pairs_; }
+  /// A test for each measure of each hypothesis, in their order, whatever there is to test.
+  const std::vector<PairComparison>& hypotheses() const { return hypotheses_; }
+  /// Of the hypotheses that are primary, or secondary: these are claimed only where the others all are.
+  const ClaimFamily& planned(bool secondary) const { return planned_[secondary ? 1 : 0]; }
+  /// Whether the first is proven to be better, or worse; nothing where neither is, or the mean and most of
+  /// the ranks disagree. Of a study with hypotheses it is what they say of these two.
+  std::optional<bool> first_is_better(const PairComparison& pair) const;
 
  private:
   std::vector<Samples> samples_;
   ClaimFamily family_;
   Marking marking_;
   std::vector<PairComparison> pairs_;
+  std::array<ClaimFamily, 2> planned_;
+  std::vector<PairComparison> hypotheses_;
 };
 
 /// What values of a table are marked by, within a variant, and what pairs are compared by, over domains.
@@ -117,12 +124,14 @@ std::vector<TestedMeasure> marked_measures(const StudyFile& study, const std::ve
 std::vector<TestedMeasure> compared_measures(const StudyFile& study, const std::vector<CellRecord>& records);
 /// What no value of a measure of the project's own can leave.
 Interval range_of(const std::string& key);
+/// As pairs_table(), of what was planned.
+Table hypotheses_table(const StudyFile& study, const Inference& inference);
 
 /// Its columns: of how many runs, what the paper's tables show, measures of the study's own, those that it
 /// asks for, and times.
 std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector<CellRecord>& records);
 /// The key under which tables show the time of a run: of the stages alone, or of all steps.
-const char* time_key(const StudyFile& study);
+const char* time_key(const TablePlan& study);
 /// Of the least of repeated runs.
 inline constexpr const char* kLeastTime = "seconds_least";
 

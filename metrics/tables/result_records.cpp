@@ -260,7 +260,8 @@ bool have_same_geometry(const CellRecord& a, const CellRecord& b) {
   });
 }
 
-/// Those that say it have a domain already.
+}  // namespace
+
 void find_domains(std::vector<CellRecord>& records) {
   std::map<std::string, const CellRecord*> first;  // by name, of its geometry
   for (CellRecord& record : records) {
@@ -276,8 +277,6 @@ void find_domains(std::vector<CellRecord>& records) {
     if (at->second->name != record.name) record.domain = domain_of(*at->second);
   }
 }
-
-}  // namespace
 
 std::vector<CellRecord> read_records(const fs::path& folder) {
   const std::vector<fs::path> files = record_files(folder);

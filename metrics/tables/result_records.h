@@ -75,6 +75,8 @@ std::vector<CellRecord> read_records(const std::filesystem::path& folder);
 /// kNotApplicable by its record; "to do": there is none; "damaged": the record was changed or cut off, or its
 /// mesh has not as many bytes as it says; "outdated": of another key. Costs little: meshes are not read.
 std::string state_of_cell(const std::filesystem::path& folder, const std::string& key);
+/// Gives records of cells whose geometry is that of an earlier case its domain, unless they say one.
+void find_domains(std::vector<CellRecord>& records);
 /// What the record counts as among domains.
 const std::string& domain_of(const CellRecord& record);
 /// By its state, whether a cell has its mesh: measures by command may have failed.

@@ -20,15 +20,25 @@ struct Difference {
   double value;
 };
 
+/// The row of a cell, but for the value along the axis.
+std::string row_across(const CellRecord& record, const std::string& along) {
+  return row_group(record, along) + (along.empty() ? "" : " " + record.pipeline);
+}
+
+/// What two cells that are compared have in common.
+std::string partner_key(const CellRecord& record, const std::string& along) {
+  return along.empty() ? record.group : row_across(record, along) + " " + value_along(record, kSeedAxis);
+}
+
 /// a - b wherever both have a value, in the order of a.
 std::vector<Difference> differences(std::span<const CellRecord* const> a,
                                     std::span<const CellRecord* const> b, const std::string& key,
-                                    ValueKind kind) {
+                                    ValueKind kind, const std::string& along = "") {
   std::map<std::string, double> others;
-  for (const CellRecord* record : b) others[record->group] = tested_value(*record, key, kind);
+  for (const CellRecord* record : b) others[partner_key(*record, along)] = tested_value(*record, key, kind);
   std::vector<Difference> result;
   for (const CellRecord* record : a)
-    if (const auto at = others.find(record->group); at != others.end())
+    if (const auto at = others.find(partner_key(*record, along)); at != others.end())
       if (const double d = tested_value(*record, key, kind) - at->second; !std::isnan(d))
         result.push_back({record, d});
   return result;
@@ -67,10 +77,17 @@ bool is_of_quads(const std::string& key) {
   return std::ranges::find(others, key) != others.end();
 }
 
-std::string row_group(const CellRecord& record) {
+const std::string& value_along(const CellRecord& record, const std::string& along) {
+  static const std::string none;
+  if (along.empty()) return record.pipeline;
+  const auto at = std::ranges::find(record.variant, along, &std::pair<std::string, std::string>::first);
+  return at == record.variant.end() ? none : at->second;
+}
+
+std::string row_group(const CellRecord& record, const std::string& along) {
   std::string group = record.name;
   for (const auto& [title, value] : record.variant)
-    if (title != kSeedAxis) group += fmt::format(", {}={}", title, value);
+    if (title != kSeedAxis && title != along) group += fmt::format(", {}={}", title, value);
   return group;
 }
 
@@ -114,13 +131,14 @@ std::vector<double> PairedDomains::means() const {
 
 namespace {
 
-PairedDomains grouped_by_domain(const std::vector<Difference>& differences_of_runs) {
+PairedDomains grouped_by_domain(const std::vector<Difference>& differences_of_runs,
+                                const std::string& along) {
   std::map<std::string, std::map<std::string, std::vector<double>>> by_domain;  // then by variant
   PairedDomains result;
   for (const Difference& d : differences_of_runs) {
     const std::string& domain = domain_of(*d.record);
     if (!by_domain.contains(domain)) result.names.push_back(domain);
-    by_domain[domain][row_group(*d.record)].push_back(d.value);
+    by_domain[domain][row_across(*d.record, along)].push_back(d.value);
     ++result.runs;
   }
   for (const std::string& name : result.names) {
@@ -133,8 +151,8 @@ PairedDomains grouped_by_domain(const std::vector<Difference>& differences_of_ru
 }  // namespace
 
 PairedDomains pair_by_domain(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,
-                             const std::string& key, ValueKind kind) {
-  return grouped_by_domain(differences(a, b, key, kind));
+                             const std::string& key, ValueKind kind, const std::string& along) {
+  return grouped_by_domain(differences(a, b, key, kind, along), along);
 }
 
 std::vector<double> means_by_domain(std::span<const CellRecord* const> runs, const std::string& key,
@@ -142,7 +160,7 @@ std::vector<double> means_by_domain(std::span<const CellRecord* const> runs, con
   std::vector<Difference> values;  // from 0
   for (const CellRecord* record : runs)
     if (const double v = tested_value(*record, key, kind); !std::isnan(v)) values.push_back({record, v});
-  return grouped_by_domain(values).means();
+  return grouped_by_domain(values, "").means();
 }
 
 std::vector<double> pair_by_run(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,

@@ -21,8 +21,11 @@ bool makes_quads(const CellRecord& record);
 bool leaves_triangles(const CellRecord& record);
 /// The measure is of quads alone, or of vertices among quads: triangles that are left make it look better.
 bool is_of_quads(const std::string& key);
-/// The case and what else tells the runs of a row from those of others: its variant without the seed.
-std::string row_group(const CellRecord& record);
+/// The case and what else tells the runs of a row from those of others: its variant without the seed, and
+/// without `along`.
+std::string row_group(const CellRecord& record, const std::string& along = "");
+/// The value of an axis, by its title; that of none is the pipeline.
+const std::string& value_along(const CellRecord& record, const std::string& along);
 
 /// The cells of one row: a pipeline on a variant, with every seed.
 struct Samples {
@@ -41,7 +44,8 @@ std::vector<Samples> group_samples(const std::vector<CellRecord>& records);
 /// What a value is tested by: that of the record, or the median of repeated runs where there are any.
 enum class ValueKind { kMeasure, kRepeatedTime };
 
-/// a - b on every domain where both have a value for the same case, variant and seed.
+/// a - b on every domain where both have a value for the same case, variant and seed; of two values along an
+/// axis also the same pipeline, and the variant without that axis.
 struct PairedDomains {
   std::vector<std::string> names;
   std::vector<DomainSamples> differences;
@@ -50,7 +54,8 @@ struct PairedDomains {
   std::vector<double> means() const;  ///< of each domain
 };
 PairedDomains pair_by_domain(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,
-                             const std::string& key, ValueKind kind = ValueKind::kMeasure);
+                             const std::string& key, ValueKind kind = ValueKind::kMeasure,
+                             const std::string& along = "");
 /// The mean of each domain on which there are values.
 std::vector<double> means_by_domain(std::span<const CellRecord* const> runs, const std::string& key,
                                     ValueKind kind = ValueKind::kMeasure);

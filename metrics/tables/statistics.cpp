@@ -57,6 +57,10 @@ double normal_tail(const std::vector<int>& ranks, int sum) {
   return cdf(boost::math::normal(), (sum + 1 - total / 2) / (std::sqrt(squares) / 2));
 }
 
+double tail_of(const std::vector<int>& ranks, int sum) {
+  return ranks.size() <= kMostExact ? exact_tail(ranks, sum) : normal_tail(ranks, sum);
+}
+
 /// Of the sum of the doubled ranks of `n` among all, which is `off` away from its mean.
 double normal_choice_tail(const std::vector<int>& ranks, std::size_t n, double off) {
   const auto total = static_cast<double>(ranks.size());
@@ -144,17 +148,42 @@ double confidence_half_width(std::span<const double> samples) {
   return n < 2 ? kNone : student_quantile(n - 1) * mean_and_error(samples)[1];
 }
 
-RankTest wilcoxon(std::span<const double> differences) {
+RankTest wilcoxon(std::span<const double> differences, bool one_sided) {
   const std::vector<double> values = without_zeros(differences);
   std::vector<double> sizes;
   for (const double value : values) sizes.push_back(std::abs(value));
   const std::vector<int> ranks = double_ranks(sizes);
   int positive = 0, negative = 0;
   for (std::size_t i = 0; i < values.size(); ++i) (values[i] > 0 ? positive : negative) += ranks[i];
-  const int less = std::min(positive, negative);
-  const double tail = values.size() <= kMostExact ? exact_tail(ranks, less) : normal_tail(ranks, less);
-  const auto n = static_cast<double>(values.size());
-  return {std::min(1.0, 2 * tail), std::min(1.0, std::exp2(1 - n)), double(positive) - negative};
+  const double tail = tail_of(ranks, one_sided ? negative : std::min(positive, negative));
+  const double sides = one_sided ? 1 : 2, least = sides * std::exp2(-static_cast<double>(values.size()));
+  return {std::min(1.0, sides * tail), std::min(1.0, least), double(positive) - negative};
+}
+
+double wilcoxon_power(std::size_t n, double effect, double level, bool one_sided) {
+  constexpr int kDraws = 10'000;
+  std::vector<int> ranks(n);
+  for (std::size_t i = 0; i < n; ++i) ranks[i] = 2 * static_cast<int>(i + 1);
+  const double tail = one_sided ? level : level / 2;
+  const int half = std::accumulate(ranks.begin(), ranks.end(), 0) / 2;
+  int most = -2;  // of the doubled ranks of differences below 0
+  while (most + 2 <= half && tail_of(ranks, most + 2) <= tail) most += 2;
+  RandomIndex draw(kSeed);
+  constexpr std::size_t kSteps = std::size_t{1} << 52;
+  std::vector<double> values(n), sizes(n);
+  int proofs = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+      const double part = (static_cast<double>(draw(kSteps)) + 0.5) / static_cast<double>(kSteps);
+      values[k] = effect + quantile(boost::math::normal(), part);
+      sizes[k] = std::abs(values[k]);
+    }
+    const std::vector<int> drawn = double_ranks(sizes);
+    int negative = 0;
+    for (std::size_t k = 0; k < n; ++k) negative += values[k] < 0 ? drawn[k] : 0;
+    proofs += negative <= most ? 1 : 0;
+  }
+  return double(proofs) / kDraws;
 }
 
 RankTest mann_whitney(std::span<const double> first, std::span<const double> second) {
@@ -252,10 +281,10 @@ std::size_t ClaimFamily::add(const RankTest& test) {
   return tests_.size() - 1;
 }
 
-void ClaimFamily::decide() {
+void ClaimFamily::decide(double gate) {
   assert(findings_.empty());
   findings_.assign(tests_.size(), Finding::kTooFew);
-  adjusted_.assign(tests_.size(), std::numeric_limits<double>::quiet_NaN());
+  adjusted_.assign(tests_.size(), kNone);
   const double level = reach(tests_);
   std::vector<std::size_t> which;
   std::vector<double> p;
@@ -267,19 +296,32 @@ void ClaimFamily::decide() {
   counted_ = which.size();
   const std::vector<double> adjusted = holm(p);
   for (std::size_t k = 0; k < which.size(); ++k) {
-    adjusted_[which[k]] = adjusted[k];
-    findings_[which[k]] = adjusted[k] <= kSignificance ? Finding::kProven : Finding::kNotProven;
+    adjusted_[which[k]] = std::max(gate, adjusted[k]);
+    findings_[which[k]] = adjusted_[which[k]] <= kSignificance ? Finding::kProven : Finding::kNotProven;
   }
 }
 
-std::string ClaimFamily::note() const {
+double ClaimFamily::largest_p() const {
+  double largest = 0;
+  for (const double p : adjusted_) largest = std::isnan(p) ? 1 : std::max(largest, p);
+  return largest;
+}
+
+void ClaimFamily::explore() {
+  findings_.assign(tests_.size(), Finding::kExploratory);
+  adjusted_.assign(tests_.size(), kNone);
+}
+
+std::string ClaimFamily::note(const char* whole) const {
+  if (is_exploratory())
+    return "Exploratory: this study claims what it had planned alone, in hypotheses.*; p is not corrected.";
   if (tests_.empty()) return "Nothing is tested: that takes several seeds or domains.";
   if (counted_ == 0)
     return fmt::format("Nothing can be proven: {} test{}, with too few samples.", tests_.size(),
                        tests_.size() == 1 ? "" : "s");
-  std::string text = fmt::format(
-      "Corrected (Holm) over {} test{}, which are all of this study that could prove a difference at 5 %",
-      counted_, counted_ == 1 ? "" : "s");
+  std::string text =
+      fmt::format("Corrected (Holm) over {} test{}, which are all {} that could prove a difference at 5 %",
+                  counted_, counted_ == 1 ? "" : "s", whole);
   if (const std::size_t rest = tests_.size() - counted_; rest > 0)
     text += fmt::format("; {} more could not, with so few samples, and do not count", rest);
   return text + ".";

@@ -20,15 +20,19 @@ double confidence_half_width(std::span<const double> samples);
 /// Twice the rank of each value, from 1: whole numbers also where ties share a mean rank.
 std::vector<int> double_ranks(std::span<const double> values);
 
-/// A two-sided test by ranks of the hypothesis that there is no difference.
+/// A test by ranks of the hypothesis that there is no difference.
 struct RankTest {
   double p = 1;        ///< how likely it is that samples lean so far to one side when nothing does
   double least_p = 1;  ///< the least that so many samples can give, however they come out
   double lean = 0;     ///< above 0: the first is larger
 };
 /// Wilcoxon's signed-rank test of differences, first minus second. Zeros are left out, ties share their mean
-/// rank; exact up to 60 differences, by the normal distribution beyond. p = 1 of none.
-RankTest wilcoxon(std::span<const double> differences);
+/// rank; exact up to 60 differences, by the normal distribution beyond. p = 1 of none. `one_sided`: only the
+/// first may turn out to be larger.
+RankTest wilcoxon(std::span<const double> differences, bool one_sided = false);
+/// How likely Wilcoxon's test of `n` differences proves at `level` that the first is larger, where they are
+/// normal with a mean of `effect` standard deviations: by 10 000 draws, the same every time.
+double wilcoxon_power(std::size_t n, double effect, double level, bool one_sided);
 /// The Mann-Whitney U test of two samples that are not paired. Ties share their mean rank; exact up to 60
 /// values together, by the normal distribution (corrected for ties and continuity) beyond. p = 1 where one
 /// sample is empty.
@@ -79,9 +83,10 @@ std::optional<Interval> interval_of_mean(std::span<const double> values);
 inline constexpr double kSignificance = 0.05;
 
 enum class Finding {
-  kProven,     ///< a difference
-  kNotProven,  ///< no difference is
-  kTooFew      ///< samples: nothing could have been proven, whatever they say
+  kProven,      ///< a difference
+  kNotProven,   ///< no difference is
+  kTooFew,      ///< samples: nothing could have been proven, whatever they say
+  kExploratory  ///< nothing was planned: no claim, whatever they say
 };
 
 /// All tests of a study: what may be claimed, so that the probability of any false claim, anywhere, is at
@@ -94,8 +99,12 @@ class ClaimFamily {
  public:
   /// Returns the number of the test.
   std::size_t add(const RankTest& test);
-  /// To be called once, after all tests are added and before anything is asked.
-  void decide();
+  /// To be called once, after all tests are added and before anything is asked. `gate`: corrected p-values
+  /// are no less, such as the largest_p() of a family without whose proofs nothing is claimed of this one.
+  void decide(double gate = 0);
+  /// In place of decide(): the tests are shown, and nothing is claimed.
+  void explore();
+  bool is_exploratory() const { return !findings_.empty() && findings_[0] == Finding::kExploratory; }
   const RankTest& test(std::size_t test) const { return tests_[test]; }
   Finding finding(std::size_t test) const {
     assert(test < findings_.size());
@@ -105,8 +114,10 @@ class ClaimFamily {
   double adjusted_p(std::size_t test) const { return adjusted_[test]; }
   std::size_t size() const { return tests_.size(); }
   std::size_t counted() const { return counted_; }
+  /// The largest corrected p-value: 1 where a test does not count, 0 of none.
+  double largest_p() const;
   /// For people: over how many tests was corrected, and how many do not count.
-  std::string note() const;
+  std::string note(const char* whole = "of this study") const;
 
  private:
   std::vector<RankTest> tests_;

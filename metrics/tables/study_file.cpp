@@ -65,6 +65,15 @@ Json to_json(const StudyFile& study) {
     json["slopes"] = {{"of", slopes->of}, {"along", slopes->along}, {"against", slopes->against}};
   if (study.correlation)
     json["correlate"] = {{"of", study.correlation->of}, {"with", study.correlation->with}};
+  if (!study.pairs.empty()) json["pairs"] = study.pairs;
+  for (const Hypothesis& h : study.hypotheses)
+    json["hypotheses"].push_back({{"better", h.better},
+                                  {"than", h.than},
+                                  {"along", h.along},
+                                  {"measures", h.measures},
+                                  {"two_sided", h.two_sided},
+                                  {"secondary", h.secondary}});
+  if (study.plan_changed) json["plan_changed"] = true;
   for (const PublishedRow& row : study.published)
     json["published"].push_back({{"name", row.name}, {"source", row.source}, {"values", row.values}});
   if (const auto& ratio = study.ratio)
@@ -93,6 +102,11 @@ StudyFile from_json(const Json& json) {
   }
   if (json.contains("correlate"))
     study.correlation = CorrelationRequest{json.at("correlate").at("of"), json.at("correlate").at("with")};
+  study.pairs = json.value("pairs", study.pairs);
+  for (const Json& h : json.value("hypotheses", Json::array()))
+    study.hypotheses.push_back({h.at("along"), h.at("better"), h.at("than"), h.at("measures"),
+                                h.at("two_sided"), h.at("secondary")});
+  study.plan_changed = json.value("plan_changed", false);
   json.at("compare").get_to(study.compare);
   for (const Json& row : json.at("published"))
     study.published.push_back({row.at("name"), row.at("source"), row.at("values")});
@@ -139,6 +153,10 @@ const std::vector<StepTime>& step_times_of_tables() {
                                               {"seconds_projection", "projection s", "projection"},
                                               {"seconds_total", "total s", ""}};
   return times;
+}
+
+bool have_same_plan(const StudyFile& a, const StudyFile& b) {
+  return a.hypotheses == b.hypotheses && (a.hypotheses.empty() || (a.cases == b.cases && a.axes == b.axes));
 }
 
 void write_study(const std::filesystem::path& folder, const StudyFile& study) {

@@ -41,6 +41,16 @@ struct ExpectedRatio {
   std::string source;
 };
 
+/// A claim that is fixed before the run: [[hypotheses]].
+struct Hypothesis {
+  std::string along;                  ///< title of the axis whose values are compared; empty: pipelines
+  std::string better, than;           ///< pipelines, or values of that axis
+  std::vector<std::string> measures;  ///< keys; each is a test
+  bool two_sided = false;             ///< the contrary may be proven, too
+  bool secondary = false;             ///< counts only where all that are not are proven
+  bool operator==(const Hypothesis&) const = default;
+};
+
 /// What an experiment says of its tables.
 struct TablePlan {
   std::string title;
@@ -51,6 +61,8 @@ struct TablePlan {
   std::vector<std::string> columns;    ///< of tables in Markdown and LaTeX, by key; empty: all
   std::optional<SlopeRequest> slopes;  ///< by which powers they go
   std::optional<CorrelationRequest> correlation;  ///< what its results are to say of measures
+  std::vector<std::string> pairs;  ///< titles of axes whose values are compared as pipelines are
+  std::vector<Hypothesis> hypotheses;
 };
 
 /// What a folder of results says of its experiment, besides the records of its cells: study.json.
@@ -62,7 +74,10 @@ struct StudyFile : TablePlan {
   std::size_t cells = 0;  ///< that the experiment has
   /// case -> pipeline -> name of the published row beside it
   std::map<std::string, std::map<std::string, std::string>> compare;
+  bool plan_changed = false;  ///< hypotheses, cases or axes, after the first record was there
 };
+/// Whether two have the same hypotheses and, where there are any, cases and axes.
+bool have_same_plan(const StudyFile& a, const StudyFile& b);
 
 /// Value `i` of those of an axis, as it stands in the name of a folder: what might not stand there is
 /// replaced by `_`, and long or doubtful texts by a digest.

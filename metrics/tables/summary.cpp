@@ -54,7 +54,7 @@ void add_pairs(const std::string& word, const std::string& key, const Inference&
     const std::vector<double> means = pair.domains.means();
     for (std::size_t k = 0; k < means.size(); ++k)
       ways[pair.domains.names[k]].insert(sign * ((means[k] > 0) - (means[k] < 0)));
-    if (first_is_better(pair, inference.family()) == is_first)
+    if (inference.first_is_better(pair) == is_first)
       standing.beaten.push_back(is_first ? pair.second : pair.first);
   }
   for (const auto& [domain, all] : ways) {
@@ -160,7 +160,7 @@ class Summarising {
         "(bootstrap-t over domains, of fewer than six Student's).",
         "Won: domains on which the word is better than every other one, by the mean difference of each pair "
         "there. Lost: those on which it is worse than every other. Ties are neither.",
-        "Proven better than: by the pairs, at 5 %. Bold: than all others. " + inference_.family().note()};
+        "Proven better than: at 5 %. Bold: than all others. " + inference_.family().note()};
     if (fewest_ < most_)
       notes.emplace_back(
           "Words with fewer domains have no value on the others: their means are over other domains.");

@@ -24,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kCorrelations = "correlations", *kSlopes = "slopes", *kSummary = "summary";
+constexpr const char *kHypotheses = "hypotheses", *kCorrelations = "correlations", *kSlopes = "slopes",
+                     *kSummary = "summary";
 constexpr const char *kRunsFile = "runs.csv", *kRunColumns = "runs_columns.csv", *kPrinted = "tables.tex",
                      *kReferences = "references.bib";
 
@@ -55,6 +56,8 @@ class Tabulation {
     note_failed_metrics();
     if (study_.ratio) note_ratio(*study_.ratio);
     outcome_.pairs = pairs_table(study_.title, inference_.pairs(), inference_.family());
+    outcome_.hypotheses = hypotheses_table(study_, inference_);
+    note_pairs(outcome_.hypotheses);
     note_pairs(outcome_.pairs);
     outcome_.figures = make_figures(records_);
     std::ranges::move(figures_of_effects(inference_), std::back_inserter(outcome_.figures));
@@ -149,7 +152,7 @@ class Tabulation {
           "Proven: by Wilcoxon's signed-rank test over the seeds, of times by the Mann-Whitney U test over "
           "repeated runs. " +
           family.note());
-    if (study_.cases.size() < kFewestDomains)
+    if (study_.hypotheses.empty() && study_.cases.size() < kFewestDomains)
       outcome_.table.notes.push_back(fmt::format(
           "With fewer than {} domains (cases) nothing can be proven over domains.", kFewestDomains));
   }
@@ -175,9 +178,12 @@ class Tabulation {
     const std::string interval = "with its 95\\,\\% interval by bootstrap-t over domains~\\cite{davison1997}";
     const std::string proof =
         "Wilcoxon's signed-rank test over domains~\\cite{wilcoxon1945}, corrected by Holm's "
-        "method~\\cite{holm1979} over all tests of the study that could prove a "
-        "difference~\\cite{tarone1990}";
-    summary.notes = {inference_.family().note()};
+        "method~\\cite{holm1979} over all " +
+        std::string(study_.hypotheses.empty() ? "tests of the study"
+                                              : "hypotheses, which were fixed before the run,") +
+        " that could prove a difference~\\cite{tarone1990}";
+    const bool is_planned = !study_.hypotheses.empty();
+    summary.notes = {is_planned ? "" : inference_.family().note()};
     note_pairs(summary);
     std::string text = to_tex_floats(
         summary, "tab:summary",
@@ -185,12 +191,12 @@ class Tabulation {
             ". Won, lost: on how many domains a word is better, or worse, than every other one. Proven at "
             "5\\,\\%: " +
             proof + ". Bold: proven better than all others.");
-    Table pairs = outcome_.pairs;
+    Table pairs = is_planned ? outcome_.hypotheses : outcome_.pairs;
     pairs.columns = {{"domains", "domains", 0},
                      {"won_lost", "won/lost", 0},
                      {"effect", "difference", 4},
                      {"p_corrected", "p", 4},
-                     {"first_is", "first is", 0}};
+                     {"first_is", is_planned ? "verdict" : "first is", 0}};
     pairs.shown.clear();
     pairs.notes.clear();
     for (TableRow& row : pairs.rows)
@@ -332,8 +338,8 @@ std::vector<std::string> write_tables(const fs::path& folder, const Outcome& out
   std::map<std::string, std::string> files = outcome.files;
   for (const auto& [name, table] :
        {std::pair("table", &outcome.table), std::pair("pairs", &outcome.pairs),
-        std::pair(kSummary, &outcome.summary), std::pair(kCorrelations, &outcome.correlations),
-        std::pair(kSlopes, &outcome.slopes)})
+        std::pair(kHypotheses, &outcome.hypotheses), std::pair(kSummary, &outcome.summary),
+        std::pair(kCorrelations, &outcome.correlations), std::pair(kSlopes, &outcome.slopes)})
     for (const TableFormat& format : table_formats())
       if (!table->rows.empty()) files[std::string(name) + format.extension] = format.print(*table);
   std::vector<std::string> errors;
@@ -349,7 +355,7 @@ std::vector<std::string> write_tables(const fs::path& folder, const Outcome& out
 std::vector<std::string> result_files() {
   std::vector<std::string> files = {"study.json", "experiment", kFigures,   kRunsFile,
                                     kRunColumns,  kPrinted,     kReferences};
-  for (const char* name : {"table", "pairs", kSummary, kCorrelations, kSlopes})
+  for (const char* name : {"table", "pairs", kHypotheses, kSummary, kCorrelations, kSlopes})
     for (const TableFormat& format : table_formats()) files.push_back(std::string(name) + format.extension);
   return files;
 }

@@ -18,7 +18,8 @@ struct Outcome {
   Table table;
   /// Pairs of pipelines over the domains that both ran on; no rows where they have fewer than two in common.
   Table pairs;
-  Table summary = {};  ///< a row for each pipeline; no rows where there are fewer than two domains
+  Table summary = {};     ///< a row for each pipeline; no rows where there are fewer than two domains
+  Table hypotheses = {};  ///< of the experiment, and what became of them; no rows where it has none
   Table correlations = {}, slopes = {};  ///< that the experiment asks for; no rows where it does not
   /// By name, with their texts: every run with what its columns mean, tables as they are printed with the
   /// works that their captions cite.

@@ -65,7 +65,7 @@ function leftOut(study) {
 function studyNode(study, glossary, parts, tables) {
   const words = [...new Set(study.sheets.flatMap((sheet) => sheet.seeds.flatMap((seed) => seed.cells.map((cell) => cell.word))))];
   const section = el("section", { class: "study", id: study.name }, el("h2", {}, study.title));
-  const [table, pairs] = study.tables;
+  const [table, pairs, hypotheses] = study.tables;
   const add = (part) => {
     parts.push(part);
     section.append(part.node);
@@ -75,6 +75,7 @@ function studyNode(study, glossary, parts, tables) {
     return tables[tables.length - 1].node;
   };
   if (table) section.append(view(table, glossary.byKey, "table"));
+  if (hypotheses) section.append(view(hypotheses, {}, "hypotheses"));
   if (pairs) section.append(el("details", { class: "pairs" }, el("summary", {}, "Pairs of words, compared over all cases"), view(pairs, {}, "pairs")));
   section.append(...leftOut(study));
   if (study.samples && study.samples !== "left out") add(new SpreadView(study));

@@ -80,7 +80,7 @@ TEST(SuiteCommands, ModelsAreWrittenForOthers) {
   EXPECT_TRUE(contains(unknown.err, "the suite has no 'gaer'; did you mean 'gear'")) << unknown.err;
   const auto dry = delquad({"run", models / "suite.toml", "-o", folder / "none", "--dry-run"});
   EXPECT_EQ(dry.exit_code, 0) << dry.err;
-  EXPECT_EQ(std::ranges::count(dry.out, '\n'), 240);
+  EXPECT_TRUE(contains(dry.out, "cells: 240, of which 0 are done\n")) << dry.out;
 }
 
 TEST(SuiteCommands, AddMeasuresAndRanks) {

@@ -82,6 +82,13 @@ def main():
         all_of_them = ((sum(c) / n - centre) / stats.sem(c) for c in itertools.product(x, repeat=n) if len(set(c)) > 1)
         high, low = stats.mstats.mquantiles(list(all_of_them), [0.025, 0.975], alphap=1, betap=1)
         print(f"    {{{text(x)}, {float(centre - low * error)!r}, {float(centre - high * error)!r}}},")
+    print("};\n\nconst std::vector<OneSample> kOneSided = {")
+    for n, shift in ((5, 2), (9, -0.5), (12, 0.3)):
+        d = sample(n, shift)
+        print(f"    {{{text(d)}, {stats.wilcoxon(d, method='exact', alternative='greater').pvalue!r}}},")
+    d = sample(70, 0.1)
+    p = stats.wilcoxon(d, method="approx", correction=True, alternative="greater").pvalue
+    print(f"    {{{text(d)}, {p!r}}},")
     print("};")
 
 

@@ -20,6 +20,7 @@ struct Shape {
   std::vector<std::string> measures = {"eta_mean", "eta_worst", "d4", "tau"};
   int copies = 1;  ///< cases of each domain, with its values
   bool has_ties = false;
+  std::vector<Hypothesis> hypotheses = {};
 };
 
 using Value = std::function<double(int word, int domain, int seed)>;
@@ -28,6 +29,7 @@ StudyResults make_study(const Shape& shape, const Value& value) {
   StudyResults results;
   results.study.title = "Made up";
   results.study.pipelines = shape.words;
+  results.study.hypotheses = shape.hypotheses;
   for (int c = 0; c < shape.domains * shape.copies; ++c) {
     const int d = c / shape.copies;
     const std::string name = "domain" + std::to_string(c);
@@ -53,12 +55,18 @@ StudyResults make_study(const Shape& shape, const Value& value) {
   return results;
 }
 
+int planned_claims_of(const Inference& inference) {
+  return static_cast<int>(std::ranges::count_if(inference.hypotheses(), [&](const PairComparison& h) {
+    return inference.planned(h.secondary).finding(h.test) == Finding::kProven;
+  }));
+}
+
 int claims_of(const StudyResults& results) {
   const Inference inference(results.study, results.records);
   int claims = 0;
   for (std::size_t i = 0; i < inference.family().size(); ++i)
     claims += inference.family().finding(i) == Finding::kProven;
-  return claims;
+  return claims + planned_claims_of(inference);
 }
 
 /// All that a table shows as proven.
@@ -74,9 +82,10 @@ int claims_of(const Table& table) {
 
 int pair_claims_of(const StudyResults& results) {
   const Inference inference(results.study, results.records);
-  return static_cast<int>(std::ranges::count_if(inference.pairs(), [&](const PairComparison& pair) {
-    return inference.family().finding(pair.test) == Finding::kProven;
-  }));
+  return planned_claims_of(inference) +
+         static_cast<int>(std::ranges::count_if(inference.pairs(), [&](const PairComparison& pair) {
+           return inference.family().finding(pair.test) == Finding::kProven;
+         }));
 }
 
 /// Studies without any effect, and how many of them may claim something: 5 %, and three standard errors of
@@ -90,6 +99,10 @@ void PrintTo(const Trial& trial, std::ostream* out) {
   *out << trial.shape.words.size() << " words, " << trial.shape.domains << " domains, " << trial.shape.seeds
        << " seeds, " << trial.shape.copies << " copies";
 }
+/// A measure one-sided and first, then both, two-sided.
+const std::vector<Hypothesis> kPlan = {{"", "A", "B", {"eta_mean"}},
+                                       {"", "C", "B", {"eta_mean", "d4"}, true, true}};
+
 class NoEffect : public testing::TestWithParam<Trial> {};
 
 /// Words that are alike on every domain: nothing at all may be claimed, anywhere.
@@ -130,7 +143,75 @@ INSTANTIATE_TEST_SUITE_P(
                     Trial{{{"A", "B"}, 12, 1}, 2000, 129}, Trial{{{"A", "B", "C"}, 2, 20}, 500, 39},
                     Trial{{{"A", "B"}, 1, 12}, 2000, 129},
                     Trial{{{"A", "B"}, 8, 2, {"eta_mean"}, 4}, 500, 40},
-                    Trial{{{"A", "B", "C"}, 12, 3, {"eta_mean", "d4"}, 1, true}, 500, 40}));
+                    Trial{{{"A", "B", "C"}, 12, 3, {"eta_mean", "d4"}, 1, true}, 500, 40},
+                    Trial{{{"A", "B", "C"}, 12, 1, {"eta_mean", "d4"}, 1, false, kPlan}, 1000, 71},
+                    Trial{{{"A", "B", "C"}, 6, 3, {"eta_mean", "d4"}, 1, true, kPlan}, 500, 40}));
+
+/// The primary hypothesis is true and as good as always proven; the secondary ones are not.
+TEST(Hypotheses, AreSecondaryOnTheSameFivePercent) {
+  std::mt19937_64 random(13);
+  std::normal_distribution<double> normal;
+  constexpr int kPlannedStudies = 500, kMost = 40;
+  int proven = 0, wrong = 0;
+  for (int study = 0; study < kPlannedStudies; ++study) {
+    const StudyResults results =
+        make_study({{"A", "B", "C"}, 12, 1, {"eta_mean", "d4"}, 1, false, kPlan},
+                   [&](int word, int, int) { return (word == 0 ? 5 : 0) + normal(random); });
+    const Inference inference(results.study, results.records);
+    proven += inference.planned(false).finding(0) == Finding::kProven;
+    wrong += planned_claims_of(inference) > 1;
+  }
+  EXPECT_GT(proven, 0.99 * kPlannedStudies);
+  EXPECT_LE(wrong, kMost);
+}
+
+TEST(Hypotheses, AreAllThatIsClaimed) {
+  // Better by 1 in everything, C by 2; d4 of A is the other way round.
+  StudyResults results = make_study({{"A", "B", "C"}, 12, 8, {"eta_mean", "d4"}, 1, false, {}},
+                                    [](int word, int d, int s) { return word + 0.01 * d + 0.001 * s; });
+  results.study.hypotheses = {{"", "B", "A", {"eta_mean", "d4"}},
+                              {"", "A", "C", {"eta_mean"}, true},
+                              {"", "A", "C", {"d4"}, false, true}};
+  const Outcome outcome = make_tables(results);
+  ASSERT_EQ(outcome.hypotheses.rows.size(), 4u);
+  const auto verdict = [&](std::size_t row) { return outcome.hypotheses.rows[row].texts.at("first_is"); };
+  const auto p = [&](std::size_t row, const char* key) {
+    return outcome.hypotheses.rows[row].values.at(key);
+  };
+  EXPECT_EQ(outcome.hypotheses.rows[0].group, "B better than A");
+  EXPECT_EQ(verdict(0), "proven");
+  EXPECT_EQ(verdict(1), "proven");
+  EXPECT_DOUBLE_EQ(p(0, "p"), std::exp2(-12)) << "one-sided";
+  EXPECT_DOUBLE_EQ(p(0, "p_corrected"), 3 * std::exp2(-12));
+  EXPECT_EQ(outcome.hypotheses.rows[2].group, "A better than C, two-sided");
+  EXPECT_EQ(verdict(2), "refuted");
+  EXPECT_DOUBLE_EQ(p(2, "p"), std::exp2(-11));
+  EXPECT_EQ(outcome.hypotheses.rows[3].group, "A better than C, secondary");
+  EXPECT_EQ(verdict(3), "not proven") << "the contrary of a one-sided one";
+  EXPECT_EQ(p(3, "p"), 1);
+  // The rest would be proven a hundred times over.
+  EXPECT_EQ(claims_of(outcome.table) + claims_of(outcome.pairs), 0);
+  for (const TableRow& row : outcome.pairs.rows) EXPECT_EQ(row.texts.at("first_is"), "exploratory");
+  for (const Table* table : {&outcome.table, &outcome.pairs})
+    EXPECT_NE(to_markdown(*table).find("Exploratory: "), std::string::npos) << to_markdown(*table);
+  EXPECT_EQ(to_markdown(outcome.hypotheses).find("Not planned"), std::string::npos);
+  results.study.plan_changed = true;
+  EXPECT_NE(to_markdown(make_tables(results).hypotheses).find("Not planned"), std::string::npos);
+}
+
+TEST(Hypotheses, CountWhateverCameOfThem) {
+  const auto table_of = [](int domains, std::vector<std::string> measures) {
+    return make_tables(
+               make_study({{"A", "B"}, domains, 1, {"eta_mean"}, 1, false, {{"", "B", "A", measures}}},
+                          [](int word, int domain, int) { return word + 0.1 * domain; }))
+        .hypotheses;
+  };
+  EXPECT_EQ(table_of(5, {"eta_mean"}).rows[0].texts.at("first_is"), "proven") << "one-sided: p = 1/32";
+  EXPECT_EQ(table_of(4, {"eta_mean"}).rows[0].texts.at("first_is"), "too few domains");
+  const Table table = table_of(12, {"eta_mean", "no_such"});
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_EQ(table.rows[1].texts.at("first_is"), "too few domains") << "no record has it";
+}
 
 /// With one pair and one measure the only test is Wilcoxon's of twelve normal differences with a mean of .8
 /// deviations: its power at 5 % is .669 by 200 000 draws with NumPy.
@@ -224,6 +305,37 @@ TEST(Inference, SizesOfADomainAreTheSameDomain) {
   ASSERT_EQ(inference.pairs().size(), 1u);
   EXPECT_EQ(inference.pairs()[0].domains.names.size(), 2u);
   EXPECT_EQ(inference.pairs()[0].domains.runs, 16u);
+}
+
+/// Half of the cells with another option: more of eta by a hundredth of the domain's number.
+TEST(Inference, OptionsAreComparedAsPipelinesAre) {
+  StudyResults results = make_study({{"A", "B", "G"}, 12, 2, {"eta_mean", "tau"}},
+                                    [](int word, int, int seed) { return word + 0.3 * seed; });
+  const std::vector<CellRecord> plain = results.records;
+  for (CellRecord& record : results.records) record.variant.insert(record.variant.begin(), {"cross", "x"});
+  for (CellRecord record : plain) {
+    record.variant.insert(record.variant.begin(), {"cross", "y"});
+    record.values["eta_mean"] += 0.01 * std::stoi(record.name.substr(6));
+    results.records.push_back(record);
+  }
+  for (CellRecord& record : results.records) {
+    record.group = record.name + "@cross=" + record.variant[0].second + ",seed=" + record.variant[1].second;
+    if (record.pipeline == "G") record.values["n_triangles"] = 1;
+  }
+  results.study.axes = {{"cross", {"x", "y"}}, {"seed", {"1", "2"}}};
+  const std::size_t of_words = Inference(results.study, results.records).pairs().size();
+  results.study.pairs = {"cross"};
+  results.study.hypotheses = {{"cross", "y", "x", {"eta_mean"}}};
+  const Inference inference(results.study, results.records);
+  ASSERT_EQ(inference.pairs().size(), of_words + 2);
+  const PairComparison &eta = inference.pairs()[of_words], &tau = inference.pairs()[of_words + 1];
+  EXPECT_EQ(eta.first + " " + eta.second, "cross=y cross=x");
+  EXPECT_EQ(eta.domains.runs, 48u) << "without the word that leaves triangles";
+  EXPECT_EQ(tau.domains.runs, 72u);
+  for (std::size_t d = 0; d < 12; ++d)
+    EXPECT_NEAR(eta.domains.means()[d], 0.01 * static_cast<double>(d), 1e-12);
+  ASSERT_EQ(inference.hypotheses().size(), 1u);
+  EXPECT_DOUBLE_EQ(inference.planned(false).test(0).p, std::exp2(-11)) << "one domain has no difference";
 }
 
 TEST(Marks, SingleRunsProveNothing) {

@@ -32,6 +32,8 @@ struct AllResamples {
 TEST(Statistics, AgreesWithSciPy) {
   for (const auto& [values, expected] : kWilcoxon)
     EXPECT_NEAR(wilcoxon(values).p, expected, 1e-9) << values.size();
+  for (const auto& [values, expected] : kOneSided)
+    EXPECT_NEAR(wilcoxon(values, true).p, expected, 1e-9) << values.size();
   for (const auto& [first, second, expected] : kMannWhitney) {
     EXPECT_NEAR(mann_whitney(first, second).p, expected, 1e-9) << first.size();
     EXPECT_NEAR(mann_whitney(second, first).p, expected, 1e-9) << first.size();
@@ -109,6 +111,35 @@ TEST(Claims, TestsThatCannotProveAnythingDoNotCount) {
   EXPECT_TRUE(std::isnan(family.adjusted_p(1)));
   EXPECT_NE(family.note().find("over 1 test,"), std::string::npos) << family.note();
   EXPECT_NE(family.note().find("100 more could not"), std::string::npos) << family.note();
+}
+
+TEST(Claims, ASecondFamilyIsNoSurerThanTheFirst) {
+  const auto second_of = [](const std::vector<RankTest>& first) {
+    ClaimFamily gate, second;
+    for (const RankTest& test : first) gate.add(test);
+    gate.decide();
+    for (const double p : {0.001, 0.03}) second.add({p, 1e-6, 1});
+    second.decide(gate.largest_p());
+    return second;
+  };
+  const ClaimFamily open = second_of({{0.015, 1e-6, 1}, {0.004, 1e-6, 1}});  // Holm: .015, .008
+  EXPECT_DOUBLE_EQ(open.adjusted_p(0), 0.015);
+  EXPECT_DOUBLE_EQ(open.adjusted_p(1), 0.03);
+  EXPECT_EQ(open.finding(1), Finding::kProven);
+  const ClaimFamily shut = second_of({{0.06, 1e-6, 1}, {0.004, 1e-6, 1}});
+  EXPECT_DOUBLE_EQ(shut.adjusted_p(0), 0.06);
+  EXPECT_EQ(shut.finding(0), Finding::kNotProven);
+  EXPECT_EQ(second_of({{0.5, 0.5, 1}, {0.004, 1e-6, 1}}).adjusted_p(0), 1) << "one could prove nothing";
+}
+
+/// By 200 000 draws with NumPy.
+TEST(Power, IsThatOfAnIndependentComputation) {
+  constexpr double kErrors = 0.015;  // three standard errors of 10 000 draws
+  EXPECT_NEAR(wilcoxon_power(12, 0.8, 0.05, false), 0.669, kErrors);
+  EXPECT_NEAR(wilcoxon_power(12, 0.8, 0.05, true), 0.802, kErrors);
+  EXPECT_NEAR(wilcoxon_power(20, 0.5, 0.05 / 6, true), 0.347, kErrors);
+  EXPECT_NEAR(wilcoxon_power(70, 0.3, 0.05, true), 0.783, kErrors);
+  EXPECT_EQ(wilcoxon_power(4, 9, 0.05, true), 0) << "p = .0625 at best";
 }
 
 TEST(Claims, AsManyAsCanProveSomethingCount) {
