@@ -183,7 +183,8 @@ class Tabulation {
                                               : "hypotheses, which were fixed before the run,") +
         " that could prove a difference~\\cite{tarone1990}";
     const bool is_planned = !study_.hypotheses.empty();
-    summary.notes = {is_planned ? "" : inference_.family().note()};
+    summary.notes.clear();
+    if (!is_planned) summary.notes.push_back(inference_.family().note());
     note_pairs(summary);
     std::string text = to_tex_floats(
         summary, "tab:summary",
