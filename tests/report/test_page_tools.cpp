@@ -228,7 +228,8 @@ TEST_F(PageTools, SavesFiguresOfTheFolder) {
     return { saved, title: document.title, complaints: all(".drawings .failed").map((n) => n.textContent) };
   )");
   EXPECT_EQ(saved["title"], "Seeds");
-  EXPECT_EQ(saved["complaints"], (Json{"", ""}));
+  EXPECT_GE(saved["complaints"].size(), 2u);
+  for (const Json& complaint : saved["complaints"]) EXPECT_EQ(complaint, "");
   EXPECT_EQ(count(decoded(saved.at("saved").at("seeds-a.pdf")), "/Subtype /Image"), 0u);
   EXPECT_EQ(count(decoded(saved.at("saved").at("seeds-b.pdf")), "/Subtype /Image"), 1u);
   EXPECT_EQ(count(decoded(saved.at("saved").at("seeds-b.svg")), "script"), 0u);
