@@ -57,11 +57,12 @@ if planned: corrected.append(decide(families[1], max([corrected[0].get(i, 1) for
 for stated, family, i, means, sign in found:
     (p, _, lean), effect, holm = families[family][i], mean(means) if means else math.nan, corrected[family].get(i, math.nan)
     claims = ["refuted", "proven"] if planned else ["worse", "better"]
-    claim = "too few domains" if math.isnan(holm) else claims[int(sign * effect > 0)] if holm <= 0.05 and sign * effect * lean > 0 else "not proven"
+    claim = "no difference" if len(means) > 5 and not any(means) else "too few domains" if math.isnan(holm) else claims[int(sign * effect > 0)] if holm <= 0.05 and sign * effect * lean > 0 else "not proven"
+    label = " ".join(list(stated.values())[:2])
     numbers = {"domains": len(means), "effect": effect, "p": p, "p_corrected": holm}
-    wrong += [f"{stated}: {key} is by runs.csv {value}" for key, value in numbers.items() if not np.isclose(
+    wrong += [f"{label}: {key} is {stated[key]}, by runs.csv {value}" for key, value in numbers.items() if not np.isclose(
         float(stated[key] or math.nan), value, rtol=1e-9, atol=1e-12, equal_nan=True)]
-    if stated["first_is"] != claim: wrong.append(f"{stated}: is by runs.csv '{claim}'")
-if planned: wrong += [f"{r}: claims what was not planned" for r in rows("pairs.csv") if r["first_is"] != "exploratory"]
+    if stated["first_is"] != claim: wrong.append(f"{label}: is '{stated['first_is']}', by runs.csv '{claim}'")
+if planned: wrong += [f"{r['pipelines']} {r['measure']}: claims what was not planned" for r in rows("pairs.csv") if r["first_is"] != "exploratory"]
 print(*wrong, f"{len(found)} comparisons of {sum(map(len, families))} tests: {'not ' if wrong else ''}confirmed", sep="\n")
 sys.exit(1 if wrong else 0)

@@ -215,7 +215,11 @@ std::string dry_run(const Experiment& experiment, const fs::path& folder, std::o
   if (experiment.linf) return "";  // it has no cells
   experiment.check_hypotheses();
   const std::vector<CellRecord> cells = planned_cells(experiment, folder);
-  return text_of_cells(cells) +
+  const StudyFile study = describe(experiment);
+  const auto before = folder.empty() ? std::nullopt : read_study(folder);
+  const bool is_late = !study.hypotheses.empty() && before && before->experiment == study.experiment &&
+                       is_plan_changed(study, folder);
+  return text_of_cells(cells) + (is_late ? std::string("warning: ") + kNotPlanned + "\n" : "") +
          fmt::format("cells: {}, of which {} are done\n", cells.size(),
                      std::ranges::count_if(cells, needs_no_run)) +
          time_text(experiment, cells, folder) + domains_text(cells) +

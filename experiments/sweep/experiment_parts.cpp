@@ -342,8 +342,8 @@ void Experiment::check_hypotheses() const {
       const auto at = std::ranges::find(words, text, &Word::text);
       if (!h.along.empty()) continue;
       if (at == words.end())
-        refuse("{}: '{}' is none of the pipelines that are run{}", table.where(key), text,
-               suggestion_or_all(text, run));
+        refuse("{}: '{}' is none of the pipelines that are run (--pipelines counts){}", table.where(key),
+               text, suggestion_or_all(text, run));
       compared.push_back(*at);
     }
     const std::size_t needed = h.along.empty() ? 2 : 1;

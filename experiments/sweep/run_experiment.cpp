@@ -218,12 +218,6 @@ void check_study(const Experiment& experiment, const fs::path& folder) {
            study->experiment, experiment.file.stem().string());
 }
 
-/// Whether there were records already when the plan was made, or made otherwise.
-bool is_plan_changed(const StudyFile& study, const fs::path& folder) {
-  const StudyFile before = read_study(folder).value_or(StudyFile());
-  return before.plan_changed || (!have_same_plan(before, study) && !record_files(folder).empty());
-}
-
 Outcome run_study(const Experiment& experiment, const fs::path& folder) {
   Outcome outcome;
   Progress progress(linf_study_steps(*experiment.linf));
@@ -233,6 +227,11 @@ Outcome run_study(const Experiment& experiment, const fs::path& folder) {
 }
 
 }  // namespace
+
+bool is_plan_changed(const StudyFile& study, const fs::path& folder) {
+  const StudyFile before = read_study(folder).value_or(StudyFile());
+  return before.plan_changed || (!have_same_plan(before, study) && !record_files(folder).empty());
+}
 
 Outcome run_experiment(const Experiment& experiment, const fs::path& folder, const SweepOptions& options) {
   prepare_folder(folder);
@@ -245,6 +244,7 @@ Outcome run_experiment(const Experiment& experiment, const fs::path& folder, con
     experiment.check_hypotheses();
     StudyFile study = describe(experiment);
     study.plan_changed = is_plan_changed(study, folder);
+    if (study.plan_changed && !study.hypotheses.empty()) say(std::string("warning: ") + kNotPlanned);
     const fs::path copy = keep_experiment(experiment, folder);
     write_study(folder, study);
     const std::size_t interrupted = Sweep(experiment, folder, copy, options).run();

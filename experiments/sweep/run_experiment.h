@@ -41,6 +41,9 @@ struct SweepOptions {
 Outcome run_experiment(const Experiment& experiment, const std::filesystem::path& folder,
                        const SweepOptions& options = {});
 
+/// Whether the folder had records already when its plan was made, or made otherwise than by `study`.
+bool is_plan_changed(const StudyFile& study, const std::filesystem::path& folder);
+
 /// The cells in their order, a line each, and what there is of them: as in state_of_cell(), or "data not
 /// found".
 std::string list_cells(const Experiment& experiment, const std::filesystem::path& folder);

@@ -184,9 +184,10 @@ std::vector<Figure> figures_of_effects(const Inference& inference) {
                     {},
                     DiagramKind::kIntervals,
                     {}};
-      frame.notes = {pair.metric.better == Better::kHigher
-                         ? "Above 0: the first is better. Full: proven at 5 %."
-                         : "Below 0: the first is better. Full: proven at 5 %."};
+      frame.notes = {
+          fmt::format("{} 0: the first is better. Full: proven at 5 %{}.",
+                      pair.metric.better == Better::kHigher ? "Above" : "Below",
+                      inference.family().is_exploratory() ? "; empty: not planned, or not proven" : "")};
       at = figures.insert(at, {name, std::move(frame), "pair,low,effect,high,proven\n"});
     }
     const double effect = mean(means);

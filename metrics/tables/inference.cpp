@@ -156,6 +156,9 @@ using Words = std::array<const char*, 2>;
 
 std::string in_words(const PairComparison& pair, const ClaimFamily& family, const Words& words) {
   if (family.is_exploratory()) return "exploratory";
+  const std::vector<double> means = pair.domains.means();
+  if (means.size() >= kFewestDomains && std::ranges::all_of(means, [](double d) { return d == 0; }))
+    return "no difference";
   if (family.finding(pair.test) == Finding::kTooFew) return "too few domains";
   const auto better = first_is_better(pair, family);
   return !better ? "not proven" : *better ? words[0] : words[1];
@@ -257,10 +260,7 @@ Table hypotheses_table(const StudyFile& study, const Inference& inference) {
                             pair.one_sided ? "" : ", two-sided", pair.secondary ? ", secondary" : "");
   }
   const ClaimFamily &primary = inference.planned(false), &secondary = inference.planned(true);
-  if (study.plan_changed)
-    table.notes.insert(
-        table.notes.begin(),
-        "Not planned: hypotheses, cases or [matrix] were changed after the first mesh was made.");
+  if (study.plan_changed) table.notes.insert(table.notes.begin(), kNotPlanned);
   table.notes.emplace_back(
       "p: Wilcoxon's signed-rank test over the domains; one-sided, so that the contrary is never proven, but "
       "for hypotheses that say two-sided.");

@@ -41,7 +41,9 @@ std::string value_of_axis(const CellRecord& record, const std::string& title) {
 class RunColumns {
  public:
   RunColumns(const StudyFile& study, const std::vector<CellRecord>& records)
-      : marked_(marked_measures(study, records)), compared_(compared_measures(study, records)) {
+      : study_(study),
+        marked_(marked_measures(study, records)),
+        compared_(compared_measures(study, records)) {
     add_texts(study);
     for (const Metric& metric : metric_registry()) add(metric);
     for (const Metric& metric : own_metrics_of(records)) add(metric);
@@ -129,8 +131,15 @@ class RunColumns {
             metric.better == Better::kLower ? metric.worst : HUGE_VAL};
   }
 
-  /// In which claims of tables and pairs it is tested.
+  /// In which claims it is tested.
   const char* tested(const std::string& key) const {
+    if (!study_.hypotheses.empty()) {
+      const bool is_planned = std::ranges::any_of(study_.hypotheses, [&](const Hypothesis& h) {
+        return std::ranges::any_of(
+            h.measures, [&](const std::string& m) { return key == m || key.starts_with(m + "_run_"); });
+      });
+      return is_planned ? "hypotheses" : "";
+    }
     const auto holds = [&](const std::vector<TestedMeasure>& measures) {
       return std::ranges::any_of(measures, [&](const TestedMeasure& m) {
         return m.kind == ValueKind::kMeasure ? m.metric.key == key : key.starts_with(m.metric.key + "_run_");
@@ -149,6 +158,7 @@ class RunColumns {
                        end(column.range.high), way, is_of_quads(key) ? "yes" : "", tested(key));
   }
 
+  const StudyFile& study_;
   std::vector<TestedMeasure> marked_, compared_;
   std::vector<RunColumn> columns_;
 };

@@ -76,6 +76,9 @@ struct StudyFile : TablePlan {
   std::map<std::string, std::map<std::string, std::string>> compare;
   bool plan_changed = false;  ///< hypotheses, cases or axes, after the first record was there
 };
+/// What tables say then.
+inline constexpr const char* kNotPlanned =
+    "Not planned: hypotheses, cases or [matrix] were changed after the first mesh was made.";
 /// Whether two have the same hypotheses and, where there are any, cases and axes.
 bool have_same_plan(const StudyFile& a, const StudyFile& b);
 

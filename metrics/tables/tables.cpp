@@ -57,15 +57,19 @@ class Tabulation {
     if (study_.ratio) note_ratio(*study_.ratio);
     outcome_.pairs = pairs_table(study_.title, inference_.pairs(), inference_.family());
     outcome_.hypotheses = hypotheses_table(study_, inference_);
-    note_pairs(outcome_.hypotheses);
+    if (study_.plan_changed && study_.hypotheses.empty())
+      outcome_.pairs.notes.insert(
+          outcome_.pairs.notes.begin(),
+          "This study had hypotheses, which were taken out after the first mesh was made.");
     note_pairs(outcome_.pairs);
+    if (!outcome_.hypotheses.rows.empty()) note_pairs(outcome_.hypotheses);
     outcome_.figures = make_figures(records_);
     std::ranges::move(figures_of_effects(inference_), std::back_inserter(outcome_.figures));
     if (study_.slopes)
       std::ranges::move(figures_of_slopes(*study_.slopes, records_), std::back_inserter(outcome_.figures));
     const auto [by_word, by_measure] = summarise(study_, records_, inference_);
     outcome_.summary = by_word;
-    note_pairs(outcome_.summary);
+    if (!outcome_.summary.rows.empty()) note_pairs(outcome_.summary);
     print(by_measure);
     return std::move(outcome_);
   }
@@ -163,7 +167,6 @@ class Tabulation {
 
   /// What pairs lack, and why.
   void note_pairs(Table& table) const {
-    if (table.rows.empty()) return;
     add_notes(triangle_notes(records_,
                              "no pair with it is compared in measures of quads (eta, d4 and the like), from "
                              "which the triangles are missing"),
@@ -180,6 +183,7 @@ class Tabulation {
         "Wilcoxon's signed-rank test over domains~\\cite{wilcoxon1945}, corrected by Holm's "
         "method~\\cite{holm1979} over all " +
         std::string(study_.hypotheses.empty() ? "tests of the study"
+                    : study_.plan_changed     ? "hypotheses, which were not fixed before the run,"
                                               : "hypotheses, which were fixed before the run,") +
         " that could prove a difference~\\cite{tarone1990}";
     const bool is_planned = !study_.hypotheses.empty();
@@ -344,6 +348,9 @@ std::vector<std::string> write_tables(const fs::path& folder, const Outcome& out
     for (const TableFormat& format : table_formats())
       if (!table->rows.empty()) files[std::string(name) + format.extension] = format.print(*table);
   std::vector<std::string> errors;
+  // What an earlier run asked for and this one does not would be taken for its own.
+  for (const TableFormat& format : table_formats())
+    if (outcome.hypotheses.rows.empty()) fs::remove(folder / (std::string(kHypotheses) + format.extension));
   for (const auto& [name, text] : files) try {
       write_text_file(folder / name, text);
     } catch (const InputError& error) {

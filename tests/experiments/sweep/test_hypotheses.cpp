@@ -133,6 +133,12 @@ TEST_F(Planned, PlansThatWereChangedAfterwardsSaySo) {
   EXPECT_EQ(read_study(out)->hypotheses, read(text("d4")).hypotheses);
   EXPECT_TRUE(note_after(text("tau")));
   EXPECT_TRUE(note_after(text("d4"))) << "it stays said";
+  expect_part(dry_run(read(text("d4")), out, {}), "warning: Not planned");
+  expect_part(read_text(out / "runs_columns.csv"), ",hypotheses\n");
+  std::string without = text("d4");
+  run_experiment(read(without.erase(without.find("[[hyp"), without.find("[[case") - without.find("[[hyp"))),
+                 out);
+  EXPECT_FALSE(fs::exists(out / "hypotheses.md")) << "nothing of an earlier run stays";
   fs::remove_all(out);
   EXPECT_FALSE(note_after(text("tau")));
   EXPECT_TRUE(note_after(

@@ -196,7 +196,11 @@ TEST(Hypotheses, AreAllThatIsClaimed) {
     EXPECT_NE(to_markdown(*table).find("Exploratory: "), std::string::npos) << to_markdown(*table);
   EXPECT_EQ(to_markdown(outcome.hypotheses).find("Not planned"), std::string::npos);
   results.study.plan_changed = true;
-  EXPECT_NE(to_markdown(make_tables(results).hypotheses).find("Not planned"), std::string::npos);
+  const Outcome changed = make_tables(results);
+  EXPECT_NE(to_markdown(changed.hypotheses).find("Not planned"), std::string::npos);
+  EXPECT_NE(changed.files.at("tables.tex").find("which were not fixed before the run"), std::string::npos);
+  for (CellRecord& record : results.records) record.values["d4"] = 90;
+  EXPECT_EQ(make_tables(results).hypotheses.rows[1].texts.at("first_is"), "no difference");
 }
 
 TEST(Hypotheses, CountWhateverCameOfThem) {
