@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <system_error>
 
 #include "base/located.h"
 #include "delquad/error.h"
@@ -349,8 +350,10 @@ std::vector<std::string> write_tables(const fs::path& folder, const Outcome& out
       if (!table->rows.empty()) files[std::string(name) + format.extension] = format.print(*table);
   std::vector<std::string> errors;
   // What an earlier run asked for and this one does not would be taken for its own.
+  std::error_code kept;  // in a folder that cannot be written to, as the errors say then
   for (const TableFormat& format : table_formats())
-    if (outcome.hypotheses.rows.empty()) fs::remove(folder / (std::string(kHypotheses) + format.extension));
+    if (outcome.hypotheses.rows.empty())
+      fs::remove(folder / (std::string(kHypotheses) + format.extension), kept);
   for (const auto& [name, text] : files) try {
       write_text_file(folder / name, text);
     } catch (const InputError& error) {

@@ -52,7 +52,7 @@ TEST_F(Study, IsAPaperWithProvenClaims) {
   const std::string tables = read_text(results() / "tables.tex");
   EXPECT_NE(tables.find("\\textbf{"), std::string::npos) << "something is proven";
   EXPECT_EQ(tables.find("longtable"), std::string::npos);
-  if (std::system("command -v pdffonts >/dev/null") != 0) return;
+  if (std::system("command -v pdffonts >/dev/null") != 0) GTEST_SKIP() << "poppler-utils is not installed";
   const ProgramResult fonts =
       run_program("/bin/sh", {{"-c", "pdffonts '" + (*folder_ / "paper.pdf").string() + "'"}, 0, {}});
   EXPECT_NE(fonts.out.find("DejaVuSans"), std::string::npos) << fonts.out;
@@ -60,7 +60,8 @@ TEST_F(Study, IsAPaperWithProvenClaims) {
 }
 
 TEST_F(Study, ClaimsAreConfirmedByAnotherProgram) {
-  if (std::system("/usr/bin/python3 -c 'import scipy' 2>/dev/null") != 0) GTEST_SKIP() << "no SciPy";
+  if (std::system("/usr/bin/python3 -c 'import scipy' 2>/dev/null") != 0)
+    GTEST_SKIP() << "python3-scipy is not installed";
   const ProgramResult whole = check_claims();
   EXPECT_EQ(whole.exit_code, 0) << whole.out << whole.err;
   EXPECT_NE(whole.out.find("6 comparisons of 6 tests"), std::string::npos) << whole.out;
