@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <ostream>
+#include <set>
 
 #include "base/located.h"
 #include "base/text.h"
@@ -60,8 +61,11 @@ MeshResult measure(const Prepared& prepared, const fs::path& file) {
 /// The cells of one submission.
 class Adding {
  public:
-  Adding(const Submission& submission, Experiment& experiment, const fs::path& results)
+  Adding(const Submission& submission, const std::vector<SuiteModel>& models, Experiment& experiment,
+         const fs::path& results)
       : submission_(submission), experiment_(experiment), folder_(results / submission.program) {
+    for (const SuiteModel& model : models)
+      for (std::size_t k = 0; k < model.sizes.size(); ++k) asked_.insert(case_name(model, k));
     peer_.name = submission.program;
     peer_.command = {submission.command};
     peer_.folder = submission.folder;
@@ -79,7 +83,7 @@ class Adding {
     for (std::size_t i = 0; i < experiment_.n_cases(); ++i) {
       const Case c = experiment_.read_variant(i);
       progress.step(c.name);
-      add(c);
+      if (asked_.contains(c.name)) add(c);
     }
     for (const std::string& error : write_tables(folder_, make_tables(folder_))) throw InputError(error);
     return count_;
@@ -127,6 +131,7 @@ class Adding {
   const Submission& submission_;
   Experiment& experiment_;
   const fs::path folder_;
+  std::set<std::string> asked_;  // cases
   Peer peer_;
   SubmissionCount count_;
 };
@@ -267,8 +272,8 @@ SubmissionCount add_submission(const Submission& submission, const fs::path& res
   const fs::path folder = results / submission.program;
   if (const auto study = read_study(folder); study && study->pipelines != std::vector{submission.program})
     throw InputError(folder.string() + ": holds the results of a run: call the program otherwise");
-  Experiment experiment = write_suite_experiment(results / kModelsFolder, models);
-  return Adding(submission, experiment, results).run();
+  Experiment experiment = write_suite_experiment(results / kModelsFolder, suite().models);
+  return Adding(submission, models, experiment, results).run();
 }
 
 void check_is_of_model(const Prepared& prepared, Mesh& mesh) {

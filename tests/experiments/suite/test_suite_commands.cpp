@@ -123,6 +123,12 @@ TEST(SuiteCommands, AddMeasuresAndRanks) {
   const Json rows = read_json(work / "out/ranking/table.json").at("rows");
   EXPECT_EQ(rows.at(0).at("values").at("solved"), 4);
   EXPECT_EQ(rows.at(0).at("values").at("failed"), 116);
+
+  const auto part = delquad({"suite", "add", work / "in", "-o", work / "part", "--models", "gear"});
+  ASSERT_EQ(part.exit_code, 0) << part.err;
+  EXPECT_TRUE(contains(part.out, "theirs: 1 meshes measured, 0 refused, 2 missing")) << part.out;
+  EXPECT_FALSE(fs::exists(work / "part/theirs/torus_1"));
+  EXPECT_TRUE(contains(read_text(work / "part/models/suite.toml"), "torus_1")) << "the suite stays whole";
   EXPECT_TRUE(contains(table.out, "| theirs ")) << table.out;
   EXPECT_EQ(delquad({"report", work / "out", "-o", work / "page.html"}).exit_code, 0);
 }
