@@ -142,11 +142,21 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
 MeshMetrics metrics_of(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides) {
   const MetricAt metric = metric_of(prepared);
   if (!metric)
-    return evaluate_metrics(mesh, prepared.size.field.get(), prepared.size.asked.get(),
-                            prepared.settings.options, sides, quads_in_layers(prepared, mesh));
-  MeshMetrics metrics = evaluate_metrics(mesh, nullptr, nullptr, prepared.settings.options, sides);
+    return own_measures(mesh, prepared.size.field.get(), prepared.size.asked.get(), sides,
+                        quads_in_layers(prepared, mesh));
+  MeshMetrics metrics = own_measures(mesh, nullptr, nullptr, sides);
   metrics.values.merge(measure_by_metric(mesh, sides, metric));
   return metrics;
+}
+
+void measure_from_outside(const PreparedProblem& prepared, const Mesh& mesh, const std::string& word,
+                          MeshMetrics& metrics) {
+  const bool by_size = !metric_of(prepared);
+  measure_from_outside(
+      {mesh, by_size ? prepared.size.field.get() : nullptr, by_size ? prepared.size.asked.get() : nullptr,
+       prepared.settings.options, prepared.settings.name, word,
+       prepared.surface ? &prepared.surface->whole().fine : nullptr},
+      metrics);
 }
 
 void measure_straight_form(const PreparedProblem& prepared, const std::vector<char>& left_out,

@@ -125,6 +125,8 @@ void check(const CrossSpec& cross, bool has_metric) {
   if (cross.kind == CrossKind::kField && given != 1)
     throw InputError(fmt::format("{}: crosses by a field need a field or a function, and have {}",
                                  cross.where, given == 0 ? "none" : "both"));
+  if ((cross.kind == CrossKind::kMade) != (cross.maker != nullptr))
+    throw InputError(cross.where + ": a maker of crosses and the kind 'made' come together");
   if (cross.kind == CrossKind::kMetric && !has_metric)
     throw InputError(cross.where +
                      ": directions of a metric are asked for, and there is no metric, or none "

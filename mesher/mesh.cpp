@@ -256,8 +256,10 @@ std::optional<Cross> Prepared::cross_at(Vec2 u, int& hint) const {
   return made_->patches[background.triangle_patch()[t]].cross->at(u, anywhere);
 }
 
-MeshMetrics Prepared::metrics(const Mesh& made) const {
-  return metrics_of(*made_, made, sorted_half_edges(made));
+MeshMetrics Prepared::metrics(const Mesh& made, const std::string& word) const {
+  MeshMetrics metrics = metrics_of(*made_, made, sorted_half_edges(made));
+  measure_from_outside(*made_, made, word, metrics);
+  return metrics;
 }
 
 MeshResult Prepared::measure(Mesh of_others) const {

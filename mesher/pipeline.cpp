@@ -254,6 +254,9 @@ MeshResult finish_meshing(const PreparedProblem& prepared, const std::string& la
       metric ? count_bad_quads(metric, label, result.mesh, result.warnings) : bad.elsewhere;
   judge_by_criteria(prepared, false, result);
   if (prepared.is_given_surface()) put_back_entities(*prepared.surface->given, result.mesh);
+  std::string word;
+  for (const Stage* stage : state.stages) word += stage->letter;
+  measure_from_outside(prepared, result.mesh, word, result.metrics);
   return std::move(on.result);
 }
 

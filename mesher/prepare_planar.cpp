@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "delquad/error.h"
+#include "features/crosses/made_crosses.h"
 #include "features/crosses/size_aware.h"
 #include "features/curves/compose_size.h"
 #include "features/given/given_domain.h"
@@ -191,6 +192,7 @@ class PlanarSteps final : public ModelSteps {
     for (PatchImage& image : domain_.images) p.patches[image.patch].image = std::move(image);
     add_grids(problem_.mapped, domain_.mapped, p);
     if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
+    if (problem_.cross.kind == CrossKind::kMade) use_made_crosses(problem_.cross, p);
     if (problem_.cross.kind == CrossKind::kMetric)
       make_crosses_size_aware(p, [&](int, Vec2 u, int& hint) { return p.metric_plane->pull_at(u, hint); });
     if (p.metric_plane)

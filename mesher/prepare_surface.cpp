@@ -9,6 +9,7 @@
 #include "base/activity.h"
 #include "base/located.h"
 #include "base/parallel.h"
+#include "features/crosses/made_crosses.h"
 #include "features/crosses/size_aware.h"
 #include "features/curves/compose_size.h"
 #include "features/curves/mesh_surface_curves.h"
@@ -190,6 +191,7 @@ class SurfaceSteps final : public ModelSteps {
         for (const auto& loop : surface_->domain.patches[i].outline)
           for (const CurveSide& side : loop) surface_->domain.chain_stays[side.chain] = 1;
     if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
+    if (problem_.cross.kind == CrossKind::kMade) use_made_crosses(problem_.cross, p);
     if (problem_.cross.kind == CrossKind::kMetric)
       make_crosses_size_aware(
           p, [&](int patch, Vec2 u, int& hint) { return pull_at(*surface_, patch, u, hint); });
@@ -315,6 +317,7 @@ class GivenSurfaceSteps final : public ModelSteps {
       p.patches[i].given_inside = std::move(inside_[i]);
     }
     if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
+    if (problem_.cross.kind == CrossKind::kMade) use_made_crosses(problem_.cross, p);
   }
 
  private:

@@ -42,6 +42,9 @@ Mesh put_together(Finishing& on);
 void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, MeshResult& result);
 /// By the size, or by the metric, that is meshed by.
 MeshMetrics metrics_of(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides);
+/// Adds the measures from outside.
+void measure_from_outside(const PreparedProblem& prepared, const Mesh& mesh, const std::string& word,
+                          MeshMetrics& metrics);
 /// The same of a curved mesh, after its vertices moved: adds what is not sound of its straight form.
 void measure_straight_form(const PreparedProblem& prepared, const std::vector<char>& left_out,
                            MeshResult& result);

@@ -12,6 +12,7 @@
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/linf_adaptation.h"
+#include "algorithms/recombination/merge_cost.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
@@ -90,7 +91,9 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const RecombinationOptions options = recombination_options(in.options);
   RecombineSummary summary;
   const long long extra = is_astray(in.boundary, in.cross, in.size) ? kAstrayExtraEdgeCost : kExtraEdgeCost;
-  patch.quads = recombine(patch.triangles, *matching_solver(options.solver, in.options), &summary, extra);
+  const AddedCost cost = added_cost(options.cost, in);
+  patch.quads =
+      recombine(patch.triangles, *matching_solver(options.solver, in.options), &summary, extra, cost);
   patch.triangles = {};
   patch.form = PatchForm::kQuads;
   add_summary(log, summary);
@@ -390,6 +393,8 @@ const std::deque<Stage>& stage_registry() { return stages(); }
 
 void add_stage(Stage stage) {
   if (!stage.run) throw std::invalid_argument(std::string("stage '") + stage.letter + "' has nothing to run");
+  if (stage.letter < 'A' || stage.letter > 'Z')
+    throw std::invalid_argument(fmt::format("stage '{}': expected a capital from A to Z", stage.letter));
   if (std::ranges::find(stages(), stage.letter, &Stage::letter) != stages().end())
     throw std::invalid_argument(std::string("there is a stage '") + stage.letter + "' already");
   stages().push_back(std::move(stage));

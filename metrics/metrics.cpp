@@ -181,27 +181,6 @@ void measure_regularity(const Mesh& mesh, std::span<const HalfEdge> sides, MeshM
   }
 }
 
-void measure_from_outside(const MetricInput& input, MeshMetrics& metrics) {
-  for (const OwnMetric& metric : own_metrics()) {
-    const auto fail = [&](const std::string& why) { metrics.failures[metric.key] = why; };
-    try {
-      const double value = metric.measure(input);
-      if (std::isinf(value))
-        fail("it is infinite");
-      else
-        metrics.values[metric.key] = value;
-    } catch (const Cancelled&) {
-      throw;
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& error) {
-      fail(*error.what() == 0 ? "it threw an exception without a message" : error.what());
-    } catch (...) {
-      fail("it threw something that is no std::exception");
-    }
-  }
-}
-
 std::deque<Metric>& metrics() {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -264,7 +243,30 @@ std::deque<OwnMetric>& measures() {
 
 MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given,
                              const Options& options) {
-  return evaluate_metrics(mesh, size, given, options, sorted_half_edges(mesh));
+  MeshMetrics metrics = own_measures(mesh, size, given, sorted_half_edges(mesh));
+  measure_from_outside({mesh, size, given, options}, metrics);
+  return metrics;
+}
+
+void measure_from_outside(const MetricInput& input, MeshMetrics& metrics) {
+  for (const OwnMetric& metric : own_metrics()) {
+    const auto fail = [&](const std::string& why) { metrics.failures[metric.key] = why; };
+    try {
+      const double value = metric.measure(input);
+      if (std::isinf(value))
+        fail("it is infinite");
+      else
+        metrics.values[metric.key] = value;
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      fail(*error.what() == 0 ? "it threw an exception without a message" : error.what());
+    } catch (...) {
+      fail("it threw something that is no std::exception");
+    }
+  }
 }
 
 MeshMetrics evaluate_shapes(const Mesh& mesh, std::span<const HalfEdge> sides) {
@@ -277,9 +279,8 @@ MeshMetrics evaluate_shapes(const Mesh& mesh, std::span<const HalfEdge> sides) {
   return metrics;
 }
 
-MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given,
-                             const Options& options, std::span<const HalfEdge> sides,
-                             const std::vector<char>& in_layers) {
+MeshMetrics own_measures(const Mesh& mesh, const SizeField* size, const SizeField* given,
+                         std::span<const HalfEdge> sides, const std::vector<char>& in_layers) {
   MeshMetrics metrics = evaluate_shapes(mesh, sides);
   const double n_quads = static_cast<double>(mesh.quads.size());
   const double n_elements = n_quads + static_cast<double>(mesh.triangles.size());
@@ -295,7 +296,6 @@ MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const Size
     const auto outside = has_layers ? sides_outside(mesh, sides, in_layers) : std::vector<HalfEdge>();
     measure_lengths(mesh, has_layers ? outside : sides, *size, given, metrics.values);
   }
-  measure_from_outside({mesh, size, given, options}, metrics);
   return metrics;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cassert>
+#include <limits>
 
 #include "base/cancel.h"
 #include "base/parallel.h"
@@ -120,6 +121,13 @@ std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t pat
   const PreparedSurface& surface = *prepared.surface;
   return places_inside(surface.domain.patches[patch], surface.model, points, sides, nodes);
 }
+
+StageInput input_of(const AllPatches& all, std::size_t patch) {
+  const PreparedPatch& p = all.prepared.patches.at(patch);
+  return {p.boundary, *p.cross, *p.size, all.options, std::numeric_limits<long long>::max()};
+}
+
+const std::vector<Vec3>& node_places(const AllPatches& all) { return all.nodes.points; }
 
 void place_inside(const AllPatches& all) {
   assert(all.left_out.size() == all.patches.size());

@@ -30,19 +30,6 @@ inline const std::vector<Vec2>& points_of(const PatchMesh& patch) {
 std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t patch, const PatchMesh& mesh,
                                 const std::vector<Vec3>& nodes);
 
-/// What a word has made of all patches so far.
-struct AllPatches {
-  const PreparedProblem& prepared;
-  const Options& options;
-  std::vector<PatchMesh>& patches;
-  const std::vector<char>& left_out;  ///< by patch
-  SurfaceNodes& nodes;                ///< on curves; of a planar domain only their places
-  bool began_from_given = false;      ///< quads
-};
-
-/// Patches of quads that are not left out get the places of their points inside, where they have none yet.
-void place_inside(const AllPatches& all);
-
 /// Adds what a step counted to the log.
 template <class Summary>
 void add_summary(StageLog& log, const Summary& summary) {

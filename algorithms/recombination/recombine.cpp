@@ -104,11 +104,12 @@ std::vector<FanEnds> matched_extra_edges(const TriPatch& tri, const DualGraph& d
 }  // namespace
 
 QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, RecombineSummary* summary,
-                    long long extra_edge_cost) {
+                    long long extra_edge_cost, const AddedCost& cost) {
   RecombineSummary s;
   s.triangles = static_cast<int>(tri.triangles.size());
   Lap lap;
   DualGraph dual = build_dual_graph(tri, extra_edge_cost);
+  if (cost) cost(tri, dual);
   s.graph_seconds = lap();
   MatchingResult matching = solver.solve(dual.graph);
   s.matching_seconds = lap();
@@ -120,6 +121,7 @@ QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, Recombine
     s.split_chords = split_spanning_sides(cut);
     mesh = &cut;
     dual = build_dual_graph(cut, extra_edge_cost);
+    if (cost) cost(cut, dual);
     s.graph_seconds += lap();
     matching = solver.solve(dual.graph);
     s.matching_seconds += lap();

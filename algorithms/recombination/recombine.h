@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "algorithms/recombination/dual_graph.h"
+#include "algorithms/recombination/merge_cost.h"
 #include "base/counters.h"
 #include "base/matching/matching.h"
 #include "delquad/mesh.h"
@@ -57,8 +58,9 @@ struct Counters<RecombineSummary> {
 /// lead along a cycle to S itself. So 3 (s1 + s3 + 2 - r) + 4 r <= 2 s1 + 3 s3 + 2 r, that is s1 + 6 <= r;
 /// but each run ends at another triangle of S, hence r <= s1. With an odd number of triangles the same bound
 /// leaves room for one odd component too many, which is where the leftover comes from.
+/// `cost`: in place of 1 - eta; null: that.
 QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, RecombineSummary* summary = nullptr,
-                    long long extra_edge_cost = kExtraEdgeCost);
+                    long long extra_edge_cost = kExtraEdgeCost, const AddedCost& cost = nullptr);
 
 /// Cuts every interior side that joins two boundary points at its middle: its two triangles become four.
 /// Returns how many sides were cut; the new points come last. The number of triangles keeps its parity.

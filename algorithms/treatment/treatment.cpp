@@ -8,6 +8,7 @@
 #include "base/marks.h"
 #include "base/option_table.h"
 #include "base/stopwatch.h"
+#include "delquad/extend.h"
 #include "delquad/matching.h"
 #include "geometry/mesh/quad_blocks.h"
 #include "smoothing/relocation/quad_relocation.h"
@@ -416,6 +417,8 @@ const OptionTable<RecombinationOptions>& recombination_table() {
                 .help = "what matches triangles, and makes counts on curves even",
                 .names = matching_solver_names},
                &RecombinationOptions::solver)
+          .add({.name = "cost", .help = "of merging two triangles, in B", .names = merge_cost_names},
+               &RecombinationOptions::cost)
           .choice({.name = "treatment", .help = "after the matching"}, &RecombinationOptions::treatment,
                   std::vector<std::pair<std::string, Treatment>>{{"none", Treatment::kNone},
                                                                  {"paper", Treatment::kPaper}});

@@ -75,6 +75,7 @@ enum class Treatment { kNone, kPaper };
 /// What recombination can be told.
 struct RecombinationOptions {
   std::string solver = "primal-dual";  ///< of matching_solver_names(); for the counts on curves, too
+  std::string cost = "eta";            ///< of merge_cost_names()
   Treatment treatment = Treatment::kPaper;
   TreatmentOptions treatment_options;
 };

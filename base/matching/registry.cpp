@@ -1,7 +1,6 @@
-#include <deque>
-#include <stdexcept>
 #include <utility>
 
+#include "base/added_parts.h"
 #include "base/located.h"
 #include "base/matching/matching.h"
 #include "base/nearest_name.h"
@@ -10,15 +9,13 @@
 namespace delquad {
 namespace {
 
-struct NamedSolver {
-  std::string name;
-  MatchingSolverFactory make;
-};
-
-std::deque<NamedSolver>& solvers() {
-  static std::deque<NamedSolver> all = {
-      {"primal-dual", [](const Options&) { return make_primal_dual_solver(); }},
-      {"lemon", [](const Options&) { return make_lemon_solver(); }}};
+AddedParts<MatchingSolverFactory>& solvers() {
+  static AddedParts<MatchingSolverFactory> all = [] {
+    AddedParts<MatchingSolverFactory> parts("matching solver");
+    parts.add("primal-dual", [](const Options&) { return make_primal_dual_solver(); });
+    parts.add("lemon", [](const Options&) { return make_lemon_solver(); });
+    return parts;
+  }();
   return all;
 }
 
@@ -65,24 +62,16 @@ class CheckedSolver final : public MatchingSolver {
 }  // namespace
 
 void add_matching_solver(const std::string& name, MatchingSolverFactory factory) {
-  if (name.empty()) throw std::invalid_argument("a matching solver needs a name");
-  for (const NamedSolver& solver : solvers())
-    if (solver.name == name) throw std::invalid_argument("there is a matching solver '" + name + "' already");
-  solvers().push_back({name, std::move(factory)});
+  solvers().add(name, std::move(factory));
 }
 
 std::unique_ptr<MatchingSolver> matching_solver(const std::string& name, const Options& options) {
-  for (const NamedSolver& solver : solvers())
-    if (solver.name == name) return std::make_unique<CheckedSolver>(name, solver.make(options));
+  if (const auto* make = solvers().find(name)) return std::make_unique<CheckedSolver>(name, (*make)(options));
   std::string known;
   for (const std::string& other : matching_solver_names()) known += (known.empty() ? "" : ", ") + other;
   refuse("unknown matching solver '{}'; known: {}{}", name, known, suggestion(name, matching_solver_names()));
 }
 
-std::vector<std::string> matching_solver_names() {
-  std::vector<std::string> names;
-  for (const NamedSolver& solver : solvers()) names.push_back(solver.name);
-  return names;
-}
+std::vector<std::string> matching_solver_names() { return solvers().names(); }
 
 }  // namespace delquad

@@ -265,7 +265,9 @@ bool is_close(double a, double b) {
 /// Measures of the mesh that are not those of the record.
 Lines check_measures(const VerifiedCell& cell, const Prepared* prepared) {
   const Mesh mesh = read_mesh(cell.file.parent_path() / "mesh.msh");
-  const MeshMetrics now = prepared != nullptr ? prepared->metrics(mesh) : evaluate_metrics(mesh, nullptr);
+  const MeshMetrics now = prepared != nullptr
+                              ? prepared->metrics(mesh, cell.record.value("pipeline", std::string()))
+                              : evaluate_metrics(mesh, nullptr);
   Lines wrong;
   for (const auto& [key, value] : cell.record.at("metrics").items()) {
     const auto at = now.values.find(key);

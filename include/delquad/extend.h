@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,9 +18,9 @@
 #include "delquad/model.h"
 #include "delquad/options.h"
 
-// What can be added from outside: strategies of insertion and stages of any kind here; see add_options() for
-// their keys, add_matching_solver() and add_metric() for the rest. All of it has to be added before anything
-// is read or meshed.
+// What can be added from outside: fields, strategies of insertion, costs of matching and stages of any kind
+// here; see add_options() for their keys, add_matching_solver() and add_metric() for the rest. All of it has
+// to be added before anything is read or meshed.
 
 namespace delquad {
 
@@ -62,11 +64,12 @@ struct FrontEdge {
   }
 };
 
-/// A short list of points.
+/// A list of at most three points.
 struct Candidates {
   std::array<Vec2, 3> points;
   int count = 0;
-  void add(Vec2 x) { points[count++] = x; }
+  /// Throws std::out_of_range for a fourth one.
+  void add(Vec2 x) { points.at(static_cast<std::size_t>(count++)) = x; }
 };
 
 /// Where the next point goes, in which norm triangles are measured: the strategy that the comparison
@@ -110,7 +113,27 @@ struct StageInput {
   long long max_points;  ///< the most that insertion may make
 };
 
-struct AllPatches;
+struct PreparedProblem;
+struct SurfaceNodes;
+
+/// What a word has made of all patches so far. From outside: input_of(), node_places() and place_inside() say
+/// the rest.
+struct AllPatches {
+  const PreparedProblem& prepared;
+  const Options& options;
+  std::vector<PatchMesh>& patches;
+  const std::vector<char>& left_out;  ///< by patch
+  SurfaceNodes& nodes;                ///< on curves; of a planar domain only their places
+  bool began_from_given = false;      ///< quads
+};
+
+/// Boundary and fields of a patch; its points stand for the nodes boundary.point_node.
+StageInput input_of(const AllPatches& all, std::size_t patch);
+/// The places in space of all nodes on curves.
+const std::vector<Vec3>& node_places(const AllPatches& all);
+/// Patches of quads that are not left out get the places of their points inside, where they have none yet:
+/// whoever moves points clears PatchMesh::inside first.
+void place_inside(const AllPatches& all);
 
 /// One letter of a pipeline word: takes a patch from one form to another.
 struct Stage {
@@ -128,12 +151,35 @@ struct Stage {
 
 /// Every stage.
 const std::deque<Stage>& stage_registry();
-/// Adds one from outside, before any word is parsed. Throws std::invalid_argument when its letter is taken,
-/// or nothing is to be run.
+/// Adds one from outside, before any word is parsed. Throws std::invalid_argument when its letter is taken or
+/// no capital from A to Z, or nothing is to be run.
 void add_stage(Stage stage);
 /// Frontal insertion of points where `make_placement` says.
 Stage insertion_stage(char letter, const std::string& name,
                       std::function<std::unique_ptr<PointPlacement>(const Options&)> make_placement);
+
+/// A quad that two triangles of a patch would make, in the parameter plane.
+struct MergedQuad {
+  std::array<Vec2, 4> corners;  ///< counterclockwise; the side that goes is between the second and the fourth
+  Cross cross;                  ///< the field's at their mean
+  double delta;                 ///< delta' there
+};
+
+/// What it costs to make each quad of a batch, from 0 for the best to 3: the matching makes their sum least.
+/// A triangle too many costs more than a hundred of the dearest. Called in several threads at once.
+using MergeCost = std::function<void(std::span<const MergedQuad> quads, std::span<double> cost)>;
+
+/// Adds one from outside: what `recombination.cost` may be beside "eta", which is 1 - eta, and up to 3 where
+/// an angle is above 180 degrees. Throws std::invalid_argument for a name that is taken or empty.
+void add_merge_cost(const std::string& name, std::function<MergeCost(const Options&)> make);
+std::vector<std::string> merge_cost_names();
+
+/// Adds a name that `size` may be, in files, too: `fill` sets the field or the function of the spec. Throws
+/// std::invalid_argument for a name that is taken, empty or begins with no letter.
+void add_size(const std::string& name, std::function<void(const Options& options, SizeSpec& size)> fill);
+/// The same of `cross`, for which `fill` sets the kind, too: kMade with a maker, on planes and surfaces, or
+/// kField.
+void add_cross(const std::string& name, std::function<void(const Options& options, CrossSpec& cross)> fill);
 
 /// A pipeline: stages read from left to right, each starting from what the one before leaves.
 struct Word {

@@ -169,7 +169,14 @@ enum class CrossKind {
   kMetric,     ///< the same, and along the axes of a metric as far as its lengths differ
   kGradient,   ///< along grad delta; planar domains only
   kField,      ///< `field` or `function`; planar domains only
+  kMade,       ///< `maker`
 };
+
+class Options;
+
+/// The cross field of a patch, from its boundary and size. Called for several patches at once.
+using CrossFieldMaker = std::function<std::shared_ptr<const CrossField>(
+    const PatchBoundary& boundary, const ParametricSize& size, const Options& options)>;
 
 /// The wanted directions of a problem.
 struct CrossSpec {
@@ -179,6 +186,7 @@ struct CrossSpec {
   std::optional<CrossKind> kind = {};  ///< absent, and no text: that of the quality, of a word kBoundary
   std::shared_ptr<const CrossField> field = nullptr;
   CrossFunction function = nullptr;
+  CrossFieldMaker maker = nullptr;
   std::string where = "cross";  ///< who asked for it, for messages
 };
 

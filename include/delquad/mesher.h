@@ -239,8 +239,8 @@ class Prepared {
   /// Takes about as long as D unless the fields are size-aware.
   double row_ends() const;
 
-  /// Measures of a mesh that was made of it.
-  MeshMetrics metrics(const Mesh& made) const;
+  /// Measures of a mesh that was made of it, by `word`: only measures from outside may look at that.
+  MeshMetrics metrics(const Mesh& made, const std::string& word = {}) const;
   /// A mesh of the same model by others: its measures, bad quads, and whether its elements are sound.
   MeshResult measure(Mesh of_others) const;
 

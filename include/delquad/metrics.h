@@ -38,9 +38,12 @@ const Metric* find_metric(const std::string& key);
 /// What a measure goes by.
 struct MetricInput {
   const Mesh& mesh;
-  const SizeField* size;   ///< that was meshed by; null: not known
-  const SizeField* given;  ///< as it was asked for; null: the same
-  const Options& options;  ///< of the problem
+  const SizeField* size;          ///< that was meshed by; null: not known
+  const SizeField* given;         ///< as it was asked for; null: the same
+  const Options& options;         ///< of the problem
+  std::string problem = {};       ///< its name, in experiments that of the case; empty: not known
+  std::string word = {};          ///< of stages; empty: of others' meshes
+  const Mesh* surface = nullptr;  ///< the triangulation that stands behind a surface; null: none is known
 };
 
 /// Adds a measure from outside, before anything is meshed: a column of tables and a value of records like any

@@ -13,12 +13,14 @@
 #include <utility>
 
 #include "base/activity.h"
+#include "base/added_parts.h"
 #include "base/located.h"
 #include "base/nearest_name.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "delquad/fields.h"
 #include "delquad/model.h"
+#include "fields/added_fields.h"
 #include "fields/fields.h"
 #include "geometry/mesh/outline.h"
 #include "geometry/planar/model_chain.h"
@@ -59,6 +61,14 @@ class Located final : public Field {
   std::string where_;
 };
 
+/// These and the names of parts from outside.
+template <class Part>
+std::vector<std::string> known_words(std::vector<std::string> words, const AddedParts<Part>& parts) {
+  const std::vector<std::string> added = parts.names();
+  words.insert(words.end(), added.begin(), added.end());
+  return words;
+}
+
 /// Reads a formula in whose place one of `words` could stand: it may be one of them, misspelt.
 template <class F>
 auto formula_or_word(const std::string& text, const std::vector<std::string>& words, F&& read) {
@@ -82,12 +92,19 @@ std::shared_ptr<const SizeField> make_field(const SizeSpec& size) {
                    [&] { return std::shared_ptr<const SizeField>(make_file_size(file->path, file->field)); });
   return located(where, [&] {
     return std::make_shared<Located<SizeField, const Vec3&, double>>(
-        formula_or_word(text, {kFromBoundary}, [&] { return make_expression_size(text); }), where);
+        formula_or_word(text, known_words({kFromBoundary}, added_sizes()),
+                        [&] { return make_expression_size(text); }),
+        where);
   });
 }
 
-void read_size(SizeSpec& size) {
+void read_size(SizeSpec& size, const Options& options) {
   if (size.text.empty() || size.field || size.function || size.from_boundary) return;
+  if (const auto* fill = added_sizes().find(size.text)) {
+    located(size.where, [&] { (*fill)(options, size); });
+    if (!size.field && !size.function) throw Error(size.where + ": '" + size.text + "' made no size");
+    return;
+  }
   size.from_boundary = size.text == kFromBoundary;
   if (!size.from_boundary) size.field = make_field(size);
 }
@@ -153,17 +170,23 @@ void read_metric(const Model& model, MetricSpec& metric) {
   });
 }
 
-void read_cross(CrossSpec& cross) {
+void read_cross(CrossSpec& cross, const Options& options) {
   if (cross.text.empty() || cross.kind) return;
   const auto* word = std::ranges::find(kCrosses, cross.text, &std::pair<CrossKind, const char*>::second);
   if (word != std::end(kCrosses)) {
     cross.kind = word->first;
     return;
   }
+  if (const auto* fill = added_crosses().find(cross.text)) {
+    located(cross.where, [&] { (*fill)(options, cross); });
+    if (!cross.kind) throw Error(cross.where + ": '" + cross.text + "' made no cross field");
+    return;
+  }
   cross.kind = CrossKind::kField;
   cross.field = located(cross.where, [&] {
     return std::make_shared<Located<CrossField, Vec2, Cross>>(
-        formula_or_word(cross.text, {kFromBoundary, kFromGradient, kSizeAware, kFromMetric},
+        formula_or_word(cross.text,
+                        known_words({kFromBoundary, kFromGradient, kSizeAware, kFromMetric}, added_crosses()),
                         [&] { return make_expression_cross(cross.text); }),
         cross.where);
   });
@@ -214,9 +237,9 @@ MeshProblem read_files(MeshProblem problem) {
   if (const auto* file = std::get_if<ModelFile>(&problem.model))
     problem.model = located(problem.where, [&] { return read_model(*file, problem.keep_going); });
   if (problem.size.where.empty()) problem.size.where = problem.where;
-  read_size(problem.size);
+  read_size(problem.size, problem.options);
   read_metric(problem.model, problem.metric);
-  read_cross(problem.cross);
+  read_cross(problem.cross, problem.options);
   return problem;
 }
 

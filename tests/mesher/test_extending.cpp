@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <numbers>
 
 #include "delquad/extend.h"
 #include "delquad/matching.h"
@@ -228,6 +230,111 @@ TEST(OwnMetrics, AreMeasuredWithTheOthers) {
   EXPECT_TRUE(has(infinite.failures.at("own"), "infinite"));
   EXPECT_THROW(measured([](const MetricInput&) -> double { throw Cancelled("stop"); }), Cancelled);
   metric_work() = [](const MetricInput&) { return 0.0; };
+}
+
+TEST(OwnMetrics, KnowProblemWordAndSurface) {
+  metric_work() = [](const MetricInput& in) {
+    EXPECT_EQ(in.word, "DB");
+    EXPECT_EQ(in.problem, "disc");
+    return in.surface == nullptr ? 0.0 : static_cast<double>(in.surface->triangles.size());
+  };
+  if (find_metric("own") == nullptr)
+    add_metric({"own", "own", "", Better::kLower, 1, "a test"},
+               [](const MetricInput& in) { return metric_work()(in); });
+  MeshProblem problem = disc();
+  problem.name = "disc";
+  const MeshResult plane = mesh(problem, "DB");
+  EXPECT_EQ(plane.metrics.values.at("own"), 0);
+  EXPECT_EQ(plane.prepared.metrics(plane.mesh, "DB").values.at("own"), 0);
+  problem.model = ExampleModel{"bracket"};
+  problem.size.field = make_constant_size(10);
+  const MeshResult solid = mesh(problem, "DB");
+  EXPECT_EQ(solid.metrics.values.at("own"), static_cast<double>(solid.prepared.fine().triangles.size()));
+  metric_work() = [](const MetricInput&) { return 0.0; };
+}
+
+std::function<double(const MergedQuad&)>& cost_work() {
+  static std::function<double(const MergedQuad&)> work;
+  return work;
+}
+
+class OwnCost : public testing::Test {
+ protected:
+  OwnCost() {
+    if (std::ranges::count(merge_cost_names(), "own") == 0)
+      add_merge_cost("own", [](const Options&) {
+        return [](std::span<const MergedQuad> quads, std::span<double> cost) {
+          std::ranges::transform(quads, cost.begin(),
+                                 [](const MergedQuad& quad) { return cost_work()(quad); });
+        };
+      });
+    problem_.options.set("recombination.cost", "own");
+  }
+  MeshProblem problem_ = disc();
+};
+
+/// Of the worst angle, in [0, 360) degrees.
+double one_minus_eta(const MergedQuad& quad) {
+  double worst = 0;
+  for (int k = 0; k < 4; ++k) {
+    const Vec2 at = quad.corners[k], u = quad.corners[(k + 1) % 4] - at, v = quad.corners[(k + 3) % 4] - at;
+    const double angle = std::atan2(cross(u, v), dot(u, v)) / (std::numbers::pi / 2);
+    worst = std::max(worst, std::abs((angle < 0 ? angle + 4 : angle) - 1));
+  }
+  return worst;
+}
+
+TEST_F(OwnCost, ThatOfTheProjectMakesTheSameMesh) {
+  cost_work() = [](const MergedQuad& quad) {
+    EXPECT_DOUBLE_EQ(quad.delta, 0.2);
+    return std::floor(1e6 * one_minus_eta(quad)) / 1e6;
+  };
+  EXPECT_EQ(run(problem_, "DB").mesh.quads, run(disc(), "DB").mesh.quads);
+}
+
+TEST_F(OwnCost, AnotherMakesAnother) {
+  cost_work() = [](const MergedQuad& quad) { return std::max(0.0, 1 - one_minus_eta(quad)); };
+  problem_.options.set("recombination.treatment", "none");
+  MeshProblem usual = disc();
+  usual.options.set("recombination.treatment", "none");
+  EXPECT_LT(run(problem_, "DB").metrics.values.at("eta_mean"),
+            run(usual, "DB").metrics.values.at("eta_mean") - 0.05);
+}
+
+TEST_F(OwnCost, ItsValuesAreChecked) {
+  for (const double bad : {-0.1, 3.1, std::nan("")}) {
+    cost_work() = [bad](const MergedQuad&) { return bad; };
+    EXPECT_TRUE(has(complaint(problem_, "DB"), "matching cost 'own'")) << bad;
+  }
+  EXPECT_THROW(add_merge_cost("eta", [](const Options&) { return MergeCost(); }), std::invalid_argument);
+  EXPECT_THROW(add_merge_cost("3", [](const Options&) { return MergeCost(); }), std::invalid_argument);
+}
+
+TEST(OwnParts, LettersAndCandidatesAreChecked) {
+  const auto nothing = [](const StageInput&, PatchMesh&, StageLog&) {};
+  for (const char letter : {'z', '1', ' ', '\0'})
+    EXPECT_THROW(add_stage({letter, "bad", PatchForm::kQuads, PatchForm::kQuads, nothing}),
+                 std::invalid_argument);
+  Candidates candidates;
+  for (int k = 0; k < 3; ++k) candidates.add({});
+  EXPECT_THROW(candidates.add({}), std::out_of_range);
+}
+
+TEST(OwnFields, ACrossMakerServesEveryPatch) {
+  std::atomic<int> calls = 0;
+  MeshProblem problem = disc();
+  problem.cross.kind = CrossKind::kMade;
+  expect_input_error([&] { prepare(problem); }, {"maker"});
+  problem.cross.maker = [&](const PatchBoundary& boundary, const ParametricSize&, const Options&) {
+    ++calls;
+    EXPECT_FALSE(boundary.points.empty());
+    return make_function_cross([](Vec2) { return 0.3; }, "constant");
+  };
+  const Prepared prepared = prepare(problem);
+  EXPECT_EQ(calls, 1);
+  EXPECT_TRUE(prepared->crosses.singularities.empty());
+  int hint = -1;
+  EXPECT_NEAR(prepared.cross_at({0.1, 0.2}, hint)->angle(), 0.3, 1e-12);
 }
 
 TEST(OwnMetrics, MistakesOfProgrammersAreNamed) {
