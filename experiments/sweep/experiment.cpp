@@ -186,7 +186,24 @@ void Experiment::read_matrix(const TomlTable& matrix) {
     cells *= static_cast<double>(axis.values.size());
     axes.push_back(std::move(axis));
   }
+  for (const TomlTable& variant : variants_)
+    for (const std::string& leaf : variant.leaves())
+      if (std::ranges::count(leaves_, leaf) > 0)
+        throw InputError(variant.where() + ": '" + leaf + "' varies already: by [matrix]");
   if (cells > kMostCells) throw InputError(matrix.where() + ": more than 1e7 combinations");
+}
+
+void Experiment::read_variants(const std::vector<TomlTable>& tables) {
+  variants_ = tables;
+  if (tables.empty()) return;
+  Axis axis{"", "variant", {}};
+  for (const TomlTable& table : tables) {
+    axis.values.push_back(table.text("name"));
+    if (std::ranges::count(axis.values, axis.values.back()) > 1)
+      throw InputError(table.where("name") + ": the variant '" + axis.values.back() + "' is there twice");
+    table.require_known(variant_keys());
+  }
+  axes.push_back(std::move(axis));
 }
 
 Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) const {
@@ -194,7 +211,15 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
   for (std::size_t k = axes.size(); k-- > 0; variant /= axes[k].values.size())
     choice[k] = variant % axes[k].values.size();
   const TomlTable& plain = cases_[index_of_case];
-  const TomlTable table = matrix_ ? plain.with_choice(*matrix_, leaves_, choice) : plain;
+  TomlTable table = plain;
+  if (!variants_.empty()) {
+    std::vector<std::string> leaves = variants_[choice[0]].leaves();
+    std::erase(leaves, "name");
+    table = table.with_choice(variants_[choice[0]], leaves, std::vector(leaves.size(), TomlTable::kWhole));
+  }
+  if (matrix_)
+    table =
+        table.with_choice(*matrix_, leaves_, {choice.begin() + (variants_.empty() ? 0 : 1), choice.end()});
   table.require_known(experiment_case_keys());
   Case c = defaults_;
   c.name = table.text("name");
@@ -286,6 +311,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
       located(ratio->where(), [&] { experiment.find_pipeline(text); });
   }
   if (const auto study = table.optional_table("linf_delaunay")) experiment.linf = read_linf_study(*study);
+  experiment.read_variants(table.tables("variant"));
   if (const auto matrix = table.optional_table("matrix")) experiment.read_matrix(*matrix);
   if (const auto slopes = table.optional_table("slopes"))
     experiment.slopes = read_slopes(*slopes, metrics, experiment.axes);
@@ -322,6 +348,10 @@ StudyFile describe(const Experiment& experiment) {
   study.experiment = experiment.file.stem().string();
   for (const Word& word : experiment.words) study.pipelines.push_back(word.text);
   for (const Axis& axis : experiment.axes) study.axes.emplace_back(axis.title, axis.values);
+  for (const TomlTable& variant : experiment.variants_)
+    for (const std::string& leaf : variant.leaves())
+      study.variants[variant.text("name")] +=
+          leaf + " = " + variant.element_text(leaf, TomlTable::kWhole) + "\n";
   study.cells = experiment.n_cells();
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const Case c = experiment.read_variant(i);

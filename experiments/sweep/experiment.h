@@ -83,7 +83,9 @@ class Experiment : public TablePlan {
   static Experiment read(const std::filesystem::path& file, const std::filesystem::path& data = kDataFolder);
 
  private:
+  friend StudyFile describe(const Experiment& experiment);
   void read_matrix(const TomlTable& matrix);
+  void read_variants(const std::vector<TomlTable>& tables);
   void read_peer(const TomlTable& table);
   void read_peers(const TomlTable& table, const std::vector<std::string>& pipelines);
   void read_metric(const TomlTable& table);
@@ -97,8 +99,9 @@ class Experiment : public TablePlan {
   Case defaults_;                                ///< what the file says for every case
   WordStart word_start_ = WordStart::kBoundary;  ///< a given mesh, where one of the cases has one
   std::vector<TomlTable> cases_;
+  std::vector<TomlTable> variants_;  ///< named sets of keys, the first axis; empty: none
   std::optional<TomlTable> matrix_;
-  std::vector<std::string> leaves_;           ///< of the matrix, as in axes
+  std::vector<std::string> leaves_;           ///< of the matrix, as in axes after that of variants
   std::vector<TomlTable> hypothesis_tables_;  ///< that hypotheses were read from
 };
 

@@ -162,6 +162,13 @@ TomlKeys experiment_case_keys() {
   return keys;
 }
 
+TomlKeys variant_keys() {
+  TomlKeys keys = {{"name", "in tables", kText, nullptr, false, true}};
+  for (TomlKey& key : experiment_case_keys())
+    if (std::ranges::find(kModels, key.name) == kModels.end()) keys.push_back(std::move(key));
+  return keys;
+}
+
 TomlKeys experiment_keys() {
   TomlKeys keys = {{"title", "of the tables", kText},
                    {"pipelines", "words of stages and names of peers", kTexts},
@@ -184,6 +191,7 @@ TomlKeys experiment_keys() {
                    {"linf_delaunay", "in place of cases: point sets", "", linf_study_keys},
                    // Its keys are those of cases, see whole_matrix_schema().
                    {"matrix", "what varies", R"({"type": "object"})"},
+                   {"variant", "keys of cases that vary together", "", variant_keys, true},
                    {"case", "what is meshed", "", experiment_case_keys, true}};
   std::ranges::move(study_keys(), std::back_inserter(keys));
   for (TomlKey& key : case_keys())  // here 'metric' is a measure

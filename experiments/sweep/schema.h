@@ -12,6 +12,8 @@ namespace delquad {
 /// The keys of an experiment file, and those of its tables that models lack.
 TomlKeys experiment_keys();
 TomlKeys experiment_case_keys();
+/// Of a [[variant]].
+TomlKeys variant_keys();
 TomlKeys peer_keys();
 TomlKeys peer_file_keys();
 TomlKeys metric_keys();

@@ -18,10 +18,13 @@
 namespace delquad {
 /// What stands in for the values at dotted keys, seen from the table that they were chosen for.
 struct TomlChoices {
-  TomlTable lists;   // keeps the nodes alive
-  std::string path;  // of them, for messages
-  std::map<std::string, const toml::node*> values;
-  toml::table empty;  // for tables that hold nothing but choices
+  struct Value {
+    const toml::node* node;
+    std::string path;  // of the table that it stands in, for messages
+  };
+  std::vector<TomlTable> tables = {};  // keep the nodes alive
+  std::map<std::string, Value> values = {};
+  toml::table empty = {};  // for tables that hold nothing but choices
 };
 
 namespace {
@@ -58,7 +61,8 @@ struct TomlTable::Data {
   }
   /// As the file has it: what was chosen stands in another table.
   std::string name(const std::string& key) const {
-    return is_chosen(below + key) ? choices->path + "." + below + key : own_name(key);
+    return is_chosen(below + key) ? choices->values.lower_bound(below + key)->second.path + "." + below + key
+                                  : own_name(key);
   }
   std::string own_name(const std::string& key) const { return path.empty() ? key : path + "." + key; }
   /// Whether the value at a dotted path from the table with choices was chosen, or one below it.
@@ -75,11 +79,11 @@ struct TomlTable::Data {
     if (!choices) return node;
     const std::string path_to = below + key;
     if (const auto chosen = choices->values.find(path_to); chosen != choices->values.end())
-      return chosen->second;
+      return chosen->second.node;
     const auto inside = choices->values.lower_bound(path_to + ".");
     if (inside == choices->values.end() || !inside->first.starts_with(path_to + ".")) return node;
     if (node && !node->is_table())
-      throw InputError(place(*inside->second) + ": '" + inside->first + "' is varied, but '" + path_to +
+      throw InputError(place(*inside->second.node) + ": '" + inside->first + "' is varied, but '" + path_to +
                        "' is no table at " + place(*node));
     return node ? node : &choices->empty;
   }
@@ -351,7 +355,8 @@ const toml::node* find_leaf(const toml::table& table, std::string_view leaf) {
 }
 
 const toml::node& element(const toml::table& table, const std::string& leaf, std::size_t i) {
-  return *find_leaf(table, leaf)->as_array()->get(i);
+  const toml::node& node = *find_leaf(table, leaf);
+  return i == TomlTable::kWhole ? node : *node.as_array()->get(i);
 }
 
 }  // namespace
@@ -379,13 +384,17 @@ std::string TomlTable::element_text(const std::string& leaf, std::size_t i) cons
 
 TomlTable TomlTable::with_choice(const TomlTable& lists, const std::vector<std::string>& leaves,
                                  const std::vector<std::size_t>& choice) const {
-  auto choices = std::make_shared<TomlChoices>(TomlChoices{lists, lists.data_->path, {}, {}});
+  auto choices = std::make_shared<TomlChoices>();
+  if (data_->choices) {
+    choices->tables = data_->choices->tables;
+    choices->values = data_->choices->values;
+  }
+  choices->tables.push_back(lists);
   for (std::size_t k = 0; k < leaves.size(); ++k)
-    choices->values[leaves[k]] = &element(*lists.data_->table, leaves[k], choice[k]);
+    choices->values[leaves[k]] = {&element(*lists.data_->table, leaves[k], choice[k]), lists.data_->path};
   auto data = std::make_shared<Data>(*data_);
   data->asked.clear();
   data->choices = std::move(choices);
-  data->below.clear();
   return TomlTable(std::move(data));
 }
 
@@ -397,7 +406,7 @@ void TomlTable::require_among(const std::vector<std::string>& known) const {
     if (key != data_->table->end())
       place += std::to_string(key->first.source().begin.line);
     else
-      place = data_->place(*data_->choices->values.lower_bound(data_->below + name)->second);
+      place = data_->place(*data_->choices->values.lower_bound(data_->below + name)->second.node);
     std::string message = place + ": unknown key '" + data_->name(name) + "'";
     if (const std::string near = suggestion(name, known); !near.empty()) throw InputError(message + near);
     message += "; known here:";

@@ -86,10 +86,13 @@ class TomlTable {
   std::vector<std::string> leaves() const;
   /// How many elements the list at a dotted key has, at least one.
   std::size_t count(const std::string& leaf) const;
+  /// In place of an element: the value as it is.
+  static constexpr std::size_t kWhole = static_cast<std::size_t>(-1);
   /// Element `i` of the list at a dotted key, as TOML text; texts without their quotes.
   std::string element_text(const std::string& leaf, std::size_t i) const;
   /// This table, where the value at each of the dotted keys is element `choice[k]` of the list that `lists`
-  /// has there. Throws InputError where such a key lies below one that is no table.
+  /// has there. One more time, these count before. Throws InputError where such a key lies below one that is
+  /// no table.
   TomlTable with_choice(const TomlTable& lists, const std::vector<std::string>& leaves,
                         const std::vector<std::size_t>& choice) const;
 

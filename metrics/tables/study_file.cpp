@@ -54,11 +54,17 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kStudyFile = "study.json";
 
 Json to_json(const StudyFile& study) {
-  Json json = {{"title", study.title},       {"experiment", study.experiment},
-               {"cases", study.cases},       {"pipelines", study.pipelines},
-               {"cells", study.cells},       {"step_times", study.step_times},
-               {"compare", study.compare},   {"axes", study.axes},
-               {"published", Json::array()}, {"ratio", Json()}};
+  Json json = {{"title", study.title},
+               {"experiment", study.experiment},
+               {"cases", study.cases},
+               {"pipelines", study.pipelines},
+               {"cells", study.cells},
+               {"step_times", study.step_times},
+               {"compare", study.compare},
+               {"axes", study.axes},
+               {"variants", study.variants},
+               {"published", Json::array()},
+               {"ratio", Json()}};
   if (study.repeat_times > 0) json["repeat_times"] = study.repeat_times;
   if (!study.columns.empty()) json["columns"] = study.columns;
   if (const auto& slopes = study.slopes)
@@ -92,6 +98,7 @@ StudyFile from_json(const Json& json) {
   json.at("cases").get_to(study.cases);
   json.at("pipelines").get_to(study.pipelines);
   json.at("axes").get_to(study.axes);
+  study.variants = json.value("variants", study.variants);
   json.at("cells").get_to(study.cells);
   json.at("step_times").get_to(study.step_times);
   study.repeat_times = json.value("repeat_times", 0);
@@ -156,7 +163,8 @@ const std::vector<StepTime>& step_times_of_tables() {
 }
 
 bool have_same_plan(const StudyFile& a, const StudyFile& b) {
-  return a.hypotheses == b.hypotheses && (a.hypotheses.empty() || (a.cases == b.cases && a.axes == b.axes));
+  return a.hypotheses == b.hypotheses &&
+         (a.hypotheses.empty() || (a.cases == b.cases && a.axes == b.axes && a.variants == b.variants));
 }
 
 void write_study(const std::filesystem::path& folder, const StudyFile& study) {

@@ -71,7 +71,8 @@ struct StudyFile : TablePlan {
   std::vector<std::string> cases, pipelines;
   /// What varies, in its order, with its values.
   std::vector<std::pair<std::string, std::vector<std::string>>> axes;
-  std::size_t cells = 0;  ///< that the experiment has
+  std::map<std::string, std::string> variants;  ///< named sets of keys, as text
+  std::size_t cells = 0;                        ///< that the experiment has
   /// case -> pipeline -> name of the published row beside it
   std::map<std::string, std::map<std::string, std::string>> compare;
   bool plan_changed = false;  ///< hypotheses, cases or axes, after the first record was there

@@ -49,6 +49,34 @@ TEST_F(Matrix, OtherKeysOfATableStay) {
   EXPECT_EQ(e.read_variant(0).options.number("insertion.rejection"), 0.5);
 }
 
+TEST_F(Matrix, VariantsAreSetsOfKeysUnderAName) {
+  const std::string variants =
+      "[[variant]]\nname = \"all\"\n[[variant]]\nname = \"none\"\ncross = \"size-aware\"\n"
+      "insertion.h_max = 1.4\nrepair = { part_twins = false }\n[matrix]\nseed = [1, 2]\n";
+  const Experiment e = read(variants, kSquare + "size = 0.1\ninsertion = { rejection = 0.5 }\n");
+  ASSERT_EQ(e.n_variants(), 4u);
+  const Case all = e.read_variant(0, 0), none = e.read_variant(0, 3);
+  EXPECT_EQ(all.folder, "a@variant=all,seed=1");
+  EXPECT_EQ(none.folder, "a@variant=none,seed=2");
+  EXPECT_EQ(none.seed, 2);
+  EXPECT_EQ(none.cross.text, "size-aware");
+  EXPECT_EQ(none.options.number("insertion.h_max"), 1.4);
+  EXPECT_EQ(none.options.number("insertion.rejection"), 0.5);
+  EXPECT_FALSE(none.options.flag("repair.part_twins"));
+  EXPECT_TRUE(all.cross.text.empty() && all.options.flag("repair.part_twins"));
+  StudyFile study = describe(e), other = describe(read(variants));
+  other.variants["none"] += "more";
+  study.hypotheses = other.hypotheses = {{"variant", "all", "none", {"d4"}}};
+  EXPECT_FALSE(have_same_plan(study, other)) << "what a variant sets belongs to the plan";
+  expect_input_error([&] { read("[[variant]]\nname = \"x\"\n[[variant]]\nname = \"x\"\n"); },
+                     {"e.toml:4", "'x' is there twice"});
+  expect_input_error([&] { read("[[variant]]\nname = \"x\"\nloop = 1\n"); }, {"e.toml:3", "'variant.loop'"});
+  expect_input_error([&] { read("[[variant]]\nname = \"x\"\ncleanup.round = 1\n"); },
+                     {"e.toml:3", "did you mean 'rounds'"});
+  expect_input_error([&] { read("[[variant]]\nname = \"x\"\nseed = 1\n[matrix]\nseed = [1]\n"); },
+                     {"e.toml:", "'seed'", "varies already"});
+}
+
 TEST_F(Matrix, LikeNamedAxesAndLongValuesAreToldApart) {
   const std::string value(60, '1');
   const Experiment e =
