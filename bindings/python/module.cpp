@@ -476,6 +476,10 @@ PYBIND11_MODULE(_core, m) {
   define_problem(m);
   define_hexahedra(m);
   define_adapt(m);
+  define_parts(m);
+#ifdef DELQUAD_HAS_PROGRAM
+  define_program(m);
+#endif
   m.attr("__version__") = version();
   m.def("check_quality", [](const std::string& name) { quality_named(name); });
   m.def("qualities", [] {

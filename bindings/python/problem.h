@@ -59,6 +59,11 @@ void define_models(py::module_& m);
 /// HexMesh, and extrude() for each way.
 void define_hexahedra(py::module_& m);
 
+/// add_metric(), add_stage() and their like.
+void define_parts(py::module_& m);
+/// run(): the program.
+void define_program(py::module_& m);
+
 /// adapt(), and what it is made of.
 void define_adapt(py::module_& m);
 

@@ -20,15 +20,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string& added_to_program() {
+  static std::string text;
+  return text;
+}
+
 /// The program and the one that reads CAD for it: their bytes, which no change of an algorithm, an option of
 /// the compiler or a library inside leaves alone.
-const std::string& program_digest() {
+std::string program_digest() {
   static const std::string program = [] {
     const fs::path reader = cad_program();
     return digest(file_digest("/proc/self/exe") + (reader.empty() ? "" : file_digest(reader)) +
                   versions_record());
   }();
-  return program;
+  return added_to_program().empty() ? program : digest(program + added_to_program());
 }
 
 /// Curves by points on them, which tell any two that differ apart.
@@ -66,6 +71,8 @@ std::string version_of(const Peer& peer, std::string& why) {
 }
 
 }  // namespace
+
+void add_to_program(const std::string& text) { added_to_program() += text + '\n'; }
 
 std::string model_digest(const Case& c) {
   if (const PlanarModel* model = planar_model(c)) {

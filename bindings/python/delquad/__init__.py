@@ -40,6 +40,7 @@ from ._adapt import adapt, estimate_error, recover_gradient, recover_hessian, tr
 from ._exchange import from_meshio, read_mesh
 from ._hexahedra import extrude
 from ._mesh import UnsoundError, cad, improve, judge, mesh, planar, polygons
+from ._parts import add_cross, add_merge_cost, add_metric, add_size, add_stage, run
 
 __all__ = [name for name in dir() if not name.startswith("_")]
 

@@ -251,3 +251,23 @@ def estimate_error(mesh: Mesh | _Path, values: npt.ArrayLike, norm: float = 2.0)
 def transfer(
     mesh: Mesh | _Path, values: npt.ArrayLike, to: Mesh | _Path, how: str = "interpolated", of_elements: bool = False
 ) -> _Floats: ...
+def add_metric(
+    key: str,
+    function: Callable[..., float],
+    *,
+    title: str = "",
+    unit: str = "",
+    better: Literal["higher", "lower", "neither"] = "neither",
+    worst: float | None = None,
+    source: str = "",
+    digits: int = 3,
+) -> None: ...
+def add_merge_cost(name: str, function: Callable[[_Floats, _Floats, _Floats], npt.ArrayLike]) -> None: ...
+def add_stage(
+    letter: str,
+    name: str,
+    function: Callable[[_Floats, _Integers, int, _Floats, _Floats], tuple[npt.ArrayLike, npt.ArrayLike]],
+) -> None: ...
+def add_size(name: str, function: Callable[[_Floats], npt.ArrayLike]) -> None: ...
+def add_cross(name: str, function: Callable[[_Floats], npt.ArrayLike]) -> None: ...
+def run(arguments: Iterable[_Path]) -> int: ...

@@ -1,0 +1,163 @@
+// Measures, costs, stages and fields of experiments that Python adds.
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "bindings/python/arrays.h"
+#include "bindings/python/problem.h"
+#include "delquad/error.h"
+#include "delquad/extend.h"
+
+namespace delquad::python {
+namespace {
+
+/// A function of Python that any thread may call and that is never let go: it outlives the interpreter.
+class Kept {
+ public:
+  explicit Kept(const py::object& function) : function_(function.inc_ref().ptr()) {}
+
+  /// `use`(function), with the GIL. What the function throws becomes an Error.
+  template <class F>
+  auto with(F&& use) const {
+    const py::gil_scoped_acquire acquired;
+    try {
+      return use(py::reinterpret_borrow<py::object>(function_));
+    } catch (const py::error_already_set& error) {
+      const std::string text = error.what();
+      throw Error(text.substr(0, text.find("\n\nAt:")));  // without the stack
+    }
+  }
+
+ private:
+  py::handle function_;
+};
+
+/// Fields at points, as an array.
+template <class Value>
+py::array_t<double> at_points(const std::vector<Vec2>& points, const Value& value) {
+  py::array_t<double> array(static_cast<py::ssize_t>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) array.mutable_data()[i] = value(points[i]);
+  return array;
+}
+
+py::array_t<double> copy_of(const std::vector<Vec2>& points) {
+  return py::array_t<double>({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}}, &points[0].x);
+}
+
+void add_python_metric(const std::string& key, const py::object& function, const std::string& title,
+                       const std::string& unit, const std::string& better, const std::optional<double>& worst,
+                       const std::string& source, int digits) {
+  const std::map<std::string, Better> ways = {
+      {"higher", Better::kHigher}, {"lower", Better::kLower}, {"neither", Better::kNeither}};
+  const auto way = ways.find(better);
+  if (way == ways.end())
+    throw InputError("better: '" + better + "': expected 'higher', 'lower' or 'neither'");
+  add_metric(
+      {key, title.empty() ? key : title, unit, way->second, worst.value_or(std::nan("")), source, digits},
+      [kept = Kept(function)](const MetricInput& in) {
+        return kept.with([&](const py::object& measure) {
+          using namespace py::literals;
+          py::object size = py::none();
+          if (in.size != nullptr) {
+            py::array_t<double> at(static_cast<py::ssize_t>(in.mesh.points.size()));
+            int hint = -1;
+            for (std::size_t i = 0; i < in.mesh.points.size(); ++i)
+              at.mutable_data()[i] = in.size->at(in.mesh.points[i], hint);
+            size = std::move(at);
+          }
+          const auto copy = [](const Mesh* mesh) {
+            return mesh == nullptr ? py::object(py::none()) : py::cast(std::make_shared<Mesh>(*mesh));
+          };
+          return measure(copy(&in.mesh), "size"_a = size, "problem"_a = in.problem, "word"_a = in.word,
+                         "surface"_a = copy(in.surface))
+              .cast<double>();
+        });
+      });
+}
+
+void add_python_cost(const std::string& name, const py::object& function) {
+  add_merge_cost(name, [kept = Kept(function)](const Options&) -> MergeCost {
+    return [&kept](std::span<const MergedQuad> quads, std::span<double> cost) {
+      kept.with([&](const py::object& cost_of) {
+        const auto n = static_cast<py::ssize_t>(quads.size());
+        py::array_t<double> corners({n, py::ssize_t{4}, py::ssize_t{2}}), theta(n), size(n);
+        for (py::ssize_t i = 0; i < n; ++i) {
+          for (py::ssize_t k = 0; k < 4; ++k) {
+            corners.mutable_at(i, k, 0) = quads[i].corners[k].x;
+            corners.mutable_at(i, k, 1) = quads[i].corners[k].y;
+          }
+          theta.mutable_at(i) = quads[i].cross.angle();
+          size.mutable_at(i) = quads[i].delta;
+        }
+        read_values(cost_of(corners, theta, size), cost.data(), cost.size(), "what the cost returned");
+      });
+    };
+  });
+}
+
+void add_python_stage(const std::string& letter, const std::string& name, const py::object& function) {
+  if (letter.size() != 1)
+    throw std::invalid_argument("letter '" + letter + "': expected a capital from A to Z");
+  const auto run = [kept = Kept(function)](const StageInput& in, PatchMesh& patch, StageLog&) {
+    QuadPatch& mesh = patch.quads;
+    if (!mesh.triangles.empty()) throw Error("this stage is for quads only, and a patch has triangles");
+    kept.with([&](const py::object& edit) {
+      const auto theta = at_points(mesh.points, [&](Vec2 u) {
+        int hint = -1;
+        return in.cross.at(u, hint).angle();
+      });
+      const auto size = at_points(mesh.points, [&](Vec2 u) {
+        int hint = -1;
+        return in.size.at(u, hint);
+      });
+      const py::array_t<int> quads({static_cast<py::ssize_t>(mesh.quads.size()), py::ssize_t{4}},
+                                   mesh.quads.empty() ? nullptr : mesh.quads[0].data());
+      const auto made = py::tuple(edit(copy_of(mesh.points), quads, mesh.n_boundary, theta, size));
+      if (made.size() != 2) throw Error("what the stage returned: expected points and quads");
+      std::vector<Vec2> points = read_plane_points(made[0], "the stage's points");
+      mesh.quads = read_elements<4>(made[1], "the stage's quads");
+      mesh.points = std::move(points);
+    });
+  };
+  add_stage({letter[0], name, PatchForm::kQuads, PatchForm::kQuads, run});
+}
+
+/// The batches of SizeFunction and CrossFunction.
+template <int kColumns>
+auto as_batch(const py::object& function) {
+  using V = std::conditional_t<kColumns == 2, Vec2, Vec3>;
+  return [kept = Kept(function)](std::span<const V> points, std::span<double> values) {
+    if (points.empty()) return;
+    kept.with([&](const py::object& field) {
+      const py::array_t<double> at({static_cast<py::ssize_t>(points.size()), py::ssize_t{kColumns}},
+                                   &points[0].x);
+      read_values(field(at), values.data(), values.size(), "what the field returned");
+    });
+  };
+}
+
+}  // namespace
+
+void define_parts(py::module_& m) {
+  using py::arg;
+  m.def("add_metric", &add_python_metric, arg("key"), arg("function"), arg("title"), arg("unit"),
+        arg("better"), arg("worst"), arg("source"), arg("digits"));
+  m.def("add_merge_cost", &add_python_cost, arg("name"), arg("function"));
+  m.def("add_stage", &add_python_stage, arg("letter"), arg("name"), arg("function"));
+  m.def("add_size", [](const std::string& name, const py::object& function) {
+    add_size(name,
+             [batch = as_batch<3>(function)](const Options&, SizeSpec& size) { size.function = batch; });
+  });
+  m.def("add_cross", [](const std::string& name, const py::object& function) {
+    add_cross(name, [batch = as_batch<2>(function)](const Options&, CrossSpec& cross) {
+      cross.kind = CrossKind::kField;
+      cross.function = batch;
+    });
+  });
+}
+
+}  // namespace delquad::python
