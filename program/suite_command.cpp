@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "experiments/suite/submission.h"
@@ -11,20 +12,23 @@ namespace {
 
 struct SuiteArguments {
   std::filesystem::path folder, result;
-  std::vector<std::string> models, families;
+  SuiteSelection selection;
 };
 
 int suite_models_command(const SuiteArguments& given) {
-  const std::vector<SuiteModel> models = select_models(given.models, given.families);
+  const std::vector<SuiteModel> models = select_models(given.selection);
   write_suite(given.folder, models);
-  fmt::print("{}: {} models\n{}\n", suite_title(), models.size(), given.folder.string());
+  fmt::print("{}: {} models, {} of them public\n{}\n", suite_title(), models.size(),
+             std::ranges::count(models, SuiteFamily::kPublic, &SuiteModel::family), given.folder.string());
+  if (std::ranges::none_of(models, [](const SuiteModel& m) { return !m.file.empty(); }))
+    fmt::print("public models that are fetched are absent: 'make public_models', then --public\n");
   return kDone;
 }
 
 int suite_add_command(const SuiteArguments& given) {
   const Submission submission = read_submission(given.result);
-  const SubmissionCount count =
-      add_submission(submission, given.folder, select_models(given.models, given.families));
+  const SubmissionCount count = add_submission(submission, given.folder, select_models(given.selection),
+                                               select_models({.folders = given.selection.folders}));
   fmt::print("{}: {} meshes measured, {} refused, {} missing: {}\n", submission.program, count.measured,
              count.refused, count.missing, (given.folder / submission.program / "table.md").string());
   return kDone;
@@ -38,8 +42,11 @@ int suite_table_command(const SuiteArguments& given) {
 }
 
 void add_selection(CLI::App* command, SuiteArguments& given) {
-  command->add_option("--models", given.models, "of these names alone: gear, knot, ...");
-  command->add_option("--family", given.families, "of these alone: planar, CAD, triangles");
+  SuiteSelection& selection = given.selection;
+  command->add_option("--models", selection.names, "of these names alone: gear, knot, ...");
+  command->add_option("--family", selection.families,
+                      "of these alone: planar, CAD, triangles, hard, metric, public");
+  command->add_option("--public", selection.folders, "folders in which files of public models lie");
 }
 
 }  // namespace

@@ -421,6 +421,36 @@ std::string make_fracture_network() {
   return model.text();
 }
 
+/// Layers that thin out to corners of half a degree.
+std::string make_wedges() {
+  constexpr double kAngle = 0.5 * std::numbers::pi / 180, kLength = 1.6, kApart = 0.16;
+  ModelText model;
+  model.rectangle({0, 0}, {2, 1}, {"outer", "rock"});
+  for (int k = 0; k < 5; ++k) {
+    const Vec2 tip = {k % 2 == 0 ? 0.2 : 1.8, kApart * (k + 1)};
+    const double end = k % 2 == 0 ? tip.x + kLength : tip.x - kLength;
+    const double height = (k + 1) * kLength * std::tan(kAngle);
+    model.polygon({tip, {end, tip.y}, {end, tip.y + height}}, {"layer", "layer"});
+  }
+  return model.text();
+}
+
+/// Islands whose outlines have points far below the size, some of them near to each other.
+std::string make_dense_outlines() {
+  constexpr int kPoints = 360;
+  ModelText model;
+  model.rectangle({0, 0}, {2, 1}, {"coast", "sea"});
+  for (const auto& [centre, radius] : {Disc{{0.5, 0.5}, 0.3}, {{1.105, 0.5}, 0.29}, {{1.65, 0.4}, 0.2}}) {
+    std::vector<Vec2> outline;
+    for (int k = 0; k < kPoints; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kPoints;
+      outline.push_back(centre + polar(radius * (1 - 0.06 * std::pow(std::sin(9 * angle), 2)), angle));
+    }
+    model.polygon(outline, {"island", ""});
+  }
+  return model.text();
+}
+
 }  // namespace
 
 const std::vector<SuiteMaker<std::string>>& planar_suite_models() {
@@ -432,6 +462,7 @@ const std::vector<SuiteMaker<std::string>>& planar_suite_models() {
       {"high_lift", make_high_lift},   {"gear", make_gear},
       {"ring_gear", make_ring_gear},   {"slits", make_slits},
       {"serpentine", make_serpentine}, {"graded", make_graded},
+      {"wedges", make_wedges},         {"dense_outlines", make_dense_outlines},
   };
   return kAll;
 }

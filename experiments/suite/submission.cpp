@@ -210,7 +210,7 @@ Mesh lines_at(const Prepared& prepared, int n_regions) {
   for (std::size_t p = 0; p < prepared.n_patches(); ++p)
     for (const auto& [i, j] : prepared.patch(p).edges)
       ++regions[edge(prepared.patch(p).point_node[i], prepared.patch(p).point_node[j])];
-  Mesh lines = prepared->boundary;
+  Mesh lines = boundary_of(prepared);
   std::erase_if(lines.lines, [&](const auto& line) { return regions[edge(line[0], line[1])] != n_regions; });
   return lines;
 }
@@ -223,9 +223,18 @@ Shape edges_of(const Mesh& mesh) {
   return shape;
 }
 
+/// That the case asks for; of a metric the longest length at each place.
+std::shared_ptr<const SizeField> size_of(const Prepared& prepared) {
+  const auto metric = followed_metric(prepared);
+  if (!metric) return prepared->size.field;
+  std::vector<double> longest;
+  for (const Tensor2& m : metric->at) longest.push_back(axes_of(m).h2);
+  return make_nodal_size(metric->mesh, std::move(longest));
+}
+
 /// Edges follow the curves between regions: places there are much nearer to edges, on average, than the sixth
 /// of a size that they are in a grid which does not know of them.
-void check_interfaces(const Prepared& prepared, const Mesh& mesh) {
+void check_interfaces(const Prepared& prepared, const SizeField& size, const Mesh& mesh) {
   constexpr double kMean = 0.08;  // sizes
   const Shape interfaces = lines_of(lines_at(prepared, 2)), edges = edges_of(mesh);
   if (interfaces.places.empty()) return;
@@ -235,7 +244,7 @@ void check_interfaces(const Prepared& prepared, const Mesh& mesh) {
   for (const Vec3& p : interfaces.places) {
     const auto found = nearest.find_from(guess, p);
     guess = found.triangle;
-    sum += found.distance / prepared->size.field->at(p, hint);
+    sum += found.distance / size.at(p, hint);
   }
   const double mean = sum / static_cast<double>(interfaces.places.size());
   if (mean > kMean)
@@ -260,7 +269,7 @@ Submission read_submission(const fs::path& folder) {
 }
 
 SubmissionCount add_submission(const Submission& submission, const fs::path& results,
-                               const std::vector<SuiteModel>& models) {
+                               const std::vector<SuiteModel>& models, const std::vector<SuiteModel>& all) {
   const auto has_mesh = [&](const SuiteModel& model) {
     for (std::size_t k = 0; k < model.sizes.size(); ++k)
       if (!find_mesh(submission.folder, case_name(model, k)).empty()) return true;
@@ -272,7 +281,7 @@ SubmissionCount add_submission(const Submission& submission, const fs::path& res
   const fs::path folder = results / submission.program;
   if (const auto study = read_study(folder); study && study->pipelines != std::vector{submission.program})
     throw InputError(folder.string() + ": holds the results of a run: call the program otherwise");
-  Experiment experiment = write_suite_experiment(results / kModelsFolder, suite().models);
+  Experiment experiment = write_suite_experiment(results / kModelsFolder, all);
   return Adding(submission, models, experiment, results).run();
 }
 
@@ -283,9 +292,10 @@ void check_is_of_model(const Prepared& prepared, Mesh& mesh) {
   const bool planar = !prepared.is_surface();
   const Shape model = planar ? lines_of(lines_at(prepared, 1)) : surface_of(prepared.fine());
   const Shape made = planar ? outline_of(mesh) : surface_of(mesh);
-  check_near(made, model, *prepared->size.field, "it lies off the model");
-  check_near(model, made, *prepared->size.field, "the model is not covered");
-  if (planar) check_interfaces(prepared, mesh);
+  const auto size = size_of(prepared);
+  check_near(made, model, *size, "it lies off the model");
+  check_near(model, made, *size, "the model is not covered");
+  if (planar) check_interfaces(prepared, *size, mesh);
 }
 
 namespace {
@@ -316,13 +326,7 @@ std::vector<fs::path> result_folders(const fs::path& results) {
   return folders;
 }
 
-/// Whether all of its cells are not applicable, as those of a peer that is absent here: there is nothing to
-/// rank.
-bool is_absent(const Program& program) {
-  return !program.records.empty() && std::ranges::all_of(program.records, [](const auto& record) {
-    return record.second.kind == kNotApplicable;
-  });
-}
+bool is_not_applicable(const CellRecord& record) { return record.kind == kNotApplicable; }
 
 std::vector<Program> read_programs(const fs::path& results) {
   std::vector<Program> programs;
@@ -344,12 +348,24 @@ bool is_sound(const CellRecord& record) {
   return record.reason.empty() && !record.skipped && record.unsound.empty();
 }
 
+/// Of a mesh, where the case has a metric in that.
+double measure_of(const CellRecord& record, SuiteFamily family, const std::string& key) {
+  return value_of(record, (family == SuiteFamily::kMetric && key != "d4" ? "metric_" : "") + key);
+}
+
 /// NaN: it was not run.
-double score_of(const CellRecord* record) {
-  if (record == nullptr) return std::nan("");
+double score_of(const CellRecord* record, SuiteFamily family) {
+  if (record == nullptr || record->skipped) return std::nan("");
   const double quads = is_sound(*record) ? value_of(*record, "percent_quads") : 0;
   // Without any quad there is no eta.
-  return quads > 0 ? value_of(*record, "eta_mean") * value_of(*record, "tau") * quads / 100 : 0;
+  return quads > 0
+             ? measure_of(*record, family, "eta_mean") * measure_of(*record, family, "tau") * quads / 100
+             : 0;
+}
+
+/// `group`: a family; null: all of those that every program can be asked.
+bool is_in(const SuiteModel& model, const SuiteFamily* group) {
+  return group != nullptr ? model.family == *group : is_for_all(model.family);
 }
 
 const CellRecord* find_record(const Program& program, const std::string& name) {
@@ -357,16 +373,17 @@ const CellRecord* find_record(const Program& program, const std::string& name) {
   return at == program.records.end() ? nullptr : &at->second;
 }
 
-/// By their names, those of a family (null: all) that were run: the means over their cases.
+/// By their names, those of a group that were run: the means over their cases.
 using ModelScores = std::map<std::string, double>;
 ModelScores score_models(const Program& program, const SuiteFamily* family) {
   ModelScores scores;
   for (const SuiteModel& model : suite().models) {
     std::vector<double> run;
     for (std::size_t k = 0; k < model.sizes.size(); ++k)
-      if (const double score = score_of(find_record(program, case_name(model, k))); !std::isnan(score))
+      if (const double score = score_of(find_record(program, case_name(model, k)), model.family);
+          !std::isnan(score))
         run.push_back(score);
-    if (!run.empty() && (family == nullptr || model.family == *family)) scores[model.name] = mean(run);
+    if (!run.empty() && is_in(model, family)) scores[model.name] = mean(run);
   }
   return scores;
 }
@@ -374,15 +391,16 @@ ModelScores score_models(const Program& program, const SuiteFamily* family) {
 /// What is added up over the cases of a family.
 class Sums {
  public:
-  void add_case(const CellRecord* record) {
-    if (record == nullptr) return;
+  void add_case(const CellRecord* record, SuiteFamily family) {
+    if (record == nullptr || record->skipped) return;
     ++cases_;
     if (!is_sound(*record)) return;
     ++sound_;
     solved_ += value_of(*record, "percent_quads") == 100;
     for (const char* key : {"eta_mean", "d4", "tau"})
-      if (const double value = value_of(*record, key); !std::isnan(value)) values_[key].push_back(value);
-    worst_ = std::min(worst_, value_of(*record, "eta_worst"));
+      if (const double value = measure_of(*record, family, key); !std::isnan(value))
+        values_[key].push_back(value);
+    worst_ = std::min(worst_, measure_of(*record, family, "eta_worst"));
     if (const double time = value_of(*record, "seconds_total"); time > 0) seconds_ += time;
   }
 
@@ -410,13 +428,11 @@ struct Entry {
   ModelScores scores;
 };
 
-/// `family`: null: all of them.
 Entry entry_of(const Program& program, const SuiteFamily* family) {
   Sums sums;
   for (const SuiteModel& model : suite().models)
     for (std::size_t k = 0; k < model.sizes.size(); ++k)
-      if (family == nullptr || model.family == *family)
-        sums.add_case(find_record(program, case_name(model, k)));
+      if (is_in(model, family)) sums.add_case(find_record(program, case_name(model, k)), model.family);
   Entry entry{{}, score_models(program, family)};
   entry.row.group = family != nullptr ? name_of(*family) : kAll;
   entry.row.name = program.name;
@@ -476,24 +492,41 @@ std::string test_groups(std::vector<std::vector<Entry>>& groups) {
          family.note();
 }
 
-/// A row below those that are ranked, and a note with the reason.
-void add_absent(const Program& program, Table& table) {
-  TableRow row;
-  row.group = kAll;
-  row.name = program.name;
-  row.skipped = kNotApplicable;
-  table.rows.push_back(std::move(row));
-  table.notes.push_back(
-      fmt::format("{} is not applicable: {}", program.name, program.records.begin()->second.reason));
+/// The record by which a program has nothing to rank in a group, as all that it was asked there is not
+/// applicable; null: it has.
+const CellRecord* find_absence(const Program& program, const SuiteFamily* group) {
+  const CellRecord* absence = nullptr;
+  for (const SuiteModel& model : suite().models)
+    for (std::size_t k = 0; k < model.sizes.size(); ++k) {
+      const CellRecord* record = is_in(model, group) ? find_record(program, case_name(model, k)) : nullptr;
+      if (record == nullptr) continue;
+      if (!is_not_applicable(*record)) return nullptr;
+      absence = record;
+    }
+  return absence;
+}
+
+/// Rows below those that are ranked, and notes with the reasons; families are named only where the program is
+/// ranked in others.
+void add_absent(const std::vector<Program>& programs, const SuiteFamily* group, Table& table) {
+  for (const Program& program : programs) {
+    const CellRecord* absence = find_absence(program, group);
+    if (absence == nullptr || (group != nullptr && find_absence(program, nullptr) != nullptr)) continue;
+    TableRow row;
+    row.group = group != nullptr ? name_of(*group) : kAll;
+    row.name = program.name;
+    row.skipped = kNotApplicable;
+    table.rows.push_back(std::move(row));
+    table.notes.push_back(fmt::format("{} is not applicable{}: {}", program.name,
+                                      group != nullptr ? fmt::format(" to {}", name_of(*group)) : "",
+                                      absence->reason));
+  }
 }
 
 }  // namespace
 
 Table rank_programs(const fs::path& results) {
-  std::vector<Program> programs = read_programs(results);
-  const auto absent = std::ranges::stable_partition(programs, std::not_fn(is_absent));
-  const std::vector<Program> not_ranked(absent.begin(), absent.end());
-  programs.erase(absent.begin(), absent.end());
+  const std::vector<Program> programs = read_programs(results);
   Table table;
   table.title = suite_title() + ", ranked";
   table.group_title = "family";
@@ -517,15 +550,17 @@ Table rank_programs(const fs::path& results) {
       "cases: that were run; who ran fewer stands below. Solved: sound and quads only; failed: no mesh, or "
       "one "
       "that is not sound or not of its model",
-      "eta worst: the least; eta mean, d4, tau: means over the sound meshes; CPU s: their sum, where known"};
-  std::vector<std::vector<Entry>> groups = {rank(programs, nullptr)};
-  for (const SuiteFamily family : {SuiteFamily::kPlanar, SuiteFamily::kCad, SuiteFamily::kTriangles})
-    groups.push_back(rank(programs, &family));
+      "eta worst: the least; eta mean, d4, tau: means over the sound meshes; CPU s: their sum, where known",
+      "all: planar, CAD, triangles and hard; metric (eta and tau in the metric) and public stand by "
+      "themselves"};
+  std::vector<const SuiteFamily*> families = {nullptr};
+  for (const SuiteFamily& family : kSuiteFamilies) families.push_back(&family);
+  std::vector<std::vector<Entry>> groups;
+  for (const SuiteFamily* family : families) groups.push_back(rank(programs, family));
   table.notes.push_back(test_groups(groups));
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (const Entry& entry : groups[g]) table.rows.push_back(entry.row);
-    for (const Program& program : not_ranked)
-      if (g == 0) add_absent(program, table);
+    add_absent(programs, families[g], table);
   }
   return table;
 }

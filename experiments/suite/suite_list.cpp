@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -18,10 +18,13 @@
 #include "delquad/error.h"
 #include "experiments/suite/model_makers.h"
 #include "experiments/sweep/folders.h"
+#include "experiments/sweep/peer.h"
 #include "geometry/cad/example_models.h"
 #include "io/cases/case.h"
 #include "io/mesh_io.h"
+#include "io/text_scanner.h"
 #include "io/text_writer.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 
@@ -30,14 +33,17 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr std::string_view kAsksForSize = "size = \"SIZE\"";
+
 void write_models(const fs::path& folder, const std::vector<SuiteModel>& models) {
   for (const SuiteModel& model : models) {
     const std::string content = make_suite_model(model), digest = suite_digest(model, content);
-    if (digest != model.sha256)
-      refuse(
-          "{}: SHA-256 is {}: expected {}, of suite {}; another version of OpenCASCADE would "
-          "explain it for CAD",
-          file_name(model), digest, model.sha256, suite().version);
+    if (!model.sha256.empty() && digest != model.sha256)
+      refuse("{}: SHA-256 is {}: expected {}, of suite {}{}", file_name(model), digest, model.sha256,
+             suite().version,
+             model.extension == ".step" && model.file.empty()
+                 ? "; another version of OpenCASCADE would explain it"
+                 : "");
     write_text_file(folder / file_name(model), content);
   }
 }
@@ -46,8 +52,8 @@ std::string experiment_text(const std::vector<SuiteModel>& models) {
   std::string text = fmt::format("title = \"{}\"\npipelines = [\"DB\", \"DBCO\"]\n", suite_title());
   for (const SuiteModel& model : models)
     for (std::size_t k = 0; k < model.sizes.size(); ++k)
-      text += fmt::format("\n[[case]]\nname = \"{}\"\nmodel = \"{}\"\nsize = \"{}\"\n", case_name(model, k),
-                          file_name(model), model.sizes[k]);
+      text += fmt::format("\n[[case]]\nname = \"{}\"\nmodel = \"{}\"\n{}\n", case_name(model, k),
+                          file_name(model), replace_all(model.asks, "SIZE", model.sizes[k]));
   return text;
 }
 
@@ -56,13 +62,16 @@ std::string cases_text(const std::vector<SuiteModel>& models) {
   for (const SuiteModel& model : models)
     for (std::size_t k = 0; k < model.sizes.size(); ++k) {
       const std::string name = case_name(model, k);
-      const bool planar = model.family == SuiteFamily::kPlanar;
+      const bool planar = model.extension == ".toml", sized = model.asks == kAsksForSize;
       const auto number = as_number(model.sizes[k]);
       json["cases"].push_back({{"name", name},
                                {"family", name_of(model.family)},
                                {"model", file_name(model)},
                                {"boundary", planar ? Json(name + ".msh") : Json()},
-                               {"size", number ? Json(*number) : Json(model.sizes[k])}});
+                               {"size", !sized   ? Json()
+                                        : number ? Json(*number)
+                                                 : Json(model.sizes[k])}});
+      if (!sized) json["cases"].back()["asks"] = replace_all(model.asks, "SIZE", model.sizes[k]);
     }
   return json.dump(2) + "\n";
 }
@@ -80,19 +89,19 @@ void write_suite(const fs::path& folder, const std::vector<SuiteModel>& models) 
   const Experiment experiment = write_suite_experiment(folder, models);
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const Case c = experiment.read_variant(i);
-    if (planar_model(c) != nullptr) write_mesh(folder / (c.name + ".msh"), prepare(c)->boundary);
+    if (planar_model(c) != nullptr) write_mesh(folder / (c.name + ".msh"), boundary_of(prepare(c)));
   }
   write_text_file(folder / "cases.json", cases_text(models));
 }
 
 namespace {
 
-/// By family: as the list calls it, and what its files are.
-constexpr std::array<std::string_view, 3> kFamilies = {"planar", "CAD", "triangles"};
-constexpr std::array kExtensions = {".toml", ".step", ".obj"};
+/// By family, as the list calls it.
+constexpr std::array<std::string_view, 6> kFamilies = {"planar", "CAD",    "triangles",
+                                                       "hard",   "metric", "public"};
 
 SuiteFamily family_of(const std::string& name) {
-  for (const SuiteFamily family : {SuiteFamily::kPlanar, SuiteFamily::kCad, SuiteFamily::kTriangles})
+  for (const SuiteFamily family : kSuiteFamilies)
     if (name == name_of(family)) return family;
   throw std::logic_error("models.toml: unknown family " + name);
 }
@@ -104,7 +113,22 @@ std::string size_text(const toml::node& size) {
 
 SuiteModel read_model(const toml::table& table) {
   const auto text = [&](const char* key) { return table[key].value<std::string>().value(); };
-  SuiteModel model{text("name"), text("about"), family_of(text("family")), {}, text("sha256")};
+  const auto maybe = [&](const char* key, std::string_view or_else = "") {
+    return table[key].value_or(std::string(or_else));
+  };
+  static const std::map<std::string, const char*> kExtensions = {
+      {"planar", ".toml"}, {"metric", ".toml"}, {"CAD", ".step"}, {"triangles", ".obj"}};
+  SuiteModel model{text("name"),
+                   text("about"),
+                   family_of(text("family")),
+                   {},
+                   maybe("sha256"),
+                   "",
+                   maybe("asks", kAsksForSize),
+                   maybe("text"),
+                   fs::path(maybe("file"))};
+  model.extension =
+      model.file.empty() ? kExtensions.at(maybe("kind", text("family"))) : model.file.extension().string();
   for (const toml::node& size : *table["sizes"].as_array()) model.sizes.push_back(size_text(size));
   return model;
 }
@@ -171,6 +195,10 @@ std::string rounded_step(const std::string& content) {
 
 }  // namespace
 
+bool is_for_all(SuiteFamily family) {
+  return family != SuiteFamily::kMetric && family != SuiteFamily::kPublic;
+}
+
 const char* name_of(SuiteFamily family) { return kFamilies[static_cast<std::size_t>(family)].data(); }
 
 const Suite& suite() {
@@ -184,8 +212,8 @@ const Suite& suite() {
   return list;
 }
 
-std::vector<SuiteModel> select_models(const std::vector<std::string>& names,
-                                      const std::vector<std::string>& families) {
+std::vector<SuiteModel> select_models(const SuiteSelection& selection) {
+  const auto& [names, families, folders] = selection;
   std::vector<std::string> known;
   for (const SuiteModel& model : suite().models) known.push_back(model.name);
   for (const std::string& name : names)
@@ -194,12 +222,25 @@ std::vector<SuiteModel> select_models(const std::vector<std::string>& names,
   for (const std::string& family : families)
     if (std::ranges::find(kFamilies, family) == kFamilies.end())
       refuse("--family: '{}': expected {}", family, fmt::join(kFamilies, ", "));
-  if (names.empty() && families.empty()) return suite().models;
   std::vector<SuiteModel> selected;
-  std::ranges::copy_if(suite().models, std::back_inserter(selected), [&](const SuiteModel& model) {
-    return std::ranges::find(names, model.name) != names.end() ||
-           std::ranges::find(families, name_of(model.family)) != families.end();
-  });
+  for (SuiteModel model : suite().models) {
+    const bool is_named = std::ranges::find(names, model.name) != names.end();
+    if (!is_named && std::ranges::find(families, name_of(model.family)) == families.end() &&
+        !(names.empty() && families.empty()))
+      continue;
+    if (!model.file.empty()) {
+      const auto at =
+          std::ranges::find_if(folders, [&](const fs::path& f) { return fs::exists(f / model.file); });
+      if (at == folders.end() && is_named)
+        refuse("'{}': its file {} is in no folder of --public; 'make public_models' fetches it", model.name,
+               model.file.string());
+      if (at == folders.end()) continue;
+      model.file = *at / model.file;
+    }
+    selected.push_back(std::move(model));
+  }
+  if (selected.empty())
+    throw InputError("no model is left: public ones need --public; 'make public_models' fetches them");
   return selected;
 }
 
@@ -207,23 +248,22 @@ std::string case_name(const SuiteModel& model, std::size_t size) {
   return fmt::format("{}_{}", model.name, size + 1);
 }
 
-std::string file_name(const SuiteModel& model) {
-  return model.name + kExtensions[static_cast<std::size_t>(model.family)];
-}
+std::string file_name(const SuiteModel& model) { return model.name + model.extension; }
 
 std::string suite_title() { return fmt::format("Suite {}", suite().version); }
 
 std::string make_suite_model(const SuiteModel& model) {
-  if (model.family == SuiteFamily::kPlanar) return make_model(planar_suite_models(), model.name);
-  if (model.family == SuiteFamily::kTriangles)
-    return obj_text(make_model(triangle_suite_models(), model.name));
+  if (!model.text.empty()) return model.text;
+  if (!model.file.empty()) return read_whole_file(model.file);
+  if (model.extension == ".toml") return make_model(planar_suite_models(), model.name);
+  if (model.extension == ".obj") return obj_text(make_model(triangle_suite_models(), model.name));
   std::ostringstream out;
-  write_example(model.name, CadFormat::kStep, out);
+  write_suite_model(model.name, out);
   return out.str();
 }
 
 std::string suite_digest(const SuiteModel& model, const std::string& content) {
-  return sha256(model.family == SuiteFamily::kCad ? rounded_step(content) : content);
+  return sha256(model.extension == ".step" && model.file.empty() ? rounded_step(content) : content);
 }
 
 }  // namespace delquad

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -10,17 +11,26 @@
 
 namespace delquad {
 
-enum class SuiteFamily { kPlanar, kCad, kTriangles };
+enum class SuiteFamily { kPlanar, kCad, kTriangles, kHard, kMetric, kPublic };
+inline constexpr std::array kSuiteFamilies = {SuiteFamily::kPlanar,    SuiteFamily::kCad,
+                                              SuiteFamily::kTriangles, SuiteFamily::kHard,
+                                              SuiteFamily::kMetric,    SuiteFamily::kPublic};
 
-/// As the list and tables call it: "planar", "CAD" or "triangles".
+/// As the list and tables call it: "planar", "CAD", "triangles", "hard", "metric" or "public".
 const char* name_of(SuiteFamily family);
+/// Whether the ranking over all families has it: what every program can be asked, and has been.
+bool is_for_all(SuiteFamily family);
 
 /// A model of the suite, which comes in one case for each size: NAME_1, NAME_2, ...
 struct SuiteModel {
   std::string name, about;
   SuiteFamily family;
   std::vector<std::string> sizes;  ///< coarse first: numbers in the model's unit, or formulas in x and y
-  std::string sha256;              ///< see suite_digest()
+  std::string sha256;              ///< see suite_digest(); empty: of a public model that is not checked
+  std::string extension;           ///< of its file, with the dot
+  std::string asks;                ///< the key of a case, in which SIZE is one of the sizes
+  std::string text;                ///< the model file itself; empty: a maker has it, or a file
+  std::filesystem::path file;      ///< of public models: below the folder where it is
 };
 
 /// The models that results are compared on, as experiments/suite/models.toml has them.
@@ -38,19 +48,25 @@ std::string file_name(const SuiteModel& model);
 /// What `delquad run` calls the experiment with all cases: it has the version.
 std::string suite_title();
 
-/// The content of a model's file: a model file without a size, STEP or OBJ. The same bytes each time, but
-/// for STEP of different machines, whose numbers differ in their last digits. Throws InputError where the
-/// program was built without OpenCASCADE and the model is CAD.
+/// The content of a model's file: a model file without a size, STEP or OBJ, or a public file as it is. The
+/// same bytes each time, but for STEP of different machines, whose numbers differ in their last digits.
+/// Throws InputError where the program was built without OpenCASCADE and the model is CAD.
 std::string make_suite_model(const SuiteModel& model);
 
 /// SHA-256 of a model's file, in hexadecimal. Of STEP: without the header, all numbers rounded to six digits
 /// after the point, so that it does not depend on the machine.
 std::string suite_digest(const SuiteModel& model, const std::string& content);
 
-/// The models of these names, and those of these families; all where none are given. Throws InputError for a
-/// name that the suite does not have.
-std::vector<SuiteModel> select_models(const std::vector<std::string>& names,
-                                      const std::vector<std::string>& families);
+/// What to take of the suite: names of models and of families, all where none are given, and the folders in
+/// which files of public models lie.
+struct SuiteSelection {
+  std::vector<std::string> names = {}, families = {};
+  std::vector<std::filesystem::path> folders = {};
+};
+
+/// Of public models those whose files are there. Throws InputError for a name that the suite does not have,
+/// and where nothing is left.
+std::vector<SuiteModel> select_models(const SuiteSelection& selection);
 
 /// Writes all that other programs and ours need to mesh the cases of these models to a folder, which is made:
 /// the models (.toml, .step, .obj), of planar cases the boundary as lines (NAME_1.msh, ...), cases.json with

@@ -432,6 +432,51 @@ Mesh make_terrain_holes() {
   return rounded(std::move(mesh));
 }
 
+/// Every edge may be a feature or none: a ball with steps as large as its triangles.
+Mesh make_rough_ball() {
+  Mesh mesh = cube_sphere(7);
+  Random random(21);
+  for (Vec3& p : mesh.points) p = random.between(0.86, 1.14) * p;
+  return rounded(std::move(mesh));
+}
+
+/// A box whose top is split at points that its sides know nothing of: triangles without area close the gaps.
+Mesh make_flat_triangles() {
+  Mesh mesh;
+  mesh.points = {{0, 0, 0},   {2, 0, 0},   {2, 1, 0},   {0, 1, 0},
+                 {0, 0, 0.6}, {2, 0, 0.6}, {2, 1, 0.6}, {0, 1, 0.6}};
+  add_quad(mesh, 3, 2, 1, 0);
+  for (int a = 0; a < 4; ++a) add_quad(mesh, a, (a + 1) % 4, (a + 1) % 4 + 4, a + 4);
+  const int centre = 8;
+  mesh.points.push_back({0.9, 0.55, 0.6});
+  for (int a = 4; a < 8; ++a) {
+    const int b = a == 7 ? 4 : a + 1, middle = static_cast<int>(mesh.points.size());
+    mesh.points.push_back(mesh.points[a] + 0.375 * (mesh.points[b] - mesh.points[a]));
+    mesh.triangles.insert(mesh.triangles.end(), {{a, middle, centre}, {middle, b, centre}, {a, b, middle}});
+  }
+  return mesh;
+}
+
+/// Three grids on one edge.
+Mesh make_three_sheets() {
+  constexpr int kAlong = 16, kAcross = 8;
+  Mesh mesh;
+  for (int i = 0; i <= kAlong; ++i) mesh.points.push_back({0, 2.0 * i / kAlong, 0});
+  for (int sheet = 0; sheet < 3; ++sheet) {
+    const double angle = kTurn * (sheet + 0.1 * sheet * sheet) / 3;
+    const auto index = [&](int i, int j) { return j == 0 ? i : (sheet * kAcross + j) * (kAlong + 1) + i; };
+    for (int j = 1; j <= kAcross; ++j)
+      for (int i = 0; i <= kAlong; ++i) {
+        const double r = double(j) / kAcross;
+        mesh.points.push_back({r * std::cos(angle), 2.0 * i / kAlong, r * std::sin(angle)});
+      }
+    for (int j = 0; j < kAcross; ++j)
+      for (int i = 0; i < kAlong; ++i)
+        add_quad(mesh, index(i, j), index(i, j + 1), index(i + 1, j + 1), index(i + 1, j));
+  }
+  return rounded(std::move(mesh));
+}
+
 }  // namespace
 
 const std::vector<SuiteMaker<Mesh>>& triangle_suite_models() {
@@ -448,6 +493,9 @@ const std::vector<SuiteMaker<Mesh>>& triangle_suite_models() {
       {"blobs", make_blobs},
       {"terrain", make_terrain},
       {"terrain_holes", make_terrain_holes},
+      {"rough_ball", make_rough_ball},
+      {"flat_triangles", make_flat_triangles},
+      {"three_sheets", make_three_sheets},
   };
   return kAll;
 }

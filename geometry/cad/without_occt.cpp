@@ -21,6 +21,10 @@ void write_example(const std::string& name, CadFormat, std::ostream&) {
   throw InputError("built without OpenCASCADE: cannot make the example '" + name + "'");
 }
 
+void write_suite_model(const std::string& name, std::ostream&) {
+  throw InputError("built without OpenCASCADE: cannot make the model '" + name + "'");
+}
+
 SurfaceModel read_example(const std::string& name, const CadOptions&) {
   check_example(name);
   throw InputError("built without OpenCASCADE: cannot make the example '" + name + "'");

@@ -21,11 +21,11 @@
 
 namespace delquad::cad {
 
-namespace {
-
 TopoDS_Shape cylinder(const gp_Pnt& from, const gp_Dir& along, double radius, double length) {
   return BRepPrimAPI_MakeCylinder(gp_Ax2(from, along), radius, length).Shape();
 }
+
+namespace {
 
 /// The straight edges along a direction.
 TopTools_IndexedMapOfShape edges_along(const TopoDS_Shape& shape, const gp_Dir& direction) {
