@@ -36,7 +36,7 @@ void write_study_of(const fs::path& results, const std::string& program, const s
   study.experiment = "suite";
   study.pipelines = {program};
   for (const SuiteModel& model : suite().models)
-    for (int k = 0; k < 3; ++k) study.cases.push_back(case_name(model, k));
+    for (std::size_t k = 0; k < model.sizes.size(); ++k) study.cases.push_back(case_name(model, k));
   study.cells = study.cases.size();
   write_study(results, study);
 }
@@ -55,14 +55,16 @@ TEST(Ranking, KeepsWhatFailedApartFromWhatIsMissing) {
   write_cell(folder / "a", "bracket_2", "few", unsound);
   write_study_of(folder / "b", "more", suite_title());
   for (const SuiteModel& model : suite().models)
-    for (int k = 0; k < 3; ++k) write_cell(folder / "b", case_name(model, k), "more", metrics(0.5, 80, 100));
+    for (int k = 0; k < 3; ++k)
+      if (is_for_all(model.family))
+        write_cell(folder / "b", case_name(model, k), "more", metrics(0.5, 80, 100));
 
   const Table table = rank_programs(folder.path());
-  ASSERT_EQ(table.rows.size(), 7u);
+  ASSERT_EQ(table.rows.size(), 8u);
   EXPECT_EQ(table.rows[0].name, "more");
   EXPECT_EQ(table.rows[0].group, "all");
   EXPECT_NEAR(table.rows[0].values.at("score"), 40, 1e-9);
-  EXPECT_EQ(table.rows[0].values.at("solved"), 120);
+  EXPECT_EQ(table.rows[0].values.at("solved"), 120 + 42) << "without metric and public";
   const auto& few = table.rows[1].values;
   EXPECT_EQ(few.at("models"), 2);
   EXPECT_EQ(few.at("cases"), 5);
@@ -106,6 +108,31 @@ TEST(Ranking, TestsOverModels) {
     EXPECT_EQ(table.rows[group + 2].name, "six") << "fewer cases stand below";
     EXPECT_TRUE(table.rows[group + 2].texts.empty());
   }
+}
+
+/// Who cannot be told metrics has not failed: it keeps its rank over all, and has a row without one there.
+TEST(Ranking, KeepsMetricsApart) {
+  const TemporaryFolder folder;
+  write_study_of(folder / "a", "told", suite_title());
+  write_study_of(folder / "b", "sizes", suite_title());
+  Json in_metric = metrics(0.1, 20, 100);
+  in_metric["metrics"].update({{"metric_eta_mean", 0.8}, {"metric_eta_worst", 0.3}, {"metric_tau", 90}});
+  in_metric["metrics"]["tau"] = nullptr;
+  write_cell(folder / "a", "metric_thin_1", "told", in_metric);
+  write_cell(folder / "b", "metric_thin_1", "sizes",
+             {{"status", "not applicable"}, {"kind", "not applicable"}, {"reason", "is told sizes"}});
+  write_cell(folder / "a", "gear_1", "told", metrics(0.5, 80, 100));
+  write_cell(folder / "b", "gear_1", "sizes", metrics(0.6, 80, 100));
+  const Table table = rank_programs(folder.path());
+  ASSERT_EQ(table.rows.size(), 6u);
+  EXPECT_EQ(table.rows[0].name, "sizes");
+  EXPECT_NEAR(table.rows[0].values.at("score"), 48, 1e-9);
+  EXPECT_NEAR(table.rows[1].values.at("score"), 40, 1e-9);
+  EXPECT_EQ(table.rows[4].group, "metric");
+  EXPECT_NEAR(table.rows[4].values.at("score"), 72, 1e-9);
+  EXPECT_NEAR(table.rows[4].values.at("eta_worst"), 0.3, 1e-9);
+  EXPECT_EQ(table.rows[5].skipped, "not applicable");
+  EXPECT_EQ(table.notes.back(), "sizes is not applicable to metric: is told sizes");
 }
 
 TEST(Ranking, ShowsWhatIsNotInstalledWithoutARank) {
