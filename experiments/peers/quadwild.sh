@@ -8,7 +8,7 @@ if [ "$1" = --version ]; then
   exit
 fi
 cp "$1" mesh.obj
-"$programs/quadwild" mesh.obj 2 "$config/prep_config/basic_setup.txt"
+"$programs/quadwild" mesh.obj 2 "$config/prep_config/basic_setup_Mechanical.txt"
 # Its size is a factor of the mean edge of its own triangles.
 edge=$(awk '$1 == "v" { x[++n] = $2; y[n] = $3; z[n] = $4 }
   $1 == "f" { for (k = 2; k <= 4; ++k) { split($k, a, "/"); split($(k < 4 ? k + 1 : 2), b, "/"); i = a[1]; j = b[1]

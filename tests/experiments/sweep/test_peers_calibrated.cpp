@@ -434,28 +434,54 @@ TEST_F(CalibratedPeers, AdaptersSpeakToProgramsThatAreAbsentHere) {
     fs::permissions(file, fs::perms::owner_all);
   };
   stub(bin / "instant-meshes", "[ \"$1 $2 $3 $4 $5 $7\" = '-d -b -c 40 -s -o' ] && cp \"$9\" \"$8\"\n");
+  stub(bin / "quadriflow",
+       "[ \"$1 $2 $3 $4 $6 $8 ${10}\" = '-sharp -boundary -mcf -seed -f -i -o' ] && cp \"$9\" \"${11}\"\n");
+  for (const char* name : {"mmg2d_O3", "mmgs_O3"})
+    stub(bin / name,
+         "[ $1 = -h ] && echo '  -- MMG2D, Release 5.8.0 (2024)' && exit\n"
+         "[ \"$1 $3 $5 $7 $8 $9\" = '-in -sol -hausd -hgrad -1 -out' ] && cp \"$2\" \"${10}\"\n");
+  fs::create_symlink(DELQUAD_PROGRAM, bin / "delquad");
+  stub(bin / "TQMesh",
+       "[ $# = 1 ] || { echo '  Version 1.4'; exit; }\n"
+       "[ $(grep -c '^[01], [01], 1$' $1) = 4 ] && grep -q '^End exterior boundary$' $1 || exit 1\n"
+       "printf 'MESH 1\\nVERTICES 4\\n0,0\\n1,0\\n1,1\\n0,1\\nQUADS 1\\n 0, 1, 2, 3, 1\\nTRIANGLES 0\\n' > "
+       "out.txt\n");
+  stub(bin / "gmsh",
+       "[ $1 = --version ] && echo 4.15.2 && exit\n"
+       "case \"$*\" in *'Mesh.Algorithm 11 '*) exec cp " +
+           (folder_ / "square.msh").string() + " \"$4\" ;; esac\n");
+  write_text(
+      folder_ / "square.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+      "$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n");
   stub(programs / "quadwild", "[ $2 = 2 ] && [ -f \"$3\" ] && grep -v '^l' $1 > mesh_rem_p0.obj\n");
   stub(programs / "quad_from_patches",
        "[ $2 = 123 ] && grep scaleFact $3 && cp $1 mesh_rem_p0_123_quadrangulation_smooth.obj\n");
-  write_text(wild / "config/prep_config/basic_setup.txt", "do_remesh 1\n");
+  write_text(wild / "config/prep_config/basic_setup_Mechanical.txt", "do_remesh 1\n");
   write_text(wild / "config/main_config/flow_noalign_lemon.txt",
              "alpha 0.005\nscaleFact 1\nscaleFactInt 2\n");
   const std::string path = std::getenv("PATH");
   setenv("PATH", (bin.string() + ":" + path).c_str(), 1);
   setenv("QUADWILD", wild.c_str(), 1);
-  Experiment e =
-      experiment("pipelines = [\"DB\"]\n[[case]]\nname = \"sphere\"\nexample = \"sphere\"\nsize = 3\n");
-  for (const char* name : {"instant_meshes.toml", "quadwild.toml"})
-    e.add_peer_file(fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers" / name);
-  e.words = e.find_pipelines({"instant-meshes", "quadwild"});
+  Experiment e = experiment(
+      "pipelines = [\"DB\"]\n[[case]]\nname = \"sphere\"\nexample = \"sphere\"\nsize = 3\n"
+      "[[case]]\nname = \"square\"\nsize = 1\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
+  for (const char* name : {"gmsh", "instant_meshes", "mmg", "quadriflow", "quadwild", "tqmesh"})
+    e.add_peer_file(fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers" / (std::string(name) + ".toml"));
+  e.words =
+      e.find_pipelines({"instant-meshes", "mmg", "quadriflow-source", "quadwild", "tqmesh", "gmsh-quasi"});
   run_experiment(e, out());
   setenv("PATH", path.c_str(), 1);
   unsetenv("QUADWILD");
-  const auto cells = records();
-  for (const char* name : {"instant-meshes", "quadwild"}) {
-    EXPECT_EQ(cells.at(name).reason, "") << name;
-    EXPECT_NE(record_of("sphere", name).at("peer").at("version"), "") << name;
+  std::vector<std::string> meshed;
+  for (const CellRecord& cell : read_records(out())) {
+    if (cell.reason.empty()) meshed.push_back(cell.name + " " + cell.pipeline);
+    EXPECT_NE(record_of(cell.name, cell.pipeline).at("peer").at("version"), "") << cell.pipeline;
   }
+  std::ranges::sort(meshed);
+  EXPECT_EQ(meshed, (std::vector<std::string>{
+                        "sphere instant-meshes", "sphere mmg", "sphere quadriflow-source", "sphere quadwild",
+                        "square gmsh-quasi", "square instant-meshes", "square mmg", "square tqmesh"}));
   const std::string log = read_text(out() / "sphere" / "quadwild" / "peer.log");
   double factor = 0;
   ASSERT_EQ(std::sscanf(log.c_str(), "scaleFact %lf", &factor), 1) << log;
