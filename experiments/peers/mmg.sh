@@ -1,13 +1,13 @@
 #!/bin/sh
 # Mmg's triangles merged by Delquad: mmg.sh INPUT.mesh OUTPUT.msh SIZES.sol; --version: Mmg's
 set -e
-for name in mmg2d_O3 mmgs_O3 delquad; do
+for name in mmgs_O3 delquad; do
   command -v $name > /dev/null || { echo "$name is not on the PATH"; exit 77; }
 done
-[ "$1" != --version ] || { mmg2d_O3 -h | sed -n 's/.*MMG2D, Release *//p'; exit; }
+[ "$1" != --version ] || { mmgs_O3 -h | sed -n 's/.*MMGS, Release *//p'; exit; }
 # By its documentation, the distance that it may keep from the boundary is meant for an object of extent 1.
 set -- "$@" $(awk '$1 == "Vertices" { getline n; min = 1e300; max = -min
-      for (i = 0; i < n; ++i) { getline; z += $3 * $3; for (k = 1; k <= 3; ++k) { if ($k < min) min = $k; if ($k > max) max = $k } }
-      print (z ? "mmgs_O3" : "mmg2d_O3"), .01 * (max - min) }' "$1")
-"$4" -in "$1" -sol "$3" -hausd "$5" -hgrad -1 -out mmg.mesh
+      for (i = 0; i < n; ++i) { getline; for (k = 1; k <= 3; ++k) { if ($k < min) min = $k; if ($k > max) max = $k } }
+      print .01 * (max - min) }' "$1")
+mmgs_O3 -in "$1" -sol "$3" -hausd "$4" -hgrad -1 -out mmg.mesh
 delquad improve mmg.mesh --pipeline B --allow-triangles --allow-unsound -q -o "$2"

@@ -436,10 +436,9 @@ TEST_F(CalibratedPeers, AdaptersSpeakToProgramsThatAreAbsentHere) {
   stub(bin / "instant-meshes", "[ \"$1 $2 $3 $4 $5 $7\" = '-d -b -c 40 -s -o' ] && cp \"$9\" \"$8\"\n");
   stub(bin / "quadriflow",
        "[ \"$1 $2 $3 $4 $6 $8 ${10}\" = '-sharp -boundary -mcf -seed -f -i -o' ] && cp \"$9\" \"${11}\"\n");
-  for (const char* name : {"mmg2d_O3", "mmgs_O3"})
-    stub(bin / name,
-         "[ $1 = -h ] && echo '  -- MMG2D, Release 5.8.0 (2024)' && exit\n"
-         "[ \"$1 $3 $5 $7 $8 $9\" = '-in -sol -hausd -hgrad -1 -out' ] && cp \"$2\" \"${10}\"\n");
+  stub(bin / "mmgs_O3",
+       "[ $1 = -h ] && echo '  -- MMGS, Release 5.8.0 (2024)' && exit\n"
+       "[ \"$1 $3 $5 $7 $8 $9\" = '-in -sol -hausd -hgrad -1 -out' ] && cp \"$2\" \"${10}\"\n");
   fs::create_symlink(DELQUAD_PROGRAM, bin / "delquad");
   stub(bin / "TQMesh",
        "[ $# = 1 ] || { echo '  Version 1.4'; exit; }\n"
@@ -481,7 +480,7 @@ TEST_F(CalibratedPeers, AdaptersSpeakToProgramsThatAreAbsentHere) {
   std::ranges::sort(meshed);
   EXPECT_EQ(meshed, (std::vector<std::string>{
                         "sphere instant-meshes", "sphere mmg", "sphere quadriflow-source", "sphere quadwild",
-                        "square gmsh-quasi", "square instant-meshes", "square mmg", "square tqmesh"}));
+                        "square gmsh-quasi", "square instant-meshes", "square tqmesh"}));
   const std::string log = read_text(out() / "sphere" / "quadwild" / "peer.log");
   double factor = 0;
   ASSERT_EQ(std::sscanf(log.c_str(), "scaleFact %lf", &factor), 1) << log;
