@@ -319,7 +319,7 @@ class MetricRule final : public RefinementRule {
   bool has_lengths() const override { return true; }
   double length(int face, int a, int b, double) const override { return metric_.length(fine_, face, a, b); }
 
-  bool is_too_large(int face, const std::array<int, 3>& nodes, const std::array<bool, 3>&) const override {
+  bool is_too_large(int face, const std::array<int, 3>& nodes, const std::array<int, 3>&) const override {
     for (int k = 0; k < 3; ++k) {
       const int a = nodes[(k + 1) % 3], b = nodes[(k + 2) % 3];
       const TangentMetric &at_a = metric_.find(face, a)->metric, &at_b = metric_.find(face, b)->metric;
@@ -332,7 +332,7 @@ class MetricRule final : public RefinementRule {
     return false;
   }
 
-  void node_added(int node, int a, int b, int, bool) override {
+  void node_added(int node, int a, int b, int, int) override {
     if (fine_.points.size() > kMostPoints)
       throw InputError(fmt::format(
           "{}: the metric changes too fast to be followed by {} points: a gradation or a larger least "

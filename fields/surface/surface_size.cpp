@@ -97,21 +97,21 @@ class SizeRule final : public RefinementRule {
   int n_added() const { return n_added_; }
 
   bool is_too_large(int face, const std::array<int, 3>& nodes,
-                    const std::array<bool, 3>& is_line) const override {
+                    const std::array<int, 3>& curve) const override {
     double longest = 0;
     for (int k = 0; k < 3; ++k) {
       const int a = nodes[(k + 1) % 3], b = nodes[(k + 2) % 3];
       const double length = norm(fine_.points[b] - fine_.points[a]);
       longest = std::max(longest, length);
-      if (length > kShortSide * std::min(delta_[a], delta_[b]) && misses(face, a, b, length, is_line[k]))
+      if (length > kShortSide * std::min(delta_[a], delta_[b]) && misses(face, a, b, length, curve[k]))
         return true;
     }
     return (longest > coarsest_ && longest > kShortSide * least(nodes)) || may_hide_spot(nodes, longest);
   }
 
-  void node_added(int node, int a, int b, int face, bool on_line) override {
+  void node_added(int node, int a, int b, int face, int curve) override {
     const Vec3& x = fine_.points[node];
-    const double raw = on_line ? std::min(std::max(raw_[a], raw_[b]), base(x)) : wanted_.in_face(face, x);
+    const double raw = curve < 0 ? wanted_.in_face(face, x) : std::min(raw_on(curve, a, b), base(x));
     raw_.resize(node + 1, raw);
     delta_.resize(node + 1, 0);
     delta_[node] = raw;
@@ -139,18 +139,25 @@ class SizeRule final : public RefinementRule {
   }
 
   /// Is the mean of the ends far from the size in the middle of the side, as far as it can be told?
-  bool misses(int face, int a, int b, double length, bool is_line) const {
+  bool misses(int face, int a, int b, double length, int curve) const {
     const double linear = (delta_[a] + delta_[b]) / 2;
     const double in_middle = base(0.5 * (fine_.points[a] + fine_.points[b]));
-    const double own = is_line ? std::max(raw_[a], raw_[b]) : std::max(raw(face, a), raw(face, b));
+    const double own = curve >= 0 ? raw_on(curve, a, b) : std::max(raw(face, a), raw(face, b));
     const double most =
         std::min({in_middle, own, std::min(delta_[a], delta_[b]) + wanted_.gradation * length / 2});
     return most > kMiss * linear || linear > kMiss * in_middle;
   }
 
+  /// What a curve alone wants on its side from a to b, as its ends may belong to shorter ones; where sizes
+  /// follow curvature, the most that is wanted at these.
+  double raw_on(int curve, int a, int b) const {
+    if (wanted_.curvature) return std::max(raw_[a], raw_[b]);
+    return std::max(wanted_.on_curve(curve, fine_.points[a]), wanted_.on_curve(curve, fine_.points[b]));
+  }
+
   /// What the face alone wants at one of its points.
   double raw(int face, int node) const {
-    if (!wanted_.curvature) return raw_[node];
+    if (!wanted_.curvature) return wanted_.in_face(face, fine_.points[node]);
     const auto [at, fresh] = face_raw_.try_emplace(static_cast<long long>(face) << 32 | node, 0.0);
     if (fresh) at->second = wanted_.in_face(face, fine_.points[node]);
     return at->second;

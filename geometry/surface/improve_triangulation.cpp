@@ -188,9 +188,14 @@ class Improver {
   bool is_too_large(int t, double longest) const {
     if (rule_ == nullptr) return curved_[mesh_.triangle_region[t]] && longest > target_[t];
     const auto& v = mesh_.triangles[t];
-    std::array<bool, 3> is_line;
-    for (int k = 0; k < 3; ++k) is_line[k] = editor_.line_on(v[(k + 1) % 3], v[(k + 2) % 3]) >= 0;
-    return rule_->is_too_large(mesh_.triangle_region[t], v, is_line);
+    std::array<int, 3> curve;
+    for (int k = 0; k < 3; ++k) curve[k] = curve_on(v[(k + 1) % 3], v[(k + 2) % 3]);
+    return rule_->is_too_large(mesh_.triangle_region[t], v, curve);
+  }
+
+  int curve_on(int a, int b) const {
+    const int line = editor_.line_on(a, b);
+    return line >= 0 ? mesh_.line_curve[line] : -1;
   }
 
   void consider(int t) {
@@ -226,9 +231,9 @@ class Improver {
       if (rule_ == nullptr)
         for (int t : on_edge) target_.push_back(target_[t]);
       const int face = mesh_.triangle_region[on_edge[0]];
-      const bool on_line = editor_.line_on(a, b) >= 0;
+      const int curve = curve_on(a, b);
       const int node = editor_.split_edge(a, b, midpoint(a, b, on_edge[0]));
-      if (rule_ != nullptr) rule_->node_added(node, a, b, face, on_line);
+      if (rule_ != nullptr) rule_->node_added(node, a, b, face, curve);
       flipped_.clear();
       for (int t : editor_.triangles_at(node))
         for (int k = 0; k < 3; ++k) queue_.push_back(side(t, k));

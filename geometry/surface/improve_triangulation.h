@@ -25,10 +25,10 @@ void improve_triangulation(SurfaceModel& model, const ImproveOptions& options = 
 class RefinementRule {
  public:
   virtual ~RefinementRule() = default;
-  /// Is the triangle to be split? `is_line[k]`: the side opposite to nodes[k] is a line. Must be false for
-  /// triangles that are small enough in some sense, or refinement does not end.
+  /// Is the triangle to be split? `curve[k]`: that of the side opposite to nodes[k]; -1: it is no line. Must
+  /// be false for triangles that are small enough in some sense, or refinement does not end.
   virtual bool is_too_large(int face, const std::array<int, 3>& nodes,
-                            const std::array<bool, 3>& is_line) const = 0;
+                            const std::array<int, 3>& curve) const = 0;
   /// The length of a side, by which the longest is told, and what is Delaunay; `in_space`: that there.
   virtual double length([[maybe_unused]] int face, [[maybe_unused]] int a, [[maybe_unused]] int b,
                         double in_space) const {
@@ -36,8 +36,8 @@ class RefinementRule {
   }
   /// Whether that is another than in space.
   virtual bool has_lengths() const { return false; }
-  /// A node was put on the middle of the side a-b, of a triangle of the face.
-  virtual void node_added(int node, int a, int b, int face, bool on_line) = 0;
+  /// A node was put on the middle of the side a-b, of a triangle of the face; `curve`: as above.
+  virtual void node_added(int node, int a, int b, int face, int curve) = 0;
 };
 
 /// Splits the longest sides of triangles that are too large until none is, with the same care as

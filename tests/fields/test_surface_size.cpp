@@ -145,10 +145,9 @@ TEST(SurfaceSizes, APlaneBetweenSmallSizesGrowsUpToItsOwn) {
   }
 }
 
-/// A square of side 10 with a corner cut off by an edge of this length; each side is a curve.
-SurfaceModel cut_square(double edge) {
-  const double d = edge / std::numbers::sqrt2;
-  SurfaceModel model = surfaces::polygon_face({{0, 0}, {10, 0}, {10, 10 - d}, {10 - d, 10}, {0, 10}}, 0.5);
+/// A polygon of which each side is a curve.
+SurfaceModel face_of_curves(const std::vector<Vec2>& corners, double step) {
+  SurfaceModel model = surfaces::polygon_face(corners, step);
   Mesh& fine = model.fine;
   fine.curves.clear();
   for (std::size_t l = 0; l < fine.lines.size(); ++l) {
@@ -157,6 +156,12 @@ SurfaceModel cut_square(double edge) {
     fine.line_curve[l] = static_cast<int>(fine.curves.size()) - 1;
   }
   return model;
+}
+
+/// A square of side 10 with a corner cut off by an edge of this length.
+SurfaceModel cut_square(double edge) {
+  const double d = edge / std::numbers::sqrt2;
+  return face_of_curves({{0, 0}, {10, 0}, {10, 10 - d}, {10 - d, 10}, {0, 10}}, 0.5);
 }
 
 TEST(SurfaceSizes, KeepToSpotsInsideOfLargeTriangles) {
@@ -187,6 +192,31 @@ TEST(SizesBesideShortCurves, GrowFromAFewTimesTheirLength) {
   EXPECT_NEAR(size_at(size, {10, 9.5, 0}), 0.4 + 0.7 * 0.43, 0.1);
   EXPECT_EQ(size_at(size, {10, 8, 0}), 1);
   EXPECT_EQ(size_at(size, {5, 5, 0}), 1);
+}
+
+// All points of the triangulation are ends of short curves: it has to be divided between them.
+TEST(SizesBesideShortCurves, LeaveAWideFaceBetweenThemAlone) {
+  constexpr double d = 0.01, kSide = 10;
+  SurfaceModel model = face_of_curves({{d, 0},
+                                       {kSide - d, 0},
+                                       {kSide, d},
+                                       {kSide, kSide - d},
+                                       {kSide - d, kSide},
+                                       {d, kSide},
+                                       {0, kSide - d},
+                                       {0, d}},
+                                      100);
+  ASSERT_EQ(model.fine.points.size(), 8u);
+  WantedSize wanted;
+  wanted.base = make_constant_size(1);
+  wanted.gradation = 0.7;
+  wanted.curve_limit = sizes_beside_short_curves(model.fine, *wanted.base);
+  refine_for_size(model, wanted);
+  const SurfaceSize size(model, wanted);
+  EXPECT_NEAR(size_at(size, {d, 0, 0}), 0.057, 0.01);
+  EXPECT_NEAR(size_at(size, {5, 0, 0}), 1, 0.2);
+  EXPECT_NEAR(size_at(size, {5, 5, 0}), 1, 0.2);
+  EXPECT_NEAR(size_at(size, {0.7, 0, 0}), 0.057 + 0.7 * 0.69, 0.15);
 }
 
 TEST(SizesBesideShortCurves, AskForNothingWhereNoneIsShort) {
