@@ -9,6 +9,7 @@
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
+#include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopLoc_Location.hxx>
@@ -78,12 +79,17 @@ Handle(TCollection_HAsciiString) text(const std::string& value) {
   return new TCollection_HAsciiString(value.c_str());
 }
 
-/// Names file and product after the model, and leaves the date out: else the bytes would differ each time.
+/// Names file and product after the model, counts its bodies from 1 and leaves the date out: else the bytes
+/// would differ each time.
 void write_titles(const std::string& name, const Handle(StepData_StepModel) & model) {
   APIHeaderSection_MakeHeader header(model);
   header.SetName(text(name));
   header.SetTimeStamp(text("1970-01-01T00:00:00"));
+  int bodies = 0;
   for (int i = 1; i <= model->NbEntities(); ++i) {
+    if (const auto body = Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(model->Value(i));
+        !body.IsNull())
+      body->SetId(text(std::to_string(++bodies)));
     const auto product = Handle(StepBasic_Product)::DownCast(model->Value(i));
     if (product.IsNull()) continue;
     product->SetId(text(name));
