@@ -64,13 +64,14 @@ std::string cases_text(const std::vector<SuiteModel>& models) {
       const std::string name = case_name(model, k);
       const bool planar = model.extension == ".toml", sized = model.asks == kAsksForSize;
       const auto number = as_number(model.sizes[k]);
-      json["cases"].push_back({{"name", name},
-                               {"family", name_of(model.family)},
-                               {"model", file_name(model)},
-                               {"boundary", planar ? Json(name + ".msh") : Json()},
-                               {"size", !sized   ? Json()
-                                        : number ? Json(*number)
-                                                 : Json(model.sizes[k])}});
+      json["cases"].push_back(
+          {{"name", name},
+           {"family", name_of(model.family)},
+           {"model", file_name(model)},
+           {"boundary", planar && model.family != SuiteFamily::kMetric ? Json(name + ".msh") : Json()},
+           {"size", !sized   ? Json()
+                    : number ? Json(*number)
+                             : Json(model.sizes[k])}});
       if (!sized) json["cases"].back()["asks"] = replace_all(model.asks, "SIZE", model.sizes[k]);
     }
   return json.dump(2) + "\n";
@@ -89,7 +90,8 @@ void write_suite(const fs::path& folder, const std::vector<SuiteModel>& models) 
   const Experiment experiment = write_suite_experiment(folder, models);
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const Case c = experiment.read_variant(i);
-    if (planar_model(c) != nullptr) write_mesh(folder / (c.name + ".msh"), boundary_of(prepare(c)));
+    if (planar_model(c) != nullptr && !c.metric.asks())  // a metric divides curves by itself
+      write_mesh(folder / (c.name + ".msh"), boundary_of(prepare(c)));
   }
   write_text_file(folder / "cases.json", cases_text(models));
 }
