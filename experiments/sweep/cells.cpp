@@ -1,5 +1,6 @@
 #include "experiments/sweep/cells.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <map>
@@ -25,13 +26,23 @@ std::string& added_to_program() {
   return text;
 }
 
-/// The program and the one that reads CAD for it: their bytes, which no change of an algorithm, an option of
-/// the compiler or a library inside leaves alone.
+/// Of the file that holds this function: the program, or a library of its own.
+template <class F>
+fs::path file_of(F* function) {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(function), &info) == 0 || info.dli_fname == nullptr) return {};
+  return fs::path(info.dli_fname).has_parent_path() ? info.dli_fname : "/proc/self/exe";
+}
+
+/// The program, the libraries of this project that it has apart, and the one that reads CAD for it: their
+/// bytes, which no change of an algorithm, an option of the compiler or a library inside leaves alone.
 std::string program_digest() {
   static const std::string program = [] {
-    const fs::path reader = cad_program();
-    return digest(file_digest("/proc/self/exe") + (reader.empty() ? "" : file_digest(reader)) +
-                  versions_record());
+    std::string all = versions_record();
+    for (const fs::path& file :
+         {fs::path("/proc/self/exe"), file_of(&program_digest), file_of(&cad_program), cad_program()})
+      if (!file.empty()) all += file_digest(file);
+    return digest(all);
   }();
   return added_to_program().empty() ? program : digest(program + added_to_program());
 }
