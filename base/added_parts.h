@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cctype>
 #include <deque>
 #include <stdexcept>
@@ -9,19 +10,31 @@
 
 namespace delquad {
 
+/// Throws std::invalid_argument for what is no letter and then letters, digits, - and _: names stand in
+/// files, tables and schemas.
+inline void check_part_name(const std::string& kind, const std::string& name) {
+  const auto is_fit = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_';
+  };
+  if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0 ||
+      !std::ranges::all_of(name, is_fit))
+    throw std::invalid_argument(kind + " '" + name + "': expected a letter, then letters, digits, - and _");
+}
+
 /// Parts of one kind that can be chosen by name, in the order in which they were added.
 template <class Part>
 class AddedParts {
  public:
-  /// `kind`: for messages, "matching solver".
-  explicit AddedParts(std::string kind) : kind_(std::move(kind)) {}
+  /// `kind`: for messages, "matching solver". `words`: names that mean something else there.
+  explicit AddedParts(std::string kind, std::vector<std::string> words = {})
+      : kind_(std::move(kind)), words_(std::move(words)) {}
 
-  /// Throws std::invalid_argument for a name that is taken, empty or begins with no letter, and for nothing.
+  /// Throws std::invalid_argument for a name that is taken or none, see check_part_name(), and for nothing.
   void add(const std::string& name, Part part) {
-    if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0)
-      throw std::invalid_argument(kind_ + " '" + name + "': expected a name that begins with a letter");
+    check_part_name(kind_, name);
     if (!part) throw std::invalid_argument(kind_ + " '" + name + "': there is nothing to call");
-    if (find(name) != nullptr) throw std::invalid_argument("there is a " + kind_ + " '" + name + "' already");
+    if (find(name) != nullptr || std::ranges::find(words_, name) != words_.end())
+      throw std::invalid_argument("there is a " + kind_ + " '" + name + "' already");
     parts_.emplace_back(name, std::move(part));
   }
 
@@ -40,6 +53,7 @@ class AddedParts {
 
  private:
   std::string kind_;
+  std::vector<std::string> words_;
   std::deque<std::pair<std::string, Part>> parts_;
 };
 

@@ -5,12 +5,14 @@
 namespace delquad {
 
 AddedParts<std::function<void(const Options&, SizeSpec&)>>& added_sizes() {
-  static AddedParts<std::function<void(const Options&, SizeSpec&)>> all("size");
+  static AddedParts<std::function<void(const Options&, SizeSpec&)>> all(
+      "size", {"boundary", "x", "y", "z", "pi", "e"});
   return all;
 }
 
 AddedParts<std::function<void(const Options&, CrossSpec&)>>& added_crosses() {
-  static AddedParts<std::function<void(const Options&, CrossSpec&)>> all("cross field");
+  static AddedParts<std::function<void(const Options&, CrossSpec&)>> all(
+      "cross field", {"boundary", "gradient", "size-aware", "metric", "x", "y", "pi", "e"});
   return all;
 }
 

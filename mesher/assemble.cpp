@@ -151,6 +151,7 @@ MeshMetrics metrics_of(const PreparedProblem& prepared, const Mesh& mesh, std::s
 
 void measure_from_outside(const PreparedProblem& prepared, const Mesh& mesh, const std::string& word,
                           MeshMetrics& metrics) {
+  const DoingStage measuring("metrics");
   const bool by_size = !metric_of(prepared);
   measure_from_outside(
       {mesh, by_size ? prepared.size.field.get() : nullptr, by_size ? prepared.size.asked.get() : nullptr,

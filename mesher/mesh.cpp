@@ -265,9 +265,11 @@ MeshMetrics Prepared::metrics(const Mesh& made, const std::string& word) const {
 MeshResult Prepared::measure(Mesh of_others) const {
   MeshResult result;
   result.mesh = std::move(of_others);
-  result.metrics = metric_of(*made_) ? metrics(result.mesh)
-                                     : evaluate_metrics(result.mesh, made_->size.field.get(),
-                                                        made_->size.asked.get(), made_->settings.options);
+  // Its first quads are no layers of ours.
+  result.metrics = metric_of(*made_) ? metrics_of(*made_, result.mesh, sorted_half_edges(result.mesh))
+                                     : own_measures(result.mesh, made_->size.field.get(),
+                                                    made_->size.asked.get(), sorted_half_edges(result.mesh));
+  measure_from_outside(*made_, result.mesh, "", result.metrics);
   result.soundness = check_elements(*made_, result.mesh);
   result.bad_elsewhere = static_cast<int>(
       std::ranges::count_if(quad_etas(result.mesh), [](double eta) { return eta < kBadEta; }));

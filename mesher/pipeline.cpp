@@ -256,7 +256,9 @@ MeshResult finish_meshing(const PreparedProblem& prepared, const std::string& la
   if (prepared.is_given_surface()) put_back_entities(*prepared.surface->given, result.mesh);
   std::string word;
   for (const Stage* stage : state.stages) word += stage->letter;
+  const Stopwatch measuring;
   measure_from_outside(prepared, result.mesh, word, result.metrics);
+  result.log.add_time("metrics", measuring.time());
   return std::move(on.result);
 }
 

@@ -27,7 +27,9 @@ bool are_below(const std::vector<std::array<int, N>>& elements, std::size_t n, i
 }
 
 /// Stages from outside may leave anything: what the next ones rely on, as far as they would crash.
-void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const PatchMesh& mesh) {
+/// Nodes on curves slide where all patches are at hand (`may_slide`).
+void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const PatchMesh& mesh,
+                        bool may_slide) {
   const auto refuse = [&](const char* what) {
     throw Error(fmt::format("stage {} ({}) left {}", stage.letter, stage.name, what));
   };
@@ -38,8 +40,10 @@ void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const
   if ((of_triangles ? mesh.triangles.n_boundary : mesh.quads.n_boundary) !=
           static_cast<int>(boundary.points.size()) ||
       points.size() < boundary.points.size() ||
-      !std::equal(boundary.points.begin(), boundary.points.end(), points.begin()))
+      !(may_slide || std::equal(boundary.points.begin(), boundary.points.end(), points.begin())))
     refuse("a mesh whose first points are not those of the boundary");
+  if (!mesh.inside.empty() && mesh.inside.size() != points.size() - boundary.points.size())
+    refuse("places in space that are not one for each point inside");
   const TriPatch& tri = mesh.triangles;
   if (of_triangles
           ? !are_below(tri.triangles, points.size())
@@ -92,7 +96,7 @@ std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, st
       mesh.inside.clear();
     }
     stage.run(input, mesh, log);
-    check_stage_result(stage, patch.boundary, mesh);
+    check_stage_result(stage, patch.boundary, mesh, false);
   };
   if (!prepared.surface) try {
       run();
@@ -234,6 +238,8 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
         held[i] = 0;
     stage.finish({prepared, prepared.settings.options, patches, held, state.nodes, !state.given.empty()},
                  state.log);
+    for (std::size_t i = 0; i < held.size(); ++i)
+      if (!held[i]) check_stage_result(stage, prepared.patches[i].boundary, patches[i], true);
   }
   for (std::size_t i = 0; i < patches.size(); ++i)
     if (const auto& image = prepared.patches[i].image) {

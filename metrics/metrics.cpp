@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/added_parts.h"
 #include "base/parallel.h"
 #include "delquad/error.h"
 #include "metrics/regularity.h"
@@ -327,7 +328,7 @@ const Metric* find_metric(const std::string& key) {
 const std::deque<OwnMetric>& own_metrics() { return measures(); }
 
 void add_metric(Metric metric, std::function<double(const MetricInput&)> measure) {
-  if (metric.key.empty()) throw std::invalid_argument("a metric needs a key");
+  check_part_name("metric", metric.key);
   if (!measure) throw std::invalid_argument("metric '" + metric.key + "': there is nothing to call");
   if (find_metric(metric.key) != nullptr)
     throw std::invalid_argument("there is a metric '" + metric.key + "' already");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/added_parts.h"
+#include "base/text.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -20,11 +21,7 @@ constexpr std::size_t kBatch = 4096;
 using Maker = std::function<MergeCost(const Options&)>;
 
 AddedParts<Maker>& costs() {
-  static AddedParts<Maker> all = [] {
-    AddedParts<Maker> parts("matching cost");
-    parts.add(kEta, [](const Options&) { return MergeCost(); });
-    return parts;
-  }();
+  static AddedParts<Maker> all("matching cost", {kEta});
   return all;
 }
 
@@ -44,7 +41,11 @@ MergedQuad quad_across(const TriPatch& tri, int t, int u, const StageInput& in) 
 }  // namespace
 
 void add_merge_cost(const std::string& name, Maker make) { costs().add(name, std::move(make)); }
-std::vector<std::string> merge_cost_names() { return costs().names(); }
+std::vector<std::string> merge_cost_names() {
+  std::vector<std::string> names = costs().names();
+  names.insert(names.begin(), kEta);
+  return names;
+}
 
 AddedCost added_cost(const std::string& name, const StageInput& in) {
   if (name == kEta) return nullptr;
@@ -67,7 +68,8 @@ AddedCost added_cost(const std::string& name, const StageInput& in) {
         const double value = values[i - begin];
         if (!(value >= 0 && value <= kMost))
           throw Error(
-              fmt::format("matching cost '{}': {}: expected a number from 0 to {}", name, value, kMost));
+              fmt::format("matching cost '{}': {} of the quad around {}: expected a number from 0 to {}",
+                          name, value, show_point(quads[i - begin].corners[0]), kMost));
         dual.graph.edges[i].cost = std::llround(kCostUnit * value);
       }
     }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,14 @@ inline py::array view(const std::vector<Vec3>& points, const py::object& owner) 
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   return view<double>(points.empty() ? nullptr : &points[0].x, {static_cast<py::ssize_t>(points.size()), 3},
                       owner);
+}
+
+/// Points for a callback, which may keep them: a copy.
+template <class V>
+py::array points_for_python(std::span<const V> points) {
+  constexpr py::ssize_t kColumns = sizeof(V) / sizeof(double);
+  return py::array_t<double>({static_cast<py::ssize_t>(points.size()), kColumns},
+                             points.empty() ? nullptr : &points[0].x);
 }
 
 /// (tag, names) of each.

@@ -196,6 +196,9 @@ void define_result(py::module_& m) {
           },
           "(index into regions, reason) of faces that were left out; -1: of parts of a file that cannot be "
           "read")
+      .def_property_readonly(
+          "failed_metrics", [](const Result& r) { return r.rest.metrics.failures; },
+          "why a measure of add_metric() is nan, by key")
       .def_property_readonly("sound", [](const Result& r) { return r.rest.soundness.accepted(); })
       .def_property_readonly(
           "unsound",

@@ -18,9 +18,11 @@ namespace {
 /// A function of Python that any thread may call and that is never let go: it outlives the interpreter.
 class Kept {
  public:
-  explicit Kept(const py::object& function) : function_(function.inc_ref().ptr()) {}
+  /// `name`: for messages, "cost 'own'".
+  Kept(const py::object& function, std::string name)
+      : function_(function.inc_ref().ptr()), name_(std::move(name)) {}
 
-  /// `use`(function), with the GIL. What the function throws becomes an Error.
+  /// `use`(function), with the GIL. What the function throws becomes an Error, what it returned wrongly, too.
   template <class F>
   auto with(F&& use) const {
     const py::gil_scoped_acquire acquired;
@@ -28,12 +30,15 @@ class Kept {
       return use(py::reinterpret_borrow<py::object>(function_));
     } catch (const py::error_already_set& error) {
       const std::string text = error.what();
-      throw Error(text.substr(0, text.find("\n\nAt:")));  // without the stack
+      throw Error(name_ + text.substr(0, text.find("\n\nAt:")));  // without the stack
+    } catch (const InputError& error) {
+      throw Error(name_ + error.what());
     }
   }
 
  private:
   py::handle function_;
+  std::string name_;  ///< with a colon, or empty
 };
 
 /// Fields at points, as an array.
@@ -42,10 +47,6 @@ py::array_t<double> at_points(const std::vector<Vec2>& points, const Value& valu
   py::array_t<double> array(static_cast<py::ssize_t>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) array.mutable_data()[i] = value(points[i]);
   return array;
-}
-
-py::array_t<double> copy_of(const std::vector<Vec2>& points) {
-  return py::array_t<double>({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}}, &points[0].x);
 }
 
 void add_python_metric(const std::string& key, const py::object& function, const std::string& title,
@@ -58,7 +59,7 @@ void add_python_metric(const std::string& key, const py::object& function, const
     throw InputError("better: '" + better + "': expected 'higher', 'lower' or 'neither'");
   add_metric(
       {key, title.empty() ? key : title, unit, way->second, worst.value_or(std::nan("")), source, digits},
-      [kept = Kept(function)](const MetricInput& in) {
+      [kept = Kept(function, "")](const MetricInput& in) {
         return kept.with([&](const py::object& measure) {
           using namespace py::literals;
           py::object size = py::none();
@@ -80,7 +81,7 @@ void add_python_metric(const std::string& key, const py::object& function, const
 }
 
 void add_python_cost(const std::string& name, const py::object& function) {
-  add_merge_cost(name, [kept = Kept(function)](const Options&) -> MergeCost {
+  add_merge_cost(name, [kept = Kept(function, "cost '" + name + "': ")](const Options&) -> MergeCost {
     return [&kept](std::span<const MergedQuad> quads, std::span<double> cost) {
       kept.with([&](const py::object& cost_of) {
         const auto n = static_cast<py::ssize_t>(quads.size());
@@ -93,16 +94,16 @@ void add_python_cost(const std::string& name, const py::object& function) {
           theta.mutable_at(i) = quads[i].cross.angle();
           size.mutable_at(i) = quads[i].delta;
         }
-        read_values(cost_of(corners, theta, size), cost.data(), cost.size(), "what the cost returned");
+        read_values(cost_of(corners, theta, size), cost.data(), cost.size(), "what it returned");
       });
     };
   });
 }
 
-void add_python_stage(const std::string& letter, const std::string& name, const py::object& function) {
+void add_python_stage(const std::string& letter, const py::object& function, const std::string& name) {
   if (letter.size() != 1)
     throw std::invalid_argument("letter '" + letter + "': expected a capital from A to Z");
-  const auto run = [kept = Kept(function)](const StageInput& in, PatchMesh& patch, StageLog&) {
+  const auto run = [kept = Kept(function, "")](const StageInput& in, PatchMesh& patch, StageLog&) {
     QuadPatch& mesh = patch.quads;
     if (!mesh.triangles.empty()) throw Error("this stage is for quads only, and a patch has triangles");
     kept.with([&](const py::object& edit) {
@@ -116,7 +117,8 @@ void add_python_stage(const std::string& letter, const std::string& name, const 
       });
       const py::array_t<int> quads({static_cast<py::ssize_t>(mesh.quads.size()), py::ssize_t{4}},
                                    mesh.quads.empty() ? nullptr : mesh.quads[0].data());
-      const auto made = py::tuple(edit(copy_of(mesh.points), quads, mesh.n_boundary, theta, size));
+      const auto made =
+          py::tuple(edit(points_for_python<Vec2>(mesh.points), quads, mesh.n_boundary, theta, size));
       if (made.size() != 2) throw Error("what the stage returned: expected points and quads");
       std::vector<Vec2> points = read_plane_points(made[0], "the stage's points");
       mesh.quads = read_elements<4>(made[1], "the stage's quads");
@@ -127,15 +129,12 @@ void add_python_stage(const std::string& letter, const std::string& name, const 
 }
 
 /// The batches of SizeFunction and CrossFunction.
-template <int kColumns>
-auto as_batch(const py::object& function) {
-  using V = std::conditional_t<kColumns == 2, Vec2, Vec3>;
-  return [kept = Kept(function)](std::span<const V> points, std::span<double> values) {
+template <class V>
+auto as_batch(const py::object& function, const std::string& name) {
+  return [kept = Kept(function, name + ": ")](std::span<const V> points, std::span<double> values) {
     if (points.empty()) return;
     kept.with([&](const py::object& field) {
-      const py::array_t<double> at({static_cast<py::ssize_t>(points.size()), py::ssize_t{kColumns}},
-                                   &points[0].x);
-      read_values(field(at), values.data(), values.size(), "what the field returned");
+      read_values(field(points_for_python(points)), values.data(), values.size(), "what it returned");
     });
   };
 }
@@ -147,16 +146,18 @@ void define_parts(py::module_& m) {
   m.def("add_metric", &add_python_metric, arg("key"), arg("function"), arg("title"), arg("unit"),
         arg("better"), arg("worst"), arg("source"), arg("digits"));
   m.def("add_merge_cost", &add_python_cost, arg("name"), arg("function"));
-  m.def("add_stage", &add_python_stage, arg("letter"), arg("name"), arg("function"));
+  m.def("add_stage", &add_python_stage, arg("letter"), arg("function"), arg("name"));
   m.def("add_size", [](const std::string& name, const py::object& function) {
-    add_size(name,
-             [batch = as_batch<3>(function)](const Options&, SizeSpec& size) { size.function = batch; });
+    add_size(name, [batch = as_batch<Vec3>(function, "size '" + name + "'")](const Options&, SizeSpec& size) {
+      size.function = batch;
+    });
   });
   m.def("add_cross", [](const std::string& name, const py::object& function) {
-    add_cross(name, [batch = as_batch<2>(function)](const Options&, CrossSpec& cross) {
-      cross.kind = CrossKind::kField;
-      cross.function = batch;
-    });
+    add_cross(name,
+              [batch = as_batch<Vec2>(function, "cross '" + name + "'")](const Options&, CrossSpec& cross) {
+                cross.kind = CrossKind::kField;
+                cross.function = batch;
+              });
   });
 }
 

@@ -92,14 +92,6 @@ void CallingThread::call(const std::function<void()>& callback) {
 
 namespace {
 
-/// A view of points for a callback, which has to return before they go: Python gets a copy, for it may keep
-/// it.
-template <class V>
-py::array points_for_python(std::span<const V> points) {
-  constexpr py::ssize_t kColumns = sizeof(V) / sizeof(double);
-  return py::array_t<double>({static_cast<py::ssize_t>(points.size()), kColumns}, &points[0].x);
-}
-
 /// A function of Python as one of a batch of points; `what` names it in messages.
 template <class V>
 std::function<void(std::span<const V>, std::span<double>)> as_function(const py::object& function,

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string& added_to_program() {
+std::string& added_parts_text() {
   static std::string text;
   return text;
 }
@@ -44,7 +44,7 @@ std::string program_digest() {
       if (!file.empty()) all += file_digest(file);
     return digest(all);
   }();
-  return added_to_program().empty() ? program : digest(program + added_to_program());
+  return added_parts_text().empty() ? program : digest(program + added_parts_text());
 }
 
 /// Curves by points on them, which tell any two that differ apart.
@@ -83,7 +83,7 @@ std::string version_of(const Peer& peer, std::string& why) {
 
 }  // namespace
 
-void add_to_program(const std::string& text) { added_to_program() += text + '\n'; }
+void set_added_parts(const std::string& text) { added_parts_text() = text; }
 
 std::string model_digest(const Case& c) {
   if (const PlanarModel* model = planar_model(c)) {

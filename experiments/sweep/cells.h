@@ -12,9 +12,9 @@ namespace delquad {
 /// Digest of what a case is made from: the bytes of its file, or its curves, loops and names.
 std::string model_digest(const Case& c);
 
-/// A part that is not in the program's file: its text counts as the program's bytes do, and cells made with
-/// another are made anew. To be called before cells are identified.
-void add_to_program(const std::string& text);
+/// Of parts that are in no file of the program: the text counts as the program's bytes do, and cells made
+/// with another are made anew. To be called before cells are identified.
+void set_added_parts(const std::string& text);
 
 /// The cell of a pipeline on a variant of a case.
 CellIdentity identify(const Experiment& experiment, const Case& c, const std::string& model_digest,

@@ -1,12 +1,40 @@
 #include "features/crosses/made_crosses.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <cstddef>
+#include <memory>
+#include <utility>
 
 #include "base/located.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "delquad/error.h"
 
 namespace delquad {
+namespace {
+
+/// What a maker from outside made, refused where it is no cross.
+class Checked final : public CrossField {
+ public:
+  Checked(std::shared_ptr<const CrossField> made, std::string where)
+      : made_(std::move(made)), where_(std::move(where)) {}
+  Cross at(Vec2 u, int& hint) const override {
+    const Cross cross = made_->at(u, hint);
+    if (!std::isfinite(cross.c) || !std::isfinite(cross.s))
+      throw InputError(
+          fmt::format("{}: ({:.6g}, {:.6g}) at {}: expected cosine and sine of four times an angle", where_,
+                      cross.c, cross.s, show_point(u)));
+    return cross;
+  }
+
+ private:
+  std::shared_ptr<const CrossField> made_;
+  std::string where_;
+};
+
+}  // namespace
 
 void use_made_crosses(const CrossSpec& spec, PreparedProblem& prepared) {
   prepared.crosses = {};
@@ -15,7 +43,8 @@ void use_made_crosses(const CrossSpec& spec, PreparedProblem& prepared) {
     PreparedPatch& patch = prepared.patches[i];
     patch.cross = located(spec.where,
                           [&] { return spec.maker(patch.boundary, *patch.size, prepared.settings.options); });
-    if (!patch.cross) throw Error(spec.where + ": the cross field's maker made none");
+    if (!patch.cross) throw InputError(spec.where + ": the cross field's maker made none");
+    patch.cross = std::make_shared<Checked>(patch.cross, spec.where);
   });
 }
 

@@ -165,8 +165,8 @@ struct MergedQuad {
   double delta;                 ///< delta' there
 };
 
-/// What it costs to make each quad of a batch, from 0 for the best to 3: the matching makes their sum least.
-/// A triangle too many costs more than a hundred of the dearest. Called in several threads at once.
+/// What each quad of a batch costs, 0 (best) to 3, on the scale of 1 - eta: the sum is made least. A triangle
+/// too many costs 100; 2.5 beside a boundary that strays from the cross. Called in several threads at once.
 using MergeCost = std::function<void(std::span<const MergedQuad> quads, std::span<double> cost)>;
 
 /// Adds one from outside: what `recombination.cost` may be beside "eta", which is 1 - eta, and up to 3 where

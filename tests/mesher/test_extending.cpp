@@ -90,6 +90,36 @@ TEST_F(OwnStage, WhatItLeavesIsChecked) {
   EXPECT_TRUE(has(left([](PatchMesh&) { throw std::runtime_error("out of ideas"); }), "out of ideas"));
 }
 
+/// What is to be done to all patches is checked in the same way.
+TEST_F(OwnStage, WhatItDoesToAllPatchesIsChecked) {
+  static std::function<void(PatchMesh&)> spoil;
+  add_stage({'W', "a test's finish", PatchForm::kQuads, PatchForm::kQuads,
+             [](const StageInput&, PatchMesh&, StageLog&) {},
+             [](const AllPatches& all, StageLog&) { spoil(all.patches[0]); }});
+  const auto left = [](std::function<void(PatchMesh&)> by) {
+    spoil = std::move(by);
+    return complaint(disc(), "DBW");
+  };
+  EXPECT_EQ(left([](PatchMesh&) {}), "");
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.quads.quads[0][3] = 2'000'000'000; }), "no point"));
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.quads.points.pop_back(); }), "no point"));
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.inside.push_back({}); }), "places in space"));
+}
+
+/// A maker's field that is no number somewhere is refused there.
+TEST(OwnCross, IsCheckedWhereItIsAsked) {
+  class Hole final : public CrossField {
+   public:
+    Cross at(Vec2 u, int&) const override { return {u.x > 0.5 ? std::nan("") : 1, 0}; }
+  };
+  MeshProblem problem = disc();
+  problem.cross.kind = CrossKind::kMade;
+  problem.cross.maker = [](const PatchBoundary&, const ParametricSize&, const Options&) {
+    return std::make_shared<Hole>();
+  };
+  EXPECT_TRUE(has(complaint(problem, "DB"), "nan"));
+}
+
 TEST_F(OwnStage, NeedsALetterAndWork) {
   EXPECT_THROW(add_stage({'Y', "another", PatchForm::kTriangles, PatchForm::kTriangles, stage_work()}),
                std::invalid_argument);

@@ -1,7 +1,9 @@
 """Parts in Python: measures, costs, stages and fields, and experiments with them."""
 
 import json
-import signal
+import subprocess
+import sys
+import threading
 
 import numpy as np
 import pytest
@@ -87,6 +89,10 @@ def test_mistakes_of_programmers():
             delquad.add_stage(letter, "bad", smooth)
     with pytest.raises(TypeError, match="expected a function"):
         delquad.add_size("nothing", 3)
+    delquad.add_size("nothing", lambda x: 1.0)
+    for name in ("boundary", "x", 'q"x', "a b", "", "7"):
+        with pytest.raises(ValueError):
+            delquad.add_size(name, lambda x: 1.0)
 
 
 @pytest.mark.skipif(not hasattr(delquad._core, "run"), reason="built without programs")
@@ -96,7 +102,6 @@ def test_experiments_have_them(tmp_path, capfd):
         'pipelines = ["FB", "DB", "DBX"]\nrecombination = { cost = "own-eta" }\n'
         '[[case]]\nname = "a"\nloop = { rectangle = [[0, 0], [1, 1]] }\nsize = "graded"\ncross = "diagonal"\n'
     )
-    before = signal.getsignal(signal.SIGINT)
     run = ["run", file, "-o", tmp_path / "results", "-j", "1"]
     assert delquad.run(run) == 1, "a measure failed"
     assert "half of the quads" in capfd.readouterr().out
@@ -107,5 +112,39 @@ def test_experiments_have_them(tmp_path, capfd):
     made = (tmp_path / "results" / "a" / "DBX" / "mesh.msh").stat().st_mtime_ns
     assert delquad.run(run) == 1
     assert (tmp_path / "results" / "a" / "DBX" / "mesh.msh").stat().st_mtime_ns == made, "it was there already"
-    assert signal.getsignal(signal.SIGINT) is before
     assert delquad.run(["run", tmp_path / "missing.toml"]) == 2
+
+
+@pytest.mark.skipif(not hasattr(delquad._core, "run"), reason="built without programs")
+def test_cells_are_made_anew_when_a_part_holds_something_else(tmp_path):
+    (tmp_path / "e.toml").write_text(
+        'pipelines = ["DB"]\n[[case]]\nname = "a"\nloop = { rectangle = [[0, 0], [1, 1]] }\nsize = 0.3\n'
+    )
+    (tmp_path / "own.py").write_text(
+        "import sys, delquad\n"
+        "def made(value):\n    return lambda mesh, **_: value\n"
+        "delquad.add_metric('own', made(float(sys.argv[1])))\n"
+        "sys.exit(delquad.run(['run', 'e.toml', '-o', 'results']))\n"
+    )
+    made = []
+    for value in (0.25, 0.75, 0.75):
+        subprocess.run([sys.executable, "own.py", str(value)], cwd=tmp_path, check=True, capture_output=True)
+        file = tmp_path / "results" / "a" / "DB" / "record.json"
+        assert json.loads(file.read_text())["metrics"]["own"] == value
+        made.append((file.parent / "mesh.msh").stat().st_mtime_ns)
+    assert made[0] < made[1] == made[2]
+
+
+@pytest.mark.skipif(not hasattr(delquad._core, "run"), reason="built without programs")
+def test_other_threads_may_be_busy(tmp_path):
+    (tmp_path / "e.toml").write_text(
+        'pipelines = ["DBX"]\n[[case]]\nname = "a"\nloop = { rectangle = [[0, 0], [1, 1]] }\nsize = 0.3\n'
+    )
+    end = threading.Event()
+    busy = threading.Thread(target=lambda: all(not end.is_set() for _ in iter(int, 1)))
+    busy.start()
+    try:
+        assert delquad.run(["run", tmp_path / "e.toml", "-o", tmp_path / "results", "--timeout", "20"]) == 0
+    finally:
+        end.set()
+        busy.join()
