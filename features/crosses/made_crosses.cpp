@@ -23,9 +23,8 @@ class Checked final : public CrossField {
   Cross at(Vec2 u, int& hint) const override {
     const Cross cross = made_->at(u, hint);
     if (!std::isfinite(cross.c) || !std::isfinite(cross.s))
-      throw InputError(
-          fmt::format("{}: ({:.6g}, {:.6g}) at {}: expected cosine and sine of four times an angle", where_,
-                      cross.c, cross.s, show_point(u)));
+      throw InputError(fmt::format("{}: {} at {}: expected cosine and sine of four times an angle", where_,
+                                   show_point(Vec2{cross.c, cross.s}), show_point(u)));
     return cross;
   }
 
