@@ -14,7 +14,7 @@ struct SuiteMaker {
   Made (*make)();
 };
 
-/// The texts of model files (docs/experiments.md) without a size.
+/// The texts of model files (docs/models.md) without a size.
 const std::vector<SuiteMaker<std::string>>& planar_suite_models();
 /// Points and triangles only, outward where they are closed.
 const std::vector<SuiteMaker<Mesh>>& triangle_suite_models();

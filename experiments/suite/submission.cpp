@@ -144,7 +144,7 @@ bool is_name(const std::string& text) {
   });
 }
 
-/// As for our own meshes, see docs/experiments.md.
+/// As for our own meshes, see docs/results.md.
 constexpr double kFurthest = 1.25;  // sizes
 
 /// What is compared: triangles in space, or of planar meshes the lines of the boundary, as flat triangles;

@@ -7,7 +7,7 @@
 
 namespace delquad {
 
-/// Reads `curve`, `loop`, `pattern` and `embed` of a table (docs/experiments.md has the schema). Throws
+/// Reads `curve`, `loop`, `pattern` and `embed` of a table (docs/models.md explains them). Throws
 /// InputError with file and line.
 PlanarModel read_planar_model(const TomlTable& table);
 /// Whether the table has any of these keys.

@@ -295,7 +295,7 @@ def mesh(
         {"young": 210e3, "poisson": 0.3, "density": 7.85e-9}, "strict": True}; see docs/meshing.md.
     threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
     progress: True, or a function of the stage and the part that is done, from 0 to 1.
-    options: of the stages, such as {"insertion.h_max": 1.5}; see docs/experiments.md.
+    options: of the stages, such as {"insertion.h_max": 1.5}; see docs/keys.md.
 
     Raises InputError, UnsoundError (unless allow_unsound), TimeIsUp, and what callbacks raise.
     """

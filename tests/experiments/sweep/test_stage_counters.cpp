@@ -121,7 +121,7 @@ TEST(SummariesOfSteps, MistakesAreNamed) {
 
 TEST(StageCounters, DocumentationHasEveryOne) {
   const std::string text =
-      testing_support::read_text(std::filesystem::path(DELQUAD_EXPERIMENTS) / "../docs/experiments.md");
+      testing_support::read_text(std::filesystem::path(DELQUAD_EXPERIMENTS) / "../docs/results.md");
   const auto table = text.find("| step | counters |");
   ASSERT_NE(table, std::string::npos);
   for_each_summary(AllSummaries{}, [&](const char* step, const auto& summary) {

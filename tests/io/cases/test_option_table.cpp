@@ -14,9 +14,9 @@ namespace {
 
 TEST(OptionTableText, IsThatOfTheDocumentation) {
   const std::string text =
-      testing_support::read_text(std::filesystem::path(DELQUAD_EXPERIMENTS) / "../docs/experiments.md");
+      testing_support::read_text(std::filesystem::path(DELQUAD_EXPERIMENTS) / "../docs/keys.md");
   EXPECT_NE(text.find("\n" + option_table_text() + "\n"), std::string::npos)
-      << "docs/experiments.md lacks this table:\n"
+      << "docs/keys.md lacks this table:\n"
       << option_table_text();
 }
 

@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""Writes docs/keys.md, the reference of all keys, from `delquad schema`.
+
+Usage: make_keys.py DELQUAD > docs/keys.md
+"""
+import json
+import subprocess
+import sys
+
+HEAD = """# Keys
+
+Made by `docs/tools/make_keys.py` from `delquad schema`; a test checks that it is up to date. [models.md](models.md) and [experiments.md](experiments.md) say what the keys do. Keys in bold must be there.
+"""
+OF_A_MODEL = """## Of a model, or of a case
+
+All of them also stand at the top of an experiment, for every case. Model files have no `name`, `data`, `domain`, `solution` and `adapt`. [Options](#options-of-the-stages) are below."""
+OF_AN_EXPERIMENT = """## Of an experiment
+
+`[matrix]` has keys of a model, each with a list of values, `[[variant]]` a name and keys of a model."""
+# Pages that explain a key, or a table of keys.
+EXPLAINED = {
+    **dict.fromkeys(["loop", "pattern", "curve", "embed"], "models.md#shapes"),
+    **dict.fromkeys(["washers", "fillet_rows"], "models.md#rows-around-holes-and-across-fillets"),
+    **dict.fromkeys(["refine", "quads", "cross"], "meshing.md#sizes-and-directions"),
+    **dict.fromkeys(["peer", "peer_files", "calibrate", "calibrate_to"], "experiments.md#peers"),
+    **dict.fromkeys(["solution", "adapt"], "experiments.md#meshes-that-follow-a-solution"),
+    **dict.fromkeys(["columns", "step_times", "reference", "ratio", "data", "domain", "compare"], "experiments.md#an-experiment"),
+    **dict.fromkeys(["matrix", "variant", "pairs"], "experiments.md#variants"),
+    **dict.fromkeys(["repeat_times", "linf_delaunay"], "experiments.md#times"),
+    "start": "meshing.md#a-mesh-that-is-there-already",
+    "order": "meshing.md#curved-elements",
+    "metric": "anisotropy.md",
+    "mapped": "models.md#grids",
+    "divide": "models.md#numbers-of-edges",
+    "periodic": "models.md#periodic-sides",
+    "symmetry": "models.md#symmetry",
+    "layer": "models.md#layers",
+    "size": "models.md#sizes",
+    "surface": "models.md#surfaces",
+    "criteria": "models.md#criteria",
+    "seed": "models.md#a-model",
+    "pipelines": "experiments.md#pipelines",
+    "hypotheses": "experiments.md#hypotheses",
+    "solver": "experiments.md#solvers",
+    "slopes": "experiments.md#powers",
+    "correlate": "experiments.md#correlations",
+}
+
+
+def tables_of(schema):
+    """The kinds of table that a key may hold."""
+    for kind in schema.get("anyOf", [schema]):
+        if kind.get("type") == "array":
+            kind = kind["items"]
+        if "properties" in kind:
+            yield kind
+
+
+def number(kind, name):
+    least, most = kind.get("minimum"), kind.get("maximum")
+    if least is not None and most is not None:
+        return f"{name} from {least} to {most}"
+    if "exclusiveMinimum" in kind:
+        above = f"{name} above {kind['exclusiveMinimum']}"
+        return above if most is None else f"{above}, at most {most}"
+    return name if least is None else f"{name}, at least {least}"
+
+
+def value(schema):
+    """What may stand behind a key, in words."""
+    if "anyOf" in schema:
+        return " or ".join(dict.fromkeys(value(kind) for kind in schema["anyOf"])).replace("a table or a list: a table", "one or more tables")
+    if "enum" in schema:
+        return ", ".join(f"`{json.dumps(word)}`" for word in schema["enum"])
+    kinds = schema.get("type", [])
+    said = []
+    for kind in [kinds] if isinstance(kinds, str) else kinds:
+        if kind in ("number", "integer"):
+            said.append(number(schema, "a number" if kind == "number" else "a whole number"))
+        elif kind == "array":
+            least, most = schema.get("minItems"), schema.get("maxItems")
+            if most and schema["items"].get("type") == "number":
+                said.append(f"{most} numbers" if least == most else f"{least} or {most} numbers")
+            else:
+                said.append("a list: " + value(schema["items"]))
+        else:
+            said.append({"string": "a text", "boolean": "true or false", "object": "a table"}[kind])
+    return " or ".join(said)
+
+
+def rows(head, table, seen, explained=None):
+    """The keys of a table, then the tables that they hold, each once."""
+    yield f"\n{head}\n\n| key | value | |\n|---|---|---|\n"
+    for key, schema in table["properties"].items():
+        shown = f"**`{key}`**" if key in table.get("required", []) else f"`{key}`"
+        about = schema.get("description", "")
+        if key in (explained or {}):
+            about += f" ([more]({explained[key]}))"
+        yield f"| {shown} | {value(schema)} | {about} |\n"
+    for key, schema in table["properties"].items():
+        for inner in [] if key in ("matrix", "variant", "case") else tables_of(schema):
+            if json.dumps(inner) in seen:
+                continue
+            seen.add(json.dumps(inner))
+            new = {name: kind for name, kind in inner["properties"].items() if explained or kind != table["properties"].get(name)}
+            also = ", and others of those above" if len(new) < len(inner["properties"]) else ""
+            yield from rows(f"### `{key}`{also}", {**inner, "properties": new}, seen)
+
+
+def main():
+    def said(*arguments):
+        return subprocess.run([sys.argv[1], "schema", *arguments], check=True, capture_output=True, text=True).stdout
+
+    schema = json.loads(said())
+    case = next(tables_of(schema["properties"]["case"]))
+    groups = {line.split("`")[1].split(".")[0] for line in said("--options").splitlines()[2:]}
+    case["properties"] = {key: kind for key, kind in case["properties"].items() if key not in groups}
+    own = {key: kind for key, kind in schema["properties"].items() if key not in {*case["properties"], *groups} or key == "metric"}
+    seen = set()
+    print(HEAD, *rows(OF_A_MODEL, case, seen, EXPLAINED), *rows(OF_AN_EXPERIMENT, {"properties": own}, seen, {**EXPLAINED, "metric": "experiments.md#metrics-by-command"}), sep="", end="")
+    print("\n## Options of the stages\n\n" + said("--options"), end="")
+
+
+if __name__ == "__main__":
+    main()
