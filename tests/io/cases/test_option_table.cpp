@@ -1,24 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <stdexcept>
 
 #include "base/option_table.h"
 #include "io/cases/case_keys.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-TEST(OptionTableText, IsThatOfTheDocumentation) {
-  const std::string text =
-      testing_support::read_text(std::filesystem::path(DELQUAD_EXPERIMENTS) / "../docs/keys.md");
-  EXPECT_NE(text.find("\n" + option_table_text() + "\n"), std::string::npos)
-      << "docs/keys.md lacks this table:\n"
-      << option_table_text();
-}
 
 enum class Colour { kRed, kBlue };
 struct Inner {

@@ -9,7 +9,7 @@ import sys
 
 HEAD = """# Keys
 
-Made by `docs/tools/make_keys.py` from `delquad schema`; a test checks that it is up to date. [models.md](models.md) and [experiments.md](experiments.md) say what the keys do. Keys in bold must be there.
+Made by `docs/site/make_keys.py` from `delquad schema`; a test checks that it is up to date. [models.md](models.md) and [experiments.md](experiments.md) say what the keys do. Keys in bold must be there.
 """
 OF_A_MODEL = """## Of a model, or of a case
 

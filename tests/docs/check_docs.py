@@ -1,0 +1,272 @@
+#!/usr/bin/env python3
+"""Whether README and docs hold: links lead somewhere, the reference of keys is up to date, and every block of code runs.
+
+Usage: check_docs.py links|keys|blocks [--build FOLDER] [--slow] [PAGE ...]
+
+A block is fenced, or indented by four spaces and more. Those of a page run in their order, in one empty folder that looks like the repository:
+shell by bash, Python in one process, C++ as one program. TOML is checked against `delquad schema`, and saved where its first line is a comment
+that begins with the name of a file. A comment before a block, which readers do not see, says what is different:
+
+    <!-- not run: why -->       it cannot be run in a test
+    <!-- slow: why -->          it is run with --slow alone
+    <!-- needs: ccx gmsh -->    it is run where these programs, or modules of Python, are
+    <!-- before: x = 1 -->      what comes first, not shown
+"""
+import argparse
+import concurrent.futures
+import contextlib
+import importlib.util
+import json
+import os
+import pathlib
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import textwrap
+import tomllib
+import traceback
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+NOT_OURS = {"build", "results", "data", ".git", "made"}
+SHELL = re.compile(r"(export|cat|mkdir|make|cmake|git|pip|cp|cd|ccx|rsvg-convert|awk|(\S*/)?(delquad|python3|own_strategy)) ")
+MARK = re.compile(r"<!-- (not run|slow|needs|before): (.*?) -->", re.DOTALL)
+SECONDS, SLOW_SECONDS = 300, 7200  # by the clock, on a busy machine
+MANY_SECONDS = 3  # of CPU, worth telling
+
+
+def files(*suffixes):
+    for folder, folders, names in os.walk(ROOT):
+        folders[:] = sorted(set(folders) - NOT_OURS)
+        yield from (pathlib.Path(folder) / name for name in sorted(names) if name.endswith(suffixes))
+
+
+# Links
+
+
+def anchors(page):
+    """As GitHub makes them of headings."""
+    found = {}
+    for heading in re.findall(r"^#+ (.*)", re.sub(r"^```.*?^```", "", page.read_text(), flags=re.DOTALL | re.MULTILINE), re.MULTILINE):
+        text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
+        name = re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
+        found[name] = found.get(name, -1) + 1
+    return {name if k == 0 else f"{name}-{k}" for name, count in found.items() for k in range(count + 1)}
+
+
+def check_links():
+    wrong, count = [], 0
+    for page in files(".md"):
+        text = page.read_text()
+        for link in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`\n]*`", "", text)):
+            if re.match(r"[a-z]+:", link):
+                continue
+            count += 1
+            path, _, anchor = link.partition("#")
+            target = (page.parent / path).resolve() if path else page
+            if not target.exists():
+                wrong.append(f"{page.relative_to(ROOT)}: {link}: there is no such file")
+            elif anchor and anchor not in anchors(target):
+                wrong.append(f"{page.relative_to(ROOT)}: {link}: there is no such heading")
+    for source in files(".h", ".cpp", ".py", ".toml", ".md", "Makefile"):
+        for name in re.findall(r"\bdocs/\w+\.md\b", source.read_text(errors="replace")):
+            if not (ROOT / name).exists():
+                wrong.append(f"{source.relative_to(ROOT)}: {name}: there is no such page")
+    print(f"{count} links")
+    return wrong
+
+
+def check_keys(build):
+    made = subprocess.run([sys.executable, ROOT / "docs/site/make_keys.py", build / "delquad"], check=True, capture_output=True, text=True).stdout
+    return [] if made == (ROOT / "docs/keys.md").read_text() else ["docs/keys.md: is not what `docs/site/make_keys.py build/release/delquad` writes"]
+
+
+# Blocks
+
+
+class Block:
+    def __init__(self, page, line, language, text, marks):
+        self.where = f"{page.relative_to(ROOT)}:{line}"
+        self.text = textwrap.dedent(text)
+        self.marks = dict(MARK.findall(marks))
+        first = next((one for one in self.text.splitlines() if one.strip() and not one.startswith("#")), "")
+        self.language = language or ("sh" if SHELL.match(first) else "python" if first.startswith("import ") else "toml")
+
+    def why_not(self, slow):
+        """Why it is not run."""
+        if "not run" in self.marks:
+            return "not run: " + self.marks["not run"]
+        if "slow" in self.marks and not slow:
+            return "slow: " + self.marks["slow"]
+        for need in self.marks.get("needs", "").split():
+            if shutil.which(need) is None and importlib.util.find_spec(need) is None:
+                return f"needs {need}"
+        return None
+
+
+def blocks(page):
+    pattern = re.compile(r"(?P<marks>(?:^ *<!--.*?-->\n\n?)*)(?:^(?P<in>[ ]*)```(?P<language>\w+)\n(?P<fenced>.*?)^(?P=in)```$"
+                         r"|(?:(?<=\n\n)|(?<=-->\n)|\A)(?P<indented>(?: {4,}\S.*\n(?:\n+(?= {4,}\S))?)+))", re.DOTALL | re.MULTILINE)
+    pattern = re.compile(pattern.pattern.replace(r"\S.*\n", r"\S[^\n]*\n"), re.DOTALL | re.MULTILINE)
+    text = page.read_text()
+    for m in pattern.finditer(text):
+        code = m["fenced"] if m["language"] else m["indented"]
+        line = text.count("\n", 0, m.start("fenced" if m["language"] else "indented")) + 1
+        yield Block(page, line, m["language"], code, m["marks"])
+
+
+def workplace(folder, build):
+    """A folder that looks like the repository, but in which nothing of it is overwritten."""
+    (folder / "experiments").mkdir()
+    for path in [*ROOT.iterdir(), *(ROOT / "experiments").iterdir()]:
+        if path.name not in NOT_OURS and path.name != "experiments":
+            (folder / path.relative_to(ROOT)).symlink_to(path)
+    shutil.copytree(ROOT / "experiments/made", folder / "experiments/made", ignore=shutil.ignore_patterns("models"))
+    (folder / "build").mkdir()
+    (folder / "build/release").symlink_to(build)
+    (folder / "results").mkdir()
+
+
+def cpu_seconds():
+    return sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+
+
+def said(result):
+    return (result.stdout + result.stderr).strip()[-1500:]
+
+
+def run_shell(block):
+    code = "set -euo pipefail\n" + block.marks.get("before", "") + "\n" + block.text
+    result = subprocess.run(["bash", "-c", code], capture_output=True, text=True, timeout=SLOW_SECONDS if "slow" in block.marks else SECONDS)
+    return None if result.returncode == 0 else f"exit code {result.returncode}\n{said(result)}"
+
+
+def run_python(block, names):
+    try:
+        exec(compile(block.marks.get("before", "") + "\n" + block.text, block.where, "exec"), names)
+    except Exception:
+        return traceback.format_exc(limit=-1)
+    return None
+
+
+def statements(text):
+    """TOML that gives a key several values, as alternatives: one after the other."""
+    part = ""
+    for line in text.splitlines(keepends=True):
+        if line.startswith("["):
+            break
+        part += line
+        with contextlib.suppress(tomllib.TOMLDecodeError):
+            tomllib.loads(part)
+            yield part
+            part = ""
+    yield part + text[text.index(line):] if line.startswith("[") else part
+
+
+def check_toml(block, schema):
+    name = re.match(r"# (\S+\.toml)\b", block.text)
+    if name:
+        pathlib.Path(name[1]).write_text(block.text)
+    try:
+        tables = [tomllib.loads(block.text)]
+    except tomllib.TOMLDecodeError:
+        tables = [tomllib.loads(part) for part in statements(block.text)]
+    if importlib.util.find_spec("jsonschema") is None:
+        return None
+    import jsonschema
+
+    errors = [error.message for table in tables for error in jsonschema.Draft202012Validator(schema).iter_errors(table)]
+    return "\n".join(errors)[:1500] or None
+
+
+def run_cpp(found, build):
+    """All of a page as one program: each block sees what those before it declare."""
+    lines = "{\n".join(block.marks.get("before", "") + "\n" + block.text for block in found).splitlines()
+    includes = [line for line in lines if line.startswith("#include")]
+    body = [line for line in lines if not line.startswith("#include")]
+    pathlib.Path("blocks.cpp").write_text("\n".join([*includes, "int main() {", *body, "}" * len(found), ""]))
+    compiled = subprocess.run(["c++", "-std=c++20", f"-I{ROOT}/include", "blocks.cpp", "-o", "blocks", f"-L{build}", "-ldelquad", f"-Wl,-rpath,{build}"],
+                              capture_output=True, text=True, timeout=SECONDS)
+    result = compiled if compiled.returncode else subprocess.run(["./blocks"], capture_output=True, text=True, timeout=SECONDS)
+    return None if result.returncode == 0 else said(result)
+
+
+def run_block(block, names, schema):
+    try:
+        if block.language == "python":
+            return run_python(block, names)
+        if block.language == "toml":
+            return check_toml(block, schema)
+        return run_shell(block)
+    except (subprocess.TimeoutExpired, tomllib.TOMLDecodeError) as error:
+        return str(error)
+
+
+def run_page(page, build, schema, slow):
+    """What is wrong, and what is said: why blocks were not run, and how long others took."""
+    wrong, skipped, long, names, cpp = [], [], [], {"__name__": "__main__"}, []
+    with tempfile.TemporaryDirectory() as home, contextlib.chdir(home):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what blocks print
+        workplace(pathlib.Path(home), build)
+        os.environ.update(HOME=home, PATH=f"{build}:{os.environ['PATH']}", PYTHONPATH=f"{build}/python", PYTHON=sys.executable, PYTHONDONTWRITEBYTECODE="1")
+        sys.path.insert(0, f"{build}/python")
+        for block in blocks(page):
+            skipped.append(block.why_not(slow))
+            if skipped[-1]:
+                continue
+            if block.language == "cpp":
+                cpp.append(block)
+                continue
+            begin = cpu_seconds()
+            problem = run_block(block, names, schema)
+            if cpu_seconds() - begin > MANY_SECONDS:
+                long.append(f"{block.where}: {cpu_seconds() - begin:.1f} s of CPU")
+            if problem:
+                wrong.append(f"{block.where}: {problem}")
+        problem = run_cpp(cpp, build) if cpp else None
+        if problem:
+            wrong.append(f"{cpp[0].where}: {problem}")
+    return wrong, skipped, long
+
+
+def check_blocks(pages, build, slow):
+    schema = json.loads(subprocess.run([build / "delquad", "schema"], check=True, capture_output=True, text=True).stdout)
+    case = schema["properties"]["case"]["anyOf"][0]
+    schema = {"anyOf": [{**schema, "anyOf": [{}]}, {**case, "required": []}]}  # a page may show a part of an experiment, or a model
+    wrong, all_skipped, all_long = [], [], []
+    with concurrent.futures.ProcessPoolExecutor(max_workers=os.cpu_count(), max_tasks_per_child=1) as pool:
+        done = [(page, pool.submit(run_page, page, build, schema, slow)) for page in pages]
+        for page, future in done:
+            found, skipped, long = future.result()
+            wrong += found
+            all_skipped += skipped
+            all_long += long
+    print(*all_long, sep="\n")
+    for why in sorted(set(filter(None, all_skipped))):
+        print(f"{all_skipped.count(why)} {why}")
+    print(f"{len(all_skipped)} blocks, {all_skipped.count(None)} of them run")
+    return wrong
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("what", choices=["links", "keys", "blocks"])
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
+    parser.add_argument("--slow", action="store_true")
+    parser.add_argument("pages", nargs="*", type=pathlib.Path)
+    given = parser.parse_args()
+    build = given.build.resolve()
+    if given.what == "links":
+        wrong = check_links()
+    elif given.what == "keys":
+        wrong = check_keys(build)
+    else:
+        wrong = check_blocks([page.resolve() for page in given.pages] or list(files(".md")), build, given.slow)
+    print(*wrong, sep="\n")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
