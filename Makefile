@@ -9,7 +9,7 @@ CMAKE_FLAGS ?=
 # How long `make fuzz` tries its targets, all of them together.
 SECONDS ?= 120
 
-.PHONY: packages build dev lint test sanitize python data paper peers public public_models suite bench fuzz
+.PHONY: packages build dev lint test sanitize python data paper peers public public_models suite site bench fuzz
 
 packages:
 	@cmake/install-packages.sh
@@ -74,6 +74,12 @@ suite: build
 	build/$(PRESET)/delquad suite table $(RESULTS)/suite
 	build/$(PRESET)/delquad report $(RESULTS)/suite -o $(RESULTS)/suite/report.html
 	@echo "$(RESULTS)/suite/ranking has the table; $(RESULTS)/suite/report.html shows the meshes."
+
+# The documentation as pages with a search, a gallery, and the references of C++ and Python, in build/site; with the tables of $(RESULTS) where
+# there are any. They need no network.
+site: build
+	@cmake/install-packages.sh mkdocs mkdocs-material doxygen
+	/usr/bin/python3 docs/site/make_site.py build/$(PRESET) $(RESULTS) build/site
 
 # The rooms below the mesher, under the address and undefined-behaviour sanitizers; `make test PRESET=asan` takes all up to it.
 SANITIZED = base matching mesh geometry_surface io boundaries insertion treatment recombination cleanup regularity cvt optimisation metrics
