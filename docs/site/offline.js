@@ -8,6 +8,7 @@ if (location.protocol === "file:")
       frame.hidden = true;
       const inside = frame.contentWindow;
       inside.document.write("<body></body>");
+      inside.document.close();
       inside.postMessage = (data) => this.dispatchEvent(new MessageEvent("message", { data }));
       inside.importScripts = (...urls) =>
         urls.reduce((before, script) => before.then(() => this.load(inside, script)), Promise.resolve());
