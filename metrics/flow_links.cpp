@@ -49,7 +49,7 @@ Vec2 flow_centre(std::span<const Vec2> x, std::span<const char> inner) {
 }  // namespace
 
 FlowLinks measure_flow_links(const Mesh& mesh) {
-  constexpr double kSmall = 0.1, kOblique = 0.5;
+  constexpr double kSmall = 0.1, kOblique = 0.5, kOrthogonal = 0.01;
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   const auto at = [&](int v) { return Vec2{mesh.points[v].x, mesh.points[v].y}; };
   std::vector<Vec2> centres;
@@ -85,6 +85,7 @@ FlowLinks measure_flow_links(const Mesh& mesh) {
     ++with_length;
     sum += cosine;
     if (cosine > kOblique) ++result.oblique;
+    if (cosine < kOrthogonal) ++result.orthogonal;
     if (cosine > result.cos_max) result.cos_max = cosine, result.worst = place;
   });
   if (with_length > 0) result.cos_mean = sum / with_length;

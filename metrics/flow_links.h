@@ -14,7 +14,8 @@ struct FlowLinks {
   /// |cos| of the angle between link and edge, 0 where they are at right angles; links of no length have
   /// none.
   double cos_max = 0, cos_mean = 0;
-  int oblique = 0;  ///< links with more than 0.5, for which Delft3D FM stops
+  int oblique = 0;     ///< links with more than 0.5, for which Delft3D FM stops
+  int orthogonal = 0;  ///< links with less than 0.01, as its users want them
   Place worst;
   /// Links that are shorter than a tenth of the mean of the roots of both areas, and the least of these
   /// ratios.

@@ -65,6 +65,7 @@ FlowLinks add_links(const Mesh& mesh, MeshMetrics& metrics) {
   metrics.values["link_cos_max"] = links.cos_max;
   metrics.values["link_cos_mean"] = links.cos_mean;
   metrics.values["n_oblique_links"] = links.oblique;
+  metrics.values["n_orthogonal_links"] = links.orthogonal;
   metrics.values["n_small_links"] = links.small;
   metrics.values["link_ratio_min"] = links.least_ratio;
   return links;
@@ -73,9 +74,10 @@ FlowLinks add_links(const Mesh& mesh, MeshMetrics& metrics) {
 void print_links(const FlowLinks& links, const Mesh& mesh) {
   fmt::print("  links of flow: {}\n", links.links);
   if (links.links == 0) return;
-  fmt::print("    |cos| of link and edge: mean {:.4g}, largest {:.4g}{}; above 0.5: {}\n", links.cos_mean,
-             links.cos_max, links.cos_max > 0 ? " (" + show_place(mesh, links.worst) + ")" : "",
-             links.oblique);
+  fmt::print(
+      "    |cos| of link and edge: mean {:.4g}, largest {:.4g}{}; below 0.01: {:.1f} %, above 0.5: {}\n",
+      links.cos_mean, links.cos_max, links.cos_max > 0 ? " (" + show_place(mesh, links.worst) + ")" : "",
+      100.0 * links.orthogonal / links.links, links.oblique);
   fmt::print("    length over the mean size of both elements: least {:.4g} ({}); small, below 0.1: {}\n",
              links.least_ratio, show_place(mesh, links.shortest), links.small);
 }

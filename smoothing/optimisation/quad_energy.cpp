@@ -238,8 +238,13 @@ bool QuadEnergy<Vec>::add_quad(const Quad& quad, double& energy) const {
   if (weights_.barrier > 0) energy -= weights_.barrier * std::log(clearance);
   const double good = quad.weight * std::sqrt(shape),
                bad = quad.weight * weights_.bad * power(shape, weights_.bad_power);
-  energy += good + bad;
+  // Sine and cosine of the sum of two opposite angles.
+  const double cosine[2] = {-dot(side[3], side[0]), -dot(side[1], side[2])};
+  const double sum_sine = corner[0].sine * cosine[1] + cosine[0] * corner[2].sine,
+               sum_cosine = cosine[0] * cosine[1] - corner[0].sine * corner[2].sine;
+  energy += good + bad + weights_.orthogonality * sum_sine * sum_sine;
   if constexpr (!kSlope) return true;
+  const double by_sum = 2 * weights_.orthogonality * sum_sine * sum_cosine;
   const double steep = (0.5 * good + weights_.bad_power * bad) / shape;
   Vec by_side[4];
   for (int k = 0; k < 4; ++k) {
@@ -248,7 +253,7 @@ bool QuadEnergy<Vec>::add_quad(const Quad& quad, double& energy) const {
     const double sine = corner[k].sine;
     const double by_sine = -steep / (sine * sine) - weights_.barrier / (sine - quad.least_sine);
     // The sine's derivative by the angle between both sides is their cosine.
-    const double by_turn = by_sine * dot(side[before], side[k]);
+    const double by_turn = by_sine * dot(side[before], side[k]) - (k % 2 == 0 ? by_sum : 0);
     by_side[before] = by_side[before] - by_turn * inverse[before] * corner[k].quarter_turn(side[before]);
     by_side[k] = by_side[k] + by_turn * inverse[k] * corner[k].quarter_turn(side[k]);
   }

@@ -12,12 +12,13 @@ namespace delquad {
 
 /// How the parts of the energy are weighed against each other.
 struct QuadEnergyWeights {
-  double bad = 2;           ///< of the quads' second term, against the first
-  int bad_power = 2;        ///< its exponent
-  double size = 0.25;       ///< of the edges' lengths
-  double alignment = 0.02;  ///< of the edges' directions
-  double barrier = 0.002;   ///< of the corners' barrier
-  double wall = 80;         ///< of lengths beyond the walls
+  double bad = 2;            ///< of the quads' second term, against the first
+  int bad_power = 2;         ///< its exponent
+  double size = 0.25;        ///< of the edges' lengths
+  double alignment = 0.02;   ///< of the edges' directions
+  double barrier = 0.002;    ///< of the corners' barrier
+  double wall = 80;          ///< of lengths beyond the walls
+  double orthogonality = 0;  ///< of quads whose corners lie on no circle
 };
 
 /// A vertex that moves, to its place + x * axes[0] + y * axes[1]. Along a curve: the second axis is zero.
@@ -52,6 +53,9 @@ struct QuadEnergyMesh {
 ///   wall * m^2 / (1 + 16 m^2) over the edges, m by how much log(l/d) is beyond kShortWall or kLongWall, as
 ///     angles alone would leave some edges too short or long; they level off, since lengths that the model
 ///     forbids are not to outweigh shapes,
+///   orthogonality * sin^2 (alpha_0 + alpha_2) over the quads, 0 where the four corners lie on a circle: the
+///   links
+///     between centres of such circles cross the edges at right angles,
 ///   alignment * sin^2 2 phi over the edges, phi the angle between edge and cross,
 ///   barrier * m / (l - m) over the edges, m the least length,
 ///   barrier * -log(sin alpha - least sine) over the corners,

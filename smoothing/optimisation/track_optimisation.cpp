@@ -77,7 +77,11 @@ const OptionTable<OptimisationOptions>& table() {
           .add({.name = "size", .help = "weight of the edges' lengths", .least = 0},
                &OptimisationOptions::size)
           .add({.name = "alignment", .help = "weight of the edges' directions", .least = 0},
-               &OptimisationOptions::alignment);
+               &OptimisationOptions::alignment)
+          .add({.name = "orthogonality",
+                .help = "weight of quads whose corners lie on no circle: their links of flow are oblique",
+                .least = 0},
+               &OptimisationOptions::orthogonality);
   return all;
 }
 
@@ -473,13 +477,15 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
   QuadEnergyWeights weights;
   weights.size = options_.size;
   weights.alignment = options_.alignment;
+  weights.orthogonality = options_.orthogonality;
   QuadEnergyWeights for_worst = weights;
   for_worst.bad = kWorstWeight;
   for_worst.bad_power = kWorstPower;
   for_worst.wall = kWorstWall;
   for (int pass = 0; pass < options_.passes; ++pass) {
     descend(around_below(kWorstEta), for_worst);
-    const EnergyDescent descent = descend(pass == 0 ? free_ : around_below(kSettledEta), weights);
+    const EnergyDescent descent =
+        descend(pass == 0 || options_.orthogonality > 0 ? free_ : around_below(kSettledEta), weights);
     if (pass == 0) {
       summary_.energy_before = descent.energy_before;
       summary_.energy_after = descent.energy_after;

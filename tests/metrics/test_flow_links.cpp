@@ -19,6 +19,7 @@ TEST(FlowLinks, OfQuadsInCirclesAreOrthogonal) {
   const FlowLinks links = measure_flow_links(mesh);
   EXPECT_EQ(links.links, 23 * 5 + 24 * 4);
   EXPECT_LT(links.cos_max, 1e-5);  // after a hundred steps
+  EXPECT_EQ(links.orthogonal, links.links);
   EXPECT_EQ(links.small, 0);
 }
 
@@ -53,6 +54,7 @@ TEST(FlowLinks, OfBluntTrianglesEndAtTheirEdges) {
   EXPECT_NEAR(links.least_ratio, (2 - (5.0 / 3 + 1.0 / 12)) / std::sqrt(2), 1e-14);
   EXPECT_NEAR(links.cos_max, 1, 1e-14);
   EXPECT_EQ(links.oblique, 1);
+  EXPECT_EQ(links.orthogonal, 0);
 }
 
 }  // namespace

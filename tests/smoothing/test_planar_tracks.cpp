@@ -25,14 +25,15 @@ const double kFloorSine = std::sin(kOptimisedFloorEta * std::numbers::pi / 2);
 /// Untangles and optimises a mesh of one patch; its boundary points have the `places`, or stay.
 QuadPatch optimise_vertices(QuadPatch mesh, const ParametricSize& size, const CrossField& cross,
                             OptimisationSummary* summary = nullptr,
-                            const std::vector<CurvePlace>& places = {}) {
+                            const std::vector<CurvePlace>& places = {},
+                            const OptimisationOptions& options = {}) {
   const int untangled = untangle_flat(mesh, size);
   std::vector<int> nodes(mesh.n_boundary);
   std::iota(nodes.begin(), nodes.end(), 0);
   PlanarTracks tracks({mesh.points.begin(), mesh.points.begin() + mesh.n_boundary}, places,
                       {{&mesh, nodes, &cross}}, size);
   std::vector<Vec2> points = tracks.points();
-  OptimisationSummary done = optimise_on_tracks(points, tracks.quads(), tracks);
+  OptimisationSummary done = optimise_on_tracks(points, tracks.quads(), tracks, options);
   tracks.store(points);
   done.untangled = untangled;
   if (summary != nullptr) *summary = done;
@@ -89,6 +90,31 @@ TEST(QuadOptimisation, JitteredGridBecomesRegular) {
     EXPECT_LT(norm(result.points[v] - grid.points[v]), 0.02);
   EXPECT_EQ(result.quads, grid.quads);
   EXPECT_LT(summary.energy_after, summary.energy_before);
+}
+
+TEST(QuadOptimisation, OrthogonalityPutsCornersOnCircles) {
+  QuadPatch mesh = grid_patch(12, 9);
+  for (Vec2& p : mesh.points) p = {p.x + 0.2 * std::sin(p.y), p.y + 0.2 * std::sin(0.7 * p.x)};
+  // Sine of the sum of two opposite angles, from the sides as complex numbers.
+  const auto off = [](const QuadPatch& m) {
+    double sum = 0;
+    for (const auto& q : m.quads) {
+      std::array<Vec2, 4> s;
+      for (int k = 0; k < 4; ++k) s[k] = m.points[q[(k + 1) % 4]] - m.points[q[k]];
+      const double first = std::atan2(cross(s[0], -1 * s[3]), dot(s[0], -1 * s[3])),
+                   third = std::atan2(cross(s[2], -1 * s[1]), dot(s[2], -1 * s[1]));
+      sum += std::abs(std::sin(first + third));
+    }
+    return sum / static_cast<double>(m.quads.size());
+  };
+  const auto with = [&](double orthogonality) {
+    OptimisationOptions options;
+    options.orthogonality = orthogonality;
+    return optimise_vertices(mesh, FunctionSize(1.2), FunctionCross(0), nullptr, {}, options);
+  };
+  const double usual = off(with(0));
+  EXPECT_GT(usual, 0.01);
+  EXPECT_LT(off(with(100)), 0.2 * usual);
 }
 
 TEST(QuadOptimisation, NeverWorseThanTheWorstBeforeNorTheFloor) {

@@ -55,7 +55,7 @@ TEST(QuadEnergy, GradientAgreesWithCentralDifferences) {
     const QuadPatch mesh = jittered(grid_patch(5, 4), seed, 0.2);
     // Each part by itself, and all; with the exponents of both kinds of passes.
     const QuadEnergyWeights all[] = {{0.5, 0, 0, 0},   {4, 2, 0, 0, 0},  {0.5, 1, 0.7, 0, 0},
-                                     {0.5, 0, 0.6, 0}, {0.5, 0, 0, 0.3}, {30, 3, 0.4, 0.1, 0.1}};
+                                     {0.5, 0, 0.6, 0}, {0.5, 0, 0, 0.3}, {30, 3, 0.4, 0.1, 0.1, 80, 7}};
     for (const QuadEnergyWeights& weights : all) {
       const QuadEnergy energy = energy_of(mesh, 0.8, 0.2, 0.05, weights);
       std::vector<double> at(energy.variables());
