@@ -94,14 +94,14 @@ class Site:
         sys.path.insert(0, str(self.build / "python"))
         import delquad
 
-        text = "# Python\n\n[python.md](python.md) is the guide. " + inspect.getdoc(delquad) + "\n"
+        text = "# Python\n\n[python.md](python.md) is the guide.\n\n```text\n" + inspect.getdoc(delquad) + "\n```\n"
         for node in ast.parse((ROOT / "bindings/python/delquad/__init__.pyi").read_text()).body:
             if not isinstance(node, (ast.FunctionDef, ast.ClassDef)) or node.name.startswith("_"):
                 continue
             shown = [node] if isinstance(node, ast.FunctionDef) else [one for one in node.body if isinstance(one, ast.FunctionDef) and one.name != "__init__"]
             signatures = "\n".join(re.sub(r"\n?    \.\.\.$| \.\.\.$", "", ast.unparse(one)).removesuffix(":") for one in shown).replace("@property\n", "").replace("_Floats", "ndarray").replace("_Integers", "ndarray")
             text += f"\n## {node.name}\n\n```python\n{signatures}\n```\n\n" if signatures else f"\n## {node.name}\n\n"
-            text += "```text\n" + (inspect.getdoc(getattr(delquad, node.name)) or "").strip() + "\n```\n"
+            text += "```text\n" + inspect.cleandoc(getattr(delquad, node.name).__doc__ or "") + "\n```\n"
         self.write("python_reference.md", text.replace("```text\n\n```\n", ""))
 
     def gallery(self):
@@ -171,7 +171,7 @@ class Site:
                       "palette": [{"scheme": "default", "primary": "blue grey", "toggle": {"icon": "material/weather-night", "name": "dark"}},
                                   {"scheme": "slate", "primary": "blue grey", "toggle": {"icon": "material/weather-sunny", "name": "light"}}]},
             "plugins": ["search"],
-            "markdown_extensions": ["tables", "sane_lists", {"toc": {"permalink": True}}, "pymdownx.highlight", "pymdownx.superfences", "mdx_truly_sane_lists"][:-1],
+            "markdown_extensions": ["tables", "sane_lists", {"toc": {"permalink": True}}, "pymdownx.highlight", "pymdownx.superfences"],
         }
 
     def cpp(self):

@@ -210,7 +210,7 @@ def run_page(page, build, schema, slow):
     with tempfile.TemporaryDirectory() as home, contextlib.chdir(home):
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what blocks print
         workplace(pathlib.Path(home), build)
-        os.environ.update(HOME=home, PATH=f"{build}:{os.environ['PATH']}", PYTHONPATH=f"{build}/python", PYTHON=sys.executable, PYTHONDONTWRITEBYTECODE="1")
+        os.environ.update(HOME=home, PATH=f"{build}:{os.environ['PATH']}", PYTHONPATH=f"{build}/python", PYTHON=sys.executable, DELQUAD_CAD_WORKER=f"{build}/delquad-cad", PYTHONDONTWRITEBYTECODE="1")
         sys.path.insert(0, f"{build}/python")
         for block in blocks(page):
             skipped.append(block.why_not(slow))
