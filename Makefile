@@ -68,7 +68,7 @@ data:
 
 # Ours and other programs on the models that the program makes itself: failed cells are part of the ranking.
 suite: build
-	build/$(PRESET)/delquad suite models --public $(DATA) experiments/public/models -o $(RESULTS)/suite/models
+	build/$(PRESET)/delquad suite models $(addprefix --public ,$(wildcard $(DATA) experiments/public/models)) -o $(RESULTS)/suite/models
 	build/$(PRESET)/delquad run $(RESULTS)/suite/models/suite.toml -o $(RESULTS)/suite/run -j 2 --timeout 300 \
 	  $(foreach peers,$(SUITE_PEERS),--peer $(peers)) > $(RESULTS)/suite/run.log ||:
 	build/$(PRESET)/delquad suite table $(RESULTS)/suite

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/text.h"
 #include "experiments/suite/submission.h"
 #include "experiments/suite/suite_list.h"
 #include "program/commands.h"
@@ -15,23 +16,41 @@ struct SuiteArguments {
   SuiteSelection selection;
 };
 
+auto count_public(const std::vector<SuiteModel>& models) {
+  return std::ranges::count(models, SuiteFamily::kPublic, &SuiteModel::family);
+}
+
+/// Of public models, unless none were asked for; those that are named are there.
+void tell_absent(const SuiteSelection& asked, const std::vector<SuiteModel>& models) {
+  const auto all = count_public(suite().models), absent = all - count_public(models);
+  const bool any =
+      asked.families.empty() || std::ranges::find(asked.families, "public") != asked.families.end();
+  if (asked.names.empty() && any && absent > 0)
+    fmt::print("{} of {} public models are absent: 'make public_models' fetches them, --public says where\n",
+               absent, all);
+}
+
 int suite_models_command(const SuiteArguments& given) {
   const std::vector<SuiteModel> models = select_models(given.selection);
   write_suite(given.folder, models);
-  fmt::print("{}: {} models, {} of them public\n{}\n", suite_title(), models.size(),
-             std::ranges::count(models, SuiteFamily::kPublic, &SuiteModel::family), given.folder.string());
-  if (std::ranges::none_of(models, [](const SuiteModel& m) { return !m.file.empty(); }))
-    fmt::print("public models that are fetched are absent: 'make public_models', then --public\n");
+  fmt::print("{}: {}, {} of them public\n{}\n", suite_title(),
+             counted(static_cast<long long>(models.size()), "model"), count_public(models),
+             given.folder.string());
+  tell_absent(given.selection, models);
   return kDone;
 }
 
 int suite_add_command(const SuiteArguments& given) {
   const Submission submission = read_submission(given.result);
-  const SubmissionCount count = add_submission(submission, given.folder, select_models(given.selection),
-                                               select_models({.folders = given.selection.folders}));
-  fmt::print("{}: {} meshes measured, {} refused, {} missing: {}\n", submission.program, count.measured,
+  const std::vector<SuiteModel> models = select_models(given.selection);
+  const SubmissionCount count =
+      add_submission(submission, given.folder, models, select_models({.folders = given.selection.folders}));
+  for (const std::string& name : count.of_no_case)
+    fmt::print(stderr, "warning: {}: is of no case, and was not measured\n", name);
+  tell_absent(given.selection, models);
+  fmt::print("{}: cases: {} measured, {} refused, {} missing: {}\n", submission.program, count.measured,
              count.refused, count.missing, (given.folder / submission.program / "table.md").string());
-  return kDone;
+  return count.measured > 0 ? kDone : kBadInput;
 }
 
 int suite_table_command(const SuiteArguments& given) {
@@ -43,9 +62,10 @@ int suite_table_command(const SuiteArguments& given) {
 
 void add_selection(CLI::App* command, SuiteArguments& given) {
   SuiteSelection& selection = given.selection;
-  command->add_option("--models", selection.names, "of these names alone: gear, knot, ...");
+  command->add_option("--models", selection.names, "those of these names alone: gear, knot, ...");
   command->add_option("--family", selection.families,
-                      "of these alone: planar, CAD, triangles, hard, metric, public");
+                      "those of these families alone, with --models those of both: planar, CAD, triangles, "
+                      "hard, metric, public");
   command->add_option("--public", selection.folders, "folders in which files of public models lie");
 }
 

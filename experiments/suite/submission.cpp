@@ -77,15 +77,24 @@ class Adding {
   SubmissionCount run() {
     prepare_folder(folder_);
     const FolderLock lock(folder_, 0, 1);
+    for (const fs::path& record : record_files(folder_)) remove_cell(record.parent_path());
+    for (const std::string& file : result_files()) fs::remove_all(folder_ / file);
     write_study(folder_, describe(experiment_));
     write_file_atomically(folder_ / kDescription, [&](std::ostream& out) { copy_into(out, peer_.file); });
     Progress progress(static_cast<int>(experiment_.n_cases()));
     for (std::size_t i = 0; i < experiment_.n_cases(); ++i) {
       const Case c = experiment_.read_variant(i);
+      known_.insert(c.name);
       progress.step(c.name);
       if (asked_.contains(c.name)) add(c);
     }
     for (const std::string& error : write_tables(folder_, make_tables(folder_))) throw InputError(error);
+    for (const auto& entry : fs::directory_iterator(submission_.folder)) {
+      const fs::path file = entry.path().filename();
+      if ((file.extension() == ".msh" || file.extension() == ".obj") && !known_.contains(file.stem()))
+        count_.of_no_case.push_back(file.string());
+    }
+    std::ranges::sort(count_.of_no_case);
     return count_;
   }
 
@@ -131,7 +140,7 @@ class Adding {
   const Submission& submission_;
   Experiment& experiment_;
   const fs::path folder_;
-  std::set<std::string> asked_;  // cases
+  std::set<std::string> asked_, known_;  // cases
   Peer peer_;
   SubmissionCount count_;
 };
@@ -279,7 +288,7 @@ SubmissionCount add_submission(const Submission& submission, const fs::path& res
     refuse("{}: no mesh of any case: expected {}.msh or .obj and so on", submission.folder.string(),
            case_name(models[0], 0));
   const fs::path folder = results / submission.program;
-  if (const auto study = read_study(folder); study && study->pipelines != std::vector{submission.program})
+  if (read_study(folder) && !fs::exists(folder / kDescription))
     throw InputError(folder.string() + ": holds the results of a run: call the program otherwise");
   Experiment experiment = write_suite_experiment(results / kModelsFolder, all);
   return Adding(submission, models, experiment, results).run();

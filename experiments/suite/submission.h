@@ -23,12 +23,13 @@ Submission read_submission(const std::filesystem::path& folder);
 /// How many of the suite's cases a submission has a good mesh of.
 struct SubmissionCount {
   int measured = 0, refused = 0, missing = 0;
+  std::vector<std::string> of_no_case;  ///< files of meshes that were not looked at
 };
 
 /// Measures the meshes of a submission, NAME_1.msh or NAME_1.obj and so on, and writes them with records to
-/// results/PROGRAM, as `delquad run` does for a peer; cells of an earlier submission of the program are
-/// replaced. Cases of other models are not run. A mesh that is missing, cannot be read or is not one of its
-/// model is a failed cell that says so. `all`: the suite's models that are there, which are written to
+/// results/PROGRAM, as `delquad run` does for a peer, in place of all that an earlier submission of the
+/// program has there. Cases of other models are not run. A mesh that is missing, cannot be read or is not one
+/// of its model is a failed cell that says so. `all`: the suite's models that are there, which are written to
 /// results/models. Throws InputError
 /// when the folder cannot be written to, belongs to a run, or has no mesh of any case.
 SubmissionCount add_submission(const Submission& submission, const std::filesystem::path& results,

@@ -57,7 +57,8 @@ std::string experiment_text(const std::vector<SuiteModel>& models) {
   return text;
 }
 
-std::string cases_text(const std::vector<SuiteModel>& models) {
+/// Of models that are in the folder.
+std::string cases_text(const fs::path& folder, const std::vector<SuiteModel>& models) {
   Json json = {{"suite", suite().version}, {"cases", Json::array()}};
   for (const SuiteModel& model : models)
     for (std::size_t k = 0; k < model.sizes.size(); ++k) {
@@ -68,6 +69,7 @@ std::string cases_text(const std::vector<SuiteModel>& models) {
           {{"name", name},
            {"family", name_of(model.family)},
            {"model", file_name(model)},
+           {"sha256", suite_digest(model, read_whole_file(folder / file_name(model)))},
            {"boundary", planar && model.family != SuiteFamily::kMetric ? Json(name + ".msh") : Json()},
            {"size", !sized   ? Json()
                     : number ? Json(*number)
@@ -93,7 +95,7 @@ void write_suite(const fs::path& folder, const std::vector<SuiteModel>& models) 
     if (planar_model(c) != nullptr && !c.metric.asks())  // a metric divides curves by itself
       write_mesh(folder / (c.name + ".msh"), boundary_of(prepare(c)));
   }
-  write_text_file(folder / "cases.json", cases_text(models));
+  write_text_file(folder / "cases.json", cases_text(folder, models));
 }
 
 namespace {
@@ -133,6 +135,21 @@ SuiteModel read_model(const toml::table& table) {
       model.file.empty() ? kExtensions.at(maybe("kind", text("family"))) : model.file.extension().string();
   for (const toml::node& size : *table["sizes"].as_array()) model.sizes.push_back(size_text(size));
   return model;
+}
+
+/// The models of a [[collection]].
+void read_collection(const toml::table& table, std::vector<SuiteModel>& models) {
+  const auto folder = table["folder"].value<std::string>().value();
+  for (const toml::node& node : *table["models"].as_array()) {
+    const toml::array& row = *node.as_array();
+    const fs::path file = folder / fs::path(row[0].value<std::string>().value());
+    toml::table model = table;
+    model.insert("name", file.stem().string());
+    model.insert("file", file.string());
+    model.insert("sizes", toml::array{row[1]});
+    if (row.size() > 2) model.insert("sha256", row[2]);
+    models.push_back(read_model(model));
+  }
 }
 
 template <class Made>
@@ -209,6 +226,8 @@ const Suite& suite() {
     Suite result{table["version"].value<long long>().value(), {}};
     for (const toml::node& model : *table["model"].as_array())
       result.models.push_back(read_model(*model.as_table()));
+    for (const toml::node& collection : *table["collection"].as_array())
+      read_collection(*collection.as_table(), result.models);
     return result;
   }();
   return list;
@@ -216,24 +235,31 @@ const Suite& suite() {
 
 std::vector<SuiteModel> select_models(const SuiteSelection& selection) {
   const auto& [names, families, folders] = selection;
-  std::vector<std::string> known;
-  for (const SuiteModel& model : suite().models) known.push_back(model.name);
-  for (const std::string& name : names)
-    if (std::ranges::find(known, name) == known.end())
-      refuse("--models: the suite has no '{}'{}", name, suggestion(name, known));
   for (const std::string& family : families)
     if (std::ranges::find(kFamilies, family) == kFamilies.end())
       refuse("--family: '{}': expected {}", family, fmt::join(kFamilies, ", "));
+  for (const fs::path& folder : folders)
+    if (!fs::is_directory(folder)) refuse("--public: {}: is no folder", folder.string());
+  const auto is_in = [](const std::vector<std::string>& wanted, std::string_view name) {
+    return wanted.empty() || std::ranges::find(wanted, name) != wanted.end();
+  };
+  std::vector<std::string> known;
+  for (const SuiteModel& model : suite().models)
+    if (is_in(families, name_of(model.family))) known.push_back(model.name);
+  for (const std::string& name : names)
+    if (std::ranges::find(known, name) == known.end()) {
+      const std::string near = suggestion(name, known);
+      refuse("--models: '{}' is none of {}{}", name,
+             families.empty() ? "the suite" : fmt::format("{}", fmt::join(families, ", ")),
+             near.empty() ? fmt::format(": expected some of {}", fmt::join(known, ", ")) : near);
+    }
   std::vector<SuiteModel> selected;
   for (SuiteModel model : suite().models) {
-    const bool is_named = std::ranges::find(names, model.name) != names.end();
-    if (!is_named && std::ranges::find(families, name_of(model.family)) == families.end() &&
-        !(names.empty() && families.empty()))
-      continue;
+    if (!is_in(names, model.name) || !is_in(families, name_of(model.family))) continue;
     if (!model.file.empty()) {
       const auto at =
           std::ranges::find_if(folders, [&](const fs::path& f) { return fs::exists(f / model.file); });
-      if (at == folders.end() && is_named)
+      if (at == folders.end() && !names.empty())
         refuse("'{}': its file {} is in no folder of --public; 'make public_models' fetches it", model.name,
                model.file.string());
       if (at == folders.end()) continue;

@@ -57,15 +57,15 @@ std::string make_suite_model(const SuiteModel& model);
 /// after the point, so that it does not depend on the machine.
 std::string suite_digest(const SuiteModel& model, const std::string& content);
 
-/// What to take of the suite: names of models and of families, all where none are given, and the folders in
-/// which files of public models lie.
+/// What to take of the suite: models of these names in these families, all where none are given, and the
+/// folders in which files of public models lie.
 struct SuiteSelection {
   std::vector<std::string> names = {}, families = {};
   std::vector<std::filesystem::path> folders = {};
 };
 
-/// Of public models those whose files are there. Throws InputError for a name that the suite does not have,
-/// and where nothing is left.
+/// Of public models those whose files are there; one that is named has to be. Throws InputError for a name
+/// that these families do not have, for a folder that is none, and where nothing is left.
 std::vector<SuiteModel> select_models(const SuiteSelection& selection);
 
 /// Writes all that other programs and ours need to mesh the cases of these models to a folder, which is made:

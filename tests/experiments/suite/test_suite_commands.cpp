@@ -64,7 +64,7 @@ TEST(SuiteCommands, ModelsAreWrittenForOthers) {
   const Json cases = read_json(models / "cases.json");
   EXPECT_EQ(cases.at("suite"), suite().version);
   ASSERT_EQ(cases.at("cases").size(), (40u + 14 + 14) * 3 + 2);
-  EXPECT_TRUE(contains(written.out, "that are fetched are absent")) << written.out;
+  EXPECT_TRUE(contains(written.out, "78 of 80 public models are absent")) << written.out;
   for (const Json& c : cases.at("cases")) {
     EXPECT_TRUE(fs::exists(models / c.at("model").get<std::string>())) << c;
     if (c.at("boundary").is_null()) continue;
@@ -73,12 +73,20 @@ TEST(SuiteCommands, ModelsAreWrittenForOthers) {
     EXPECT_TRUE(lines.quads.empty()) << c;
   }
   const auto part =
-      delquad({"suite", "models", "-o", folder / "part", "--models", "gear", "--family", "triangles"});
+      delquad({"suite", "models", "-o", folder / "part", "--family", "planar", "CAD", "--models", "gear"});
   ASSERT_EQ(part.exit_code, 0) << part.err;
-  EXPECT_EQ(read_json(folder / "part/cases.json").at("cases").size(), 13u * 3);
-  const auto unknown = delquad({"suite", "models", "-o", folder / "none", "--models", "gaer"});
-  EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_TRUE(contains(unknown.err, "the suite has no 'gaer'; did you mean 'gear'")) << unknown.err;
+  EXPECT_EQ(part.out, "Suite 2: 1 model, 0 of them public\n" + (folder / "part").string() + "\n");
+  EXPECT_EQ(read_json(folder / "part/cases.json").at("cases").size(), 3u);
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& part) {
+    arguments.insert(arguments.begin(), {"suite", "models", "-o", folder / "none"});
+    const auto run = delquad(arguments);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_TRUE(contains(run.err, part)) << run.err;
+  };
+  refused({"--models", "gaer"}, "'gaer' is none of the suite; did you mean 'gear'");
+  refused({"--models", "torus", "--family", "planar"},
+          "'torus' is none of planar: expected some of fractures, fracture_network");
+  refused({"--family", "public", "--public", folder / "nowhere"}, "nowhere: is no folder");
   const auto dry = delquad({"run", models / "suite.toml", "-o", folder / "none", "--dry-run"});
   EXPECT_EQ(dry.exit_code, 0) << dry.err;
   EXPECT_TRUE(contains(dry.out, "cells: 412, of which 0 are done\n")) << dry.out;
@@ -94,9 +102,11 @@ TEST(SuiteCommands, AddMeasuresAndRanks) {
   fs::copy(work / "in/gear_1.msh", work / "in/ring_gear_1.msh");
   fs::copy(work / "in/torus_1.obj", work / "in/bracket_1.obj");
   std::ofstream(work / "in/hood_1.obj") << "v 1 x\n";
+  std::ofstream(work / "in/haer_1.obj") << "";
   const auto added = work.add();
   ASSERT_EQ(added.exit_code, 0) << added.err;
-  EXPECT_TRUE(contains(added.out, "theirs: 4 meshes measured, 3 refused, 199 missing")) << added.out;
+  EXPECT_TRUE(contains(added.out, "theirs: cases: 4 measured, 3 refused, 199 missing")) << added.out;
+  EXPECT_EQ(added.err, "warning: haer_1.obj: is of no case, and was not measured\n");
   const auto record = [&](const std::string& name) {
     return read_json(work / "out/theirs" / name / "theirs/record.json");
   };
@@ -125,11 +135,13 @@ TEST(SuiteCommands, AddMeasuresAndRanks) {
   EXPECT_EQ(rows.at(0).at("values").at("solved"), 4);
   EXPECT_EQ(rows.at(0).at("values").at("failed"), 158);
 
-  const auto part = delquad({"suite", "add", work / "in", "-o", work / "part", "--models", "gear"});
+  // In place of the first one.
+  const auto part = delquad({"suite", "add", work / "in", "-o", work / "out", "--models", "gear"});
   ASSERT_EQ(part.exit_code, 0) << part.err;
-  EXPECT_TRUE(contains(part.out, "theirs: 1 meshes measured, 0 refused, 2 missing")) << part.out;
-  EXPECT_FALSE(fs::exists(work / "part/theirs/torus_1"));
-  EXPECT_TRUE(contains(read_text(work / "part/models/suite.toml"), "torus_1")) << "the suite stays whole";
+  EXPECT_TRUE(contains(part.out, "theirs: cases: 1 measured, 0 refused, 2 missing")) << part.out;
+  EXPECT_FALSE(fs::exists(work / "out/theirs/torus_1/theirs/record.json"));
+  EXPECT_FALSE(fs::exists(work / "out/theirs/summary.md"));
+  EXPECT_TRUE(contains(read_text(work / "out/models/suite.toml"), "torus_1")) << "the suite stays whole";
   EXPECT_TRUE(contains(table.out, "| theirs ")) << table.out;
   EXPECT_EQ(delquad({"report", work / "out", "-o", work / "page.html"}).exit_code, 0);
 }
@@ -157,8 +169,8 @@ TEST(SuiteCommands, AddRefusesMeshesBesideTheModel) {
   grid.regions = {{1, {}}};
   write_mesh(work / "in/fracture_network_1.msh", grid);
   const auto added = work.add();
-  ASSERT_EQ(added.exit_code, 0) << added.err;
-  EXPECT_TRUE(contains(added.out, "0 meshes measured, 3 refused")) << added.out;
+  EXPECT_EQ(added.exit_code, 2) << added.err;
+  EXPECT_TRUE(contains(added.out, "0 measured, 3 refused")) << added.out;
   const auto reason = [&](const std::string& name) -> std::string {
     return read_json(work / "out/moved" / name / "moved/record.json").at("reason");
   };
