@@ -72,11 +72,6 @@ Experiment recorded_experiment(const Json& record, const fs::path& results, cons
   if (const std::vector<std::string> wrong = check_copy(results, file); !wrong.empty())
     throw InputError(wrong[0]);
   Experiment experiment = Experiment::read(results / file, data);
-  if (record.contains("peer")) {
-    const auto name = record.at("pipeline").get<std::string>();
-    if (std::ranges::find(experiment.peers, name, &Peer::name) == experiment.peers.end())
-      experiment.add_peer_file((results / file).parent_path() / record.at("peer_file").get<std::string>());
-  }
   experiment.max_elements = record.at("options").at("max_elements");
   return experiment;
 }
@@ -187,8 +182,12 @@ std::vector<std::string> compare_values(Json before, Json now) {
 
 Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::path& data) {
   const Json record = read_json(file);
+  const auto name = record.at("pipeline").get<std::string>();
   Experiment experiment = recorded_experiment(record, results_of(file), data);
-  experiment.words = experiment.find_pipelines({record.at("pipeline").get<std::string>()});
+  if (record.contains("peer") &&
+      std::ranges::find(experiment.peers, name, &Peer::name) == experiment.peers.end())
+    experiment.add_peer_file(experiment.file.parent_path() / record.at("peer_file").get<std::string>());
+  experiment.words = experiment.find_pipelines({name});
   const Word& word = experiment.words[0];
   const Case c = recorded_case(record, experiment, data);
   CellIdentity cell = identify(experiment, c, model_digest(c), word);
@@ -235,7 +234,8 @@ Lines check_files(VerifiedCell& cell) {
 /// What the checks of a cell need later on: there may be many.
 Json essence(const Json& record) {
   Json json = Json::object();
-  for (const char* key : {"experiment", "case", "variant", "options", "digests", "metrics"})
+  for (const char* key :
+       {"experiment", "case", "variant", "pipeline", "peer", "options", "digests", "metrics"})
     json[key] = record.value(key, Json());
   return json;
 }
@@ -262,12 +262,17 @@ bool is_close(double a, double b) {
   return a == b || std::abs(a - b) <= kRounding * std::max(std::abs(a), std::abs(b));
 }
 
+/// As they were measured, of a peer or of a word.
+MeshMetrics metrics_of(const Json& record, const Prepared& prepared, const Mesh& mesh) {
+  return record.at("peer").is_null() ? prepared.metrics(mesh, record.at("pipeline").get<std::string>())
+                                     : prepared.measure(mesh).metrics;
+}
+
 /// Measures of the mesh that are not those of the record.
 Lines check_measures(const VerifiedCell& cell, const Prepared* prepared) {
   const Mesh mesh = read_mesh(cell.file.parent_path() / "mesh.msh");
-  const MeshMetrics now = prepared != nullptr
-                              ? prepared->metrics(mesh, cell.record.value("pipeline", std::string()))
-                              : evaluate_metrics(mesh, nullptr);
+  const MeshMetrics now =
+      prepared != nullptr ? metrics_of(cell.record, *prepared, mesh) : evaluate_metrics(mesh, nullptr);
   Lines wrong;
   for (const auto& [key, value] : cell.record.at("metrics").items()) {
     const auto at = now.values.find(key);

@@ -58,6 +58,22 @@ class Peers : public testing::Test {
   testing_support::TemporaryFolder folder_;
 };
 
+/// Measures that look at the word are told of words alone.
+TEST_F(Peers, AreVerifiedAsTheyWereMeasured) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // measures stay for the rest of a process
+  const auto verified = [&] {
+    add_metric({"letters", "letters", "", Better::kLower, 1, "a test"},
+               [](const MetricInput& in) { return static_cast<double>(in.word.size()); });
+    run_experiment(
+        experiment("[\"DB\", \"copy\"]",
+                   peer("copy", "cp '" + good_mesh() + "' $2", "output = \"msh\"\n") + kPeerSquare),
+        out());
+    const Verification found = verify_results(out(), "");
+    return found.measured == 2 && found.findings.empty() && records().at("DB").values.at("letters") == 2;
+  };
+  EXPECT_EXIT(std::exit(verified() ? 0 : 1), testing::ExitedWithCode(0), "");
+}
+
 TEST_F(Peers, AreMeasuredAsOurs) {
   const std::string text = peer("copy", "echo hello; cp '" + good_mesh() + "' $2") + kPeerSquare;
   const Experiment e = experiment("[\"DB\", \"copy\"]", text);
