@@ -260,7 +260,6 @@ Table hypotheses_table(const StudyFile& study, const Inference& inference) {
                             pair.one_sided ? "" : ", two-sided", pair.secondary ? ", secondary" : "");
   }
   const ClaimFamily &primary = inference.planned(false), &secondary = inference.planned(true);
-  if (study.plan_changed) table.notes.insert(table.notes.begin(), kNotPlanned);
   table.notes.emplace_back(
       "p: Wilcoxon's signed-rank test over the domains; one-sided, so that the contrary is never proven, but "
       "for hypotheses that say two-sided.");
@@ -360,6 +359,9 @@ Interval range_of(const std::string& key) {
   if (key.starts_with("scaled_jacobian_")) return {-1, 1};
   static const std::vector<std::string> percentages = {"d4", "tau", kTauGiven, "percent_quads"};
   if (std::ranges::find(percentages, key) != percentages.end()) return {0, 100};
+  if (key.starts_with("aspect_")) return {1, HUGE_VAL};
+  if (key.starts_with("n_") || key.starts_with("seconds") || key == "edge_min" || key == kFinishSeconds)
+    return {0, HUGE_VAL};
   return TableColumn().range;
 }
 
@@ -403,7 +405,7 @@ std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector
       if (key == step.key) columns.push_back({key, step.title, kTimeDigits});
   }
   for (TableColumn& column : columns)
-    if (find_metric(column.key) != nullptr) column.range = range_of(column.key);
+    if (std::ranges::find(own, column.key, &Metric::key) == own.end()) column.range = range_of(column.key);
   return columns;
 }
 

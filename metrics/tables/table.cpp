@@ -261,7 +261,7 @@ nlohmann::ordered_json json_without_rows(const Table& table) {
                {"notes", table.notes}};
   for (const TableColumn& column : table.columns) {
     json["columns"].push_back({{"key", column.key}, {"title", column.title}, {"digits", column.digits}});
-    if (std::isfinite(column.range.low) && std::isfinite(column.range.high))
+    if (std::isfinite(column.range.low) || std::isfinite(column.range.high))
       json["columns"].back()["range"] = {column.range.low, column.range.high};
   }
   return json;
@@ -353,8 +353,9 @@ Table read_table(const std::filesystem::path& file) {
     json.at("notes").get_to(table.notes);
     for (const Json& column : json.at("columns")) {
       table.columns.push_back({column.at("key"), column.at("title"), column.at("digits")});
-      if (column.contains("range"))
-        table.columns.back().range = {column["range"].at(0), column["range"].at(1)};
+      Interval& range = table.columns.back().range;
+      for (const auto& [i, end] : {std::pair(0, &range.low), std::pair(1, &range.high)})
+        if (column.contains("range") && !column["range"].at(i).is_null()) *end = column["range"].at(i);
     }
     for (const Json& line : json.at("rows")) {
       TableRow row{line.at(table.group_title), line.at(table.name_title), {}, {}, "", ""};

@@ -159,15 +159,22 @@ struct Block {
 
 class TexTable {
  public:
-  /// `in_groups`: each group has its name above it, in place of a column of names.
-  explicit TexTable(const Table& table, bool in_groups = false)
-      : title_(table.title), rendered_(render(table, kTex)), in_groups_(in_groups) {
-    for (std::size_t k = in_groups ? 1 : 0; k < 2; ++k) {
+  /// `in_one_piece`: all columns stand beside each other. Then, and where groups have long names, these stand
+  /// above their rows, in place of a column.
+  explicit TexTable(const Table& table, bool in_one_piece = false)
+      : title_(table.title),
+        rendered_(render(table, kTex)),
+        in_one_piece_(in_one_piece),
+        in_groups_(in_one_piece) {
+    for (std::size_t k = 0; k < 2; ++k) {
       double width = width_of(rendered_.head.names[k]);
       for (const auto& line : rendered_.lines) width = std::max(width, width_of(line.names[k]));
+      if (k == 0) in_groups_ |= width > kMostOfNames && width <= kPageWidth;
+      if (k == 0 && in_groups_) continue;
       names_[k] = std::min(width, kMostOfNames);
       broken_[k] = width > kMostOfNames;
     }
+    for (const TableColumn& column : shown_columns(table)) keys_.push_back(column.key);
     double failed = 0;
     for (const auto& line : rendered_.lines) failed = std::max(failed, width_of(line.missing));
     for (std::size_t k = 0; k < rendered_.head.values.size(); ++k) {
@@ -179,7 +186,7 @@ class TexTable {
     paragraphs_.assign(values_.size(), 0);
     const double excess = std::accumulate(values_.begin(), values_.end(), -room());
     for (std::size_t k = 0; k < values_.size(); ++k) {
-      const bool is_widest = in_groups_ && values_[k] == *std::ranges::max_element(values_);
+      const bool is_widest = in_one_piece_ && values_[k] == *std::ranges::max_element(values_);
       const double most = std::max(is_widest ? std::min(values_[k] - excess, room()) : room(), kLeastOfTexts);
       if (values_[k] > most) paragraphs_[k] = values_[k] = most;
     }
@@ -209,23 +216,29 @@ class TexTable {
   /// Points for columns beside those of names.
   double room() const { return kPageWidth - names_[0] - names_[1] - 2 * kColumnSpace; }
 
-  /// As many columns beside each other as fit, at least one.
+  /// As many columns beside each other as fit, at least one; those of a measure (eta_mean, eta_mean_won, ...)
+  /// stay together.
   std::vector<Block> blocks() const {
     std::vector<Block> result = {{0, 0}};
     double used = 0;
-    for (std::size_t k = 0; k < values_.size(); ++k) {
-      if (used + values_[k] > room() && result.back().last > result.back().first) {
+    for (std::size_t k = 0, end; k < values_.size(); k = end) {
+      double width = values_[k];
+      for (end = k + 1;
+           end < values_.size() && keys_[end].starts_with(keys_[k] + "_") && width + values_[end] <= room();
+           ++end)
+        width += values_[end];
+      if (used + width > room() && result.back().last > result.back().first) {
         result.push_back({k, k});
         used = 0;
       }
-      used += values_[k];
-      result.back().last = k + 1;
+      used += width;
+      result.back().last = end;
     }
     return result;
   }
 
   std::string name(std::size_t k, const std::string& text) const {
-    return broken_[k] ? breakable(text, kLongestPiece) : text;
+    return broken_[k] ? "\\raggedright " + breakable(text, kLongestPiece) : text;
   }
 
   std::string line(const RenderedTable::Line& line, const Block& block) const {
@@ -237,13 +250,14 @@ class TexTable {
         value = line.missing;
         said = true;
       }
-      if (paragraphs_[k] > 0) value = "{\\raggedright " + breakable_note(value, kLongestText) + "\\par}";
+      if (paragraphs_[k] > 0)
+        value = "\\raggedright\\let\\\\\\tabularnewline " + breakable_note(value, kLongestText);
       text += " & " + value;
     }
     return text + " \\\\\n";
   }
 
-  bool is_long() const { return !in_groups_ && rendered_.lines.size() > kMostRows; }
+  bool is_long() const { return !in_one_piece_ && rendered_.lines.size() > kMostRows; }
 
   /// One that is long runs over pages, with its head on each of them.
   std::string tabular(const Block& block) const {
@@ -266,9 +280,10 @@ class TexTable {
 
   std::string title_;
   RenderedTable rendered_;
-  bool in_groups_;
+  bool in_one_piece_, in_groups_;
   double names_[2] = {0, 0};  ///< widths
   bool broken_[2] = {false, false};
+  std::vector<std::string> keys_;   ///< of columns
   std::vector<double> values_;      ///< widths, with the space between columns
   std::vector<double> paragraphs_;  ///< the same of values that are broken; 0: they are not
 };

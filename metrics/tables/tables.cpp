@@ -58,24 +58,38 @@ class Tabulation {
     if (study_.ratio) note_ratio(*study_.ratio);
     outcome_.pairs = pairs_table(study_.title, inference_.pairs(), inference_.family());
     outcome_.hypotheses = hypotheses_table(study_, inference_);
-    if (study_.plan_changed && study_.hypotheses.empty())
-      outcome_.pairs.notes.insert(
-          outcome_.pairs.notes.begin(),
-          "This study had hypotheses, which were taken out after the first mesh was made.");
+    say_late(is_planned() ? outcome_.hypotheses : outcome_.pairs);
     note_pairs(outcome_.pairs);
     if (!outcome_.hypotheses.rows.empty()) note_pairs(outcome_.hypotheses);
     outcome_.figures = make_figures(records_);
     std::ranges::move(figures_of_effects(inference_), std::back_inserter(outcome_.figures));
     if (study_.slopes)
       std::ranges::move(figures_of_slopes(*study_.slopes, records_), std::back_inserter(outcome_.figures));
-    const auto [by_word, by_measure] = summarise(study_, records_, inference_);
-    outcome_.summary = by_word;
+    auto [by_word, by_measure] = summarise(study_, records_, inference_);
+    outcome_.summary = std::move(by_word);
+    say_late(outcome_.summary);
     if (!outcome_.summary.rows.empty()) note_pairs(outcome_.summary);
-    print(by_measure);
+    say_late(by_measure);
+    print(std::move(by_measure));
     return std::move(outcome_);
   }
 
  private:
+  bool is_planned() const { return !study_.hypotheses.empty(); }
+
+  /// What was asked only after the runs is no claim: that is said, and nothing stays marked.
+  std::string late_note() const {
+    return !study_.plan_changed ? ""
+           : is_planned()       ? kNotPlanned
+                          : "Not planned: this study had hypotheses, which were taken out after the first "
+                            "mesh was made.";
+  }
+  void say_late(Table& table) const {
+    if (!study_.plan_changed) return;
+    table.notes.insert(table.notes.begin(), late_note());
+    for (TableRow& row : table.rows) row.marks.clear();
+  }
+
   void add_row(const Samples& samples) {
     TableRow row{samples.group, samples.pipeline, {}, {}, "", ""};
     for (const CellRecord* failed : samples.failed)
@@ -176,42 +190,56 @@ class Tabulation {
     add_notes(quad_count_notes(records_), table);
   }
 
+  /// How differences are tested, for captions.
+  std::string test_text() const {
+    std::string sides = "two-sided", whole = " over all tests of the study";
+    const auto any = [&](auto what) { return std::ranges::any_of(inference_.hypotheses(), what); };
+    if (any(&PairComparison::one_sided))
+      sides = any([](const PairComparison& p) { return !p.one_sided; })
+                  ? "one-sided but for hypotheses that are two-sided"
+                  : "one-sided";
+    if (is_planned()) whole = " over all hypotheses";
+    if (any(&PairComparison::secondary))
+      whole =
+          " over the primary hypotheses, and over the secondary ones, which count only where all primary "
+          "ones are proven~\\cite{westfall2001};";
+    return "Wilcoxon's signed-rank test over domains~\\cite{wilcoxon1945}, " + sides +
+           ", corrected by Holm's method~\\cite{holm1979}" + whole +
+           " that could prove a difference~\\cite{tarone1990}";
+  }
+
   /// Summary and pairs in as few columns as say all, and with captions.
   void print(Table summary) {
     if (summary.rows.empty()) return;
-    const std::string interval = "with its 95\\,\\% interval by bootstrap-t over domains~\\cite{davison1997}";
-    const std::string proof =
-        "Wilcoxon's signed-rank test over domains~\\cite{wilcoxon1945}, corrected by Holm's "
-        "method~\\cite{holm1979} over all " +
-        std::string(study_.hypotheses.empty() ? "tests of the study"
-                    : study_.plan_changed     ? "hypotheses, which were not fixed before the run,"
-                                              : "hypotheses, which were fixed before the run,") +
-        " that could prove a difference~\\cite{tarone1990}";
-    const bool is_planned = !study_.hypotheses.empty();
+    const std::string interval = "with its 95\\,\\% interval by bootstrap-t over domains~\\cite{davison1997}",
+                      late = study_.plan_changed ? "\\textbf{" + late_note() + "} " : "",
+                      bold = study_.plan_changed ? "" : " Bold: proven at 5\\,\\%";
     summary.notes.clear();
-    if (!is_planned) summary.notes.push_back(inference_.family().note());
+    if (!is_planned()) summary.notes.push_back(inference_.family().note());
     note_pairs(summary);
-    std::string text = to_tex_floats(
-        summary, "tab:summary",
-        "Mean over domains " + interval +
-            ". Won, lost: on how many domains a word is better, or worse, than every other one. Proven at "
-            "5\\,\\%: " +
-            proof + ". Bold: proven better than all others.");
-    Table pairs = is_planned ? outcome_.hypotheses : outcome_.pairs;
+    std::string text =
+        to_tex_floats(summary, "tab:summary",
+                      late + "Mean over domains " + interval +
+                          ". Won, lost: on how many domains one is better, or worse, than every other" +
+                          (summary.name_title == "pipeline" ? "" : " of its axis") +
+                          ". Proven better than: " + (is_planned() ? "as hypotheses ask, by " : "by ") +
+                          test_text() + "." + (bold.empty() ? "" : bold + " to be better than all others."));
+    Table pairs = is_planned() ? outcome_.hypotheses : outcome_.pairs;
     pairs.columns = {{"domains", "domains", 0},
                      {"won_lost", "won/lost", 0},
                      {"effect", "difference", 4},
-                     {"p_corrected", "p", 4},
-                     {"first_is", is_planned ? "verdict" : "first is", 0}};
+                     {"p_corrected", "p corr.", 4},
+                     {"first_is", is_planned() ? "verdict" : "first is", 0}};
     pairs.shown.clear();
     pairs.notes.clear();
     for (TableRow& row : pairs.rows)
       row.texts["won_lost"] = fmt::format("{}/{}", row.values.at("better"), row.values.at("worse"));
     text +=
         to_tex_floats(pairs, "tab:pairs",
-                      "Won/lost: on how many domains the first is better and worse. Difference: first minus "
-                      "second, mean over domains " +
-                          interval + ". p: " + proof + ". Bold: proven at 5\\,\\%.");
+                      late +
+                          "Won/lost: on how many domains the first is better and worse. Difference: first "
+                          "minus second, mean over domains " +
+                          interval + ". p corr.: of " + test_text() + "." + (bold.empty() ? "" : bold + "."));
     outcome_.files[kPrinted] = "% To be input with booktabs; references.bib has what is cited.\n" + text;
     outcome_.files[kReferences] = kBibliography;
   }

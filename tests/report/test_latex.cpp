@@ -76,6 +76,8 @@ TEST_F(Study, ClaimsAreConfirmedByAnotherProgram) {
     EXPECT_EQ(tampered.exit_code, 1);
     EXPECT_NE(tampered.out.find(reason), std::string::npos) << tampered.out;
   };
+  tamper("study.json", "{", "{\"plan_changed\": true,");
+  EXPECT_NE(check_claims().out.find("tests: not planned, confirmed"), std::string::npos);
   tamper("pairs.csv", ",exploratory,", ",better,");
   expect_refused("claims what was not planned");
   // The same meshes without hypotheses: every two words are tested.
@@ -88,6 +90,8 @@ TEST_F(Study, ClaimsAreConfirmedByAnotherProgram) {
   EXPECT_NE(pairs.out.find("24 comparisons"), std::string::npos) << pairs.out;
   tamper("pairs.csv", ",not proven,", ",better,");
   expect_refused("is 'better', by runs.csv 'not proven'");
+  fs::remove(results() / "pairs.csv");
+  expect_refused("0 comparisons of ");
 }
 
 /// Every tabular is measured by LaTeX itself, at 8 points: the widest that tables of ours become by default,
@@ -128,6 +132,82 @@ TEST(Latex, DefaultColumnsFitAPage) {
   EXPECT_EQ(compile(folder.path(), "t.tex"), "");
   EXPECT_NE(read_text(folder / "t.log").find("size 8"), std::string::npos);
   EXPECT_EQ(to_tex(outcome.table).find("scriptsize"), std::string::npos);
+}
+
+/// One word with two options on eight domains; the second value of each is better on all of them.
+StudyResults study_of_options() {
+  StudyResults results;
+  results.study.title = "Options";
+  results.study.pipelines = {"DBO"};
+  results.study.axes = {{"passes", {"1", "2"}}, {"a_cost_with_a_long_name", {"angle", "eta"}}};
+  results.study.pairs = {"passes", "a_cost_with_a_long_name"};
+  for (int domain = 0; domain < 8; ++domain) {
+    results.study.cases.push_back("domain_" + std::to_string(domain));
+    for (const int passes : {1, 2})
+      for (const bool eta : {false, true}) {
+        CellRecord record{results.study.cases.back() + "@" + std::to_string(2 * passes + eta), "DBO", "", {}};
+        record.name = record.domain = results.study.cases.back();
+        record.variant = {{"passes", std::to_string(passes)},
+                          {"a_cost_with_a_long_name", eta ? "eta" : "angle"}};
+        record.values = {{"n_quads", 1000}, {"n_triangles", 0}};
+        for (const char* key : {"eta_worst", "eta_mean", "d4", "tau"})
+          record.values[key] = 0.123456 + 0.1 * passes + 0.05 * eta + 0.01 * domain * passes;
+        results.records.push_back(record);
+      }
+  }
+  return results;
+}
+
+/// No box is too wide or too loose.
+std::string compile_inputs(const Outcome& outcome, const std::string& names) {
+  const TemporaryFolder folder;
+  write_text(folder / "tables.tex", outcome.files.at("tables.tex"));
+  write_text(folder / "summary.tex", to_tex(outcome.summary));
+  write_text(folder / "pairs.tex", to_tex(outcome.pairs));
+  write_text(folder / "hypotheses.tex", to_tex(outcome.hypotheses));
+  write_text(folder / "t.tex", "\\documentclass[a4paper]{article}\\usepackage{booktabs}\\begin{document}\n" +
+                                   names + "\\end{document}\n");
+  const std::string said = compile(folder.path(), "t.tex");
+  const std::string log = read_text(folder / "t.log");
+  return said + (log.find("Underfull \\hbox") == log.npos ? "" : log);
+}
+
+TEST(Latex, OptionsHaveARowForEachValue) {
+  const Outcome outcome = make_tables(study_of_options());
+  const std::vector<TableRow>& rows = outcome.summary.rows;
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[1].group, "passes=2");
+  EXPECT_EQ(rows[1].values.at("eta_mean_won"), 8);
+  EXPECT_EQ(rows[1].marks.size(), 4u) << "better than all others of its axis";
+  const std::string tables = outcome.files.at("tables.tex"), summary = to_tex(outcome.summary);
+  EXPECT_NE(tables.find("than every other of its axis"), std::string::npos);
+  EXPECT_EQ(tables.find("p{"), std::string::npos) << "numbers are set to the right: " << tables;
+  EXPECT_EQ(summary.find("\\midrule", summary.find("& won & lost \\\\") + 1),
+            summary.find("\\midrule", summary.find("eta mean")))
+      << "a measure is not cut: " << summary;
+  if (has_latex())
+    EXPECT_EQ(compile_inputs(outcome, "\\input{tables}\n\\input{summary}\n\\input{pairs}\n"), "");
+}
+
+TEST(Latex, PlannedStudiesSayHowTheyAreTested) {
+  StudyResults results = study_of_options();
+  results.study.hypotheses = {{"passes", "2", "1", {"eta_mean", "d4"}},
+                              {"a_cost_with_a_long_name", "eta", "angle", {"tau"}, true, true}};
+  const Outcome planned = make_tables(results);
+  const std::string tables = planned.files.at("tables.tex");
+  for (const char* part : {"one-sided but for hypotheses that are two-sided",
+                           "secondary ones, which count only", "p corr.", "\\textbf{", "as hypotheses ask"})
+    EXPECT_NE(tables.find(part), std::string::npos) << part << " in " << tables;
+  const std::string alone = to_tex(planned.hypotheses);
+  EXPECT_EQ(alone.find("\\begin{tabular}"), alone.rfind("\\begin{tabular}")) << "one table: " << alone;
+  if (has_latex())
+    EXPECT_EQ(compile_inputs(planned, "\\input{tables}\n\\input{summary}\n\\input{hypotheses}\n"), "");
+  results.study.plan_changed = true;
+  const Outcome late = make_tables(results);
+  const std::string marked = late.files.at("tables.tex");
+  EXPECT_NE(marked.find("\\textbf{Not planned: "), std::string::npos) << marked;
+  EXPECT_EQ(marked.find("\\textbf{0"), std::string::npos) << marked;
+  EXPECT_EQ(marked.find("Bold"), std::string::npos) << marked;
 }
 
 TEST(Latex, LongTablesBreakOverPages) {
