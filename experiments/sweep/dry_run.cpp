@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/text.h"
 #include "experiments/sweep/cells.h"
 #include "experiments/sweep/run_experiment.h"
 #include "metrics/judgement/criteria.h"
@@ -83,7 +84,8 @@ std::string text_of_cells(const std::vector<CellRecord>& cells) {
 
 bool needs_no_run(const CellRecord& cell) { return cell.kind == "done" || cell.kind == kNotApplicable; }
 
-/// By the mean of the records of the same pipeline, on the same case where there are some.
+/// By the mean of the records of the same pipeline, on the same case where there are some: by the clock,
+/// added up over threads.
 std::string time_text(const Experiment& experiment, const std::vector<CellRecord>& cells,
                       const fs::path& folder) {
   std::map<std::string, std::vector<double>> known;
@@ -93,22 +95,26 @@ std::string time_text(const Experiment& experiment, const std::vector<CellRecord
         for (const std::string& key : {record.pipeline, record.name + "/" + record.pipeline})
           known[key].push_back(seconds);
   double seconds = 0;
-  std::size_t unknown = 0;
+  int unknown = 0, guessed = 0;
   for (const CellRecord& cell : cells) {
     const int runs = cell.skipped ? 0 : experiment.repeat_times + (needs_no_run(cell) ? 0 : 1);
     auto at = known.find(cell.name + "/" + cell.pipeline);
-    if (at == known.end()) at = known.find(cell.pipeline);
-    if (at != known.end())
-      seconds += runs * mean(at->second);
-    else
-      unknown += runs > 0 ? 1 : 0;
+    if (runs > 0 && at == known.end()) {
+      at = known.find(cell.pipeline);
+      ++(at == known.end() ? unknown : guessed);
+    }
+    if (at != known.end()) seconds += runs * mean(at->second);
   }
   if (known.empty()) return "time: not known, without records of such cells in the folder of -o\n";
   constexpr double kHour = 3600;
   return fmt::format(
-      "time: about {} of one core{}\n",
+      "time: about {} by the clock of one core of this machine, if the records in the folder of -o were made "
+      "on "
+      "it{}{}\n",
       seconds < kHour ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.3g} h", seconds / kHour),
-      unknown > 0 ? fmt::format(", and {} cells of whose pipelines there is no record", unknown) : "");
+      guessed > 0 ? fmt::format("; {} guessed from other cases", counted(guessed, "cell")) : "",
+      unknown > 0 ? fmt::format("; and {} of whose pipelines there is no record", counted(unknown, "cell"))
+                  : "");
 }
 
 std::string domains_text(const std::vector<CellRecord>& cells) {
@@ -214,12 +220,12 @@ std::string list_cells(const Experiment& experiment, const fs::path& folder) {
 std::string dry_run(const Experiment& experiment, const fs::path& folder, std::optional<double> effect) {
   if (experiment.linf) return "";  // it has no cells
   experiment.check_hypotheses();
-  const std::vector<CellRecord> cells = planned_cells(experiment, folder);
+  const std::string refusal = why_folder_is_refused(experiment, folder);
+  const std::vector<CellRecord> cells = planned_cells(experiment, refusal.empty() ? folder : "");
   const StudyFile study = describe(experiment);
-  const auto before = folder.empty() ? std::nullopt : read_study(folder);
-  const bool is_late = !study.hypotheses.empty() && before && before->experiment == study.experiment &&
-                       is_plan_changed(study, folder);
-  return text_of_cells(cells) + (is_late ? std::string("warning: ") + kNotPlanned + "\n" : "") +
+  const bool is_late = !study.hypotheses.empty() && !folder.empty() && is_plan_changed(study, folder);
+  const std::string warning = refusal.empty() && is_late ? kNotPlanned : refusal;
+  return text_of_cells(cells) + (warning.empty() ? "" : "warning: " + warning + "\n") +
          fmt::format("cells: {}, of which {} are done\n", cells.size(),
                      std::ranges::count_if(cells, needs_no_run)) +
          time_text(experiment, cells, folder) + domains_text(cells) +

@@ -114,6 +114,18 @@ LinfStudy read_linf_study(const TomlTable& table) {
   return study;
 }
 
+/// Those of another experiment first.
+std::vector<TomlTable> read_cases(const TomlTable& table) {
+  std::vector<TomlTable> own = table.tables("case");
+  if (!table.has("cases_of")) return own;
+  const TomlTable other = TomlTable::read(table.file().parent_path() / table.text("cases_of"));
+  other.require_known(experiment_keys());
+  std::vector<TomlTable> cases = other.tables("case");
+  if (cases.empty()) refuse("{}: {} has no cases", table.where("cases_of"), other.file().string());
+  cases.insert(cases.end(), own.begin(), own.end());
+  return cases;
+}
+
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 }  // namespace
@@ -142,6 +154,7 @@ std::vector<std::filesystem::path> Experiment::files() const {
     if (fs::is_regular_file(name, unknown)) found.insert(fs::absolute(name).lexically_normal());
   };
   add(file);
+  for (const TomlTable& table : cases_) add(table.file());
   add(reference);
   for (const fs::path& peer_file : peer_files) add(peer_file);
   for (std::size_t i = 0; i < n_cases(); ++i) {
@@ -285,7 +298,7 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   table.require_known(experiment_keys());
   Experiment experiment;
   experiment.file = file;
-  experiment.cases_ = table.tables("case");
+  experiment.cases_ = read_cases(table);
   if (table.has("start") ||
       std::ranges::any_of(experiment.cases_, [](const auto& c) { return c.has("start"); }))
     experiment.word_start_ = WordStart::kGivenMesh;

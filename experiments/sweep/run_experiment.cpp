@@ -210,14 +210,6 @@ class Sweep {
   std::size_t next_ = 0;
 };
 
-/// Refuses a folder with the results of another experiment.
-void check_study(const Experiment& experiment, const fs::path& folder) {
-  const auto study = read_study(folder);
-  if (study && study->experiment != experiment.file.stem().string())
-    refuse("{}: holds results of the experiment '{}', not of '{}': give another folder", folder.string(),
-           study->experiment, experiment.file.stem().string());
-}
-
 Outcome run_study(const Experiment& experiment, const fs::path& folder) {
   Outcome outcome;
   Progress progress(linf_study_steps(*experiment.linf));
@@ -227,6 +219,14 @@ Outcome run_study(const Experiment& experiment, const fs::path& folder) {
 }
 
 }  // namespace
+
+std::string why_folder_is_refused(const Experiment& experiment, const fs::path& folder) {
+  const auto study = folder.empty() ? std::nullopt : read_study(folder);
+  const std::string name = experiment.file.stem().string();
+  if (!study || study->experiment == name) return "";
+  return fmt::format("{}: holds results of the experiment '{}', not of '{}': give another folder",
+                     folder.string(), study->experiment, name);
+}
 
 bool is_plan_changed(const StudyFile& study, const fs::path& folder) {
   const StudyFile before = read_study(folder).value_or(StudyFile());
@@ -240,7 +240,8 @@ Outcome run_experiment(const Experiment& experiment, const fs::path& folder, con
   if (experiment.linf) {
     outcome = run_study(experiment, folder);
   } else {
-    check_study(experiment, folder);
+    if (const std::string why = why_folder_is_refused(experiment, folder); !why.empty())
+      throw InputError(why);
     experiment.check_hypotheses();
     StudyFile study = describe(experiment);
     study.plan_changed = is_plan_changed(study, folder);

@@ -41,15 +41,19 @@ struct SweepOptions {
 Outcome run_experiment(const Experiment& experiment, const std::filesystem::path& folder,
                        const SweepOptions& options = {});
 
+/// Where the folder holds the results of another experiment; empty: it does not.
+std::string why_folder_is_refused(const Experiment& experiment, const std::filesystem::path& folder);
+
 /// Whether the folder had records already when its plan was made, or made otherwise than by `study`.
 bool is_plan_changed(const StudyFile& study, const std::filesystem::path& folder);
 
 /// The cells in their order, a line each, and what there is of them: as in state_of_cell(), or "data not
 /// found".
 std::string list_cells(const Experiment& experiment, const std::filesystem::path& folder);
-/// The same, then what the run would take, by records in the folder (which may be of another experiment), and
-/// what it could prove, with which power for an effect in standard deviations of domains' differences. An
-/// empty folder has none. Throws InputError as check_hypotheses() does.
+/// The same, then what the run would take, by records in the folder (of another experiment, where a warning
+/// says that the run would refuse it), and what it could prove, with which power for an effect in standard
+/// deviations of domains' differences. An empty folder has none. Throws InputError as check_hypotheses()
+/// does.
 std::string dry_run(const Experiment& experiment, const std::filesystem::path& folder,
                     std::optional<double> effect);
 

@@ -192,7 +192,8 @@ TomlKeys experiment_keys() {
                    // Its keys are those of cases, see whole_matrix_schema().
                    {"matrix", "what varies", R"({"type": "object"})"},
                    {"variant", "keys of cases that vary together", "", variant_keys, true},
-                   {"case", "what is meshed", "", experiment_case_keys, true}};
+                   {"case", "what is meshed", "", experiment_case_keys, true},
+                   {"cases_of", "another experiment whose cases come before these", kText}};
   std::ranges::move(study_keys(), std::back_inserter(keys));
   for (TomlKey& key : case_keys())  // here 'metric' is a measure
     if (key.name != "metric") keys.push_back(std::move(key));
@@ -203,7 +204,7 @@ std::string experiment_schema() {
   Json json = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Delquad experiment"}};
   json.update(table_schema(experiment_keys()));
   json["properties"]["matrix"] = whole_matrix_schema();
-  json["anyOf"] = {{{"required", {"case"}}}, {{"required", {"linf_delaunay"}}}};
+  json["anyOf"] = {{{"required", {"case"}}}, {{"required", {"cases_of"}}}, {{"required", {"linf_delaunay"}}}};
   return json.dump(2) + "\n";
 }
 

@@ -24,6 +24,25 @@ TEST(Experiments, EveryFileOfTheProjectReads) {
   EXPECT_GE(files, 8);
 }
 
+TEST(Experiments, CasesMayBeThoseOfAnother) {
+  const testing_support::TemporaryFolder folder;
+  const auto square = [](const std::string& name) {
+    return "[[case]]\nname = \"" + name + "\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
+  };
+  testing_support::write_text(folder / "other.toml", "size = 0.1\n" + square("a"));
+  testing_support::write_text(folder / "none.toml", "title = \"none\"\n");
+  const auto read = [&](const std::string& cases_of) {
+    return Experiment::read(testing_support::write_text(
+        folder / "e.toml", "size = 0.5\ncases_of = \"" + cases_of + "\"\n" + square("b")));
+  };
+  const Experiment e = read("other.toml");
+  ASSERT_EQ(e.n_cases(), 2u);
+  EXPECT_EQ(e.read_variant(0).name + e.read_variant(1).name, "ab");
+  EXPECT_EQ(e.read_variant(0).size.text, e.read_variant(1).size.text) << "other keys are its own";
+  EXPECT_EQ(e.files().size(), 2u);
+  expect_input_error([&] { read("none.toml"); }, {"e.toml:2: ", "none.toml has no cases"});
+}
+
 TEST(Experiments, LewisHasThePublishedRows) {
   const Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / "table1_lewis.toml");
   ASSERT_EQ(e.published.size(), 3u);

@@ -130,6 +130,11 @@ TEST_F(Planned, PlansThatWereChangedAfterwardsSaySo) {
   EXPECT_FALSE(note_after(text("d4")));
   EXPECT_FALSE(note_after(text("d4"))) << "again";
   expect_part(dry_run(read(text("d4")), out, {}), "cells: 2, of which 2 are done\ntime: about 0 s");
+  Experiment other = read(text("d4"));
+  other.file = "other.toml";
+  const std::string refused = dry_run(other, out, {});
+  expect_part(refused, "not of 'other': give another folder\ncells: 2, of which 0 are done\n");
+  EXPECT_EQ(refused.find("guessed"), std::string::npos) << "the same case";
   EXPECT_EQ(read_study(out)->hypotheses, read(text("d4")).hypotheses);
   EXPECT_TRUE(note_after(text("tau")));
   EXPECT_TRUE(note_after(text("d4"))) << "it stays said";
