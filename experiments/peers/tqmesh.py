@@ -13,7 +13,9 @@ shutil.which("TQMesh") or sys.exit(print("TQMesh is not on the PATH") or 77)
 source, output, size = sys.argv[1:4]
 mesh = meshio.read(source)
 sides = {(a, b) for t in mesh.cells_dict["triangle"] for a, b in zip(t, t[[1, 2, 0]])}
-after = {a: b for a, b in sides if (b, a) not in sides}
+border = [(a, b) for a, b in sides if (b, a) not in sides]
+after = dict(border)
+len(after) == len(border) or sys.exit(print("its outlines touch in a node: TQMesh wants loops that do not") or 77)
 text = f"""Define mesh:\nElement size: {size}\nElement color: 1\nMeshing algorithm: Tri-to-Quad
 Number of quad refinements: 1\nNumber of smoothing iterations: 3\nOutput file format: TXT\nOutput file prefix: ./out\n"""
 while after:  # loops with the domain on their left, as TQMesh wants them

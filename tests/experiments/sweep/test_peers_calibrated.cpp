@@ -464,14 +464,26 @@ TEST_F(CalibratedPeers, AdaptersSpeakToProgramsThatAreAbsentHere) {
   setenv("QUADWILD", wild.c_str(), 1);
   Experiment e = experiment(
       "pipelines = [\"DB\"]\n[[case]]\nname = \"sphere\"\nexample = \"sphere\"\nsize = 3\n"
-      "[[case]]\nname = \"square\"\nsize = 1\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
+      "[[case]]\nname = \"square\"\nsize = 1\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
+      "[[case]]\nname = \"touching\"\nsize = 0.5\nloop = { rectangle = [[0, 0], [2, 1]] }\n"
+      "hole = { polygon = [[0, 0], [1, 0.3], [0.5, 0.7]] }\n");
   for (const char* name : {"gmsh", "instant_meshes", "mmg", "quadriflow", "quadwild", "tqmesh"})
     e.add_peer_file(fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers" / (std::string(name) + ".toml"));
   e.words =
       e.find_pipelines({"instant-meshes", "mmg", "quadriflow-source", "quadwild", "tqmesh", "gmsh-quasi"});
   run_experiment(e, out());
+  const std::string peers = DELQUAD_SOURCE_DIR "/experiments/peers/";
+  const auto answer = [&](std::vector<std::string> words) {
+    return testing_support::run_program("/bin/sh", {std::move(words), 0, {}});
+  };
+  EXPECT_EQ(answer({peers + "mmg.sh", "--version"}).out.find("5.8.0 (2024), delquad "), 0u);
+  stub(bin / "gmsh", "echo 3.0.6\n");
+  EXPECT_EQ(answer({peers + "gmsh.sh", "11", "a.geo", "a.msh"}).exit_code, 77);
   setenv("PATH", path.c_str(), 1);
   unsetenv("QUADWILD");
+  const auto touching = record_of("touching", "tqmesh");
+  EXPECT_EQ(touching.at("status"), "not applicable");
+  EXPECT_NE(touching.at("reason").get<std::string>().find("touch in a node"), std::string::npos) << touching;
   std::vector<std::string> meshed;
   for (const CellRecord& cell : read_records(out())) {
     if (cell.reason.empty()) meshed.push_back(cell.name + " " + cell.pipeline);
