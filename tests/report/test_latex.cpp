@@ -185,8 +185,9 @@ TEST(Latex, OptionsHaveARowForEachValue) {
   EXPECT_EQ(summary.find("\\midrule", summary.find("& won & lost \\\\") + 1),
             summary.find("\\midrule", summary.find("eta mean")))
       << "a measure is not cut: " << summary;
-  if (has_latex())
+  if (has_latex()) {
     EXPECT_EQ(compile_inputs(outcome, "\\input{tables}\n\\input{summary}\n\\input{pairs}\n"), "");
+  }
 }
 
 TEST(Latex, PlannedStudiesSayHowTheyAreTested) {
@@ -200,8 +201,9 @@ TEST(Latex, PlannedStudiesSayHowTheyAreTested) {
     EXPECT_NE(tables.find(part), std::string::npos) << part << " in " << tables;
   const std::string alone = to_tex(planned.hypotheses);
   EXPECT_EQ(alone.find("\\begin{tabular}"), alone.rfind("\\begin{tabular}")) << "one table: " << alone;
-  if (has_latex())
+  if (has_latex()) {
     EXPECT_EQ(compile_inputs(planned, "\\input{tables}\n\\input{summary}\n\\input{hypotheses}\n"), "");
+  }
   results.study.plan_changed = true;
   const Outcome late = make_tables(results);
   const std::string marked = late.files.at("tables.tex");

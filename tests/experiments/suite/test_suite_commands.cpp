@@ -77,11 +77,11 @@ TEST(SuiteCommands, ModelsAreWrittenForOthers) {
   ASSERT_EQ(part.exit_code, 0) << part.err;
   EXPECT_EQ(part.out, "Suite 2: 1 model, 0 of them public\n" + (folder / "part").string() + "\n");
   EXPECT_EQ(read_json(folder / "part/cases.json").at("cases").size(), 3u);
-  const auto refused = [&](std::vector<std::string> arguments, const std::string& part) {
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& reason) {
     arguments.insert(arguments.begin(), {"suite", "models", "-o", folder / "none"});
     const auto run = delquad(arguments);
     EXPECT_EQ(run.exit_code, 2);
-    EXPECT_TRUE(contains(run.err, part)) << run.err;
+    EXPECT_TRUE(contains(run.err, reason)) << run.err;
   };
   refused({"--models", "gaer"}, "'gaer' is none of the suite; did you mean 'gear'");
   refused({"--models", "torus", "--family", "planar"},
