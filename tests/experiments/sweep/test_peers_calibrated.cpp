@@ -465,8 +465,8 @@ TEST_F(CalibratedPeers, AdaptersSpeakToProgramsThatAreAbsentHere) {
   Experiment e = experiment(
       "pipelines = [\"DB\"]\n[[case]]\nname = \"sphere\"\nexample = \"sphere\"\nsize = 3\n"
       "[[case]]\nname = \"square\"\nsize = 1\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
-      "[[case]]\nname = \"touching\"\nsize = 0.5\nloop = { rectangle = [[0, 0], [2, 1]] }\n"
-      "hole = { polygon = [[0, 0], [1, 0.3], [0.5, 0.7]] }\n");
+      "[[case]]\nname = \"touching\"\nsize = 0.5\nloop = [{ rectangle = [[0, 0], [2, 1]] }, "
+      "{ polygon = [[0, 0], [1, 0.3], [0.5, 0.7]] }]\n");
   for (const char* name : {"gmsh", "instant_meshes", "mmg", "quadriflow", "quadwild", "tqmesh"})
     e.add_peer_file(fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers" / (std::string(name) + ".toml"));
   e.words =
