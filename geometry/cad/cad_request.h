@@ -1,11 +1,17 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "base/worker_process.h"
 #include "geometry/cad/cad_reader.h"
 
 namespace delquad::cad {
+
+/// The program that works on CAD files: what DELQUAD_CAD_WORKER names, else what set_cad_worker() was given,
+/// else see find_program().
+std::filesystem::path find_worker();
 
 /// What a worker is asked for: to read, heal and triangulate a shape.
 struct CadRequest {
@@ -24,20 +30,17 @@ struct CadRequest {
 std::string to_bytes(const CadRequest& request);
 CadRequest request_from(const std::string& bytes);
 
-/// First byte of what a worker sends. After it comes the length, then as many bytes: of the shape, a message,
-/// the numbers of faces that take too long, nothing; the name of a stage, or the number of a face that begins
-/// or ends.
+/// The kinds of a worker's replies: the shape, a message, the numbers of faces that take too long, nothing;
+/// the name of a stage, or the number of a face that begins or ends.
 enum class Reply : char {
   kShape = 'S',
-  kMessage = 'M',
+  kMessage = delquad::kMessage,
   kLateFaces = 'F',
   kLateHealing = 'H',
   kStage = 's',
   kFaceBegins = 'b',
   kFaceEnds = 'e'
 };
-/// After these the worker is done.
-inline bool is_last(Reply reply) { return reply < Reply{'a'}; }
 
 /// Numbers as bytes, and back.
 std::string to_bytes(const std::vector<int>& numbers);

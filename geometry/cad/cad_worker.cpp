@@ -2,11 +2,6 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <BRepBndLib.hxx>
 #include <BRepLib.hxx>
@@ -28,13 +23,14 @@
 #include <new>
 #include <numeric>
 #include <system_error>
-#include <thread>
 
 #include "base/activity.h"
 #include "base/context.h"
 #include "base/parallel.h"
 #include "base/utf8.h"
+#include "base/worker_process.h"
 #include "delquad/error.h"
+#include "geometry/cad/cad_request.h"
 #include "geometry/cad/cad_shape.h"
 #include "geometry/cad/heal_shape.h"
 #include "geometry/cad/mesh_by_outline.h"
@@ -42,7 +38,6 @@
 #include "geometry/cad/tessellate.h"
 #include "geometry/cad/watch_kernel.h"
 #include "geometry/cad/weld_faces.h"
-#include "geometry/cad/worker_process.h"
 
 namespace delquad::cad {
 
@@ -198,24 +193,6 @@ CadShape read(const CadRequest& request) {
   return read_shape(request.text, request.options);
 }
 
-/// The worker is of use only as long as somebody listens, and must not go on for ever.
-void end_with(int parent, int socket) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);
-  std::thread([socket] {
-    pollfd entry{socket, POLLRDHUP, 0};
-    while (poll(&entry, 1, -1) <= 0) {
-    }
-    _exit(1);
-  }).detach();
-}
-
-void limit_to(unsigned seconds) {
-  const rlimit time{seconds, seconds}, no_core{0, 0};
-  setrlimit(RLIMIT_CPU, &time);
-  setrlimit(RLIMIT_CORE, &no_core);
-}
-
 /// What ends the reading without a shape, for people.
 std::string why_not() {
   try {
@@ -230,20 +207,24 @@ std::string why_not() {
   }
 }
 
+void send(int socket, Reply reply, const std::string& text) {
+  send_reply(socket, static_cast<char>(reply), text);
+}
+
 void answer(const CadRequest& request, int socket) {
   constexpr int kMostFaces = 1024;  // at a time: as many as threads
   Activities activities(kMostFaces);
-  activities.on_stage = [socket](const char* name) { send_reply(socket, Reply::kStage, name); };
+  activities.on_stage = [socket](const char* name) { send(socket, Reply::kStage, name); };
   activities.on_face = [socket](int face, bool begins) {
-    send_reply(socket, begins ? Reply::kFaceBegins : Reply::kFaceEnds, to_bytes(std::vector<int>{face}));
+    send(socket, begins ? Reply::kFaceBegins : Reply::kFaceEnds, to_bytes(std::vector<int>{face}));
   };
   const RunScope run({.threads = request.threads, .activities = &activities});
   KernelWatch watch(
       {request.options.face_seconds, request.options.healing_seconds},
-      [socket](const std::vector<int>& late) { send_reply(socket, Reply::kLateFaces, to_bytes(late)); },
-      [socket] { send_reply(socket, Reply::kLateHealing, ""); });
+      [socket](const std::vector<int>& late) { send(socket, Reply::kLateFaces, to_bytes(late)); },
+      [socket] { send(socket, Reply::kLateHealing, ""); });
   set_kernel_threads();
-  send_reply(socket, Reply::kShape, to_bytes(prepare(read(request), request, watch)));
+  send(socket, Reply::kShape, to_bytes(prepare(read(request), request, watch)));
 }
 
 }  // namespace
@@ -261,15 +242,14 @@ std::string kernel_version() {
 }
 
 void work_for(int socket, int parent) {
-  end_with(parent, socket);
-  try {
-    const CadRequest request = receive_request(socket);
-    limit_to(request.seconds);
-    answer(request, socket);
-  } catch (...) {
-    send_reply(socket, Reply::kMessage, as_utf8(why_not()));
-  }
-  _exit(1);
+  delquad::work_for(
+      socket, parent,
+      [&](const std::string& bytes) {
+        const CadRequest request = request_from(bytes);
+        limit_to(request.seconds);
+        answer(request, socket);
+      },
+      [] { return as_utf8(why_not()); });
 }
 
 }  // namespace delquad::cad

@@ -11,11 +11,11 @@
 
 #include "base/activity.h"
 #include "base/parallel.h"
+#include "base/worker_process.h"
 #include "delquad/error.h"
 #include "geometry/cad/cad_request.h"
 #include "geometry/cad/shape_file.h"
 #include "geometry/cad/watch_kernel.h"
-#include "geometry/cad/worker_process.h"
 
 namespace delquad::cad {
 
@@ -62,10 +62,10 @@ class WorkersActivity {
 std::pair<Reply, std::string> ask_worker(const CadRequest& request) {
   std::optional<std::pair<Reply, std::string>> last;
   WorkersActivity activity;
-  WorkerProcess worker;
-  worker.ask(request, [&](Reply reply, const std::string& text) {
-    activity.hear(reply, text);
-    if (is_last(reply)) last.emplace(reply, text);
+  WorkerProcess worker(find_worker());
+  worker.ask(to_bytes(request), [&](char kind, const std::string& text) {
+    activity.hear(Reply{kind}, text);
+    if (is_last(kind)) last.emplace(Reply{kind}, text);
   });
   if (!last) throw InputError("damaged: the CAD kernel crashes or finds no end" + activity.text());
   return *std::move(last);

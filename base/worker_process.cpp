@@ -1,10 +1,12 @@
-#include "geometry/cad/worker_process.h"
+#include "base/worker_process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,12 +16,13 @@
 #include <cstdint>
 #include <cstring>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include "base/context.h"
 #include "delquad/error.h"
 
-namespace delquad::cad {
+namespace delquad {
 
 namespace {
 
@@ -28,7 +31,8 @@ constexpr int kTick = 20;
 constexpr std::size_t kLengthBytes = sizeof(std::uint64_t), kHead = 1 + kLengthBytes;
 
 [[noreturn]] void refuse(const std::string& what, int error) {
-  throw InputError(fmt::format("no process can be started to read CAD: {}: {}", what, std::strerror(error)));
+  throw InputError(
+      fmt::format("no process can be started to read files: {}: {}", what, std::strerror(error)));
 }
 
 std::string framed(char first, const std::string& text) {
@@ -100,7 +104,7 @@ class Spawning {
 };
 
 /// Takes the whole replies from the front of the buffer; says whether the last one was among them.
-bool hear_all(std::string& buffer, const std::function<void(Reply, const std::string&)>& hear) {
+bool hear_all(std::string& buffer, const std::function<void(char, const std::string&)>& hear) {
   std::size_t at = 0;
   bool last = false;
   while (!last && buffer.size() - at >= kHead) {
@@ -110,26 +114,49 @@ bool hear_all(std::string& buffer, const std::function<void(Reply, const std::st
       buffer.reserve(at + kHead + length);
       break;
     }
-    const Reply reply{head[0]};
-    hear(reply, buffer.substr(at + kHead, length));
-    last = is_last(reply);
+    hear(head[0], buffer.substr(at + kHead, length));
+    last = is_last(head[0]);
     at += kHead + length;
   }
   buffer.erase(0, at);
   return last;
 }
 
+/// The worker is of use only as long as somebody listens, and must not go on for ever.
+void end_with(int parent, int socket) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);
+  std::thread([socket] {
+    pollfd entry{socket, POLLRDHUP, 0};
+    while (poll(&entry, 1, -1) <= 0) {
+    }
+    _exit(1);
+  }).detach();
+}
+
+std::string receive_request(int socket) {
+  const auto read_exactly = [socket](std::size_t size) {
+    std::string bytes(size, '\0');
+    for (std::size_t got = 0; got < size;) {
+      const ssize_t n = recv(socket, bytes.data() + got, size - got, 0);
+      if (n == 0 || (n < 0 && errno != EINTR)) _exit(1);
+      if (n > 0) got += static_cast<std::size_t>(n);
+    }
+    return bytes;
+  };
+  return read_exactly(length_in(read_exactly(kHead)));
+}
+
 }  // namespace
 
-WorkerProcess::WorkerProcess() {
-  const std::string program = find_worker();
+WorkerProcess::WorkerProcess(const std::filesystem::path& program) {
   const auto [ours, its] = connected_pair();
   const int error = Spawning(its).start(program, pid_);
   close(its);
   socket_ = ours;
   if (error == 0) return;
   close(ours);
-  refuse(program, error);
+  refuse(program.string(), error);
 }
 
 WorkerProcess::~WorkerProcess() {
@@ -159,9 +186,9 @@ bool WorkerProcess::read_some(std::string& buffer) const {
   return more;
 }
 
-void WorkerProcess::ask(const CadRequest& request,
-                        const std::function<void(Reply, const std::string&)>& hear) {
-  const std::string message = framed('?', to_bytes(request));
+void WorkerProcess::ask(const std::string& request,
+                        const std::function<void(char, const std::string&)>& hear) {
+  const std::string message = framed('?', request);
   std::string buffer;
   for (std::size_t sent = 0;;) {
     check_cancelled();
@@ -180,29 +207,33 @@ void WorkerProcess::ask(const CadRequest& request,
   }
 }
 
-void send_reply(int socket, Reply reply, const std::string& text) {
+void send_reply(int socket, char kind, const std::string& text) {
   static std::mutex one_by_one;
   const std::lock_guard lock(one_by_one);
-  const std::string frame = framed(static_cast<char>(reply), text);
+  const std::string frame = framed(kind, text);
   for (std::size_t sent = 0; sent < frame.size();) {
     const ssize_t n = send(socket, frame.data() + sent, frame.size() - sent, MSG_NOSIGNAL);
     if (n < 0 && errno != EINTR) _exit(1);
     if (n > 0) sent += static_cast<std::size_t>(n);
   }
-  if (is_last(reply)) _exit(0);
+  if (is_last(kind)) _exit(0);
 }
 
-CadRequest receive_request(int socket) {
-  const auto read_exactly = [socket](std::size_t size) {
-    std::string bytes(size, '\0');
-    for (std::size_t got = 0; got < size;) {
-      const ssize_t n = recv(socket, bytes.data() + got, size - got, 0);
-      if (n == 0 || (n < 0 && errno != EINTR)) _exit(1);
-      if (n > 0) got += static_cast<std::size_t>(n);
-    }
-    return bytes;
-  };
-  return request_from(read_exactly(length_in(read_exactly(kHead))));
+void limit_to(unsigned seconds) {
+  const rlimit time{seconds, seconds}, no_core{0, 0};
+  setrlimit(RLIMIT_CPU, &time);
+  setrlimit(RLIMIT_CORE, &no_core);
 }
 
-}  // namespace delquad::cad
+void work_for(int socket, int parent, const std::function<void(const std::string&)>& answer,
+              const std::function<std::string()>& why_not) {
+  end_with(parent, socket);
+  try {
+    answer(receive_request(socket));
+  } catch (...) {
+    send_reply(socket, kMessage, why_not());
+  }
+  _exit(1);
+}
+
+}  // namespace delquad

@@ -1,0 +1,66 @@
+#include "base/find_program.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <system_error>
+#include <vector>
+
+#include "delquad/error.h"
+
+namespace delquad {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_program(const fs::path& path) {
+  std::error_code unknown;
+  return fs::is_regular_file(path, unknown) && access(path.c_str(), X_OK) == 0;
+}
+
+/// One that was asked for is taken or refused; there is no other in its place.
+fs::path required(const fs::path& path, const std::string& who, const std::string& reads) {
+  if (is_program(path)) return path;
+  throw InputError(
+      fmt::format("{} says that {} reads {}: that is no program that can be run", who, path.string(), reads));
+}
+
+/// Folders in which it is looked for: that of the running program, that of the program or library that this
+/// code is in, and where it is installed, as seen from both.
+std::vector<fs::path> folders() {
+  std::vector<fs::path> all;
+  std::error_code unknown;
+  const fs::path program = fs::read_symlink("/proc/self/exe", unknown).parent_path();
+  if (!program.empty()) {
+    all.push_back(program);
+    all.push_back((program / DELQUAD_LIBEXEC_FROM_BIN).lexically_normal());
+  }
+  Dl_info here = {};
+  if (dladdr(reinterpret_cast<void*>(&is_program), &here) != 0 && here.dli_fname != nullptr) {
+    all.push_back(fs::absolute(here.dli_fname, unknown).parent_path());
+    all.push_back((all.back() / DELQUAD_LIBEXEC_FROM_LIB).lexically_normal());
+  }
+  all.emplace_back(DELQUAD_LIBEXEC);
+  return all;
+}
+
+}  // namespace
+
+fs::path find_program(const HelperProgram& program, const fs::path& chosen, const std::string& chooser) {
+  const char* variable = std::getenv(program.variable.c_str());
+  if (variable != nullptr && *variable != 0) return required(variable, program.variable, program.reads);
+  if (!chosen.empty()) return required(chosen, chooser, program.reads);
+  std::string places;
+  for (const fs::path& folder : folders()) {
+    if (is_program(folder / program.name)) return folder / program.name;
+    places += (places.empty() ? "" : ", ") + folder.string();
+  }
+  throw InputError(
+      fmt::format("the program {}, which reads {}, is not there: expected it in one of {}, or named by {}",
+                  program.name, program.reads, places, program.variable));
+}
+
+}  // namespace delquad
