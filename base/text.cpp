@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <system_error>
 
@@ -13,9 +14,23 @@
 
 namespace delquad {
 
-std::string show_point(Vec2 p) { return fmt::format("({:.6g}, {:.6g})", p.x, p.y); }
+namespace {
 
-std::string show_point(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
+/// Six digits, or as many as show hundredths: of map coordinates those are centimetres.
+std::string show_coordinate(double x) {
+  constexpr int kLeast = 6, kMost = 15, kHundredths = 3;
+  const double size = std::abs(x);
+  const int digits = size > 1 && size < 1e15 ? static_cast<int>(std::log10(size)) + kHundredths : kLeast;
+  return fmt::format("{:.{}g}", x, std::clamp(digits, kLeast, kMost));
+}
+
+}  // namespace
+
+std::string show_point(Vec2 p) { return fmt::format("({}, {})", show_coordinate(p.x), show_coordinate(p.y)); }
+
+std::string show_point(const Vec3& p) {
+  return fmt::format("({}, {}, {})", show_coordinate(p.x), show_coordinate(p.y), show_coordinate(p.z));
+}
 
 std::string counted(long long n, std::string_view what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
