@@ -1,6 +1,7 @@
 #include "base/located.h"
 #include "io/boundary_chains.h"
 #include "io/entity_names.h"
+#include "io/formats/numbered_mesh.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -47,10 +48,26 @@ void write_gr3(const std::filesystem::path& path, const Mesh& mesh) {
   });
 }
 
+/// Its triangles and quads. Depths and boundaries are left out.
+Mesh read_gr3(const std::filesystem::path& path, ReadNotes* notes, Strays) {
+  TextScanner in(path);
+  in.rest_of_line();  // a title
+  const long long n_elements = in.count("the number of elements"), n_nodes = in.count("the number of nodes");
+  in.rest_of_line();
+  NumberedMesh mesh;
+  for (long long i = 0; i < n_nodes; ++i, in.rest_of_line()) mesh.read_node(in);
+  for (long long i = 0; i < n_elements; ++i, in.rest_of_line()) {
+    in.integer("an element's number", 0, LLONG_MAX);
+    mesh.read_corners(in, in.integer("a number of corners", 3, 4));
+  }
+  if (!in.at_end() && notes != nullptr) notes->push_back("boundaries are left out");
+  return mesh.finished(in);
+}
+
 }  // namespace
 
 MeshFormat gr3_format() {
-  return {{".gr3", ".14", ".grd"}, "SCHISM; ADCIRC's fort.14, of triangles", nullptr, write_by<write_gr3>};
+  return {{".gr3", ".14", ".grd"}, "SCHISM; ADCIRC's fort.14, of triangles", read_gr3, write_by<write_gr3>};
 }
 
 }  // namespace delquad

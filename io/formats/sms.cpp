@@ -1,5 +1,9 @@
+#include <cctype>
+
+#include "base/text.h"
 #include "io/boundary_chains.h"
 #include "io/entity_names.h"
+#include "io/formats/numbered_mesh.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -59,8 +63,39 @@ void write_sms(const std::filesystem::path& path, const Mesh& mesh) {
   });
 }
 
+/// Its triangles, quads and materials with their names. Depths and node strings are left out.
+Mesh read_sms(const std::filesystem::path& path, ReadNotes* notes, Strays) {
+  TextScanner in(path);
+  if (in.token("MESH2D") != "MESH2D") in.fail("expected MESH2D");
+  NumberedMesh mesh;
+  NumberedEntities materials;
+  for (in.rest_of_line(); !in.at_end(); in.rest_of_line()) {
+    const std::string_view card = in.token("a card");
+    if (card == "ND") {
+      mesh.read_node(in);
+    } else if (card == "E3T" || card == "E4Q") {
+      in.integer("an element's number", 0, LLONG_MAX);
+      mesh.read_corners(in, card == "E3T" ? 3 : 4);
+      if (!in.at_end_of_line()) mesh.set_material(in.integer("a material", 0, NumberedEntities::kMostNumber));
+    } else if (card == "MAT") {
+      const std::string number(in.token("a material's number"));
+      std::string name(trimmed(in.rest_of_line()));
+      std::erase(name, '"');
+      materials.take_name(number + ": " + name, "", ": ", 2);
+    } else if (card.starts_with("E") && card.size() == 3 &&
+               std::isdigit(static_cast<unsigned char>(card[1]))) {
+      in.fail("elements {}: expected triangles E3T and quads E4Q", TextScanner::printable(card));
+    } else if (card == "NS" && notes != nullptr && notes->empty()) {
+      notes->push_back("node strings are left out");
+    }
+  }
+  return mesh.finished(in, std::move(materials));
+}
+
 }  // namespace
 
-MeshFormat sms_format() { return {{".2dm"}, "SMS: TUFLOW FV, Basement, QGIS", nullptr, write_by<write_sms>}; }
+MeshFormat sms_format() {
+  return {{".2dm"}, "SMS: TUFLOW FV, Basement, QGIS", read_sms, write_by<write_sms>};
+}
 
 }  // namespace delquad

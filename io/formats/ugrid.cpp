@@ -1,11 +1,17 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cerrno>
+#include <climits>
+#include <sstream>
 #include <utility>
 #include <variant>
 
+#include "base/located.h"
+#include "geometry/mesh/drop_unused_points.h"
 #include "io/boundary_chains.h"
 #include "io/entity_names.h"
+#include "io/face_reader.h"
 #include "io/library_file.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
@@ -154,6 +160,111 @@ void put_ugrid(NetcdfFile& file, const Mesh& mesh) {
   names(0, "mesh2d_node_point", "node", nodes, group_numbers(groups, 0, mesh.points.size()));
 }
 
+/// What a netCDF file holds, as text and numbers.
+class NetcdfInput {
+ public:
+  explicit NetcdfInput(const std::filesystem::path& path) : path_(path) {
+    check(nc_open(path.c_str(), NC_NOWRITE, &file_), "the file");
+  }
+  ~NetcdfInput() {
+    if (file_ >= 0) nc_close(file_);
+  }
+  NetcdfInput(const NetcdfInput&) = delete;
+  NetcdfInput& operator=(const NetcdfInput&) = delete;
+
+  int variables() const {
+    int n = 0;
+    check(nc_inq_nvars(file_, &n), "the variables");
+    return n;
+  }
+  int variable(const std::string& name) const {
+    int id = -1;
+    check(nc_inq_varid(file_, name.c_str(), &id), name);
+    return id;
+  }
+  /// Empty where there is none.
+  std::string text(int variable, const char* key) const {
+    std::size_t length = 0;
+    nc_type type = NC_NAT;
+    if (nc_inq_att(file_, variable, key, &type, &length) != NC_NOERR || type != NC_CHAR) return "";
+    std::string value(length, ' ');
+    check(nc_get_att_text(file_, variable, key, value.data()), key);
+    return value;
+  }
+  int number(int variable, const char* key, int otherwise) const {
+    int value = otherwise;
+    std::size_t length = 0;
+    if (nc_inq_attlen(file_, variable, key, &length) == NC_NOERR && length == 1)
+      check(nc_get_att_int(file_, variable, key, &value), key);
+    return value;
+  }
+  std::vector<std::size_t> shape(int variable) const {
+    int n = 0;
+    std::array<int, NC_MAX_VAR_DIMS> ids;
+    check(nc_inq_var(file_, variable, nullptr, nullptr, &n, ids.data(), nullptr), "a variable");
+    std::vector<std::size_t> sizes(static_cast<std::size_t>(n));
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+      check(nc_inq_dimlen(file_, ids[i], &sizes[i]), "a dimension");
+    return sizes;
+  }
+  std::vector<double> values(int variable) const {
+    std::size_t n = 1;
+    for (const std::size_t size : shape(variable)) n *= size;
+    std::vector<double> all(n);
+    check(nc_get_var_double(file_, variable, all.data()), "the values");
+    return all;
+  }
+
+ private:
+  void check(int status, const std::string& what) const {
+    if (status != NC_NOERR) refuse("{}: {} cannot be read: {}", path_.string(), what, nc_strerror(status));
+  }
+  const std::filesystem::path& path_;
+  int file_ = -1;
+};
+
+/// The first two-dimensional mesh of a UGRID file [UGRID 1.0]: nodes and faces; names are left out.
+Mesh read_ugrid(const std::filesystem::path& path, ReadNotes* notes, Strays) {
+  const NetcdfInput file(path);
+  int topology = 0;
+  while (topology < file.variables() && (file.text(topology, "cf_role") != "mesh_topology" ||
+                                         file.number(topology, "topology_dimension", 0) != 2))
+    ++topology;
+  if (topology == file.variables()) refuse("{}: no UGRID mesh of topology_dimension 2", path.string());
+  std::istringstream names(file.text(topology, "node_coordinates"));
+  std::string x_name, y_name;
+  names >> x_name >> y_name;
+  const std::vector<double> x = file.values(file.variable(x_name)), y = file.values(file.variable(y_name));
+  const int faces = file.variable(file.text(topology, "face_node_connectivity"));
+  const std::vector<std::size_t> shape = file.shape(faces);
+  if (x.size() != y.size() || shape.size() != 2)
+    refuse("{}: expected as many x as y, and rows of the nodes of faces", path.string());
+  Mesh mesh;
+  mesh.regions = {{1, {}}};
+  for (std::size_t i = 0; i < x.size(); ++i) mesh.points.push_back({x[i], y[i], 0});
+  const std::vector<double> nodes = file.values(faces);
+  const int start = file.number(faces, "start_index", 0);
+  const std::size_t n_faces = shape[0], widest = shape[1];
+  const double none = file.number(faces, "_FillValue", INT_MIN);
+  for (std::size_t f = 0; f < n_faces; ++f) {
+    std::vector<int> corners;
+    for (std::size_t k = 0; k < widest; ++k) {
+      const double node = nodes[f * widest + k];
+      if (node == none) continue;
+      if (!(node >= start) || node - start >= static_cast<double>(x.size()))
+        refuse("{}: face {} has node {}, and there are {}", path.string(), f + 1, node, x.size());
+      corners.push_back(static_cast<int>(node) - start);
+    }
+    if (corners.size() != 3 && corners.size() != 4)
+      refuse("{}: face {} has {} corners: expected triangles and quads", path.string(), f + 1,
+             corners.size());
+    add_element(mesh, static_cast<int>(corners.size()), corners, 0);
+  }
+  if (notes != nullptr) notes->push_back("names are left out");
+  drop_unused_points(mesh);
+  return mesh;
+}
+
 void write_ugrid(const std::filesystem::path& path, const Mesh& mesh) {
   require_planar(path, "UGRID's 2D mesh", mesh);
   write_by_library(path, [&](const std::filesystem::path& temporary) {
@@ -174,7 +285,7 @@ MeshFormat ugrid_format() {
       .package = "libnetcdf-dev",
       .renamed = [](const Mesh& mesh) { return renamed_groups(mesh_groups(mesh, {word_label})); }};
 #ifdef DELQUAD_HAS_NETCDF
-  format.write = write_by<write_ugrid>, format.package = "";
+  format.read = read_ugrid, format.write = write_by<write_ugrid>, format.package = "";
 #endif
   return format;
 }

@@ -30,6 +30,12 @@ Mesh ring(const std::string& hole) {
   return mesh;
 }
 
+bool has_netcdf() {
+  return std::ranges::any_of(mesh_formats(), [](const MeshFormat& format) {
+    return format.extensions[0] == ".nc" && format.package.empty();
+  });
+}
+
 TEST(JoinedEdges, EndWhereSeveralGoOn) {
   EXPECT_EQ(join_edges({{3, 1}, {1, 2}, {5, 3}}), (std::vector<Nodes>{{5, 3, 1, 2}}));
   EXPECT_EQ(join_edges({{2, 0}, {0, 1}, {1, 2}}), (std::vector<Nodes>{{0, 1, 2, 0}}));
@@ -101,6 +107,44 @@ TEST(Sms, NodeStringsOfOneNameHaveTheirOwn) {
             "ND 1 0 0 0\nND 2 1 0 0\nND 3 0 1 0\nND 4 1 1 0\n"
             "NS 1 -2 the_shore\nNS 4 -3 the_shore_2\nNS 2 -4 east\nNS 3 -1 west\n"
             "BEGPARAMDEF\nMAT 1 \"inside\"\nENDPARAMDEF\n");
+}
+
+TEST(CoastFormats, AreReadBack) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.2dm", "a.gr3", "a.nc"}) {
+    if (std::string(name) == "a.nc" && !has_netcdf()) continue;
+    Mesh mesh = ring("rock");
+    mesh.triangles = {{5, 6, 10}, {5, 10, 9}};
+    mesh.triangle_region = {0, 0};
+    write_mesh(folder / name, mesh);
+    ReadNotes notes;
+    const Mesh read = read_mesh(folder / name, &notes);
+    EXPECT_EQ(read.points, mesh.points) << name;
+    EXPECT_EQ(read.quads, mesh.quads) << name;
+    EXPECT_EQ(read.triangles, mesh.triangles) << name;
+    EXPECT_EQ(notes.size(), 1u) << name;
+  }
+  EXPECT_EQ(read_mesh(folder / "a.2dm").regions[0].names, std::vector<std::string>{"inside"});
+}
+
+TEST(CoastFormats, DepthsAreLeftOutAndMistakesAreLocated) {
+  const TemporaryFolder folder;
+  using testing_support::write_text;
+  const Mesh mesh = read_mesh(write_text(
+      folder / "a.2dm", "MESH2D\nE3T 1 7 8 9 5\nND 7 0 0 -3.5\nND 8 1 0 2\nND 9 0 1 1e3\nMAT 5 \"mud\"\n"));
+  EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.regions[0].tag, 5);
+  EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"mud"});
+  expect_input_error([&] { read_mesh(write_text(folder / "b.2dm", "MESH2D\nE3T 1 7 8 9 5\n")); },
+                     {"b.2dm:2: there is no node 7"});
+  expect_input_error([&] { read_mesh(write_text(folder / "c.2dm", "MESH2D\nE8Q 1 7 8 9 5\n")); },
+                     {"c.2dm:2", "'E8Q'"});
+  expect_input_error(
+      [&] { read_mesh(write_text(folder / "a.gr3", "x\n1 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n1 3 1 2 4\n")); },
+      {"a.gr3:6: there is no node 4"});
+  if (has_netcdf())
+    expect_input_error([&] { read_mesh(write_text(folder / "b.nc", "CDF\1")); },
+                       {"b.nc: the file cannot be read"});
 }
 
 TEST(PlanarFormats, RefuseSurfaces) {
