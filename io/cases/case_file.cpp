@@ -18,6 +18,7 @@
 #include "geometry/surface/triangulated_model.h"
 #include "io/cases/case_keys.h"
 #include "io/cases/model_file.h"
+#include "io/cases/outline_files.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
 
@@ -310,7 +311,7 @@ void set_model(Model model, Case& target) {
 /// A file of lines, triangles or CAD as the case's model, if its extension says so.
 bool set_model_file(const std::filesystem::path& file, Case& target) {
   const std::string kind = kind_of_file(file);
-  if (kind != ".msh" && kind != ".geojson" && !is_surface_file(file)) return false;
+  if (kind != ".msh" && !outline_file_of(file) && !is_surface_file(file)) return false;
   set_model(ModelFile{file}, target);
   return true;
 }
@@ -432,6 +433,7 @@ std::string example_of(const MeshProblem& problem) {
 
 std::filesystem::path model_path(const MeshProblem& problem) {
   const auto* file = std::get_if<ModelFile>(&problem.model);
+  if (const auto outlines = outline_file_of(file == nullptr ? "" : file->path)) return outlines->path;
   return file == nullptr ? std::filesystem::path() : file->path;
 }
 
@@ -483,8 +485,8 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   if (set_model_file(file, result)) return result;
   if (kind_of_file(file) != ".toml")
     throw InputError(file.string() + ": unknown kind of model '" + file.extension().string() +
-                     "'; known: .toml (curves and loops), .geojson (polygons), .msh (lines or triangles), " +
-                     surface_files());
+                     "'; known: .toml (curves and loops), .msh (lines or triangles), " + surface_files() +
+                     ", and outlines: " + outline_files());
   const TomlTable table = TomlTable::read(file);
   if (table.has("case"))
     refuse("{}: this is an experiment with cases of its own: run it with 'delquad run'", table.where("case"));

@@ -1,17 +1,21 @@
 #include "io/cases/outline_files.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "base/located.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "io/gdal/gdal_files.h"
+#include "io/mesh_io.h"
 #include "io/text_scanner.h"
 
 namespace delquad {
@@ -19,12 +23,16 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr const char* kGeoJson = ".geojson";
+/// All but this by GDAL.
+const std::set<std::string> kKinds = {kGeoJson, ".shp", ".gpkg", ".fgb", ".gml", ".kml", ".tab", ".mif"};
+
 class GeoJsonReader {
  public:
-  explicit GeoJsonReader(const std::filesystem::path& path) : path_(path.string()) {
+  GeoJsonReader(const std::filesystem::path& path, const Outlines& file) : path_(path.string()) {
     Json root;
     try {
-      root = Json::parse(read_whole_file(path));
+      root = Json::parse(file.geojson);
     } catch (const Json::exception& error) {
       refuse("{}: no GeoJSON: {}", path_, error.what());
     }
@@ -32,13 +40,14 @@ class GeoJsonReader {
     try {
       read(root, path_, "");
       if (model_.loops.empty()) refuse("{}: there are no polygons", path_);
-      check_unit(root);
+      check_unit(root, file);
     } catch (const Json::exception& error) {
       refuse("{}: {}", where_, error.what());
     }
   }
 
   PlanarModel model() { return std::move(model_); }
+  const std::string& crs() const { return crs_; }
 
  private:
   void read(const Json& object, const std::string& where, const std::string& name, int depth = 0) {
@@ -68,6 +77,9 @@ class GeoJsonReader {
     } else if (type == "MultiLineString") {
       for (const Json& line : object.at("coordinates"))
         add_curve(line, fmt::format("{}, line {}", where, ++n), name);
+    } else if (type == "MultiPoint") {
+      for (const Json& at : object.at("coordinates"))
+        model_.points.push_back({point(at, where), name, where});
     } else if (type == "Point") {
       model_.points.push_back({point(object.at("coordinates"), where), name, where});
     } else {
@@ -78,9 +90,10 @@ class GeoJsonReader {
   static std::string name_of(const Json& feature) {
     if (const auto properties = feature.find("properties");
         properties != feature.end() && properties->is_object())
-      for (const char* key : {"name", "NAME", "id"})
-        if (const auto name = properties->find(key); name != properties->end() && !name->is_null())
-          return name->is_string() ? name->get<std::string>() : name->dump();
+      for (const char* key : {"NAME", "ID"})
+        for (const auto& [property, name] : properties->items())
+          if (upper(property) == key && !name.is_null())
+            return name.is_string() ? name.get<std::string>() : name.dump();
     return "";
   }
 
@@ -115,26 +128,54 @@ class GeoJsonReader {
     }
   }
 
-  void check_unit(const Json& root) const {
-    std::string crs;
-    if (const auto at = root.find("crs"); at != root.end() && at->is_object())
-      crs = at->at("properties").at("name");
-    if (crs.ends_with("CRS84") || crs.ends_with(":4326") || (crs.empty() && are_degrees_))
+  void check_unit(const Json& root, const Outlines& file) {
+    crs_ = file.crs;
+    if (const auto at = root.find("crs"); crs_.empty() && at != root.end() && at->is_object())
+      crs_ = at->at("properties").at("name");
+    if (file.in_degrees || crs_.ends_with("CRS84") || crs_.ends_with(":4326") ||
+        (crs_.empty() && are_degrees_))
       refuse(
-          "{}: the coordinates are degrees of longitude and latitude: expected lengths, such as 'ogr2ogr "
-          "-t_srs "
-          "EPSG:CODE' makes of them; if they are lengths, say so by a \"crs\" of any other name",
+          "{0}: the coordinates are degrees of longitude and latitude: expected lengths, which {0}@utm or "
+          "{0}@EPSG:CODE make of them; if they are lengths, say so by a coordinate system (in GeoJSON a "
+          "\"crs\" of any other name)",
           path_);
   }
 
-  std::string path_, where_;
+  std::string path_, where_, crs_;
   PlanarModel model_;
   bool are_degrees_ = true;
 };
 
 }  // namespace
 
-PlanarModel read_geojson(const std::filesystem::path& path) { return GeoJsonReader(path).model(); }
+PlanarModel read_geojson(const std::filesystem::path& path) {
+  return GeoJsonReader(path, {std::string(read_whole_file(path))}).model();
+}
+
+PlanarModel read_outlines(const OutlineFile& file, std::string& crs) {
+  const std::string kind = kind_of_file(file.path);
+  const bool as_it_is = file.layer.empty() && file.project.empty();
+  GeoJsonReader reader(file.path, kind == kGeoJson && as_it_is
+                                      ? Outlines{std::string(read_whole_file(file.path))}
+                                      : read_layer(file.path, file.layer, file.project));
+  crs = reader.crs();
+  return reader.model();
+}
+
+std::optional<OutlineFile> outline_file_of(const std::filesystem::path& name) {
+  const std::string text = name.string();
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    at = std::min(text.find_first_of(":@", at), text.size());
+    const std::string path = text.substr(0, at), rest = text.substr(at);
+    if (kKinds.count(kind_of_file(path)) == 0) continue;
+    const std::size_t crs = std::min(rest.find('@'), rest.size());
+    return OutlineFile{path, crs > 0 ? rest.substr(1, crs - 1) : "",
+                       crs < rest.size() ? rest.substr(crs + 1) : ""};
+  }
+  return std::nullopt;
+}
+
+std::string outline_files() { return fmt::format("{}", fmt::join(kKinds, ", ")); }
 
 std::vector<Vec2> read_points(const std::filesystem::path& path) {
   TextScanner in(path);

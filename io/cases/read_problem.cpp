@@ -27,6 +27,7 @@
 #include "geometry/planar/planar_model.h"
 #include "io/cases/expression.h"
 #include "io/formats/msh.h"
+#include "io/gdal/gdal_files.h"
 #include "io/mesh_io.h"
 
 namespace delquad {
@@ -79,8 +80,23 @@ auto formula_or_word(const std::string& text, const std::vector<std::string>& wo
   }
 }
 
-/// A number, an expression or a file as a field.
-std::shared_ptr<const SizeField> make_field(const SizeSpec& size) {
+/// A formula of the place and the value of a raster there, which is in `crs`, where that is known.
+std::shared_ptr<const SizeField> make_raster_size(const SizeFile& file, const std::string& crs) {
+  const Expression delta(file.field.empty() ? "value" : file.field, {"x", "y", "z", "value"});
+  const auto raster = std::make_shared<const Raster>(read_raster(file.path, crs));
+  return make_function_size(
+      [delta, raster, path = file.path.string()](const Vec3& x) {
+        const Vec2 p{x.x, x.y};
+        if (!raster->grid.covers(p)) refuse("{}: the raster does not cover {}", path, show_point(p));
+        const double values[] = {x.x, x.y, x.z, raster->at(p)};
+        if (std::isnan(values[3])) refuse("{}: the raster has no data around {}", path, show_point(p));
+        return delta(values);
+      },
+      fmt::format("size field '{}' of {}", delta.shown(), file.path.string()));
+}
+
+/// A number, an expression or a file as a field, in the coordinate system `crs`, where that is known.
+std::shared_ptr<const SizeField> make_field(const SizeSpec& size, const std::string& crs = {}) {
   const std::string &text = size.text, &where = size.where;
   if (const auto number = as_number(text)) {
     if (!(*number > 0) || *number > std::numeric_limits<double>::max())
@@ -88,8 +104,10 @@ std::shared_ptr<const SizeField> make_field(const SizeSpec& size) {
     return make_constant_size(*number);
   }
   if (const auto file = size_file_of(text, size.folder))
-    return located(where,
-                   [&] { return std::shared_ptr<const SizeField>(make_file_size(file->path, file->field)); });
+    return located(where, [&]() -> std::shared_ptr<const SizeField> {
+      if (is_raster_file(file->path)) return make_raster_size(*file, crs);
+      return make_file_size(file->path, file->field);
+    });
   return located(where, [&] {
     return std::make_shared<Located<SizeField, const Vec3&, double>>(
         formula_or_word(text, known_words({kFromBoundary}, added_sizes()),
@@ -98,7 +116,7 @@ std::shared_ptr<const SizeField> make_field(const SizeSpec& size) {
   });
 }
 
-void read_size(SizeSpec& size, const Options& options) {
+void read_size(SizeSpec& size, const Options& options, const std::string& crs) {
   if (size.text.empty() || size.field || size.function || size.from_boundary) return;
   if (const auto* fill = added_sizes().find(size.text)) {
     located(size.where, [&] { (*fill)(options, size); });
@@ -106,7 +124,7 @@ void read_size(SizeSpec& size, const Options& options) {
     return;
   }
   size.from_boundary = size.text == kFromBoundary;
-  if (!size.from_boundary) size.field = make_field(size);
+  if (!size.from_boundary) size.field = make_field(size, crs);
 }
 
 /// Of the second differences of a solution that is known as a formula, in diagonals of the domain: far below
@@ -200,7 +218,8 @@ Model read_msh_model(const std::filesystem::path& path) {
   return lines;
 }
 
-Model read_model(const ModelFile& file, bool keep_going) {
+/// With the coordinate system of outlines, where that is known.
+Model read_model(const ModelFile& file, bool keep_going, std::string& crs) {
   const DoingStage stage("reading");
   const std::string kind = kind_of_file(file.path);
   if (file.given) {
@@ -208,7 +227,7 @@ Model read_model(const ModelFile& file, bool keep_going) {
     given.mesh = read_mesh(file.path, &given.notes);
     return given;
   }
-  if (kind == ".geojson") return read_geojson(file.path);
+  if (const auto outlines = outline_file_of(file.path)) return read_outlines(*outlines, crs);
   if (kCadFiles.count(kind) > 0) return CadModel{file.path};
   if (kTriangleFiles.count(kind) == 0) return read_msh_model(file.path);
   TriangleModel triangles{{}, file.path.string()};
@@ -234,10 +253,11 @@ std::string text_of(const CrossSpec& cross) {
 }
 
 MeshProblem read_files(MeshProblem problem) {
+  std::string crs;
   if (const auto* file = std::get_if<ModelFile>(&problem.model))
-    problem.model = located(problem.where, [&] { return read_model(*file, problem.keep_going); });
+    problem.model = located(problem.where, [&] { return read_model(*file, problem.keep_going, crs); });
   if (problem.size.where.empty()) problem.size.where = problem.where;
-  read_size(problem.size, problem.options);
+  read_size(problem.size, problem.options, crs);
   read_metric(problem.model, problem.metric);
   read_cross(problem.cross, problem.options);
   return problem;
@@ -261,10 +281,11 @@ std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::strin
 }
 
 std::optional<SizeFile> size_file_of(const std::string& text, const std::filesystem::path& folder) {
-  if (holds_values(text)) return SizeFile{folder / text, ""};
+  const auto is_file = [](const std::string& name) { return holds_values(name) || is_raster_file(name); };
+  if (is_file(text)) return SizeFile{folder / text, ""};
   for (std::size_t at = text.find(':'); at != std::string::npos; at = text.find(':', at + 1))
-    if (const std::string file = text.substr(0, at); holds_values(file))
-      return SizeFile{folder / file, text.substr(at + 1)};
+    if (const std::string file = text.substr(0, at); is_file(file))
+      return SizeFile{folder / file, std::string(trimmed(text.substr(at + 1)))};
   return std::nullopt;
 }
 

@@ -29,13 +29,13 @@ void check_case(const Case& c);
 /// as --size gives it.
 std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text);
 
-/// A size that a file gives at the points of its mesh.
+/// A size that a file gives at the points of its mesh, or a formula of the `value` of a raster.
 struct SizeFile {
   std::filesystem::path path;
   std::string field;  ///< empty: the only one that it has
 };
 
-/// What "FILE" or "FILE:FIELD" means, where FILE ends in .msh or .vtu (and .gz) and counts from `folder`;
+/// What "FILE" or "FILE:FIELD" means, where FILE ends as meshes or rasters do, and counts from `folder`;
 /// nothing for other texts.
 std::optional<SizeFile> size_file_of(const std::string& text, const std::filesystem::path& folder);
 

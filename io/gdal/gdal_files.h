@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "delquad/mesh.h"
+
+// Files that GDAL reads, in a process of its own (see WorkerProcess): loading it takes 90 ms of processor
+// time, and damaged files must not bring the program down.
+
+namespace delquad {
+
+/// A layer of a file of outlines.
+struct Outlines {
+  std::string geojson;
+  std::string crs = {};  ///< coordinate system, "EPSG:32631" or WKT; empty: the file says none
+  bool in_degrees = false;
+};
+
+/// A layer by its name (empty: the only one), projected to a coordinate system, as PROJ reads it, or "utm":
+/// the zone of its middle (empty: as it is).
+Outlines read_layer(const std::filesystem::path& path, const std::string& layer, const std::string& project);
+
+/// Rows and columns of cells in the plane.
+struct RasterGrid {
+  int columns = 0, rows = 0;
+  std::array<double, 6> to_cells = {};  ///< of (1, x, y), first to columns: cell (0, 0) is from 0 to 1
+  Vec2 cell_at(Vec2 p) const;
+  bool covers(Vec2 p) const;
+};
+
+/// The first band of a raster.
+struct Raster {
+  RasterGrid grid;
+  std::vector<float> values;  ///< row by row; not a number: there is none
+
+  /// Bilinear between the middles of cells, of those that have a value; constant from the outer ones on. Not
+  /// a number where none of four has one.
+  double at(Vec2 p) const;
+};
+
+/// Projected to `crs` where both are known and differ.
+Raster read_raster(const std::filesystem::path& path, const std::string& crs);
+bool is_raster_file(const std::filesystem::path& path);
+
+}  // namespace delquad

@@ -1,0 +1,220 @@
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "io/cases/case_file.h"
+#include "io/cases/outline_files.h"
+#include "io/cases/read_problem.h"
+#include "io/gdal/gdal_files.h"
+#include "io/mesh_io.h"
+#include "tests/program/program.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace delquad {
+namespace {
+
+using testing_support::contains;
+using testing_support::write_text;
+
+constexpr int kUtm31 = 32631, kDegrees4326 = 4326;
+/// Corner of the domain of the tests, metres of UTM.
+constexpr double kX = 500'000, kY = 5'800'000;
+
+OGRSpatialReference system_of(int code) {
+  OGRSpatialReference system;
+  system.importFromEPSG(code);
+  system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return system;
+}
+
+std::string ring(double x, double y, double side) {
+  return fmt::format("({0} {1}, {2} {1}, {2} {3}, {0} {3}, {0} {1})", x, y, x + side, y + side);
+}
+/// A square of 10 km with two islands of 1 km.
+std::string sea() {
+  return "POLYGON (" + ring(kX, kY, 1e4) + ", " + ring(kX + 2e3, kY + 2e3, 1e3) + ", " +
+         ring(kX + 6e3, kY + 6e3, 1e3) + ")";
+}
+
+class GdalFiles : public testing::Test {
+ protected:
+  GdalFiles() {
+    setenv("DELQUAD_GDAL_WORKER", DELQUAD_GDAL_PROGRAM, /*overwrite=*/0);
+    GDALAllRegister();
+  }
+
+  /// Adds a layer of one feature.
+  std::filesystem::path write_layer(const std::string& name, const char* driver, const std::string& layer,
+                                    int code, const std::string& wkt) {
+    const std::filesystem::path path = folder_ / name;
+    GDALDatasetUniquePtr file(std::filesystem::exists(path)
+                                  ? GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE)
+                                  : GetGDALDriverManager()->GetDriverByName(driver)->Create(
+                                        path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    OGRSpatialReference system = system_of(code > 0 ? code : kUtm31);
+    OGRLayer* made = file->CreateLayer(layer.c_str(), code > 0 ? &system : nullptr, wkbUnknown);
+    OGRFieldDefn field("Name", OFTString);
+    made->CreateField(&field);
+    OGRFeature feature(made->GetLayerDefn());
+    feature.SetField("Name", "Nordsee");
+    OGRGeometry* geometry = nullptr;
+    OGRGeometryFactory::createFromWkt(wkt.c_str(), nullptr, &geometry);
+    feature.SetGeometryDirectly(geometry);
+    EXPECT_EQ(made->CreateFeature(&feature), OGRERR_NONE);
+    return path;
+  }
+
+  /// Rows from the top.
+  std::filesystem::path write_tiff(const std::string& name, int code, std::array<double, 6> place,
+                                   int columns, std::vector<float> values) {
+    const std::filesystem::path path = folder_ / name;
+    const int rows = static_cast<int>(values.size()) / columns;
+    GDALDatasetUniquePtr file(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+        path.c_str(), columns, rows, 1, GDT_Float32, nullptr));
+    const OGRSpatialReference system = system_of(code);
+    file->SetSpatialRef(&system);
+    file->SetGeoTransform(place.data());
+    file->GetRasterBand(1)->SetNoDataValue(-9999);
+    EXPECT_EQ(file->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, columns, rows, values.data(), columns, rows,
+                                               GDT_Float32, 0, 0),
+              CE_None);
+    return path;
+  }
+
+  PlanarModel read(const std::string& name) { return read_outlines(*outline_file_of(folder_ / name), crs_); }
+
+  testing_support::TemporaryFolder folder_;
+  std::string crs_;
+};
+
+TEST_F(GdalFiles, NamesSayFileLayerAndCoordinateSystem) {
+  const auto whole = outline_file_of("a/b.gpkg:Inseln@EPSG:32631");
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->path, "a/b.gpkg");
+  EXPECT_EQ(whole->layer, "Inseln");
+  EXPECT_EQ(whole->project, "EPSG:32631");
+  EXPECT_EQ(outline_file_of("b.SHP@utm")->project, "utm");
+  EXPECT_EQ(outline_file_of("b.SHP@utm")->layer, "");
+  EXPECT_FALSE(outline_file_of("b.shp.toml"));
+}
+
+TEST_F(GdalFiles, AShapefileIsWhatItsGeoJsonIs) {
+  write_layer("sea.shp", "ESRI Shapefile", "sea", kUtm31, sea());
+  const PlanarModel model = read("sea.shp");
+  EXPECT_EQ(crs_, "EPSG:32631");
+  ASSERT_EQ(model.loops.size(), 3u);
+  EXPECT_EQ(model.loops[0].region, "Nordsee");
+  EXPECT_TRUE(model.loops[1].is_hole && model.loops[2].is_hole);
+  EXPECT_EQ(model.curves[2].name, "Nordsee_hole_2");
+  EXPECT_NE(model.curves[2].where.find("sea.shp: feature 1 ('Nordsee'), ring 3"), std::string::npos);
+  EXPECT_TRUE(model.curves[0].is_data);
+  EXPECT_EQ(model.curves[0].shape->point(0), (Vec2{kX, kY}));
+}
+
+TEST_F(GdalFiles, LayersGoByNameWhereThereAreSeveral) {
+  write_layer("two.gpkg", "GPKG", "sea", kUtm31, sea());
+  EXPECT_EQ(read("two.gpkg").loops.size(), 3u);
+  write_layer("two.gpkg", "GPKG", "lake", kUtm31, "POLYGON (" + ring(kX, kY, 1) + ")");
+  EXPECT_EQ(read("two.gpkg:lake").loops.size(), 1u);
+  expect_input_error([&] { read("two.gpkg"); }, {"two.gpkg: there are several layers", "sea, lake"});
+  expect_input_error([&] { read("two.gpkg:river"); }, {"no layer 'river'", "sea, lake"});
+}
+
+TEST_F(GdalFiles, DegreesAreRefusedOrProjected) {
+  write_layer("d.gpkg", "GPKG", "d", kDegrees4326, "POLYGON ((3 52, 3.1 52, 3.1 52.1, 3 52.1, 3 52))");
+  expect_input_error([&] { read("d.gpkg"); }, {"d.gpkg: the coordinates are degrees", "d.gpkg@utm"});
+  const PlanarModel model = read("d.gpkg@utm");
+  EXPECT_EQ(crs_, "EPSG:32631");
+  // The central meridian of the zone; 0.9996 of the length of the meridian up to 52 degrees.
+  const Vec2 at = model.curves[0].shape->point(0);
+  EXPECT_NEAR(at.x, 500'000, 1e-3);
+  EXPECT_NEAR(at.y, 0.9996 * 5'763'343.55, 0.5);
+  expect_input_error([&] { read("d.gpkg@EPSG:99999999"); },
+                     {"d.gpkg", "EPSG:99999999", "no coordinate system"});
+  write_layer("none.shp", "ESRI Shapefile", "none", 0, sea());
+  EXPECT_EQ(read("none.shp").loops.size(), 3u);
+  expect_input_error([&] { read("none.shp@utm"); }, {"none.shp", "no coordinate system is told"});
+}
+
+TEST_F(GdalFiles, DamagedFilesAreRefused) {
+  const auto path = write_layer("cut.shp", "ESRI Shapefile", "cut", kUtm31, sea());
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  expect_input_error([&] { read("cut.shp"); }, {"cut.shp: GDAL: "});
+  write_text(folder_ / "text.gpkg", "no such file");
+  expect_input_error([&] { read("text.gpkg"); }, {"text.gpkg: GDAL"});
+  expect_input_error([&] { read_raster(write_text(folder_ / "text.tif", "none"), ""); }, {"text.tif: GDAL"});
+}
+
+TEST_F(GdalFiles, RastersAreBilinearBetweenTheMiddlesOfCells) {
+  // 3 x 2 cells of 2 m from (10, 20) up; linear in x and y but for the last, which has no data.
+  const Raster raster =
+      read_raster(write_tiff("a.tif", kUtm31, {10, 2, 0, 24, 0, -2}, 3, {31, 33, -9999, 11, 13, 15}), "");
+  EXPECT_DOUBLE_EQ(raster.at({11, 21}), 11);
+  EXPECT_DOUBLE_EQ(raster.at({12.5, 21.5}), 17.5);
+  EXPECT_DOUBLE_EQ(raster.at({10, 20}), 11);    // constant beyond the middles of the outer cells
+  EXPECT_DOUBLE_EQ(raster.at({15, 22.5}), 15);  // of those that have data
+  EXPECT_TRUE(std::isnan(raster.at({15, 23})));
+  EXPECT_TRUE(raster.grid.covers({16, 24}));
+  EXPECT_FALSE(raster.grid.covers({16.1, 24}));
+  const Raster ascii = read_raster(write_text(folder_ / "a.asc",
+                                              "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
+                                              "NODATA_value -1\n3 4\n1 -1\n"),
+                                   "");
+  EXPECT_EQ(ascii.at({0.5, 1.5}), 3);
+  EXPECT_TRUE(std::isnan(ascii.at({1.5, 0.5})));
+}
+
+TEST_F(GdalFiles, RastersOfOtherCoordinatesAreProjected) {
+  // Values are degrees of longitude from the central meridian.
+  std::vector<float> values;
+  for (int row = 0; row < 10; ++row)
+    for (int column = 0; column < 20; ++column)
+      values.push_back(0.05f + 0.1f * static_cast<float>(column) - 1);
+  const Raster raster =
+      read_raster(write_tiff("d.tif", kDegrees4326, {2, 0.1, 0, 53, 0, -0.1}, 20, values), "EPSG:32631");
+  EXPECT_NEAR(raster.at({500'000, kY}), 0, 2e-3);
+  EXPECT_NEAR(raster.at({500'000 + 0.5 * 68'300, kY}), 0.5, 5e-3);
+  EXPECT_FALSE(raster.grid.covers({0.1, 52.5}));
+}
+
+/// In one command.
+TEST_F(GdalFiles, ASeaWithIslandsAndDepthsBecomesAUgridFile) {
+  const auto shape = write_layer("sea.shp", "ESRI Shapefile", "sea", kUtm31, sea());
+  // Deeper to the east: 0.1 m to 100.1 m.
+  const auto depths =
+      write_tiff("depth.tif", kUtm31, {kX - 5e3, 1e4, 0, kY + 1e4, 0, -1e4}, 2, {0.1f, 100.1f});
+  const auto mesh_of = [&](const std::string& formula) {
+    return testing_support::delquad({"mesh", shape, "--size", depths.string() + ": " + formula, "-o",
+                                     folder_ / "sea.nc", "--quality", "fast"});
+  };
+  const auto result = mesh_of("max(200, 20 * sqrt(9.81 * value))");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Mesh mesh = read_mesh(folder_ / "sea.nc");
+  int west = 0, east = 0;
+  double area = 0;
+  for (const auto& quad : mesh.quads) {
+    const Vec3 &a = mesh.points[quad[0]], &c = mesh.points[quad[2]], &b = mesh.points[quad[1]],
+               &d = mesh.points[quad[3]];
+    area += ((c.x - a.x) * (d.y - b.y) - (c.y - a.y) * (d.x - b.x)) / 2;
+    (a.x < kX + 5e3 ? west : east) += 1;
+  }
+  EXPECT_NEAR(area, 98e6, 1);
+  EXPECT_GT(west, 2 * east);
+  const auto links = testing_support::delquad({"metrics", folder_ / "sea.nc", "--links"});
+  EXPECT_EQ(links.exit_code, 0) << links.err;
+  EXPECT_TRUE(contains(links.out, "links of flow"));
+
+  write_tiff("depth.tif", kUtm31, {kX + 1e3, 1e4, 0, kY + 1e4, 0, -1e4}, 2, {1, 100});
+  EXPECT_TRUE(contains(mesh_of("value").err, "the raster does not cover (500"));
+  write_tiff("depth.tif", kUtm31, {kX, 5e3, 0, kY + 1e4, 0, -1e4}, 2, {-9999, -9999});
+  EXPECT_TRUE(contains(mesh_of("value").err, "the raster has no data around (50"));
+  EXPECT_TRUE(contains(mesh_of("depth").err, "'depth' is not known (the variables are: x, y, z, value)"));
+}
+
+}  // namespace
+}  // namespace delquad
