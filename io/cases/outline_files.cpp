@@ -14,6 +14,7 @@
 #include "base/located.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "io/cases/dxf_file.h"
 #include "io/gdal/gdal_files.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
@@ -23,9 +24,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* kGeoJson = ".geojson";
-/// All but this by GDAL.
-const std::set<std::string> kKinds = {kGeoJson, ".shp", ".gpkg", ".fgb", ".gml", ".kml", ".tab", ".mif"};
+constexpr const char *kGeoJson = ".geojson", *kDxf = ".dxf";
+/// All but these by GDAL.
+const std::set<std::string> kKinds = {kGeoJson, ".shp", ".gpkg", ".fgb", ".gml",
+                                      ".kml",   ".tab", ".mif",  kDxf};
 
 class GeoJsonReader {
  public:
@@ -155,6 +157,9 @@ PlanarModel read_geojson(const std::filesystem::path& path) {
 PlanarModel read_outlines(const OutlineFile& file, std::string& crs) {
   const std::string kind = kind_of_file(file.path);
   const bool as_it_is = file.layer.empty() && file.project.empty();
+  if (kind == kDxf && !as_it_is)
+    refuse("{}: a drawing is read with all its layers, and is not projected", file.path.string());
+  if (kind == kDxf) return read_dxf(file.path);
   GeoJsonReader reader(file.path, kind == kGeoJson && as_it_is
                                       ? Outlines{std::string(read_whole_file(file.path))}
                                       : read_layer(file.path, file.layer, file.project));
