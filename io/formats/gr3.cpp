@@ -13,8 +13,10 @@ namespace {
 /// triangles.
 void write_gr3(const std::filesystem::path& path, const Mesh& mesh) {
   if (kind_of_file(path) != ".gr3" && !mesh.quads.empty())
-    refuse("{}: ADCIRC has triangles only, and there are {} quads: expected .gr3, for SCHISM, which has both",
-           path.string(), mesh.quads.size());
+    refuse(
+        "{}: ADCIRC has triangles only, and there are {} quads: expected triangles, of --pipeline D, or "
+        ".gr3, for SCHISM, which has both",
+        path.string(), mesh.quads.size());
   require_planar(path, "SCHISM's and ADCIRC's grid", mesh);
   const std::vector<CoastPiece> pieces = coast_pieces(mesh);
   write_text_file(path, [&](TextWriter& out) {
