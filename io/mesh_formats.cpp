@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/located.h"
+#include "base/nearest_name.h"
 #include "base/utf8.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/half_edges.h"
 #include "io/picture.h"
 
 namespace delquad {
@@ -53,7 +56,12 @@ std::string extensions_of(const Can& can) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     throw InputError(path.string() + ": is a folder: expected a mesh file");
-  refuse("{}: unknown kind of mesh file '{}': expected {}", path.string(), path.extension().string(), known);
+  std::vector<std::string> kinds;
+  for (const MeshFormat& format : mesh_formats()) kinds.push_back(format.extensions[0]);
+  const std::string kind = path.extension().string();
+  const bool is_slip = std::ranges::find(kinds, kind) == kinds.end();
+  refuse("{}: unknown kind of mesh file '{}': expected {}{}", path.string(), kind, known,
+         is_slip ? suggestion(kind, kinds) : "");
 }
 
 }  // namespace
@@ -98,7 +106,8 @@ const std::vector<MeshFormat>& mesh_formats() {
                                               {.extensions = {".svg"},
                                                .description = "a picture",
                                                .write = write_by<write_picture>,
-                                               .most_order = kMostOrder}};
+                                               .most_order = kMostOrder,
+                                               .names = 0}};
   return all;
 }
 
@@ -175,6 +184,48 @@ void write_serendipity(const std::filesystem::path& path, const Mesh& mesh, cons
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) eight.quad_nodes[5 * q + 4] = mesh.quads[q][0];
   drop_unused_points(eight);
   format.write(path, eight, options, QuadNodes::kNoMiddle);
+}
+
+int most_order_of(const std::filesystem::path& path) {
+  check_mesh_format(path);
+  return find_format(kind_to_write(path))->most_order;
+}
+
+Mesh straightened(Mesh mesh) {
+  mesh.order = 1;
+  mesh.line_nodes.clear();
+  mesh.quad_nodes.clear();
+  drop_unused_points(mesh);
+  return mesh;
+}
+
+std::vector<std::string> lost_in_file(const std::filesystem::path& path, const Mesh& mesh) {
+  const std::string kind = kind_to_write(path);
+  std::vector<std::string> lost;
+  if (const int most = most_order_of(path); mesh.order > most)
+    lost.push_back(fmt::format("the order of the elements, {}: '{}' has {} at most, corners are written",
+                               mesh.order, kind, most));
+  const unsigned names = find_format(kind)->names;
+  const auto add = [&](NameKinds which, const char* of, const std::set<std::string>& all) {
+    if ((names & which) == 0 && !all.empty())
+      lost.push_back(
+          fmt::format("names of {}, which '{}' does not hold: {}", of, kind, fmt::join(all, ", ")));
+  };
+  std::set<std::string> of_regions, of_points, inside, around;
+  for (const Entity& region : mesh.regions) of_regions.insert(region.names.begin(), region.names.end());
+  for (const NamedPoint& point : mesh.named_points)
+    of_points.insert(point.entity.names.begin(), point.entity.names.end());
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const std::vector<std::string>& of_curve = mesh.curves[mesh.line_curve[l]].names;
+    const bool is_inside = sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).size() > 1;
+    (is_inside ? inside : around).insert(of_curve.begin(), of_curve.end());
+  }
+  add(kRegionNames, "regions", of_regions);
+  add(kBoundaryNames, "curves of the boundary", around);
+  add(kInnerNames, "curves inside", inside);
+  add(kPointNames, "points", of_points);
+  return lost;
 }
 
 std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const Mesh& mesh) {

@@ -12,6 +12,15 @@ namespace delquad {
 /// Whether a format has quads of eight nodes: kAlways ones of order 2 have no others.
 enum class EightNodes { kNever, kWhenAsked, kAlways };
 
+/// Whose names a format holds.
+enum NameKinds : unsigned {
+  kRegionNames = 1,
+  kInnerNames = 2,
+  kBoundaryNames = 4,
+  kPointNames = 8,
+  kAllNames = 15
+};
+
 /// A kind of mesh file. What is written of it stands in its files in io/formats/ and in a line of
 /// mesh_formats.cpp.
 struct MeshFormat {
@@ -27,6 +36,7 @@ struct MeshFormat {
   bool has_binary = false;
   /// As renamed_in_file(); null: the file itself tells.
   std::vector<std::string> (*renamed)(const Mesh&) = nullptr;
+  unsigned names = kAllNames;  ///< NameKinds
 };
 
 /// Readers that note nothing.
@@ -45,5 +55,13 @@ bool can_write(const MeshFormat& format);
 
 /// In the order of the documentation.
 const std::vector<MeshFormat>& mesh_formats();
+
+/// The highest order of elements that write_mesh() writes there. Throws as check_mesh_format().
+int most_order_of(const std::filesystem::path& path);
+/// The mesh of its corners, of order 1.
+Mesh straightened(Mesh mesh);
+/// What of a mesh has no place in a file of that name, one line each: an order above those of the format, and
+/// names.
+std::vector<std::string> lost_in_file(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace delquad

@@ -59,13 +59,7 @@ void add_mesh_output(CLI::App& mesh, MeshArguments& arguments) {
   add_max_elements(mesh, arguments.max_elements);
   add_threads(mesh, arguments.threads);
   mesh.add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);
-  mesh.add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
-  static const std::map<std::string, MshCurves> curves = {
-      {"all", MshCurves::kAll}, {"named", MshCurves::kNamed}, {"boundary", MshCurves::kBoundary}};
-  mesh.add_option("--curves", arguments.msh.curves,
-                  "line elements in .msh: 'boundary' of the mesh only, also those inside it that are 'named' "
-                  "(the default), or 'all'; deal.II takes none inside")
-      ->transform(CLI::CheckedTransformer(curves).description("all, boundary or named"));
+  add_msh(mesh, arguments.msh);
   mesh.add_flag("--keep-numbers", arguments.keep_numbers,
                 "do not number the nodes anew for a small bandwidth");
   mesh.add_flag("--allow-unsound", arguments.allow_unsound, kUnsoundHelp);
@@ -259,6 +253,19 @@ void set_surface(const SurfaceArguments& arguments, Case& c) {
     surface.unit = located(given("--unit"), [&] { return length_unit(arguments.unit).name; });
   if (arguments.weld_tolerance)
     surface.weld_tolerance = checked_weld_tolerance(*arguments.weld_tolerance, given("--weld"));
+}
+
+void add_msh(CLI::App& command, MshOptions& msh) {
+  command.add_flag("--binary", msh.binary, "write .msh as bytes");
+  static const std::map<std::string, MshCurves> curves = {
+      {"all", MshCurves::kAll}, {"named", MshCurves::kNamed}, {"boundary", MshCurves::kBoundary}};
+  command
+      .add_option(
+          "--curves", msh.curves,
+          "line elements in .msh: 'boundary' of the mesh only, also those inside it that are 'named', "
+          "or 'all'; deal.II takes none inside")
+      ->default_str(msh.curves == MshCurves::kAll ? "all" : "named")
+      ->transform(CLI::CheckedTransformer(curves).description("all, boundary or named"));
 }
 
 CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {

@@ -53,6 +53,8 @@ struct MeshArguments : SurfaceArguments {
   bool strict = false, failing_sets = false;
   MshOptions msh{false, MshCurves::kNamed};
 };
+/// `--binary` and `--curves`.
+void add_msh(CLI::App& command, MshOptions& msh);
 CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments);
 CLI::App* add_improve_options(CLI::App& app, MeshArguments& arguments);
 /// Size, directions, grids and options as the command line says, in place of what the model says.

@@ -69,7 +69,10 @@ Mesh read_gr3(const std::filesystem::path& path, ReadNotes* notes, Strays) {
 }  // namespace
 
 MeshFormat gr3_format() {
-  return {{".gr3", ".14", ".grd"}, "SCHISM; ADCIRC's fort.14, of triangles", read_gr3, write_by<write_gr3>};
+  return {.extensions = {".gr3", ".14", ".grd"},
+          .description = "SCHISM; ADCIRC's fort.14, of triangles",
+          .write = write_by<write_gr3>,
+          .names = kBoundaryNames};
 }
 
 }  // namespace delquad

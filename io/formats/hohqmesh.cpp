@@ -158,14 +158,16 @@ MeshFormat ism_format() {
           .description = "HOHQMesh's ISM-V2: Trixi's UnstructuredMesh2D",
           .write = write_by<write_ism>,
           .most_order = kMostOrder,
-          .renamed = renamed_by_hohqmesh};
+          .renamed = renamed_by_hohqmesh,
+          .names = kBoundaryNames};
 }
 MeshFormat hohqmesh_abaqus_format() {
   return {.extensions = {".abq"},
           .description = "Abaqus with HOHQMesh's curves: Trixi's P4estMesh",
           .write = write_by<write_hohqmesh_abaqus>,
           .most_order = kMostOrder,
-          .renamed = renamed_by_hohqmesh};
+          .renamed = renamed_by_hohqmesh,
+          .names = kBoundaryNames};
 }
 
 }  // namespace delquad

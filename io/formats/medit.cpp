@@ -171,6 +171,12 @@ Mesh read_medit(const std::filesystem::path& path) {
   return reader.is_mfem() ? read_mfem(path) : reader.read();
 }
 
-MeshFormat medit_format() { return {{".mesh"}, "Medit", read_by<read_medit>, write_by<write_medit>}; }
+MeshFormat medit_format() {
+  return {.extensions = {".mesh"},
+          .description = "Medit",
+          .read = read_by<read_medit>,
+          .write = write_by<write_medit>,
+          .names = kAllNames & ~kPointNames};
+}
 
 }  // namespace delquad

@@ -378,7 +378,12 @@ void write_mfem(const std::filesystem::path& path, const Mesh& mesh) {
 Mesh read_mfem(const std::filesystem::path& path) { return MfemReader(path).read(); }
 
 MeshFormat mfem_format() {
-  return {{".mfem"}, "MFEM 1.0", read_by<read_mfem>, write_by<write_mfem>, kMostOrder};
+  return {.extensions = {".mfem"},
+          .description = "MFEM 1.0",
+          .read = read_by<read_mfem>,
+          .write = write_by<write_mfem>,
+          .most_order = kMostOrder,
+          .names = kAllNames & ~kPointNames};
 }
 
 }  // namespace delquad

@@ -92,7 +92,8 @@ MeshFormat re2_format() {
           .description = "Nek5000",
           .write = write_by<write_re2>,
           .most_order = 2,
-          .renamed = numbers_in_nek};
+          .renamed = numbers_in_nek,
+          .names = kBoundaryNames};
 }
 
 }  // namespace delquad

@@ -161,6 +161,12 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
 
 }  // namespace
 
-MeshFormat obj_format() { return {{".obj"}, "Wavefront", read_obj, write_by<write_obj>}; }
+MeshFormat obj_format() {
+  return {.extensions = {".obj"},
+          .description = "Wavefront",
+          .read = read_obj,
+          .write = write_by<write_obj>,
+          .names = kAllNames & ~kPointNames};
+}
 
 }  // namespace delquad

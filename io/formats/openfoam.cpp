@@ -144,7 +144,8 @@ MeshFormat foam_format() {
   return {.extensions = {".foam"},
           .description = "OpenFOAM: constant/polyMesh beside it, one cell thick",
           .write = write_by<write_foam>,
-          .renamed = renamed_by_foam};
+          .renamed = renamed_by_foam,
+          .names = kRegionNames | kBoundaryNames};
 }
 
 }  // namespace delquad

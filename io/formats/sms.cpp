@@ -95,7 +95,10 @@ Mesh read_sms(const std::filesystem::path& path, ReadNotes* notes, Strays) {
 }  // namespace
 
 MeshFormat sms_format() {
-  return {{".2dm"}, "SMS: TUFLOW FV, Basement, QGIS", read_sms, write_by<write_sms>};
+  return {.extensions = {".2dm"},
+          .description = "SMS: TUFLOW FV, Basement, QGIS",
+          .write = write_by<write_sms>,
+          .names = kAllNames & ~kPointNames};
 }
 
 }  // namespace delquad

@@ -82,7 +82,8 @@ MeshFormat specfem_format() {
   return {.extensions = {".specfem"},
           .description = "SPECFEM2D: five files and their lines of the Par_file",
           .write = write_by<write_specfem>,
-          .most_order = 2};
+          .most_order = 2,
+          .names = kRegionNames};
 }
 
 }  // namespace delquad

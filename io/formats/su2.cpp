@@ -51,6 +51,9 @@ void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
 
 }  // namespace
 
-MeshFormat su2_format() { return {{".su2"}, "SU2", nullptr, write_by<write_su2>}; }
+MeshFormat su2_format() {
+  return {
+      .extensions = {".su2"}, .description = "SU2", .write = write_by<write_su2>, .names = kBoundaryNames};
+}
 
 }  // namespace delquad

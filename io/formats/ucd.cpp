@@ -122,7 +122,11 @@ void write_ucd(const std::filesystem::path& path, const Mesh& mesh) {
 Mesh read_ucd(const std::filesystem::path& path) { return UcdReader(path).read(); }
 
 MeshFormat ucd_format() {
-  return {{".ucd", ".avs"}, "AVS unstructured cell data: deal.II", read_by<read_ucd>, write_by<write_ucd>};
+  return {.extensions = {".ucd", ".avs"},
+          .description = "AVS unstructured cell data: deal.II",
+          .read = read_by<read_ucd>,
+          .write = write_by<write_ucd>,
+          .names = kAllNames & ~kPointNames};
 }
 
 }  // namespace delquad

@@ -103,7 +103,8 @@ MeshFormat vtk_format() {
           .description = "VTK legacy, text",
           .write = write_by<write_vtk>,
           .most_order = kMostOrder,
-          .renamed = renamed_in_vtk};
+          .renamed = renamed_in_vtk,
+          .names = kAllNames & ~kPointNames};
 }
 
 }  // namespace delquad

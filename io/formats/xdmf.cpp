@@ -153,7 +153,8 @@ MeshFormat xdmf_format() {
   MeshFormat format{.extensions = {".xdmf"},
                     .description = "XDMF with numbers in HDF5: dolfinx, ParaView",
                     .most_order = 2,
-                    .package = "libhdf5-dev"};
+                    .package = "libhdf5-dev",
+                    .names = kAllNames & ~kPointNames};
 #ifdef DELQUAD_HAS_HDF5
   format.write = write_by<write_xdmf>, format.package = "";
 #endif

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "delquad/error.h"
+#include "experiments/console/progress.h"
+#include "io/mesh_formats.h"
+#include "io/mesh_io.h"
+#include "program/commands.h"
+#include "program/mesh_options.h"
+#include "program/options.h"
+
+namespace delquad {
+namespace {
+
+struct ConvertArguments {
+  std::filesystem::path mesh, output;
+  MshOptions msh;
+};
+
+bool holds_fields(const std::filesystem::path& path) {
+  return kind_of_file(path) == ".msh" || kind_of_file(path) == ".vtu";
+}
+
+/// The mesh with its fields, but for the quality of quads, which files of VTK have of any mesh; `lost` learns
+/// why there are none of it.
+MeshWithFields read_whole(const std::filesystem::path& path, ReadNotes& notes,
+                          std::vector<std::string>& lost) {
+  MeshWithFields whole = {read_mesh(path, &notes), {}};
+  if (!holds_fields(path)) return whole;
+  try {
+    MeshWithFields read = read_fields(path);
+    std::erase_if(read.fields, [](const MeshField& f) { return f.name == "eta" && !f.is_of_points; });
+    if (!read.fields.empty()) return read;
+  } catch (const InputError& error) {
+    lost.push_back(fmt::format("fields: {}", error.what()));
+  }
+  return whole;
+}
+
+int convert_command(const ConvertArguments& arguments) {
+  check_distinct({{"the mesh", arguments.mesh}, {"the other one", arguments.output}});
+  check_mesh_format(arguments.output, arguments.msh);
+  check_output(arguments.output);
+  ReadNotes notes;
+  std::vector<std::string> lost;
+  auto [mesh, fields] = read_whole(arguments.mesh, notes, lost);
+  if (!fields.empty() && !holds_fields(arguments.output)) {
+    std::vector<std::string> names;
+    for (const MeshField& field : fields) names.push_back(field.name);
+    lost.push_back(
+        fmt::format("fields, which are written to .msh and .vtu alone: {}", fmt::join(names, ", ")));
+    fields.clear();
+    mesh = read_mesh(arguments.mesh);  // without points that carry fields alone
+  }
+  for (const std::string& what : lost_in_file(arguments.output, mesh)) lost.push_back(what);
+  for (const std::string& name : renamed_in_file(arguments.output, mesh))
+    lost.push_back("a name as it was: " + name);
+  if (mesh.order > most_order_of(arguments.output)) mesh = straightened(std::move(mesh));
+  if (fields.empty())
+    write_mesh(arguments.output, mesh, arguments.msh);
+  else
+    write_fields(arguments.output, mesh, fields, arguments.msh);
+  if (verbosity() != Verbosity::kQuiet) {
+    for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& what : lost) fmt::print(stderr, "lost: {}\n", what);
+  }
+  fmt::print("{}: {} quads, {} triangles, {} lines, {} vertices, {} fields\n", arguments.output.string(),
+             mesh.quads.size(), mesh.triangles.size(), mesh.lines.size(), mesh.points.size(), fields.size());
+  return kDone;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, Commands& commands) {
+  const auto [convert, arguments] =
+      add_command(app, commands, "convert",
+                  "Write a mesh in another format, with names, order and fields; says what is lost",
+                  convert_command, true);
+  convert->add_option("mesh", arguments.mesh, "mesh file to read ('delquad formats' lists all)")->required();
+  convert->add_option("output", arguments.output, "mesh file to write")->required();
+  add_msh(*convert, arguments.msh);
+}
+
+}  // namespace delquad
