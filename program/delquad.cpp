@@ -12,9 +12,14 @@
 #include <map>
 #include <new>
 #include <optional>
+#include <span>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "base/context.h"
+#include "base/located.h"
+#include "base/nearest_name.h"
 #include "delquad/error.h"
 #include "delquad/mesher.h"
 #include "experiments/console/interrupt.h"
@@ -45,7 +50,9 @@ void add_common(CLI::App& app, CommonArguments& common) {
   // These may stand behind the command, too.
   app.fallthrough();
   CLI::Option* quiet = app.add_flag("-q,--quiet", common.quiet, "print nothing but errors");
-  app.add_flag("-v,--verbose", common.all, "print all warnings, not the worst of each kind")->excludes(quiet);
+  app.add_flag("-v,--verbose", common.all,
+               "print all warnings, not the worst of each kind")
+      ->excludes(quiet);
   app.add_flag("--version", common.version, "print version, commit and compiler; with -v libraries, too");
   app.add_subcommand("help", "Explain the program or a command")
       ->add_option("command", common.help_of, "which one")
@@ -55,8 +62,9 @@ void add_common(CLI::App& app, CommonArguments& common) {
 
 Commands add_commands(CLI::App& app, CommonArguments& common) {
   Commands commands;
-  for (const auto add : {add_run, add_batch, add_results, add_lists, add_mesh, add_adapt, add_convert, add_metrics,
-                         add_extrude, add_compare, add_info, add_example, add_suite})
+  for (const auto add :
+       {add_run, add_batch, add_results, add_lists, add_mesh, add_adapt, add_convert, add_metrics,
+        add_extrude, add_compare, add_info, add_example, add_suite})
     add(app, commands);
   for (const Command& command : commands)
     if (command.has_time_limit)
@@ -66,6 +74,41 @@ Commands add_commands(CLI::App& app, CommonArguments& common) {
               "seconds after which the program ends with exit code 1, saying at what, and without a file")
           ->check(kLength);
   return commands;
+}
+
+std::vector<std::string> names_of_commands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
+  return names;
+}
+
+/// " (did you mean '--size'?)": an option of the program or of the command that is given, or a command where
+/// none is; empty where none is near.
+std::string meant_by(const std::string& argument, const CLI::App& app) {
+  const auto given = app.get_subcommands();
+  std::vector<const CLI::App*> parsed(given.begin(), given.end());
+  const std::string dashes = argument.starts_with("--") ? "--" : "";
+  std::vector<std::string> known;
+  if (dashes.empty() && parsed.empty()) known = names_of_commands(app);
+  parsed.push_back(&app);
+  if (!dashes.empty())
+    for (const CLI::App* command : parsed)
+      for (const CLI::Option* option : command->get_options())
+        known.insert(known.end(), option->get_lnames().begin(), option->get_lnames().end());
+  const auto near = nearest_name(argument.substr(0, argument.find('=')).substr(dashes.size()), known);
+  return near ? " (did you mean '" + dashes + *near + "'?)" : "";
+}
+
+/// Why the command line cannot be read. Arguments that nothing stands for come first, in the order in which
+/// they were typed: a slip in an option may be why another is missing.
+std::string reason_of(const CLI::ParseError& error, const CLI::App& app, int argc, char** argv) {
+  const std::vector<std::string> unknown = app.remaining(true);
+  std::string all;
+  for (const std::string argument : std::span(argv, static_cast<std::size_t>(argc)).subspan(1))
+    if (std::ranges::find(unknown, argument) != unknown.end())
+      all += (all.empty() ? "'" : ", '") + argument + "'" + meant_by(argument, app);
+  return all.empty() ? error.what() : "not expected: " + all;
 }
 
 /// Version, commit and compiler; with `all` the libraries, too.
@@ -83,13 +126,10 @@ int run_command_line(int argc, char** argv);
 
 /// As the program and its commands explain themselves.
 int print_help(const CLI::App& app, char* program, std::vector<std::string> command) {
-  std::string known;
-  bool found = command.empty();
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
-    found = found || sub->get_name() == command[0];
-    known += (known.empty() ? "" : ", ") + sub->get_name();
-  }
-  if (!found) throw InputError("help: there is no command '" + command[0] + "'; known: " + known);
+  const std::vector<std::string> known = names_of_commands(app);
+  if (!command.empty() && std::ranges::find(known, command[0]) == known.end())
+    refuse("help: there is no command '{}'; known: {}{}", command[0], fmt::join(known, ", "),
+           suggestion(command[0], known));
   command.emplace_back("--help");
   std::vector<char*> words = {program};
   for (std::string& word : command) words.push_back(word.data());
@@ -114,7 +154,8 @@ int run_command_line(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help
-    fmt::print(stderr, "error: {} ('delquad help' and 'delquad help COMMAND' tell what is)\n", error.what());
+    fmt::print(stderr, "error: {} ('delquad help' and 'delquad help COMMAND' tell what is)\n",
+               reason_of(error, app, argc, argv));
     return kBadInput;
   }
   if (common.version) {

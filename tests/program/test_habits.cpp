@@ -59,6 +59,22 @@ TEST(Habits, VersionAndHelp) {
   EXPECT_TRUE(contains(unknown.err, "'mush'") && contains(unknown.err, "mesh")) << unknown.err;
 }
 
+TEST(Habits, SlipsAreToldInTheOrderInWhichTheyWereTyped) {
+  for (const auto& [words, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"mehs", "a.toml"}, "not expected: 'mehs' (did you mean 'mesh'?), 'a.toml' ("},
+           {{"mesh", "a.toml", "--sise=0.1", "--xyzzy", "3", "-o", "b.msh"},
+            "not expected: '--sise=0.1' (did you mean '--size'?), '--xyzzy', '3' ("},
+           {{"mesh", "a.toml", "--outptu", "b.msh"}, "'--outptu' (did you mean '--output'?), 'b.msh' ("},
+           {{"--verison"}, "'--verison' (did you mean '--version'?)"},
+           {{"mesh", "a.toml"}, "--output is required"},
+           {{"help", "mush"}, "did you mean 'mesh'?"},
+           {{"mesh", "a.toml", "-o", "b.vtuu"}, "did you mean '.vtu'?"}}) {
+    const ProgramResult result = delquad(words);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(contains(result.err, said)) << result.err;
+  }
+}
+
 TEST(Habits, QuietPrintsErrorsOnly) {
   const TemporaryFolder folder;
   const std::string model = write_text(folder / "prism.off", prism(true)), out = folder / "out.msh";
