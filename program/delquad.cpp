@@ -51,7 +51,7 @@ void add_common(CLI::App& app, CommonArguments& common) {
   app.fallthrough();
   CLI::Option* quiet = app.add_flag("-q,--quiet", common.quiet, "print nothing but errors");
   app.add_flag("-v,--verbose", common.all,
-               "print all warnings, not the worst of each kind")
+               "print all warnings, measures and times, not the worst and a summary")
       ->excludes(quiet);
   app.add_flag("--version", common.version, "print version, commit and compiler; with -v libraries, too");
   app.add_subcommand("help", "Explain the program or a command")

@@ -105,7 +105,7 @@ Case read_case(const MeshArguments& arguments) {
 void print_before(const std::string& file, const Mesh& mesh, const Prepared& prepared) {
   fmt::print("{}: {} quads, {} triangles, {} vertices\n", file, mesh.quads.size(), mesh.triangles.size(),
              mesh.points.size());
-  print_metrics(prepared.metrics(mesh));
+  (verbosity() == Verbosity::kAll ? print_metrics : print_summary)(prepared.metrics(mesh));
   if (const Criteria& criteria = prepared.problem().criteria; !criteria.empty())
     print_criteria(judge(mesh, criteria, prepared->size.field.get()), mesh);
 }
@@ -124,18 +124,19 @@ void print_after(const std::string& file, const MeshResult& result, double secon
   const Preparation& prepared = *result.prepared;
   fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", file, result.mesh.quads.size(),
              result.mesh.triangles.size(), result.mesh.points.size(), seconds);
-  print_metrics(result.metrics);
+  const bool all = verbosity() == Verbosity::kAll;
+  (all ? print_metrics : print_summary)(result.metrics);
   const Summaries& log = result.log.summaries;
   if (log.has("layers"))
     fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n",
                log.number("layers", "quads"), log.number("layers", "columns"));
-  if (log.has("across_cuts") && log.number("across_cuts", "faces") > 0)
+  if (all && log.has("across_cuts") && log.number("across_cuts", "faces") > 0)
     fmt::print("  across cuts: {} irregular vertices before{}\n",
                log.number("across_cuts", "irregular_before"),
                log.number("across_cuts", "taken") > 0
                    ? ""
                    : ", and after: with other cuts there were no fewer, or eta or tau were worse");
-  if (log.has("grids"))
+  if (log.has("grids") && (all || log.number("grids", "asked") > 0))
     fmt::print("  grids: {} faces, {} of them by name, with {} quads\n", log.number("grids", "faces"),
                log.number("grids", "asked"), log.number("grids", "quads"));
   if (const auto quads = result.prepared.problem().quads) {
@@ -148,9 +149,14 @@ void print_after(const std::string& file, const MeshResult& result, double secon
                fmt::join(prepared.size.adapted_to, " and "));
   for (const auto& [at, n] : prepared.symmetry)
     fmt::print("  symmetry: plane through {}, normal {}\n", show_point(at), show_point(n));
-  print_seconds(result.log.times);
-  if (result.surface) print_surface_report(result.prepared, *result.surface);
+  if (!all && result.surface) print_surface_summary(*result.surface);
+  print_names(result.mesh);
+  if (all) print_seconds(result.log.times);
+  if (all && result.surface) print_surface_report(result.prepared, *result.surface);
   if (result.criteria) print_criteria(*result.criteria, result.mesh);
+  if (!all && !result.warnings.empty())
+    fmt::print("  {} above; -v has all of them, and all measures\n",
+               counted(static_cast<long long>(lines_of(result.warnings).size()), "warning"));
 }
 
 /// Moves elements that fail to regions of their own, which have the tag and names of theirs, "failing" and,

@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/parallel.h"
+#include "base/text.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/judgement/soundness.h"
 #include "metrics/metric_measures.h"
@@ -18,7 +23,89 @@ std::string show(const Topology& t) {
                      t.euler_characteristic);
 }
 
+/// A measure in a line of the summary: a comma stands before it, unless `before` begins with a blank.
+/// `of_flaws`: a count that is told where there are any.
+struct Shown {
+  const char* key;
+  const char* before;
+  int digits;
+  const char* behind = "";
+  bool of_flaws = false;
+};
+
+void print_line(const char* title, const MeshMetrics& metrics, std::initializer_list<Shown> measures) {
+  std::string line;
+  for (const Shown& shown : measures) {
+    const auto at = metrics.values.find(shown.key);
+    if (at == metrics.values.end() || !std::isfinite(at->second) || (shown.of_flaws && at->second == 0))
+      continue;
+    line += fmt::format("{}{}{:.{}f}{}", line.empty() || shown.before[0] == ' ' ? "" : ", ", shown.before,
+                        at->second, shown.digits, shown.behind);
+  }
+  if (!line.empty()) fmt::print("  {}: {}\n", title, line);
+}
+
+/// "steel (2), 'inlet'": names in the order in which they come, with the number of parts that have them where
+/// it is above one.
+std::string names_of(const std::vector<const Entity*>& entities) {
+  std::vector<std::pair<std::string, int>> counts;
+  for (const Entity* entity : entities)
+    for (const std::string& name : entity->names) {
+      const auto at = std::ranges::find(counts, name, &std::pair<std::string, int>::first);
+      if (at == counts.end())
+        counts.emplace_back(name, 1);
+      else
+        ++at->second;
+    }
+  std::vector<std::string> texts;
+  for (const auto& [name, count] : counts)
+    texts.push_back(count > 1 ? fmt::format("{} ({})", name, count) : name);
+  constexpr std::size_t kMostNames = 8;
+  return first_of(texts, kMostNames);
+}
+
 }  // namespace
+
+void print_summary(const MeshMetrics& metrics) {
+  print_line("shape", metrics,
+             {{"eta_mean", "eta mean ", 3},
+              {"eta_worst", "worst ", 3},
+              {"scaled_jacobian_mean", "scaled Jacobian mean ", 3},
+              {"scaled_jacobian_min", "least ", 3},
+              {"angle_min", "angles from ", 1},
+              {"angle_max", " to ", 1, " degrees"},
+              {"aspect_mean", "aspect mean ", 2},
+              {"aspect_max", "largest ", 2},
+              {"n_inverted", "", 0, " inverted", true},
+              {"n_folded", "", 0, " folded", true}});
+  print_line("size", metrics,
+             {{"tau", "tau ", 1, " %"},
+              {"edge_min", "edges from ", 3},
+              {"edge_max", " to ", 3, " sizes"},
+              {"n_short", "", 0, " far too short", true}});
+  print_line("vertices", metrics,
+             {{"d4", "d4 ", 1, " %"},
+              {"n_irregular", "", 0, " irregular"},
+              {"n_beyond", "", 0, " more than necessary"}});
+}
+
+void print_names(const Mesh& mesh) {
+  std::vector<const Entity*> regions, curves, points;
+  for (const Entity& region : mesh.regions) regions.push_back(&region);
+  for (const Entity& curve : mesh.curves) curves.push_back(&curve);
+  for (const NamedPoint& point : mesh.named_points) points.push_back(&point.entity);
+  std::string line;
+  for (const auto& [what, entities] : {std::pair("regions", regions), {"curves", curves}, {"points", points}})
+    if (const std::string names = names_of(entities); !names.empty())
+      line += fmt::format("{}{} {}", line.empty() ? "" : "; ", what, names);
+  if (!line.empty()) fmt::print("  names: {}\n", line);
+}
+
+void print_surface_summary(const SurfaceReport& report) {
+  fmt::print("  surface: {}; the mesh lies within {:.2g} diagonals of the model, the model within {:.2g}\n",
+             report.mesh.watertight() ? "watertight" : "open", report.mesh_to_surface.max,
+             report.surface_to_mesh.max);
+}
 
 void print_metric(const Metric& metric, const MeshMetrics& metrics) {
   const auto at = metrics.values.find(metric.key);

@@ -14,13 +14,21 @@ void print_metric(const Metric& metric, const MeshMetrics& metrics);
 /// Every measure but those of solvers.
 void print_metrics(const MeshMetrics& metrics);
 
+/// The measures that tell most, in three lines: shapes, sizes, and how quads meet.
+void print_summary(const MeshMetrics& metrics);
+
+/// What parts of a mesh are called, in one line; none where no part has a name.
+void print_names(const Mesh& mesh);
+
 /// How a mesh does by criteria, and why.
 void print_criteria(const CriteriaReport& report, const Mesh& mesh);
 
 /// How long each step took, the times of all threads added up.
 void print_seconds(const StepTimes& times);
 
-/// How good the maps of a surface are, how it was cut and how the mesh fits it.
+/// How the mesh fits its surface, in one line.
+void print_surface_summary(const SurfaceReport& report);
+/// The same at length, with how good the maps of the surface are and how it was cut.
 void print_surface_report(const Prepared& prepared, const SurfaceReport& report);
 
 /// The tables of an experiment that have rows.

@@ -77,13 +77,27 @@ gradation = 0.1
 source = [{ at = [0.5, 0.5], near = 0.004, far = 0.02, radius_far = 0.2 }]
 )");
   const ProgramResult result =
-      delquad({"mesh", model, "-o", folder / "out.msh", "--quality", "fast", "--threads", "1"});
+      delquad({"mesh", model, "-o", folder / "out.msh", "--quality", "fast", "--threads", "1", "-v"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto number_behind = [&](const std::string& text) {
     return std::stod(result.out.substr(result.out.find(text) + text.size()));
   };
   constexpr double kDigits = 0.01;
   EXPECT_GE(number_behind(" vertices in "), number_behind("; all ") - kDigits) << result.out;
+}
+
+TEST(MeshCommand, SaysInAFewLinesWhatTheMeshIsLike) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare + "size = 0.25\n");
+  const ProgramResult result = delquad({"mesh", model, "-o", folder / "out.msh"});
+  EXPECT_EQ(result.out.substr(result.out.find('\n') + 1),
+            "  shape: eta mean 1.000, worst 1.000, scaled Jacobian mean 1.000, least 1.000, angles from 90.0 "
+            "to 90.0 degrees, aspect mean 1.00, largest 1.00\n"
+            "  size: tau 100.0 %, edges from 1.000 to 1.000 sizes\n"
+            "  vertices: d4 100.0 %, 0 irregular, 0 more than necessary\n"
+            "  names: regions square; curves bottom, right, top, left\n");
+  const ProgramResult all = delquad({"mesh", model, "-o", folder / "out.msh", "-v"});
+  for (const char* part : {"SJ min", "eta 5 %", "seconds: "}) EXPECT_TRUE(contains(all.out, part)) << part;
 }
 
 TEST(MeshCommand, WritesEveryFormatAndMetricsReadsIt) {

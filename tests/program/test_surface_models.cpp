@@ -56,7 +56,7 @@ TEST(SurfaceModels, EveryNumberOfThreadsGivesTheSameBytes) {
   std::string first;
   for (const char* threads : {"1", "2", "4"}) {
     const auto run = delquad({"mesh", folder / "slab.off", "-o", folder / "slab.msh", "--size", "0.13",
-                              "--threads", threads, "--json", folder / "slab.json"});
+                              "--threads", threads, "--json", folder / "slab.json", "-v"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const std::string bytes = read_text(folder / "slab.msh");
     if (first.empty()) first = bytes;
@@ -119,7 +119,7 @@ TEST(SurfaceModels, TheReportIsPrintedAndRecorded) {
   const TemporaryFolder folder;
   std::ofstream(folder / "cube.off") << kCube;
   const auto run = delquad({"mesh", folder / "cube.off", "-o", folder / "out.msh", "--size", "0.25", "--json",
-                            folder / "out.json", "--keep-going"});
+                            folder / "out.json", "--keep-going", "-v"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(contains(
       run.out, "mesh: watertight, Euler characteristic 2; the model is watertight, Euler characteristic 2"))
