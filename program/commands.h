@@ -42,6 +42,7 @@ void add_results(CLI::App& app, Commands& commands);
 void add_lists(CLI::App& app, Commands& commands);
 /// mesh and improve.
 void add_mesh(CLI::App& app, Commands& commands);
+void add_view(CLI::App& app, Commands& commands);
 void add_convert(CLI::App& app, Commands& commands);
 void add_metrics(CLI::App& app, Commands& commands);
 void add_adapt(CLI::App& app, Commands& commands);

@@ -63,7 +63,7 @@ void add_common(CLI::App& app, CommonArguments& common) {
 Commands add_commands(CLI::App& app, CommonArguments& common) {
   Commands commands;
   for (const auto add :
-       {add_run, add_batch, add_results, add_lists, add_mesh, add_adapt, add_convert, add_metrics,
+       {add_run, add_batch, add_results, add_lists, add_mesh, add_adapt, add_view, add_convert, add_metrics,
         add_extrude, add_compare, add_info, add_example, add_suite})
     add(app, commands);
   for (const Command& command : commands)

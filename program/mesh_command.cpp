@@ -27,6 +27,7 @@
 #include "program/mesh_options.h"
 #include "program/options.h"
 #include "program/print.h"
+#include "program/view.h"
 
 namespace delquad {
 namespace {
@@ -65,6 +66,17 @@ void warn_of_renamed(const std::filesystem::path& output, MeshResult& result, Pr
   result.warnings.push_back(
       fmt::format("{} cannot hold all names as they are: {}", output.string(), fmt::join(renamed, "; ")));
   progress.warn({result.warnings.back()});
+}
+
+/// Quads beyond the criteria.
+std::vector<std::size_t> failing_quads(const MeshResult& result) {
+  std::set<std::size_t> failing;
+  const std::size_t first = result.mesh.triangles.size();
+  if (result.criteria)
+    for (const CriterionResult& limit : result.criteria->results)
+      for (const int element : limit.failing)
+        if (const auto e = static_cast<std::size_t>(element); e >= first) failing.insert(e - first);
+  return {failing.begin(), failing.end()};
 }
 
 /// Returns the exit code.
@@ -208,7 +220,8 @@ int mesh_command(const MeshArguments& arguments) {
        {"the model's mesh", file == arguments.model ? "" : file},
        {"the file of sizes", size_file && size_file->path != arguments.model ? size_file->path : ""},
        {"-o", arguments.output},
-       {"--json", arguments.json}});
+       {"--json", arguments.json},
+       {"--view", arguments.view ? page_of(arguments.output) : ""}});
   check_output(arguments.output);
   if (!arguments.json.empty()) check_output(arguments.json);
 
@@ -237,6 +250,9 @@ int mesh_command(const MeshArguments& arguments) {
   progress.finish();
   if (given) print_before(arguments.model.string(), *given, result.prepared);
   print_after(arguments.output.string(), result, command.seconds());
+  if (arguments.view)
+    view(page_of(arguments.output), result.mesh, arguments.output.filename().string(),
+         {.warnings = lines_of(result.warnings), .failing = failing_quads(result)});
   return tell_what_is_missing(result, word, word.quads_only() && !arguments.allow_triangles);
 }
 

@@ -56,6 +56,8 @@ void add_mesh_output(CLI::App& mesh, MeshArguments& arguments) {
   mesh.add_flag("--serendipity", arguments.serendipity,
                 "with --order 2: quads of 8 nodes, without a middle one, in .msh and .vtu, too");
   mesh.add_option("--json", arguments.json, "record to write");
+  mesh.add_flag("--view", arguments.view,
+                "show the mesh in a browser, too, by a page beside it, as 'delquad view' does");
   add_max_elements(mesh, arguments.max_elements);
   add_threads(mesh, arguments.threads);
   mesh.add_flag("--allow-triangles", arguments.allow_triangles, kAllowHelp);

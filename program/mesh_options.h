@@ -46,6 +46,7 @@ struct MeshArguments : SurfaceArguments {
   std::optional<std::string> pipeline;  ///< else the word of that quality
   long long max_elements = 50'000'000;
   int threads = thread_count();
+  bool view = false;  ///< show the mesh, too
   bool allow_triangles = false;
   bool allow_unsound = false;
   std::optional<double> min_angle, max_aspect;  ///< options limits.min_angle, limits.max_aspect

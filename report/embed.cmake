@@ -14,8 +14,12 @@ function(embed name)
 endfunction()
 embed(kPageStyle page/report.css)
 embed(kPageBody page/body.html)
+embed(kViewStyle page/view.css)
+embed(kViewBody page/view.html)
 # In the order in which they use each other.
 embed(kPageScript page/dom.js page/colours.js page/packed_mesh.js page/svg_pen.js page/pdf.js page/figure.js page/table.js
-      page/charts.js page/spread.js page/gestures.js page/plane_view.js page/space_view.js page/sheet.js page/report.js)
+      page/charts.js page/spread.js page/gestures.js page/plane_view.js page/space_view.js page/sheet.js)
+embed(kReportScript page/report.js)
+embed(kViewScript page/view.js)
 embed(kThreeScript three/three.min.js)
 file(WRITE ${OUTPUT} "${text}\n}  // namespace delquad\n")

@@ -136,7 +136,7 @@ void put_places(const Mesh& mesh, const std::vector<int>& order, PackedMesh& pac
 
 }  // namespace
 
-PackedMesh pack_mesh(const Mesh& mesh, const std::vector<std::size_t>& failing) {
+PackedMesh pack_mesh(const Mesh& mesh, const std::vector<std::size_t>& failing, bool with_entities) {
   PackedMesh packed;
   packed.triangles = mesh.triangles.size();
   packed.quads = mesh.quads.size();
@@ -146,7 +146,8 @@ PackedMesh pack_mesh(const Mesh& mesh, const std::vector<std::size_t>& failing) 
   packed.dimension = box.low.z == box.high.z ? 2 : 3;
   Numbers out;
   Numbering numbering(mesh.points.size());
-  for (const std::size_t t : spatial_order(mesh, mesh.triangles))
+  const std::vector<std::size_t> triangles = spatial_order(mesh, mesh.triangles);
+  for (const std::size_t t : triangles)
     for (const int v : mesh.triangles[t]) numbering.put(v, out);
   const std::vector<std::size_t> quads = spatial_order(mesh, mesh.quads);
   for (const std::size_t q : quads)
@@ -163,6 +164,12 @@ PackedMesh pack_mesh(const Mesh& mesh, const std::vector<std::size_t>& failing) 
   }
   put_irregular(mesh, numbering, packed, out);
   put_places(mesh, numbering.order(), packed, out);
+  if (with_entities) {
+    for (const std::size_t t : triangles) out.put(static_cast<std::uint64_t>(mesh.triangle_region[t]));
+    for (const std::size_t q : quads) out.put(static_cast<std::uint64_t>(mesh.quad_region[q]));
+    for (const int curve : mesh.line_curve)
+      for (int k = 0; k < mesh.order; ++k) out.put(static_cast<std::uint64_t>(curve));
+  }
   packed.points = numbering.order().size();
   packed.text = out.packed();
   return packed;
@@ -172,8 +179,9 @@ Mesh thinned(const Mesh& mesh, int step) {
   Mesh result;
   result.points = mesh.points;
   result.lines = mesh.lines;
+  result.line_curve = mesh.line_curve;
   const double factor = std::sqrt(step);
-  const auto thin = [&](const auto& elements, auto& kept) {
+  const auto thin = [&](const auto& elements, const std::vector<int>& region, auto& kept, auto& kept_region) {
     const std::vector<std::size_t> order = spatial_order(mesh, elements);
     for (std::size_t i = 0; i < order.size(); i += static_cast<std::size_t>(step)) {
       auto v = elements[order[i]];
@@ -184,10 +192,11 @@ Mesh thinned(const Mesh& mesh, int step) {
         result.points.push_back(p);
       }
       kept.push_back(v);
+      kept_region.push_back(region[order[i]]);
     }
   };
-  thin(mesh.triangles, result.triangles);
-  thin(mesh.quads, result.quads);
+  thin(mesh.triangles, mesh.triangle_region, result.triangles, result.triangle_region);
+  thin(mesh.quads, mesh.quad_region, result.quads, result.quad_region);
   return result;
 }
 

@@ -353,23 +353,6 @@ Json valences_json(const Json& record) {
   return {{"of", "quads"}, {"counts", record["quad_valences"]}, {"mixed", mixed}};
 }
 
-Json closeups_json(const Mesh& mesh) {
-  Json json = Json::array();
-  for (const Closeup& closeup : worst_quads(mesh, kCloseups)) {
-    Json points = Json::array(), etas = Json::array();
-    for (const Vec2& p : closeup.points) points.push_back({hundredths(p.x), hundredths(p.y)});
-    for (const double eta : closeup.etas) etas.push_back(hundredths(eta));
-    json.push_back({{"eta", closeup.eta},
-                    {"size", closeup.size},
-                    {"normal", {closeup.normal.x, closeup.normal.y, closeup.normal.z}},
-                    {"at", {closeup.at.x, closeup.at.y, closeup.at.z}},
-                    {"points", points},
-                    {"elements", closeup.elements},
-                    {"etas", etas}});
-  }
-  return json;
-}
-
 Json surface_facts(const Json& surface) {
   const auto count = [&](const char* pointer) {
     return surface.at(Json::json_pointer(pointer)).get<long long>();
@@ -403,6 +386,23 @@ std::string size_text(const Json& size) {
 
 }  // namespace
 
+Json closeups_json(const Mesh& mesh, std::size_t count) {
+  Json json = Json::array();
+  for (const Closeup& closeup : worst_quads(mesh, count)) {
+    Json points = Json::array(), etas = Json::array();
+    for (const Vec2& p : closeup.points) points.push_back({hundredths(p.x), hundredths(p.y)});
+    for (const double eta : closeup.etas) etas.push_back(hundredths(eta));
+    json.push_back({{"eta", closeup.eta},
+                    {"size", closeup.size},
+                    {"normal", {closeup.normal.x, closeup.normal.y, closeup.normal.z}},
+                    {"at", {closeup.at.x, closeup.at.y, closeup.at.z}},
+                    {"points", points},
+                    {"elements", closeup.elements},
+                    {"etas", etas}});
+  }
+  return json;
+}
+
 Json cell_json(const Json& record, const std::optional<Mesh>& mesh) {
   Json json = {{"word", record.at("pipeline")}, {"status", record.at("status")}};
   if (record.contains("peer"))
@@ -425,7 +425,7 @@ Json cell_json(const Json& record, const std::optional<Mesh>& mesh) {
     for (std::size_t i = 0; i < std::min(curves.size(), kMostCurves); ++i)
       json["energy"].push_back(energies_json(curves[i]));
   }
-  if (mesh && !mesh->quads.empty()) json["closeups"] = closeups_json(*mesh);
+  if (mesh && !mesh->quads.empty()) json["closeups"] = closeups_json(*mesh, kCloseups);
   return json;
 }
 

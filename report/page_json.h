@@ -26,8 +26,11 @@ Json growth_json(const std::vector<CellRecord>& records);
 /// What letters and measures mean, and colours by eta.
 Json glossary_json();
 
-/// The parts of the page that are the same for all results, from report/page/ and report/three/.
-extern const std::string_view kPageStyle, kPageBody, kPageScript, kThreeScript;
+/// The parts that are the same for all pages, from report/page/ and report/three/, those of pages of results
+/// and those of pages of one mesh.
+extern const std::string_view kPageStyle, kPageScript, kThreeScript;
+extern const std::string_view kPageBody, kReportScript;
+extern const std::string_view kViewStyle, kViewBody, kViewScript;
 
 /// Empty where there is none.
 std::string seed_of(const CellRecord& record);
@@ -58,6 +61,7 @@ struct Closeup {
 /// The `count` worst quads of which no two have a vertex in common, worst first, with the elements that three
 /// steps from element to element lead to.
 std::vector<Closeup> worst_quads(const Mesh& mesh, std::size_t count);
+Json closeups_json(const Mesh& mesh, std::size_t count);
 
 using Json = nlohmann::ordered_json;
 

@@ -18,6 +18,7 @@
 #include "metrics/tables/study_file.h"
 #include "metrics/tables/tables.h"
 #include "report/packed_mesh.h"
+#include "report/page.h"
 #include "report/page_json.h"
 
 namespace delquad {
@@ -25,7 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPictureBytes = 17e6;
 constexpr std::uintmax_t kDrawingBytes = 500'000, kAllDrawings = 3'000'000;  // of one, of a page
 /// Of the values that charts of the spread are made of, packed, all studies together.
 constexpr std::size_t kSampleBytes = 2'000'000;
@@ -114,17 +114,6 @@ double whole_bytes(const CellRecord& record) {
   return packed_bytes(value_of(record, "n_triangles"), value_of(record, "n_quads"));
 }
 
-/// Text that may stand inside a script element.
-std::string for_script(const Json& json) {
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace), result;
-  for (const char c : text)
-    if (c == '<')
-      result += "\\u003c";
-    else
-      result += c;
-  return result;
-}
-
 class Page {
  public:
   Page(const Contents& contents, std::ostream& out) : contents_(contents), out_(out) {
@@ -135,21 +124,13 @@ class Page {
   }
 
   void write() {
-    out_ << "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-            "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src "
-            "'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:\">\n"
-            "<title>Delquad: results</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>"
-         << kPageStyle << "</style>\n</head>\n<body>" << kPageBody;
+    begin_page(out_, "Delquad: results", kPageStyle, kPageBody);
     Json json = glossary_json();
-    json["program"] = Json::parse(versions_record());
     json["studies"] = Json::array();
     for (const Study& study : contents_.studies) json["studies"].push_back(study_json(study));
     for (const TableStudy& study : contents_.tables) json["studies"].push_back(study_json(study));
     json["left_out"] = contents_.left_out;
-    out_ << "<script type=\"application/json\" id=\"data\">" << for_script(json) << "</script>\n";
-    if (in_space_) out_ << "<script>" << kThreeScript << "</script>\n";
-    out_ << "<script type=\"module\">" << kPageScript << "</script>\n</body>\n</html>\n";
+    end_page(out_, std::move(json), in_space_, kReportScript);
   }
 
   const std::vector<std::string>& problems() const { return problems_; }
@@ -264,7 +245,12 @@ class Page {
           problems_.push_back(reason = error.what());
         }
       Json json = cell_json(record, mesh);
-      if (mesh) add_picture(*mesh, failing_quads(record, *mesh), json);
+      if (mesh) {
+        json["mesh"] = add_picture(out_, fmt::format("mesh-{}", pictures_++), *mesh, share_,
+                                   {.failing = failing_quads(record, *mesh)});
+        written_ += json["mesh"]["bytes"].get<double>();
+        in_space_ |= json["mesh"]["dimension"] == 3;
+      }
       if (json.contains("closeups")) written_ += static_cast<double>(json["closeups"].dump().size());
       if (!reason.empty()) json["no_picture"] = reason;
       if (Json facts = facts_json(record); facts.size() > sheet["facts"].size())
@@ -282,32 +268,6 @@ class Page {
       failing.push_back(quad.get<std::size_t>());
     std::erase_if(failing, [&](std::size_t q) { return q >= mesh.quads.size(); });
     return failing;
-  }
-
-  void add_picture(const Mesh& mesh, const std::vector<std::size_t>& failing, Json& json) {
-    constexpr double kOwnVertices =
-        2;  // bytes of an element with vertices of its own, to one that shares them
-    const double bytes =
-        packed_bytes(static_cast<double>(mesh.triangles.size()), static_cast<double>(mesh.quads.size()));
-    const int step = bytes <= share_ ? 1 : static_cast<int>(std::ceil(kOwnVertices * bytes / share_));
-    const PackedMesh packed = step > 1 ? pack_mesh(thinned(mesh, step)) : pack_mesh(mesh, failing);
-    const std::string id = fmt::format("mesh-{}", pictures_++);
-    written_ += static_cast<double>(packed.text.size());
-    in_space_ |= packed.dimension == 3;
-    out_ << "<script type=\"text/plain\" id=\"" << id << "\">" << packed.text << "</script>\n";
-    json["mesh"] = {{"id", id},
-                    {"step", step},
-                    {"failing", step > 1 ? 0 : failing.size()},
-                    {"dimension", packed.dimension},
-                    {"order", packed.order},
-                    {"points", packed.points},
-                    {"triangles", packed.triangles},
-                    {"quads", packed.quads},
-                    {"lines", packed.lines},
-                    {"irregular", packed.irregular},
-                    {"pairs", packed.pairs},
-                    {"origin", packed.origin},
-                    {"unit", packed.unit}};
   }
 
   const Contents& contents_;

@@ -4,6 +4,7 @@
 #include "bindings/python/problem.h"
 #include "delquad/bench.h"
 #include "experiments/sweep/cells.h"
+#include "report/write_view.h"
 
 namespace delquad::python {
 
@@ -21,6 +22,14 @@ int run(std::vector<std::string> arguments) {
 }  // namespace
 
 void define_program(py::module_& m) {
+  m.def(
+      "write_view",
+      [](const std::string& path, const Mesh& mesh, const std::string& title,
+         const std::vector<std::string>& warnings) {
+        const py::gil_scoped_release released;
+        write_view(path, mesh, title, {.warnings = warnings});
+      },
+      py::arg("path"), py::arg("mesh"), py::arg("title"), py::arg("warnings"));
   m.def("run", &run, py::arg("arguments"));
   m.def("finish_threads", &finish_threads);
   m.def("set_added_parts", &set_added_parts, py::arg("text"));

@@ -28,7 +28,7 @@ const kColourMaps = {
 /// Which colour a value of eta has, by the map and the range that were chosen.
 class Palette {
   constructor() {
-    Object.assign(this, { map: "viridis", low: 0, high: 1, followers: new Set() });
+    Object.assign(this, { map: "viridis", low: 0, high: 1, fixed: null, followers: new Set() });
   }
   /// `at`: a value of eta; what is outside of the range has the colour of its end.
   colour(at) {
@@ -37,9 +37,9 @@ class Palette {
     const [a, b] = [channels(stops[i]), channels(stops[i + 1])];
     return `#${a.map((v, k) => Math.round(v + (b[k] - v) * (place - i)).toString(16).padStart(2, "0")).join("")}`;
   }
-  /// Of every class of eta in a mesh, and of quads that fail.
+  /// Of every class of eta in a mesh, and of quads that fail; or those that are `fixed`.
   classes() {
-    return [...Array.from({ length: kEtaClasses }, (_, i) => this.colour((i + 0.5) / kEtaClasses)), "#e4003a"];
+    return this.fixed || [...Array.from({ length: kEtaClasses }, (_, i) => this.colour((i + 0.5) / kEtaClasses)), "#e4003a"];
   }
   choose(map, low, high) {
     Object.assign(this, { map, low, high });
@@ -56,35 +56,39 @@ const palette = new Palette();
 /// Attributes of a node that keeps the colour of this eta.
 const byEta = (eta) => ({ "data-eta": Number(eta.toFixed(4)), fill: palette.colour(eta) });
 
-/// The colours that eta has now, as a figure.
-function scaleChart() {
+const kEta = { name: "\u03b7", from: 0, to: 1 };
+
+/// The colours that a quantity has now, as a figure.
+function scaleChart({ name, from, to }) {
   const width = 260, height = 34, steps = 64, left = 8, wide = width - 2 * left;
+  const value = (part) => Number((from + (palette.low + part * (palette.high - palette.low)) * (to - from)).toPrecision(3));
   const chart = svg("svg", { class: "chart scale", viewBox: `0 0 ${width} ${height}`, role: "img",
-    "aria-label": `Colours from eta ${palette.low}, dark, to eta ${palette.high}, light` });
+    "aria-label": `Colours from ${name} ${value(0)}, dark, to ${name} ${value(1)}, light` });
   for (let i = 0; i < steps; ++i) {
     const eta = palette.low + ((i + 0.5) / steps) * (palette.high - palette.low);
     chart.append(svg("rect", { x: left + (i * wide) / steps, y: 2, width: wide / steps + 0.3, height: 14, fill: palette.colour(eta) }));
   }
   const label = (part, anchor, more) => svg("text", { x: left + part * wide, y: 29, "font-size": 11, "text-anchor": anchor, class: "soft" },
-    more + Number((palette.low + part * (palette.high - palette.low)).toFixed(3)));
-  chart.append(label(0, "start", "\u03b7 = "), label(0.5, "middle", ""), label(1, "end", ""));
+    more + value(part));
+  chart.append(label(0, "start", `${name} = `), label(0.5, "middle", ""), label(1, "end", ""));
   return chart;
 }
 
-/// The choice of colours and of light or dark, and the scale.
-function colourBar() {
-  const holder = el("div", { class: "scale-holder" }, scaleChart());
+/// The choice of colours and of light or dark, and the scale of a quantity from its least to its largest value.
+function colourBar(quantity = kEta) {
+  const { name, from: least, to: most } = quantity;
+  const holder = el("div", { class: "scale-holder" }, scaleChart(quantity));
   const maps = el("select", { id: "colour-map", change: () => apply() }, ["viridis", ...Object.keys(kColourMaps).filter((m) => m !== "viridis")].map((m) => el("option", {}, m)));
-  const end = (id, value) => el("input", { id, type: "number", min: 0, max: 1, step: 0.05, value, change: () => apply() });
-  const low = end("colour-low", 0), high = end("colour-high", 1);
+  const end = (id, value) => el("input", { id, type: "number", min: least, max: most, step: (most - least) / 20, value, change: () => apply() });
+  const low = end("colour-low", least), high = end("colour-high", most);
   const complaint = el("span", { class: "failed", role: "status" });
   const apply = () => {
     const [from, to] = [Number(low.value), Number(high.value)];
-    const wrong = !(from >= 0 && to <= 1 && from < to);
-    complaint.textContent = wrong ? "The range must be two numbers from 0 to 1, the first less than the second." : "";
+    const wrong = !(from >= least && to <= most && from < to);
+    complaint.textContent = wrong ? `The range must be two numbers from ${least} to ${most}, the first less than the second.` : "";
     if (wrong) return;
-    palette.choose(maps.value, from, to);
-    holder.replaceChildren(scaleChart());
+    palette.choose(maps.value, (from - least) / (most - least), (to - least) / (most - least));
+    holder.replaceChildren(scaleChart(quantity));
   };
   const theme = el("select", { id: "theme", change: () => {
     if (theme.value === "as the system") delete document.documentElement.dataset.theme;
@@ -92,6 +96,6 @@ function colourBar() {
     palette.changed();
   } }, ["as the system", "light", "dark"].map((t) => el("option", {}, t)));
   const field = (name, ...nodes) => el("label", {}, name, nodes);
-  return el("div", { class: "bar", role: "group", "aria-label": "Colours" }, field("Colours ", maps), field("\u03b7 from ", low), field("to ", high),
-    holder, saveButtons("eta-scale", chartSource(() => holder.firstChild)), complaint, field("Page ", theme));
+  return el("div", { class: "bar", role: "group", "aria-label": "Colours" }, field("Colours ", maps), field(`${name} from `, low), field("to ", high),
+    holder, saveButtons(quantity === kEta ? "eta-scale" : "scale", chartSource(() => holder.firstChild)), complaint, field("Page ", theme));
 }

@@ -46,10 +46,11 @@ function listenToPinch(canvas, view) {
 }
 
 function redrawWhenResized(canvas, view) {
-  let width = canvas.clientWidth;
+  const sizeNow = () => `${canvas.clientWidth} ${canvas.clientHeight}`;
+  let size = sizeNow();
   new ResizeObserver(() => {
-    if (canvas.clientWidth === width) return;
-    width = canvas.clientWidth;
+    if (sizeNow() === size) return;
+    size = sizeNow();
     view.redraw();
   }).observe(canvas);
 }

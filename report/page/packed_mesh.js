@@ -50,11 +50,13 @@ async function unpackMesh(info) {
     axes.push(Float64Array.from({ length: info.points }, () => info.origin[k] + (at += reader.signed()) * info.unit));
   }
   const [x, y, z = new Float64Array(info.points)] = axes;
-  return { x, y, z, triangles, quads, around, eta, lines, irregular, pairs, regular: info.quads > 0 ? 4 : 6 };
+  const entities = (n) => (info.entities ? Uint32Array.from({ length: n }, () => reader.next()) : null);
+  return { x, y, z, triangles, quads, around, eta, lines, irregular, pairs, regular: info.quads > 0 ? 4 : 6,
+    triangleRegion: entities(info.triangles), quadRegion: entities(info.quads), lineCurve: entities(info.lines) };
 }
 
 /// Calls visit(corners, number of corners, place of the first, colour class or -1) for each element.
 function eachElement(mesh, visit) {
-  for (let i = 0; i < mesh.triangles.length; i += 3) visit(mesh.triangles, 3, i, -1);
+  for (let i = 0; i < mesh.triangles.length; i += 3) visit(mesh.triangles, 3, i, mesh.ofTriangles ? mesh.ofTriangles[i / 3] : -1);
   for (let i = 0; i < mesh.quads.length; i += mesh.around) visit(mesh.quads, mesh.around, i, mesh.eta[i / mesh.around]);
 }

@@ -57,8 +57,8 @@ class PlaneView {
     this.redraw();
   }
   /// Returns the source of a figure.
-  async add(canvas, info, marks) {
-    const prepared = prepareForPlane(await unpackMesh(info));
+  add(canvas, mesh, marks) {
+    const prepared = prepareForPlane(mesh);
     this.box = this.box || prepared.box;
     const [x0, y0, x1, y1] = this.box;
     canvas.style.aspectRatio = 1 / Math.min(1.15, Math.max(0.45, (y1 - y0) / (x1 - x0 || 1)));
@@ -68,6 +68,11 @@ class PlaneView {
     this.draw(picture);
     redrawWhenResized(canvas, this);
     return this.source(picture);
+  }
+  /// What its only picture shows from now on.
+  show(mesh) {
+    this.pictures[0].prepared = prepareForPlane(mesh);
+    this.redraw();
   }
   listen(canvas) {
     const down = new Set();  // two fingers zoom
@@ -165,6 +170,7 @@ class PlaneView {
       paint(elements, false);
     }
     this.drawLines(pen, mesh.lines, x, y, line, 1);
+    for (const { ends, colour } of mesh.strokes || []) this.drawLines(pen, ends, x, y, colour, 3);
     const dots = mesh.irregular.map(({ vertex }) => Math.min(5, 0.2 * prepared.around[vertex] * scale));
     const mean = dots.reduce((sum, r) => sum + r, 0) / (dots.length || 1);
     if (mean >= 0.4) this.drawLines(pen, mesh.pairs, x, y, kMarks.pair, 0.8 * mean);
@@ -175,7 +181,7 @@ class PlaneView {
       pen.arc(x(vertex), y(vertex), dots[i], 0, 7);
       pen.fill();
     });
-    marks.forEach((at, i) => drawPin(pen, width / 2 + (at[0] - centre[0]) * scale, height / 2 - (at[1] - centre[1]) * scale, i + 1, width));
+    marks.forEach((at, i) => at && drawPin(pen, width / 2 + (at[0] - centre[0]) * scale, height / 2 - (at[1] - centre[1]) * scale, i + 1, width));
   }
   drawLines(pen, ends, x, y, colour, width) {
     pen.strokeStyle = colour;

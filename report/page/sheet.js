@@ -20,8 +20,7 @@ function closeupButtons(cell, view) {
   }, closeupPicture(closeup), `${i + 1}: \u03b7 = ${fixed(closeup.eta, 3)}`));
 }
 
-function keyNumbers(values, metrics) {
-  const digits = { eta_mean: 3, eta_worst: 3, d4: 1, tau: 1 };
+function keyNumbers(values, metrics, digits = { eta_mean: 3, eta_worst: 3, d4: 1, tau: 1 }) {
   const item = (name, value, title) => el("div", { title }, el("dt", {}, name), el("dd", {}, value));
   const items = [];
   for (const key of ["n_vertices", "n_quads", "n_triangles"])
@@ -163,7 +162,9 @@ class Sheet {
     for (const { canvas, cell, buttons } of this.pictures) {
       if (view !== this.view) return;  // another seed is shown by now
       try {
-        const source = await view.add(canvas, cell.mesh, (cell.closeups || []).map((c) => c.at));
+        const mesh = await unpackMesh(cell.mesh);
+        if (view !== this.view) return;
+        const source = view.add(canvas, mesh, (cell.closeups || []).map((c) => c.at));
         buttons.replaceChildren(saveButtons(this.fileName(cell.word, "mesh"), source));
         canvas.dataset.drawn = "yes";
       } catch (error) {

@@ -79,6 +79,24 @@ function makeDots(mesh, vertices, colour) {
   return new THREE.Points(geometry, new THREE.PointsMaterial({ color: colour, sizeAttenuation: false }));
 }
 
+/// Lines as thin prisms: WebGL draws every line one pixel wide.
+function makeStroke(mesh, ends, colour, width) {
+  const places = [], at = (v) => new THREE.Vector3(mesh.x[v], mesh.y[v], mesh.z[v]);
+  for (let i = 0; i < ends.length; i += 2) {
+    const [a, b] = [at(ends[i]), at(ends[i + 1])], along = b.clone().sub(a).normalize();
+    const aside = along.clone().cross(Math.abs(along.z) < 0.9 ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(1, 0, 0)).setLength(width);
+    const corners = [0, 1, 2].map((k) => aside.clone().applyAxisAngle(along, (2 * Math.PI * k) / 3));
+    corners.forEach((p, k) => {
+      const q = corners[(k + 1) % 3];
+      for (const [end, side] of [[a, p], [b, p], [b, q], [a, p], [b, q], [a, q]]) places.push(...end.clone().add(side).toArray());
+    });
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(places), 3));
+  geometry.computeVertexNormals();
+  return new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ color: colour, emissive: colour, side: 2 }));
+}
+
 function makeScene(mesh) {
   const scene = new THREE.Scene(), ends = edgesOf(mesh), edges = makeSegments(mesh, ends, "#1c2430", 0.5), dots = [], faces = makeFaces(mesh);
   paintFaces(faces);
@@ -91,8 +109,11 @@ function makeScene(mesh) {
   for (const [colour, vertices] of byColour) dots.push(makeDots(mesh, vertices, colour));
   dots.push(makeSegments(mesh, Array.from(mesh.pairs), kMarks.pair, 1));  // seen where dots are
   scene.add(...dots);
+  for (const { ends, colour } of mesh.strokes || []) scene.add(makeStroke(mesh, ends, colour, 0.08 * meanLength(mesh, ends)));
   return { scene, faces, edges, dots, edge: (meanLength(mesh, ends) * mesh.around) / 4 };
 }
+
+const dispose = (scene) => scene.traverse((part) => part.geometry && part.geometry.dispose());
 
 class SpaceView {
   constructor() {
@@ -103,7 +124,7 @@ class SpaceView {
   end() {
     palette.followers.delete(this);
     cancelAnimationFrame(this.waiting);
-    for (const { scene } of this.pictures) scene.traverse((part) => part.geometry && part.geometry.dispose());
+    for (const { scene } of this.pictures) dispose(scene);
     this.pictures = [];
   }
   repaint() {
@@ -165,8 +186,7 @@ class SpaceView {
     this.redraw();
   }
   /// Returns the source of a figure.
-  async add(canvas, info, marks) {
-    const mesh = await unpackMesh(info);
+  add(canvas, mesh, marks) {
     if (!this.camera) this.place(mesh);
     canvas.style.aspectRatio = kAspect;
     const picture = { canvas, marks, ...makeScene(mesh) };
@@ -193,6 +213,13 @@ class SpaceView {
       return standalone(svg("svg", { viewBox: `0 0 ${width} ${height}` }, svg("image", { width, height, href: canvas().toDataURL() })));
     };
     return { canvas, drawing };
+  }
+  /// What its only picture shows from now on.
+  show(mesh) {
+    const [picture] = this.pictures;
+    dispose(picture.scene);
+    Object.assign(picture, makeScene(mesh));
+    this.redraw();
   }
   redraw() {
     if (this.waiting) return;
@@ -231,6 +258,7 @@ class SpaceView {
     pen.drawImage(gl.domElement, 0, 0);
     pen.scale(dots, dots);
     marks.forEach((at, i) => {
+      if (!at) return;
       const p = new THREE.Vector3(...at).project(camera);
       drawPin(pen, ((p.x + 1) / 2) * wide0, ((1 - p.y) / 2) * high0, i + 1, wide0);
     });

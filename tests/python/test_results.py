@@ -53,6 +53,17 @@ def test_arrays_are_views_that_keep_the_mesh():
     assert np.array_equal(points, copies[0]) and np.array_equal(quads, copies[1])
 
 
+@pytest.mark.skipif(not hasattr(delquad._core, "write_view"), reason="built without its programs")
+def test_a_view_is_a_page_and_a_frame(tmp_path, monkeypatch):
+    for display in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(display, raising=False)
+    view = delquad.mesh(square(), size=0.25).view(tmp_path / "m.html")
+    page = (tmp_path / "m.html").read_text(encoding="utf-8")
+    assert view.path == str(tmp_path / "m.html") and '"n_quads":16' in page
+    frame = view._repr_html_()
+    assert frame.startswith("<iframe srcdoc=") and frame.count("&lt;") == page.count("<") and frame.count("<") == 2
+
+
 def test_what_is_known_of_the_mesh():
     r = delquad.mesh(square(), size=0.05)
     assert r.metrics["eta_mean"] == pytest.approx(1)

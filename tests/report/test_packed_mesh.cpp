@@ -68,11 +68,14 @@ class Unpacker {
         p.*axes[k] = packed_.origin[k] + static_cast<double>(at) * packed_.unit;
       }
     }
+    for (std::size_t i = 0; with_entities && i < packed_.triangles + packed_.quads + packed_.lines; ++i)
+      entities.push_back(static_cast<int>(next()));
     EXPECT_EQ(at_, bytes_.size());
     return mesh;
   }
 
-  std::vector<int> eta;
+  bool with_entities = false;
+  std::vector<int> eta, entities;
   std::vector<std::vector<int>> polygons;  ///< of quads
   std::vector<std::pair<int, int>> irregular, pairs;
 
@@ -137,6 +140,26 @@ TEST(PackedMesh, ReadsBackPlanarQuads) {
   Unpacker other(with_failing);
   other.run();
   EXPECT_EQ(std::ranges::count(other.eta, 128), 2);
+}
+
+TEST(PackedMesh, ElementsKeepTheirEntities) {
+  Mesh mesh = quad_grid(7, 5, 7, 5);
+  mesh.regions.push_back({2, {}});
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) mesh.quad_region[q] = q % 7 < 3 ? 1 : 0;
+  for (const int step : {1, 5}) {
+    const Mesh shown = step > 1 ? thinned(mesh, step) : mesh;
+    const PackedMesh packed = pack_mesh(shown, {}, true);
+    Unpacker unpacker(packed);
+    unpacker.with_entities = true;
+    const Mesh read = unpacker.run();
+    ASSERT_EQ(unpacker.entities.size(), shown.quads.size() + mesh.lines.size());
+    for (std::size_t q = 0; q < read.quads.size(); ++q) {
+      double x = 0;
+      for (const int v : read.quads[q]) x += read.points[v].x / 4;
+      EXPECT_EQ(unpacker.entities[q], x < 3 ? 1 : 0);
+    }
+    EXPECT_EQ(std::vector<int>(unpacker.entities.end() - 24, unpacker.entities.end()), mesh.line_curve);
+  }
 }
 
 TEST(PackedMesh, ReadsBackTrianglesInSpaceWithAllTheyHave) {

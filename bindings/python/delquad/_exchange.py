@@ -142,12 +142,47 @@ def _svg(self):
             return file.read()
 
 
+class View:
+    """A page that shows a mesh: `path`, its file. A notebook shows it in a frame."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def _repr_html_(self):
+        import html
+        import pathlib
+
+        page = html.escape(pathlib.Path(self.path).read_text(encoding="utf-8"))
+        return f'<iframe srcdoc="{page}" sandbox="allow-scripts allow-downloads" style="width: 100%; height: 800px; border: 0"></iframe>'
+
+
+def _view(self, path=None):
+    """Writes a page that shows the mesh, and returns it: one HTML file with shape, sizes, names and the worst quads.
+
+    path: of the file; None for a new one in a temporary folder. Where there is a display, and no notebook that shows what
+    is returned, it is opened in a browser.
+    """
+    import sys
+    import tempfile
+    import webbrowser
+
+    if not hasattr(_core, "write_view"):
+        raise RuntimeError("delquad was built without its programs (DELQUAD_PROGRAMS)")
+    path = os.path.join(tempfile.mkdtemp(prefix="delquad-"), "mesh.html") if path is None else os.fspath(path)
+    _core.write_view(path, self, os.path.splitext(os.path.basename(path))[0], list(getattr(self, "warnings", [])))
+    in_notebook = "IPython" in sys.modules and getattr(sys.modules["IPython"].get_ipython(), "kernel", None) is not None
+    if not in_notebook and (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        webbrowser.open(f"file://{os.path.abspath(path)}")
+    return View(path)
+
+
 def _repr(self):
     kind = type(self).__name__
     return f"<delquad.{kind}: {len(self.points)} points, {len(self.quads)} quads, {len(self.triangles)} triangles>"
 
 
 _core.Mesh.write = _write
+_core.Mesh.view = _view
 _core.Mesh.to_meshio = _to_meshio
 _core.Mesh.to_vtk = _to_vtk
 _core.Mesh.to_pyvista = _to_pyvista

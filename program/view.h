@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "report/write_view.h"
+
+namespace delquad {
+
+/// Where the page of a mesh goes: to `page`, or beside the mesh where that is empty.
+std::filesystem::path page_of(const std::filesystem::path& mesh, const std::filesystem::path& page = {});
+
+/// Writes the page of a mesh, prints its name and opens it in a browser where there is a display.
+void view(const std::filesystem::path& page, const Mesh& mesh, const std::string& title,
+          const ViewNotes& notes);
+
+}  // namespace delquad

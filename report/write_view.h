@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+/// What is known of a mesh besides.
+struct ViewNotes {
+  std::vector<std::string> warnings = {};
+  std::vector<std::size_t> failing = {};  ///< quads beyond criteria, which have a colour of their own
+};
+
+/// Makes one HTML file that shows a mesh: shape, sizes, names that are switched on and off, worst quads. Of
+/// meshes above 1.7 million quads it shows some elements, and says so. It is written whole or not at all.
+/// Throws InputError for a mesh without triangles, quads and lines, and for a file that cannot be written.
+void write_view(const std::filesystem::path& file, const Mesh& mesh, const std::string& title,
+                const ViewNotes& notes = {});
+
+}  // namespace delquad

@@ -1,0 +1,115 @@
+#include "io/mesh_io.h"
+#include "tests/report/browser.h"
+#include "tests/support/curved_grid.h"
+#include "tests/support/grid_mesh.h"
+
+namespace delquad::testing_support {
+namespace {
+
+/// A grid with two regions, a triangle and a named point.
+Mesh mesh_to_look_at() {
+  Mesh mesh = quad_grid(4, 4);
+  mesh.regions.push_back({2, {"right </script>"}});
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) mesh.quad_region[q] = q % 4 < 2 ? 0 : 1;
+  const auto [a, b, c, d] = mesh.quads.back();
+  mesh.quads.pop_back();
+  mesh.quad_region.pop_back();
+  mesh.triangles = {{a, b, c}, {a, c, d}};
+  mesh.triangle_region = {1, 1};
+  mesh.named_points.push_back({6, {1, {"sensor"}}});
+  return mesh;
+}
+
+/// The page of a mesh, and what `script` returns there.
+nlohmann::json ask_view(const std::string& browser, const TemporaryFolder& folder, const Mesh& mesh,
+                        const std::string& script) {
+  write_mesh(folder / "m.msh", mesh);
+  const ProgramResult result = delquad({"view", folder / "m.msh"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "view: " + (folder / "m.msh.html").string() + "\n");
+  std::filesystem::rename(folder / "m.msh.html", folder / "r.html");
+  return ask_page(browser, folder, script);
+}
+
+constexpr const char* kTryAll = R"js(
+const canvas = all("canvas")[0], seen = {};
+const after = async (name, act) => {
+  const before = canvas.toDataURL();
+  act();
+  await wait(200);
+  seen[name] = canvas.toDataURL() !== before;
+};
+for (const by of ["size", "names", "shape (\u03b7)"]) await after(by, () => choose(all("#coloured-by")[0], by));
+for (const row of all(".names div")) await after(row.textContent.trim(), () => all("input", row)[0].click());
+await after("all", () => all(".save button").find((b) => b.textContent === "all").click());
+await after("only", () => all(".names button")[0].click());
+await after("worst", () => all(".closeups button")[0].click());
+await after("whole", () => all(".tools button")[2].click());
+return { seen, numbers: all(".numbers dd").map((n) => n.textContent), facts: all("#facts")[0].textContent };
+)js";
+
+TEST(View, ShowsQualitySizesNamesAndWorstQuads) {
+  NEEDS_BROWSER(browser);
+  const TemporaryFolder folder;
+  const auto told = ask_view(browser, folder, mesh_to_look_at(), kTryAll);
+  const std::vector<std::string> acts = {"size",
+                                         "names",
+                                         "shape (\u03b7)",
+                                         "inside 8 elementsonly",
+                                         "right </script> 9 elementsonly",
+                                         "south 4 linesonly",
+                                         "sensor point, number 5",
+                                         "all",
+                                         "only",
+                                         "worst",
+                                         "whole"};
+  for (const std::string& act : acts)
+    EXPECT_EQ(told["seen"].value(act, false), true) << act << " in " << told;
+  EXPECT_EQ(told["numbers"][0], "25");
+  EXPECT_EQ(told["facts"], "1 \u00d7 1 ");
+}
+
+TEST(View, ShowsCurvedSurfaces) {
+  NEEDS_BROWSER(browser);
+  const TemporaryFolder folder;
+  const auto told = ask_view(browser, folder, curved_grid(4, 3, 2, true), kTryAll);
+  for (const char* act : {"size", "names", "south 4 linesonly", "worst", "whole"})
+    EXPECT_EQ(told["seen"].value(act, false), true) << act << " in " << told;
+  EXPECT_NE(told["facts"].get<std::string>().find("elements of order 2"), std::string::npos) << told;
+}
+
+TEST(View, IsOpenedInABrowserWhereThereIsADisplay) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "m.msh", quad_grid(2, 2));
+  write_text(folder / "xdg-open", "#!/bin/sh\necho \"$1\" > " + (folder / "opened.part").string() + "\nmv " +
+                                      (folder / "opened.part").string() + " " + (folder / "opened").string() +
+                                      "\n");
+  std::filesystem::permissions(folder / "xdg-open", std::filesystem::perms::owner_all);
+  for (const std::string display : {"", ":7"}) {
+    const auto result = run_program(
+        "/usr/bin/env",
+        {{"-u", "WAYLAND_DISPLAY", "DISPLAY=" + display, "PATH=" + folder.path().string() + ":/usr/bin:/bin",
+          DELQUAD_PROGRAM, "view", folder / "m.msh", "-o", folder / "page.html"},
+         0,
+         {}});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    for (int i = 0; i < 100 && display != "" && !std::filesystem::exists(folder / "opened"); ++i)
+      usleep(50'000);
+    EXPECT_EQ(std::filesystem::exists(folder / "opened"), display != "");
+  }
+  EXPECT_EQ(read_text(folder / "opened"), (folder / "page.html").string() + "\n");
+}
+
+TEST(View, OfAMeshThatIsMade) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "m.toml", "loop = { rectangle = [[0, 0], [1, 1]] }\nsize = 0.25\n");
+  const auto result = run_program("/usr/bin/env", {{"-u", "WAYLAND_DISPLAY", "-u", "DISPLAY", DELQUAD_PROGRAM,
+                                                    "mesh", model, "-o", folder / "m.msh", "--view"},
+                                                   0,
+                                                   {}});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(read_text(folder / "m.msh.html").find("\"n_quads\":16"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace delquad::testing_support
