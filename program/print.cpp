@@ -82,7 +82,7 @@ void print_summary(const MeshMetrics& metrics) {
              {{"tau", "tau ", 1, " %"},
               {"edge_min", "edges from ", 3},
               {"edge_max", " to ", 3, " sizes"},
-              {"n_short", "", 0, " far too short", true}});
+              {"n_short", "", 0, " edges far too short", true}});
   print_line("vertices", metrics,
              {{"d4", "d4 ", 1, " %"},
               {"n_irregular", "", 0, " irregular"},
