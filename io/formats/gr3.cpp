@@ -71,6 +71,7 @@ Mesh read_gr3(const std::filesystem::path& path, ReadNotes* notes, Strays) {
 MeshFormat gr3_format() {
   return {.extensions = {".gr3", ".14", ".grd"},
           .description = "SCHISM; ADCIRC's fort.14, of triangles",
+          .read = read_gr3,
           .write = write_by<write_gr3>,
           .names = kBoundaryNames};
 }

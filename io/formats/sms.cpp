@@ -97,6 +97,7 @@ Mesh read_sms(const std::filesystem::path& path, ReadNotes* notes, Strays) {
 MeshFormat sms_format() {
   return {.extensions = {".2dm"},
           .description = "SMS: TUFLOW FV, Basement, QGIS",
+          .read = read_sms,
           .write = write_by<write_sms>,
           .names = kAllNames & ~kPointNames};
 }
