@@ -28,23 +28,23 @@ function measured(mesh, of) {
 }
 
 /// Regions, or curves, of which each has its own row, but those of the same names one together; `count`: their elements.
-/// `first`: of the colours, so that those of regions and curves differ.
-function groupsOf(entities, entityOf, what, unnamed, first) {
+/// `first`: of the colours, so that those of regions and curves differ; `pieces`: of each line of higher order.
+function groupsOf(entities, entityOf, what, unnamed, first, pieces) {
   const groups = new Map(), groupOf = entities.map(({ tag, names }) => {
     const label = names.length > 0 ? names.join(", ") : unnamed ? `${unnamed} ${tag}` : null;
     if (label === null) return null;
     if (!groups.has(label)) groups.set(label, { label, what, count: 0, on: true, colour: kWordColours[(first + groups.size) % kWordColours.length] });
     return groups.get(label);
   });
-  for (const e of entityOf) if (groupOf[e]) ++groupOf[e].count;
+  for (const e of entityOf) if (groupOf[e]) groupOf[e].count += 1 / pieces;
   return { groups: [...groups.values()].filter((g) => g.count > 0), of: Array.from(entityOf, (e) => groupOf[e]) };
 }
 
 class MeshPage {
   constructor(data, mesh) {
     Object.assign(this, { data, mesh, colouredBy: Object.keys(kQuantities)[data.mesh.quads > 0 ? 0 : 1] });
-    this.regions = groupsOf(data.regions, [...mesh.triangleRegion, ...mesh.quadRegion], "elements", data.mesh.dimension === 3 ? "face" : "region", 0);
-    this.curves = groupsOf(data.curves, mesh.lineCurve, "lines", null, this.regions.groups.length);
+    this.regions = groupsOf(data.regions, [...mesh.triangleRegion, ...mesh.quadRegion], "elements", data.mesh.dimension === 3 ? "face" : "region", 0, 1);
+    this.curves = groupsOf(data.curves, mesh.lineCurve, "lines", null, this.regions.groups.length, data.mesh.order);
     this.view = data.mesh.dimension === 3 ? new SpaceView() : new PlaneView();
     this.marks = [...data.closeups, ...data.points].map(({ at }) => at);
     this.fill();
