@@ -91,7 +91,7 @@ class MeshPage {
       this.show();
     } });
     return el("div", {}, el("span", { class: "dot", style: `background:${group.colour}` }), el("label", {}, group.box, ` ${group.label} `,
-      el("small", {}, `${grouped(group.count)} ${group.what}`)), el("button", { title: `Of all ${group.what} only these`,
+      el("small", {}, `${grouped(Math.round(group.count))} ${group.what}`)), el("button", { title: `Of all ${group.what} only these`,
       click: () => this.turn((other) => other === group || (other.what !== group.what && other.on)) }, "only"));
   }
   pointRow({ names, at }, place) {
