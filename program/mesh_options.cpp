@@ -1,5 +1,7 @@
 #include "program/mesh_options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -292,6 +294,11 @@ CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
   mesh->add_option("--fillet-rows", arguments.fillet_rows,
                    "LEAST-MOST:ROWS: rows of quads across fillets of these radii; may be repeated")
       ->allow_extra_args(false);
+  mesh->add_option_function<int>(
+          "--gap-rows",
+          [&set = arguments.set](int n) { set.push_back(fmt::format("curves.gap_rows={}", n)); },
+          "of planar models: at least so many rows of quads between curves of a region")
+      ->check(CLI::PositiveNumber);
   mesh->add_option("--refine", arguments.refine, "divide all sizes by this, for studies of convergence")
       ->check(kLength);
   mesh->add_option("--quads", arguments.quads,

@@ -19,6 +19,7 @@
 #include "features/grids/grids.h"
 #include "features/periodic/periodic.h"
 #include "features/symmetry/planar_symmetry.h"
+#include "features/thin/facing_nodes.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/domain_builder.h"
 #include "geometry/planar/face_regions.h"
@@ -29,7 +30,8 @@ namespace delquad {
 
 namespace {
 
-/// Makes the numbers of edges even.
+/// Changes numbers of edges by one, where it costs least, until every region has an even number of them.
+/// Throws InputError where what was divided forbids that.
 class EvenCounts {
  public:
   EvenCounts(const PlanarModel& model, const Arrangement& arrangement, const FaceRegions& regions,
@@ -50,7 +52,8 @@ class EvenCounts {
   }
 
   /// Every face with a region gets an even number of sides at the least cost; the others do not matter.
-  void by_t_join() {
+  /// `wanted`: edges of each piece; empty: the integrals.
+  void by_t_join(const std::vector<double>& wanted = {}) {
     // Mirror images have the numbers of their masters.
     std::vector<char> counts_not(regions_.region.size(), 0);
     for (std::size_t f = 0; f < counts_not.size(); ++f) counts_not[f] = regions_.region[f] < 0;
@@ -68,6 +71,7 @@ class EvenCounts {
     std::vector<CurveDemand> demands;
     for (std::size_t i = 0; i < pieces_.size(); ++i)
       demands.push_back(demand_of(pieces_[i], {odd_beside[i].begin(), odd_beside[i].end()}));
+    for (std::size_t i = 0; i < wanted.size(); ++i) demands[i].integral = wanted[i];
     std::vector<int> odd_faces;
     const std::vector<int> counts = even_counts(
         demands, static_cast<int>(counts_not.size()), *matching_solver(matching_solver_names().front()),
@@ -146,15 +150,6 @@ class EvenCounts {
   std::size_t n_lines_ = 0;
 };
 
-/// Changes numbers of edges by one, where it costs least, until every region has an even number of them.
-/// Throws InputError where what was divided forbids that.
-void make_counts_even(const PlanarModel& model, const Arrangement& arrangement, const FaceRegions& regions,
-                      bool loops_are_apart, std::vector<CurvePiece>& pieces) {
-  EvenCounts counts(model, arrangement, regions, pieces);
-  const bool are_free = std::ranges::all_of(pieces, [](const CurvePiece& p) { return p.master < 0; });
-  loops_are_apart&& are_free ? counts.of_groups() : counts.by_t_join();
-}
-
 class CurveMesher {
  public:
   CurveMesher(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options,
@@ -162,6 +157,7 @@ class CurveMesher {
       : model_(model),
         mapped_spec_(options.mapped),
         narrow_grids_(options.narrow_grids),
+        thin_rows_(options.thin_rows),
         grid_size_(options.grid_size),
         chain_(chain_model(model)),
         pieces_(cut_curves(model, chain_)) {
@@ -392,16 +388,23 @@ class CurveMesher {
     const FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
     if (mapped_spec_.asks() || narrow_grids_)
       mapped_ = find_mapped_faces(model_, mapped_spec_, lines, arrangement, regions, chain_, pieces_);
-    if (!mapped_.empty()) balance_mapped(model_, mapped_, arrangement, regions, grid_size_, pieces_);
-    if (!mapped_.empty()) return;
-    const bool are_apart =
-        std::ranges::all_of(pieces_at_nodes(pieces_, chain_.nodes.size()), [](int n) { return n == 2; });
-    make_counts_even(model_, arrangement, regions, are_apart, pieces_);
+    EvenCounts even(model_, arrangement, regions, pieces_);
+    const auto number = [&](const std::vector<double>& wanted) {
+      if (!mapped_.empty() && wanted.empty())
+        balance_mapped(model_, mapped_, arrangement, regions, grid_size_, pieces_);
+      if (!mapped_.empty()) return;
+      const bool are_apart =
+          std::ranges::all_of(pieces_at_nodes(pieces_, chain_.nodes.size()), [](int n) { return n == 2; });
+      const bool are_free = std::ranges::all_of(pieces_, [](const CurvePiece& p) { return p.master < 0; });
+      are_apart&& are_free&& wanted.empty() ? even.of_groups() : even.by_t_join(wanted);
+    };
+    thin_rows_ ? face_nodes(arrangement, regions, pieces_, number) : number({});
   }
 
   const PlanarModel& model_;
   const MappedSpec mapped_spec_;
   const bool narrow_grids_;
+  const bool thin_rows_;
   const PointSize grid_size_;
   ModelChain chain_;
   std::vector<CurvePiece> pieces_;

@@ -13,6 +13,7 @@
 #include "features/sizes/size_warnings.h"
 #include "features/symmetry/planar_symmetry.h"
 #include "features/symmetry/symmetry_planes.h"
+#include "features/thin/gap_sizes.h"
 #include "fields/fields.h"
 #include "geometry/planar/model_chain.h"
 
@@ -94,14 +95,16 @@ class SizedModel {
                const std::shared_ptr<const SizeField>& grid_size = nullptr) {
     p_.size.field = std::move(size);
     check_count_early(problem_, model_, p_.size.field);
+    const CurveOptions curves = curve_options(problem_.options);
     CurveMeshOptions options;
     if (grid_size) options.grid_size = as_function(grid_size);
     options.max_edges = static_cast<double>(problem_.max_elements);
     options.divisions = problem_.divisions;
     options.periodic = problem_.periodic;
     options.mapped = problem_.mapped;
-    options.narrow_grids = curve_options(problem_.options).agreement > 0;
+    options.narrow_grids = !curves.thin_rows && curves.agreement > 0;
     options.symmetry = problem_.symmetry;
+    options.thin_rows = thin_rows;
     const auto& field = p_.size.field;
     domain = make_domain(
         model_, as_function(problem_.seed == 0 ? field : jittered(field, problem_.seed, diagonal_of(model_))),
@@ -109,6 +112,7 @@ class SizedModel {
   }
 
   PlanarDomain domain;
+  bool thin_rows = false;  ///< from now on
 
  private:
   const MeshProblem& problem_;
@@ -157,8 +161,14 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
     sized.mesh_by(as_divided(size.field, model, domain, problem.divisions));
   }
   // Edges are short where curves between two of their nodes are.
-  const std::vector<FineSpot> fine = short_edges(domain, *size.field);
+  const CurveOptions curves = curve_options(problem.options);
+  std::vector<FineSpot> fine = short_edges(domain, *size.field, curves.thin_rows ? curves.aspect : 1);
   if (!fine.empty()) size.adapted_to.push_back("short curves");
+  if (curves.gap_rows > 0) {
+    const auto gaps = gap_spots(domain, *size.field, curves.gap_rows);
+    if (!gaps.empty()) size.adapted_to.push_back("gaps between curves");
+    fine.insert(fine.end(), gaps.begin(), gaps.end());
+  }
   if (!spots.empty()) size.adapted_to.push_back("sound quads");
   if (!fine.empty() || !spots.empty() || !problem.divisions.empty()) {
     if (!size.asked) size.asked = size.field;
@@ -166,6 +176,10 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
     const auto grid_size = finer_near(size.field, all);
     all.insert(all.begin(), fine.begin(), fine.end());
     sized.mesh_by(finer_near(size.field, std::move(all)), grid_size);
+  }
+  if (curves.thin_rows) {
+    sized.thin_rows = true;
+    sized.mesh_by(size.field);
   }
   p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
   return std::move(sized.domain);

@@ -18,6 +18,22 @@ const OptionTable<CurveOptions>& curve_table() {
                 .least = 0,
                 .most = 100},
                &CurveOptions::join_below)
+          .choice({.name = "thin",
+                   .help = "in the plane, regions thinner than the size: smaller sizes where they end, or "
+                           "rows of long quads"},
+                  &CurveOptions::thin_rows,
+                  std::vector<std::pair<std::string, bool>>{{"refine", false}, {"rows", true}})
+          .add({.name = "aspect",
+                .help = "of quads at the ends of such rows, beyond which sizes are smaller",
+                .least = 1,
+                .most = 100},
+               &CurveOptions::aspect)
+          .add({.name = "gap_rows",
+                .help =
+                    "in the plane: rows of quads that fit between curves of a region; 0: by the size alone",
+                .least = 0,
+                .most = 1000},
+               &CurveOptions::gap_rows)
           .add({.name = "keep_named",
                 .help = "faces and curves with names stay where --ignore-below would take them out"},
                &CurveOptions::keep_named);

@@ -119,14 +119,15 @@ std::shared_ptr<const SizeField> finer_near(std::shared_ptr<const SizeField> bas
   return std::make_shared<SpotSize>(std::move(base), std::move(spots));
 }
 
-std::vector<FineSpot> short_edges(const PlanarDomain& domain, const SizeField& size) {
+std::vector<FineSpot> short_edges(const PlanarDomain& domain, const SizeField& size, double aspect) {
   std::vector<FineSpot> spots;
   if (!domain.has_junctions) return spots;
   int hint = -1;
   for (const auto& [v, w] : domain.boundary.lines) {
     const Vec3 &a = domain.boundary.points[v], &b = domain.boundary.points[w];
     const double length = norm(b - a), wanted = size.at(0.5 * (a + b), hint);
-    if (length < kShort * wanted) spots.push_back({a, b, std::max(length, kShortest * wanted), length});
+    if (aspect * length < kShort * wanted)
+      spots.push_back({a, b, aspect * std::max(length, kShortest * wanted), length});
   }
   return spots;
 }

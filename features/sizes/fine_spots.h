@@ -29,7 +29,7 @@ std::shared_ptr<const SizeField> as_near(std::shared_ptr<const SizeField> base,
                                          const std::vector<FineSpot>& spots);
 
 /// The edges that are much shorter than the size, because the curves between two nodes are; each is a spot of
-/// its own length. Only of domains with junctions.
-std::vector<FineSpot> short_edges(const PlanarDomain& domain, const SizeField& size);
+/// its own length, times `aspect`. Only of domains with junctions.
+std::vector<FineSpot> short_edges(const PlanarDomain& domain, const SizeField& size, double aspect = 1);
 
 }  // namespace delquad

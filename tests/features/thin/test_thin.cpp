@@ -1,0 +1,151 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "delquad/mesher.h"
+#include "tests/support/expect_input_error.h"
+
+namespace delquad {
+namespace {
+
+constexpr double kSize = 0.5, kHigh = 0.2, kLong = 12;
+constexpr int kLayers = 5;
+
+Vec2 on_interface(int i, double x) { return {x, i * kHigh + 0.3 * std::sin(0.5 * x)}; }
+
+/// Layers of less than half the size between a slanted fault and a straight one; the middle one is cut in two
+/// wedges of one degree.
+PlanarModel stack_of_layers() {
+  PlanarModel model;
+  const auto add = [&](std::shared_ptr<const Curve> shape, const std::string& name) {
+    model.curves.push_back({std::move(shape), name, {}});
+    return static_cast<int>(model.curves.size()) - 1;
+  };
+  const auto from = [](int i) { return 0.8 * i * kHigh; };
+  const auto spline = [&](int i, int to) {
+    std::vector<Vec2> points;
+    for (int k = 0; k <= 48; ++k) {
+      const double t = k / 48.0, x = from(i) + t * (kLong - from(i));
+      points.push_back((1 - t) * on_interface(i, x) + t * on_interface(to, x));
+    }
+    return make_spline(points);
+  };
+  std::vector<int> interfaces, left, right;
+  for (int i = 0; i <= kLayers; ++i)
+    interfaces.push_back(add(spline(i, i), "interface_" + std::to_string(i)));
+  for (int i = 0; i < kLayers; ++i) {
+    left.push_back(add(make_segment(on_interface(i, from(i)), on_interface(i + 1, from(i + 1))), "fault"));
+    right.push_back(add(make_segment(on_interface(i, kLong), on_interface(i + 1, kLong)), "end"));
+  }
+  const int cut = kLayers / 2;
+  for (int i = 0; i < kLayers; ++i) {
+    const std::string name = "layer_" + std::to_string(i);
+    if (i != cut) model.loops.push_back({{interfaces[i], right[i], interfaces[i + 1], left[i]}, name, {}});
+  }
+  const int wedge = add(spline(cut, cut + 1), "wedge");
+  model.loops.push_back({{interfaces[cut], right[cut], wedge}, "lower", {}});
+  model.loops.push_back({{wedge, interfaces[cut + 1], left[cut]}, "upper", {}});
+  return model;
+}
+
+MeshProblem problem_of(PlanarModel model, const std::string& thin) {
+  MeshProblem problem;
+  problem.model = std::move(model);
+  problem.size.field = make_constant_size(kSize);
+  problem.options.set("curves.thin", thin);
+  return problem;
+}
+
+std::vector<Vec3> nodes_on(const Mesh& mesh, const std::string& name) {
+  std::vector<Vec3> nodes;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    if (mesh.curves[mesh.line_curve[l]].names == std::vector{name})
+      for (const int v : mesh.lines[l]) nodes.push_back(mesh.points[v]);
+  return nodes;
+}
+
+/// How far nodes of interfaces are from facing one of the next, in sizes: the mean away from the ends.
+double mean_offset(const Mesh& mesh) {
+  double sum = 0;
+  int n = 0;
+  for (int i = 0; i < kLayers; ++i) {
+    const auto next = nodes_on(mesh, "interface_" + std::to_string(i + 1));
+    if (i == kLayers / 2) continue;
+    for (const Vec3& x : nodes_on(mesh, "interface_" + std::to_string(i))) {
+      if (x.x < 3 || x.x > kLong - 2) continue;
+      const double slope = 0.15 * std::cos(0.5 * x.x);
+      double least = std::numeric_limits<double>::infinity();
+      for (const Vec3& y : next)
+        least = std::min(least, std::abs(y.x - x.x + slope * (y.y - x.y)) / std::hypot(1, slope));
+      sum += least / kSize;
+      ++n;
+    }
+  }
+  return sum / n;
+}
+
+TEST(ThinRows, OfAStackFaceEachOther) {
+  const MeshResult refined = mesh(problem_of(stack_of_layers(), "refine"), "DBCO");
+  const MeshResult rows = mesh(problem_of(stack_of_layers(), "rows"), "DBCO");
+  EXPECT_TRUE(rows.mesh.triangles.empty());
+  EXPECT_LT(mean_offset(rows.prepared->boundary), 0.05);
+  EXPECT_LT(mean_offset(rows.mesh), 0.05);
+  EXPECT_GT(rows.metrics.values.at("scaled_jacobian_mean"), 0.9);
+  EXPECT_GT(rows.metrics.values.at("scaled_jacobian_mean"),
+            refined.metrics.values.at("scaled_jacobian_mean"));
+  EXPECT_LT(rows.mesh.quads.size(), refined.mesh.quads.size());
+}
+
+TEST(ThinRows, AreTheSameForAnyNumberOfThreads) {
+  const MeshResult one = mesh(problem_of(stack_of_layers(), "rows"), "DBCO", {.threads = 1});
+  const MeshResult three = mesh(problem_of(stack_of_layers(), "rows"), "DBCO", {.threads = 3});
+  ASSERT_EQ(one.mesh.quads, three.mesh.quads);
+  for (std::size_t i = 0; i < one.mesh.points.size(); ++i)
+    EXPECT_EQ(norm(one.mesh.points[i] - three.mesh.points[i]), 0);
+}
+
+TEST(ThinRows, RefuseWhatCannotBe) {
+  Options options;
+  expect_input_error([&] { options.set("curves.thin", std::string("columns")); }, {"curves.thin", "rows"});
+  expect_input_error([&] { options.set("curves.aspect", 0.5); }, {"curves.aspect", "1 to 100"});
+  expect_input_error([&] { options.set("curves.gap_rows", -1LL); }, {"curves.gap_rows"});
+}
+
+/// A circle with a hole off its middle: the gap is between .1 and .9.
+PlanarModel channel() {
+  PlanarModel model;
+  model.curves = {{make_circle({0, 0}, 1.5), "outer", {}}, {make_circle({0.4, 0}, 1), "inner", {}}};
+  model.loops = {{{0}, "gap", {}}, {{1}, {}, {}}};
+  return model;
+}
+
+TEST(GapRows, FitBetweenArcs) {
+  MeshProblem problem = problem_of(channel(), "refine");
+  const MeshResult wide = mesh(problem, "DBCO");
+  problem.options.set("curves.gap_rows", 3LL);
+  const MeshResult fine = mesh(problem, "DBCO");
+  // Across the narrowest place, along y = 0 from x = 1.4 to 1.5: quads whose boxes it crosses.
+  const auto across = [](const Mesh& m) {
+    int n = 0;
+    for (const auto& quad : m.quads) {
+      double low = 1e9, high = -1e9, left = 1e9;
+      for (const int v : quad) {
+        low = std::min(low, m.points[v].y), high = std::max(high, m.points[v].y);
+        left = std::min(left, m.points[v].x);
+      }
+      n += low <= 0.001 && high > 0.001 && left > 1.3;
+    }
+    return n;
+  };
+  EXPECT_LT(across(wide.mesh), 3);
+  EXPECT_GE(across(fine.mesh), 3);
+  EXPECT_GT(fine.metrics.values.at("scaled_jacobian_mean"), wide.metrics.values.at("scaled_jacobian_mean"));
+}
+
+}  // namespace
+}  // namespace delquad
