@@ -248,7 +248,7 @@ std::vector<SuiteModel> select_models(const SuiteSelection& selection) {
     if (is_in(families, name_of(model.family))) known.push_back(model.name);
   for (const std::string& name : names)
     if (std::ranges::find(known, name) == known.end()) {
-      const std::string near = suggestion(name, known);
+      const std::string near = families.empty() ? suggestion(name, known) : "";
       refuse("--models: '{}' is none of {}{}", name,
              families.empty() ? "the suite" : fmt::format("{}", fmt::join(families, ", ")),
              near.empty() ? fmt::format(": expected some of {}", fmt::join(known, ", ")) : near);

@@ -93,7 +93,7 @@ double width_of(char c) {
   if ((static_cast<unsigned char>(c) & 0xC0) == 0x80 || c == '{' || c == '}' || c == '$') return 0;
   if (kThinLetters.find(c) != kThinLetters.npos) return 0.67;
   if (kWideLetters.find(c) != kWideLetters.npos) return 2.1;
-  return c >= 'A' && c <= 'Z' ? 1.65 : 1.07;
+  return (c >= 'A' && c <= 'Z') || c == '=' || c == '+' ? 1.65 : 1.07;
 }
 
 /// In points. Commands are signs, of at most two figures; bold is wider by a seventh.
@@ -169,7 +169,7 @@ class TexTable {
     for (std::size_t k = 0; k < 2; ++k) {
       double width = width_of(rendered_.head.names[k]);
       for (const auto& line : rendered_.lines) width = std::max(width, width_of(line.names[k]));
-      if (k == 0) in_groups_ |= width > kMostOfNames && width <= kPageWidth;
+      if (k == 0) in_groups_ |= width > kMostOfNames;
       if (k == 0 && in_groups_) continue;
       names_[k] = std::min(width, kMostOfNames);
       broken_[k] = width > kMostOfNames;
@@ -241,6 +241,14 @@ class TexTable {
     return broken_[k] ? "\\raggedright " + breakable(text, kLongestPiece) : text;
   }
 
+  /// A name above its rows; one that is wider than the page is broken.
+  static std::string group_line(const std::string& group) {
+    const std::string name = "\\emph{" + group + "}";
+    return width_of(group) <= kPageWidth ? name
+                                         : fmt::format("\\parbox[t]{{{}pt}}{{\\raggedright\\emph{{{}}}}}",
+                                                       kPageWidth, breakable(group, kLongestPiece));
+  }
+
   std::string line(const RenderedTable::Line& line, const Block& block) const {
     std::string text = (in_groups_ ? "" : name(0, line.names[0]) + " & ") + name(1, line.names[1]);
     bool said = line.missing.empty();
@@ -271,8 +279,9 @@ class TexTable {
     for (std::size_t i = 0; i < rendered_.lines.size(); ++i) {
       const std::string& group = rendered_.lines[i].names[0];
       if (in_groups_ && (i == 0 || group != rendered_.lines[i - 1].names[0]))
-        text += fmt::format("{}\\multicolumn{{{}}}{{@{{}}l@{{}}}}{{\\emph{{{}}}}} \\\\\n",
-                            i == 0 ? "" : "\\addlinespace\n", 1 + block.last - block.first, group);
+        text +=
+            fmt::format("{}\\multicolumn{{{}}}{{@{{}}l@{{}}}}{{{}}} \\\\\n", i == 0 ? "" : "\\addlinespace\n",
+                        1 + block.last - block.first, group_line(group));
       text += line(rendered_.lines[i], block);
     }
     return text + (is_long() ? "\\end{longtable}" : "\\bottomrule\n\\end{tabular}");

@@ -134,14 +134,14 @@ TEST(Latex, DefaultColumnsFitAPage) {
   EXPECT_EQ(to_tex(outcome.table).find("scriptsize"), std::string::npos);
 }
 
-/// One word with two options on eight domains; the second value of each is better on all of them.
+/// One word with two options on ten domains; the second value of each is better on all of them.
 StudyResults study_of_options() {
   StudyResults results;
   results.study.title = "Options";
   results.study.pipelines = {"DBO"};
   results.study.axes = {{"passes", {"1", "2"}}, {"a_cost_with_a_long_name", {"angle", "eta"}}};
   results.study.pairs = {"passes", "a_cost_with_a_long_name"};
-  for (int domain = 0; domain < 8; ++domain) {
+  for (int domain = 0; domain < 10; ++domain) {
     results.study.cases.push_back("domain_" + std::to_string(domain));
     for (const int passes : {1, 2})
       for (const bool eta : {false, true}) {
@@ -177,7 +177,7 @@ TEST(Latex, OptionsHaveARowForEachValue) {
   const std::vector<TableRow>& rows = outcome.summary.rows;
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[1].group, "passes=2");
-  EXPECT_EQ(rows[1].values.at("eta_mean_won"), 8);
+  EXPECT_EQ(rows[1].values.at("eta_mean_won"), 10);
   EXPECT_EQ(rows[1].marks.size(), 4u) << "better than all others of its axis";
   const std::string tables = outcome.files.at("tables.tex"), summary = to_tex(outcome.summary);
   EXPECT_NE(tables.find("than every other of its axis"), std::string::npos);
@@ -200,7 +200,7 @@ TEST(Latex, PlannedStudiesSayHowTheyAreTested) {
                            "secondary ones, which count only", "p corr.", "\\textbf{", "as hypotheses ask"})
     EXPECT_NE(tables.find(part), std::string::npos) << part << " in " << tables;
   const std::string alone = to_tex(planned.hypotheses);
-  EXPECT_EQ(alone.find("\\begin{tabular}"), alone.rfind("\\begin{tabular}")) << "one table: " << alone;
+  EXPECT_EQ(alone.find("p{"), std::string::npos) << "long names stand above their rows: " << alone;
   if (has_latex()) {
     EXPECT_EQ(compile_inputs(planned, "\\input{tables}\n\\input{summary}\n\\input{hypotheses}\n"), "");
   }

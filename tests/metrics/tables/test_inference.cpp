@@ -200,7 +200,7 @@ TEST(Hypotheses, AreAllThatIsClaimed) {
   results.study.plan_changed = true;
   const Outcome changed = make_tables(results);
   EXPECT_NE(to_markdown(changed.hypotheses).find("Not planned"), std::string::npos);
-  EXPECT_NE(changed.files.at("tables.tex").find("which were not fixed before the run"), std::string::npos);
+  EXPECT_NE(changed.files.at("tables.tex").find("\\textbf{Not planned: "), std::string::npos);
   for (CellRecord& record : results.records) record.values["d4"] = 90;
   EXPECT_EQ(make_tables(results).hypotheses.rows[1].texts.at("first_is"), "no difference");
 }
