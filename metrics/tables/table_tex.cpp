@@ -4,6 +4,7 @@
 #include <boost/locale/utf.hpp>
 #include <cctype>
 #include <numeric>
+#include <set>
 #include <string_view>
 
 #include "metrics/tables/table.h"
@@ -106,8 +107,10 @@ double width_of(const std::string& text) {
       continue;
     }
     figures += 2;
-    if (i + 1 < text.size() && !std::isalpha(static_cast<unsigned char>(text[i + 1]))) ++i;
-    while (i + 1 < text.size() && std::isalpha(static_cast<unsigned char>(text[i + 1]))) ++i;
+    if (i + 1 < text.size() && !std::isalpha(static_cast<unsigned char>(text[i + 1])))
+      ++i;
+    else
+      while (i + 1 < text.size() && std::isalpha(static_cast<unsigned char>(text[i + 1]))) ++i;
   }
   return kFigure * figures * (is_bold ? kBold : 1);
 }
@@ -175,6 +178,8 @@ class TexTable {
       broken_[k] = width > kMostOfNames;
     }
     for (const TableColumn& column : shown_columns(table)) keys_.push_back(column.key);
+    for (const TableRow& row : table.rows)
+      for (const auto& [key, value] : row.values) numbers_.insert(key);
     double failed = 0;
     for (const auto& line : rendered_.lines) failed = std::max(failed, width_of(line.missing));
     for (std::size_t k = 0; k < rendered_.head.values.size(); ++k) {
@@ -259,7 +264,8 @@ class TexTable {
         said = true;
       }
       if (paragraphs_[k] > 0)
-        value = "\\raggedright\\let\\\\\\tabularnewline " + breakable_note(value, kLongestText);
+        value = (numbers_.contains(keys_[k]) ? "\\raggedleft" : "\\raggedright") +
+                ("\\let\\\\\\tabularnewline " + breakable_note(value, kLongestText));
       text += " & " + value;
     }
     return text + " \\\\\n";
@@ -293,6 +299,7 @@ class TexTable {
   double names_[2] = {0, 0};  ///< widths
   bool broken_[2] = {false, false};
   std::vector<std::string> keys_;   ///< of columns
+  std::set<std::string> numbers_;   ///< keys of those that have them
   std::vector<double> values_;      ///< widths, with the space between columns
   std::vector<double> paragraphs_;  ///< the same of values that are broken; 0: they are not
 };
