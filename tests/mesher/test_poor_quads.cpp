@@ -178,7 +178,8 @@ TEST(SinglePrecision, IsToldOfFarModels) {
   EXPECT_TRUE(far_away(1e3).empty());
   const auto warnings = far_away(4e6);  // numbers there are half a unit apart
   ASSERT_EQ(warnings.size(), 1u);
-  for (const char* part : {"single precision", "inverted or flat", "origin near to (4e+06, 4e+06, 0)"})
+  for (const char* part :
+       {"single precision", "inverted or flat", "origin near to (4000000.5, 4000000.5, 0)"})
     EXPECT_NE(warnings[0].text.find(part), std::string::npos) << warnings[0].text;
 }
 
