@@ -83,6 +83,12 @@ std::unique_ptr<CrossField> make_gradient_cross(std::shared_ptr<const SizeField>
 /// adaptive quadrature over the background mesh aims at.
 double expected_quads(const BackgroundMesh& background, const SizeField& size, double relative_error = 0.01);
 
+/// What curvature asks for at least where the size is else `base`: `min`, or if that is 0 a part of the base.
+double least_by_curvature(double base, double min);
+/// The base, or less where it takes that to make `per_turn` elements of a full turn with the curvature k
+/// (1/length); 0: as the base.
+double size_by_curvature(double base, double k, double per_turn, double min);
+
 /// Throws InputError, beginning with `where`, for limits of a SizeSpec that contradict each other.
 void check_size_limits(double curvature, double min, double max, const std::string& where);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "base/segment.h"
@@ -120,6 +121,16 @@ std::unique_ptr<SizeField> make_capped_size(std::shared_ptr<const SizeField> bas
   if (!is_size(most))
     throw InputError(fmt::format("the largest size is {}; a size must be finite and positive", most));
   return std::make_unique<CappedSize>(std::move(base), most);
+}
+
+double least_by_curvature(double base, double min) {
+  constexpr double kLeastPart = 1.0 / 20;
+  return min > 0 ? min : kLeastPart * base;
+}
+
+double size_by_curvature(double base, double k, double per_turn, double min) {
+  if (!(k > 0) || !(per_turn > 0)) return base;
+  return std::min(base, std::max(least_by_curvature(base, min), 2 * std::numbers::pi / (k * per_turn)));
 }
 
 void check_size_limits(double curvature, double min, double max, const std::string& where) {

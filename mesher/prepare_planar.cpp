@@ -158,8 +158,9 @@ class PlanarSteps final : public ModelSteps {
         expected_quads(*p.plane.background, *p.size.field) + (p.layers ? p.layers->count.quads : 0);
     check_count(p.size.expected_quads, problem_);
     warn_of_large_size(*p.size.field, domain_.boundary, p.warnings);
-    if (const auto* model = std::get_if<PlanarModel>(&problem_.model))
-      warn_of_coarse_turns(*model, domain_, p.warnings);
+    if (const auto* model = std::get_if<PlanarModel>(&problem_.model); model && !p.metric_plane)
+      warn_of_coarse_turns(*model, domain_, problem_.size, p.size.asked ? *p.size.asked : *p.size.field,
+                           p.warnings);
     given_cross_ = given_cross(problem_.cross, domain_.boundary, p);
     auto shapes = domain_.curve_shapes;
     if (problem_.seed != 0) turn(problem_, domain_, given_, p);

@@ -304,8 +304,7 @@ CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
   mesh->add_option("--quads", arguments.quads,
                    "about how many, by sizes that are all larger or smaller; no --size is needed then")
       ->transform(kCount);
-  mesh->add_option("--curvature", arguments.curvature,
-                   "of surfaces: elements per full turn of a curved face or curve")
+  mesh->add_option("--curvature", arguments.curvature, "elements per full turn of a curved face or curve")
       ->check(CLI::Range(kLeastPerTurn, kMostPerTurn));
   mesh->add_option("--size-min", arguments.min, "least size by curvature; default: 1/20 of --size")
       ->check(kLength);

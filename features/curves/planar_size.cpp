@@ -7,6 +7,7 @@
 #include "features/curves/mesh_planar_curves.h"
 #include "features/divisions/divisions.h"
 #include "features/seed/perturb.h"
+#include "features/sizes/curvature_spots.h"
 #include "features/sizes/curve_options.h"
 #include "features/sizes/fine_spots.h"
 #include "features/sizes/named_parts.h"
@@ -148,6 +149,11 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
     const NamedParts parts(model, domain);
     if (round == 0) warn_of_idle_sizes(spec.named, parts, *base, p.warnings);
     sized.mesh_by(with_images(finer_near(base, parts.spots(spec.named))));
+  }
+  if (const auto turns = curvature_spots(model, spec, *base); !turns.empty()) {
+    size.asked = size.field;
+    size.adapted_to.push_back("curvature");
+    sized.mesh_by(with_images(finer_near(size.field, turns)));
   }
   // Sizes grow along the background mesh of the curves' edges.
   if (spec.gradation > 0) {

@@ -62,6 +62,14 @@ struct CoarseTurns {
     return fmt::format("{} {} fewer than {:g} edges to a full turn, the fewest {:.2g} ({})", what,
                        curves + faces == 1 ? "gets" : "get", kFewPerTurn, fewest, worst);
   }
+  /// `base`: a size without curvature; `asks`: elements per full turn overall, 0: none.
+  void tell(double base, double asks, double min, std::vector<Warning>& warnings) const {
+    if (curves + faces == 0) return;
+    std::string help = asks < kFewPerTurn ? fmt::format("--curvature {:g}", kFewPerTurn) : "";
+    if (needed < least_by_curvature(base, min))
+      help += fmt::format("{}--size-min {:.2g}", help.empty() ? "" : " with ", kRoundedUp * needed);
+    if (!help.empty()) warnings.emplace_back(text() + ": " + help + " would help");
+  }
 };
 
 /// The angle by which a curve turns all in all between its corners, and its length.
@@ -185,8 +193,8 @@ void warn_of_large_size(const SizeField& size, const Mesh& model, std::vector<Wa
       fmt::format("the size, {:.4g}, is larger than the model, whose diagonal is {:.4g}", least, extent));
 }
 
-void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain,
-                          std::vector<Warning>& warnings) {
+void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain, const SizeSpec& spec,
+                          const SizeField& asked, std::vector<Warning>& warnings) {
   CoarseTurns turns;
   std::vector<int> edges(model.curves.size(), 0);
   for (const int curve : domain.boundary.line_curve)
@@ -198,8 +206,8 @@ void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain,
     turns.add(turns.curves, angle / edges[c], length / angle, length / edges[c],
               name.empty() ? fmt::format("curve {}", c + 1) : "'" + name + "'");
   }
-  if (turns.curves > 0)
-    warnings.emplace_back(fmt::format("{}: a size of {:.3g} there would help", turns.text(), turns.needed));
+  int hint = -1;
+  turns.tell(asked.at(domain.boundary.points[0], hint), spec.curvature, spec.min, warnings);
 }
 
 void warn_of_coarse_turns(const WantedSize& wanted, const PreparedSurface& surface,
@@ -208,14 +216,9 @@ void warn_of_coarse_turns(const WantedSize& wanted, const PreparedSurface& surfa
   CoarseTurns turns;
   add_curves(surface, turns);
   add_faces(surface, turns);
-  if (turns.curves + turns.faces == 0) return;
-  const bool wants_turns = !wanted.curvature || wanted.per_turn < kFewPerTurn;
-  std::string help = wants_turns ? fmt::format("--curvature {:g}", kFewPerTurn) : "";
   int hint = -1;
-  const double least = wanted.least_by_curvature(wanted.base->at(surface.model.fine.points[0], hint));
-  if (turns.needed < least)
-    help += fmt::format("{}--size-min {:.2g}", help.empty() ? "" : " with ", kRoundedUp * turns.needed);
-  if (!help.empty()) warnings.emplace_back(turns.text() + ": " + help + " would help");
+  turns.tell(wanted.base->at(surface.model.fine.points[0], hint), wanted.curvature ? wanted.per_turn : 0,
+             wanted.min, warnings);
 }
 
 namespace {

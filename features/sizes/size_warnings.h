@@ -24,8 +24,8 @@ void warn_of_idle_sizes(const std::vector<NamedSize>& named, const NamedParts& p
 void warn_of_large_size(const SizeField& size, const Mesh& model, std::vector<Warning>& warnings);
 
 /// Tells in one line how many curves of the model got few edges to a full turn, and what would help.
-void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain,
-                          std::vector<Warning>& warnings);
+void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain, const SizeSpec& spec,
+                          const SizeField& asked, std::vector<Warning>& warnings);
 
 /// The same for the curves and faces of a CAD model.
 void warn_of_coarse_turns(const WantedSize& wanted, const PreparedSurface& surface,

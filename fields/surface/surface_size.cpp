@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "base/sort_unique.h"
+#include "fields/fields.h"
 #include "fields/surface/surface_metric.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/improve_triangulation.h"
@@ -18,8 +18,6 @@ namespace delquad {
 
 namespace {
 
-/// Part of the base that is the least size by curvature, when none was given.
-constexpr double kLeastPart = 1.0 / 20;
 /// Edges beside an edge of a short curve are at most so many times as long, but for this part of the base;
 /// a closed curve has so many edges at least.
 constexpr double kBesideShort = 4, kLeastBeside = 1.0 / 50, kLoopEdges = 4;
@@ -179,15 +177,6 @@ bool varies(const Mesh& fine, const SizeField& base) {
 
 }  // namespace
 
-double WantedSize::least_by_curvature(double base_size) const {
-  return min > 0 ? min : kLeastPart * base_size;
-}
-
-double WantedSize::by_curvature(double k, double turn, double base_size) const {
-  if (!(k > 0) || !(turn > 0)) return base_size;
-  return std::min(base_size, std::max(least_by_curvature(base_size), 2 * std::numbers::pi / (k * turn)));
-}
-
 double WantedSize::of(const std::vector<double>& own, int entity) const {
   const bool has_own = static_cast<std::size_t>(entity) < own.size() && own[entity] > 0;
   return has_own ? own[entity] : per_turn;
@@ -197,7 +186,8 @@ double WantedSize::in_face(int face, const Vec3& x) const {
   int hint = -1;
   const double size = base->at(x, hint);
   return at_most_by_spots(
-      curvature ? by_curvature(curvature->of_face(face, x), of(face_per_turn, face), size) : size, x);
+      curvature ? size_by_curvature(size, curvature->of_face(face, x), of(face_per_turn, face), min) : size,
+      x);
 }
 
 double WantedSize::on_curve(int curve, const Vec3& x) const {
@@ -206,7 +196,8 @@ double WantedSize::on_curve(int curve, const Vec3& x) const {
   const bool has_limit = static_cast<std::size_t>(curve) < curve_limit.size();  // cuts have none
   const double limited = has_limit ? std::min(size, curve_limit[curve]) : size;
   return at_most_by_spots(
-      curvature ? by_curvature(curvature->of_curve(curve, x), of(curve_per_turn, curve), limited) : limited,
+      curvature ? size_by_curvature(limited, curvature->of_curve(curve, x), of(curve_per_turn, curve), min)
+                : limited,
       x);
 }
 

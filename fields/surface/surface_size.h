@@ -48,13 +48,10 @@ struct WantedSize {
   /// Without the limit of gradation.
   double in_face(int face, const Vec3& x) const;
   double on_curve(int curve, const Vec3& x) const;
-  /// What curvature asks for at least, where the base is so large.
-  double least_by_curvature(double base_size) const;
   /// Whether it is more than a function of space.
   bool lives_on_surface() const { return gradation > 0; }
 
  private:
-  double by_curvature(double curvature, double per_turn, double base_size) const;
   double of(const std::vector<double>& own, int entity) const;
   double at_most_by_spots(double size, const Vec3& x) const;
 };

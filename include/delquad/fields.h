@@ -150,7 +150,7 @@ struct SizeSpec {
   std::vector<SizeSource> sources = {};  ///< the smallest counts
   std::vector<NamedSize> named = {};     ///< so, too
   double gradation = 0;  ///< the most |grad delta|; 0: no limit, or kCurvatureGradation with `curvature`
-  double curvature = 0;  ///< elements per full turn, of surfaces; 0: sizes do not follow curvature
+  double curvature = 0;  ///< elements per full turn; 0: sizes do not follow curvature
   double min = 0;        ///< least size that curvature asks for; 0: a twentieth of what it would be without
   double max = 0;        ///< largest size; 0: none
   std::string where = "size";  ///< who asked for it, for messages

@@ -215,7 +215,7 @@ TomlKeys named_size_keys() {
           {"size", "at most, on them and in them", kPositive},
           {"reach", "how far from them, too; 0 if absent", at_least("number", 0)},
           {"growth", "of sizes from there on, per length; 0.3 if absent", kPositive},
-          {"curvature", "elements per full turn, of surfaces", at_least("number", 3)}};
+          {"curvature", "elements per full turn", at_least("number", 3)}};
 }
 
 TomlKeys size_keys() {
@@ -223,7 +223,7 @@ TomlKeys size_keys() {
           {"source", "points and segments with sizes", "", source_keys, true},
           {"on", "sizes of what has a name", "", named_size_keys, true},
           {"gradation", "the most that sizes grow by per length", kPositive},
-          {"curvature", "of surfaces: elements per full turn", at_least("number", 3)},
+          {"curvature", "elements per full turn of curves and faces", at_least("number", 3)},
           {"min", "least size that curvature asks for", kPositive},
           {"max", "largest size", kPositive}};
 }

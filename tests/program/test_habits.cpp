@@ -161,8 +161,9 @@ TEST(Habits, CirclesWithFewEdgesAreTold) {
   EXPECT_TRUE(
       contains(mesh("0.1"), "2 curves get fewer than 12 edges to a full turn, the fewest 6 ('small')"))
       << mesh("0.1");
-  EXPECT_TRUE(contains(mesh("0.1"), "a size of 0.052")) << mesh("0.1");
+  EXPECT_TRUE(contains(mesh("0.1"), "--curvature 12 would help")) << mesh("0.1");
   EXPECT_EQ(lines_in(mesh("0.1")), 1) << mesh("0.1");
+  EXPECT_EQ(delquad({"mesh", model, "-o", folder / "out.msh", "--size", "0.1", "--curvature", "12"}).err, "");
   EXPECT_EQ(mesh("0.05"), "");
 }
 

@@ -79,7 +79,7 @@ def test_models_that_fail_when_they_are_meshed(tmp_path):
         ({"size": 0.1, "quality": "superb"}, "superb.*fast, good, best"),
         ({"size": 0.1, "quality": "good", "word": "DB"}, "exclude each other"),
         ({"size": 0.1, "gradation": -1}, "gradation -1"),
-        ({"size": 0.1, "curvature": 12}, "for surfaces"),
+        ({"size": 0.1, "min_size": 0.01}, "'curvature' too"),
         ({"size": 0.1, "feature_angle": 30}, "planar"),
         ({"size": 0.1, "max_elements": 0}, "at most 0 elements"),
         ({"size": 1e-5}, "more than the"),

@@ -90,6 +90,12 @@ TEST_F(Cases, NamesHaveSizes) {
   EXPECT_NEAR(size_at(p, 0.9, 0.86), 0.03, 1e-12);
   EXPECT_NEAR(size_at(p, 0.9, 0.75), 0.03 + 0.3 * 0.1, 1e-12);
   EXPECT_DOUBLE_EQ(size_at(p, 0, 0.98), 0.2);
+  const PreparedProblem turns =
+      prepare_case(read(model + "on = { name = \"core\", curvature = 48 }\ncurvature = 24\n"));
+  EXPECT_NEAR(size_at(turns, 0.7, 0.5), 2 * std::numbers::pi * 0.2 / 48, 1e-4);
+  EXPECT_NEAR(size_at(turns, 0.8, 0.5), 2 * std::numbers::pi * 0.2 / 48 + 0.3 * 0.1, 1e-3);
+  const PreparedProblem all = prepare_case(read(model + "curvature = 24\nmin = 0.06\n"));
+  EXPECT_NEAR(size_at(all, 0.7, 0.5), 0.06, 1e-4);
   const PreparedProblem by_number = prepare_case(read(model + "on = { name = \"curve_2\", size = 0.05 }\n"));
   EXPECT_DOUBLE_EQ(size_at(by_number, 1, 0.5), 0.05);
 
@@ -98,7 +104,8 @@ TEST_F(Cases, NamesHaveSizes) {
                      {"c.toml:6: nothing is called 'botom'; did you mean 'bottom'?"});
   expect_input_error([&] { prepare("{ name = \"elsewhere\", size = 0.1 }"); }, {"there are", "'core'"});
   expect_input_error([&] { prepare("{ name = \"core\" }"); }, {"expected 'size' or 'curvature'"});
-  expect_input_error([&] { prepare("{ name = \"core\", curvature = 24 }"); }, {"planar"});
+  expect_input_error([&] { prepare("{ name = \"sensor\", curvature = 24 }"); },
+                     {"c.toml:6: no curve is called 'sensor'"});
   expect_input_error([&] { prepare("{ name = \"core\", size = 0 }"); }, {"c.toml:6"});
 }
 

@@ -1,0 +1,83 @@
+#include "features/sizes/curvature_spots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fields/fields.h"
+#include "geometry/mesh/entity_names.h"
+#include "geometry/planar/curve_pieces.h"
+
+namespace delquad {
+namespace {
+
+/// Parts of a curve turn by no more (radians), and there are so many of it at least.
+constexpr double kMostTurn = 0.1;
+constexpr int kLeastParts = 64;
+/// Parts are halved no more often: what turns within less is a corner.
+constexpr int kMostHalvings = 16;
+
+class CurveTurns {
+ public:
+  CurveTurns(const Curve& shape, double per_turn, const SizeSpec& spec, const SizeField& base,
+             std::vector<FineSpot>& spots)
+      : shape_(shape), per_turn_(per_turn), spec_(spec), base_(base), spots_(spots) {
+    double from = 0;
+    std::vector<double> stops = shape.fixed_parameters();
+    stops.push_back(1);
+    for (const double to : stops) {
+      for (int k = 0; k < kLeastParts; ++k) {
+        const double t0 = from + (to - from) * k / kLeastParts,
+                     t1 = from + (to - from) * (k + 1) / kLeastParts;
+        add(t0, shape.point(t0), t1, shape.point(t1), kMostHalvings);
+      }
+      from = to;
+    }
+  }
+
+ private:
+  void add(double t0, Vec2 a, double t1, Vec2 b, int halvings) {
+    const double t = 0.5 * (t0 + t1);
+    const Vec2 m = shape_.point(t), in = m - a, out = b - m;
+    // Two chords of an arc turn by half of what it does.
+    const double turn = 2 * std::abs(std::atan2(cross(in, out), dot(in, out)));
+    if (turn > kMostTurn && halvings > 0) {
+      add(t0, a, t, m, halvings - 1);
+      add(t, m, t1, b, halvings - 1);
+      return;
+    }
+    const double length = norm(in) + norm(out), wanted = base_.at({m.x, m.y, 0}, hint_);
+    if (!(length > 0) || turn > kMostTurn) return;
+    const double size = size_by_curvature(wanted, turn / length, per_turn_, spec_.min);
+    const double growth = spec_.gradation > 0 ? spec_.gradation : kCurvatureGradation;
+    if (size < wanted) spots_.push_back({{a.x, a.y, 0}, {b.x, b.y, 0}, size, 0, growth});
+  }
+
+  const Curve& shape_;
+  const double per_turn_;
+  const SizeSpec& spec_;
+  const SizeField& base_;
+  std::vector<FineSpot>& spots_;
+  int hint_ = -1;
+};
+
+}  // namespace
+
+std::vector<FineSpot> curvature_spots(const PlanarModel& model, const SizeSpec& spec, const SizeField& base) {
+  const std::vector<Entity> curves = curve_entities(model);
+  std::vector<double> own(curves.size(), 0);
+  for (const NamedSize& wanted : spec.named) {
+    if (!(wanted.curvature > 0)) continue;
+    std::vector<int> named = entities_named(curves, "curve", wanted.name);
+    for (const ModelLoop& loop : model.loops)
+      if (loop.region == wanted.name) named.insert(named.end(), loop.curves.begin(), loop.curves.end());
+    if (named.empty()) find_entities(curves, "curve", wanted.name, wanted.where);
+    for (const int c : named) own[c] = std::max(own[c], wanted.curvature);
+  }
+  std::vector<FineSpot> spots;
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    if (const double per_turn = own[c] > 0 ? own[c] : spec.curvature; per_turn > 0)
+      CurveTurns(*model.curves[c].shape, per_turn, spec, base, spots);
+  return spots;
+}
+
+}  // namespace delquad
