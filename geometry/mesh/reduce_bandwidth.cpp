@@ -24,14 +24,20 @@ void for_each_node_list(const Mesh& mesh, Visit visit) {
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) visit(nodes_of_quad(mesh, q));
 }
 
+/// In order.
 std::vector<std::pair<int, int>> neighbours(const Mesh& mesh) {
-  std::vector<std::pair<int, int>> pairs;
+  std::vector<std::vector<int>> others(mesh.points.size());
   for_each_node_list(mesh, [&](const auto& nodes) {
     for (const int a : nodes)
       for (const int b : nodes)
-        if (a != b) pairs.emplace_back(a, b);
+        if (a != b) others[a].push_back(b);
   });
-  sort_unique(pairs);
+  std::vector<std::pair<int, int>> pairs;
+  for (int a = 0; auto& of_node : others) {
+    sort_unique(of_node);
+    for (const int b : of_node) pairs.emplace_back(a, b);
+    ++a;
+  }
   return pairs;
 }
 
