@@ -181,6 +181,7 @@ void refuse_surface_options(const MeshProblem& problem, bool angle_may_be, const
   add(s.glue, "glue");
   add(!s.unit.empty(), "unit");
   add(!s.embed.empty(), "embed");
+  add(!s.names.empty(), "name");
   if (!given.empty())
     throw InputError(fmt::format("{}: {}: {} {} for {}", s.where.empty() ? problem.where : s.where, is,
                                  fmt::join(given, ", "), given.size() == 1 ? "is" : "are", wanted));

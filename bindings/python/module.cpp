@@ -423,6 +423,26 @@ void define_surface(py::class_<Problem>& c) {
            [](Problem& p, const py::object& points, const std::string& name) {
              p.problem.surface.embed.push_back({read_points(points, "embed: points"), name, "embed"});
            })
+      .def(
+          "name_part",
+          [](Problem& p, const std::string& name, const std::string& of, const std::vector<int>& number,
+             const std::string& like, const py::object& box, const py::object& normal, const py::object& at) {
+            NamedPart part{.name = name, .curves = of == "curves", .numbers = number, .like = like};
+            part.where = "names: '" + name + "'";
+            if (of != "faces" && !part.curves)
+              throw InputError(part.where + ": of '" + of + "': expected 'faces' or 'curves'");
+            if (!box.is_none()) {
+              const std::vector<Vec3> corners = read_points(box, part.where + ": the box");
+              if (corners.size() != 2) throw InputError(part.where + ": a box has two corners");
+              part.box = {corners[0], corners[1]};
+            }
+            if (!normal.is_none()) part.normal = read_vec3(normal, part.where + ": the normal");
+            if (!at.is_none()) part.at = read_vec3(at, part.where + ": the place");
+            p.problem.surface.names.push_back(part);
+          },
+          py::arg("name"), py::arg("of") = "faces", py::arg("number") = std::vector<int>(),
+          py::arg("like") = "", py::arg("box") = py::none(), py::arg("normal") = py::none(),
+          py::arg("at") = py::none())
       .def("unit", [](Problem& p, const std::string& name) { p.problem.surface.unit = name; })
       .def("glue", [](Problem& p, bool yes) { p.problem.surface.glue = yes; })
       .def("fill_holes", [](Problem& p, double diameter) { p.problem.surface.fill_holes = diameter; })

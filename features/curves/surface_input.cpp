@@ -13,6 +13,7 @@
 #include "base/nearest_name.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/naming/name_parts.h"
 #include "features/sizes/curve_options.h"
 #include "features/sizes/named_parts.h"
 #include "features/symmetry/symmetry_planes.h"
@@ -183,7 +184,9 @@ SurfaceModel make_surface(const MeshProblem& problem, const TriangleModel& model
   if (spec.weld_tolerance) options.weld_tolerance = *spec.weld_tolerance;
   const std::string unit = triangles.unit;
   if (spec.mirror) triangles = add_mirror_image(std::move(triangles), *spec.mirror, source);
-  SurfaceModel surface = make_compounds(problem, kept, make_surface_model(std::move(triangles), options));
+  SurfaceModel surface = make_surface_model(std::move(triangles), options);
+  name_parts(spec.names, surface);
+  surface = make_compounds(problem, kept, std::move(surface));
   surface.warnings.insert(surface.warnings.begin(), notes.begin(), notes.end());
   if (!missing.empty()) {
     auto& faces = surface.fine.regions;
@@ -225,6 +228,7 @@ SurfaceModel make_from_cad(const MeshProblem& problem) {
     throw InputError(problem.surface.where + ": lengths of the examples are in mm");
   SurfaceModel model = example != nullptr ? read_example(example->name, options)
                                           : read_cad(std::get<CadModel>(problem.model), options);
+  name_parts(problem.surface.names, model);
   const bool changes_faces = problem.surface.compounds != Compounds::kNone ||
                              problem.surface.merge_curves > 0 || problem.surface.ignore_below > 0 ||
                              problem.surface.idealize || problem.surface.fill_holes > 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -277,6 +278,19 @@ struct EmbeddedLine {
   std::string where;  ///< as that of a curve
 };
 
+/// Faces or curves of a surface that get a name, before compounds are made. All that is given must fit; what
+/// has names keeps them, and has this one, too.
+struct NamedPart {
+  std::string name;               ///< physical group
+  bool curves = false;            ///< else faces
+  std::vector<int> numbers = {};  ///< as `delquad info` lists them
+  std::string like = {};          ///< of the names that they have one: * stands for any text, ? for a letter
+  std::optional<std::array<Vec3, 2>> box = {};  ///< two opposite corners: it holds them whole
+  std::optional<Vec3> normal = {};              ///< faces look this way everywhere, within 5 degrees
+  std::optional<Vec3> at = {};                  ///< the one that is nearest to it
+  std::string where = "name";                   ///< who asked for it, for messages
+};
+
 /// How the faces of a surface are made from what its model holds.
 struct SurfaceSpec {
   Compounds compounds = Compounds::kNone;
@@ -299,6 +313,7 @@ struct SurfaceSpec {
   /// for STEP and IGES, else as the model has them.
   std::string unit;
   std::vector<EmbeddedLine> embed;
+  std::vector<NamedPart> names;
   std::string where;  ///< who asked for it, for messages; empty: nothing was asked for
 };
 

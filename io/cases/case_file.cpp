@@ -376,6 +376,27 @@ MirrorPlane read_mirror(const TomlTable& table, double weld_tolerance) {
   return plane;
 }
 
+NamedPart read_named_part(const TomlTable& table) {
+  table.require_known(named_part_keys());
+  NamedPart part{.name = table.text("as"), .where = table.where()};
+  const std::string of = table.text("of", "faces");
+  if (of != "faces" && of != "curves")
+    throw InputError(table.where("of") + ": '" + of + "': expected 'faces' or 'curves'");
+  part.curves = of == "curves";
+  if (table.has("number"))
+    for (const double n : table.numbers("number")) part.numbers.push_back(static_cast<int>(n));
+  part.like = table.text("like", "");
+  if (table.has("box")) {
+    const std::vector<Vec3> corners = table.space_points("box");
+    if (corners.size() != 2) throw InputError(table.where("box") + ": expected two opposite corners");
+    part.box = {corners[0], corners[1]};
+  }
+  if (table.has("normal")) part.normal = read_vector(table, "normal");
+  if (table.has("at")) part.at = read_vector(table, "at");
+  table.finish(named_part_keys());
+  return part;
+}
+
 /// The keys of a [surface] table: compound, merge_curves, ignore_below, idealize, keep, feature_angle,
 /// weld_tolerance, mirror, glue, unit. Throws InputError with file and line.
 SurfaceSpec read_surface_spec(const TomlTable& table) {
@@ -392,6 +413,7 @@ SurfaceSpec read_surface_spec(const TomlTable& table) {
   if (table.has("ignore_below")) spec.ignore_below = table.positive_number("ignore_below");
   spec.idealize = table.flag("idealize", false);
   if (table.has("keep")) spec.keep = table.texts("keep");
+  for (const TomlTable& part : table.tables("name")) spec.names.push_back(read_named_part(part));
   if (table.has("fill_holes")) spec.fill_holes = table.positive_number("fill_holes");
   if (table.has("simplify")) spec.simplify = number_at_least(table, "simplify", 0, 0);
   if (table.has("merge_curves")) spec.merge_curves = table.positive_number("merge_curves");

@@ -160,6 +160,16 @@ TomlKeys mirror_keys() {
           {"join", "whether faces run on through the plane", kFlag}};
 }
 
+TomlKeys named_part_keys() {
+  return {{"as", "the name that it gets", kText, nullptr, false, true},
+          {"of", "faces, or curves", one_of({"faces", "curves"})},
+          {"number", "as 'delquad info' lists them", R"({"type": "array", "items": {"type": "integer"}})"},
+          {"like", "one of its names: * is any text, ? a letter", kText},
+          {"box", "that holds it whole: two opposite corners", points(2, kVector)},
+          {"normal", "its own everywhere, within 5 degrees", kVector},
+          {"at", "it is nearest to this place", kVector}};
+}
+
 TomlKeys surface_keys() {
   return {{"compound", "faces to mesh as one", kCompound},
           {"merge_curves", "shorter curves become one with a neighbour", kPositive},
@@ -168,6 +178,7 @@ TomlKeys surface_keys() {
           {"mirror", "the model is one half", "", mirror_keys},
           {"ignore_below", "narrower faces become part of neighbours, shorter curves points", kPositive},
           {"idealize", "whether ignore_below is min_length of the criteria", kFlag},
+          {"name", "names of faces and curves", "", named_part_keys, true},
           {"keep", "names of faces and curves that are not left out", kTexts},
           {"fill_holes", "diameter: holes that are not wider are closed", kPositive},
           {"simplify", "polylines, to so many sizes", at_least("number", 0)},

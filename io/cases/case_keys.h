@@ -19,6 +19,7 @@ TomlKeys pattern_keys();
 TomlKeys circle_keys();
 TomlKeys arc_keys();
 TomlKeys expression_keys();
+TomlKeys named_part_keys();
 TomlKeys surface_keys();
 TomlKeys mirror_keys();
 TomlKeys named_size_keys();

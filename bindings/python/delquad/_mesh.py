@@ -226,6 +226,7 @@ def mesh(
     glue=False,
     unit=None,
     embed=(),
+    names=None,
     options=None,
     name=None,
     seed=None,
@@ -282,6 +283,8 @@ def mesh(
     unit: of lengths, of CAD and 3MF: "um", "mm" (as if nothing is said), "cm", "m", "km", "in" or "ft".
     embed: polylines of shape (n, 3) and single points (3,) on a surface, which become edges and nodes of the mesh;
         each alone or with a name, (points, "name"). (In the plane: see planar().)
+    names: of faces and curves of a surface: {name: {"at": (x, y, z)}}, the face nearest to that, or by "box", "normal", "number" and
+        "like"; with "of": "curves" curves; see docs/models.md.
     name: of the model, for messages. seed: above 0, planar domains are turned a little and nodes on curves shifted, at random.
     refine: all sizes are divided by it, for studies of convergence; see docs/meshing.md.
     quads: about how many, by sizes that are all larger or smaller, or without a size by one.
@@ -342,6 +345,11 @@ def mesh(
         _set_cross(problem, cross)
     _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, idealize, keep, fill_holes, simplify, mirror, glue, unit)
     _embed(problem, embed)
+    for part, fits in (names or {}).items():
+        try:
+            problem.name_part(part, **fits)
+        except TypeError:
+            raise _core.InputError(f"names: {part!r}: {fits!r}: expected at, box, normal, number, like or of") from None
     if quality is not None:
         _core.check_quality(quality)
     for limit, value in (("limits.min_angle", min_angle), ("limits.max_aspect", max_aspect)):
