@@ -9,7 +9,7 @@ CMAKE_FLAGS ?=
 # How long `make fuzz` tries its targets, all of them together.
 SECONDS ?= 120
 
-.PHONY: packages build dev lint test sanitize python data paper peers public public_models suite site bench fuzz
+.PHONY: packages package build dev lint test sanitize python data paper peers public public_models suite site bench fuzz
 
 packages:
 	@cmake/install-packages.sh
@@ -74,6 +74,11 @@ suite: build
 	build/$(PRESET)/delquad suite table $(RESULTS)/suite
 	build/$(PRESET)/delquad report $(RESULTS)/suite -o $(RESULTS)/suite/report.html
 	@echo "$(RESULTS)/suite/ranking has the table; $(RESULTS)/suite/report.html shows the meshes."
+
+# Debian packages, an archive and a Python wheel for other machines, in build/packages: docs/packages.md.
+package: build
+	@cmake/install-packages.sh dpkg-dev file patchelf xz-utils
+	packaging/package.sh build/$(PRESET) build/packages
 
 # The documentation as pages with a search, a gallery, and the references of C++ and Python, in build/site; with the tables of $(RESULTS) where
 # there are any. They need no network.

@@ -156,7 +156,7 @@ class Site:
 
     def config(self):
         names = {
-            "Use": "meshing models keys criteria anisotropy adaptation source/examples/solvers/README library own_strategy python",
+            "Use": "meshing models keys criteria anisotropy adaptation source/examples/solvers/README library own_strategy python packages",
             "Compare": "experiments results statistics suite public_cases",
             "Measured": "tables measurements ablation which_quality matching",
             "Inside": "algorithms architecture glossary paper contributing changes",
