@@ -1,0 +1,34 @@
+#!/usr/bin/python3
+"""The files of integrations/ do their work in the programs they are for: check_integrations.py freecad|blender DELQUAD
+
+Runs in_freecad.py or in_blender.py in the program, whose last line is "good". Exit code 77: the program is not installed, and why.
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+COMMANDS = {"freecad": ["freecadcmd"], "blender": ["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python"]}
+NEEDED = {"freecad": ("freecadcmd", "ccx"), "blender": ("blender",)}
+
+
+def main():
+    program, delquad = sys.argv[1:]
+    for needed in NEEDED[program]:
+        if shutil.which(needed) is None:
+            print(f"{needed} is not installed")
+            return 77
+    with tempfile.TemporaryDirectory() as home:
+        environment = {**os.environ, "HOME": home, "PATH": f"{os.path.dirname(delquad)}:{os.environ['PATH']}", "PYTHONDONTWRITEBYTECODE": "1",
+                       "INTEGRATIONS": str(HERE.parents[1] / "integrations")}
+        result = subprocess.run([*COMMANDS[program], HERE / f"in_{program}.py"], cwd=home, env=environment, stdin=subprocess.DEVNULL,
+                                capture_output=True, text=True, timeout=280)
+    print(result.stdout[-3000:], result.stderr[-3000:])
+    return 0 if "\ngood\n" in result.stdout else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
