@@ -145,7 +145,23 @@ void add_groups(int dim, const std::vector<Entity>& entities, const std::vector<
   }
 }
 
+std::vector<MeshGroup> with_labels(std::vector<MeshGroup> groups, const UniqueLabels::Rules& rules) {
+  std::vector<UniqueLabels::Key> keys;
+  for (const MeshGroup& group : groups) keys.emplace_back(group.dim, group.name);
+  const UniqueLabels labels(keys, rules);
+  for (MeshGroup& group : groups) group.label = labels.of({group.dim, group.name});
+  return groups;
+}
+
 }  // namespace
+
+std::vector<MeshGroup> hex_groups(const HexMesh& mesh, const UniqueLabels::Rules& rules) {
+  std::vector<MeshGroup> groups;
+  add_groups(3, mesh.volumes, mesh.hex_volume, groups);
+  add_groups(2, mesh.faces, mesh.quad_face, groups);
+  add_groups(1, mesh.curves, mesh.line_curve, groups);
+  return with_labels(std::move(groups), rules);
+}
 
 std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& rules) {
   std::vector<MeshGroup> groups;
@@ -166,11 +182,7 @@ std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& 
     points.push_back(named.entity);
   }
   add_groups(0, points, of_point, groups);
-  std::vector<UniqueLabels::Key> keys;
-  for (const MeshGroup& group : groups) keys.emplace_back(group.dim, group.name);
-  const UniqueLabels labels(keys, rules);
-  for (MeshGroup& group : groups) group.label = labels.of({group.dim, group.name});
-  return groups;
+  return with_labels(std::move(groups), rules);
 }
 
 std::vector<int> nodes_of_group(const Mesh& mesh, const MeshGroup& group) {
@@ -185,6 +197,14 @@ std::vector<int> nodes_of_group(const Mesh& mesh, const MeshGroup& group) {
   return nodes;
 }
 
+std::vector<int> nodes_of_group(const HexMesh& mesh, const MeshGroup& group) {
+  std::vector<int> nodes;
+  const auto add = [&](const auto& element) { nodes.insert(nodes.end(), element.begin(), element.end()); };
+  for (const int i : group.items) group.dim == 2 ? add(mesh.quads[i]) : add(mesh.lines[i]);
+  sort_unique(nodes);
+  return nodes;
+}
+
 std::vector<int> group_numbers(const std::vector<MeshGroup>& groups, int dim, std::size_t n_items) {
   std::vector<int> numbers(n_items, 0);
   for (const MeshGroup& group : groups)
@@ -194,7 +214,7 @@ std::vector<int> group_numbers(const std::vector<MeshGroup>& groups, int dim, st
 }
 
 std::vector<std::string> renamed_groups(const std::vector<MeshGroup>& groups) {
-  constexpr std::array kKinds = {"point", "curve", "region"};
+  constexpr std::array kKinds = {"point", "curve", "region", "volume"};
   std::vector<std::string> lines;
   for (const MeshGroup& group : groups)
     if (group.label != group.name)

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "delquad/hexahedra.h"
 #include "delquad/mesh.h"
 #include "geometry/mesh/half_edges.h"
 
@@ -84,7 +85,7 @@ std::string unit_in_comment(std::string_view comment, std::string_view mark);
 
 /// Points, lines or elements of one name, for formats in which everything has one.
 struct MeshGroup {
-  int dim;                  ///< 0: points, 1: lines, 2: triangles and quads
+  int dim;                  ///< 0: points, 1: lines, 2: triangles and quads, 3: hexahedra
   int number;               ///< from 1 on, in each dimension
   std::string name, label;  ///< the label is the name as the format can hold it
   /// Points; indices into Mesh::lines; elements, triangles first.
@@ -94,8 +95,12 @@ struct MeshGroup {
 /// All named points, the lines on the boundary and the named ones inside, all elements; those of dimension 2
 /// first. Entities have the names of group_names().
 std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& rules);
+/// The same of hexahedra (dimension 3), quads and lines of a swept mesh, in this order.
+std::vector<MeshGroup> hex_groups(const HexMesh& mesh, const UniqueLabels::Rules& rules);
 /// The nodes of a group of points or lines (dimensions 0 and 1), ascending, each once.
 std::vector<int> nodes_of_group(const Mesh& mesh, const MeshGroup& group);
+/// The same of a group of quads or lines (dimensions 2 and 1).
+std::vector<int> nodes_of_group(const HexMesh& mesh, const MeshGroup& group);
 /// The groups' numbers of all items of a dimension; 0: in none.
 std::vector<int> group_numbers(const std::vector<MeshGroup>& groups, int dim, std::size_t n_items);
 

@@ -12,11 +12,11 @@
 
 #include "base/box.h"
 #include "base/sort_unique.h"
-#include "delquad/hexahedra.h"
 #include "geometry/mesh/element_nodes.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/entity_names.h"
 #include "io/formats/readers.h"
+#include "io/hex_sides.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -113,29 +113,6 @@ UniqueLabels make_hex_labels(const HexMesh& mesh) {
   return UniqueLabels(keys, {plain_label, true, kLongestInpName});
 }
 
-/// A side of a hexahedron by its four nodes in order.
-struct HexSide {
-  std::array<int, 4> nodes;
-  int hexahedron, side;
-};
-
-std::vector<HexSide> sorted_hex_sides(const HexMesh& mesh) {
-  // S1 to S6 of C3D8.
-  constexpr int kSides[6][4] = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
-                                {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
-  std::vector<HexSide> sides;
-  sides.reserve(6 * mesh.hexahedra.size());
-  for (std::size_t h = 0; h < mesh.hexahedra.size(); ++h)
-    for (int s = 0; s < 6; ++s) {
-      HexSide side{{}, static_cast<int>(h), s + 1};
-      for (int k = 0; k < 4; ++k) side.nodes[k] = mesh.hexahedra[h][kSides[s][k]];
-      std::sort(side.nodes.begin(), side.nodes.end());
-      sides.push_back(side);
-    }
-  std::ranges::stable_sort(sides, [](const HexSide& a, const HexSide& b) { return a.nodes < b.nodes; });
-  return sides;
-}
-
 class HexInpWriter {
  public:
   HexInpWriter(TextWriter& out, const HexMesh& mesh)
@@ -180,9 +157,7 @@ class HexInpWriter {
         element_sets_[labels_.of({kHexVolume, name})].push_back(static_cast<int>(i) + 1);
     const std::vector<HexSide> sides = sorted_hex_sides(mesh_);
     for (std::size_t i = 0; i < mesh_.quads.size(); ++i) {
-      std::array<int, 4> nodes = mesh_.quads[i];
-      std::sort(nodes.begin(), nodes.end());
-      const auto at = std::ranges::equal_range(sides, nodes, {}, &HexSide::nodes);
+      const auto at = sides_at_quad(mesh_, sides, static_cast<int>(i));
       if (at.size() != 1) continue;
       for (const std::string& name : mesh_.faces[mesh_.quad_face[i]].names) {
         const std::string label = labels_.of({kHexFace, name});

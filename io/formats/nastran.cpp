@@ -1,9 +1,9 @@
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <unordered_map>
+#include <utility>
 
 #include "base/text.h"
 #include "geometry/mesh/drop_unused_points.h"
@@ -241,7 +241,7 @@ class NastranReader {
   std::unordered_map<long long, int> node_of_;
 };
 
-constexpr std::size_t kSmallField = 8, kLargeField = 16;
+constexpr std::size_t kSmallField = 8, kLargeField = 16, kMostNastran = 99'999'999;
 
 /// Left-aligned in a field of eight characters.
 std::string field(const std::string& text) {
@@ -288,10 +288,16 @@ void write_set(TextWriter& out, std::size_t number, const std::vector<int>& node
   out << line << '\n';
 }
 
+void write_grid(TextWriter& out, std::size_t i, const Vec3& p) {
+  const std::string id = std::to_string(i + 1);
+  out << "GRID*   " << id << std::string(kLargeField - id.size(), ' ') << std::string(kLargeField, ' ')
+      << real(p.x) << real(p.y) << "\n*       " << real(p.z) << '\n';
+}
+
 /// Nastran's bulk data: CQUAD4, CQUAD8 and CTRIA3, a property for each name of regions, SETs of the nodes of
 /// curves and points; comments tell the names.
 void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
-  require_numbers(path, "Nastran", mesh, 99'999'999);
+  require_numbers(path, "Nastran", mesh, kMostNastran);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
   const std::vector<int> property = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
   std::vector<char> inside(mesh.points.size(), 0);
@@ -313,10 +319,7 @@ void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
     out << "BEGIN BULK\n";
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
       if (inside[i]) continue;
-      const Vec3& p = mesh.points[i];
-      std::string id = std::to_string(i + 1);
-      out << "GRID*   " << id << std::string(kLargeField - id.size(), ' ') << std::string(kLargeField, ' ')
-          << real(p.x) << real(p.y) << "\n*       " << real(p.z) << '\n';
+      write_grid(out, i, mesh.points[i]);
     }
     std::size_t n = 0;
     const auto write = [&](const char* name, const auto& nodes) {
@@ -335,6 +338,37 @@ void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
   });
 }
 
+/// CHEXA, a property for each name of volumes, SETs of the nodes of faces and curves.
+void write_hex_nastran(const std::filesystem::path& path, const HexMesh& mesh, bool) {
+  for (const auto& [n, what] :
+       {std::pair(mesh.points.size(), "nodes"), std::pair(mesh.hexahedra.size(), "elements")})
+    require_fits(path, "Nastran", n, what, kMostNastran);
+  const std::vector<MeshGroup> groups = hex_groups(mesh, {one_line_label});
+  const std::vector<int> property = group_numbers(groups, 3, mesh.hexahedra.size());
+  write_text_file(path, [&](TextWriter& out) {
+    out << "$ mesh of hexahedra by Delquad\n";
+    if (!mesh.unit.empty()) out << "$ lengths in " << mesh.unit << '\n';
+    std::size_t set = 0;
+    for (const MeshGroup& group : groups) {
+      if (group.dim == 3) {
+        out << "$ property " << group.number << ": " << one_line(group.name) << '\n';
+        continue;
+      }
+      out << "$ set " << ++set << ", nodes of " << (group.dim == 1 ? "curve " : "face ")
+          << one_line(group.name) << '\n';
+      write_set(out, set, nodes_of_group(mesh, group));
+    }
+    out << "BEGIN BULK\n";
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) write_grid(out, i, mesh.points[i]);
+    for (std::size_t h = 0; h < mesh.hexahedra.size(); ++h) {
+      std::vector<std::size_t> numbers{h + 1, static_cast<std::size_t>(property[h])};
+      for (const int v : mesh.hexahedra[h]) numbers.push_back(static_cast<std::size_t>(v) + 1);
+      write_card(out, "CHEXA", numbers);
+    }
+    out << "ENDDATA\n";
+  });
+}
+
 }  // namespace
 
 Mesh read_nastran(const std::filesystem::path& path) { return NastranReader(path).read(); }
@@ -345,6 +379,7 @@ MeshFormat nastran_format() {
           .read = read_by<read_nastran>,
           .write = write_by<write_nastran>,
           .most_order = 2,
+          .write_hexahedra = write_hex_nastran,
           .eight_nodes = EightNodes::kAlways};
 }
 

@@ -1,5 +1,9 @@
+#include <utility>
+#include <vector>
+
 #include "base/located.h"
 #include "io/entity_names.h"
+#include "io/hex_sides.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -49,11 +53,53 @@ void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
   });
 }
 
+/// In space: a marker for each name of faces on the boundary.
+void write_hex_su2(const std::filesystem::path& path, const HexMesh& mesh, bool) {
+  const std::vector<MeshGroup> groups = hex_groups(mesh, {plain_label});
+  const std::vector<HexSide> sides = sorted_hex_sides(mesh);
+  constexpr int kQuad = 9, kHexahedron = 12;
+  write_text_file(path, [&](TextWriter& out) {
+    out << "% mesh of hexahedra by Delquad\n";
+    if (!mesh.unit.empty()) out << "% lengths in " << mesh.unit << '\n';
+    for (const std::string& line : renamed_groups(groups)) out << "% " << line << '\n';
+    const auto write = [&](int type, const auto& nodes) {
+      out << type;
+      for (const int v : nodes) out << ' ' << v;
+    };
+    out << "NDIME= 3\nNELEM= " << mesh.hexahedra.size() << '\n';
+    for (std::size_t h = 0; h < mesh.hexahedra.size(); ++h) {
+      write(kHexahedron, mesh.hexahedra[h]);
+      out << ' ' << h << '\n';
+    }
+    out << "NPOIN= " << mesh.points.size() << '\n';
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      out << mesh.points[i].x << ' ' << mesh.points[i].y << ' ' << mesh.points[i].z << ' ' << i << '\n';
+    std::vector<std::pair<const MeshGroup*, std::vector<int>>> markers;
+    for (const MeshGroup& group : groups) {
+      if (group.dim != 2) continue;
+      std::vector<int> quads = group.items;
+      std::erase_if(quads, [&](int q) { return sides_at_quad(mesh, sides, q).size() != 1; });
+      if (!quads.empty()) markers.emplace_back(&group, std::move(quads));
+    }
+    out << "NMARK= " << markers.size() << '\n';
+    for (const auto& [group, quads] : markers) {
+      out << "MARKER_TAG= " << group->label << "\nMARKER_ELEMS= " << quads.size() << '\n';
+      for (const int q : quads) {
+        write(kQuad, mesh.quads[q]);
+        out << '\n';
+      }
+    }
+  });
+}
+
 }  // namespace
 
 MeshFormat su2_format() {
-  return {
-      .extensions = {".su2"}, .description = "SU2", .write = write_by<write_su2>, .names = kBoundaryNames};
+  return {.extensions = {".su2"},
+          .description = "SU2",
+          .write = write_by<write_su2>,
+          .write_hexahedra = write_hex_su2,
+          .names = kBoundaryNames};
 }
 
 }  // namespace delquad

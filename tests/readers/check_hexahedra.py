@@ -64,14 +64,37 @@ def by_meshio(delquad, folder):
         import meshio
     except ImportError:
         absent("meshio is not installed (python3-meshio)")
-    for name in ("a.msh", "a.vtu", "a.inp"):
+    for name in ("a.msh", "a.vtu", "a.inp", "a.e", "a.su2", "a.bdf"):
         mesh = meshio.read(sweep(delquad, folder, name))
         cells = {}
         for block in mesh.cells:
             cells[block.type] = cells.get(block.type, 0) + len(block.data)
         assert cells["hexahedron"] == 48 * LAYERS, cells
-        if name != "a.inp":
+        if name in ("a.msh", "a.vtu"):
             assert cells["quad"] == sum(EXPECTED[2].values()) and cells["line"] == LAYERS, cells
+        if name == "a.su2":  # the boundary
+            assert cells["quad"] == sum(n for face, n in EXPECTED[2].items() if face != "joint"), cells
+        if name == "a.e":
+            assert set(mesh.point_sets) == {*EXPECTED[1], *EXPECTED[2]}, mesh.point_sets
+            check_side_sets(os.path.join(folder, name), mesh)
+
+
+SIDES = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (0, 4, 7, 3), (0, 3, 2, 1), (4, 5, 6, 7))  # of HEX8 in Exodus
+
+
+def check_side_sets(path, mesh):
+    """Their sides have the nodes of the node sets of the same names."""
+    import netCDF4
+
+    hexahedra = [nodes for block in mesh.cells for nodes in block.data]
+    with netCDF4.Dataset(path) as file:
+        names = [b"".join(name.compressed()).decode() for name in file["ss_names"][:]]
+        assert set(names) == set(EXPECTED[2]), names
+        for k, name in enumerate(names, 1):
+            sides = list(zip(file[f"elem_ss{k}"][:], file[f"side_ss{k}"][:]))
+            nodes = {hexahedra[element - 1][i] for element, side in sides for i in SIDES[side - 1]}
+            assert len(sides) == EXPECTED[2][name] * (2 if name == "joint" else 1), name
+            assert nodes == set(mesh.point_sets[name]), name
 
 
 def by_vtk(delquad, folder):
