@@ -15,9 +15,11 @@
 #include "features/layers/add_layers.h"
 #include "features/metric/metric_plane.h"
 #include "features/seed/perturb.h"
+#include "features/sizes/curve_options.h"
 #include "features/sizes/fine_spots.h"
 #include "features/sizes/named_parts.h"
 #include "features/sizes/size_warnings.h"
+#include "features/thin/facing_nodes.h"
 #include "fields/fields.h"
 #include "fields/sampled_fields.h"
 #include "geometry/planar/check_lines.h"
@@ -150,7 +152,10 @@ class PlanarSteps final : public ModelSteps {
     domain_ = planar_domain(problem_, refinement_, given_, p);
     for (const std::string& note : domain_.notes) p.warnings.emplace_back(note);
     if (!std::holds_alternative<GivenMesh>(problem_.model)) warn_of_gaps(domain_, p.warnings);
-    if (!problem_.layers.empty()) put_layers(problem_, domain_, p);
+    if (!problem_.layers.empty())
+      put_layers(problem_, domain_, p);
+    else if (curve_options(problem_.options).thin_rows)
+      cut_wedges(domain_);
     if (std::holds_alternative<LineModel>(problem_.model))
       for (const std::string& line : odd_boundaries(domain_))
         p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
@@ -166,6 +171,7 @@ class PlanarSteps final : public ModelSteps {
     if (problem_.seed != 0) turn(problem_, domain_, given_, p);
     p.boundary = std::move(domain_.boundary);
     p.plane.curve_places = std::move(domain_.places);
+    p.plane.outlines = std::move(domain_.outlines);
     p.plane.curve_shapes =
         p.metric_plane ? true_curves(*p.metric_plane, std::move(shapes)) : std::move(domain_.curve_shapes);
   }

@@ -147,8 +147,6 @@ std::vector<BoundaryCap> cap_tips(PatchBoundary& boundary, const std::function<i
 
 namespace {
 
-/// Corners below kLeastSharedAngle are cut off as far as they are narrower than this part of an edge.
-constexpr double kNarrow = 0.25;
 /// The least sine in a quad of a row: that of eta 0.4.
 constexpr double kLeastSine = 0.588;
 /// tan 30 degrees: the quad in the corner has three angles of about 120 degrees.
@@ -192,13 +190,15 @@ class CornerCap : LoopTip {
   std::optional<Vec3> middle(const std::vector<Vec3>& found) const {
     const size_t i = found.size() + 1;
     // The rest is for a corner at the other end.
-    if (4 * i >= loop_.size()) return std::nullopt;
+    if (nodes_.ends_with_curve ? 4 * i >= loop_.size() : 2 * i + 4 > loop_.size()) return std::nullopt;
     // Both nodes are inside their curves.
-    if (after(i).curve != loop_[tip_].curve || before(i + 1).curve != before(1).curve) return std::nullopt;
+    if (nodes_.ends_with_curve &&
+        (after(i).curve != loop_[tip_].curve || before(i + 1).curve != before(1).curve))
+      return std::nullopt;
     const Vec3 a = place(after(i)), b = place(before(i)), halfway = 0.5 * (a + b);
     const double width = norm(b - a);
     const double edge = std::min(norm(place(after(i + 1)) - a), norm(place(before(i + 1)) - b));
-    if (after(i).node == before(i).node || width > kNarrow * edge) return std::nullopt;
+    if (after(i).node == before(i).node || width > nodes_.narrow * edge) return std::nullopt;
     const Vec2 in_plane = 0.5 * (after(i).point + before(i).point);
     if (i > 1) {
       const Vec3 x = nodes_.to_face(halfway, in_plane), last = found.back();

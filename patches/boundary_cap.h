@@ -39,14 +39,16 @@ struct CapNodes {
   std::function<Vec3(const Vec3&, Vec2)> to_face;  ///< a point near the face, and about where in the plane
   std::function<Vec3(Vec2)> normal;                ///< of the face, any length
   std::function<int(const Vec3&)> add;             ///< returns the node
+  double narrow = 0.25;                            ///< a cap ends where its sides are further apart, in edges
+  bool ends_with_curve = true;                     ///< and where one of the curves at its corner ends
 };
 
-/// Cuts sharp corners off a boundary, as far as the two curves are nearer to each other than half an edge:
-/// there the parameter plane may be less exact than they are apart, and there is one good mesh only. A quad
-/// fills the corner, whose fourth vertex is so far inside that its other angles are alike, and two rows of
-/// quads lie between nodes that are opposite each other; the cap ends where they are not. In the boundary one
-/// point stands instead of all that is cut off, halfway between the last two nodes. Corners whose curves end
-/// at the first node are left alone.
+/// Cuts corners sharper than kLeastSharedAngle off a boundary, as far as the two sides are near to each
+/// other: there the parameter plane may be less exact than they are apart, and there is one good mesh only. A
+/// quad fills the corner, whose fourth vertex is so far inside that its other angles are alike, and two rows
+/// of quads lie between nodes that are opposite each other; the cap ends where they are not. In the boundary
+/// one point stands instead of all that is cut off, halfway between the last two nodes. Corners whose curves
+/// end at the first node are left alone.
 std::vector<BoundaryCap> cap_corners(PatchBoundary& boundary, const CapNodes& nodes);
 
 }  // namespace delquad

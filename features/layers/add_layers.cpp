@@ -390,7 +390,6 @@ void put_layers(const MeshProblem& problem, PlanarDomain& domain, PreparedProble
   LayerReport report = add_layers(domain, problem.layers, static_cast<double>(p.settings.max_elements));
   drop_grids(problem, report, domain);
   p.plane.background = mesh_rest(problem, domain);
-  report.outlines = std::move(domain.outlines);
   warn_of_layers(problem, report, p.warnings);
   p.layers = std::make_shared<LayerReport>(std::move(report));
   std::vector<FineSpot> fine = short_boundary_edges(domain, *p.size.field);
@@ -402,7 +401,8 @@ void put_layers(const MeshProblem& problem, PlanarDomain& domain, PreparedProble
 
 std::vector<char> quads_in_layers(const PreparedProblem& prepared, const Mesh& mesh) {
   std::vector<int> left(prepared.boundary.regions.size(), 0);
-  for (const int region : prepared.boundary.quad_region) ++left[region];
+  if (prepared.layers)
+    for (const int region : prepared.boundary.quad_region) ++left[region];
   std::vector<char> in_layers;
   for (const int region : mesh.quad_region)
     in_layers.push_back(region < static_cast<int>(left.size()) && left[region]-- > 0);

@@ -36,8 +36,7 @@ struct LayerReport {
   std::string jump_on;  ///< the curve where that is so
   /// The curve where heights are scaled the most.
   std::string least_on;
-  std::vector<int> patches;                  ///< those that changed
-  std::vector<PatchBoundary> outlines = {};  ///< of all patches with their layers: see PlanarDomain
+  std::vector<int> patches;  ///< those that changed
 };
 
 /// Adds quads to domain.boundary, along the curves that the layers name, and takes what these cover from the

@@ -11,6 +11,8 @@
 
 #include "base/box_tree.h"
 #include "base/segment.h"
+#include "geometry/mesh/quad_corners.h"
+#include "patches/boundary_cap.h"
 
 namespace delquad {
 namespace {
@@ -21,9 +23,14 @@ constexpr double kPerEdge = 4;
 constexpr double kReach = 1.5;
 /// where the way across is within so much (sine) of a normal, and tangents are as parallel.
 constexpr double kAside = 0.6, kParallel = 0.8;
+/// In corners of less than this angle, up to so many sizes wide, two rows of quads lie between nodes that
+/// face each other: a single one could only end in a flat quad.
+constexpr double kSharp = kLeastSharedAngle, kWedge = 0.5;
+/// So many edges behind a wedge nodes are free to come from one way of facing each other to the other.
+constexpr double kBehind = 3;
 /// What edges count that are longer or shorter than the size, of nodes that do not face each other a size
 /// away; of those nearer to each other the square of the slope counts, up to so much.
-constexpr double kStiffness = 20, kMostWeight = 4;
+constexpr double kStiffness = 20, kMostWeight = 4, kMostInWedges = 1e4;
 /// Where the difference of phases jumps by more, as at the beginning of a closed curve, a new strip begins.
 constexpr double kJump = 0.75;
 constexpr int kNumberings = 2, kSweeps = 3;
@@ -41,10 +48,18 @@ struct Link {
 struct Strip {
   std::array<int, 2> sides;  ///< 2 i: on the left of piece i; 2 i + 1: on its right
   int sign;                  ///< -1: they run against each other
+  int wedge;                 ///< lies in that which begins before this side; -1: in none
   std::vector<Link> links = {};
   double weight = 0;
   double shift = 0;  ///< phase of the first, without `sign` times that of the other
   bool counts = false;
+};
+
+/// An end of a side, up to the phase where a wedge ends that begins there.
+struct WedgeEnd {
+  int sign;  ///< 1: of the beginning
+  double phase;
+  int corner = -1;  ///< the side after it; -1: none
 };
 
 struct Track {
@@ -73,6 +88,10 @@ class FacingNodes {
     for (const CurvePiece& p : pieces) tracks_.push_back(track_of(p));
     for (const CurvePiece& p : pieces)
       if (p.master >= 0) tracks_[p.master].has_images = true;
+    for (const Track& t : tracks_)
+      wedges_.insert(wedges_.end(), 2, {WedgeEnd{1, 0}, WedgeEnd{-1, t.natural}});
+    for (const std::vector<int>& loop : loops_)
+      for (std::size_t i = 0; i < loop.size(); ++i) find_wedge(loop, i);
     find_strips();
   }
 
@@ -136,6 +155,70 @@ class FacingNodes {
     }
   }
 
+  /// Goes away from a corner on both sides, as far as the wedge between them is narrow; not further than half
+  /// the way to an end that is no sharp corner: there one row lies between nodes.
+  void find_wedge(const std::vector<int>& loop, std::size_t corner) {
+    struct Way {
+      std::size_t at;     ///< side in the loop
+      double before = 0;  ///< edges of those before
+    };
+    const std::size_t n = loop.size();
+    std::array<Way, 2> ways{Way{corner}, Way{(corner + n - 1) % n}};  // onwards, and back
+    double total = 0;
+    for (const int side : loop) total += tracks_[side / 2].natural;
+    std::vector<std::array<std::pair<WedgeEnd*, double>, 2>> reached;
+    bool is_lens = false;
+    for (double edges = 1 / kPerEdge; edges < total / 2; edges += 1 / kPerEdge) {
+      std::array<Vec2, 2> x;
+      reached.emplace_back();
+      double size = std::numeric_limits<double>::infinity();
+      for (const std::size_t k : {0, 1}) {
+        Way& way = ways[k];
+        for (; edges - way.before > tracks_[loop[way.at] / 2].natural;
+             way.at = (way.at + (k == 0 ? 1 : n - 1)) % n)
+          way.before += tracks_[loop[way.at] / 2].natural;
+        const int side = loop[way.at];
+        const Track& track = tracks_[side / 2];
+        const bool is_along = (side % 2 == 0) == (k == 0);
+        const double phase = is_along ? edges - way.before : track.natural - (edges - way.before);
+        reached.back()[k] = {&wedges_[side][is_along ? 0 : 1], phase};
+        const auto m = static_cast<double>(track.points.size() - 1);
+        const double at = phase * m / track.natural;
+        const std::size_t i = std::min(static_cast<std::size_t>(at), track.points.size() - 2);
+        const Vec2 along = track.points[i + 1] - track.points[i];
+        x[k] = track.points[i] + (at - static_cast<double>(i)) * along;
+        size = std::min(size, norm(along) * m / track.natural);
+      }
+      const double width = norm(x[1] - x[0]) / size;
+      is_lens = width <= kSharp * (total / 2 - edges);
+      if (width > std::min(kWedge, kSharp * edges)) {
+        reached.pop_back();
+        is_lens = false;
+        break;
+      }
+    }
+    if (!is_lens) reached.resize(std::min(reached.size(), static_cast<std::size_t>(kPerEdge * total / 4)));
+    for (const auto& step : reached)
+      for (const auto& [end, phase] : step)
+        if (end->sign * (phase - end->phase) > 0) end->phase = phase, end->corner = loop[corner];
+  }
+  /// In which both places are; -1: in none.
+  int wedge_of(std::array<int, 2> sides, std::array<double, 2> phases) const {
+    for (const WedgeEnd& a : wedges_[sides[0]])
+      for (const WedgeEnd& b : wedges_[sides[1]])
+        if (a.corner == b.corner && a.sign * (a.phase - phases[0]) >= 0 &&
+            b.sign * (b.phase - phases[1]) >= 0)
+          return a.corner;
+    return -1;
+  }
+
+  bool is_behind_wedge(int side, double phase) const {
+    return std::ranges::any_of(wedges_[side], [&](const WedgeEnd& end) {
+      const double behind = end.sign * (phase - end.phase);
+      return end.corner >= 0 && behind > 0 && behind < kBehind;
+    });
+  }
+
   void find_strips() {
     std::vector<Box<Vec2>> boxes;
     for (std::size_t p = 0; p < tracks_.size(); ++p)
@@ -192,18 +275,21 @@ class FacingNodes {
           !(track.is_free || other.is_free) || face_of_[sides[0]] != face_of_[sides[1]])
         continue;
       const int sign = parallel > 0 ? 1 : -1;
+      if (is_behind_wedge(sides[0], track.phase(j)) || is_behind_wedge(sides[1], other.phase(where[side])))
+        continue;
+      const int wedge = wedge_of(sides, {track.phase(j), other.phase(where[side])});
       const double difference = track.phase(j) - sign * other.phase(where[side]);
       strip[side] = known;
       if (known < 0 || strips_[known].sides != sides || strips_[known].sign != sign ||
-          std::abs(difference - before[side]) > kJump) {
+          strips_[known].wedge != wedge || std::abs(difference - before[side]) > kJump) {
         strip[side] = static_cast<int>(strips_.size());
-        strips_.push_back({sides, sign});
+        strips_.push_back({sides, sign, wedge});
         tracks_[p].strips.push_back(strip[side]);
         if (q != p) tracks_[q].strips.push_back(strip[side]);
       }
       before[side] = difference;
       const double slope = size / gap[side];
-      const double weight = std::min(slope * slope, kMostWeight) * spacing / size;
+      const double weight = std::min(slope * slope, wedge < 0 ? kMostWeight : kMostInWedges) * spacing / size;
       strips_[strip[side]].weight += weight;
       strips_[strip[side]].links.push_back({j, where[side], weight});
     }
@@ -211,6 +297,7 @@ class FacingNodes {
 
   /// Where each side begins in its loop, in nodes, or ends, if that runs against the piece.
   void number_loops() {
+    length_.resize(loops_.size());
     for (const std::vector<int>& loop : loops_) {
       int at = 0;
       for (const int side : loop) {
@@ -218,17 +305,27 @@ class FacingNodes {
         at += pieces_[side / 2].n;
         if (side % 2 == 1) base_[side] = at;
       }
+      length_[loop_of_[loop[0]]] = at;
     }
   }
 
   /// The nearest whole number to the difference of phases of that parity for which a line between nodes that
   /// face each other has even numbers of edges on both sides. Where it joins two loops the first one tells.
+  /// In wedges nodes face each other that are as many edges from the corner.
   void choose_shift(Strip& s) {
     double sum = 0;
     for (const Link& l : s.links)
       sum += l.weight *
              (tracks_[s.sides[0] / 2].phase(l.at) - s.sign * tracks_[s.sides[1] / 2].phase(l.other_at));
     const double difference = sum / s.weight;
+    s.counts = true;
+    if (s.wedge >= 0) {
+      const int n = length_[loop_of_[s.wedge]],
+                corner = base_[s.wedge] - (s.wedge % 2) * pieces_[s.wedge / 2].n;
+      const int at = (s.sides[0] % 2 == 0 ? 1 : -1) * (2 * corner - base_[s.sides[0]] - base_[s.sides[1]]);
+      s.shift = at + n * std::round((difference - at) / n);
+      return;
+    }
     const auto loops = std::minmax(loop_of_[s.sides[0]], loop_of_[s.sides[1]]);
     const int base = base_[s.sides[0]] + base_[s.sides[1]];
     const int nearest = static_cast<int>(std::lround(difference));
@@ -236,7 +333,6 @@ class FacingNodes {
         parity_.emplace(loops, loops.first == loops.second ? 1 : (base + nearest) & 1).first->second;
     const int odd = (base + parity) & 1;
     s.shift = 2 * std::round((difference - odd) / 2) + odd;
-    s.counts = true;
   }
 
   /// The phases of one piece, those of the others being as they are: a tridiagonal system.
@@ -347,7 +443,9 @@ class FacingNodes {
   std::vector<CurvePiece>& pieces_;
   std::vector<std::vector<int>> loops_;
   std::vector<int> face_of_, loop_of_, base_;  ///< of each side; -1: it has no region
+  std::vector<int> length_;                    ///< of each loop, edges
   std::vector<Track> tracks_;
+  std::vector<std::array<WedgeEnd, 2>> wedges_;  ///< of each side
   std::vector<Strip> strips_;
   std::vector<std::pair<int, int>> segments_;  ///< between samples: track and first sample
   BoxTree<Vec2> tree_;                         ///< of these
@@ -362,6 +460,42 @@ void face_nodes(const Arrangement& arrangement, const FaceRegions& regions, std:
   number({});
   for (int round = 0; round < kNumberings; ++round) number(facing.wanted());
   facing.place();
+}
+
+void cut_wedges(PlanarDomain& domain) {
+  Mesh& mesh = domain.boundary;
+  std::vector<char> stays(domain.patches.size(), 0);
+  for (const MappedPatch& grid : domain.mapped) stays[grid.patch] = 1;
+  for (const PatchImage& image : domain.images) stays[image.patch] = stays[image.master] = 1;
+  const CapNodes nodes{[](int) { return true; },
+                       [&](int v) { return mesh.points[v]; },
+                       [](const Vec3& x, Vec2) { return x; },
+                       [](Vec2) {
+                         return Vec3{0, 0, 1};
+                       },
+                       [&](const Vec3& x) {
+                         mesh.points.push_back(x);
+                         domain.places.emplace_back();
+                         return static_cast<int>(mesh.points.size()) - 1;
+                       },
+                       kWedge,
+                       false};
+  std::vector<PatchBoundary> outlines = domain.patches;
+  for (std::size_t p = 0; p < domain.patches.size(); ++p) {
+    if (stays[p]) continue;
+    PatchBoundary& patch = domain.patches[p];
+    for (const BoundaryCap& cap : cap_corners(patch, nodes))
+      for (const auto& quad : cap.quads) {
+        mesh.quads.push_back(quad);
+        mesh.quad_region.push_back(domain.patch_region[p]);
+        for (const int v : quad) domain.places[v] = {};
+      }
+    for (std::size_t i = 0; i < patch.points.size(); ++i) {
+      const Vec3& x = mesh.points[patch.point_node[i]];
+      patch.points[i] = {x.x, x.y};
+    }
+  }
+  if (!mesh.quads.empty()) domain.outlines = std::move(outlines);
 }
 
 }  // namespace delquad

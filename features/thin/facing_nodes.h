@@ -6,6 +6,7 @@
 #include "geometry/planar/arrangement.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/face_regions.h"
+#include "geometry/planar/planar_model.h"
 
 namespace delquad {
 
@@ -20,5 +21,9 @@ namespace delquad {
 /// edges that are even around regions, nearest to those wanted; the first time nothing is.
 void face_nodes(const Arrangement& arrangement, const FaceRegions& regions, std::vector<CurvePiece>& pieces,
                 const std::function<void(const std::vector<double>& wanted)>& number);
+
+/// Takes sharp corners out of patches that stages mesh, as far as they are narrower than half an edge and
+/// nodes face each other: adds their quads to domain.boundary, see cap_corners(). Nodes of these quads stay.
+void cut_wedges(PlanarDomain& domain);
 
 }  // namespace delquad

@@ -49,7 +49,7 @@ struct MappedPatch {
 
 /// The regions that a line mesh bounds.
 struct PlanarDomain {
-  Mesh boundary;                   ///< points, lines, curves, regions; of elements the quads of layers alone
+  Mesh boundary;  ///< points, lines, curves, regions; of elements the quads of layers and wedges alone
   std::vector<CurvePlace> places;  ///< of the boundary's points; empty where the lines were given
   std::vector<PatchBoundary> patches;
   std::vector<int> patch_region;  ///< index into boundary.regions of each patch
@@ -63,7 +63,7 @@ struct PlanarDomain {
   /// Their shapes; of a second lip those of all cracks.
   std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes = {};
   std::vector<DomainPiece> pieces = {};  ///< of the curves; empty where the lines were given
-  /// Where there are layers: the patches with these. `patches` are what is left to be meshed.
+  /// Where there are layers or wedges: the patches with these. `patches` are what is left to be meshed.
   std::vector<PatchBoundary> outlines = {};
   std::vector<std::string> notes = {};  ///< for warnings
 };

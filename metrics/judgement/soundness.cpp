@@ -103,9 +103,10 @@ void check_finite(const Mesh& mesh, Soundness& result) {
   add_reason(mesh, places, "1 point is not finite", "points are not finite", result);
 }
 
-/// The boundary of a patch with its layers.
+/// The boundary of a patch with its layers and wedges.
 const PatchBoundary& outline_of(const PreparedProblem& prepared, std::size_t patch) {
-  return prepared.layers ? prepared.layers->outlines[patch] : prepared.patches[patch].boundary;
+  const std::vector<PatchBoundary>& outlines = prepared.plane.outlines;
+  return outlines.empty() ? prepared.patches[patch].boundary : outlines[patch];
 }
 
 /// How many patches of a planar domain have each edge of the boundary.

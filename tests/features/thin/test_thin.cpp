@@ -93,12 +93,92 @@ TEST(ThinRows, OfAStackFaceEachOther) {
   const MeshResult refined = mesh(problem_of(stack_of_layers(), "refine"), "DBCO");
   const MeshResult rows = mesh(problem_of(stack_of_layers(), "rows"), "DBCO");
   EXPECT_TRUE(rows.mesh.triangles.empty());
-  EXPECT_LT(mean_offset(rows.prepared->boundary), 0.05);
-  EXPECT_LT(mean_offset(rows.mesh), 0.05);
+  // Behind wedges nodes come from two rows to one.
+  EXPECT_LT(mean_offset(rows.prepared->boundary), 0.06);
+  EXPECT_LT(mean_offset(rows.mesh), 0.06);
   EXPECT_GT(rows.metrics.values.at("scaled_jacobian_mean"), 0.9);
   EXPECT_GT(rows.metrics.values.at("scaled_jacobian_mean"),
             refined.metrics.values.at("scaled_jacobian_mean"));
-  EXPECT_LT(rows.mesh.quads.size(), refined.mesh.quads.size());
+  EXPECT_GT(rows.metrics.values.at("scaled_jacobian_min"), std::sin(0.9 * std::numbers::pi / 180));
+}
+
+/// Long waves of a block with three thin layers in its middle; all is symmetric and periodic.
+PlanarModel block() {
+  PlanarModel model;
+  const auto add = [&](std::shared_ptr<const Curve> shape, const std::string& name, int i) {
+    model.curves.push_back({std::move(shape), name + std::to_string(i), {}});
+  };
+  const std::vector<double> heights{0, 20, 23, 26, 30, 60};
+  const int n = static_cast<int>(heights.size()) - 1;
+  const auto at = [&](int i, double x) {
+    return Vec2{x, heights[i] + (i % n == 0 ? 0 : 1.5 * std::cos(std::numbers::pi * x / 100))};
+  };
+  for (int i = 0; i <= n; ++i) {
+    std::vector<Vec2> points;
+    for (int x = 0; x <= 200; x += 10) points.push_back(at(i, x));
+    add(make_spline(points), "interface_", i);
+  }
+  for (int i = 0; i < n; ++i) add(make_segment(at(i, 0), at(i + 1, 0)), "left_", i);
+  for (int i = 0; i < n; ++i) add(make_segment(at(i, 200), at(i + 1, 200)), "right_", i);
+  for (int i = 0; i < n; ++i)
+    model.loops.push_back({{i, 2 * n + 1 + i, i + 1, n + 1 + i}, "layer_" + std::to_string(i), {}});
+  return model;
+}
+
+TEST(ThinRows, GoWithDivisionsPeriodicSidesMirrorsAndGrids) {
+  MeshProblem divided, periodic, mirrored, grids;
+  divided.divisions = {{"interface_2", 31}};
+  for (int i = 0; i < 5; ++i)
+    periodic.periodic.push_back(
+        {"left_" + std::to_string(i), "right_" + std::to_string(i), {.shift = {200, 0, 0}}});
+  periodic.periodic.push_back({"interface_0", "interface_5", {.shift = {0, 60, 0}}});
+  mirrored.symmetry.planes = {{{100, 0, 0}, {1, 0, 0}}};
+  grids.mapped.names = {"layer_2", "layer_4"};
+  for (const auto& [problem, least] :
+       {std::pair(&divided, 0.95), {&periodic, 0.99}, {&mirrored, 0.99}, {&grids, 0.99}}) {
+    problem->model = block();
+    problem->size.field = make_constant_size(8);
+    const MeshResult refined = mesh(*problem, "DBCO");
+    problem->options.set("curves.thin", std::string("rows"));
+    const MeshResult rows = mesh(*problem, "DBCO");
+    EXPECT_TRUE(rows.soundness.sound());
+    EXPECT_GT(rows.metrics.values.at("scaled_jacobian_mean"), least);
+    EXPECT_GT(rows.metrics.values.at("scaled_jacobian_mean"),
+              refined.metrics.values.at("scaled_jacobian_mean"));
+    EXPECT_EQ(rows.mesh.periodic.size(), problem->periodic.size());
+    if (problem == &divided) {
+      EXPECT_EQ(nodes_on(rows.mesh, "interface_2").size(), 2 * 31u);
+    }
+  }
+}
+
+TEST(ThinRows, EndInWedgesWithoutFlatQuads) {
+  for (const double degrees : {0.6, 2.0, 5.0}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    PlanarModel model;
+    const Vec2 tip{0, 0}, low{30, 0}, high{30 * std::cos(angle), 30 * std::sin(angle)};
+    model.curves = {{make_segment(tip, low), "low", {}},
+                    {make_segment(low, high), "end", {}},
+                    {make_segment(high, tip), "high", {}}};
+    model.loops = {{{0, 1, 2}, "wedge", {}}};
+    const MeshResult result = mesh(problem_of(model, "rows"), "DBCO");
+    EXPECT_TRUE(result.soundness.sound());
+    double at_tip = 1, elsewhere = 1;
+    for (const auto& quad : result.mesh.quads) {
+      bool has_tip = false;
+      double least = 1;
+      for (int k = 0; k < 4; ++k) {
+        const Vec3 x = result.mesh.points[quad[k]], a = result.mesh.points[quad[(k + 1) % 4]] - x,
+                   b = result.mesh.points[quad[(k + 3) % 4]] - x;
+        least = std::min(least, cross(a, b).z / (norm(a) * norm(b)));
+        has_tip = has_tip || norm(x) < 1e-9;
+      }
+      double& of = has_tip ? at_tip : elsewhere;
+      of = std::min(of, least);
+    }
+    EXPECT_NEAR(at_tip, std::sin(angle), 0.01 * std::sin(angle)) << degrees;
+    EXPECT_GT(elsewhere, 0.3) << degrees;
+  }
 }
 
 TEST(ThinRows, AreTheSameForAnyNumberOfThreads) {
