@@ -24,7 +24,8 @@ std::string ask_gdal(char kind, const std::filesystem::path& path, const std::st
   return located(path.string(), [&] {
     std::string result;
     char heard = 0;
-    WorkerProcess worker(find_program({"delquad-gdal", "outlines and rasters", "DELQUAD_GDAL_WORKER"}));
+    WorkerProcess worker(find_program(
+        {"delquad-gdal", "outlines and rasters (archive and wheel lack it)", "DELQUAD_GDAL_WORKER"}));
     worker.ask(gdal_request(kind, {path.string(), first, second}), [&](char reply, const std::string& text) {
       heard = reply;
       result = text;
