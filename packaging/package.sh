@@ -6,6 +6,8 @@ cd "$(dirname "$0")/.."
 mkdir -p "$2"
 build=$(realpath "$1") out=$(realpath "$2")
 work=$out/work
+SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
+export SOURCE_DATE_EPOCH
 rm -rf "$work" "$out"/*.deb "$out"/*.tar.xz "$out"/*.whl
 
 cpack --config "$build/CPackConfig.cmake" -B "$work"
@@ -57,7 +59,7 @@ done <"$work/packages"
 # shellcheck disable=SC2016
 xargs dpkg-query -W -f '${Package} ${Version} ${Homepage}\n' <"$work/packages" >"$licences/PACKAGES"
 
-tar -C "$work" -c "$(basename "$archive")" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$(git log -1 --format=%ct)" |
+tar -C "$work" -c "$(basename "$archive")" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$SOURCE_DATE_EPOCH" |
   xz -T0 >"$out/$(basename "$archive").tar.xz"
 
 cp -r "$libraries" "$module/libs"
