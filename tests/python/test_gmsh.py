@@ -79,6 +79,18 @@ def test_a_plane_of_the_built_in_kernel():
     assert ["group_3"] in [names[1:] for _, names in r.curves]
 
 
+def test_what_is_embedded():
+    occ = gmsh.model.occ
+    plate, ends = occ.addRectangle(0, 0, 0, 2, 1), [occ.addPoint(x, 0.5, 0) for x in (0.5, 1.5)]
+    line, point = occ.addLine(*ends), occ.addPoint(1, 0.2, 0)
+    occ.synchronize()
+    gmsh.model.mesh.embed(1, [line], 2, plate)
+    gmsh.model.mesh.embed(0, [point], 2, plate)
+    delquad.gmsh.mesh(size=0.1)
+    assert len(nodes(1, line)) == 9 and np.allclose(nodes(1, line)[:, 1], 0.5)
+    assert np.allclose(nodes(0, point), [(1, 0.2, 0)])
+
+
 def test_what_cannot_be():
     with pytest.raises(delquad.InputError, match="no triangles"):
         delquad.gmsh.mesh(size=1)

@@ -54,6 +54,13 @@ def _triangles():
     return _core.Mesh(points, lines, line_curve, triangles, region, np.empty((0, 4), int), np.empty(0, int), curves, regions)
 
 
+def _lone_points():
+    """Points with a node, but on no curve: those that were embedded into surfaces."""
+    for _, tag in gmsh.model.getEntities(0):
+        if not len(gmsh.model.getAdjacencies(0, tag)[0]) and len(gmsh.model.mesh.getNodes(0, tag)[0]):
+            yield gmsh.model.getValue(0, tag, []), _names(0, tag)[-1]
+
+
 def _is_discrete(dim, tag):
     return gmsh.model.getType(dim, tag).startswith("Discrete")
 
@@ -88,7 +95,7 @@ def mesh(size=None, **settings):
         gmsh.model.mesh.generate(2)
     if not any(_is_discrete(*surface) for surface in gmsh.model.getEntities(2)):
         settings.setdefault("feature_angle", 179)  # faces end at curves alone
-    result = _mesh(_triangles(), size, **settings)
+    result = _mesh(_triangles(), size, **{**settings, "embed": [*settings.get("embed", ()), *_lone_points()]})
     curve, surface = _tags(result.curves, 1), _tags(result.regions, 2)
     places, number = _places(result, curve, surface), np.arange(1, len(result.points) + 1)
     gmsh.model.mesh.clear()
