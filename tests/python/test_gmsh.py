@@ -63,6 +63,8 @@ def test_entities_of_a_solid():
         assert np.linalg.norm(parts, axis=1).sum() == pytest.approx(exact, rel=0.02, abs=1e-9)  # as good as chords are
     gmsh.model.mesh.setOrder(2)
     assert len(gmsh.model.mesh.getElements(2)[0]) == 1 and count(QUAD) == 0
+    r = delquad.gmsh.mesh(size=0.3)  # of its own quads
+    assert count(QUAD) == len(r.quads) and np.allclose(np.linalg.norm(nodes(2, ball[0]) - (6, 0, 0), axis=1), 1, atol=1e-12)
 
 
 def test_a_plane_of_the_built_in_kernel():

@@ -32,26 +32,27 @@ def _tags(entities, dim):
     return np.array([int(name.split()[-1]) for name in own])
 
 
-def _elements(dim, kind):
+def _elements(dim, kind, corners):
     """Of all curves or surfaces: tags of nodes, the index of each one's entity, and the entities."""
     tags = [tag for _, tag in gmsh.model.getEntities(dim)]
-    parts = [gmsh.model.mesh.getElementsByType(kind, tag)[1].reshape(-1, dim + 1) for tag in tags]
+    parts = [gmsh.model.mesh.getElementsByType(kind, tag)[1].reshape(-1, corners) for tag in tags]
     entity = np.repeat(np.arange(len(tags)), [len(part) for part in parts])
-    return np.concatenate(parts or [np.empty((0, dim + 1), np.uint64)]), entity, [(tag, _names(dim, tag)) for tag in tags]
+    return np.concatenate(parts or [np.empty((0, corners), np.uint64)]), entity, [(tag, _names(dim, tag)) for tag in tags]
 
 
-def _triangles():
-    """The model's triangles, and lines on its curves."""
-    lines, line_curve, curves = _elements(1, _LINE)
-    triangles, region, regions = _elements(2, _TRIANGLE)
-    if not len(triangles):
+def _surface():
+    """The mesh that the model has on its surfaces, and the lines on its curves."""
+    lines, line_curve, curves = _elements(1, _LINE, 2)
+    triangles, triangle_region, regions = _elements(2, _TRIANGLE, 3)
+    quads, quad_region, _ = _elements(2, _QUAD, 4)
+    if not len(triangles) + len(quads):
         raise _core.InputError("the model that is open in Gmsh has no triangles, and no surfaces to make them of")
-    used, index = np.unique(np.concatenate([lines.ravel(), triangles.ravel()]), return_inverse=True)
     tags, points, _ = gmsh.model.mesh.getNodes()
     order = np.argsort(tags)
+    used = np.unique(np.concatenate([lines.ravel(), triangles.ravel(), quads.ravel()]))
     points = points.reshape(-1, 3)[order][np.searchsorted(tags[order], used)]
-    lines, triangles = index[: lines.size].reshape(-1, 2), index[lines.size :].reshape(-1, 3)
-    return _core.Mesh(points, lines, line_curve, triangles, region, np.empty((0, 4), int), np.empty(0, int), curves, regions)
+    lines, triangles, quads = (np.searchsorted(used, elements) for elements in (lines, triangles, quads))
+    return _core.Mesh(points, lines, line_curve, triangles, triangle_region, quads, quad_region, curves, regions)
 
 
 def _lone_points():
@@ -86,16 +87,17 @@ def mesh(size=None, **settings):
     size, settings: as of delquad.mesh(), but order (gmsh.model.mesh.setOrder(2) comes after); names are those of physical
         groups. Returns the Result.
 
-    Quads are made of the model's triangles: those of Gmsh where there are none yet. Nodes are moved onto its geometry, where
-    it has one. Entities and physical groups stay, elements of volumes go. Raises what delquad.mesh() raises.
+    Quads are made of the mesh that is on the surfaces, of Gmsh's triangles where there is none yet. Nodes are moved onto the
+    geometry, where there is one. Entities and physical groups stay, elements of volumes go. Raises what delquad.mesh() raises.
     """
     if "order" in settings:
         raise _core.InputError("order: expected nothing, but gmsh.model.mesh.setOrder() afterwards")
-    if not gmsh.model.mesh.getElementsByType(_TRIANGLE)[0].size:
+    gmsh.model.mesh.setOrder(1)
+    if not gmsh.model.mesh.getElements(2)[1]:
         gmsh.model.mesh.generate(2)
     if not any(_is_discrete(*surface) for surface in gmsh.model.getEntities(2)):
         settings.setdefault("feature_angle", 179)  # faces end at curves alone
-    result = _mesh(_triangles(), size, **{**settings, "embed": [*settings.get("embed", ()), *_lone_points()]})
+    result = _mesh(_surface(), size, **{**settings, "embed": [*settings.get("embed", ()), *_lone_points()]})
     curve, surface = _tags(result.curves, 1), _tags(result.regions, 2)
     places, number = _places(result, curve, surface), np.arange(1, len(result.points) + 1)
     gmsh.model.mesh.clear()
