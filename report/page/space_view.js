@@ -120,6 +120,7 @@ class SpaceView {
     this.pictures = [];  // {canvas, marks, scene, ...}
     palette.followers.add(this);
     this.light = new THREE.DirectionalLight("#ffffff", 2);
+    this.cut = [];  // planes, of which the other side is not drawn
   }
   end() {
     palette.followers.delete(this);
@@ -141,6 +142,7 @@ class SpaceView {
     }));
     this.middle = new THREE.Vector3(...low.map((v, k) => (v + high[k]) / 2));
     this.radius = Math.hypot(...low.map((v, k) => high[k] - v)) / 2 || 1;
+    Object.assign(this, { low, high });
     const r = this.radius;
     this.camera = new THREE.OrthographicCamera(-r, r, r, -r, -10 * r, 30 * r);
     this.camera.up.set(0, 0, 1);
@@ -177,6 +179,16 @@ class SpaceView {
     const above = Math.min(1.5, Math.max(-1.5, Math.asin(away.z / away.length()) + up * step));
     const flat = Math.cos(above);
     this.camera.position.copy(this.target).add(new THREE.Vector3(flat * Math.cos(around), flat * Math.sin(around), Math.sin(above)).setLength(away.length()));
+    this.redraw();
+  }
+  /// Cuts at a part of the box, 0 to 1, along an axis, 0 to 2, or nowhere (null): what is nearer to the eye than that is hidden.
+  cutAt(axis, part) {
+    this.cut = [];
+    if (axis !== null) {
+      const at = this.low[axis] + part * (this.high[axis] - this.low[axis]);
+      const away = this.camera.position.getComponent(axis) > this.target.getComponent(axis) ? -1 : 1;
+      this.cut.push({ normal: new THREE.Vector3().setComponent(axis, away), constant: -away * at });
+    }
     this.redraw();
   }
   lookAt(at, size, away) {
@@ -251,6 +263,7 @@ class SpaceView {
     }
     const gl = renderer();
     gl.setSize(width, height, false);
+    gl.clippingPlanes = this.cut;
     gl.render(scene, camera);
     canvas.width = width;
     canvas.height = height;
@@ -258,7 +271,7 @@ class SpaceView {
     pen.drawImage(gl.domElement, 0, 0);
     pen.scale(dots, dots);
     marks.forEach((at, i) => {
-      if (!at) return;
+      if (!at || this.cut.some(({ normal, constant }) => normal.dot(new THREE.Vector3(...at)) + constant < 0)) return;
       const p = new THREE.Vector3(...at).project(camera);
       drawPin(pen, ((p.x + 1) / 2) * wide0, ((1 - p.y) / 2) * high0, i + 1, wide0);
     });

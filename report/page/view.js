@@ -54,13 +54,24 @@ class MeshPage {
     const canvas = el("canvas", { tabindex: 0, role: "application", "aria-roledescription": "picture",
       "aria-label": `Mesh of ${data.values.n_elements || 0} elements. Arrows move or turn it, plus and minus zoom, R shows all of it.` });
     const save = el("div", { class: "head" });
-    document.getElementById("picture").append(el("div", { class: "tools" }, tool("+", "Zoom in", () => this.view.zoomBy(1.6)),
+    document.getElementById("picture").append(el("div", { class: "tools" }, data.mesh.dimension === 3 ? this.cutter() : [], tool("+", "Zoom in", () => this.view.zoomBy(1.6)),
       tool("\u2212", "Zoom out", () => this.view.zoomBy(1 / 1.6)), tool("Whole", "Show the whole mesh", () => this.view.reset())),
     el("figure", {}, canvas, save, this.hints().map((hint) => el("p", { class: "hint" }, hint))));
     this.colour();
     save.append(saveButtons(fileName(data.title), this.view.add(canvas, this.shown(), this.marks)));
     canvas.dataset.drawn = "yes";
     document.getElementById("about").append(...this.about());
+  }
+  /// Cuts a surface open across an axis.
+  cutter() {
+    const cut = () => {
+      part.hidden = axis.value === "";
+      this.view.cutAt(part.hidden ? null : Number(axis.value), Number(part.value));
+    };
+    const axis = el("select", { id: "cut-across", "aria-label": "Cut across", change: cut }, el("option", { value: "" }, "no cut"),
+      ["x", "y", "z"].map((name, k) => el("option", { value: k }, `cut across ${name}`)));
+    const part = el("input", { id: "cut-at", type: "range", min: 0, max: 1, step: "any", value: 0.5, hidden: "", "aria-label": "Where to cut", input: cut });
+    return [axis, part];
   }
   hints() {
     const { step, failing } = this.data.mesh, shown = ["Drag to move or turn; Ctrl and the wheel zoom."];

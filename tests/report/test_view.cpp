@@ -45,6 +45,10 @@ await after("all", () => all(".save button").find((b) => b.textContent === "all"
 await after("only", () => all(".names button")[0].click());
 await after("worst", () => all(".closeups button")[0].click());
 await after("whole", () => all(".tools button")[2].click());
+for (const axis of all("#cut-across")) {
+  await after("cut", () => choose(axis, "0"));
+  await after("uncut", () => choose(axis, ""));
+}
 return { seen, numbers: all(".numbers dd").map((n) => n.textContent), facts: all("#facts")[0].textContent };
 )js";
 
@@ -67,13 +71,14 @@ TEST(View, ShowsQualitySizesNamesAndWorstQuads) {
     EXPECT_EQ(told["seen"].value(act, false), true) << act << " in " << told;
   EXPECT_EQ(told["numbers"][0], "25");
   EXPECT_EQ(told["facts"], "1 \u00d7 1 ");
+  EXPECT_FALSE(told["seen"].contains("cut")) << "a plane cannot be cut open";
 }
 
 TEST(View, ShowsCurvedSurfaces) {
   NEEDS_BROWSER(browser);
   const TemporaryFolder folder;
   const auto told = ask_view(browser, folder, curved_grid(4, 3, 2, true), kTryAll);
-  for (const char* act : {"size", "names", "south 4 linesonly", "worst", "whole"})
+  for (const char* act : {"size", "names", "south 4 linesonly", "worst", "whole", "cut", "uncut"})
     EXPECT_EQ(told["seen"].value(act, false), true) << act << " in " << told;
   EXPECT_NE(told["facts"].get<std::string>().find("elements of order 2"), std::string::npos) << told;
 }
