@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -26,6 +28,9 @@ namespace {
 constexpr double kCheapEdges = 2e5;
 /// The boundary edges of the coarse domain on which the number of quads is estimated beyond that.
 constexpr double kCoarseEdges = 4e3;
+
+/// Rows in gaps that make so many times the quads are worth a warning.
+constexpr double kManyMore = 5;
 
 /// Boundary edges that the size asks for, by chords: a first idea, before anything is allocated.
 double rough_edges(const PlanarModel& model, const SizeField& size) {
@@ -172,6 +177,13 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   if (!fine.empty()) size.adapted_to.push_back("short curves");
   if (curves.gap_rows > 0) {
     const auto gaps = gap_spots(domain, *size.field, curves.gap_rows);
+    const BackgroundMesh background(domain.patches);
+    const double before = expected_quads(background, *size.field),
+                 after = expected_quads(background, *finer_near(size.field, gaps));
+    if (after > kManyMore * before)
+      p.warnings.emplace_back(fmt::format(
+          "{}: {} rows of quads in gaps make about {:.3g} quads, where {:.3g} would do for the size",
+          problem.name, curves.gap_rows, after, before));
     if (!gaps.empty()) size.adapted_to.push_back("gaps between curves");
     fine.insert(fine.end(), gaps.begin(), gaps.end());
   }

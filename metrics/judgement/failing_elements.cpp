@@ -12,6 +12,7 @@
 #include "base/box_tree.h"
 #include "base/segment.h"
 #include "base/text.h"
+#include "features/sizes/curve_options.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "geometry/mesh/half_edges.h"
 #include "metrics/judgement/poor_quads.h"
@@ -264,6 +265,9 @@ std::string advice(const PreparedProblem* prepared, const FailingElement& first,
   if (first.cause == kAtFineCurve && !plane.curve_places.empty() && !plane.ignores_small)
     other =
         fmt::format("--ignore-below {:.3g} (of a hole: more than it is around), or ", kAbove * first.what);
+  if (first.cause == kAtGap && !plane.curve_places.empty() &&
+      curve_options(prepared->settings.options).gap_rows == 0)
+    other = "--gap-rows 1 (but in corners), or ";
   return fmt::format(": {}a size of {:.3g} there would help", other, first.what);
 }
 

@@ -225,6 +225,14 @@ TEST(GapRows, FitBetweenArcs) {
   EXPECT_LT(across(wide.mesh), 3);
   EXPECT_GE(across(fine.mesh), 3);
   EXPECT_GT(fine.metrics.values.at("scaled_jacobian_mean"), wide.metrics.values.at("scaled_jacobian_mean"));
+  const auto told = [](const MeshResult& result) {
+    return std::ranges::count_if(result.warnings, [](const Warning& w) {
+      return w.text.find("rows of quads in gaps") < w.text.size();
+    });
+  };
+  problem.options.set("curves.gap_rows", 30LL);
+  EXPECT_EQ(told(mesh(problem, "D")), 1);
+  EXPECT_EQ(told(wide), 0);
 }
 
 }  // namespace
