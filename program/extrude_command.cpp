@@ -234,7 +234,9 @@ void add_extrude(CLI::App& app, Commands& commands) {
   const auto [extrude, arguments] =
       add_command(app, commands, "extrude", "Sweep a mesh of quads: hexahedra", extrude_command, true);
   extrude->add_option("mesh", arguments.mesh, "mesh file, quads alone")->required();
-  extrude->add_option("-o,--output", arguments.output, "hexahedra to write (.msh, .vtu or .inp)")->required();
+  extrude
+      ->add_option("-o,--output", arguments.output, "hexahedra to write (.msh, .vtu, .inp, .e, .su2 or .bdf)")
+      ->required();
   extrude->add_option("--along", arguments.along,
                       "X,Y,Z: the vector from the first layer of nodes to the last");
   extrude->add_option("--around", arguments.around,

@@ -40,7 +40,7 @@ def extrude(
 
 
 def _write(self, path, binary=False):
-    """Writes .msh, .vtu or .inp, whole or not at all."""
+    """Writes .msh, .vtu, .inp, .e, .su2 or .bdf, whole or not at all."""
     self._write_file(os.fspath(path), binary)
 
 
