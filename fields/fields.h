@@ -89,7 +89,7 @@ double least_by_curvature(double base, double min);
 /// (1/length); 0: as the base.
 double size_by_curvature(double base, double k, double per_turn, double min);
 
-/// Throws InputError, beginning with `where`, for limits of a SizeSpec that contradict each other.
-void check_size_limits(double curvature, double min, double max, const std::string& where);
+/// Throws InputError for limits of sizes that contradict each other.
+void check_size_limits(const SizeSpec& size);
 
 }  // namespace delquad

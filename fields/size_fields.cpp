@@ -133,11 +133,16 @@ double size_by_curvature(double base, double k, double per_turn, double min) {
   return std::min(base, std::max(least_by_curvature(base, min), 2 * std::numbers::pi / (k * per_turn)));
 }
 
-void check_size_limits(double curvature, double min, double max, const std::string& where) {
-  if (min > 0 && !(curvature > 0))
-    throw InputError(where + ": a least size is for sizes that follow curvature: expected 'curvature' too");
-  if (min > 0 && max > 0 && min > max)
-    throw InputError(fmt::format("{}: the least size {} is larger than the largest, {}", where, min, max));
+void check_size_limits(const SizeSpec& size) {
+  const bool follows_curvature =
+      size.curvature > 0 ||
+      std::ranges::any_of(size.named, [](const NamedSize& n) { return n.curvature > 0; });
+  if (size.min > 0 && !follows_curvature)
+    throw InputError(size.where +
+                     ": a least size is for sizes that follow curvature: expected 'curvature' too");
+  if (size.min > 0 && size.max > 0 && size.min > size.max)
+    throw InputError(
+        fmt::format("{}: the least size {} is larger than the largest, {}", size.where, size.min, size.max));
 }
 
 namespace {

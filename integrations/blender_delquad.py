@@ -113,7 +113,7 @@ class OBJECT_OT_delquad(bpy.types.Operator):
         else:
             amount = ["--quads", str(self.quads)] if self.by == "QUADS" else ["--size", repr(self.size)]
             try:
-                said = remesh(program, mesh, *amount, "--quality", self.quality, "--feature-angle", repr(math.degrees(self.angle)))
+                said = remesh(program, mesh, *amount, "--quality", self.quality, "--feature-angle", repr(min(math.degrees(self.angle), 180.0)))
             except RuntimeError as error:
                 problem = str(error)
         if problem:

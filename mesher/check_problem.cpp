@@ -55,7 +55,7 @@ void check_size(const SizeSpec& size) {
                                  size.curvature, kLeastPerTurn));
   check_length(size.min, "the least size", size.where);
   check_length(size.max, "the largest size", size.where);
-  check_size_limits(size.curvature, size.min, size.max, size.where);
+  check_size_limits(size);
 }
 
 void check_surface(const SurfaceSpec& surface, const std::string& where) {

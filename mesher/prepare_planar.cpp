@@ -154,7 +154,7 @@ class PlanarSteps final : public ModelSteps {
     if (!std::holds_alternative<GivenMesh>(problem_.model)) warn_of_gaps(domain_, p.warnings);
     if (!problem_.layers.empty())
       put_layers(problem_, domain_, p);
-    else if (curve_options(problem_.options).thin_rows)
+    else if (std::holds_alternative<PlanarModel>(problem_.model) && curve_options(problem_.options).thin_rows)
       cut_wedges(domain_);
     if (std::holds_alternative<LineModel>(problem_.model))
       for (const std::string& line : odd_boundaries(domain_))

@@ -52,7 +52,8 @@ for library in $needed; do
   file=$(realpath "$library")
   dpkg-query -S "$file" "${file#/usr}" 2>/dev/null | cut -d: -f1 | grep . ||
     { echo "$file is of no Debian package: its licence is not known" >&2; exit 1; }
-done | sort -u >"$work/packages"
+done >"$work/packages"
+sort -u -o "$work/packages" "$work/packages"
 while read -r package; do
   cp -L "/usr/share/doc/$package/copyright" "$licences/$package"
 done <"$work/packages"

@@ -147,7 +147,7 @@ SizeSpec with_arguments(SizeSpec size, const MeshArguments& arguments) {
   }
   for (const std::string& text : arguments.size_on) size.named.push_back(named_size(text));
   if (size.where.empty() && !size.named.empty()) size.where = "--size-on";
-  check_size_limits(size.curvature, size.min, size.max, size.where);
+  check_size_limits(size);
   return size;
 }
 
@@ -305,7 +305,7 @@ CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
                    "about how many, by sizes that are all larger or smaller; no --size is needed then")
       ->transform(kCount);
   mesh->add_option("--curvature", arguments.curvature, "elements per full turn of a curved face or curve")
-      ->check(CLI::Range(kLeastPerTurn, kMostPerTurn));
+      ->check(kLength & CLI::Range(kLeastPerTurn, kMostPerTurn));
   mesh->add_option("--size-min", arguments.min, "least size by curvature; default: 1/20 of --size")
       ->check(kLength);
   add_sizes(*mesh, arguments);

@@ -155,7 +155,7 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
     if (round == 0) warn_of_idle_sizes(spec.named, parts, *base, p.warnings);
     sized.mesh_by(with_images(finer_near(base, parts.spots(spec.named))));
   }
-  if (const auto turns = curvature_spots(model, spec, *base); !turns.empty()) {
+  if (const auto turns = curvature_spots(model, domain, spec, *base); !turns.empty()) {
     size.asked = size.field;
     size.adapted_to.push_back("curvature");
     sized.mesh_by(with_images(finer_near(size.field, turns)));

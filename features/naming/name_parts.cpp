@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,13 +27,21 @@ constexpr double kRoundOff = 1e-6;
 /// Faces look the way that is asked for where all of their normals are within this of it.
 const double kLeastCosine = std::cos(5 * std::numbers::pi / 180);
 
-/// `pattern`: * stands for any text, ? for one letter.
+/// `pattern`: * stands for any text, ? for one letter. What fails goes back to the last *, which takes one
+/// letter more.
 bool fits(std::string_view pattern, std::string_view text) {
-  if (pattern.empty()) return text.empty();
-  if (pattern[0] == '*')
-    return fits(pattern.substr(1), text) || (!text.empty() && fits(pattern, text.substr(1)));
-  return !text.empty() && (pattern[0] == '?' || pattern[0] == text[0]) &&
-         fits(pattern.substr(1), text.substr(1));
+  std::size_t p = 0, t = 0, star = std::string_view::npos, taken = 0;
+  while (t < text.size()) {
+    if (p < pattern.size() && pattern[p] == '*')
+      star = p++, taken = t;
+    else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t]))
+      ++p, ++t;
+    else if (star != std::string_view::npos)
+      p = star + 1, t = ++taken;
+    else
+      return false;
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
 /// The faces or the curves of a model, with what they are made of.
@@ -141,6 +151,12 @@ void name_parts(const std::vector<NamedPart>& parts, SurfaceModel& model) {
       throw InputError(
           fmt::format("{}: nothing says what '{}' is: expected numbers, names, a box, a normal or a place",
                       asked.where, asked.name));
+    for (const auto& place :
+         {asked.at, asked.normal, asked.box ? std::optional((*asked.box)[0]) : std::nullopt,
+          asked.box ? std::optional((*asked.box)[1]) : std::nullopt})
+      if (place && !std::isfinite(place->x + place->y + place->z))
+        throw InputError(
+            fmt::format("{}: '{}' has a coordinate that is not finite", asked.where, asked.name));
     if (asked.normal && (asked.curves || !(norm(*asked.normal) > 0)))
       throw InputError(asked.where +
                        (asked.curves ? ": curves have no normals" : ": the normal has no length"));

@@ -12,7 +12,7 @@ namespace {
 
 /// Parts of a curve turn by no more (radians), and there are so many of it at least.
 constexpr double kMostTurn = 0.1;
-constexpr int kLeastParts = 64;
+constexpr int kLeastParts = 512;
 /// Parts are halved no more often: what turns within less is a corner.
 constexpr int kMostHalvings = 16;
 
@@ -62,21 +62,31 @@ class CurveTurns {
 
 }  // namespace
 
-std::vector<FineSpot> curvature_spots(const PlanarModel& model, const SizeSpec& spec, const SizeField& base) {
+std::vector<double> turns_asked(const PlanarModel& model, const PlanarDomain& domain, const SizeSpec& spec) {
   const std::vector<Entity> curves = curve_entities(model);
   std::vector<double> own(curves.size(), 0);
   for (const NamedSize& wanted : spec.named) {
     if (!(wanted.curvature > 0)) continue;
     std::vector<int> named = entities_named(curves, "curve", wanted.name);
-    for (const ModelLoop& loop : model.loops)
-      if (loop.region == wanted.name) named.insert(named.end(), loop.curves.begin(), loop.curves.end());
+    for (std::size_t p = 0; p < domain.patches.size(); ++p)
+      if (has_name(domain.boundary.regions[domain.patch_region[p]], wanted.name))
+        for (const int c : domain.patches[p].edge_curve)
+          if (c >= 0) named.insert(named.end(), domain.model_curves[c].begin(), domain.model_curves[c].end());
     if (named.empty()) find_entities(curves, "curve", wanted.name, wanted.where);
-    for (const int c : named) own[c] = std::max(own[c], wanted.curvature);
+    for (const int c : named)
+      if (c < static_cast<int>(own.size())) own[c] = std::max(own[c], wanted.curvature);  // others are axes
   }
+  for (double& per_turn : own)
+    if (per_turn == 0) per_turn = spec.curvature;
+  return own;
+}
+
+std::vector<FineSpot> curvature_spots(const PlanarModel& model, const PlanarDomain& domain,
+                                      const SizeSpec& spec, const SizeField& base) {
+  const std::vector<double> asked = turns_asked(model, domain, spec);
   std::vector<FineSpot> spots;
-  for (std::size_t c = 0; c < curves.size(); ++c)
-    if (const double per_turn = own[c] > 0 ? own[c] : spec.curvature; per_turn > 0)
-      CurveTurns(*model.curves[c].shape, per_turn, spec, base, spots);
+  for (std::size_t c = 0; c < asked.size(); ++c)
+    if (asked[c] > 0) CurveTurns(*model.curves[c].shape, asked[c], spec, base, spots);
   return spots;
 }
 

@@ -17,6 +17,7 @@
 #include "base/predicates.h"
 #include "base/segment.h"
 #include "base/text.h"
+#include "features/sizes/curvature_spots.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/surface/curve_chains.h"
 
@@ -199,15 +200,22 @@ void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain, 
   std::vector<int> edges(model.curves.size(), 0);
   for (const int curve : domain.boundary.line_curve)
     for (const int c : domain.model_curves[curve]) ++edges[c];
+  const std::vector<double> per_turn = turns_asked(model, domain, spec);
+  double needed = turns.needed, least_asked = kFewPerTurn, base = 0;
   for (std::size_t c = 0; c < edges.size(); ++c) {
     if (edges[c] == 0) continue;
     const auto [angle, length] = turning(*model.curves[c].shape, edges[c]);
     const std::string& name = model.curves[c].name;
+    const int before = turns.curves;
     turns.add(turns.curves, angle / edges[c], length / angle, length / edges[c],
               name.empty() ? fmt::format("curve {}", c + 1) : "'" + name + "'");
+    if (turns.curves > before) least_asked = std::min(least_asked, per_turn[c]);
+    if (std::exchange(needed, turns.needed) == turns.needed) continue;
+    const Vec2 there = model.curves[c].shape->point(0.5);
+    int hint = -1;
+    base = asked.at({there.x, there.y, 0}, hint);
   }
-  int hint = -1;
-  turns.tell(asked.at(domain.boundary.points[0], hint), spec.curvature, spec.min, warnings);
+  turns.tell(base, least_asked, spec.min, warnings);
 }
 
 void warn_of_coarse_turns(const WantedSize& wanted, const PreparedSurface& surface,

@@ -79,8 +79,8 @@ struct HexMeasures {
 };
 HexMeasures measure(const HexMesh& mesh);
 
-/// Writes hexahedra by extension: .msh (4.1), .vtu or .inp (C3D8); whole or not at all. Volumes and faces are
-/// groups with their names. Throws InputError that names the path.
+/// Writes hexahedra by extension, .msh (4.1), .vtu, .inp (C3D8), .e, .su2 or .bdf; whole or not at all.
+/// Volumes and faces are groups with their names. Throws InputError that names the path.
 void write_hexahedra(const std::filesystem::path& path, const HexMesh& mesh, bool binary = false);
 
 }  // namespace delquad

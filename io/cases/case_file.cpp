@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <variant>
@@ -271,7 +272,7 @@ SizeSpec read_size(const TomlTable& table) {
   if (fields.has("min")) size.min = fields.positive_number("min");
   if (fields.has("max")) size.max = fields.positive_number("max");
   fields.finish(size_keys());
-  check_size_limits(size.curvature, size.min, size.max, size.where);
+  check_size_limits(size);
   return size;
 }
 
@@ -384,7 +385,11 @@ NamedPart read_named_part(const TomlTable& table) {
     throw InputError(table.where("of") + ": '" + of + "': expected 'faces' or 'curves'");
   part.curves = of == "curves";
   if (table.has("number"))
-    for (const double n : table.numbers("number")) part.numbers.push_back(static_cast<int>(n));
+    for (const double n : table.numbers("number")) {
+      if (!(n >= 1 && n <= std::numeric_limits<int>::max() && n == std::floor(n)))
+        throw InputError(fmt::format("{}: {}: expected whole numbers from 1 on", table.where("number"), n));
+      part.numbers.push_back(static_cast<int>(n));
+    }
   part.like = table.text("like", "");
   if (table.has("box")) {
     const std::vector<Vec3> corners = table.space_points("box");

@@ -55,7 +55,8 @@ void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
 
 /// In space: a marker for each name of faces on the boundary.
 void write_hex_su2(const std::filesystem::path& path, const HexMesh& mesh, bool) {
-  const std::vector<MeshGroup> groups = hex_groups(mesh, {plain_label});
+  std::vector<MeshGroup> groups = hex_groups(mesh, {plain_label});
+  std::erase_if(groups, [](const MeshGroup& group) { return group.dim != 2; });
   const std::vector<HexSide> sides = sorted_hex_sides(mesh);
   constexpr int kQuad = 9, kHexahedron = 12;
   write_text_file(path, [&](TextWriter& out) {
@@ -76,7 +77,6 @@ void write_hex_su2(const std::filesystem::path& path, const HexMesh& mesh, bool)
       out << mesh.points[i].x << ' ' << mesh.points[i].y << ' ' << mesh.points[i].z << ' ' << i << '\n';
     std::vector<std::pair<const MeshGroup*, std::vector<int>>> markers;
     for (const MeshGroup& group : groups) {
-      if (group.dim != 2) continue;
       std::vector<int> quads = group.items;
       std::erase_if(quads, [&](int q) { return sides_at_quad(mesh, sides, q).size() != 1; });
       if (!quads.empty()) markers.emplace_back(&group, std::move(quads));

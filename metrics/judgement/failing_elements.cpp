@@ -254,7 +254,7 @@ bool is_given(const PreparedProblem& prepared) {
 std::string advice(const PreparedProblem* prepared, const FailingElement& first, int n, int ignored,
                    double below) {
   if (!prepared || is_given(*prepared) || (first.cause != kAtGap && first.cause != kAtFineCurve)) return "";
-  if (prepared->surface && ignored == 0) return "";
+  if ((prepared->surface && ignored == 0) || !(first.what > 0)) return "";
   if (prepared->surface)
     return fmt::format(": --ignore-below {:.3g} may help{}", below,
                        ignored < n ? fmt::format(" against {} of them", ignored) : "");

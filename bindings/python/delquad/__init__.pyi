@@ -219,6 +219,7 @@ def mesh(
     glue: bool = False,
     unit: str | None = None,
     embed: Iterable[npt.ArrayLike | tuple[npt.ArrayLike, str]] = (),
+    names: Mapping[str, Mapping[str, Any]] | None = None,
     options: Mapping[str, bool | int | float | str] | None = None,
     name: str | None = None,
     seed: int | None = None,

@@ -345,11 +345,14 @@ def mesh(
         _set_cross(problem, cross)
     _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, idealize, keep, fill_holes, simplify, mirror, glue, unit)
     _embed(problem, embed)
+    if not isinstance(names or {}, dict):
+        raise _core.InputError(f"names: {names!r}: expected a dictionary of names, each with what tells its faces or curves")
     for part, fits in (names or {}).items():
         try:
             problem.name_part(part, **fits)
         except TypeError:
-            raise _core.InputError(f"names: {part!r}: {fits!r}: expected at, box, normal, number, like or of") from None
+            expected = "at, box, normal, number (a list of whole numbers), like or of"
+            raise _core.InputError(f"names: {part!r}: {fits!r}: expected {expected}") from None
     if quality is not None:
         _core.check_quality(quality)
     for limit, value in (("limits.min_angle", min_angle), ("limits.max_aspect", max_aspect)):

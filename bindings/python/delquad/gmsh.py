@@ -84,12 +84,15 @@ def _places(result, curve, surface):
 def mesh(size=None, **settings):
     """Meshes the surfaces of the model that is open in Gmsh by quads, which take the place of its mesh there.
 
-    size, settings: as of delquad.mesh(), but order (gmsh.model.mesh.setOrder(2) comes after); names are those of physical
+    size, settings: as of delquad.mesh(), but order (gmsh.model.mesh.setOrder(2) comes after) and what joins or mirrors entities; names are those of physical
         groups. Returns the Result.
 
     Quads are made of the mesh that is on the surfaces, of Gmsh's triangles where there is none yet. Nodes are moved onto the
     geometry, where there is one. Entities and physical groups stay, elements of volumes go. Raises what delquad.mesh() raises.
     """
+    for joined in ("compounds", "merge_curves", "ignore_below", "idealize", "mirror", "symmetry"):
+        if settings.get(joined):
+            raise _core.InputError(f"{joined}: expected nothing: entities of Gmsh's model cannot become one, or more")
     if "order" in settings:
         raise _core.InputError("order: expected nothing, but gmsh.model.mesh.setOrder() afterwards")
     gmsh.model.mesh.setOrder(1)

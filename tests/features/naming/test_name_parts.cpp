@@ -44,6 +44,7 @@ TEST(NamedParts, AreFoundInEveryWay) {
   using Tags = std::vector<int>;
   EXPECT_EQ(named_by({.name = "end", .at = Vec3{3.2, 1, 0.4}}), (Tags{2}));
   EXPECT_EQ(named_by({.name = "sides", .like = "side_*"}), (Tags{3, 4}));
+  EXPECT_EQ(named_by({.name = "last", .like = "*d*h*g*"}), (Tags{4}));
   EXPECT_EQ(named_by({.name = "low", .like = "side_l?w"}), (Tags{3}));
   EXPECT_EQ(named_by({.name = "up", .normal = Vec3{0.05, 0, 7}}), (Tags{6}));
   EXPECT_EQ(named_by({.name = "ends", .numbers = {1, 2}}), (Tags{1, 2}));
@@ -78,6 +79,7 @@ TEST(NamedParts, RefuseWhatDoesNotFit) {
   refuses({.name = "a", .numbers = {7}}, {"m.toml:4", "no face 7"});
   refuses({.name = "a", .like = "inlet*"}, {"no face of the 6 is what 'a' is to name"});
   refuses({.name = "a", .at = Vec3{3, 2, 0.5}}, {"as near to"});
+  refuses({.name = "a", .at = Vec3{NAN, 2, 0.5}}, {"not finite"});
   refuses({.name = "a"}, {"nothing says what 'a' is"});
   refuses({.name = "a", .curves = true, .normal = Vec3{0, 0, 1}}, {"curves have no normals"});
   refuses({.name = "a", .normal = Vec3{0, 0, 0}}, {"no length"});

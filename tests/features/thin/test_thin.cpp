@@ -235,5 +235,27 @@ TEST(GapRows, FitBetweenArcs) {
   EXPECT_EQ(told(wide), 0);
 }
 
+/// Lines that are kept get no rows, and no wedges are cut from them.
+TEST(ThinRows, LeaveGivenLinesAlone) {
+  Mesh lines;
+  const double high = 8 * std::tan(3 * std::numbers::pi / 180);
+  for (int k = 0; k <= 16; ++k) lines.points.push_back({0.5 * k, 0, 0});
+  for (int k = 16; k > 0; --k) lines.points.push_back({0.5 * k, high * k / 16, 0});
+  const int n = static_cast<int>(lines.points.size());
+  for (int i = 0; i < n; ++i) {
+    lines.lines.push_back({i, (i + 1) % n});
+    lines.line_curve.push_back(0);
+  }
+  lines.curves = {{1, {}}};
+  const auto quads = [&](const std::string& thin) {
+    MeshProblem problem;
+    problem.model = LineModel{lines, {}, "wedge"};
+    problem.allow_unsound = true;
+    problem.options.set("curves.thin", thin);
+    return mesh(problem, "DB").mesh.quads.size();
+  };
+  EXPECT_EQ(quads("rows"), quads("refine"));
+}
+
 }  // namespace
 }  // namespace delquad

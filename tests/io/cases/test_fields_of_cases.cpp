@@ -94,6 +94,12 @@ TEST_F(Cases, NamesHaveSizes) {
       prepare_case(read(model + "on = { name = \"core\", curvature = 48 }\ncurvature = 24\n"));
   EXPECT_NEAR(size_at(turns, 0.7, 0.5), 2 * std::numbers::pi * 0.2 / 48, 1e-4);
   EXPECT_NEAR(size_at(turns, 0.8, 0.5), 2 * std::numbers::pi * 0.2 / 48 + 0.3 * 0.1, 1e-3);
+  const PreparedProblem around =
+      prepare_case(read("loop = [{ circle = { centre = [0, 0], radius = 2 }, region = \"rim\" },\n"
+                        "        { circle = { centre = [0, 0], radius = 0.5 }, hole = true }]\n"
+                        "[size]\nbase = 1\non = { name = \"rim\", curvature = 48 }\nmin = 0.01\n"));
+  EXPECT_NEAR(size_at(around, 0.5, 0), 2 * std::numbers::pi * 0.5 / 48, 1e-4);
+  EXPECT_NEAR(size_at(around, 2, 0), 2 * std::numbers::pi * 2 / 48, 1e-3);
   const PreparedProblem all = prepare_case(read(model + "curvature = 24\nmin = 0.06\n"));
   EXPECT_NEAR(size_at(all, 0.7, 0.5), 0.06, 1e-4);
   const PreparedProblem by_number = prepare_case(read(model + "on = { name = \"curve_2\", size = 0.05 }\n"));
