@@ -167,7 +167,7 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   }
   // Sizes beside divided curves are the lengths of their edges.
   if (!problem.divisions.empty()) {
-    size.asked = size.field;
+    if (!size.asked) size.asked = size.field;
     size.adapted_to.push_back("given edges");
     sized.mesh_by(as_divided(size.field, model, domain, problem.divisions));
   }

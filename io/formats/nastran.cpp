@@ -294,6 +294,25 @@ void write_grid(TextWriter& out, std::size_t i, const Vec3& p) {
       << real(p.x) << real(p.y) << "\n*       " << real(p.z) << '\n';
 }
 
+/// Comments that tell names: a property for each group of the highest dimension, SETs of the nodes of others.
+template <class AnyMesh>
+void write_names(TextWriter& out, const char* title, const AnyMesh& mesh,
+                 const std::vector<MeshGroup>& groups) {
+  constexpr const char* kKinds[] = {"point ", "curve ", "face "};
+  out << "$ " << title << " by Delquad\n";
+  if (!mesh.unit.empty()) out << "$ lengths in " << mesh.unit << '\n';
+  std::size_t set = 0;
+  for (const MeshGroup& group : groups) {
+    if (group.dim == groups[0].dim) {
+      out << "$ property " << group.number << ": " << one_line(group.name) << '\n';
+      continue;
+    }
+    out << "$ set " << ++set << ", nodes of " << kKinds[group.dim] << one_line(group.name) << '\n';
+    write_set(out, set, nodes_of_group(mesh, group));
+  }
+  out << "BEGIN BULK\n";
+}
+
 /// Nastran's bulk data: CQUAD4, CQUAD8 and CTRIA3, a property for each name of regions, SETs of the nodes of
 /// curves and points; comments tell the names.
 void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
@@ -304,19 +323,7 @@ void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
   for (std::size_t q = 0; q < mesh.quads.size() && mesh.order == 2; ++q)
     inside[nodes_of_quad(mesh, q)[4]] = 1;
   write_text_file(path, [&](TextWriter& out) {
-    out << "$ quad mesh by Delquad\n";
-    if (!mesh.unit.empty()) out << "$ lengths in " << mesh.unit << '\n';
-    std::size_t set = 0;
-    for (const MeshGroup& group : groups) {
-      if (group.dim == 2) {
-        out << "$ property " << group.number << ": " << one_line(group.name) << '\n';
-        continue;
-      }
-      out << "$ set " << ++set << ", nodes of " << (group.dim == 0 ? "point " : "curve ")
-          << one_line(group.name) << '\n';
-      write_set(out, set, nodes_of_group(mesh, group));
-    }
-    out << "BEGIN BULK\n";
+    write_names(out, "quad mesh", mesh, groups);
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
       if (inside[i]) continue;
       write_grid(out, i, mesh.points[i]);
@@ -346,19 +353,7 @@ void write_hex_nastran(const std::filesystem::path& path, const HexMesh& mesh, b
   const std::vector<MeshGroup> groups = hex_groups(mesh, {one_line_label});
   const std::vector<int> property = group_numbers(groups, 3, mesh.hexahedra.size());
   write_text_file(path, [&](TextWriter& out) {
-    out << "$ mesh of hexahedra by Delquad\n";
-    if (!mesh.unit.empty()) out << "$ lengths in " << mesh.unit << '\n';
-    std::size_t set = 0;
-    for (const MeshGroup& group : groups) {
-      if (group.dim == 3) {
-        out << "$ property " << group.number << ": " << one_line(group.name) << '\n';
-        continue;
-      }
-      out << "$ set " << ++set << ", nodes of " << (group.dim == 1 ? "curve " : "face ")
-          << one_line(group.name) << '\n';
-      write_set(out, set, nodes_of_group(mesh, group));
-    }
-    out << "BEGIN BULK\n";
+    write_names(out, "mesh of hexahedra", mesh, groups);
     for (std::size_t i = 0; i < mesh.points.size(); ++i) write_grid(out, i, mesh.points[i]);
     for (std::size_t h = 0; h < mesh.hexahedra.size(); ++h) {
       std::vector<std::size_t> numbers{h + 1, static_cast<std::size_t>(property[h])};
