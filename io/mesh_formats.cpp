@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
+#include <tuple>
 
 #include "base/located.h"
 #include "base/nearest_name.h"
@@ -11,6 +13,7 @@
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
+#include "io/entity_names.h"
 #include "io/picture.h"
 
 namespace delquad {
@@ -225,6 +228,18 @@ std::vector<std::string> lost_in_file(const std::filesystem::path& path, const M
   add(kBoundaryNames, "curves of the boundary", around);
   add(kInnerNames, "curves inside", inside);
   add(kPointNames, "points", of_points);
+  if ((names & kFurtherNames) != 0) return lost;
+  for (const auto& [which, of, entities, dim] : {std::tuple(kRegionNames, "regions", &mesh.regions, 2),
+                                                 std::tuple(kBoundaryNames, "curves", &mesh.curves, 1)}) {
+    const std::vector<std::string> own = group_names(*entities, dim);
+    std::set<std::string> further;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      for (const std::string& name : (*entities)[i].names)
+        if (name != own[i]) further.insert(name);
+    if ((names & which) != 0 && !further.empty())
+      lost.push_back(fmt::format("names of {} that have others, too, of which '{}' holds one each: {}", of,
+                                 kind, fmt::join(further, ", ")));
+  }
   return lost;
 }
 

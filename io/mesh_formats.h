@@ -18,7 +18,8 @@ enum NameKinds : unsigned {
   kInnerNames = 2,
   kBoundaryNames = 4,
   kPointNames = 8,
-  kAllNames = 15
+  kAllNames = 15,
+  kFurtherNames = 16  ///< of regions and curves that have several: all, not that of group_names() alone
 };
 
 /// A kind of mesh file. What is written of it stands in its files in io/formats/ and in a line of

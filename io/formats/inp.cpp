@@ -390,7 +390,8 @@ MeshFormat inp_format() {
           .write = write_by<write_inp>,
           .most_order = 2,
           .write_hexahedra = write_hex_inp,
-          .eight_nodes = EightNodes::kAlways};
+          .eight_nodes = EightNodes::kAlways,
+          .names = kAllNames | kFurtherNames};
 }
 
 }  // namespace delquad

@@ -176,7 +176,7 @@ MeshFormat medit_format() {
           .description = "Medit",
           .read = read_by<read_medit>,
           .write = write_by<write_medit>,
-          .names = kAllNames & ~kPointNames};
+          .names = (kAllNames & ~kPointNames) | kFurtherNames};
 }
 
 }  // namespace delquad

@@ -439,7 +439,8 @@ MeshFormat msh_format() {
           .write_hexahedra = write_hex_msh,
           .eight_nodes = EightNodes::kWhenAsked,
           .has_binary = true,
-          .renamed = renamed_in_msh};
+          .renamed = renamed_in_msh,
+          .names = kAllNames | kFurtherNames};
 }
 
 }  // namespace delquad

@@ -166,7 +166,7 @@ MeshFormat obj_format() {
           .description = "Wavefront",
           .read = read_obj,
           .write = write_by<write_obj>,
-          .names = kAllNames & ~kPointNames};
+          .names = (kAllNames & ~kPointNames) | kFurtherNames};
 }
 
 }  // namespace delquad

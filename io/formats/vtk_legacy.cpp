@@ -104,7 +104,7 @@ MeshFormat vtk_format() {
           .write = write_by<write_vtk>,
           .most_order = kMostOrder,
           .renamed = renamed_in_vtk,
-          .names = kAllNames & ~kPointNames};
+          .names = (kAllNames & ~kPointNames) | kFurtherNames};
 }
 
 }  // namespace delquad

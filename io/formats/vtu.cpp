@@ -184,7 +184,8 @@ MeshFormat vtu_format() {
           .most_order = kMostOrder,
           .write_hexahedra = [](const std::filesystem::path& path, const HexMesh& mesh,
                                 bool) { write_hex_vtu(path, mesh); },
-          .eight_nodes = EightNodes::kWhenAsked};
+          .eight_nodes = EightNodes::kWhenAsked,
+          .names = kAllNames | kFurtherNames};
 }
 
 }  // namespace delquad

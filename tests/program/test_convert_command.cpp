@@ -67,6 +67,13 @@ TEST(ConvertCommand, KeepsFieldsAndOrderWhereItCan) {
     EXPECT_TRUE(contains(straight.err, part)) << straight.err;
   EXPECT_EQ(read_mesh(folder / "d.obj").points.size(), 12u);
 
+  Mesh named = mesh;
+  named.regions[0].names = {"steel", "tagged"};
+  write_mesh(folder / "n.msh", named);
+  EXPECT_TRUE(contains(delquad({"convert", folder / "n.msh", folder / "n.bdf"}).err,
+                       "'.bdf' holds one each: tagged"));
+  EXPECT_EQ(delquad({"convert", folder / "n.msh", folder / "n.inp"}).err, "");
+
   Mesh triangles = triangle_grid(2, 2);
   write_mesh(folder / "t.msh", triangles);
   const auto refused = delquad({"convert", folder / "t.msh", folder / "t.re2"});
