@@ -133,11 +133,13 @@ double size_by_curvature(double base, double k, double per_turn, double min) {
   return std::min(base, std::max(least_by_curvature(base, min), 2 * std::numbers::pi / (k * per_turn)));
 }
 
+bool follows_curvature(const SizeSpec& size) {
+  return size.curvature > 0 ||
+         std::ranges::any_of(size.named, [](const NamedSize& n) { return n.curvature > 0; });
+}
+
 void check_size_limits(const SizeSpec& size) {
-  const bool follows_curvature =
-      size.curvature > 0 ||
-      std::ranges::any_of(size.named, [](const NamedSize& n) { return n.curvature > 0; });
-  if (size.min > 0 && !follows_curvature)
+  if (size.min > 0 && !follows_curvature(size))
     throw InputError(size.where +
                      ": a least size is for sizes that follow curvature: expected 'curvature' too");
   if (size.min > 0 && size.max > 0 && size.min > size.max)

@@ -193,9 +193,7 @@ void check_no_surface(const MeshProblem& problem, bool in_space) {
       problem, in_space,
       in_space ? "a mesh that is given keeps its faces, lines and unit" : "the model is planar",
       in_space ? "models" : "surfaces");
-  if (!std::holds_alternative<PlanarModel>(problem.model) &&
-      (problem.size.curvature > 0 ||
-       std::ranges::any_of(problem.size.named, [](const NamedSize& n) { return n.curvature > 0; })))
+  if (!std::holds_alternative<PlanarModel>(problem.model) && follows_curvature(problem.size))
     throw InputError(problem.size.where +
                      ": sizes by curvature are for curves and surfaces that are meshed anew");
 }

@@ -94,16 +94,13 @@ WantedSize surface_size(const MeshProblem& problem, const SurfaceModel& model,
   wanted.spots = spots;
   if (!(wanted.curve_limit.empty() && spots.empty()) && !(wanted.gradation > 0))
     wanted.gradation = kShortCurveGradation;
-  const bool named = std::ranges::any_of(spec.named, [](const NamedSize& n) { return n.curvature > 0; });
-  if (!(spec.curvature > 0) && !named) return wanted;
+  if (!follows_curvature(spec)) return wanted;
   wanted.curvature = std::make_shared<ModelCurvature>(model);
   wanted.per_turn = spec.curvature;
-  if (named) {
-    const Mesh& whole = cut != nullptr ? cut->whole.fine : model.fine;
-    wanted.face_per_turn = curvature_by_name(spec.named, whole.regions, "region");
-    wanted.curve_per_turn = curvature_by_name(spec.named, whole.curves, "curve");
-  }
-  if (named && cut != nullptr) {
+  const Mesh& whole = cut != nullptr ? cut->whole.fine : model.fine;
+  wanted.face_per_turn = curvature_by_name(spec.named, whole.regions, "region");
+  wanted.curve_per_turn = curvature_by_name(spec.named, whole.curves, "curve");
+  if (cut != nullptr) {
     wanted.face_per_turn = most_of_faces(std::move(wanted.face_per_turn), *cut);
     wanted.curve_per_turn = most_of_curves(wanted.curve_per_turn, *cut);
   }

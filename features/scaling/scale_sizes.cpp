@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "delquad/error.h"
+#include "fields/fields.h"
 #include "fields/size_by.h"
 
 namespace delquad {
@@ -50,7 +51,7 @@ void refine(LayerSpec& layer, double k) {
 
 MeshProblem with_scaled_sizes(MeshProblem problem, double factor) {
   SizeSpec& size = problem.size;
-  bool follows_curvature = size.curvature > 0;
+  const bool has_curvature = follows_curvature(size);
   if (size.field)
     size.field =
         size_by([factor, base = size.field](const Vec3& x, int& hint) { return factor * base->at(x, hint); });
@@ -62,12 +63,11 @@ MeshProblem with_scaled_sizes(MeshProblem problem, double factor) {
     };
   for (SizeSource& source : size.sources) source.size_near *= factor, source.size_far *= factor;
   for (NamedSize& named : size.named) {
-    follows_curvature |= named.curvature > 0;
     named.size *= factor;
     named.growth *= factor;
     scale_per_turn(named.curvature, factor);
   }
-  if (follows_curvature && size.gradation == 0) size.gradation = kCurvatureGradation;
+  if (has_curvature && size.gradation == 0) size.gradation = kCurvatureGradation;
   size.gradation *= factor;
   scale_per_turn(size.curvature, factor);
   problem.metric.scale *= factor;
