@@ -21,6 +21,10 @@ namespace {
 constexpr double kShapeKink = 0.03, kSizeKink = 0.02;
 /// How far beyond the walls of lengths (as a logarithm) still can be cured.
 constexpr double kCurable = 0.25;
+/// The least knee: below it what keeps a bad quad from getting worse would drown the others.
+constexpr double kLeastKnee = 0.15;
+/// Of edges that come near their least length, and how near that is.
+constexpr double kTooShort = 0.3, kNear = 1.5;
 /// Quads in a piece.
 constexpr std::size_t kPieceLength = 1024;
 
@@ -37,7 +41,7 @@ QuadEnergy<Vec>::QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& w
     : weights_(weights), start_(std::move(mesh.points)), moving_(std::move(mesh.moving)) {
   assert(mesh.delta.size() == start_.size());
   assert(std::ranges::all_of(mesh.delta, [](double delta) { return delta > 0; }));
-  assert(mesh.least_lengths.size() == mesh.quads.size() && mesh.least_sine.size() == mesh.quads.size());
+  assert(mesh.least_lengths.size() == mesh.quads.size() && mesh.kept_sine.size() == mesh.quads.size());
   assert(mesh.weight.size() == mesh.quads.size());
   slot_of_.assign(start_.size(), -1);
   add_pieces(mesh);
@@ -76,7 +80,7 @@ void QuadEnergy<Vec>::add_pieces(const QuadEnergyMesh<Vec>& mesh) {
     for (int k = 0; k < 4; ++k)
       if (moves(v[(k + 3) % 4]) || moves(v[k]) || moves(v[(k + 1) % 4])) movable |= 1U << k;
     quads_.push_back({v, movable, quad_normal(start_[v[2]] - start_[v[0]], start_[v[3]] - start_[v[1]]),
-                      mesh.least_sine[q], mesh.weight[q]});
+                      std::max(mesh.kept_sine[q], kLeastKnee), mesh.weight[q]});
     for (int k = 0; k < 4; ++k) {
       const int a = v[k], b = v[(k + 1) % 4];
       if ((!moves(a) && !moves(b)) || !is_new(a, b)) continue;
@@ -163,12 +167,7 @@ std::vector<Vec> QuadEnergy<Vec>::points(const double* x) const {
 
 template <class Vec>
 bool QuadEnergy<Vec>::evaluate(const double* x, double& energy, double* gradient) const {
-  std::vector<char> is_finite(pieces_.size());
-  parallel_for(pieces_.size(), [&](std::size_t p) {
-    is_finite[p] =
-        gradient == nullptr ? add_piece<false>(p, x, energies_[p]) : add_piece<true>(p, x, energies_[p]);
-  });
-  if (std::ranges::find(is_finite, 0) != is_finite.end()) return false;
+  parallel_for(pieces_.size(), [&](std::size_t p) { energies_[p] = piece_energy(p, x); });
   energy = std::accumulate(energies_.begin(), energies_.end(), 0.0);
   if (!std::isfinite(energy)) return false;
   if (gradient == nullptr) return true;
@@ -184,9 +183,9 @@ bool QuadEnergy<Vec>::evaluate(const double* x, double& energy, double* gradient
   return true;
 }
 
+/// Sets the slopes of its slots, too.
 template <class Vec>
-template <bool kSlope>
-bool QuadEnergy<Vec>::add_piece(std::size_t piece, const double* x, double& energy) const {
+double QuadEnergy<Vec>::piece_energy(std::size_t piece, const double* x) const {
   const Piece begin = piece == 0 ? Piece{0, 0, 0, 0} : pieces_[piece - 1], end = pieces_[piece];
   for (std::size_t s = begin.slots_end; s < end.slots_end; ++s) {
     if (slots_[s].moving >= 0) at_[s] = place(slots_[s].moving, x);
@@ -197,23 +196,19 @@ bool QuadEnergy<Vec>::add_piece(std::size_t piece, const double* x, double& ener
     const double length = norm(along), inverse = 1 / length;
     states_[s] = {inverse * along, inverse, length, {}};
   }
-  energy = 0;
-  for (std::size_t q = begin.quads_end; q < end.quads_end; ++q)
-    if (!add_quad<kSlope>(quads_[q], energy)) return false;
-  for (std::size_t e = begin.edges_end; e < end.edges_end; ++e)
-    if (!add_edge<kSlope>(edges_[e], energy)) return false;
-  if constexpr (!kSlope) return true;
+  double energy = 0;
+  for (std::size_t q = begin.quads_end; q < end.quads_end; ++q) energy += add_quad(quads_[q]);
+  for (std::size_t e = begin.edges_end; e < end.edges_end; ++e) energy += add_edge(edges_[e]);
   for (std::size_t s = begin.sides_end; s < end.sides_end; ++s) {
     const auto [a, b] = sides_[s];
     slope_[a] = slope_[a] - states_[s].slope;
     slope_[b] = slope_[b] + states_[s].slope;
   }
-  return true;
+  return energy;
 }
 
 template <class Vec>
-template <bool kSlope>
-bool QuadEnergy<Vec>::add_quad(const Quad& quad, double& energy) const {
+double QuadEnergy<Vec>::add_quad(const Quad& quad) const {
   Vec side[4];  // unit vectors
   double inverse[4], sign[4];
   SideState* states[4];
@@ -228,66 +223,58 @@ bool QuadEnergy<Vec>::add_quad(const Quad& quad, double& energy) const {
                                      {side[0], side[1], quad.normal},
                                      {side[1], side[2], quad.normal},
                                      {side[2], side[3], quad.normal}};
-  double shape = kShapeKink * kShapeKink / 2, clearance = 1;
+  double shape = kShapeKink * kShapeKink / 2, by_sine[4] = {};
   for (int k = 0; k < 4; ++k) {
     if (!quad.moves(k)) continue;
-    if (!(corner[k].sine > quad.least_sine)) return false;
-    shape += 1 / corner[k].sine - 1;
-    clearance *= corner[k].sine - quad.least_sine;
+    const double inverse_sine = 1 / std::max(corner[k].sine, quad.knee),
+                 below = std::max(0.0, 1 - corner[k].sine / quad.knee);
+    shape += inverse_sine * (1 + below + below * below) - 1;
+    by_sine[k] = -inverse_sine * inverse_sine * (1 + 2 * below);
   }
-  if (weights_.barrier > 0) energy -= weights_.barrier * std::log(clearance);
   const double good = quad.weight * std::sqrt(shape),
                bad = quad.weight * weights_.bad * power(shape, weights_.bad_power);
   // Sine and cosine of the sum of two opposite angles.
   const double cosine[2] = {-dot(side[3], side[0]), -dot(side[1], side[2])};
   const double sum_sine = corner[0].sine * cosine[1] + cosine[0] * corner[2].sine,
                sum_cosine = cosine[0] * cosine[1] - corner[0].sine * corner[2].sine;
-  energy += good + bad + weights_.orthogonality * sum_sine * sum_sine;
-  if constexpr (!kSlope) return true;
   const double by_sum = 2 * weights_.orthogonality * sum_sine * sum_cosine;
   const double steep = (0.5 * good + weights_.bad_power * bad) / shape;
   Vec by_side[4];
   for (int k = 0; k < 4; ++k) {
     if (!quad.moves(k)) continue;
     const int before = (k + 3) % 4;
-    const double sine = corner[k].sine;
-    const double by_sine = -steep / (sine * sine) - weights_.barrier / (sine - quad.least_sine);
     // The sine's derivative by the angle between both sides is their cosine.
-    const double by_turn = by_sine * dot(side[before], side[k]) - (k % 2 == 0 ? by_sum : 0);
+    const double by_turn = steep * by_sine[k] * dot(side[before], side[k]) - (k % 2 == 0 ? by_sum : 0);
     by_side[before] = by_side[before] - by_turn * inverse[before] * corner[k].quarter_turn(side[before]);
     by_side[k] = by_side[k] + by_turn * inverse[k] * corner[k].quarter_turn(side[k]);
   }
   for (int k = 0; k < 4; ++k) states[k]->slope = states[k]->slope + sign[k] * by_side[k];
-  return true;
+  return good + bad + weights_.orthogonality * sum_sine * sum_sine;
 }
 
 template <class Vec>
-template <bool kSlope>
-bool QuadEnergy<Vec>::add_edge(const Edge& edge, double& energy) const {
+double QuadEnergy<Vec>::add_edge(const Edge& edge) const {
   SideState& side = states_[edge.side];
   const double length = side.length, inverse = side.inverse;
-  if (!(length > edge.least_length)) return false;
   // Hyperbolic sine and cosine of log(l/d): their difference is min(l/d, d/l).
   const double ratio = length * edge.inverse_length, cosh = 0.5 * (ratio + 1 / ratio), sinh = ratio - cosh;
   const double rounded = std::sqrt(sinh * sinh + kSizeKink * kSizeKink), lack = cosh - rounded + kSizeKink;
   const Vec u = side.u;
   // sin^2 2 phi = 4 c^2 (1 - c^2), c the cosine between edge and arm.
   const double c = dot(u, edge.arm), c2 = c * c;
-  const double too_short = weights_.barrier * edge.least_length / (length - edge.least_length);
+  const double near = std::max(kNear * edge.least_length * inverse - 1, 0.0);
   // Positive: how much longer it should be, as a logarithm.
   const double lacks = ratio < kShortWall  ? std::log(kShortWall / ratio)
                        : ratio > kLongWall ? std::log(kLongWall / ratio)
                                            : 0;
   const double soft = 1 / (1 + lacks * lacks / (kCurable * kCurable));
-  energy += weights_.size * (1 - lack) + weights_.wall * lacks * lacks * soft +
-            4 * weights_.alignment * c2 * (1 - c2) + too_short;
-  if constexpr (!kSlope) return true;
   const double by_length = weights_.size * sinh * (cosh / rounded - 1) * inverse -
                            2 * weights_.wall * lacks * soft * soft * inverse -
-                           too_short / (length - edge.least_length);
+                           2 * kTooShort * near * (near + 1) * inverse;
   const double by_cosine = 8 * weights_.alignment * c * (1 - 2 * c2) * inverse;
   side.slope = side.slope + (by_length * u + by_cosine * (edge.arm - c * u));
-  return true;
+  return weights_.size * (1 - lack) + weights_.wall * lacks * lacks * soft +
+         4 * weights_.alignment * c2 * (1 - c2) + kTooShort * near * near;
 }
 
 template class QuadEnergy<Vec2>;

@@ -16,7 +16,6 @@ struct QuadEnergyWeights {
   int bad_power = 2;         ///< its exponent
   double size = 0.25;        ///< of the edges' lengths
   double alignment = 0.02;   ///< of the edges' directions
-  double barrier = 0.002;    ///< of the corners' barrier
   double wall = 80;          ///< of lengths beyond the walls
   double orthogonality = 0;  ///< of quads whose corners lie on no circle
 };
@@ -35,10 +34,10 @@ struct QuadEnergyMesh {
   std::vector<std::array<int, 4>> quads;  ///< counterclockwise, in space: seen from outside
   std::vector<MovingVertex<Vec>> moving;  ///< each vertex once at most
   std::vector<double> delta;              ///< wanted edge length, by vertex
-  /// That a quad's sides (by their first corner) must not fall to.
+  /// That a quad's sides (by their first corner) should not come near to.
   std::vector<std::array<double, 4>> least_lengths;
-  std::vector<double> least_sine;  ///< that no corner may fall to, by quad
-  std::vector<double> weight;      ///< of the quads' shapes
+  std::vector<double> kept_sine;  ///< of the corners, by quad: what is below it matters less steeply
+  std::vector<double> weight;     ///< of the quads' shapes
   /// Unit vector along one arm of the cross on a quad's side (by its first corner); zero: none.
   std::function<Vec(int quad, int side)> arm;
 };
@@ -57,12 +56,12 @@ struct QuadEnergyMesh {
 ///   links
 ///     between centres of such circles cross the edges at right angles,
 ///   alignment * sin^2 2 phi over the edges, phi the angle between edge and cross,
-///   barrier * m / (l - m) over the edges, m the least length,
-///   barrier * -log(sin alpha - least sine) over the corners,
-/// the first two rounded off where they have a kink. The energy is infinite where a corner's sine does not
-/// exceed its quad's least sine or an edge its least length. Corners whose three vertices stay do not count.
-/// In space a corner's angle is that between its sides, reflex where it turns against the normal that its
-/// quad had at the start.
+///   .3 * max(0, 1.5 m/l - 1)^2 over the edges, m the least length,
+/// the first two rounded off where they have a kink. Below a quad's kept sine, or .15 where that is less,
+/// 1/sin alpha goes on as its Taylor polynomial of the second degree: the energy is finite even where quads
+/// are inverted, so that no quad holds up the steps of all others. Corners whose three vertices stay do not
+/// count. In space a corner's angle is that between its sides, reflex where it turns against the normal that
+/// its quad had at the start.
 ///
 /// Variables: x, y of each moving vertex.
 template <class Vec>
@@ -71,8 +70,8 @@ class QuadEnergy {
   QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& weights);
 
   int variables() const { return 2 * static_cast<int>(moving_.size()); }
-  /// False where the energy is infinite. `gradient` may be null. Works on several threads, with the same
-  /// result for every number of them; not to be called from two at once.
+  /// False where the energy is infinite: an edge has no length. `gradient` may be null. Works on several
+  /// threads, with the same result for every number of them; not to be called from two at once.
   bool evaluate(const double* x, double& energy, double* gradient) const;
   /// All points of the mesh after a displacement.
   std::vector<Vec> points(const double* x) const;
@@ -82,7 +81,7 @@ class QuadEnergy {
     std::array<int, 4> sides;  ///< their numbers, or the complements of these where they run the other way
     std::uint32_t movable;     ///< a bit for each corner
     Vec normal;                ///< in space
-    double least_sine, weight;
+    double knee, weight;
     bool moves(int k) const { return (movable >> k & 1U) != 0; }
   };
   /// A side of one quad or two of a piece, and what is known of it at each evaluation.
@@ -114,12 +113,9 @@ class QuadEnergy {
   void add_sides(std::size_t quads_begin, std::size_t edges_begin, std::size_t slots_begin);
   void find_slots_of_moving();
   Vec place(int moving, const double* x) const;
-  template <bool kSlope>
-  bool add_piece(std::size_t piece, const double* x, double& energy) const;
-  template <bool kSlope>
-  bool add_quad(const Quad& quad, double& energy) const;
-  template <bool kSlope>
-  bool add_edge(const Edge& edge, double& energy) const;
+  double piece_energy(std::size_t piece, const double* x) const;
+  double add_quad(const Quad& quad) const;
+  double add_edge(const Edge& edge) const;
 
   QuadEnergyWeights weights_;
   std::vector<Vec> start_;

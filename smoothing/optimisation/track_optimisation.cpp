@@ -96,9 +96,6 @@ namespace {
 constexpr double kHeldSine = 1e-3;
 /// The least sine that a quad must keep is so much, as a part, below what it was.
 constexpr double kRoom = 0.005;
-/// The barrier stands at this part of that: what falls between both when the pass is over goes back. A
-/// nearer barrier would hold up the descent.
-constexpr double kBarrier = 0.8;
 /// The worst: quads below this eta. All passes but the first leave alone what lies around better ones than
 /// the second value. Rings of quads around those below move with them.
 constexpr double kWorstEta = 0.6, kSettledEta = 0.9;
@@ -144,7 +141,7 @@ class TrackOptimisation {
   bool is_failing(std::size_t quad) const;
   std::vector<char> around_below(double eta) const;
   QuadEnergyMesh<Vec> energy_mesh(const std::vector<char>& free) const;
-  void set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh);
+  void set_kept(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh);
   EnergyDescent descend(const std::vector<char>& free, const QuadEnergyWeights& weights);
   bool too_short(std::size_t quad) const;
   void find_room();
@@ -298,7 +295,7 @@ std::vector<double> TrackOptimisation<Vec>::reaches(std::vector<double> delta) c
   return delta;
 }
 
-/// Without barriers and weights. A step of 1 is a vertex's reach.
+/// Without what quads keep and weigh. A step of 1 is a vertex's reach.
 template <class Vec>
 QuadEnergyMesh<Vec> TrackOptimisation<Vec>::energy_mesh(const std::vector<char>& free) const {
   QuadEnergyMesh<Vec> mesh;
@@ -322,17 +319,17 @@ QuadEnergyMesh<Vec> TrackOptimisation<Vec>::energy_mesh(const std::vector<char>&
 }
 
 template <class Vec>
-void TrackOptimisation<Vec>::set_barriers(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh) {
+void TrackOptimisation<Vec>::set_kept(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh) {
   const double floor = sine_of_eta(kOptimisedFloorEta), worst = std::min(least(), floor);
   failed_.resize(quads_.size());
-  for (auto* values : {&kept_, &mesh.least_sine, &mesh.weight}) values->resize(quads_.size());
+  for (auto* values : {&kept_, &mesh.kept_sine, &mesh.weight}) values->resize(quads_.size());
   parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
       const auto sines = movable_sines(q);
       const double bound = std::min({sines[0], sines[1], sines[2], sines[3], floor});
       kept_[q] = std::max((1 - kRoom) * bound, worst);
       failed_[q] = is_failing(q);
-      mesh.least_sine[q] = kBarrier * bound;
+      mesh.kept_sine[q] = bound;
       double shape = 0;
       for (const double sine : sines) shape += 1 / std::max(sine, kHeldSine) - 1;
       mesh.weight[q] = 1 / (1 + std::pow(shape / kHopelessShape, weights.bad_power));
@@ -346,7 +343,7 @@ EnergyDescent TrackOptimisation<Vec>::descend(const std::vector<char>& free,
   if (std::ranges::find(free, 1) == free.end()) return {};
   find_delta();
   QuadEnergyMesh<Vec> mesh = energy_mesh(free);
-  set_barriers(weights, mesh);
+  set_kept(weights, mesh);
   const std::vector<MovingVertex<Vec>> moving = mesh.moving;
   const QuadEnergy<Vec> energy(std::move(mesh), weights);
   EnergyDescent descent = minimise(energy, options_.iterations);

@@ -16,7 +16,7 @@ namespace {
 using testing_support::grid_patch;
 using testing_support::jittered;
 
-QuadEnergy<Vec2> energy_of(const QuadPatch& patch, double delta, double theta, double least,
+QuadEnergy<Vec2> energy_of(const QuadPatch& patch, double delta, double theta, double kept,
                            const QuadEnergyWeights& weights) {
   QuadEnergyMesh<Vec2> mesh;
   mesh.points = patch.points;
@@ -26,7 +26,7 @@ QuadEnergy<Vec2> energy_of(const QuadPatch& patch, double delta, double theta, d
   mesh.delta.assign(patch.points.size(), delta);
   mesh.least_lengths.assign(patch.quads.size(), {0.05, 0.05, 0.05, 0.05});
   mesh.arm = [theta](int, int) { return Vec2{std::cos(theta), std::sin(theta)}; };
-  mesh.least_sine.assign(patch.quads.size(), least);
+  mesh.kept_sine.assign(patch.quads.size(), kept);
   mesh.weight.assign(patch.quads.size(), 1);
   return {std::move(mesh), weights};
 }
@@ -54,8 +54,8 @@ TEST(QuadEnergy, GradientAgreesWithCentralDifferences) {
     SCOPED_TRACE(seed);
     const QuadPatch mesh = jittered(grid_patch(5, 4), seed, 0.2);
     // Each part by itself, and all; with the exponents of both kinds of passes.
-    const QuadEnergyWeights all[] = {{0.5, 0, 0, 0},   {4, 2, 0, 0, 0},  {0.5, 1, 0.7, 0, 0},
-                                     {0.5, 0, 0.6, 0}, {0.5, 0, 0, 0.3}, {30, 3, 0.4, 0.1, 0.1, 80, 7}};
+    const QuadEnergyWeights all[] = {{0.5, 1, 0, 0, 0},   {4, 2, 0, 0, 0},    {0.5, 1, 0.7, 0, 0},
+                                     {0.5, 1, 0, 0.6, 0}, {0.5, 1, 0, 0, 80}, {30, 3, 0.4, 0.1, 80, 7}};
     for (const QuadEnergyWeights& weights : all) {
       const QuadEnergy energy = energy_of(mesh, 0.8, 0.2, 0.05, weights);
       std::vector<double> at(energy.variables());
@@ -84,7 +84,7 @@ TEST(QuadEnergy, GradientInSpaceAgreesWithCentralDifferences) {
     mesh.delta.assign(patch.points.size(), std::array{0.8, 0.6, 2.4, 4.0}[seed % 4]);
     mesh.least_lengths.assign(patch.quads.size(), {0.3, 0.3, 0.2, 0.1});
     mesh.arm = [](int, int side) { return side % 2 == 0 ? Vec3{0.6, 0.8, 0} : Vec3{}; };
-    mesh.least_sine.assign(patch.quads.size(), 0.02);
+    mesh.kept_sine.assign(patch.quads.size(), 0.02);
     mesh.weight.assign(patch.quads.size(), 0.7);
     const QuadEnergy<Vec3> energy(mesh, {});
     std::vector<double> at(energy.variables());
@@ -140,26 +140,25 @@ TEST(QuadEnergy, RegularGridIsAMinimum) {
   }
 }
 
-TEST(QuadEnergy, InfiniteOnceACornerReachesTheLeastSine) {
-  const QuadPatch grid = grid_patch(2, 2);
-  const QuadEnergy energy = energy_of(grid, 1, 0, 0.5, {});
+TEST(QuadEnergy, FiniteWhereQuadsAreInverted) {
+  const QuadEnergy energy = energy_of(grid_patch(2, 2), 1, 0, 0.8, {});
   ASSERT_EQ(energy.variables(), 2);
   // The middle goes right by x: the corners at the middles of bottom and top have the sine 1 / sqrt(1 + x^2),
-  // those at the middle itself the same; the length of the sides to the right does not change any.
-  for (const double x : {0.2, 0.5, 0.9}) {
-    const double at[] = {x, 0}, beyond[] = {-x, 0};
-    double value = 0, mirrored = 0;
-    EXPECT_TRUE(energy.evaluate(at, value, nullptr));
-    EXPECT_TRUE(energy.evaluate(beyond, mirrored, nullptr));
-    EXPECT_NEAR(value, mirrored, 1e-9);
+  // .8 at x = .75; beyond x = 1 two quads are inverted.
+  double before = 0;
+  for (const double x : {0.0, 0.3, 0.75 - 1e-5, 0.75 + 1e-5, 0.9, 1.5}) {
+    SCOPED_TRACE(x);
+    const double at[] = {x, 0}, mirrored[] = {-x, 0};
+    double value = 0, other = 0;
+    ASSERT_TRUE(energy.evaluate(at, value, nullptr));
+    ASSERT_TRUE(energy.evaluate(mirrored, other, nullptr));
+    EXPECT_NEAR(value, other, 1e-9 * value);
+    EXPECT_GT(value, before);
+    before = value;
+    expect_gradient(energy, {x, 0.1});
   }
-  const QuadEnergy strict = energy_of(grid, 1, 0, 0.8, {});
-  double value = 0;
-  const double limit = 0.75;  // 1 / sqrt(1 + 9/16) = 0.8
-  const double inside[] = {limit - 1e-6, 0}, outside[] = {limit + 1e-6, 0}, turned_over[] = {1.5, 0};
-  EXPECT_TRUE(strict.evaluate(inside, value, nullptr));
-  EXPECT_FALSE(strict.evaluate(outside, value, nullptr));
-  EXPECT_FALSE(energy.evaluate(turned_over, value, nullptr));
+  const double on_another[] = {1, 0};
+  EXPECT_FALSE(energy.evaluate(on_another, before, nullptr));
 }
 
 TEST(QuadEnergy, SizeAndCrossPull) {
@@ -183,7 +182,7 @@ TEST(QuadEnergy, WallsHoldLengthsAndLevelOff) {
   const auto value = [&](double delta) {
     double result = 0;
     const std::vector<double> rest(18, 0.0);
-    EXPECT_TRUE(energy_of(grid, delta, 0, 0, {0, 2, 0, 0, 0}).evaluate(rest.data(), result, nullptr));
+    EXPECT_TRUE(energy_of(grid, delta, 0, 0, {0, 2, 0, 0}).evaluate(rest.data(), result, nullptr));
     return result - of_shapes;
   };
   of_shapes = value(1);
