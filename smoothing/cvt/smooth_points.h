@@ -13,7 +13,7 @@ struct SmoothingOptions {
   /// Of the norm: even, 2 to 16. 6 is the smallest for which a square lattice is a minimum of the energy, and
   /// not only stationary.
   int p = 6;
-  int outer_iterations = 4;  ///< how often cross and size are taken anew; at least 0
+  int outer_iterations = 2;  ///< how often cross and size are taken anew; at least 0
   MinimiserOptions inner;    ///< of each
 };
 
