@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/disjoint_sets.h"
+#include "base/matching/wide.h"
 
 namespace delquad {
 
@@ -15,13 +16,13 @@ namespace {
 struct Nesting {
   std::vector<int> depth, path;  ///< path: the outermost blossom on the same heavy path
   std::vector<long long> size;   ///< in nodes
-  std::vector<WideInteger> sum;  ///< dual values of a blossom and of all around it
+  std::vector<Wide> sum;         ///< dual values of a blossom and of all around it
   bool sound = false;            ///< parents come first, sizes are odd, dual values are not negative
 };
 
 Nesting nest(const MatchingCertificate& c) {
   const int n = static_cast<int>(c.blossom_dual.size());
-  Nesting nesting{std::vector<int>(n), std::vector<int>(n), std::vector<long long>(n), c.blossom_dual};
+  Nesting nesting{std::vector<int>(n), std::vector<int>(n), std::vector<long long>(n), std::vector<Wide>(n)};
   if (c.blossom_parent.size() != c.blossom_dual.size()) return nesting;
   for (const int b : c.node_blossom) {
     if (b < -1 || b >= n) return nesting;
@@ -33,7 +34,7 @@ Nesting nest(const MatchingCertificate& c) {
   std::vector<int> heavy(n, -1);
   for (int b = n - 1; b >= 0; --b) {
     const int p = c.blossom_parent[b];
-    if (nesting.size[b] % 2 == 0 || c.blossom_dual[b] < 0) return nesting;
+    if (nesting.size[b] % 2 == 0 || c.blossom_dual[b].high < 0) return nesting;
     if (p < 0) continue;
     nesting.size[p] += nesting.size[b];
     if (heavy[p] < 0 || nesting.size[b] > nesting.size[heavy[p]]) heavy[p] = b;
@@ -41,7 +42,7 @@ Nesting nest(const MatchingCertificate& c) {
   for (int b = 0; b < n; ++b) {
     const int p = c.blossom_parent[b];
     nesting.depth[b] = p < 0 ? 0 : nesting.depth[p] + 1;
-    if (p >= 0) nesting.sum[b] += nesting.sum[p];
+    nesting.sum[b] = wide(c.blossom_dual[b]) + (p < 0 ? 0 : nesting.sum[p]);
     nesting.path[b] = p >= 0 && heavy[p] == b ? nesting.path[p] : b;
   }
   nesting.sound = true;
@@ -49,8 +50,8 @@ Nesting nest(const MatchingCertificate& c) {
 }
 
 /// Dual values of the blossoms that an edge between nodes within a and within b leaves.
-WideInteger crossed(const MatchingCertificate& c, const Nesting& nesting, int a, int b) {
-  WideInteger sum = (a < 0 ? 0 : nesting.sum[a]) + (b < 0 ? 0 : nesting.sum[b]);
+Wide crossed(const MatchingCertificate& c, const Nesting& nesting, int a, int b) {
+  Wide sum = (a < 0 ? 0 : nesting.sum[a]) + (b < 0 ? 0 : nesting.sum[b]);
   while (a >= 0 && b >= 0 && nesting.path[a] != nesting.path[b]) {
     if (nesting.depth[nesting.path[a]] < nesting.depth[nesting.path[b]]) std::swap(a, b);
     a = c.blossom_parent[nesting.path[a]];
@@ -81,13 +82,13 @@ bool proves_optimal(const MatchingGraph& graph, const std::vector<int>& mate,
   const Nesting nesting = nest(certificate);
   if (!nesting.sound) return fail(why, "a blossom is even, negative, or out of order");
   std::vector<char> seen(n, 0);
-  WideInteger primal = 0, dual = 0;
+  Wide primal = 0, dual = 0;
   std::vector<long long> cost(n, 0);  // of the cheapest edge to the mate
   for (const auto& e : graph.edges) {
     if (e.a == e.b) continue;
-    const WideInteger left =
-        WideInteger{MatchingCertificate::kUnits} * e.cost - certificate.node_dual[e.a] -
-        certificate.node_dual[e.b] -
+    const Wide left =
+        Wide{MatchingCertificate::kUnits} * e.cost - wide(certificate.node_dual[e.a]) -
+        wide(certificate.node_dual[e.b]) -
         crossed(certificate, nesting, certificate.node_blossom[e.a], certificate.node_blossom[e.b]);
     if (left < 0) return fail(why, "an edge has negative slack");
     if (mate[e.a] != e.b) continue;
@@ -98,11 +99,11 @@ bool proves_optimal(const MatchingGraph& graph, const std::vector<int>& mate,
   for (std::size_t v = 0; v < n; ++v) {
     if (mate[v] > static_cast<int>(v)) {
       if (seen[v] == 0) return fail(why, "a node is matched without an edge");
-      primal += WideInteger{MatchingCertificate::kUnits} * cost[v];
+      primal += Wide{MatchingCertificate::kUnits} * cost[v];
     }
-    dual += certificate.node_dual[v];
+    dual += wide(certificate.node_dual[v]);
   }
-  for (const WideInteger z : certificate.blossom_dual) dual += z;
+  for (const WideInteger& z : certificate.blossom_dual) dual += wide(z);
   return primal == dual || fail(why, "the matching costs more than the dual values say");
 }
 

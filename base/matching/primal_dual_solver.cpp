@@ -11,6 +11,7 @@
 #include "base/matching/matching.h"
 #include "base/matching/primal_dual_levels.h"
 #include "base/matching/primal_dual_state.h"
+#include "base/matching/wide.h"
 
 namespace delquad {
 
@@ -149,6 +150,14 @@ void raise_free_nodes(PrimalDualState<Value, Cost>& state) {
 /// of the costs of a matching (docs/matching.md).
 constexpr int kRoom = 16;
 
+template <class Value>
+std::vector<WideInteger> narrow_all(const std::vector<Value>& values) {
+  std::vector<WideInteger> result;
+  result.reserve(values.size());
+  for (const Value value : values) result.push_back(narrow(value));
+  return result;
+}
+
 /// Opens all blossoms from outside to inside, noting them down.
 template <class Value, class Cost>
 void open_blossoms(PrimalDualState<Value, Cost>& state, MatchingCertificate& certificate) {
@@ -157,8 +166,9 @@ void open_blossoms(PrimalDualState<Value, Cost>& state, MatchingCertificate& cer
     Value around;  ///< dual values of all blossoms around it
   };
   std::vector<Open> left;
+  std::vector<Value> total(state.n_nodes);
   for (int v = state.n_nodes - 1; v >= 0; --v) {
-    certificate.node_dual[v] = state.nodes[v].value + state.nodes[state.nodes[v].container].offset;
+    total[v] = state.nodes[v].value + state.nodes[state.nodes[v].container].offset;
     if (state.nodes[v].container == v && state.nodes[v].blossom >= 0) left.push_back({v, -1, 0});
   }
   for (unsigned opened = 0; !left.empty(); ++opened) {
@@ -168,7 +178,7 @@ void open_blossoms(PrimalDualState<Value, Cost>& state, MatchingCertificate& cer
     const auto& node = state.nodes[open.container];
     const Value dual = node.offset - state.blossoms[node.blossom].origin;
     const int b = static_cast<int>(certificate.blossom_dual.size());
-    certificate.blossom_dual.push_back(dual);
+    certificate.blossom_dual.push_back(narrow(dual));
     certificate.blossom_parent.push_back(open.parent);
     const Value around = open.around + dual;
     for (const auto& child : state.expand(open.container, node.offset)) {
@@ -176,10 +186,11 @@ void open_blossoms(PrimalDualState<Value, Cost>& state, MatchingCertificate& cer
         left.push_back({child.container, b, around});
       } else {
         certificate.node_blossom[child.container] = b;
-        certificate.node_dual[child.container] -= around;
+        total[child.container] -= around;
       }
     }
   }
+  certificate.node_dual = narrow_all(total);
 }
 
 /// Nothing where the numbers are too narrow.
@@ -191,7 +202,7 @@ std::optional<MatchingResult> solve_with(const MatchingGraph& graph, Value time_
   certificate.node_blossom.assign(graph.n_nodes, -1);
   if (first.n_free == 0) {
     result.mate = std::move(first.mate);
-    certificate.node_dual.assign(first.dual.begin(), first.dual.end());
+    certificate.node_dual = narrow_all(first.dual);
     return result;
   }
   PrimalDualState<Value, Cost> state(graph.n_nodes);
@@ -212,7 +223,6 @@ std::optional<MatchingResult> solve_with(const MatchingGraph& graph, Value time_
     certificate.witness = std::move(levels.witness);
     return result;
   }
-  certificate.node_dual.resize(graph.n_nodes);
   open_blossoms(state, certificate);
   result.mate.resize(graph.n_nodes);
   for (int v = 0; v < graph.n_nodes; ++v) result.mate[v] = state.nodes[v].mate;
@@ -242,9 +252,9 @@ long long check(const MatchingGraph& graph) {
 
 /// The cost of the matching by its dual values, which are equal.
 void add_up(MatchingResult& result) {
-  WideInteger sum = 0;
-  for (const WideInteger y : result.certificate.node_dual) sum += y;
-  for (const WideInteger z : result.certificate.blossom_dual) sum += z;
+  Wide sum = 0;
+  for (const WideInteger& y : result.certificate.node_dual) sum += wide(y);
+  for (const WideInteger& z : result.certificate.blossom_dual) sum += wide(z);
   sum /= MatchingCertificate::kUnits;
   if (sum > std::numeric_limits<long long>::max() || sum < std::numeric_limits<long long>::min()) {
     throw std::invalid_argument("matching: the cheapest matching costs more than 64 bits can hold");
@@ -258,15 +268,15 @@ class PrimalDualSolver final : public MatchingSolver {
   std::string name() const override { return "primal-dual"; }
 
   MatchingResult solve(const MatchingGraph& graph) const override {
-    const WideInteger largest = WideInteger{MatchingCertificate::kUnits} * check(graph);
-    const WideInteger limit = WideInteger{kRoom} * (largest + 1) * (graph.n_nodes + WideInteger{1});
+    const Wide largest = Wide{MatchingCertificate::kUnits} * check(graph);
+    const Wide limit = Wide{kRoom} * (largest + 1) * (graph.n_nodes + Wide{1});
     std::optional<MatchingResult> result;
     if (limit <= std::numeric_limits<long long>::max() / kRoom) {
-      const auto narrow = static_cast<long long>(limit);
-      result = largest <= std::numeric_limits<int>::max() ? solve_with<long long, int>(graph, narrow)
-                                                          : solve_with<long long, long long>(graph, narrow);
+      const auto most = static_cast<long long>(limit);
+      result = largest <= std::numeric_limits<int>::max() ? solve_with<long long, int>(graph, most)
+                                                          : solve_with<long long, long long>(graph, most);
     }
-    if (!result) result = solve_with<WideInteger, WideInteger>(graph, WideInteger{1} << 120);
+    if (!result) result = solve_with<Wide, Wide>(graph, Wide{1} << 120);
     if (!result) throw std::logic_error("matching: dual values leave 128 bits");
     if (result->certificate.witness.empty() &&
         result->mate.size() == static_cast<std::size_t>(graph.n_nodes) &&

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -21,8 +22,16 @@ struct MatchingGraph {
   std::vector<Edge> edges;
 };
 
-/// Sums of costs near the limit of 64 bits.
-__extension__ typedef __int128 WideInteger;
+/// An integer of 128 bits, as two's complement: `low` has all of it where `high` is 0, or -1 for negative
+/// ones.
+struct WideInteger {
+  std::uint64_t low = 0;
+  std::int64_t high = 0;
+  WideInteger() = default;
+  WideInteger(long long i) : low(static_cast<std::uint64_t>(i)), high(i < 0 ? -1 : 0) {}
+  WideInteger(std::int64_t high_, std::uint64_t low_) : low(low_), high(high_) {}
+  bool operator==(const WideInteger& other) const { return low == other.low && high == other.high; }
+};
 
 /// A solution of the dual problem (docs/matching.md), or a witness that there is no perfect matching.
 ///

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/matching/matching.h"
+#include "base/matching/wide.h"
 #include "tests/base/matching/graph_kinds.h"
 
 namespace delquad {
@@ -24,6 +25,8 @@ MatchingGraph two_triangles() {
            {1, 5, 150}}};
 }
 
+void add(WideInteger& number, Wide by) { number = narrow(wide(number) + by); }
+
 TEST(Certificate, HandMadeProofIsTaken) {
   // Cost 120. Nodes 5 each, blossoms 45 each: 2-3 has slack 100 - 10 - 90.
   MatchingCertificate c;
@@ -36,11 +39,11 @@ TEST(Certificate, HandMadeProofIsTaken) {
   EXPECT_TRUE(proves_optimal(two_triangles(), mate, c, &why)) << why;
 
   auto bad = c;
-  bad.blossom_dual[0] += 1;
+  add(bad.blossom_dual[0], 1);
   EXPECT_FALSE(proves_optimal(two_triangles(), mate, bad, &why));
   EXPECT_EQ(why, "an edge has negative slack");
   bad = c;
-  bad.blossom_dual[0] -= 1;
+  add(bad.blossom_dual[0], -1);
   EXPECT_FALSE(proves_optimal(two_triangles(), mate, bad, &why));
   EXPECT_EQ(why, "the matching costs more than the dual values say");
   bad = c;
@@ -79,13 +82,13 @@ TEST(Certificate, AnyChangeOfAProofIsNoticed) {
     ASSERT_TRUE(proves_optimal(graph, result.mate, result.certificate));
     const int v = below(random, graph.n_nodes);
     auto bad = result.certificate;
-    bad.node_dual[v] += 1;
+    add(bad.node_dual[v], 1);
     EXPECT_FALSE(proves_optimal(graph, result.mate, bad));
-    bad.node_dual[v] -= 2;
+    add(bad.node_dual[v], -2);
     EXPECT_FALSE(proves_optimal(graph, result.mate, bad));
     for (std::size_t b = 0; b < result.certificate.blossom_dual.size(); ++b, ++changes) {
       bad = result.certificate;
-      bad.blossom_dual[b] += b % 2 == 0 ? 1 : -1;
+      add(bad.blossom_dual[b], b % 2 == 0 ? 1 : -1);
       EXPECT_FALSE(proves_optimal(graph, result.mate, bad));
     }
   }
@@ -101,10 +104,10 @@ TEST(Certificate, SumsBeyondSixtyFourBitsAreExact) {
     graph.edges.push_back({v, v + 1, 1LL << 60});
     mate.insert(mate.end(), {v + 1, v});
   }
-  c.node_dual.assign(80, WideInteger{1} << 61);
+  c.node_dual.assign(80, narrow(Wide{1} << 61));
   c.node_blossom.assign(80, -1);
   EXPECT_TRUE(proves_optimal(graph, mate, c));
-  c.node_dual[0] -= WideInteger{1} << 64;
+  add(c.node_dual[0], -(Wide{1} << 64));
   EXPECT_FALSE(proves_optimal(graph, mate, c));
 }
 

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+
+#include "delquad/matching.h"
+
+namespace delquad {
+
+/// To calculate with.
+__extension__ typedef __int128 Wide;
+
+inline Wide wide(const WideInteger& i) { return Wide{i.high} * (Wide{1} << 64) + i.low; }
+inline WideInteger narrow(Wide i) {
+  return {static_cast<std::int64_t>(i >> 64), static_cast<std::uint64_t>(i)};
+}
+
+}  // namespace delquad
