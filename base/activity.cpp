@@ -1,13 +1,12 @@
 #include "base/activity.h"
 
-#include <pthread.h>
-#include <time.h>
-
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 
 #include "base/run.h"
+#include "base/system.h"
 
 namespace delquad {
 
@@ -24,9 +23,8 @@ constexpr std::size_t kMostTold = 4;  // faces in a text for people
 
 constexpr long long kTick = 1'000'000'000;  // nanoseconds
 
-long long read_clock(clockid_t clock) {
-  timespec t = {};
-  return clock_gettime(clock, &t) == 0 ? t.tv_sec * kTick + t.tv_nsec : 0;
+long long ticks() {
+  return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 double seconds_of(long long nanoseconds) { return static_cast<double>(nanoseconds) / kTick; }
@@ -52,7 +50,7 @@ class Text {
   }
   /// " (4.2 s)"
   void add_age(long long since) {
-    const std::int64_t tenths = (read_clock(CLOCK_MONOTONIC) - since) / (kTick / 10);
+    const std::int64_t tenths = (ticks() - since) / (kTick / 10);
     add(" (");
     add(tenths / 10);
     add(".");
@@ -84,7 +82,7 @@ struct Activities::Entry {
   std::atomic<const char*> stage{nullptr}, kind{nullptr};
   std::atomic<int> tag{0};
   std::atomic<long long> since{0}, cpu_since{0};
-  std::atomic<clockid_t> cpu_clock{0};
+  std::atomic<ThreadClock> cpu_clock{0};
   std::atomic<bool> is_elsewhere{false};
 
   bool look(SeenFace& seen) const {
@@ -109,12 +107,10 @@ int Activities::take_entry(int tag, const char* kind, const char* stage, bool is
     entry.stage = stage;
     entry.kind = kind;
     entry.tag = tag;
-    entry.since = read_clock(CLOCK_MONOTONIC);
+    entry.since = ticks();
     entry.is_elsewhere = !is_of_this_thread;
-    clockid_t clock = CLOCK_THREAD_CPUTIME_ID;
-    pthread_getcpuclockid(pthread_self(), &clock);
-    entry.cpu_clock = clock;
-    entry.cpu_since = read_clock(clock);
+    entry.cpu_clock = clock_of_this_thread();
+    entry.cpu_since = nanoseconds_of_this_thread();
     entry.filled.store(true, std::memory_order_release);
     return static_cast<int>(i);
   }
@@ -144,13 +140,13 @@ int Activities::longest(std::size_t most, SeenFace* first) const {
 
 std::vector<FaceAtWork> Activities::faces() const {
   std::vector<FaceAtWork> faces;
-  const long long now = read_clock(CLOCK_MONOTONIC);
+  const long long at = ticks();
   for (const Entry& entry : entries_) {
     SeenFace seen;
     if (!entry.look(seen)) continue;
-    const double cpu = entry.is_elsewhere ? 0 : seconds_of(read_clock(entry.cpu_clock) - entry.cpu_since);
+    const double cpu = entry.is_elsewhere ? 0 : seconds_of(nanoseconds_of(entry.cpu_clock) - entry.cpu_since);
     faces.push_back(
-        {seen.stage != nullptr ? seen.stage : "", seen.kind, seen.tag, seconds_of(now - seen.since), cpu});
+        {seen.stage != nullptr ? seen.stage : "", seen.kind, seen.tag, seconds_of(at - seen.since), cpu});
   }
   std::ranges::stable_sort(faces, std::ranges::greater{}, &FaceAtWork::seconds);
   return faces;
@@ -220,7 +216,7 @@ DoingStage::DoingStage(const char* name) : name_(nullptr) {
   name_ = entry < 0 ? &activities->stage_ : &activities->entries_[static_cast<std::size_t>(entry)].stage;
   before_ = name_->exchange(name);
   if (entry >= 0) return;
-  activities->since_ = read_clock(CLOCK_MONOTONIC);
+  activities->since_ = ticks();
   if (activities->on_stage) activities->on_stage(name);
 }
 

@@ -1,7 +1,6 @@
 #include "base/context.h"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,18 +10,12 @@
 #include <utility>
 
 #include "base/run.h"
+#include "base/system.h"
 #include "delquad/error.h"
 
 namespace delquad {
 
 namespace {
-
-/// Exact to some milliseconds, and several times as fast as the exact one.
-double now() noexcept {
-  timespec t = {};
-  clock_gettime(CLOCK_MONOTONIC_COARSE, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 RunSettings checked(RunSettings settings) {
   if (settings.threads < 0) throw std::invalid_argument("at least one thread is needed");
@@ -44,7 +37,7 @@ int most_faces(int threads) {
 
 /// The limit that has been passed: that of the run, or of one around it.
 double limit_passed(const Run* run) {
-  while (run->around != nullptr && !(now() >= run->end)) run = run->around;
+  while (run->around != nullptr && !(coarse_seconds() >= run->end)) run = run->around;
   return run->settings.seconds;
 }
 
@@ -63,7 +56,8 @@ ThreadState& this_thread() noexcept {
 Run::Run(RunSettings settings_, Run* around_)
     : settings(checked(std::move(settings_))),
       around(around_),
-      end(settings.seconds > 0 ? now() + settings.seconds : std::numeric_limits<double>::infinity()),
+      end(settings.seconds > 0 ? coarse_seconds() + settings.seconds
+                               : std::numeric_limits<double>::infinity()),
       activities(settings.activities) {
   settings.threads = threads_of(settings, around);
   if (activities == nullptr && around != nullptr) activities = around->activities;
@@ -73,7 +67,8 @@ Run::Run(RunSettings settings_, Run* around_)
 Run::State Run::state() const noexcept {
   for (const Run* run = this; run != nullptr; run = run->around) {
     if (run->settings.cancel.stop_requested()) return State::kCancelled;
-    if (run->end < std::numeric_limits<double>::infinity() && now() >= run->end) return State::kTimeIsUp;
+    if (run->end < std::numeric_limits<double>::infinity() && coarse_seconds() >= run->end)
+      return State::kTimeIsUp;
   }
   return State::kGoing;
 }

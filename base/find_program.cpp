@@ -1,13 +1,12 @@
 #include "base/find_program.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <system_error>
 #include <vector>
 
+#include "base/system.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -16,14 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_program(const fs::path& path) {
-  std::error_code unknown;
-  return fs::is_regular_file(path, unknown) && access(path.c_str(), X_OK) == 0;
-}
-
 /// One that was asked for is taken or refused; there is no other in its place.
 fs::path required(const fs::path& path, const std::string& who, const std::string& reads) {
-  if (is_program(path)) return path;
+  if (can_be_run(path)) return path;
   throw InputError(
       fmt::format("{} says that {} reads {}: that is no program that can be run", who, path.string(), reads));
 }
@@ -32,15 +26,14 @@ fs::path required(const fs::path& path, const std::string& who, const std::strin
 /// code is in, and where it is installed, as seen from both.
 std::vector<fs::path> folders() {
   std::vector<fs::path> all;
-  std::error_code unknown;
-  const fs::path program = fs::read_symlink("/proc/self/exe", unknown).parent_path();
+  const fs::path program = running_program().parent_path();
   if (!program.empty()) {
     all.push_back(program);
     all.push_back((program / DELQUAD_LIBEXEC_FROM_BIN).lexically_normal());
   }
-  Dl_info here = {};
-  if (dladdr(reinterpret_cast<void*>(&is_program), &here) != 0 && here.dli_fname != nullptr) {
-    all.push_back(fs::absolute(here.dli_fname, unknown).parent_path());
+  if (const fs::path here = file_of(&folders); !here.empty()) {
+    std::error_code unknown;
+    all.push_back(fs::absolute(here, unknown).parent_path());
     all.push_back((all.back() / DELQUAD_LIBEXEC_FROM_LIB).lexically_normal());
   }
   all.emplace_back(DELQUAD_LIBEXEC);
@@ -55,7 +48,7 @@ fs::path find_program(const HelperProgram& program, const fs::path& chosen, cons
   if (!chosen.empty()) return required(chosen, chooser, program.reads);
   std::string places;
   for (const fs::path& folder : folders()) {
-    if (is_program(folder / program.name)) return folder / program.name;
+    if (can_be_run(folder / program.name)) return folder / program.name;
     places += (places.empty() ? "" : ", ") + folder.string();
   }
   throw InputError(

@@ -3,10 +3,10 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
-#include <time.h>
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <mutex>
 #include <numeric>
@@ -14,6 +14,7 @@
 
 #include "base/context.h"
 #include "base/run.h"
+#include "base/system.h"
 
 namespace delquad {
 
@@ -29,20 +30,15 @@ std::vector<std::size_t> by_cost(std::size_t n, const std::function<double(std::
   return order;
 }
 
-double seconds_on(clockid_t clock) {
-  timespec t = {};
-  clock_gettime(clock, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 /// What the clocks say, as if this thread had worked all the time and no other for it.
 TimeSpent clocks() {
-  const double cpu = seconds_on(CLOCK_THREAD_CPUTIME_ID);
+  const double cpu = 1e-9 * static_cast<double>(nanoseconds_of_this_thread());
   if (Run* run = current_run()) {
     const Load::Shares shares = run->load().shares();
     return {shares.now, cpu, shares.clock, shares.alone};
   }
-  const double now = seconds_on(CLOCK_MONOTONIC);
+  const double now =
+      std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   return {now, cpu, now, now};
 }
 

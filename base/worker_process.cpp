@@ -5,7 +5,6 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -20,6 +19,7 @@
 #include <utility>
 
 #include "base/context.h"
+#include "base/process.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -93,7 +93,7 @@ class Spawning {
   /// Returns an error number, 0: none.
   int start(const std::string& program, pid_t& pid) const {
     // The worker ends with its parent, which may already be another by the time it can ask for that.
-    std::string name = program, parent = std::to_string(getpid());
+    std::string name = program, parent = std::to_string(process_number());
     char* argv[] = {name.data(), parent.data(), nullptr};
     return posix_spawn(&pid, program.c_str(), &files_, &attributes_, argv, environ);
   }
@@ -123,9 +123,8 @@ bool hear_all(std::string& buffer, const std::function<void(char, const std::str
 }
 
 /// The worker is of use only as long as somebody listens, and must not go on for ever.
-void end_with(int parent, int socket) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);
+void end_with_listener(int parent, int socket) {
+  end_with(parent, SIGKILL);
   std::thread([socket] {
     pollfd entry{socket, POLLRDHUP, 0};
     while (poll(&entry, 1, -1) <= 0) {
@@ -163,8 +162,7 @@ WorkerProcess::~WorkerProcess() {
   close(socket_);
   if (!has_ended()) {
     kill(pid_, SIGKILL);
-    while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
-    }
+    wait_for_end(pid_);
   }
 }
 
@@ -227,7 +225,7 @@ void limit_to(unsigned seconds) {
 
 void work_for(int socket, int parent, const std::function<void(const std::string&)>& answer,
               const std::function<std::string()>& why_not) {
-  end_with(parent, socket);
+  end_with_listener(parent, socket);
   try {
     answer(receive_request(socket));
   } catch (...) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -30,7 +28,7 @@ class WorkerProcess {
   bool has_ended();
 
   int socket_ = -1;
-  pid_t pid_ = -1;
+  int pid_ = -1;
 };
 
 /// After a reply whose kind is no small letter the worker is done.

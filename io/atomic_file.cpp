@@ -1,9 +1,7 @@
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <climits>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <list>
@@ -12,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/process.h"
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -45,7 +44,7 @@ void write_stream(const fs::path& path, const fs::path& shown,
 /// Paths of the files that are being written, where a signal handler finds them: no memory that moves.
 struct UnfinishedFile {
   std::atomic<bool> taken{false}, filled{false};
-  char path[PATH_MAX];
+  char path[4096];
 };
 std::array<UnfinishedFile, 8> unfinished_files;  // some threads may write at a time
 
@@ -85,7 +84,7 @@ class TemporaryFile {
 
 void remove_unfinished_files() noexcept {
   for (const UnfinishedFile& file : unfinished_files)
-    if (file.filled) unlink(file.path);
+    if (file.filled) std::remove(file.path);
 }
 
 bool abandon_files() {
@@ -137,7 +136,7 @@ void write_files_atomically(const std::vector<FileToWrite>& files) {
     const fs::path target = behind_links(path);
     constexpr size_t kLongestStem = 200;  // of the 255 characters that file systems allow
     const std::string stem = target.filename().string().substr(0, kLongestStem);
-    const std::string name = "." + stem + "." + std::to_string(getpid()) + ".tmp";
+    const std::string name = "." + stem + "." + std::to_string(process_number()) + ".tmp";
     filled.emplace_back(target.parent_path() / name);
     write_stream(filled.back().path(), path, write);
     targets.emplace_back(path, target);

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "base/activity.h"
 #include "base/parallel_each.h"
 #include "base/stopwatch.h"
+#include "base/system.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/curves/compose_size.h"
@@ -31,12 +31,6 @@
 
 namespace delquad {
 namespace {
-
-long long peak_memory() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024LL * usage.ru_maxrss;
-}
 
 /// Adds the faces of the patches that have a reason to be left out; marks all that are.
 std::vector<char> collect_failures(const PreparedProblem& prepared, const std::vector<std::string>& reasons,

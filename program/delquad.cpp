@@ -1,7 +1,6 @@
 #include "delquad/extend.h"
 
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -20,6 +19,7 @@
 #include "base/context.h"
 #include "base/located.h"
 #include "base/nearest_name.h"
+#include "base/system.h"
 #include "delquad/error.h"
 #include "delquad/mesher.h"
 #include "experiments/console/interrupt.h"
@@ -183,14 +183,6 @@ int after_printing(int code) {
   fmt::print(stderr, "error: the standard output cannot be written{}\n",
              errno != 0 ? ": " + std::generic_category().message(errno) : "");
   return code == kDone ? kBadInput : code;
-}
-
-/// Large arrays come and go in every step: giving them back to the system each time costs 3 to 5 % of a run.
-void keep_freed_memory() {
-  constexpr int kMebibyte = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, 32 * kMebibyte);  // the most that is allowed
-  mallopt(M_TRIM_THRESHOLD, 1024 * kMebibyte);
-  mallopt(M_TOP_PAD, 16 * kMebibyte);
 }
 
 }  // namespace

@@ -1,19 +1,14 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <unistd.h>
 
-#include <array>
 #include <cstdlib>
 #include <string>
 
+#include "base/process.h"
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "program/commands.h"
 #include "program/options.h"
 #include "program/view.h"
-
-extern char** environ;
 
 namespace delquad {
 namespace {
@@ -26,19 +21,7 @@ struct ViewArguments {
 void open_in_browser(const std::filesystem::path& page) {
   const auto given = [](const char* name) { return std::getenv(name) != nullptr && *std::getenv(name) != 0; };
   if (!given("DISPLAY") && !given("WAYLAND_DISPLAY")) return;
-  std::string program = "xdg-open", file = std::filesystem::absolute(page).string();
-  std::array<char*, 3> arguments = {program.data(), file.data(), nullptr};
-  posix_spawn_file_actions_t silent;
-  posix_spawn_file_actions_init(&silent);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&silent, stream, "/dev/null", O_RDWR, 0);
-  posix_spawnattr_t apart;
-  posix_spawnattr_init(&apart);
-  posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETSID);
-  pid_t child = 0;
-  posix_spawnp(&child, program.c_str(), &silent, &apart, arguments.data(), environ);
-  posix_spawnattr_destroy(&apart);
-  posix_spawn_file_actions_destroy(&silent);
+  start_apart("xdg-open", std::filesystem::absolute(page).string());
 }
 
 int view_command(const ViewArguments& arguments) {

@@ -2,15 +2,13 @@
 #define LEMON_ONLY_TEMPLATES
 #include <lemon/matching.h>
 #include <lemon/smart_graph.h>
-#include <pthread.h>
 
 #include <algorithm>
 #include <cassert>
-#include <exception>
-#include <system_error>
 
 #include "base/cancel.h"
 #include "base/matching/matching.h"
+#include "base/system.h"
 
 namespace delquad {
 
@@ -55,26 +53,6 @@ MatchingResult match(const MatchingGraph& graph) {
   return result;
 }
 
-struct Task {
-  const MatchingGraph& graph;
-  MatchingResult result;
-  std::exception_ptr error;
-};
-
-void* run_task(void* argument) {
-  Task& task = *static_cast<Task*>(argument);
-  try {
-    task.result = match(task.graph);
-  } catch (...) {
-    task.error = std::current_exception();
-  }
-  return nullptr;
-}
-
-void check(int code, const char* what) {
-  if (code != 0) throw std::system_error(code, std::generic_category(), what);
-}
-
 class LemonSolver final : public MatchingSolver {
  public:
   std::string name() const override { return "lemon"; }
@@ -84,17 +62,9 @@ class LemonSolver final : public MatchingSolver {
     check_cancelled();
     const std::size_t needed = kStackPerNode * static_cast<std::size_t>(graph.n_nodes);
     if (needed <= kUsualStack) return match(graph);
-    Task task{graph, {}, nullptr};
-    pthread_attr_t attributes;
-    check(pthread_attr_init(&attributes), "matching thread");
-    int code = pthread_attr_setstacksize(&attributes, std::max(kMinimumStack, needed));
-    pthread_t thread;
-    if (code == 0) code = pthread_create(&thread, &attributes, run_task, &task);
-    pthread_attr_destroy(&attributes);
-    check(code, "cannot start the matching thread");
-    check(pthread_join(thread, nullptr), "matching thread");
-    if (task.error) std::rethrow_exception(task.error);
-    return std::move(task.result);
+    MatchingResult result;
+    call_on_stack(std::max(kMinimumStack, needed), [&] { result = match(graph); });
+    return result;
   }
 };
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -10,6 +8,8 @@
 #include <mutex>
 #include <new>
 #include <vector>
+
+#include "base/system.h"
 
 namespace delquad {
 
@@ -64,9 +64,7 @@ struct HugePageAllocator {
     if (n > std::numeric_limits<std::size_t>::max() / sizeof(Item)) throw std::bad_array_new_length();
     const std::size_t size = n * sizeof(Item);
     void* const items = ::operator new(size, alignment(size));
-#ifdef MADV_HUGEPAGE
-    if (size >= kPage) madvise(items, size, MADV_HUGEPAGE);  // a hint: nothing depends on it
-#endif
+    if (size >= kHugePage) use_huge_pages(items, size);
     return static_cast<Item*>(items);
   }
   void deallocate(Item* items, std::size_t n) { ::operator delete(items, alignment(n * sizeof(Item))); }
@@ -76,9 +74,8 @@ struct HugePageAllocator {
   }
 
  private:
-  static constexpr std::size_t kPage = std::size_t{1} << 21;
   static std::align_val_t alignment(std::size_t size) {
-    return std::align_val_t{size >= kPage ? kPage : alignof(Item)};
+    return std::align_val_t{size >= kHugePage ? kHugePage : alignof(Item)};
   }
 };
 

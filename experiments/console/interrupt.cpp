@@ -12,6 +12,7 @@
 #include <mutex>
 #include <thread>
 
+#include "base/system.h"
 #include "io/mesh_io.h"
 
 namespace delquad {
@@ -75,7 +76,7 @@ TimeLimit::TimeLimit(double seconds) : watch_(std::make_unique<Watch>()) {
     const std::string at = program_activities().text();
     if (!abandon_files()) return;
     fmt::print(stderr, "{}error: not done after {:g} s (--time-limit): {}\n",
-               isatty(STDERR_FILENO) != 0 ? "\r\x1b[2K" : "", seconds, at);
+               errors_have_a_terminal() ? "\r\x1b[2K" : "", seconds, at);
     _exit(kTimeIsUp);
   });
 }

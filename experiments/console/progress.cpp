@@ -1,13 +1,13 @@
 #include "experiments/console/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 
+#include "base/system.h"
 #include "experiments/console/interrupt.h"
 
 namespace delquad {
@@ -30,7 +30,7 @@ std::vector<std::string> lines_of(const std::vector<Warning>& warnings) {
 }
 
 Progress::Progress(int steps)
-    : shown_(steps > 0 && isatty(STDERR_FILENO) != 0 && verbosity() != Verbosity::kQuiet), steps_(steps) {
+    : shown_(steps > 0 && errors_have_a_terminal() && verbosity() != Verbosity::kQuiet), steps_(steps) {
   if (shown_) drawer_ = std::thread([this] { keep_drawing(); });
 }
 

@@ -1,12 +1,12 @@
 #include "experiments/sweep/cells.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <map>
 
 #include "base/activity.h"
 #include "base/stopwatch.h"
+#include "base/system.h"
 #include "delquad/error.h"
 #include "experiments/sweep/adapt_loop.h"
 #include "experiments/sweep/geometry_moments.h"
@@ -26,22 +26,14 @@ std::string& added_parts_text() {
   return text;
 }
 
-/// Of the file that holds this function: the program, or a library of its own.
-template <class F>
-fs::path file_of(F* function) {
-  Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(function), &info) == 0 || info.dli_fname == nullptr) return {};
-  return fs::path(info.dli_fname).has_parent_path() ? info.dli_fname : "/proc/self/exe";
-}
-
 /// The program, the libraries of this project that it has apart, and the one that reads CAD for it: their
 /// bytes, which no change of an algorithm, an option of the compiler or a library inside leaves alone.
 std::string program_digest() {
   static const std::string program = [] {
     std::string all = versions_record();
     for (const fs::path& file :
-         {fs::path("/proc/self/exe"), file_of(&program_digest), file_of(&cad_program), cad_program()})
-      if (!file.empty()) all += file_digest(file);
+         {running_program(), file_of(&program_digest), file_of(&cad_program), cad_program()})
+      if (!file.empty()) all += file_digest(file.has_parent_path() ? file : running_program());
     return digest(all);
   }();
   return added_parts_text().empty() ? program : digest(program + added_parts_text());

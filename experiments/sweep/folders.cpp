@@ -12,6 +12,8 @@
 #include <system_error>
 
 #include "base/located.h"
+#include "base/process.h"
+#include "base/system.h"
 #include "delquad/error.h"
 #include "experiments/console/interrupt.h"
 
@@ -23,9 +25,9 @@ namespace fs = std::filesystem;
 constexpr const char *kRecord = "record.json", *kTemporary = ".tmp";
 
 /// Removed at the end unless it has been moved away.
-struct TemporaryFolder {
+struct UnfinishedFolder {
   fs::path path;
-  ~TemporaryFolder() {
+  ~UnfinishedFolder() {
     std::error_code ignored;
     fs::remove_all(path, ignored);
   }
@@ -86,8 +88,9 @@ void remove_cell(const fs::path& folder) {
 
 void write_cell(const fs::path& folder, const std::function<void(const fs::path&)>& write) {
   const Uninterrupted whole;
-  const std::string name = "." + folder.filename().string() + "." + std::to_string(getpid()) + kTemporary;
-  const TemporaryFolder temporary{folder.parent_path() / name};
+  const std::string name =
+      "." + folder.filename().string() + "." + std::to_string(process_number()) + kTemporary;
+  const UnfinishedFolder temporary{folder.parent_path() / name};
   try {
     remove_cell(folder);
     remove_unfinished(folder);
@@ -106,29 +109,7 @@ void prepare_folder(const fs::path& folder) {
   fs::create_directories(folder, status);
   if (!fs::is_directory(folder))
     refuse("{}: the folder cannot be made: {}", folder.string(), status.message());
-  std::string probe = (folder / ".delquad-XXXXXX").string();
-  const int file = mkstemp(probe.data());
-  if (file < 0)
-    refuse("{}: the folder cannot be written to: {}", folder.string(),
-           std::generic_category().message(errno));
-  close(file);
-  fs::remove(probe, status);
-}
-
-ScratchFolder::ScratchFolder(std::string pattern) {
-  if (mkdtemp(pattern.data()) == nullptr) throw InputError(pattern + ": cannot be made");
-  path_ = pattern;
-}
-
-ScratchFolder::ScratchFolder() : ScratchFolder((fs::temp_directory_path() / "delquad-XXXXXX").string()) {}
-
-ScratchFolder::ScratchFolder(const fs::path& target)
-    : ScratchFolder(
-          (fs::absolute(target).parent_path() / ("." + target.filename().string() + "-XXXXXX")).string()) {}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
+  const TemporaryFolder probe(folder / ".delquad");
 }
 
 FolderLock::FolderLock(const std::filesystem::path& folder, std::size_t shard, std::size_t shards) {

@@ -22,23 +22,6 @@ void write_cell(const std::filesystem::path& folder,
 /// Makes the folder, or throws InputError when it cannot be made or written to.
 void prepare_folder(const std::filesystem::path& folder);
 
-/// A new folder for temporary files, removed at the end with what it holds.
-class ScratchFolder {
- public:
-  /// Where the system has its temporary files. Throws InputError when it cannot be made.
-  ScratchFolder();
-  /// Beside `target`, with a name of its own that begins with a dot.
-  explicit ScratchFolder(const std::filesystem::path& target);
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder();
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  explicit ScratchFolder(std::string pattern);
-  std::filesystem::path path_;
-};
-
 /// The right to write to a folder of results, until it is given up or the process and those it has started
 /// are gone.
 class FolderLock {

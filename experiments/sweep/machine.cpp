@@ -1,13 +1,12 @@
 #include "experiments/sweep/machine.h"
 
 #include <fmt/chrono.h>
-#include <sys/utsname.h>
 
-#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <thread>
 
+#include "base/system.h"
 #include "build_info.h"
 #include "delquad/error.h"
 #include "delquad/mesher.h"
@@ -18,21 +17,13 @@
 namespace delquad {
 namespace {
 
-std::string cpu_model() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with("model name"))
-      if (const auto at = line.find(": "); at != line.npos) return line.substr(at + 2);
-  return "";
-}
-
 /// As the program that reads CAD says; where it does not, that which it was built with.
 std::string ask_kernel_version() {
   constexpr unsigned kWait = 30;
   const std::filesystem::path reader = cad_program();
   if (reader.empty()) return kOcctVersion;
   try {
-    const ScratchFolder scratch;
+    const TemporaryFolder scratch;
     const std::filesystem::path printed = scratch.path() / "version";
     const ProgramRun run = run_program({reader.string(), "--version"}, scratch.path(), printed, kWait);
     std::ifstream in(printed);
@@ -45,21 +36,12 @@ std::string ask_kernel_version() {
 }  // namespace
 
 const Machine& this_machine() {
-  static const Machine machine = [] {
-    utsname names = {};
-    uname(&names);
-    return Machine{std::string(names.sysname) + " " + names.release, names.machine, cpu_model(),
-                   std::thread::hardware_concurrency()};
-  }();
+  static const Machine machine{system_names(), std::thread::hardware_concurrency()};
   return machine;
 }
 
 MachineState machine_state() {
-  MachineState state;
-  state.time = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-  double load = 0;
-  if (getloadavg(&load, 1) == 1) state.load = load;
-  return state;
+  return {fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))), system_load()};
 }
 
 std::vector<std::pair<std::string, std::string>> versions() {

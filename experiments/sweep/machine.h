@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/system.h"
+
 namespace delquad {
 
 /// What the program runs on.
-struct Machine {
-  std::string system, architecture;
-  std::string cpu;  ///< model of the processor; empty: the system does not tell
+struct Machine : SystemNames {
   unsigned processors = 0;
 };
 const Machine& this_machine();

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/located.h"
+#include "base/system.h"
 #include "delquad/error.h"
 #include "experiments/sweep/folders.h"
 #include "experiments/sweep/verify.h"
@@ -147,7 +148,7 @@ void merge_results(const std::vector<fs::path>& folders, const fs::path& output)
   check_sound(cells);
   count_cells(study);
   try {
-    const ScratchFolder scratch(output);
+    const TemporaryFolder scratch(fs::absolute(output).parent_path() / ("." + output.filename().string()));
     const fs::path target = scratch.path() / "results";
     fs::create_directory(target);
     fill(target, folders, study, cells);

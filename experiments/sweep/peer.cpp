@@ -1,7 +1,6 @@
 #include "experiments/sweep/peer.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -13,6 +12,7 @@
 #include "base/activity.h"
 #include "base/calibration.h"
 #include "base/located.h"
+#include "base/system.h"
 #include "experiments/sweep/adapt_loop.h"
 #include "experiments/sweep/folders.h"
 #include "experiments/sweep/process_tree.h"
@@ -40,7 +40,7 @@ std::optional<nlohmann::json> valid_record(const ReferenceCell& cell) {
 /// Found in a process of its own: whatever becomes of that, it is not the peer that failed.
 std::optional<double> quads_of_word(const Prepared& prepared, const std::string& word) {
   const DoingStage counting("our word that the peer is calibrated to");
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const std::filesystem::path file = scratch.path() / "quads";
   std::optional<ProcessFailure> failure;
   std::optional<Job> job(std::in_place);
@@ -228,8 +228,7 @@ void check_end(const Peer& peer, const std::string& program, const ProgramRun& r
   const auto is_good = [&](int code) {
     return std::ranges::find(peer.exit_codes, code) != peer.exit_codes.end();
   };
-  if (run.error == 0 && WIFEXITED(run.status) && WEXITSTATUS(run.status) == kCannotBeTold &&
-      !is_good(kCannotBeTold))
+  if (run.error == 0 && run.exit_code() == kCannotBeTold && !is_good(kCannotBeTold))
     throw NotApplicable(last_line(log));
   check_run(program, run, peer.exit_codes, log);
 }
@@ -387,7 +386,7 @@ const std::vector<std::string>& peer_placeholders() {
 }
 
 std::string peer_version(const Peer& peer) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const fs::path log = scratch.path() / "version";
   const auto words = located_command(peer, peer.version);
   check_run(words[0], run_program(words, scratch.path(), log, kVersionSeconds), {0}, log);
@@ -420,7 +419,7 @@ MeshResult run_peer(const Peer& peer, const Case& c, const Prepared& prepared, c
   MeshResult result = prepared.measure(std::move(run.mesh));
   result.log = std::move(log);
   result.warnings = prepared->warnings;
-  if (const int code = WEXITSTATUS(run.program.status); code != 0)
+  if (const int code = run.program.exit_code(); code != 0)
     result.warnings.push_back(
         fmt::format("{}: ended with exit code {}{}", label, code, complaint(folder / "peer.log")));
   result.log.add_seconds("peer", run.program.cpu_seconds);

@@ -1,10 +1,8 @@
 #include "experiments/sweep/process_tree.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <sys/wait.h>
@@ -20,6 +18,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/process.h"
 #include "experiments/console/interrupt.h"
 #include "experiments/sweep/peer.h"
 
@@ -32,17 +31,6 @@ constexpr std::size_t kLongestReport = 4000;  // fits a pipe, so that nobody wai
 [[noreturn]] void throw_errno(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
-
-/// Both ends of a pipe, closed on exec.
-struct Pipe {
-  int read_end = -1, write_end = -1;
-  Pipe() {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw_errno("pipe");
-    read_end = ends[0];
-    write_end = ends[1];
-  }
-};
 
 /// As many tokens as processes may work at the same time: who starts one passes its own on or takes one from
 /// a pipe that the whole tree shares, and gets it back when that process ends.
@@ -153,8 +141,7 @@ class Family {
 
   /// In the new process.
   [[noreturn]] void live(const Job& job, int report, pid_t parent) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(1);
+    end_with(parent, SIGKILL);
     for (const int signal_number : {SIGINT, SIGTERM}) signal(signal_number, SIG_DFL);
     program_activities().clear();  // those of the parent
     if (limits_.seconds > 0) report_timeouts(limits_.seconds, report);
@@ -213,9 +200,7 @@ class Family {
   void bury(std::size_t i) {
     Child child = std::move(children_[i]);
     children_.erase(children_.begin() + static_cast<std::ptrdiff_t>(i));
-    int status = 0;
-    while (waitpid(child.pid, &status, 0) < 0)
-      if (errno != EINTR) throw_errno("waitpid");
+    const int status = wait_for_end(child.pid);
     std::string report(kLongestReport, '\0');
     const ssize_t length = read(child.report, report.data(), report.size());
     report.resize(length > 0 ? static_cast<std::size_t>(length) : 0);

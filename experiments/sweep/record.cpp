@@ -454,7 +454,7 @@ void add_origin(Json& json, const MachineState* start = nullptr) {
   json["versions"] = versions_json();
   json["machine"] = {{"system", machine.system},
                      {"architecture", machine.architecture},
-                     {"cpu", machine.cpu},
+                     {"cpu", machine.processor},
                      {"processors", machine.processors}};
   if (start == nullptr) return;
   json["machine"]["load_average"] = start->load ? Json(*start->load) : Json();

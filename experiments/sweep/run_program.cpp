@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +12,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "base/process.h"
 #include "base/stopwatch.h"
 #include "io/digest.h"
 
@@ -49,8 +49,7 @@ extern "C" void kill_group(int) { kill(0, SIGKILL); }
   signal(SIGTERM, kill_group);
   signal(SIGALRM, kill_group);
   signal(SIGINT, SIG_DFL);
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(1);
+  end_with(parent, SIGTERM);
   alarm(seconds);
   const pid_t program = fork();
   if (program == 0) become(words, folder, log, errors, reports);
@@ -80,13 +79,15 @@ class LogFile {
 
 }  // namespace
 
+int ProgramRun::exit_code() const { return WIFEXITED(status) ? WEXITSTATUS(status) : -1; }
+
 std::string how_it_ended(const ProgramRun& run, const std::vector<int>& good) {
   if (run.error == ENOENT) return "not found: is it installed, and on the PATH?";
   if (run.error != 0) return std::string("cannot be run: ") + std::strerror(run.error);
   if (WIFSIGNALED(run.status))
     return "ended by signal " + std::to_string(WTERMSIG(run.status)) + " (" +
            strsignal(WTERMSIG(run.status)) + ")";
-  const int code = WEXITSTATUS(run.status);
+  const int code = run.exit_code();
   return std::ranges::find(good, code) == good.end() ? "ended with exit code " + std::to_string(code) : "";
 }
 
@@ -99,8 +100,7 @@ ProgramRun run_program(const std::vector<std::string>& words, const std::filesys
   arguments.push_back(nullptr);
   const LogFile log_file(log);
   const LogFile errors_file(errors.empty() ? "/dev/null" : errors);
-  int reports[2];
-  if (pipe2(reports, O_CLOEXEC) != 0) throw_errno();
+  const Pipe reports;
   const Stopwatch clock;
   const pid_t parent = getpid();
   std::fflush(stdout);
@@ -108,20 +108,19 @@ ProgramRun run_program(const std::vector<std::string>& words, const std::filesys
   if (watcher < 0) throw_errno();
   if (watcher == 0)
     watch(arguments.data(), folder.c_str(), log_file.number(),
-          errors.empty() ? log_file.number() : errors_file.number(), reports[1], parent, seconds);
-  close(reports[1]);
+          errors.empty() ? log_file.number() : errors_file.number(), reports.write_end, parent, seconds);
+  close(reports.write_end);
   ProgramRun run;
-  while (waitpid(watcher, &run.status, 0) < 0 && errno == EINTR) {
-  }
+  run.status = wait_for_end(watcher);
   run.seconds = clock.seconds();
   Report report;
-  if (read(reports[0], &report, sizeof report) == sizeof report) {
+  if (read(reports.read_end, &report, sizeof report) == sizeof report) {
     run.error = report.error;
     run.status = report.status;
     run.cpu_seconds = seconds_of(report.usage.ru_utime) + seconds_of(report.usage.ru_stime);
     run.peak_memory = 1024LL * report.usage.ru_maxrss;
   }
-  close(reports[0]);
+  close(reports.read_end);
   return run;
 }
 

@@ -14,6 +14,8 @@ struct ProgramRun {
   double seconds = 0;         ///< on the clock
   double cpu_seconds = 0;     ///< of the program and what it waited for
   long long peak_memory = 0;  ///< bytes, of the largest of these
+
+  int exit_code() const;  ///< -1: it was ended by a signal
 };
 
 /// In words, for "it ...": "ended with exit code 3"; empty: with 0, or one of `good`.

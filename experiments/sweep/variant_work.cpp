@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,7 @@
 #include "base/activity.h"
 #include "base/box.h"
 #include "base/stopwatch.h"
+#include "base/system.h"
 #include "delquad/error.h"
 #include "experiments/console/progress.h"
 #include "experiments/sweep/folders.h"
@@ -40,7 +40,7 @@ std::string clock_text(double seconds) {
 }  // namespace
 
 SweepProgress::SweepProgress(std::size_t cells)
-    : cells_(cells), shown_(isatty(STDERR_FILENO) != 0 && verbosity() != Verbosity::kQuiet) {
+    : cells_(cells), shown_(errors_have_a_terminal() && verbosity() != Verbosity::kQuiet) {
   void* memory = mmap(nullptr, sizeof(Counts), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
   counts_ = new (memory) Counts;
@@ -218,7 +218,7 @@ void say_warnings(const Case& c, const std::vector<Warning>& warnings) {
 
 void say(const std::string& text) {
   // In one piece: several processes may speak at once.
-  fmt::print(stderr, "{}\n", (isatty(STDERR_FILENO) != 0 ? "\r\x1b[2K" : "") + text);
+  fmt::print(stderr, "{}\n", (errors_have_a_terminal() ? "\r\x1b[2K" : "") + text);
 }
 
 bool is_done(const Cell& cell) {

@@ -14,6 +14,7 @@
 
 #include "base/located.h"
 #include "base/parallel.h"
+#include "base/system.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "experiments/sweep/cells.h"
@@ -192,7 +193,7 @@ Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::pat
   const Case c = recorded_case(record, experiment, data);
   CellIdentity cell = identify(experiment, c, model_digest(c), word);
 
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const std::filesystem::path work = scratch.path() / "cell";
   MeshResult result = mesh_cell(c, word, cell.peer, work);
   measure_by_solvers(cell, c, result);
@@ -324,7 +325,7 @@ Lines check_variant(const Variant& variant, const fs::path& data) {
 
 /// Tables that are not those of the records.
 Lines check_tables(const fs::path& folder, const Outcome& outcome) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   write_tables(scratch.path(), outcome);
   Lines wrong;
   for (const std::string& name : result_files()) {

@@ -1,6 +1,5 @@
 #include "geometry/cad/cad_worker.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <BRepBndLib.hxx>
@@ -27,6 +26,7 @@
 #include "base/activity.h"
 #include "base/context.h"
 #include "base/parallel.h"
+#include "base/system.h"
 #include "base/utf8.h"
 #include "base/worker_process.h"
 #include "delquad/error.h"
@@ -231,11 +231,8 @@ void answer(const CadRequest& request, int socket) {
 
 /// By the name of the library's file, "libTKernel.so.7.6.3": it need not be the one that was compiled for.
 std::string kernel_version() {
-  Dl_info here = {};
   std::error_code unknown;
-  std::string file;
-  if (dladdr(reinterpret_cast<void*>(&Standard::Purge), &here) != 0 && here.dli_fname != nullptr)
-    file = std::filesystem::canonical(here.dli_fname, unknown).filename().string();
+  const std::string file = std::filesystem::canonical(file_of(&Standard::Purge), unknown).filename().string();
   const std::string before = ".so.";
   const auto at = file.find(before);
   return at == std::string::npos ? OCC_VERSION_COMPLETE : file.substr(at + before.size());

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <IFSelect_ReturnStatus.hxx>
@@ -39,6 +38,7 @@
 #include <vector>
 
 #include "base/length_unit.h"
+#include "base/system.h"
 #include "base/text.h"
 #include "base/utf8.h"
 #include "delquad/error.h"
@@ -248,28 +248,14 @@ CadShape read_iges(const std::string& path, const CadOptions& options) {
   return cad;
 }
 
-struct TemporaryFile {
-  std::string path = (std::filesystem::temp_directory_path() / "delquad-XXXXXX").string();
-  TemporaryFile() {
-    const int file = mkstemp(path.data());
-    if (file < 0) throw InputError(path + ": no temporary file can be made for the IGES file's bytes");
-    close(file);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-};
-
 /// The kernel reads IGES from files only.
 CadShape read_iges_bytes(const std::string& bytes, const CadOptions& options) {
-  const TemporaryFile file;
-  std::ofstream out(file.path, std::ios::binary);
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "model.igs").string();
+  std::ofstream out(path, std::ios::binary);
   if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
-    throw InputError("the IGES file's bytes do not fit into a temporary file, " + file.path);
-  return read_iges(file.path, options);
+    throw InputError("the IGES file's bytes do not fit into a temporary file, " + path);
+  return read_iges(path, options);
 }
 
 CadShape read_brep(const std::string& bytes, const CadOptions& options) {

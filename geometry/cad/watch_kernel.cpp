@@ -1,11 +1,10 @@
 #include "geometry/cad/watch_kernel.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <ctime>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -20,11 +19,7 @@ namespace {
 constexpr auto kPause = std::chrono::milliseconds(10);
 constexpr double kNotNow = -1;
 
-double processor_seconds() {
-  timespec t = {};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::vector<int> faces_above(double seconds, const Activities& activities) {
   std::vector<int> late;

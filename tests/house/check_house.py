@@ -22,7 +22,12 @@ READS_TEXTS = "io/cases"
 # What is above the library, and that room, goes through include/delquad: never into these.
 INSIDE = ("mesher/", "curves/", "patches/", "features/")
 # But for this: HDF5 crashes at the end of a process in which it could not write, so its writers get one of their own.
-FORKS = "io/library_file.cpp"
+FORKS = "base/process.cpp"
+# The only ones that know the system: the library's three, and what runs experiments, each in processes of its own.
+SYSTEM_HEADER = r"#include <(sys/|(dlfcn|fcntl|malloc|poll|pthread|signal|spawn|time|unistd)\.h)|__int128|/proc/"
+SYSTEM = """base/system.cpp base/process.cpp base/worker_process.cpp base/matching/wide.h experiments/console/interrupt.cpp
+    experiments/sweep/folders.cpp experiments/sweep/process_tree.cpp experiments/sweep/run_program.cpp
+    experiments/sweep/variant_work.cpp""".split()
 # What is written once: its shape, the function to use, and the header of that.
 PRIMITIVES = [
     (r"std::clamp\(-?dot\(", "nearest_part()", "base/segment.h"),
@@ -133,6 +138,19 @@ def check_library(root, links):
                     yield f"{path.relative_to(root)}:{number}: not in a library: {code.strip()}"
 
 
+def check_system(root, links):
+    used = set()
+    for path in [*(p for room in links for p in sources(root, room, links)), *sorted((root / "include").rglob("*.h"))]:
+        name = str(path.relative_to(root))
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            if re.search(SYSTEM_HEADER, line):
+                used.add(name)
+                if name not in SYSTEM:
+                    yield f"{name}:{number}: {line.strip()}: expected base/system.h or base/process.h"
+    for name in sorted(set(SYSTEM) - used):
+        yield f"{name}: knows nothing of the system: expected it not to be listed"
+
+
 def check_primitives(root, links):
     for room in links:
         for path in sources(root, room, links):
@@ -195,7 +213,7 @@ def check_lengths(root, links):
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     links = rooms(root)
-    checks = (check_links, check_library, check_door, check_primitives, check_standard_headers, check_lengths)
+    checks = (check_links, check_library, check_door, check_system, check_primitives, check_standard_headers, check_lengths)
     wrong = [*check_public(root), *(line for check in checks for line in check(root, links))]
     for line in wrong:
         print(line)

@@ -1,0 +1,80 @@
+#include "base/process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+namespace delquad {
+
+int process_number() { return getpid(); }
+
+Pipe::Pipe() {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  read_end = ends[0];
+  write_end = ends[1];
+}
+
+void end_with(int parent, int signal_number) {
+  prctl(PR_SET_PDEATHSIG, signal_number);
+  if (getppid() != parent) _exit(1);
+}
+
+int wait_for_end(int child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) return -1;
+  return status;
+}
+
+std::optional<std::string> call_apart(const std::function<std::string()>& work) {
+  constexpr char kDone = '\n';  // a line that the child alone can end
+  const Pipe pipe;
+  const int parent = getpid(), child = fork();
+  if (child == 0) {
+    end_with(parent, SIGKILL);
+    const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    const std::string told = work() + kDone;
+    _exit(write(pipe.write_end, told.data(), told.size()) < 0);
+  }
+  const int error = errno;
+  close(pipe.write_end);
+  std::string told;
+  std::array<char, 4096> block;
+  ssize_t n = 0;
+  while ((n = read(pipe.read_end, block.data(), block.size())) > 0 || (n < 0 && errno == EINTR))
+    told.append(block.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  close(pipe.read_end);
+  if (child < 0) throw std::system_error(error, std::generic_category(), "fork");
+  wait_for_end(child);
+  if (!told.ends_with(kDone)) return std::nullopt;
+  told.pop_back();
+  return told;
+}
+
+void start_apart(std::string program, std::string argument) {
+  std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};
+  posix_spawn_file_actions_t silent;
+  posix_spawn_file_actions_init(&silent);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&silent, stream, "/dev/null", O_RDWR, 0);
+  posix_spawnattr_t apart;
+  posix_spawnattr_init(&apart);
+  posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETSID);
+  pid_t child = 0;
+  posix_spawnp(&child, program.c_str(), &silent, &apart, arguments.data(), environ);
+  posix_spawnattr_destroy(&apart);
+  posix_spawn_file_actions_destroy(&silent);
+}
+
+}  // namespace delquad
