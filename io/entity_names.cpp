@@ -214,7 +214,8 @@ std::vector<int> group_numbers(const std::vector<MeshGroup>& groups, int dim, st
 }
 
 std::vector<std::string> renamed_groups(const std::vector<MeshGroup>& groups) {
-  constexpr std::array kKinds = {"point", "curve", "region", "volume"};
+  const bool is_solid = std::ranges::count(groups, 3, &MeshGroup::dim) > 0;
+  const std::array kKinds = {"point", "curve", is_solid ? "face" : "region", "volume"};
   std::vector<std::string> lines;
   for (const MeshGroup& group : groups)
     if (group.label != group.name)

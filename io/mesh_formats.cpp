@@ -73,9 +73,9 @@ bool can_write(const MeshFormat& format) { return format.write != nullptr || !fo
 
 MeshFormat msh_format(), vtu_format(), obj_format(), inp_format(), medit_format(), vtk_format(),
     exodus_format(), cgns_format(), med_format(), xdmf_format(), ucd_format(), mfem_format(), su2_format(),
-    nastran_format(), ls_dyna_format(), sms_format(), gr3_format(), ugrid_format(), ism_format(),
-    hohqmesh_abaqus_format(), re2_format(), specfem_format(), foam_format(), off_format(), stl_format(),
-    ply_format(), three_mf_format();
+    nastran_format(), unv_format(), ls_dyna_format(), sms_format(), gr3_format(), ugrid_format(),
+    ism_format(), hohqmesh_abaqus_format(), re2_format(), specfem_format(), foam_format(), off_format(),
+    stl_format(), ply_format(), three_mf_format();
 
 const std::vector<MeshFormat>& mesh_formats() {
   static const std::vector<MeshFormat> all = {msh_format(),
@@ -92,6 +92,7 @@ const std::vector<MeshFormat>& mesh_formats() {
                                               mfem_format(),
                                               su2_format(),
                                               nastran_format(),
+                                              unv_format(),
                                               ls_dyna_format(),
                                               sms_format(),
                                               gr3_format(),
@@ -145,7 +146,7 @@ void check_mesh_format(const std::filesystem::path& path, const MshOptions& opti
     throw InputError(path.string() + ": '" + kind + "' has no binary form here: expected .msh with --binary");
 }
 
-void check_hex_format(const std::filesystem::path& path, bool binary) {
+void check_hex_format(const std::filesystem::path& path, const HexFileOptions& options) {
   const std::string kind = kind_to_write(path);
   const MeshFormat* format = find_format(kind);
   const auto can = [](const MeshFormat& f) { return f.write_hexahedra != nullptr; };
@@ -153,12 +154,18 @@ void check_hex_format(const std::filesystem::path& path, bool binary) {
   if (!can(*format))
     refuse("{}: '{}' is not written with hexahedra here: expected {}", path.string(), kind,
            extensions_of(can));
-  check_mesh_format(path, {binary, MshCurves::kAll});
+  check_mesh_format(path, {options.binary, MshCurves::kAll});
+  if (options.element.empty()) return;
+  if (kind != ".inp")
+    refuse("{}: '{}' has no kinds of hexahedra: expected .inp with --element", path.string(), kind);
+  if (std::ranges::find(inp_hexahedra(), options.element) == inp_hexahedra().end())
+    refuse("{}: unknown kind of hexahedra '{}': expected one of {}{}", path.string(), options.element,
+           fmt::join(inp_hexahedra(), ", "), suggestion(options.element, inp_hexahedra()));
 }
 
-void write_hexahedra(const std::filesystem::path& path, const HexMesh& mesh, bool binary) {
-  check_hex_format(path, binary);
-  find_format(kind_to_write(path))->write_hexahedra(path, mesh, binary);
+void write_hexahedra(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions& options) {
+  check_hex_format(path, options);
+  find_format(kind_to_write(path))->write_hexahedra(path, mesh, options);
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
@@ -245,7 +252,15 @@ std::vector<std::string> lost_in_file(const std::filesystem::path& path, const M
 
 std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const Mesh& mesh) {
   const MeshFormat* format = find_format(kind_to_write(path));
-  return format == nullptr || format->renamed == nullptr ? std::vector<std::string>() : format->renamed(mesh);
+  if (format == nullptr) return {};
+  if (format->labels != nullptr) return renamed_groups(mesh_groups(mesh, *format->labels));
+  return format->renamed == nullptr ? std::vector<std::string>() : format->renamed(mesh);
+}
+
+std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const HexMesh& mesh) {
+  const MeshFormat* format = find_format(kind_to_write(path));
+  if (format == nullptr || format->labels == nullptr) return {};
+  return renamed_groups(hex_groups(mesh, *format->labels));
 }
 
 }  // namespace delquad

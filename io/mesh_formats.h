@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "delquad/hexahedra.h"
+#include "io/entity_names.h"
 #include "io/mesh_io.h"
 
 namespace delquad {
@@ -32,10 +33,12 @@ struct MeshFormat {
   int most_order = 1;  ///< of elements that are written
   std::string package =
       {};  ///< of Debian, whose library this program was built without; empty: it has all it needs
-  void (*write_hexahedra)(const std::filesystem::path&, const HexMesh&, bool binary) = nullptr;
+  void (*write_hexahedra)(const std::filesystem::path&, const HexMesh&, const HexFileOptions&) = nullptr;
   EightNodes eight_nodes = EightNodes::kNever;
   bool has_binary = false;
-  /// As renamed_in_file(); null: the file itself tells.
+  /// As renamed_in_file(). Either, where the file itself does not tell: labels of mesh_groups(), or a
+  /// function.
+  const UniqueLabels::Rules* labels = nullptr;
   std::vector<std::string> (*renamed)(const Mesh&) = nullptr;
   unsigned names = kAllNames;  ///< NameKinds
 };
@@ -50,6 +53,9 @@ template <void (*write)(const std::filesystem::path&, const Mesh&)>
 void write_by(const std::filesystem::path& path, const Mesh& mesh, const MshOptions&, QuadNodes) {
   write(path, mesh);
 }
+
+/// What HexFileOptions::element may be.
+const std::vector<std::string>& inp_hexahedra();
 
 /// By this program, or by one with its library.
 bool can_write(const MeshFormat& format);

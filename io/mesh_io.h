@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "delquad/hexahedra.h"
 #include "delquad/mesh.h"
 #include "delquad/model.h"
 
@@ -110,7 +111,7 @@ enum class QuadNodes { kAll, kNoMiddle };
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {}, int order = 1);
 
 /// InputError when write_hexahedra() knows no format for the path's extension, naming those known.
-void check_hex_format(const std::filesystem::path& path, bool binary);
+void check_hex_format(const std::filesystem::path& path, const HexFileOptions& options);
 
 /// write_mesh() with quads of eight nodes: of order 2, in formats that have them.
 void write_serendipity(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
@@ -120,5 +121,6 @@ void check_serendipity(const std::filesystem::path& path, const MshOptions& opti
 /// Names that write_mesh() changes without telling in the file, whose format has no comments: "curve "a/b" is
 /// a_b", one line each.
 std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const Mesh& mesh);
+std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const HexMesh& mesh);
 
 }  // namespace delquad

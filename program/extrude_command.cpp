@@ -118,7 +118,7 @@ struct ExtrudeArguments {
   double growth = 1;
   long long max_elements = 50'000'000;
   int threads = thread_count();
-  bool binary = false;
+  HexFileOptions file;
 };
 
 /// Numbers separated by commas.
@@ -199,7 +199,7 @@ std::string extrusion_record(const ExtrudeArguments& arguments, const HexMesh& m
 }
 
 int extrude_command(const ExtrudeArguments& arguments) {
-  check_hex_format(arguments.output, arguments.binary);
+  check_hex_format(arguments.output, arguments.file);
   // The curve may lie in the mesh's own file.
   for (const auto& [what, path] : {std::pair<std::string, std::filesystem::path>("the mesh", arguments.mesh),
                                    std::pair<std::string, std::filesystem::path>("--curve", arguments.curve)})
@@ -213,9 +213,11 @@ int extrude_command(const ExtrudeArguments& arguments) {
   const HexMesh hexahedra = located(arguments.mesh.string(), [&] {
     return extrude(mesh, path, {arguments.layers, arguments.growth, arguments.max_elements}, &notes);
   });
+  for (const std::string& name : renamed_in_file(arguments.output, hexahedra))
+    notes.push_back(arguments.output.string() + " cannot hold all names as they are: " + name);
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
   const HexMeasures measures = measure(hexahedra);
-  write_hexahedra(arguments.output, hexahedra, arguments.binary);
+  write_hexahedra(arguments.output, hexahedra, arguments.file);
   if (!arguments.json.empty())
     write_text_file(arguments.json, extrusion_record(arguments, hexahedra, measures));
   fmt::print("{}\n", arguments.output.string());
@@ -235,7 +237,8 @@ void add_extrude(CLI::App& app, Commands& commands) {
       add_command(app, commands, "extrude", "Sweep a mesh of quads: hexahedra", extrude_command, true);
   extrude->add_option("mesh", arguments.mesh, "mesh file, quads alone")->required();
   extrude
-      ->add_option("-o,--output", arguments.output, "hexahedra to write (.msh, .vtu, .inp, .e, .su2 or .bdf)")
+      ->add_option("-o,--output", arguments.output,
+                   "hexahedra to write (.msh, .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv)")
       ->required();
   extrude->add_option("--along", arguments.along,
                       "X,Y,Z: the vector from the first layer of nodes to the last");
@@ -255,7 +258,9 @@ void add_extrude(CLI::App& app, Commands& commands) {
   extrude->add_option("--growth", arguments.growth, "height of each layer over that of the one before")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  extrude->add_flag("--binary", arguments.binary, "write .msh as bytes");
+  extrude->add_flag("--binary", arguments.file.binary, "write .msh as bytes");
+  extrude->add_option("--element", arguments.file.element,
+                      "of .inp: C3D8, C3D8I, C3D8R, C3D20, C3D20R, DC3D8 or DC3D20");
   extrude->add_option("--json", arguments.json, "record to write");
   add_max_elements(*extrude, arguments.max_elements, "refuse to make more hexahedra than this");
   add_threads(*extrude, arguments.threads);

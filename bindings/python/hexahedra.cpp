@@ -74,11 +74,11 @@ void define_hexahedra(py::module_& m) {
           "the least of each hexahedron, 1 for boxes")
       .def(
           "_write_file",
-          [](const Hexahedra& self, const std::string& path, bool binary) {
+          [](const Hexahedra& self, const std::string& path, bool binary, const std::string& element) {
             const py::gil_scoped_release released;
-            write_hexahedra(path, self.mesh, binary);
+            write_hexahedra(path, self.mesh, {binary, element});
           },
-          arg("path"), arg("binary") = false);
+          arg("path"), arg("binary") = false, arg("element") = "");
   define_way(
       m, "extrude_along",
       +[](const py::object& shift) -> SweepPath { return AlongVector{read_vec3(shift, "along")}; });

@@ -79,8 +79,15 @@ struct HexMeasures {
 };
 HexMeasures measure(const HexMesh& mesh);
 
-/// Writes hexahedra by extension, .msh (4.1), .vtu, .inp (C3D8), .e, .su2 or .bdf; whole or not at all.
-/// Volumes and faces are groups with their names. Throws InputError that names the path.
-void write_hexahedra(const std::filesystem::path& path, const HexMesh& mesh, bool binary = false);
+struct HexFileOptions {
+  bool binary = false;  ///< .msh as bytes
+  /// Of .inp: C3D8, C3D8I, C3D8R or, with nodes in the middles of the straight edges, C3D20 or C3D20R; for
+  /// heat DC3D8 or DC3D20. Empty: C3D8.
+  std::string element = {};
+};
+/// Writes hexahedra by extension, .msh (4.1), .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv; whole or not
+/// at all. Volumes and faces are groups with their names. Throws InputError that names the path.
+void write_hexahedra(const std::filesystem::path& path, const HexMesh& mesh,
+                     const HexFileOptions& options = {});
 
 }  // namespace delquad

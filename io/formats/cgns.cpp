@@ -18,31 +18,58 @@ namespace delquad {
 
 namespace {
 
-class CgnsWriter {
+/// A file of one zone that is being written.
+class CgnsFile {
  public:
-  CgnsWriter(const std::filesystem::path& path, const std::filesystem::path& temporary, const Mesh& mesh)
-      : path_(path), mesh_(mesh), groups_(mesh_groups(mesh, kCgnsLabels)) {
+  CgnsFile(const std::filesystem::path& path, const std::filesystem::path& temporary) : path_(path) {
     check(cg_open(temporary.c_str(), CG_MODE_WRITE, &file_), "the file");
   }
-  ~CgnsWriter() {
+  ~CgnsFile() {
     if (file_ >= 0) cg_close(file_);
   }
-  CgnsWriter(const CgnsWriter&) = delete;
-  CgnsWriter& operator=(const CgnsWriter&) = delete;
+  CgnsFile(const CgnsFile&) = delete;
+  CgnsFile& operator=(const CgnsFile&) = delete;
 
-  void write() {
-    const bool planar = is_planar(mesh_);
-    check(cg_base_write(file_, "Base", 2, planar ? 2 : 3, &base_), "the base");
-    const auto n_elements = static_cast<cgsize_t>(mesh_.triangles.size() + mesh_.quads.size());
-    const cgsize_t sizes[3] = {static_cast<cgsize_t>(mesh_.points.size()), n_elements, 0};
+  /// `dim`: of cells, the largest elements.
+  void put_head(int dim, bool planar, const std::vector<Vec3>& points, std::size_t n_cells) {
+    const int dimensions = planar ? 2 : 3;
+    check(cg_base_write(file_, "Base", dim, dimensions, &base_), "the base");
+    const cgsize_t sizes[3] = {static_cast<cgsize_t>(points.size()), static_cast<cgsize_t>(n_cells), 0};
     check(cg_zone_write(file_, base_, "Zone1", sizes, CGNS_ENUMV(Unstructured), &zone_), "the zone");
-    write_coordinates(planar ? 2 : 3);
-    for (const MeshGroup& group : groups_)
-      if (group.dim == 2) write_elements(group);
-    for (const MeshGroup& group : groups_)
-      if (group.dim == 1) write_lines(group);
-    for (const MeshGroup& group : groups_)
-      if (group.dim == 0) write_points(group);
+    constexpr std::array kNames = {"CoordinateX", "CoordinateY", "CoordinateZ"};
+    for (int k = 0; k < dimensions; ++k) {
+      std::vector<double> values;
+      for (const Vec3& p : points) values.push_back(k == 0 ? p.x : k == 1 ? p.y : p.z);
+      int index = 0;
+      check(cg_coord_write(file_, base_, zone_, CGNS_ENUMV(RealDouble), kNames[k], values.data(), &index),
+            "coordinates");
+    }
+  }
+
+  /// Elements of one kind, by their nodes from 1. Returns the range of numbers that they got.
+  std::array<cgsize_t, 2> put_section(const std::string& name, CGNS_ENUMT(ElementType_t) type,
+                                      std::size_t count, const std::vector<cgsize_t>& nodes) {
+    require_fits(path_, "CGNS", nodes.size(), "nodes of elements", std::numeric_limits<cgsize_t>::max());
+    const std::array<cgsize_t, 2> range{next_, next_ + static_cast<cgsize_t>(count) - 1};
+    int index = 0;
+    check(cg_section_write(file_, base_, zone_, name.c_str(), type, range[0], range[1], 0, nodes.data(),
+                           &index),
+          "elements");
+    next_ = range[1] + 1;
+    return range;
+  }
+
+  /// Elements, and a boundary condition on them.
+  void put_boundary(const std::string& name, CGNS_ENUMT(ElementType_t) type, std::size_t count,
+                    const std::vector<cgsize_t>& nodes, CGNS_ENUMT(GridLocation_t) location) {
+    const auto range = put_section(name, type, count, nodes);
+    put_condition(name, CGNS_ENUMV(PointRange), {range.begin(), range.end()}, location);
+  }
+  void put_points(const std::string& name, const std::vector<cgsize_t>& nodes) {
+    put_condition(name, CGNS_ENUMV(PointList), nodes, CGNS_ENUMV(Vertex));
+  }
+
+  void close() {
     const int closed = cg_close(file_);
     file_ = -1;
     check(closed, "the end of the file");
@@ -53,97 +80,90 @@ class CgnsWriter {
     require_written(error == CG_OK, path_, "the CGNS library", what);
   }
 
-  void write_coordinates(int dimensions) {
-    constexpr std::array kNames = {"CoordinateX", "CoordinateY", "CoordinateZ"};
-    for (int k = 0; k < dimensions; ++k) {
-      std::vector<double> values;
-      for (const Vec3& p : mesh_.points) values.push_back(k == 0 ? p.x : k == 1 ? p.y : p.z);
-      int index = 0;
-      check(cg_coord_write(file_, base_, zone_, CGNS_ENUMV(RealDouble), kNames[k], values.data(), &index),
-            "coordinates");
-    }
-  }
-
-  /// Returns the range of numbers that the elements got.
-  std::array<cgsize_t, 2> write_section(const std::string& name, CGNS_ENUMT(ElementType_t) type,
-                                        cgsize_t count, const std::vector<cgsize_t>& nodes) {
-    require_fits(path_, "CGNS", nodes.size(), "nodes of elements", std::numeric_limits<cgsize_t>::max());
-    const std::array<cgsize_t, 2> range{next_, next_ + count - 1};
+  void put_condition(const std::string& name, CGNS_ENUMT(PointSetType_t) kind,
+                     const std::vector<cgsize_t>& where, CGNS_ENUMT(GridLocation_t) location) {
     int index = 0;
-    check(cg_section_write(file_, base_, zone_, name.c_str(), type, range[0], range[1], 0, nodes.data(),
-                           &index),
-          "elements");
-    next_ += count;
-    return range;
-  }
-
-  void write_elements(const MeshGroup& group) {
-    const auto n_triangles = mesh_.triangles.size();
-    const std::vector<int> places = gmsh_places(mesh_.order);
-    std::vector<cgsize_t> triangles, quads;
-    cgsize_t count[2] = {0, 0};
-    for (const int e : group.items) {
-      const auto add = [](const auto& of_element, std::vector<cgsize_t>& nodes) {
-        for (const int v : of_element) nodes.push_back(v + 1);
-      };
-      const auto i = static_cast<std::size_t>(e);
-      ++count[i < n_triangles ? 0 : 1];
-      if (i < n_triangles)
-        add(mesh_.triangles[i], triangles);
-      else
-        add(nodes_of_quad(mesh_, i - n_triangles, places), quads);
-    }
-    if (count[0] > 0)
-      write_section(count[1] > 0 ? group.label + "_tri" : group.label, CGNS_ENUMV(TRI_3), count[0],
-                    triangles);
-    if (count[1] > 0)
-      write_section(group.label, mesh_.order == 2 ? CGNS_ENUMV(QUAD_9) : CGNS_ENUMV(QUAD_4), count[1], quads);
-  }
-
-  /// Lines, and a boundary condition on them.
-  void write_lines(const MeshGroup& group) {
-    std::vector<cgsize_t> nodes;
-    for (const int l : group.items)
-      for (const int v : nodes_ends_first(mesh_, static_cast<std::size_t>(l))) nodes.push_back(v + 1);
-    const std::string name = of_other_name(group.label);
-    const auto range = write_section(name, mesh_.order == 2 ? CGNS_ENUMV(BAR_3) : CGNS_ENUMV(BAR_2),
-                                     static_cast<cgsize_t>(group.items.size()), nodes);
-    int index = 0;
-    check(cg_boco_write(file_, base_, zone_, name.c_str(), CGNS_ENUMV(BCTypeUserDefined),
-                        CGNS_ENUMV(PointRange), 2, range.data(), &index),
+    check(cg_boco_write(file_, base_, zone_, name.c_str(), CGNS_ENUMV(BCTypeUserDefined), kind,
+                        static_cast<cgsize_t>(where.size()), where.data(), &index),
           "a boundary condition");
-    check(cg_boco_gridlocation_write(file_, base_, zone_, index, CGNS_ENUMV(EdgeCenter)),
-          "a boundary condition");
-  }
-
-  void write_points(const MeshGroup& group) {
-    std::vector<cgsize_t> nodes;
-    for (const int v : group.items) nodes.push_back(v + 1);
-    int index = 0;
-    check(
-        cg_boco_write(file_, base_, zone_, of_other_name(group.label).c_str(), CGNS_ENUMV(BCTypeUserDefined),
-                      CGNS_ENUMV(PointList), static_cast<cgsize_t>(nodes.size()), nodes.data(), &index),
-        "a point");
-  }
-
-  /// Sections have names of their own.
-  std::string of_other_name(const std::string& label) const {
-    const bool taken =
-        std::ranges::any_of(groups_, [&](const MeshGroup& g) { return g.dim == 2 && g.label == label; });
-    return taken ? label + "_curve" : label;
+    if (location != CGNS_ENUMV(Vertex))
+      check(cg_boco_gridlocation_write(file_, base_, zone_, index, location), "a boundary condition");
   }
 
   const std::filesystem::path& path_;
-  const Mesh& mesh_;
-  const std::vector<MeshGroup> groups_;
   int file_ = -1, base_ = 0, zone_ = 0;
   cgsize_t next_ = 1;
 };
 
+template <class Nodes>
+void add_cgns_nodes(const Nodes& of_element, std::vector<cgsize_t>& nodes) {
+  for (const int v : of_element) nodes.push_back(v + 1);
+}
+
+void put_region(CgnsFile& file, const Mesh& mesh, const MeshGroup& group) {
+  const auto n_triangles = mesh.triangles.size();
+  const std::vector<int> places = gmsh_places(mesh.order);
+  std::vector<cgsize_t> triangles, quads;
+  std::size_t count[2] = {0, 0};
+  for (const int e : group.items) {
+    const auto i = static_cast<std::size_t>(e);
+    ++count[i < n_triangles ? 0 : 1];
+    if (i < n_triangles)
+      add_cgns_nodes(mesh.triangles[i], triangles);
+    else
+      add_cgns_nodes(nodes_of_quad(mesh, i - n_triangles, places), quads);
+  }
+  if (count[0] > 0)
+    file.put_section(count[1] > 0 ? group.label + "_tri" : group.label, CGNS_ENUMV(TRI_3), count[0],
+                     triangles);
+  if (count[1] > 0)
+    file.put_section(group.label, mesh.order == 2 ? CGNS_ENUMV(QUAD_9) : CGNS_ENUMV(QUAD_4), count[1], quads);
+}
+
 /// CGNS: one zone, a section for each name of regions and curves, boundary conditions on curves and points.
 void write_cgns(const std::filesystem::path& path, const Mesh& mesh) {
-  write_by_library(
-      path, [&](const std::filesystem::path& temporary) { CgnsWriter(path, temporary, mesh).write(); });
+  write_by_library(path, [&](const std::filesystem::path& temporary) {
+    CgnsFile file(path, temporary);
+    file.put_head(2, is_planar(mesh), mesh.points, mesh.triangles.size() + mesh.quads.size());
+    for (const MeshGroup& group : mesh_groups(mesh, kCgnsLabels)) {
+      std::vector<cgsize_t> nodes;
+      if (group.dim == 2) {
+        put_region(file, mesh, group);
+      } else if (group.dim == 1) {
+        for (const int l : group.items)
+          add_cgns_nodes(nodes_ends_first(mesh, static_cast<std::size_t>(l)), nodes);
+        file.put_boundary(group.label, mesh.order == 2 ? CGNS_ENUMV(BAR_3) : CGNS_ENUMV(BAR_2),
+                          group.items.size(), nodes, CGNS_ENUMV(EdgeCenter));
+      } else {
+        add_cgns_nodes(group.items, nodes);
+        file.put_points(group.label, nodes);
+      }
+    }
+    file.close();
+  });
+}
+
+/// A section for each name, boundary conditions on faces and curves.
+void write_hex_cgns(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions&) {
+  write_by_library(path, [&](const std::filesystem::path& temporary) {
+    CgnsFile file(path, temporary);
+    file.put_head(3, false, mesh.points, mesh.hexahedra.size());
+    for (const MeshGroup& group : hex_groups(mesh, kCgnsLabels)) {
+      std::vector<cgsize_t> nodes;
+      for (const int i : group.items)
+        if (group.dim == 3)
+          add_cgns_nodes(mesh.hexahedra[i], nodes);
+        else
+          group.dim == 2 ? add_cgns_nodes(mesh.quads[i], nodes) : add_cgns_nodes(mesh.lines[i], nodes);
+      if (group.dim == 3)
+        file.put_section(group.label, CGNS_ENUMV(HEXA_8), group.items.size(), nodes);
+      else
+        file.put_boundary(group.label, group.dim == 2 ? CGNS_ENUMV(QUAD_4) : CGNS_ENUMV(BAR_2),
+                          group.items.size(), nodes,
+                          group.dim == 2 ? CGNS_ENUMV(FaceCenter) : CGNS_ENUMV(EdgeCenter));
+    }
+    file.close();
+  });
 }
 
 }  // namespace
@@ -151,14 +171,13 @@ void write_cgns(const std::filesystem::path& path, const Mesh& mesh) {
 #endif
 
 MeshFormat cgns_format() {
-  MeshFormat format{
-      .extensions = {".cgns"},
-      .description = "CGNS",
-      .most_order = 2,
-      .package = "libcgns-dev",
-      .renamed = [](const Mesh& mesh) { return renamed_groups(mesh_groups(mesh, kCgnsLabels)); }};
+  MeshFormat format{.extensions = {".cgns"},
+                    .description = "CGNS",
+                    .most_order = 2,
+                    .package = "libcgns-dev",
+                    .labels = &kCgnsLabels};
 #ifdef DELQUAD_HAS_CGNS
-  format.write = write_by<write_cgns>, format.package = "";
+  format.write = write_by<write_cgns>, format.write_hexahedra = write_hex_cgns, format.package = "";
 #endif
   return format;
 }

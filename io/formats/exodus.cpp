@@ -235,7 +235,7 @@ void write_hex(ExodusFile& file, const HexMesh& mesh) {
   file.close();
 }
 
-void write_hex_exodus(const std::filesystem::path& path, const HexMesh& mesh, bool) {
+void write_hex_exodus(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions&) {
   write_by_library(path, [&](const std::filesystem::path& temporary) {
     ExodusFile file(path, temporary);
     write_hex(file, mesh);
@@ -247,12 +247,11 @@ void write_hex_exodus(const std::filesystem::path& path, const HexMesh& mesh, bo
 #endif
 
 MeshFormat exodus_format() {
-  MeshFormat format{
-      .extensions = {".e", ".exo", ".ex2"},
-      .description = "Exodus II: MOOSE, Cubit",
-      .most_order = 2,
-      .package = "libexodusii-dev",
-      .renamed = [](const Mesh& mesh) { return renamed_groups(mesh_groups(mesh, kExodusLabels)); }};
+  MeshFormat format{.extensions = {".e", ".exo", ".ex2"},
+                    .description = "Exodus II: MOOSE, Cubit",
+                    .most_order = 2,
+                    .package = "libexodusii-dev",
+                    .labels = &kExodusLabels};
 #ifdef DELQUAD_HAS_EXODUS
   format.write = write_by<write_exodus>, format.write_hexahedra = write_hex_exodus, format.package = "";
 #endif

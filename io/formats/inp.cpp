@@ -8,6 +8,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/box.h"
@@ -23,6 +24,12 @@
 
 namespace delquad {
 
+const std::vector<std::string>& inp_hexahedra() {
+  static const std::vector<std::string> all = {"C3D8",   "C3D8I", "C3D8R", "C3D20",
+                                               "C3D20R", "DC3D8", "DC3D20"};
+  return all;
+}
+
 namespace {
 
 // What Abaqus input files have in common, whatever elements they hold.
@@ -30,7 +37,7 @@ namespace {
 /// The longest name that Abaqus takes is 80; what is left is for numbers, and for names of sides.
 constexpr std::size_t kLongestInpName = 60;
 constexpr std::ptrdiff_t kLongestInpNumber = 20;
-/// On one line of a set, which may have no more.
+/// On one line of a set or an element, which may have no more.
 constexpr std::size_t kInpNumbersPerLine = 16;
 
 /// In at most 20 characters: CalculiX cuts off what follows, perhaps within the exponent. "0" below
@@ -74,7 +81,8 @@ void write_inp_nodes(TextWriter& out, const std::vector<Vec3>& points, IsWritten
 template <class Nodes>
 void write_inp_element(TextWriter& out, std::size_t number, const Nodes& nodes) {
   out << number;
-  for (const int v : nodes) out << ", " << v + 1;
+  std::size_t n = 1;
+  for (const int v : nodes) out << (n++ % kInpNumbersPerLine == 0 ? ",\n" : ", ") << v + 1;
   out << '\n';
 }
 
@@ -115,15 +123,25 @@ UniqueLabels make_hex_labels(const HexMesh& mesh) {
 
 class HexInpWriter {
  public:
-  HexInpWriter(TextWriter& out, const HexMesh& mesh)
-      : out_(out), mesh_(mesh), labels_(make_hex_labels(mesh)) {}
+  HexInpWriter(TextWriter& out, const HexMesh& mesh, const std::string& element)
+      : out_(out),
+        mesh_(mesh),
+        labels_(make_hex_labels(mesh)),
+        element_(element.empty() ? inp_hexahedra()[0] : element) {
+    if (element_.find("20") == std::string::npos) return;
+    for (const auto& hexahedron : mesh.hexahedra)
+      for (const auto& [a, b] : edges_of(hexahedron)) edges_.push_back(std::minmax({a, b}));
+    sort_unique(edges_);
+  }
 
   void write() {
     write_inp_head(out_, "Mesh of hexahedra", mesh_.unit, labels_, kHexKinds);
-    write_inp_nodes(out_, mesh_.points, [](std::size_t) { return true; });
-    out_ << "*ELEMENT, TYPE=C3D8\n";
+    std::vector<Vec3> points = mesh_.points;
+    for (const auto& [a, b] : edges_) points.push_back(0.5 * (mesh_.points[a] + mesh_.points[b]));
+    write_inp_nodes(out_, points, [](std::size_t) { return true; });
+    out_ << "*ELEMENT, TYPE=" << element_ << '\n';
     for (std::size_t i = 0; i < mesh_.hexahedra.size(); ++i)
-      write_inp_element(out_, i + 1, mesh_.hexahedra[i]);
+      write_inp_element(out_, i + 1, nodes_of(mesh_.hexahedra[i]));
     collect();
     write_inp_sets(out_, "ELSET", element_sets_);
     write_inp_sets(out_, "NSET", node_sets_);
@@ -138,13 +156,36 @@ class HexInpWriter {
     return "_" + label + "_S" + std::to_string(side);
   }
 
+  /// In the order of their nodes in C3D20; of faces and curves in any.
+  template <std::size_t N>
+  static std::vector<std::pair<int, int>> edges_of(const std::array<int, N>& v) {
+    std::vector<std::pair<int, int>> edges;
+    if (N == 2) edges.emplace_back(v[0], v[1]);
+    for (std::size_t side = 0; side + 4 <= N; side += 4)
+      for (std::size_t k = 0; k < 4; ++k) edges.emplace_back(v[side + k], v[side + (k + 1) % 4]);
+    for (std::size_t k = 4; k < N; ++k) edges.emplace_back(v[k - 4], v[k]);
+    return edges;
+  }
+
+  /// Corners, and the middles of edges where there are any.
+  template <std::size_t N>
+  std::vector<int> nodes_of(const std::array<int, N>& corners) const {
+    std::vector<int> nodes(corners.begin(), corners.end());
+    if (edges_.empty()) return nodes;
+    for (const auto& [a, b] : edges_of(corners)) {
+      const auto at = std::ranges::lower_bound(edges_, std::pair(std::minmax({a, b})));
+      nodes.push_back(static_cast<int>(mesh_.points.size()) + static_cast<int>(at - edges_.begin()));
+    }
+    return nodes;
+  }
+
   template <std::size_t N>
   void collect_nodes(const std::vector<std::array<int, N>>& elements, const std::vector<int>& entity_of,
                      const std::vector<Entity>& entities, HexNameKind kind) {
     for (std::size_t i = 0; i < elements.size(); ++i)
       for (const std::string& name : entities[entity_of[i]].names) {
         std::vector<int>& nodes = node_sets_[labels_.of({kind, name})];
-        for (const int v : elements[i]) nodes.push_back(v + 1);
+        for (const int v : nodes_of(elements[i])) nodes.push_back(v + 1);
       }
   }
 
@@ -170,14 +211,16 @@ class HexInpWriter {
   TextWriter& out_;
   const HexMesh& mesh_;
   const UniqueLabels labels_;
+  const std::string element_;
+  std::vector<std::pair<int, int>> edges_;  ///< with a node in the middle; sorted
   Sets element_sets_, node_sets_;
   std::map<std::string, std::set<int>> sides_of_;
 };
 
-/// C3D8. Every name of volumes is an ELSET and an NSET, of faces an NSET and, on the boundary, a SURFACE, of
+/// Every name of volumes is an ELSET and an NSET, of faces an NSET and, on the boundary, a SURFACE, of
 /// curves an NSET.
-void write_hex_inp(const std::filesystem::path& path, const HexMesh& mesh, bool) {
-  write_text_file(path, [&](TextWriter& out) { HexInpWriter(out, mesh).write(); });
+void write_hex_inp(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions& options) {
+  write_text_file(path, [&](TextWriter& out) { HexInpWriter(out, mesh, options.element).write(); });
 }
 
 /// What a label is the name of.

@@ -28,6 +28,6 @@ void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options
                QuadNodes nodes = QuadNodes::kAll, const std::vector<MeshField>& fields = {});
 /// As write_msh() does: volumes, faces and curves are entities of dimension 3, 2 and 1, each in one physical
 /// group.
-void write_hex_msh(const std::filesystem::path& path, const HexMesh& mesh, bool binary);
+void write_hex_msh(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions& options);
 
 }  // namespace delquad

@@ -414,7 +414,7 @@ void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOpt
   write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options, nodes); });
 }
 
-void write_hex_msh(const std::filesystem::path& path, const HexMesh& mesh, bool binary) {
+void write_hex_msh(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions& options) {
   constexpr int kLine = 1, kQuad = 3, kHexahedron = 5;
   const auto nodes = [](const auto& elements) {
     return [&elements](size_t i) { return std::vector(elements[i].begin(), elements[i].end()); };
@@ -425,7 +425,7 @@ void write_hex_msh(const std::filesystem::path& path, const HexMesh& mesh, bool 
                                       {3, kHexahedron, mesh.hex_volume, nodes(mesh.hexahedra)}};
   auto blocks = make_blocks(mesh.points, {&no_points, &mesh.curves, &mesh.faces, &mesh.volumes}, kinds);
   write_file_atomically(path, [&](std::ostream& stream) {
-    write_blocks(stream, binary, mesh.points, std::move(blocks), mesh.unit, nullptr);
+    write_blocks(stream, options.binary, mesh.points, std::move(blocks), mesh.unit, nullptr);
   });
 }
 

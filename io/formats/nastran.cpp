@@ -346,7 +346,7 @@ void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
 }
 
 /// CHEXA, a property for each name of volumes, SETs of the nodes of faces and curves.
-void write_hex_nastran(const std::filesystem::path& path, const HexMesh& mesh, bool) {
+void write_hex_nastran(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions&) {
   for (const auto& [n, what] :
        {std::pair(mesh.points.size(), "nodes"), std::pair(mesh.hexahedra.size(), "elements")})
     require_fits(path, "Nastran", n, what, kMostNastran);

@@ -134,9 +134,7 @@ void write_foam(const std::filesystem::path& path, const Mesh& mesh) {
   }
 }
 
-std::vector<std::string> renamed_by_foam(const Mesh& mesh) {
-  return renamed_groups(mesh_groups(mesh, {plain_label}));
-}
+constexpr UniqueLabels::Rules kFoamLabels{plain_label};
 
 }  // namespace
 
@@ -144,7 +142,7 @@ MeshFormat foam_format() {
   return {.extensions = {".foam"},
           .description = "OpenFOAM: constant/polyMesh beside it, one cell thick",
           .write = write_by<write_foam>,
-          .renamed = renamed_by_foam,
+          .labels = &kFoamLabels,
           .names = kRegionNames | kBoundaryNames};
 }
 

@@ -54,7 +54,7 @@ void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
 }
 
 /// In space: a marker for each name of faces on the boundary.
-void write_hex_su2(const std::filesystem::path& path, const HexMesh& mesh, bool) {
+void write_hex_su2(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions&) {
   std::vector<MeshGroup> groups = hex_groups(mesh, {plain_label});
   std::erase_if(groups, [](const MeshGroup& group) { return group.dim != 2; });
   const std::vector<HexSide> sides = sorted_hex_sides(mesh);

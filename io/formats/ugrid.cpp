@@ -278,12 +278,13 @@ void write_ugrid(const std::filesystem::path& path, const Mesh& mesh) {
 
 #endif
 
+constexpr UniqueLabels::Rules kUgridLabels{word_label};
+
 MeshFormat ugrid_format() {
-  MeshFormat format{
-      .extensions = {".nc"},
-      .description = "UGRID in netCDF: Delft3D FM, QGIS",
-      .package = "libnetcdf-dev",
-      .renamed = [](const Mesh& mesh) { return renamed_groups(mesh_groups(mesh, {word_label})); }};
+  MeshFormat format{.extensions = {".nc"},
+                    .description = "UGRID in netCDF: Delft3D FM, QGIS",
+                    .package = "libnetcdf-dev",
+                    .labels = &kUgridLabels};
 #ifdef DELQUAD_HAS_NETCDF
   format.read = read_ugrid, format.write = write_by<write_ugrid>, format.package = "";
 #endif

@@ -183,7 +183,7 @@ MeshFormat vtu_format() {
           .write = write_with_eta,
           .most_order = kMostOrder,
           .write_hexahedra = [](const std::filesystem::path& path, const HexMesh& mesh,
-                                bool) { write_hex_vtu(path, mesh); },
+                                const HexFileOptions&) { write_hex_vtu(path, mesh); },
           .eight_nodes = EightNodes::kWhenAsked,
           .names = kAllNames | kFurtherNames};
 }

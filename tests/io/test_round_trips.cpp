@@ -210,7 +210,7 @@ TEST(MeshFormats, AreToldByExtension) {
   expect_input_error(
       [&] { write_mesh(folder / "a.stl", quad_grid(1, 1)); },
       {"a.stl", "'.stl'",
-       ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .ucd, .mfem, .su2, .bdf, .k, "
+       ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .ucd, .mfem, .su2, .bdf, .unv, .k, "
        ".2dm, .gr3, .nc, .ism, .abq, .re2, "
        ".specfem, .foam or .svg"});
   expect_input_error([&] { write_mesh(folder / "a.msh.gz", quad_grid(1, 1)); }, {"a.msh.gz", "'.gz'"});

@@ -93,7 +93,7 @@ def read_cgns(path):
     data = h5py.File(path)["Base"]["Zone1"]
     found = Found(numpy.array([data["GridCoordinates"]["Coordinate" + axis][" data"][:] for axis in "XYZ"
                                if "Coordinate" + axis in data["GridCoordinates"]]).T)
-    kinds = {3: ("lines", 2), 4: ("lines", 3), 7: ("elements", 4), 9: ("elements", 9)}
+    kinds = {3: ("lines", 2), 4: ("lines", 3), 7: ("elements", 4), 9: ("elements", 9), 17: ("elements", 8)}
     for name, section in data.items():
         if section.attrs.get("label", b"").decode() != "Elements_t":
             continue
@@ -464,6 +464,37 @@ def read_k(path):
     return found
 
 
+def read_unv(path):
+    datasets = {}
+    with open(path, encoding="utf-8") as file:
+        for part in file.read().split("    -1\n"):
+            if part.strip():
+                first, *lines = part.splitlines()
+                datasets[int(first)] = lines
+    numbers = lambda line: [int(line[k:k + 10]) for k in range(0, len(line), 10)]  # noqa: E731
+    nodes = datasets[2411]
+    assert [numbers(line)[0] for line in nodes[::2]] == list(range(1, len(nodes) // 2 + 1))
+    found = Found([[float(line[k:k + 25]) for k in (0, 25, 50)] for line in nodes[1::2]])
+    rows, lines = {}, iter(datasets[2412])
+    for line in lines:
+        number, kind, _, _, _, n = numbers(line)
+        if kind == 11:
+            next(lines)
+        rows[number] = [v - 1 for v in numbers(next(lines))]
+        assert (kind, n) in ((11, 2), (91, 3), (94, 4), (115, 8)) and len(rows[number]) == n
+    lines = iter(datasets[2467])
+    for line in lines:
+        name, n, items = next(lines), numbers(line)[7], []
+        while len(items) < 4 * n:
+            items += numbers(next(lines))
+        for kind, number in zip(items[::4], items[1::4]):
+            if kind == 7:
+                found.add(found.points_of, name, [(number - 1,)])
+            else:
+                found.add(found.lines if len(rows[number]) == 2 else found.elements, name, [rows[number]])
+    return found
+
+
 def places(found, rows, digits):
     """Sorted places of the nodes of each element, rounded: the same whatever the numbering."""
     return sorted(tuple(sorted(tuple(numpy.round(found.points[v], digits) + 0.0) for v in row)) for row in rows)
@@ -517,7 +548,7 @@ def cut(name):
 FORMATS = {"e": (read_exodus, True, 12, str, False), "cgns": (read_cgns, True, 12, cut, False), "med": (read_med, True, 12, str, False),
            "xdmf": (read_xdmf, True, 12, str, False), "vtk": (read_vtk, True, 12, lambda name: name.replace(" ", "_"), False),
            "ucd": (read_ucd, False, 12, str, False), "su2": (read_su2, False, 12, plain, True), "bdf": (read_bdf, True, 9, str, False),
-           "mfem": (read_mfem, True, 12, str, True), "k": (read_k, False, 6, str, False),
+           "mfem": (read_mfem, True, 12, str, True), "unv": (read_unv, False, 12, lambda name: word(name)[:30], False), "k": (read_k, False, 6, str, False),
            "2dm": (read_2dm, False, 12, word, False), "gr3": (read_gr3, False, 12, str, True), "nc": (read_ugrid, False, 12, word, False),
            "re2": (read_re2, True, 12, word, True), "specfem": (read_specfem, True, 12, str, True), "foam": (read_foam, False, 5, plain, True)}
 PLANAR = ("su2", "2dm", "gr3", "nc", "re2", "specfem", "foam")

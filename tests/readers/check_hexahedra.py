@@ -1,13 +1,16 @@
 #!/usr/bin/python3
 """Opens swept hexahedra in another program: check_hexahedra.py DELQUAD READER. Exit code 77: the reader is not installed.
 
-READER: gmsh, meshio or vtk compare numbers, names and volumes; ccx pulls at a bar by its named faces.
+READER: gmsh, meshio, vtk or h5py compare numbers, names and volumes; ccx pulls at a bar by its named faces.
 """
 import os
 import subprocess
 import sys
 import tempfile
 
+import numpy
+
+from check_formats import cut, read_cgns, read_med, read_unv, word
 from read_mesh import absent, run_ccx
 from solve_ccx import POISSON, YOUNG, near
 
@@ -126,8 +129,64 @@ def by_vtk(delquad, folder):
             assert sum(tags.GetValue(i) in wanted for i in range(grid.GetNumberOfCells())) == n, name
 
 
+    cgns = vtk.vtkCGNSReader()
+    cgns.SetFileName(sweep(delquad, folder, "a.cgns"))
+    cgns.UpdateInformation()
+    cgns.EnableAllBases()
+    cgns.Update()
+    grid = cgns.GetOutput().NewIterator().GetCurrentDataObject()
+    quality = [vtk.vtkMeshQuality.HexScaledJacobian(grid.GetCell(i)) for i in range(grid.GetNumberOfCells())]
+    assert len(quality) == 48 * LAYERS and min(quality) > 0.99, quality
+
+
+def by_h5py(delquad, folder):
+    try:
+        import h5py  # noqa: F401
+    except ImportError:
+        absent("h5py is not installed (python3-h5py)")
+    # MED counts the first side the other way round.
+    for name, read, order in (("a.cgns", read_cgns, range(8)), ("a.unv", read_unv, range(8)), ("a.med", read_med, (0, 3, 2, 1, 4, 7, 6, 5))):
+        found = read(sweep(delquad, folder, name))
+        rows = {n: [] for n in (2, 4, 8)}
+        for group in (found.lines, found.elements):
+            for label, of_name in group.items():
+                for row in of_name:
+                    rows[len(row)].append((label, [int(v) for v in row]))
+        for dim, n in ((1, 2), (2, 4), (3, 8)):
+            counts = {}
+            for label, _ in rows[n]:
+                counts[label] = counts.get(label, 0) + 1
+            assert counts == {(word if name == "a.unv" else cut)(label): count for label, count in EXPECTED[dim].items()}, (name, counts)
+        sides = set()
+        volume = 0.0
+        for _, row in rows[8]:
+            v = [row[k] for k in order]
+            p = found.points[v]
+            box = numpy.linalg.det([p[1] - p[0], p[3] - p[0], p[4] - p[0]])
+            assert box > 0, (name, v)
+            volume += box  # all are boxes, or nearly so
+            sides |= {frozenset(row[k] for k in side) for side in SIDES}
+        assert abs(volume - 3 * HEIGHT) < 0.05 * 3 * HEIGHT, volume
+        assert all(frozenset(row) in sides for _, row in rows[4]), name
+    try:
+        import gmsh
+    except ImportError:
+        return
+    gmsh.initialize()
+    gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.open(os.path.join(folder, "a.unv"))
+    volumes = gmsh.model.mesh.getJacobians(5, [0, 0, 0])[1]
+    gmsh.finalize()
+    assert len(volumes) == 48 * LAYERS and min(volumes) > 0, volumes
+
+
 def by_ccx(delquad, folder):
-    path = sweep(delquad, folder, "bar.inp")
+    for element in ("C3D8", "C3D8I", "C3D20"):
+        pull_at_bar(delquad, folder, element)
+
+
+def pull_at_bar(delquad, folder, element):
+    path = sweep(delquad, folder, "bar.inp", "--element", element)
     pull = 100.0
     with open(os.path.join(folder, "deck.inp"), "w", encoding="utf-8") as file:
         file.write(f"""*INCLUDE, INPUT={os.path.basename(path)}
@@ -160,7 +219,9 @@ U
                 blocks.append([])
             elif line.strip():
                 blocks[-1].append([float(word) for word in line.split()])
-    assert len(blocks[0]) == 5 * (LAYERS + 1) and len(blocks[1]) == 25, [len(b) for b in blocks]
+    # A side of 4 edges and LAYERS, and one of 4 by 4.
+    expected = [5 * (LAYERS + 1), 25] if element != "C3D20" else [5 * (LAYERS + 1) + 4 * (LAYERS + 1) + 5 * LAYERS, 25 + 40]
+    assert [len(b) for b in blocks] == expected, [len(b) for b in blocks]
     for _, x, _, _ in blocks[0]:
         near(x, -POISSON * pull / YOUNG * 3, 1e-5, "contraction")
     for _, _, _, z in blocks[1]:
@@ -169,5 +230,5 @@ U
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as work:
-        {"gmsh": by_gmsh, "meshio": by_meshio, "vtk": by_vtk, "ccx": by_ccx}[sys.argv[2]](sys.argv[1], work)
+        {"gmsh": by_gmsh, "meshio": by_meshio, "vtk": by_vtk, "h5py": by_h5py, "ccx": by_ccx}[sys.argv[2]](sys.argv[1], work)
     print("as written")

@@ -39,9 +39,9 @@ def extrude(
     return _core.extrude_normals(*how, normals, both_sides)
 
 
-def _write(self, path, binary=False):
-    """Writes .msh, .vtu, .inp, .e, .su2 or .bdf, whole or not at all."""
-    self._write_file(os.fspath(path), binary)
+def _write(self, path, binary=False, element=""):
+    """Writes .msh, .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv, whole or not at all. element: of .inp, C3D8, C3D8I, C3D20, ..."""
+    self._write_file(os.fspath(path), binary, element)
 
 
 _core.HexMesh.write = _write

@@ -193,10 +193,20 @@ TEST(Sections, TheSameBytesForEveryNumberOfThreads) {
     EXPECT_EQ(texts[0], texts[1]);
     EXPECT_EQ(texts[0], texts[2]);
   }
+  HexMesh named = extrude(sphere(8, 2), AlongNormals{0.3, true}, {1});
+  named.faces[0].names = {std::string(90, 'x')};
+  EXPECT_EQ(renamed_in_file("a.e", named),
+            std::vector{"face \"" + std::string(90, 'x') + "\" is " + std::string(70, 'x')});
+  EXPECT_TRUE(renamed_in_file("a.vtu", named).empty());
   expect_input_error([&] { write_hexahedra(folder / "a.obj", HexMesh{}); },
                      {"a.obj", "not written with hexahedra", ".msh, .vtu, .inp, "});
   expect_input_error([&] { write_hexahedra(folder / "a.what", HexMesh{}); }, {"unknown kind", ".what"});
-  expect_input_error([&] { write_hexahedra(folder / "a.vtu", HexMesh{}, true); }, {"no binary form"});
+  expect_input_error([&] { write_hexahedra(folder / "a.vtu", HexMesh{}, {.binary = true}); },
+                     {"no binary form"});
+  expect_input_error([&] { write_hexahedra(folder / "a.vtu", HexMesh{}, {.element = "C3D8"}); },
+                     {"expected .inp with --element"});
+  expect_input_error([&] { write_hexahedra(folder / "a.inp", HexMesh{}, {.element = "C3D21"}); },
+                     {"unknown kind of hexahedra", "did you mean"});
 }
 
 double random_number(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }

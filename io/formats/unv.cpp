@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "io/entity_names.h"
+#include "io/mesh_formats.h"
+#include "io/mesh_io.h"
+#include "io/text_writer.h"
+
+namespace delquad {
+
+namespace {
+
+/// Names have at most 40 characters.
+constexpr UniqueLabels::Rules kUnvLabels{word_label, false, 30};
+
+/// Of elements, in dataset 2412.
+enum UnvKind { kUnvRod = 11, kUnvTriangle = 91, kUnvQuad = 94, kUnvBrick = 115 };
+
+/// A file that is being written: nodes, elements and groups, each a dataset of lines of fixed width.
+class UnvWriter {
+ public:
+  UnvWriter(TextWriter& out, const std::vector<MeshGroup>& groups) : out_(out), groups_(groups) {}
+
+  void write_nodes(const std::vector<Vec3>& points) {
+    begin(2411);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      out_ << fmt::format("{:>10}{:>10}{:>10}{:>10}\n{:>25.16E}{:>25.16E}{:>25.16E}\n", i + 1, 1, 1, 11,
+                          points[i].x, points[i].y, points[i].z);
+    end();
+    begin(2412);
+  }
+
+  /// `before`, `behind`: other elements of the dimension.
+  template <class Elements>
+  void write_elements(int dim, UnvKind kind, const Elements& elements, std::size_t before = 0,
+                      std::size_t behind = 0) {
+    if (before == 0) first_[dim] = n_;
+    const std::vector<int> property = group_numbers(groups_, dim, before + elements.size() + behind);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      write_numbers(
+          {static_cast<int>(++n_), kind, property[before + i], 1, 7, static_cast<int>(elements[i].size())});
+      if (kind == kUnvRod) write_numbers({0, 1, 1});
+      std::vector<int> nodes;
+      for (const int v : elements[i]) nodes.push_back(v + 1);
+      write_numbers(nodes);
+    }
+  }
+
+  void write_groups() {
+    end();
+    begin(2467);
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const MeshGroup& group = groups_[g];
+      write_numbers({static_cast<int>(g) + 1, 0, 0, 0, 0, 0, 0, static_cast<int>(group.items.size())});
+      out_ << group.label << '\n';
+      std::vector<int> entities;
+      for (const int i : group.items)
+        entities.insert(entities.end(),
+                        {group.dim == 0 ? 7 : 8, static_cast<int>(first_[group.dim]) + i + 1, 0, 0});
+      write_numbers(entities);
+    }
+    end();
+  }
+
+ private:
+  void begin(int dataset) { out_ << fmt::format("    -1\n{:>6}\n", dataset); }
+  void end() { out_ << "    -1\n"; }
+
+  void write_numbers(const std::vector<int>& numbers) {
+    constexpr std::size_t kPerLine = 8;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      out_ << fmt::format("{:>10}", numbers[i])
+           << (i + 1 == numbers.size() || i % kPerLine == kPerLine - 1 ? "\n" : "");
+  }
+
+  TextWriter& out_;
+  const std::vector<MeshGroup>& groups_;
+  std::size_t n_ = 0;  ///< elements so far
+  std::array<std::size_t, 4>
+      first_{};  ///< elements before those of a dimension; nodes have numbers of their own
+};
+
+/// I-DEAS universal: thin shells, a group for each name.
+void write_unv(const std::filesystem::path& path, const Mesh& mesh) {
+  const std::vector<MeshGroup> groups = mesh_groups(mesh, kUnvLabels);
+  write_text_file(path, [&](TextWriter& text) {
+    UnvWriter out(text, groups);
+    out.write_nodes(mesh.points);
+    out.write_elements(2, kUnvTriangle, mesh.triangles, 0, mesh.quads.size());
+    out.write_elements(2, kUnvQuad, mesh.quads, mesh.triangles.size());
+    out.write_elements(1, kUnvRod, mesh.lines);
+    out.write_groups();
+  });
+}
+
+void write_hex_unv(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions&) {
+  const std::vector<MeshGroup> groups = hex_groups(mesh, kUnvLabels);
+  write_text_file(path, [&](TextWriter& text) {
+    UnvWriter out(text, groups);
+    out.write_nodes(mesh.points);
+    out.write_elements(3, kUnvBrick, mesh.hexahedra);
+    out.write_elements(2, kUnvQuad, mesh.quads);
+    out.write_elements(1, kUnvRod, mesh.lines);
+    out.write_groups();
+  });
+}
+
+}  // namespace
+
+MeshFormat unv_format() {
+  return {.extensions = {".unv"},
+          .description = "I-DEAS universal: Salome, Elmer, OpenFOAM",
+          .write = write_by<write_unv>,
+          .write_hexahedra = write_hex_unv,
+          .labels = &kUnvLabels};
+}
+
+}  // namespace delquad
