@@ -78,6 +78,15 @@ def test_classes(name):
             assert parameters(node) == actual_parameters(attribute), key
 
 
+def test_gmsh():
+    pytest.importorskip("gmsh")
+    import delquad.gmsh
+
+    told = ast.parse(pathlib.Path(delquad.gmsh.__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
+    (stub,) = [node for node in told.body if isinstance(node, ast.FunctionDef)]
+    assert parameters(stub) == actual_parameters(delquad.gmsh.mesh)
+
+
 @pytest.mark.parametrize("name", ["mesh", "extrude", "adapt"])
 def test_help_has_every_argument(name):
     function = getattr(delquad, name)
