@@ -1,7 +1,8 @@
 """Blender: Object > Quad remesh (Delquad) makes the active mesh one of quads.
 
 Install this file by Edit > Preferences > Add-ons > Install. It calls the program `delquad`, whose path stands in its preferences.
-Materials stay with their faces, and so does smooth shading; edges that are marked sharp stay edges.
+Materials stay with their faces, and so does smooth shading; edges that are marked sharp stay edges. What belongs to the old vertices
+and corners is lost, as it says: UV maps, colours, weights of vertex groups.
 """
 
 bl_info = {
@@ -75,6 +76,12 @@ def remesh(program, mesh, *arguments):
     return result.stdout.strip().splitlines()[0].removeprefix(made).lstrip(": ")
 
 
+def losses(item):
+    """What of an object does not outlive its vertices and corners: "UV map UVMap"."""
+    kinds = (("UV map", item.data.uv_layers), ("colours", item.data.vertex_colors), ("the weights of vertex group", item.vertex_groups))
+    return [f"{kind} {one.name}" for kind, all_of_kind in kinds for one in all_of_kind]
+
+
 class DelquadPreferences(bpy.types.AddonPreferences):
     bl_idname = __name__
     program: bpy.props.StringProperty(name="Program", default="delquad", subtype="FILE_PATH")
@@ -84,7 +91,7 @@ class DelquadPreferences(bpy.types.AddonPreferences):
 
 
 class OBJECT_OT_delquad(bpy.types.Operator):
-    """Make the active mesh one of quads; texture coordinates and vertex groups are lost"""
+    """Make the active mesh one of quads; UV maps, colours and weights are lost"""
 
     bl_idname = "object.delquad"
     bl_label = "Quad remesh (Delquad)"
@@ -105,6 +112,7 @@ class OBJECT_OT_delquad(bpy.types.Operator):
         addon = context.preferences.addons.get(__name__)
         wanted = bpy.path.abspath(addon.preferences.program) if addon else "delquad"
         program, mesh = shutil.which(wanted), context.object.data
+        lost = losses(context.object)
         problem = None
         if program is None:
             problem = f"There is no program '{wanted}': build Delquad, and set its path in the preferences of this add-on"
@@ -120,6 +128,8 @@ class OBJECT_OT_delquad(bpy.types.Operator):
             self.report({"ERROR"}, problem)
             return {"CANCELLED"}
         self.report({"INFO"}, said)
+        if lost:
+            self.report({"WARNING"}, f"{mesh.name} has lost {', '.join(lost)}")
         return {"FINISHED"}
 
 

@@ -26,10 +26,13 @@ def check_torus():
     for face in mesh.polygons:
         face.material_index, face.use_smooth = int(face.center.x > 0), face.center.y > 0
     before = areas(mesh)
+    bpy.context.object.vertex_groups.new(name="arm")
+    assert blender_delquad.losses(bpy.context.object) == ["UV map UVMap", "the weights of vertex group arm"]
     assert bpy.ops.object.delquad(quads=1000) == {"FINISHED"}
     assert not mesh.validate() and all(len(face.vertices) == 4 for face in mesh.polygons) and abs(len(mesh.polygons) - 1000) < 100
     assert [material.name for material in mesh.materials] == ["red", "blue"]
     assert all(face.material_index == (face.center.x > 0) and face.use_smooth == (face.center.y > 0) for face in mesh.polygons)
+    assert not mesh.uv_layers
     after = areas(mesh)
     assert all(abs(after[kind] / before[kind] - 1) < 0.05 for kind in before)
     assert len(mesh.edges) == 2 * len(mesh.polygons) == 2 * len(mesh.vertices)
