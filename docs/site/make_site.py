@@ -123,7 +123,7 @@ class Site:
 
     def tables(self):
         """The tables of folders of results, with version, machine and date, and links to the records."""
-        text = "# Tables\n\n"
+        text, pages = "# Tables\n\n", {}
         for study in sorted(self.results.rglob("study.json")):
             folder = study.parent
             records = sorted(folder.glob("*/*/record.json"))
@@ -147,9 +147,14 @@ class Site:
             title = json.loads(study.read_text())["title"]
             head, _, rest = page.partition("\n")
             self.write(f"tables/{name}.md", head + "\n\nMade by " + "; ".join(sorted(made)) + ".\n" + rest + links)
-            text += f"* [{title}](tables/{name}.md)\n"
-        if text.count("*") == 0:
-            text += "`make paper` or `make suite` make them; `make site` then shows them here.\n"
+            pages[folder] = f"* [{title}](tables/{name}.md)\n"
+        for table in sorted(self.results.rglob("ranking/table.md")):  # of a suite, from all runs beside it
+            suite = table.parents[1]
+            name = "_".join((*suite.relative_to(self.results).parts, "ranking"))
+            runs = "".join(page.replace("](tables/", "](") for folder, page in pages.items() if suite in folder.parents)
+            self.write(f"tables/{name}.md", table.read_text() + "\n## Runs\n\n" + runs)
+            text += f"* [{table.read_text().partition(chr(10))[0].lstrip('# ')}](tables/{name}.md)\n"
+        text += "".join(pages.values()) or "`make paper` or `make suite` make them; `make site` then shows them here.\n"
         self.write("tables.md", text)
 
     # All of it

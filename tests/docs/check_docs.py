@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Whether README and docs hold: links lead somewhere, the reference of keys is up to date, and every block of code runs.
+"""Whether README and docs hold: links lead somewhere, the reference of keys is up to date, every block of code runs, and the site's tables lead to records.
 
-Usage: check_docs.py links|keys|blocks [--build FOLDER] [--slow] [PAGE ...]
+Usage: check_docs.py links|keys|blocks|tables [--build FOLDER] [--slow] [PAGE ...]
 
 A block is fenced, or indented by four spaces and more. Those of a page run in their order, in one empty folder that looks like the repository:
 shell by bash, Python in one process, C++ as one program. TOML is checked against `delquad schema`, and saved where its first line is a comment
@@ -250,9 +250,53 @@ def check_blocks(pages, build, slow):
     return wrong
 
 
+# Tables of results on the site
+
+EXPERIMENT = """title = "A square"
+pipelines = ["DB"]
+[[case]]
+name = "square"
+size = 0.25
+
+loop = [{ rectangle = [[0, 0], [1, 1]] }]
+"""
+
+
+def check_tables(build):
+    spec = importlib.util.spec_from_file_location("make_site", ROOT / "docs/site/make_site.py")
+    make_site = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(make_site)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "square.toml").write_text(EXPERIMENT)
+        subprocess.run([build / "delquad", "run", folder / "square.toml", "-o", folder / "results/suite/run"], check=True, capture_output=True)
+        (folder / "results/suite/ranking").mkdir()
+        (folder / "results/suite/ranking/table.md").write_text("# Ranking\n")
+        make_site.Site(build, folder / "results", folder / "site").tables()
+        pages = folder / "site_pages"
+        record = json.loads((folder / "results/suite/run/square/DB/record.json").read_text())
+        seen, left = set(), [pages / "tables.md"]
+        while left:
+            page = left.pop()
+            if page in seen or not page.is_file():
+                yield from [] if page.is_file() else [f"no {page.relative_to(pages)}"]
+                continue
+            seen.add(page)
+            if page.suffix == ".md":
+                left += [page.parent / link for link in re.findall(r"\]\(([^)]*)\)", page.read_text())]
+        if not any(page.suffix == ".json" and json.loads(page.read_text()) == record for page in seen):
+            yield "the tables do not lead to the record"
+        text = (pages / "tables/suite_run.md").read_text()
+        for what in (record["versions"]["delquad"], record["versions"]["commit"], record["machine"]["cpu"], record["started"][:10]):
+            if what not in text:
+                yield f"the tables do not say {what}"
+        if pages / "tables/suite_ranking.md" not in seen:
+            yield "the tables do not lead to the ranking"
+
+
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("what", choices=["links", "keys", "blocks"])
+    parser.add_argument("what", choices=["links", "keys", "blocks", "tables"])
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
     parser.add_argument("--slow", action="store_true")
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
@@ -262,6 +306,8 @@ def main():
         wrong = check_links()
     elif given.what == "keys":
         wrong = check_keys(build)
+    elif given.what == "tables":
+        wrong = list(check_tables(build))
     else:
         wrong = check_blocks([page.resolve() for page in given.pages] or list(files(".md")), build, given.slow)
     print(*wrong, sep="\n")
