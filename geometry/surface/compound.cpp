@@ -179,6 +179,22 @@ std::map<std::array<int, 2>, Vec3> directions_at_curves(const Mesh& mesh) {
   return direction;
 }
 
+/// From the middle of a triangle's side, a line of a curve, into its face, by the true surface and square to
+/// the line. `direction`: that of the triangles there. These are off by half of what the face turns by over
+/// one of them, which on a fillet is more than what is taken for smooth.
+Vec3 way_into(const SurfaceModel& model, int curve, const HalfEdge& side, const Vec3& direction) {
+  constexpr double kStep = 0.02;  // of the triangle's height
+  const Mesh& mesh = model.fine;
+  const auto [a, b] = side.run();
+  const Vec3 along = mesh.points[b] - mesh.points[a], inwards = cross(direction, along);
+  const double step = kStep * norm(area_vector(mesh, side.element)) / norm(along);
+  const Vec3 at = model.projector->to_curve(curve, 0.5 * (mesh.points[a] + mesh.points[b]));
+  const Vec3 way =
+      model.projector->to_face(mesh.triangle_region[side.element], at + (step / norm(inwards)) * inwards) -
+      at;
+  return way - (dot(way, along) / dot(along, along)) * along;
+}
+
 /// What became of curves shorter than `length`. `members`: the former curves of each curve.
 void report_short_curves(const std::vector<Entity>& old, const std::vector<double>& lengths, double length,
                          const Groups& members, ShortRest rest, std::vector<Warning>& warnings) {
@@ -218,22 +234,29 @@ SurfaceModel make_compound(SurfaceModel model, const Groups& groups, const Compo
 
 std::vector<char> tangent_curves(const SurfaceModel& model, double angle) {
   const Mesh& mesh = model.fine;
-  const auto faces = faces_of_lines(mesh);
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   const auto directions = directions_at_curves(mesh);
+  // A sheet folded back onto itself has opposite normals, which no limit below 180 degrees admits.
+  const auto agree = [&](const Vec3& m, const Vec3& n) {
+    return angle >= 180 || (norm(m) > 0 && norm(n) > 0 && angle_between(m, n) < radians(angle));
+  };
   std::vector<char> smooth(mesh.curves.size(), 0), sharp(mesh.curves.size(), 0);
-  for (size_t i = 0; i < faces.size(); ++i) {
-    const auto [f, g] = faces[i];
+  for (size_t i = 0; i < mesh.lines.size(); ++i) {
+    const auto [a, b] = mesh.lines[i];
+    const auto edge = sides_of_edge(sides, a, b);
     const int curve = mesh.line_curve[i];
     smooth[curve] = 1;
-    if (f < 0) {
-      sharp[curve] = 1;
-      continue;
-    }
-    const auto [a, b] = mesh.lines[i];
-    const Vec3 m = directions.at({f, a}) + directions.at({f, b}),
-               n = directions.at({g, a}) + directions.at({g, b});
-    // A sheet folded back onto itself has opposite normals, which no limit below 180 degrees admits.
-    if (angle < 180 && !(angle_between(m, n) < radians(angle))) sharp[curve] = 1;
+    if (sharp[curve]) continue;
+    sharp[curve] = 1;
+    if (edge.size() != 2) continue;
+    const auto direction = [&, a = a, b = b](const HalfEdge& side) {
+      const int face = mesh.triangle_region[side.element];
+      return directions.at({face, a}) + directions.at({face, b});
+    };
+    const Vec3 m = direction(edge[0]), n = direction(edge[1]);
+    if (agree(m, n) || (model.projector &&
+                        agree(-1 * way_into(model, curve, edge[0], m), way_into(model, curve, edge[1], n))))
+      sharp[curve] = 0;
   }
   for (size_t c = 0; c < sharp.size(); ++c) smooth[c] = smooth[c] && !sharp[c];
   return smooth;

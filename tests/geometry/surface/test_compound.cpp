@@ -118,6 +118,33 @@ TEST(TangentGroups, JoinAcrossGentleBendsOnly) {
   EXPECT_EQ(tangent_groups(make_surface_model(strip(3, 6)), 7), (std::vector<std::vector<int>>{{0, 1, 2}}));
 }
 
+/// Behind strip(2, 10): a plane, and beyond it an arc of which the second part is a chord, or that part
+/// itself.
+class PlaneAndArc final : public SurfaceProjector {
+ public:
+  explicit PlaneAndArc(bool is_bent) : is_bent_(is_bent) {}
+  Vec3 to_face(int face, const Vec3& x) const override {
+    if (face == 0) return {x.x, x.y, 0};
+    if (is_bent_) return x;
+    const double radius = 0.5 / std::sin(10 * std::numbers::pi / 180);
+    const Vec3 axis{1, x.y, radius};
+    return axis + (radius / norm(x - axis)) * (x - axis);
+  }
+  Vec3 to_curve(int, const Vec3& x) const override { return x; }
+
+ private:
+  bool is_bent_;
+};
+
+TEST(TangentGroups, AreThoseOfTheTrueSurfaces) {
+  SurfaceModel model = make_surface_model(strip(2, 10));
+  EXPECT_TRUE(tangent_groups(model).empty());
+  model.projector = std::make_shared<PlaneAndArc>(true);
+  EXPECT_TRUE(tangent_groups(model).empty());
+  model.projector = std::make_shared<PlaneAndArc>(false);
+  EXPECT_EQ(tangent_groups(model), (std::vector<std::vector<int>>{{0, 1}}));
+}
+
 TEST(TangentGroups, OneSharpPlaceKeepsFacesApart) {
   // The second half is twisted about the x axis: flat with the first in the middle only.
   Mesh mesh = strip(2, 0);
