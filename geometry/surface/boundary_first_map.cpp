@@ -38,6 +38,20 @@ std::vector<Vec2> close_polygon(const std::vector<double>& turns, const std::vec
   return polygon;
 }
 
+/// Where a boundary turns back onto itself, as around the tip of a slit or of a cusp beside the chart, its
+/// sides would touch or cross: there it turns less, and at the points beside more.
+void keep_open(std::vector<double>& turns) {
+  constexpr double kOpen = 2 * std::numbers::pi / 180;
+  const std::size_t n = turns.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double excess = kOpen - std::numbers::pi - turns[i];
+    if (excess <= 0) continue;
+    turns[i] += excess;
+    turns[(i + 1) % n] -= excess / 2;
+    turns[(i + n - 1) % n] -= excess / 2;
+  }
+}
+
 /// The disk inside of a closed polygon that turns and has sides like this, by harmonic coordinates.
 std::vector<Vec2> fill_polygon(const LaplaceSolver& solver, const std::vector<double>& turns,
                                const std::vector<double>& lengths, std::size_t n) {
@@ -79,6 +93,7 @@ std::vector<Vec2> boundary_first_map(const Chart& chart) {
 
   std::vector<double> turns;
   for (std::size_t i = 0; i < n_boundary; ++i) turns.push_back(defects[i] + flux[i]);
+  keep_open(turns);
   return fill_polygon(solver, turns, boundary_lengths(chart), n);
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "geometry/surface/flatten.h"
+#include "geometry/surface/triangulated_model.h"
 #include "tests/support/surfaces.h"
 
 namespace delquad {
@@ -119,6 +120,26 @@ TEST(ConformalMaps, RoughDisksStayOneToOne) {
       ASSERT_TRUE(is_one_to_one(chart, flat)) << "seed " << seed;
       EXPECT_LT(measure_flat(chart, flat).sigma_95, 1.15) << "seed " << seed;
     }
+  }
+}
+
+TEST(ConformalMaps, StayOpenWhereTheBoundaryTurnsBackOntoItself) {
+  // Triangles around one point of the boundary, a wave with more angle there than the plane has.
+  constexpr int kTriangles = 24;
+  constexpr double kDegree = std::numbers::pi / 180, kStep = 358 * kDegree / kTriangles;
+  for (const double angle : {350.0, 359.9, 365.0, 375.0}) {
+    const double c = std::cos(std::max(angle * kDegree / kTriangles, kStep));
+    const double step = std::min(angle * kDegree / kTriangles, kStep);
+    const double height = std::sqrt((std::cos(step) - c) / (1 + c));
+    Mesh fan;
+    fan.points.push_back({});
+    for (int i = 0; i <= kTriangles; ++i)
+      fan.points.push_back({std::cos(i * step), std::sin(i * step), i % 2 == 0 ? height : -height});
+    for (int i = 1; i <= kTriangles; ++i) fan.triangles.push_back({0, i, i + 1});
+    fan.triangle_region.assign(kTriangles, 0);
+    fan.regions.push_back({1, {}});
+    const Chart chart = chart_of(make_surface_model(fan, {.feature_angle = 180}));
+    EXPECT_TRUE(is_one_to_one(chart, boundary_first_map(chart))) << angle;
   }
 }
 
