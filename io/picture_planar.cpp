@@ -226,8 +226,8 @@ void draw_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::s
                  outline_of_quad(mesh, q));
   }
   elements.draw(picture, mesh.quads.size() + mesh.triangles.size() <= kMostElementsWithEdges);
-  constexpr double kOutlineWidth = 1.1;
-  picture.add_outline(mesh, kOutlineWidth);
+  constexpr double kWidth = 1.1;
+  picture.add_outline(mesh, kWidth);
 
   std::vector<double> pixels;
   for_each_element(mesh, [&](int, const auto& v) { pixels.push_back(pixel_size(mesh, v, picture.scale())); });

@@ -165,7 +165,7 @@ PairedVertices pair_irregular(const Mesh& mesh, std::span<const HalfEdge> sides)
   PairedVertices result;
   result.necessary = charges.necessary();
   result.beyond = charges.beyond();
-  for (int edges = 1; !searches.empty(); ++edges) {
+  while (!searches.empty()) {
     check_cancelled();
     std::vector<Candidate> met;
     for (PathSearch& search : searches) search.step(met);

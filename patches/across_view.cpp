@@ -24,7 +24,7 @@ Vec2 flat_point(const FlatPatch& map, int v) { return map.flat.points[v]; }
 
 AcrossView::AcrossView(const Mesh& fine, const std::vector<CurveChain>& chains,
                        const std::vector<FlatPatch>& maps, const std::vector<PatchOutline>& outlines)
-    : fine_(fine), chains_(chains), maps_(maps), outlines_(outlines) {
+    : fine_(fine), maps_(maps), outlines_(outlines) {
   for (const CurveChain& chain : chains) sides_on_.emplace_back(chain.points.size() - 1, std::array{-1, -1});
   for (size_t p = 0; p < maps.size(); ++p) add_patch(static_cast<int>(p));
 }

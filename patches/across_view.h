@@ -46,7 +46,6 @@ class AcrossView {
              double distance) const;
 
   const Mesh& fine_;
-  const std::vector<CurveChain>& chains_;
   const std::vector<FlatPatch>& maps_;
   const std::vector<PatchOutline>& outlines_;
   std::vector<Side> sides_;

@@ -49,10 +49,10 @@ TopoDS_Shape beside(const std::vector<TopoDS_Shape>& shapes) {
 }  // namespace
 
 CadShape make_seam_groove() {
-  constexpr double kWidth = 0.06, kSide = 60;
+  constexpr double kGroove = 0.06, kSide = 60;
   const TopoDS_Shape shaft = cylinder({0, 0, 0}, {0, 0, 1}, 10, 40);
   const gp_Ax2 aslant({-kSide / 2, -kSide / 2, 28}, {0.28, 0, 0.96}, {0.96, 0, -0.28});
-  const TopoDS_Shape slice = BRepPrimAPI_MakeBox(aslant, kSide, kSide, kWidth).Shape();
+  const TopoDS_Shape slice = BRepPrimAPI_MakeBox(aslant, kSide, kSide, kGroove).Shape();
   return {BRepAlgoAPI_Cut(shaft, BRepAlgoAPI_Cut(slice, cylinder({0, 0, -1}, {0, 0, 1}, 9, 50)))};
 }
 
