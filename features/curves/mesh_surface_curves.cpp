@@ -315,6 +315,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   curves.images = std::move(pairs.pairs);
   const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
   CurveDemands wanted = measure_curves(fine, curves, across, size, asked != nullptr ? *asked : size);
+  if (agreement > 0) widen_round_holes(fine, curves, across, size, agreement, wanted);
   divide_curves(fine, curves, divisions, wanted);
   SurfaceDomain domain;
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);

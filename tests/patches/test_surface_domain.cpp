@@ -13,6 +13,7 @@
 #include "features/curves/mesh_surface_curves.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/surface/improve_triangulation.h"
+#include "geometry/surface/triangulated_model.h"
 #include "metrics/metrics.h"
 #include "patches/places_inside.h"
 #include "smoothing/surface/surface_lift.h"
@@ -222,6 +223,56 @@ TEST(SurfaceDomain, SidesThatDifferLittleGetEqualNumbersOfEdges) {
   EXPECT_LT(agreed[1], by_size[1]);
   // Where one is half as long again, rows end all the same.
   EXPECT_GT(edges_of_ring(1.5, 3)[1], edges_of_ring(1.5, 3)[0] + 20);
+}
+
+/// Edges around both ends of a hole through a square plate; lengths in sizes, of which the hole is ten
+/// around.
+std::vector<std::size_t> edges_of_hole(double side, double depth, double agreement) {
+  constexpr int kAround = 48, kSteps = 4, kProfile = 4 * kSteps;
+  const double radius = 5 / std::numbers::pi;
+  Mesh plate;
+  for (int i = 0; i < kAround; ++i)
+    for (int k = 0; k < kProfile; ++k) {
+      const double phi = 2 * std::numbers::pi * i / kAround, s = double(k % kSteps) / kSteps;
+      const double out[] = {0, s, 1, 1 - s}, high[] = {s, 1, 1 - s, 0};
+      const Vec2 round{std::cos(phi), std::sin(phi)};
+      const double square = side / 2 / std::max(std::abs(round.x), std::abs(round.y));
+      const Vec2 at = (radius + out[k / kSteps] * (square - radius)) * round;
+      plate.points.push_back({at.x, at.y, depth * high[k / kSteps]});
+      const auto point = [&](int di, int dk) { return (i + di) % kAround * kProfile + (k + dk) % kProfile; };
+      plate.triangles.push_back({point(0, 0), point(0, 1), point(1, 1)});
+      plate.triangles.push_back({point(0, 0), point(1, 1), point(1, 0)});
+    }
+  plate.triangle_region.assign(plate.triangles.size(), 0);
+  plate.regions.push_back({1, {}});
+  SurfaceModel model = make_surface_model(std::move(plate));
+  improve_triangulation(model);
+  Flattening flattening = flatten(model);
+  const SurfaceDomain domain =
+      make_surface_domain(model, std::move(flattening), SurfaceSize(make_constant_size(1)),
+                          *make_primal_dual_solver(), nullptr, {}, {}, {}, agreement);
+  std::map<int, std::size_t> edges;  // cuts part curves
+  for (std::size_t c = 0; c < domain.chains.size(); ++c)
+    if (std::ranges::all_of(domain.nodes.on_curve[c], [&](const CurveNode& n) {
+          const Vec3 x = domain.nodes.points[n.node];
+          return std::hypot(x.x, x.y) < 1.01 * radius && (x.z < 1e-9 || x.z > depth - 1e-9);
+        }))
+      edges[domain.chains[c].curve] += domain.nodes.on_curve[c].size() - 1;
+  std::vector<std::size_t> counts;
+  for (const auto& [curve, n] : edges) counts.push_back(n);
+  return counts;
+}
+
+TEST(SurfaceDomain, SmallHolesGetTheEdgesOfTheSquareAroundThem) {
+  const std::vector<std::size_t> by_length{10, 10};
+  EXPECT_EQ(edges_of_hole(14, 4, 0), by_length);
+  const std::vector<std::size_t> edges = edges_of_hole(14, 4, 3);
+  ASSERT_EQ(edges.size(), 2u);
+  EXPECT_GE(edges[0], 12u);
+  EXPECT_EQ(edges[0], edges[1]);
+  // Not where quads of a deep bore would be narrow, nor where there is no room beside the hole.
+  EXPECT_EQ(edges_of_hole(14, 20, 3), by_length);
+  EXPECT_LE(edges_of_hole(5, 4, 3)[0], 10u);
 }
 
 // delta' of a known conformal map: the stretch of the map cancels in the lengths on the surface.
