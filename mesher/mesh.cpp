@@ -108,6 +108,7 @@ Word ask_for(const Quality& quality, MeshProblem& problem) {
     return parse_word(given.quads.empty() ? "BCO" : "CO", WordStart::kGivenMesh);
   }
   if (!problem.cross.kind && problem.cross.text.empty()) problem.cross.kind = quality.cross;
+  problem.options.set_absent(quality.options);
   return parse_word(quality.word);
 }
 
@@ -195,7 +196,7 @@ const std::vector<Quality>& quality_registry() {
   static const std::vector<Quality> registry = {
       {"fast", "DB", CrossKind::kBoundary},
       {"good", "DBCO", CrossKind::kSizeAware},
-      {"best", "DBCQO", CrossKind::kSizeAware},
+      {"best", "DBCQO", CrossKind::kSizeAware, Options().set("curves.round_holes", true)},
   };
   return registry;
 }

@@ -157,6 +157,11 @@ Options& Options::reset(const std::string& name) {
   return *this;
 }
 
+Options& Options::set_absent(const Options& others) {
+  values_.insert(others.values_.begin(), others.values_.end());
+  return *this;
+}
+
 OptionValue Options::value(const std::string& name) const {
   const OptionKey& key = require_key(name);
   const OptionValue* given = find(name);

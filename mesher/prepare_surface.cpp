@@ -75,12 +75,13 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
                              const MappedSpec& mapped, const PeriodicSides& periodic, long long most_steps,
                              Failures& failures) {
   const auto solver = matching_solver(recombination_options(problem.options).solver, problem.options);
+  const CurveOptions curves = curve_options(problem.options);
   while (!flattening.patches.empty()) {
     try {
       const bool may_repeat = failures.are_left_out() || washers.can_give_way();
       return make_surface_domain(model, may_repeat ? flattening : std::move(flattening), size, *solver, asked,
-                                 divisions, periodic, mapped, curve_options(problem.options).agreement,
-                                 most_steps);
+                                 divisions, periodic, mapped, curves.agreement, most_steps,
+                                 curves.round_holes);
     } catch (const FaceError& error) {
       if (washers.give_way(error)) continue;
       failures.add(error.face(), error.what());

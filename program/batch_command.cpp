@@ -71,6 +71,8 @@ std::string experiment_of(const BatchArguments& arguments, const std::map<std::s
       quoted("Parts of " + arguments.data.string()), quoted(quality.word),
       quoted(text_of({.kind = quality.cross})),
       quoted(is_preset ? arguments.criteria : fs::absolute(arguments.criteria).string()));
+  for (const auto& [name, value] : quality.options.values())
+    text += fmt::format("{} = {}\n", name, text_of(value));
   if (arguments.size)
     text +=
         fmt::format("size = {}\n", as_number(*arguments.size) ? *arguments.size : quoted(*arguments.size));

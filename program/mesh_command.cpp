@@ -110,7 +110,10 @@ Case read_case(const MeshArguments& arguments) {
     return c;
   }
   Case c = read_model_case(arguments.model);
-  if (!arguments.pipeline && c.cross.text.empty()) c.cross.kind = quality_named(arguments.quality).cross;
+  if (arguments.pipeline) return c;
+  const Quality& quality = quality_named(arguments.quality);
+  if (c.cross.text.empty()) c.cross.kind = quality.cross;
+  c.options.set_absent(quality.options);
   return c;
 }
 

@@ -308,14 +308,15 @@ class Capping {
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked,
                                   const std::vector<CurveDivision>& divisions, const PeriodicSides& periodic,
-                                  const MappedSpec& mapped, double agreement, long long most_steps) {
+                                  const MappedSpec& mapped, double agreement, long long most_steps,
+                                  bool round_holes) {
   const Mesh& fine = model.fine;
   SurfaceCurves curves = find_curves(model, std::move(flattening), size.on_maps());
   ChainPairs pairs = pair_chains(model, curves.chains, curves.cut_face, periodic);
   curves.images = std::move(pairs.pairs);
   const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
   CurveDemands wanted = measure_curves(fine, curves, across, size, asked != nullptr ? *asked : size);
-  if (agreement > 0) widen_round_holes(fine, curves, across, size, agreement, wanted);
+  if (round_holes) widen_round_holes(fine, curves, across, size, agreement, wanted);
   divide_curves(fine, curves, divisions, wanted);
   SurfaceDomain domain;
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);

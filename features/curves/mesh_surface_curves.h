@@ -18,12 +18,14 @@ constexpr long long kMostAgreementSteps = 200'000'000;
 /// Curves of `divisions` get these edges, and the second sides of `periodic` the images of the nodes of the
 /// first: faces that are images have no patches, see `boundary.periodic_faces`. Patches that become grids, as
 /// `mapped` asks, get numbers that fit. `agreement`: the price of agree_on_counts(); 0: numbers follow the
-/// size alone; `most_steps`: its budget. Throws FaceError when no refinement gives a valid boundary, naming
-/// the face, and InputError where divisions leave a patch with an odd number of edges.
+/// size alone; `most_steps`: its budget. `round_holes`: see widen_round_holes(), by that price. Throws
+/// FaceError when no refinement gives a valid boundary, naming the face, and InputError where divisions leave
+/// a patch with an odd number of edges.
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked = nullptr,
                                   const std::vector<CurveDivision>& divisions = {},
                                   const PeriodicSides& periodic = {}, const MappedSpec& mapped = {},
-                                  double agreement = 0, long long most_steps = kMostAgreementSteps);
+                                  double agreement = 0, long long most_steps = kMostAgreementSteps,
+                                  bool round_holes = false);
 
 }  // namespace delquad

@@ -9,6 +9,8 @@ struct CurveOptions {
   /// On surfaces, what an irregular vertex less is worth, in quads times eta, see agree_on_counts(); 0: the
   /// size alone counts, and narrow faces are no grids, as in the plane.
   double agreement = 3;
+  /// On surfaces small round holes get the edges of the square around them, see widen_round_holes().
+  bool round_holes = false;
   /// Curves shorter than so many sizes become one with those that they continue, see join_short_curves().
   double join_below = 0.25;
   /// In the plane, nodes face each other across regions thinner than the size, see face_nodes(), which get

@@ -32,6 +32,7 @@ const char* version();
 struct Quality {
   std::string name, word;
   CrossKind cross;
+  Options options = {};  ///< where the problem does not set them
 };
 /// Throws InputError, naming those known.
 const Quality& quality_named(const std::string& name);

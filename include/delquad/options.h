@@ -68,6 +68,10 @@ class Options {
     const auto at = values_.find(name);
     return at == values_.end() ? nullptr : &at->second;
   }
+  /// Sets what `others` have set and these have not.
+  Options& set_absent(const Options& others);
+  /// Those that were set.
+  const std::map<std::string, OptionValue>& values() const { return values_; }
   friend bool operator==(const Options& a, const Options& b) { return a.values_ == b.values_; }
 
  private:

@@ -248,9 +248,9 @@ std::vector<std::size_t> edges_of_hole(double side, double depth, double agreeme
   SurfaceModel model = make_surface_model(std::move(plate));
   improve_triangulation(model);
   Flattening flattening = flatten(model);
-  const SurfaceDomain domain =
-      make_surface_domain(model, std::move(flattening), SurfaceSize(make_constant_size(1)),
-                          *make_primal_dual_solver(), nullptr, {}, {}, {}, agreement);
+  const SurfaceDomain domain = make_surface_domain(
+      model, std::move(flattening), SurfaceSize(make_constant_size(1)), *make_primal_dual_solver(), nullptr,
+      {}, {}, {}, agreement, kMostAgreementSteps, true);
   std::map<int, std::size_t> edges;  // cuts part curves
   for (std::size_t c = 0; c < domain.chains.size(); ++c)
     if (std::ranges::all_of(domain.nodes.on_curve[c], [&](const CurveNode& n) {
