@@ -187,6 +187,7 @@ Vec3 way_into(const SurfaceModel& model, int curve, const HalfEdge& side, const 
   const Mesh& mesh = model.fine;
   const auto [a, b] = side.run();
   const Vec3 along = mesh.points[b] - mesh.points[a], inwards = cross(direction, along);
+  if (!(norm(inwards) > 0)) return {};  // of triangles without area: nothing is known
   const double step = kStep * norm(area_vector(mesh, side.element)) / norm(along);
   const Vec3 at = model.projector->to_curve(curve, 0.5 * (mesh.points[a] + mesh.points[b]));
   const Vec3 way =
