@@ -7,6 +7,7 @@
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/treatment/treatment.h"
 #include "delquad/matching.h"
+#include "delquad/mesher.h"
 #include "smoothing/cvt/smooth_points.h"
 #include "tests/support/expect_input_error.h"
 
@@ -29,6 +30,13 @@ TEST(OptionValues, AreThoseOfTheStructsUntilTheyAreSet) {
   EXPECT_EQ(cvt_options(options).smoothing.outer_iterations, 3);
   options.reset("insertion.rejection").reset("smoothing.method").reset("smoothing.outer_iterations");
   EXPECT_EQ(options, Options{});
+}
+
+TEST(OptionValues, WhatIsSetStaysWhereOthersHaveMore) {
+  Options options = Options{}.set("smoothing.p", 8);
+  options.set_absent(Options{}.set("smoothing.p", 4).set("cleanup.rounds", 3));
+  EXPECT_EQ(options, Options{}.set("smoothing.p", 8).set("cleanup.rounds", 3));
+  EXPECT_TRUE(quality_named("best").options.flag("curves.round_holes"));
 }
 
 TEST(OptionValues, AWholeNumberWillDoForANumber) {

@@ -76,6 +76,22 @@ TEST(SurfaceOptions, NonsenseIsRefused) {
   refused("square.toml", {"--compound", "all"}, "--compound: the model is planar");
 }
 
+TEST(SurfaceOptions, BestWidensRoundHolesUnlessThatIsSaid) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "roof.off") << roof(false);
+  const auto widens = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"mesh", folder / "roof.off", "-o", folder / "roof.msh", "--size", "0.25",
+                                     "--json", folder / "r"});
+    const auto run = delquad(options);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return contains(read_text(folder / "r"), "\"round_holes\": true");
+  };
+  EXPECT_TRUE(widens({"--quality", "best"}));
+  EXPECT_FALSE(widens({"--quality", "best", "--set", "curves.round_holes=false"}));
+  EXPECT_FALSE(widens({"--quality", "good"}));
+  EXPECT_FALSE(widens({"--pipeline", "DBCQO"}));
+}
+
 TEST(SurfaceOptions, ModelFilesNameASurface) {
   const TemporaryFolder folder;
   std::ofstream(folder / "roof.off") << roof(false);
