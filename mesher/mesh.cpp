@@ -195,8 +195,16 @@ MeshResult mesh(MeshProblem problem, const std::string& text, const Context& con
 const std::vector<Quality>& quality_registry() {
   static const std::vector<Quality> registry = {
       {"fast", "DB", CrossKind::kBoundary},
-      {"good", "DBCO", CrossKind::kSizeAware},
-      {"best", "DBCQO", CrossKind::kSizeAware, Options().set("curves.round_holes", true)},
+      // Small cavities that cost nothing.
+      {"good", "DBQO", CrossKind::kSizeAware,
+       Options()
+           .set("regularity.quads", 60)
+           .set("regularity.rounds", 1)
+           .set("regularity.tolerance", 0.0)
+           .set("repair.across_cuts", false)},
+      // Annealing for longer leaves as many irregular vertices once there is Q.
+      {"best", "DBCQO", CrossKind::kSizeAware,
+       Options().set("curves.round_holes", true).set("cleanup.rounds", 10)},
   };
   return registry;
 }

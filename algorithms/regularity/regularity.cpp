@@ -198,7 +198,7 @@ constexpr double kQuadsPerGain = 15, kMoreQuads = 3;
 constexpr int kFillSweeps = 12;
 /// A fill is given up where a sweep mends less than this part of what it loses too much, or of what its worst
 /// corner lacks.
-constexpr double kHopelessPart = 0.12;
+constexpr double kHopelessPart = 0.2;
 /// And where at any time the sum loses so much more than it may, times the square root of the quads around.
 /// Without that, relocation costs half as much again and mends as many on the plate of 16 holes; with 1.2 it
 /// costs a fifth less and mends 2 % fewer.
@@ -484,7 +484,7 @@ class RegularityProcess {
       relocation_.activate(v);
       list(v);
     }
-    relocation_.relax(kRelaxed, 3);
+    relocation_.relax(kRelaxed, 1);
   }
 
   const QuadBlock& block_;

@@ -285,7 +285,7 @@ namespace {
 /// Steps that L-BFGS remembers: more of them cost as much time as they save.
 constexpr int kMemory = 5;
 /// The descent ends when a step gains less than this part of the energy.
-constexpr double kLeastGain = 1e-5;
+constexpr double kLeastGain = 4e-4;
 
 template <class Vec>
 class CeresEnergy final : public ceres::FirstOrderFunction {

@@ -12,7 +12,7 @@ namespace delquad {
 
 struct OptimisationOptions {
   int passes = 4;            ///< at most; delta and the cross are evaluated anew before each
-  int iterations = 25;       ///< of L-BFGS, at most: of the worst quads, then of the others, in each pass
+  int iterations = 30;       ///< of L-BFGS, at most: of the worst quads, then of the others, in each pass
   double size = 0.4;         ///< weight of the edges' lengths, see QuadEnergyWeights
   double alignment = 0.02;   ///< weight of the edges' directions
   double orthogonality = 0;  ///< weight of quads whose corners lie on no circle

@@ -149,12 +149,12 @@ TEST(MeshCommand, QualityChoosesWordAndCross) {
   const auto has = [](const std::string& text, const std::string& word, const std::string& cross) {
     return contains(text, "\"pipeline\": \"" + word + "\"") && contains(text, "\"cross\": \"" + cross + "\"");
   };
-  EXPECT_TRUE(has(record({}), "DBCO", "size-aware"));
+  EXPECT_TRUE(has(record({}), "DBQO", "size-aware"));
   EXPECT_TRUE(has(record({"--quality", "fast"}), "DB", "boundary"));
-  EXPECT_TRUE(has(record({"--quality", "good"}), "DBCO", "size-aware"));
+  EXPECT_TRUE(has(record({"--quality", "good"}), "DBQO", "size-aware"));
   EXPECT_TRUE(has(record({"--quality", "best"}), "DBCQO", "size-aware"));
   // What is said elsewhere counts.
-  EXPECT_TRUE(has(record({"--cross", "0.1"}), "DBCO", "0.1"));
+  EXPECT_TRUE(has(record({"--cross", "0.1"}), "DBQO", "0.1"));
   EXPECT_TRUE(has(record({"--pipeline", "DBC"}), "DBC", "boundary"));
 }
 

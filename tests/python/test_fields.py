@@ -125,9 +125,10 @@ def test_cross_functions_get_points_of_the_plane():
 def test_named_crosses_and_qualities():
     size = "0.03 + 0.05*x"
     by_quality = delquad.mesh(square(), size=size, quality="good")
-    by_word = delquad.mesh(square(), size=size, word="DBCO", cross="size-aware")
+    options = {"regularity.quads": 60, "regularity.rounds": 1, "regularity.tolerance": 0.0}
+    by_word = delquad.mesh(square(), size=size, word="DBQO", cross="size-aware", options=options)
     assert np.array_equal(by_quality.points, by_word.points)
-    plain = delquad.mesh(square(), size=size, word="DBCO")
+    plain = delquad.mesh(square(), size=size, word="DBQO", options=options)
     assert not np.array_equal(plain.points, by_word.points)
     assert delquad.mesh(square(), size=size, cross="gradient", word="DB").sound
     assert delquad.qualities()["fast"] == "DB"
