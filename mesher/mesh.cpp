@@ -195,16 +195,20 @@ MeshResult mesh(MeshProblem problem, const std::string& text, const Context& con
 const std::vector<Quality>& quality_registry() {
   static const std::vector<Quality> registry = {
       {"fast", "DB", CrossKind::kBoundary},
-      // Small cavities that cost nothing.
+      // What Q and O move after it need not settle in B. Small cavities that cost nothing.
       {"good", "DBQO", CrossKind::kSizeAware,
        Options()
+           .set("recombination.settled", 0.05)
            .set("regularity.quads", 60)
            .set("regularity.rounds", 1)
            .set("regularity.tolerance", 0.0)
            .set("repair.across_cuts", false)},
       // Annealing for longer leaves as many irregular vertices once there is Q.
       {"best", "DBCQO", CrossKind::kSizeAware,
-       Options().set("curves.round_holes", true).set("cleanup.rounds", 10)},
+       Options()
+           .set("curves.round_holes", true)
+           .set("recombination.settled", 0.05)
+           .set("cleanup.rounds", 10)},
   };
   return registry;
 }

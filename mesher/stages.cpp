@@ -103,13 +103,13 @@ void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch treatment;
   const DoingStage treating("treatment");
   TreatmentSummary treated;
-  QuadPatch result = treat_paper(patch.quads, in.size, options.treatment_options, &treated);
+  TreatmentOptions treatment_options{.settled = options.settled};
+  QuadPatch result = treat_paper(patch.quads, in.size, treatment_options, &treated);
   const bool discarded = closes_too_tightly(result, in.boundary.point_node);
   if (discarded) {
-    TreatmentOptions relocation = options.treatment_options;
-    relocation.max_rounds = 0;
+    treatment_options.max_rounds = 0;
     const double in_vain = treated.seconds;
-    result = treat_paper(patch.quads, in.size, relocation, &treated);
+    result = treat_paper(patch.quads, in.size, treatment_options, &treated);
     treated.seconds += in_vain;
   }
   patch.quads = std::move(result);
@@ -135,7 +135,7 @@ void merge_and_treat(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const DoingStage treating("treatment");
   const Stopwatch watch;
   TreatmentSummary treated;
-  patch.quads = treat_by_degrees(patch.quads, in.size, options.treatment_options, &treated);
+  patch.quads = treat_by_degrees(patch.quads, in.size, {}, &treated);
   add_summary(log, treated);
   log.add_time("treatment", watch.time());
 }

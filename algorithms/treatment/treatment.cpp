@@ -19,8 +19,6 @@ namespace {
 
 /// Sweeps of local relocation within which a move must settle; and for the few that may lift a poor element.
 constexpr int kTrialSweeps = 4, kRescueSweeps = 12;
-/// In the end vertices rest once they would move by less than this part of an edge.
-constexpr double kSettled = 0.02;
 /// A pair's first move may cost this much valence energy; of its second moves so many are tried.
 constexpr int kPairLoss = 2, kPairTries = 3;
 /// No pair of moves gains where the energy around is less: a dislocation alone (3-5) cannot vanish.
@@ -64,10 +62,10 @@ class TreatmentProcess {
     summary_.stopped = is_spent();
     relocation_.keep_convex_corners();
     relocation_.activate_all(block_);
-    summary_.relocated += relocation_.relax(kSettled, 30);
+    summary_.relocated += relocation_.relax(options.settled, 30);
     if (options.max_rounds > 0) {
       for (int pass = 0; pass < kRemeshingPasses && remeshings() > 0;) ++pass;
-      summary_.relocated += relocation_.relax(kSettled, 30);
+      summary_.relocated += relocation_.relax(options.settled, 30);
     }
     summary_.relocated += relocation_.lift_worst(0.5, 10);
     summary_.looks = relocation_.looks();
@@ -421,7 +419,12 @@ const OptionTable<RecombinationOptions>& recombination_table() {
                &RecombinationOptions::cost)
           .choice({.name = "treatment", .help = "after the matching"}, &RecombinationOptions::treatment,
                   std::vector<std::pair<std::string, Treatment>>{{"none", Treatment::kNone},
-                                                                 {"paper", Treatment::kPaper}});
+                                                                 {"paper", Treatment::kPaper}})
+          .add({.name = "settled",
+                .help = "part of an edge below which a move of the treatment calls for no more",
+                .above = 0,
+                .most = 1},
+               &RecombinationOptions::settled);
   return all;
 }
 

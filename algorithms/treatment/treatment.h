@@ -11,7 +11,8 @@
 namespace delquad {
 
 struct TreatmentOptions {
-  int max_rounds = 20;  ///< rounds of topology and relocation; stops earlier when a round changes no topology
+  int max_rounds = 20;    ///< rounds of topology and relocation; stops earlier when a round changes no topology
+  double settled = 0.02;  ///< in the end vertices rest once they would move by less than this part of an edge
 };
 
 struct TreatmentSummary {
@@ -77,7 +78,7 @@ struct RecombinationOptions {
   std::string solver = "primal-dual";  ///< of matching_solver_names(); for the counts on curves, too
   std::string cost = "eta";            ///< of merge_cost_names()
   Treatment treatment = Treatment::kPaper;
-  TreatmentOptions treatment_options;
+  double settled = TreatmentOptions().settled;
 };
 
 OptionGroup recombination_group();

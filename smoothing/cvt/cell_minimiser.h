@@ -68,7 +68,7 @@ enum class MinimiserTermination {
 };
 
 struct MinimiserOptions {
-  int iterations = 40;               ///< at most
+  int iterations = 25;               ///< at most
   double function_tolerance = 1e-5;  ///< converged when a step lowers F by less than this times F
   double gradient_tolerance = 0;     ///< converged when no seed's derivative, in newton_scale(), is larger
 };

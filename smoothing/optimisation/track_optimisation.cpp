@@ -98,7 +98,7 @@ constexpr double kHeldSine = 1e-3;
 constexpr double kRoom = 0.005;
 /// The worst: quads below this eta. All passes but the first leave alone what lies around better ones than
 /// the second value. Rings of quads around those below move with them.
-constexpr double kWorstEta = 0.6, kSettledEta = 0.65;
+constexpr double kWorstEta = 0.6, kSettledEta = 0.9;
 constexpr int kRings = 2;
 /// No pass follows one that gained no more than this part of the energy.
 constexpr double kLeastTrackedGain = 0.1;

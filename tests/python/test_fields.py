@@ -125,7 +125,8 @@ def test_cross_functions_get_points_of_the_plane():
 def test_named_crosses_and_qualities():
     size = "0.03 + 0.05*x"
     by_quality = delquad.mesh(square(), size=size, quality="good")
-    options = {"regularity.quads": 60, "regularity.rounds": 1, "regularity.tolerance": 0.0}
+    options = {"regularity.quads": 60, "regularity.rounds": 1, "regularity.tolerance": 0.0,
+               "recombination.settled": 0.05}
     by_word = delquad.mesh(square(), size=size, word="DBQO", cross="size-aware", options=options)
     assert np.array_equal(by_quality.points, by_word.points)
     plain = delquad.mesh(square(), size=size, word="DBQO", options=options)
