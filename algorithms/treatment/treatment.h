@@ -11,7 +11,7 @@
 namespace delquad {
 
 struct TreatmentOptions {
-  int max_rounds = 20;    ///< rounds of topology and relocation; stops earlier when a round changes no topology
+  int max_rounds = 20;  ///< rounds of topology and relocation; stops earlier when a round changes no topology
   double settled = 0.02;  ///< in the end vertices rest once they would move by less than this part of an edge
 };
 
