@@ -12,6 +12,7 @@
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/linf_adaptation.h"
+#include "algorithms/layout/layout.h"
 #include "algorithms/recombination/merge_cost.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/regularity/regularity.h"
@@ -182,6 +183,34 @@ void fill_cavities(const StageInput& in, PatchMesh& patch, StageLog& log) {
   lessen_irregular(make_regular, regularity_options(in.options), "regularity", in, patch, log);
 }
 
+/// What has no layout, or one that closes too tightly, is meshed by D and B.
+void lay_out_or_insert(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  const Stopwatch watch;
+  LayoutSummary summary;
+  auto mesh = lay_out(in.boundary, in.cross, in.size, layout_options(in.options), &summary);
+  if (mesh && closes_too_tightly(*mesh, in.boundary.point_node)) mesh = std::nullopt, summary.without = 1;
+  add_summary(log, summary);
+  log.add_time("layout", watch.time());
+  if (mesh) {
+    patch.quads = *std::move(mesh);
+    patch.form = PatchForm::kQuads;
+    return;
+  }
+  insert_points(mesh_delquad, *make_linf_delquad(), in, patch, log);
+  merge_triangles(in, patch, log);
+}
+
+void lay_out_where_better(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  if (count_irregular(patch.quads) == 0 || !patch.quads.triangles.empty()) return;
+  const Stopwatch watch;
+  LayoutSummary summary;
+  auto mesh = more_regular(patch.quads, in.boundary, in.cross, in.size, layout_options(in.options), &summary);
+  if (mesh && closes_too_tightly(*mesh, in.boundary.point_node)) mesh = std::nullopt, summary.worse = 1;
+  if (mesh) patch.quads = *std::move(mesh);
+  add_summary(log, summary);
+  log.add_time("layout", watch.time());
+}
+
 void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch watch;
   OptimisationSummary summary;
@@ -341,6 +370,15 @@ std::deque<Stage>& stages() {
       {'B', "recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
       {'G', "greedy recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_and_treat, {}, true},
       {'T', "L-infinity adaptation", PatchForm::kTriangles, PatchForm::kQuads, adapt_and_merge, {}, true},
+      {'K', "layout", PatchForm::kBoundary, PatchForm::kQuads, lay_out_or_insert},
+      {'R',
+       "layout where that is better",
+       PatchForm::kQuads,
+       PatchForm::kQuads,
+       lay_out_where_better,
+       {},
+       false,
+       true},
       {'C', "topological clean-up", PatchForm::kQuads, PatchForm::kQuads, clean_up_quads},
       {'Q', "regularity", PatchForm::kQuads, PatchForm::kQuads, fill_cavities, {}, false, true},
       {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, untangle_quads, optimise_quads},

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/box_tree.h"
+#include "delquad/fields.h"
+#include "delquad/mesh.h"
+
+namespace delquad {
+
+/// A vertex on the rim of a piece of a patch, and how many quads it gets inside.
+struct RimVertex {
+  int vertex;
+  int quads;
+};
+/// The piece lies on its left. Where a cut opens the piece, both of its sides are on the rim.
+using Rim = std::vector<RimVertex>;
+
+/// All vertices that rims have.
+struct LayoutVertices {
+  std::vector<Vec2> places;
+  std::vector<double> delta;
+};
+
+/// A place on one of several rims.
+struct RimPlace {
+  int rim, at;
+  friend bool operator==(const RimPlace&, const RimPlace&) = default;
+};
+
+/// A line along the cross field from a vertex of a rim to another.
+struct FieldLine {
+  RimPlace from, to;
+  int along;  ///< quads at its start between it and the rim that goes on from there
+  int back;   ///< quads at its end between it and the rim that comes in there
+  std::vector<Vec2> path;
+  std::vector<double> edges;  ///< of the wanted length, up to each point of the path
+  double misfit;              ///< how far its ends are from where and how the field has them; squares, summed
+};
+
+/// The lines of a cross field in a piece of a patch.
+class FieldLines {
+ public:
+  /// All but `rims` outlive this object.
+  FieldLines(const CrossField& cross, const ParametricSize& size, const LayoutVertices& vertices,
+             std::span<const Rim> rims);
+
+  /// Adds the lines that leave a place: one between any two neighbouring quads there, to either end of the
+  /// edge that it meets.
+  void trace(RimPlace from, std::vector<FieldLine>& lines);
+  /// Whether a row of edges between two places meets no rim.
+  bool is_free(RimPlace from, RimPlace to, std::span<const Vec2> row) const;
+
+ private:
+  struct Edge {
+    RimPlace from, to;
+  };
+  /// The angle of a place from the edge that goes out to the one that comes in.
+  struct Corner {
+    Vec2 out;
+    double angle;
+  };
+  const RimVertex& entry(RimPlace p) const { return rims_[p.rim][p.at]; }
+  Vec2 place(RimPlace p) const { return vertices_.places[entry(p).vertex]; }
+  RimPlace next(RimPlace p) const { return {p.rim, (p.at + 1) % static_cast<int>(rims_[p.rim].size())}; }
+  RimPlace before(RimPlace p) const {
+    const int n = static_cast<int>(rims_[p.rim].size());
+    return {p.rim, (p.at + n - 1) % n};
+  }
+  Corner corner(RimPlace p) const;
+  Vec2 arm(Vec2 at, Vec2 direction);
+  void trace(RimPlace from, int along, std::vector<FieldLine>& lines);
+  void end(FieldLine line, Vec2 hit, RimPlace to, std::vector<FieldLine>& lines) const;
+
+  const CrossField& cross_;
+  const ParametricSize& size_;
+  const LayoutVertices& vertices_;
+  std::vector<Rim> rims_;
+  std::vector<Edge> edges_;
+  BoxTree<Vec2> tree_;
+  int cross_hint_ = -1, size_hint_ = -1;
+};
+
+}  // namespace delquad

@@ -1,0 +1,629 @@
+#include "algorithms/layout/layout.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "algorithms/cleanup/cleanup.h"
+#include "algorithms/insertion/frontal_mesher.h"
+#include "algorithms/layout/field_lines.h"
+#include "algorithms/recombination/recombine.h"
+#include "algorithms/regularity/patterns.h"
+#include "algorithms/regularity/regularity.h"
+#include "algorithms/treatment/treatment.h"
+#include "base/cancel.h"
+#include "base/option_table.h"
+#include "base/stopwatch.h"
+#include "delquad/error.h"
+#include "geometry/mesh/quad_corners.h"
+#include "geometry/mesh/quad_topology.h"
+#include "smoothing/optimisation/track_optimisation.h"
+#include "smoothing/relocation/element_quality.h"
+#include "smoothing/relocation/quad_relocation.h"
+
+namespace delquad {
+
+namespace {
+
+// Costs are in quads times eta.
+
+/// Of a cut, of a corner that lies one edge from its end, and of one that leaves all of a piece on one side.
+constexpr double kCut = 0.3, kCrowding = 1, kUneven = 0.5;
+/// Of an edge of a cut that joins two rims: the shortest is best.
+constexpr double kJoining = 0.05;
+/// Of a quad that lacks all of eta, before relocation; and what a piece costs at most that needs no better
+/// ones.
+constexpr double kLoss = 0.5, kGoodCost = 2;
+/// Of an irregular vertex while cuts are chosen for a try, in parts: those that leave a pair more may be
+/// better.
+constexpr double kEstimate = 0.25;
+/// Cuts whose pieces are filled for a try, and those of them that are followed, one less at each level. At
+/// the levels beyond only pieces without a pattern are cut, twice as deep at most.
+constexpr std::size_t kMostTried = 24;
+constexpr int kMostCuts = 3, kMostLevels = 3;
+/// Corners that a piece may have for each level that it begins above the others: large patches take long.
+constexpr int kCornersPerLevel = 12;
+/// Corners of pieces from which levels count.
+constexpr int kFewCorners = 8;
+/// Places of a piece from which lines are traced, at most: more are left out evenly.
+constexpr std::size_t kMostStarts = 160;
+/// Irregular vertices beyond those necessary of a piece that no pattern fills, and for each vertex of its
+/// rim; what a quad of it lacks.
+constexpr int kMixed = 4;
+constexpr double kMixedPerVertex = 0.1, kMixedLoss = 0.15;
+/// In pieces of six corners with more vertices on their rims there is mostly a row of edges that leaves two
+/// stars.
+constexpr std::size_t kManyVertices = 36;
+/// Of the layouts that are tried where there are quads already: times `irregular`.
+constexpr std::array<double, 2> kWeights{1, 3};
+/// Of a quad more that fails, where there are quads already.
+constexpr double kFailing = 0.4;
+/// Sweeps of relocation, first without lengths, and the part of an edge that is no move.
+constexpr int kSweeps = 60;
+constexpr double kRelaxed = 0.02;
+
+int corners_of(const Rim& rim) {
+  int sum = 0;
+  for (const RimVertex& v : rim) sum += 2 - v.quads;
+  return sum;
+}
+
+std::vector<int> turns_of(const Rim& rim) {
+  std::vector<int> turns;
+  for (const RimVertex& v : rim) turns.push_back(2 - v.quads);
+  return turns;
+}
+
+/// The two rims that a row of vertices makes of one, or the one that it makes of two.
+std::vector<Rim> cut_along(std::span<const Rim> rims, const FieldLine& line, std::span<const int> row) {
+  const Rim& first = rims[line.from.rim];
+  const Rim& second = rims[line.to.rim];
+  const auto copy = [](const Rim& rim, int from, int to, Rim& into) {
+    const int n = static_cast<int>(rim.size());
+    for (int i = (from + 1) % n; i != to; i = (i + 1) % n) into.push_back(rim[i]);
+  };
+  const RimVertex start = first[line.from.at], end = second[line.to.at];
+  const auto ahead = [&](Rim& into) {
+    for (const int v : row) into.push_back({v, 2});
+  };
+  const auto back = [&](Rim& into) {
+    for (std::size_t i = row.size(); i-- > 0;) into.push_back({row[i], 2});
+  };
+  if (line.from.rim != line.to.rim) {
+    Rim all{{start.vertex, start.quads - line.along}};
+    ahead(all);
+    all.push_back({end.vertex, end.quads - line.back});
+    copy(second, line.to.at, line.to.at, all);
+    all.push_back({end.vertex, line.back});
+    back(all);
+    all.push_back({start.vertex, line.along});
+    copy(first, line.from.at, line.from.at, all);
+    return {std::move(all)};
+  }
+  Rim right{{start.vertex, line.along}}, left{{end.vertex, end.quads - line.back}};
+  copy(first, line.from.at, line.to.at, right);
+  right.push_back({end.vertex, line.back});
+  back(right);
+  copy(first, line.to.at, line.from.at, left);
+  left.push_back({start.vertex, start.quads - line.along});
+  ahead(left);
+  return {std::move(right), std::move(left)};
+}
+
+bool is_convex(const Rim& rim) {
+  return std::ranges::all_of(rim, [](const RimVertex& v) { return v.quads <= 2; });
+}
+/// Of two to five corners, none of them concave.
+bool is_polygon(const Rim& rim) {
+  const int corners = corners_of(rim);
+  return corners >= 2 && corners <= 5 && is_convex(rim);
+}
+
+/// Whether a row of edges cuts a polygon of six sides into two of five that are stars.
+bool is_two_stars(std::span<const int> s) {
+  for (int i = 0; i < 3; ++i)
+    for (int a = 1; a < s[i]; ++a)
+      for (int b = 1; b < s[i + 3]; ++b) {
+        const int most = s[i] + s[i + 1] + s[i + 2] + s[i + 3];
+        for (int cut = 1 + (a + s[(i + 4) % 6] + s[(i + 5) % 6] + s[i + 3] - b + 1) % 2; cut <= most;
+             cut += 2) {
+          const std::array<int, 5> one{s[i] - a, s[i + 1], s[i + 2], b, cut},
+              other{s[i + 3] - b, s[(i + 4) % 6], s[(i + 5) % 6], a, cut};
+          if (star_feet(one) && star_feet(other)) return true;
+        }
+      }
+  return false;
+}
+
+/// Odd pieces have no quads.
+constexpr double kNever = 1e30;
+
+/// What the irregular vertices of a piece cost, as far as its rim tells.
+double cost_of(const Rim& rim, double weight) {
+  const int corners = corners_of(rim);
+  if (rim.size() % 2 != 0 || rim.size() < 4 || corners < 2) return kNever;
+  const int least = std::abs(4 - corners);
+  const auto sides = corners <= 6 ? sides_of(turns_of(rim)) : std::nullopt;
+  if (!sides) return weight * least;
+  if (corners == 6)
+    return weight * (rim.size() > kManyVertices || is_two_stars(sides->edges) ? least : least + kMixed);
+  const int irregular = least_irregular_of(sides->edges);
+  if (irregular < 0 && corners == 4) {
+    // Rows that end, of which a pair of irregular vertices can end as many as there is room for.
+    int pairs = 1;
+    for (int i = 0; i < 2; ++i) {
+      const int rows = std::abs(sides->edges[i] - sides->edges[i + 2]),
+                room = std::min(sides->edges[(i + 1) % 4], sides->edges[(i + 3) % 4]);
+      pairs += (rows + 2 * room - 1) / (2 * std::max(1, room - 1));
+    }
+    return weight * 2 * pairs;
+  }
+  return weight * (irregular < 0 ? least + kMixed : irregular);
+}
+
+class LayoutSearch {
+ public:
+  LayoutSearch(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size,
+               const LayoutOptions& options, LayoutSummary& summary)
+      : boundary_(boundary), cross_(cross), size_(size), options_(options), summary_(summary) {}
+
+  std::optional<QuadPatch> run() {
+    std::vector<Rim> rims = rims_of_boundary();
+    while (rims.size() > 1)
+      if (!join(rims)) return std::nullopt;
+    if (rims.empty()) return std::nullopt;
+    const auto found =
+        solve(rims[0], std::min(kMostLevels, std::abs(corners_of(rims[0])) / kCornersPerLevel));
+    if (!found) return std::nullopt;
+    return fill(*found);
+  }
+
+ private:
+  struct Piece {
+    Rim rim;
+    std::optional<Pattern> pattern;  ///< none: it is meshed as a patch of its own
+  };
+  struct Solution {
+    double cost = 0;
+    std::vector<Piece> pieces;
+  };
+  /// A line with its number of edges.
+  struct Cut {
+    FieldLine line;
+    int edges;
+    double cost;
+    std::vector<int> row = {};
+  };
+
+  std::vector<Rim> rims_of_boundary() {
+    const std::vector<Vec2>& points = boundary_.points;
+    vertices_.places = points;
+    int hint = -1;
+    for (const Vec2 p : points) vertices_.delta.push_back(size_.at(p, hint));
+    std::vector<int> next(points.size(), -1), before(points.size(), -1);
+    for (const auto& [a, b] : boundary_.edges) next[a] = b, before[b] = a;
+    std::vector<char> met(points.size(), 0);
+    std::vector<Rim> rims;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (met[i]) continue;
+      Rim& rim = rims.emplace_back();
+      for (int v = static_cast<int>(i); !met[v]; v = next[v]) {
+        met[v] = 1;
+        const Vec2 out = points[next[v]] - points[v], in = points[before[v]] - points[v];
+        double angle = std::atan2(cross(out, in), dot(out, in));
+        if (angle <= 0) angle += 2 * std::numbers::pi;
+        rim.push_back({v, ideal_quads(angle * 2 / std::numbers::pi)});
+      }
+    }
+    return rims;
+  }
+
+  /// Vertices along a line, both ends included.
+  std::vector<Vec2> row_along(const FieldLine& line, int edges) const {
+    std::vector<Vec2> row{line.path.front()};
+    std::size_t k = 1;
+    for (int i = 1; i < edges; ++i) {
+      const double at = line.edges.back() * i / edges;
+      while (k + 1 < line.edges.size() && line.edges[k] < at) ++k;
+      const double t = (at - line.edges[k - 1]) / std::max(line.edges[k] - line.edges[k - 1], kTinyLength);
+      row.push_back(line.path[k - 1] + t * (line.path[k] - line.path[k - 1]));
+    }
+    row.push_back(line.path.back());
+    return row;
+  }
+  /// Adds the vertices inside a cut.
+  std::vector<int> add_row(std::span<const Vec2> row) {
+    std::vector<int> added;
+    int hint = -1;
+    for (const Vec2 p : row.subspan(1, row.size() - 2)) {
+      added.push_back(static_cast<int>(vertices_.places.size()));
+      vertices_.places.push_back(p);
+      vertices_.delta.push_back(size_.at(p, hint));
+    }
+    return added;
+  }
+
+  static double strain(const FieldLine& line, int edges) {
+    const double misfit = std::log(line.edges.back() / edges);
+    return edges * misfit * misfit + line.misfit;
+  }
+
+  /// The lines from places of some rims, from concave ones alone where there are any and `concave` says so.
+  std::vector<FieldLine> lines_from(FieldLines& tracer, std::span<const Rim> rims, bool concave) const {
+    std::vector<RimPlace> starts;
+    for (const int least : {concave ? 3 : 2, 2}) {
+      for (int r = 0; r < static_cast<int>(rims.size()); ++r)
+        for (int i = 0; i < static_cast<int>(rims[r].size()); ++i)
+          if (rims[r][i].quads >= least) starts.push_back({r, i});
+      if (!starts.empty()) break;
+    }
+    std::vector<FieldLine> lines;
+    const std::size_t stride = starts.size() / kMostStarts + 1;
+    for (std::size_t i = 0; i < starts.size(); i += stride) tracer.trace(starts[i], lines);
+    return lines;
+  }
+
+  /// What it costs that corners are near a place on both sides of it.
+  static double crowding(const Rim& rim, int at) {
+    const int n = static_cast<int>(rim.size());
+    double cost = 0;
+    for (const int step : {1, n - 1}) {
+      int i = (at + step) % n, edges = 1;
+      while (edges < n && rim[i].quads == 2) i = (i + step) % n, ++edges;
+      if (rim[i].quads == 1) cost += kCrowding / (edges * edges);
+    }
+    return cost;
+  }
+
+  /// Joins the two rims that are joined best.
+  bool join(std::vector<Rim>& rims) {
+    check_cancelled();
+    FieldLines tracer(cross_, size_, vertices_, rims);
+    std::vector<Cut> cuts;
+    for (FieldLine& line : lines_from(tracer, rims, false)) {
+      if (line.from.rim == line.to.rim) continue;
+      const int edges = std::max(1, static_cast<int>(std::lround(line.edges.back())));
+      const double cost = strain(line, edges) + kJoining * edges;
+      cuts.push_back({std::move(line), edges, cost});
+    }
+    std::ranges::stable_sort(cuts, {}, &Cut::cost);
+    for (const Cut& cut : cuts) {
+      const auto row = row_along(cut.line, cut.edges);
+      if (!tracer.is_free(cut.line.from, cut.line.to, row)) continue;
+      std::vector<Rim> all = cut_along(rims, cut.line, add_row(row));
+      for (int r = 0; r < static_cast<int>(rims.size()); ++r)
+        if (r != cut.line.from.rim && r != cut.line.to.rim) all.push_back(std::move(rims[r]));
+      rims = std::move(all);
+      return true;
+    }
+    return false;
+  }
+
+  Outline outline_of(const Rim& rim) const {
+    Outline outline;
+    for (const RimVertex& v : rim) {
+      outline.places.push_back(vertices_.places[v.vertex]);
+      outline.delta.push_back(vertices_.delta[v.vertex]);
+      outline.turn.push_back(2 - v.quads);
+    }
+    return outline;
+  }
+
+  std::optional<Solution> by_pattern(const Rim& rim) const {
+    const Outline outline = outline_of(rim);
+    auto pattern = best_pattern(outline, std::abs(4 - corners_of(rim)) + 4);
+    if (!pattern) return std::nullopt;
+    const double cost = options_.irregular * irregular_vertices(*pattern) + loss_of(outline, *pattern);
+    return Solution{cost, {{rim, *std::move(pattern)}}};
+  }
+
+  /// What the quads of a pattern lack: the sum of 1 - eta + 1.5 * (size deviation), before they are
+  /// relocated.
+  double loss_of(const Outline& outline, const Pattern& pattern) const {
+    const PatternMesh filled = mesh_pattern(outline, pattern);
+    std::vector<Vec2> points = outline.places;
+    std::vector<double> delta = outline.delta;
+    int hint = -1;
+    for (const Vec2 p : filled.inside) points.push_back(p), delta.push_back(size_.at(p, hint));
+    double loss = 0;
+    for (const auto& q : filled.quads) {
+      const std::array<Vec2, 4> at{points[q[0]], points[q[1]], points[q[2]], points[q[3]]};
+      double deviation = 0;
+      for (int k = 0; k < 4; ++k) {
+        const int a = q[k], b = q[(k + 1) % 4];
+        const double l = std::max(2 * norm(points[b] - points[a]) / (delta[a] + delta[b]), kTinyLength);
+        deviation += (1 - std::min(l, 1 / l)) / 4;
+      }
+      loss += 1 - eta_of_sine(std::ranges::min(corner_sines(at))) + 1.5 * deviation;
+    }
+    return kLoss * loss;
+  }
+
+  std::vector<Cut> cuts_of(FieldLines& tracer, const Rim& rim, bool concave) const {
+    std::vector<Cut> cuts;
+    for (const FieldLine& line : lines_from(tracer, {&rim, 1}, concave)) {
+      const int n = static_cast<int>(rim.size());
+      const int between = (line.to.at - line.from.at + n) % n;
+      const int nearest = std::max(1, static_cast<int>(std::lround(line.edges.back())));
+      for (int edges = std::max(1, nearest - 1); edges <= nearest + 1; ++edges) {
+        if ((between + edges) % 2 != 0) continue;
+        double cost = strain(line, edges) + kCut + crowding(rim, line.from.at) + crowding(rim, line.to.at);
+        const std::vector<int> row(edges - 1, -1);
+        bool grids = false;
+        cost += kUneven * std::abs(n - 2.0 * between) / n;
+        for (const Rim& part : cut_along({&rim, 1}, line, row)) {
+          cost += cost_of(part, kEstimate * options_.irregular);
+          grids = grids || corners_of(part) <= 4;
+        }
+        if (grids && rim[line.from.at].quads == 2 && rim[line.to.at].quads == 2)
+          cost += options_.irregular / 2;
+        if (cost < kNever) cuts.push_back({line, edges, cost});
+      }
+    }
+    std::ranges::stable_sort(cuts, {}, &Cut::cost);
+    return cuts;
+  }
+
+  /// A piece that no pattern fills.
+  std::optional<Solution> mixed(const Rim& rim) {
+    std::vector<int> vertices;
+    for (const RimVertex& v : rim) vertices.push_back(v.vertex);
+    std::ranges::sort(vertices);
+    if (std::ranges::adjacent_find(vertices) != vertices.end()) return std::nullopt;
+    const double n = static_cast<double>(rim.size());
+    double area = 0, delta = 0;
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+      area += cross(vertices_.places[rim[i].vertex], vertices_.places[rim[(i + 1) % rim.size()].vertex]) / 2;
+      delta += vertices_.delta[rim[i].vertex] / n;
+    }
+    const double irregular = std::abs(4 - corners_of(rim)) + kMixed + kMixedPerVertex * n;
+    return Solution{options_.irregular * irregular + kLoss * kMixedLoss * area / (delta * delta),
+                    {{rim, std::nullopt}}};
+  }
+
+  /// Its mesh, numbered as that of a pattern is.
+  PatternMesh mesh_mixed(const Rim& rim) {
+    PatchBoundary boundary;
+    const int n = static_cast<int>(rim.size());
+    for (int i = 0; i < n; ++i) {
+      boundary.points.push_back(vertices_.places[rim[i].vertex]);
+      boundary.edges.push_back({i, (i + 1) % n});
+    }
+    const TriPatch triangles = mesh_delquad(boundary, *make_linf_delquad(), cross_, size_);
+    QuadPatch mesh = recombine(triangles, *make_primal_dual_solver());
+    mesh = make_regular(treat_paper(mesh, size_), size_);
+    if (!mesh.triangles.empty()) throw InputError("triangles in a piece of a layout");
+    ++summary_.mixed;
+    return {{mesh.points.begin() + n, mesh.points.end()}, std::move(mesh.quads)};
+  }
+
+  /// Those of the cuts that leave the best pieces, as far as these can be filled at once.
+  std::vector<Cut> promising(const FieldLines& tracer, const Rim& rim, std::vector<Cut> cuts) {
+    std::vector<Cut> best;
+    for (Cut& cut : cuts) {
+      if (best.size() == kMostTried) break;
+      const std::vector<Vec2> places = row_along(cut.line, cut.edges);
+      if (!tracer.is_free(cut.line.from, cut.line.to, places)) continue;
+      const std::size_t n = vertices_.places.size();
+      cut.row = add_row(places);
+      for (const Rim& part : cut_along({&rim, 1}, cut.line, cut.row)) {
+        if (!is_polygon(part)) continue;
+        const auto filled = by_pattern(part);
+        if (filled) cut.cost += filled->cost - cost_of(part, kEstimate * options_.irregular);
+      }
+      vertices_.places.resize(n), vertices_.delta.resize(n);
+      best.push_back(std::move(cut));
+    }
+    std::ranges::stable_sort(best, {}, &Cut::cost);
+    return best;
+  }
+
+  std::optional<Solution> solve(const Rim& rim, int level) {
+    check_cancelled();
+    if (++summary_.looks > options_.pieces) return mixed(rim);
+    const int corners = corners_of(rim);
+    std::optional<Solution> best;
+    if (is_polygon(rim)) best = by_pattern(rim);
+    const double least = options_.irregular * std::abs(4 - corners);
+    if (best && best->cost < least + kGoodCost) return best;
+    if (level > (best ? kMostLevels : 2 * kMostLevels)) {
+      auto other = mixed(rim);
+      return other && (!best || other->cost < best->cost) ? other : best;
+    }
+    const bool convex = is_convex(rim);
+    FieldLines tracer(cross_, size_, vertices_, {&rim, 1});
+    for (const bool concave : {true, false}) {
+      if ((concave && convex) || (!concave && best && !convex)) continue;
+      int solved = 0;
+      for (const Cut& cut : promising(tracer, rim, cuts_of(tracer, rim, concave))) {
+        const int most = corners <= kFewCorners ? std::max(1, kMostCuts - level) : 1;
+        if (best && (solved >= most || cut.cost >= best->cost)) break;
+        Solution all{strain(cut.line, cut.edges) + kCut, {}};
+        bool is_solved = true;
+        const std::vector<int> row = add_row(row_along(cut.line, cut.edges));
+        for (const Rim& part : cut_along({&rim, 1}, cut.line, row)) {
+          auto found = solve(part, corners <= kFewCorners ? level + 1 : level);
+          is_solved = found.has_value();
+          if (!is_solved) break;
+          all.cost += found->cost;
+          std::ranges::move(found->pieces, std::back_inserter(all.pieces));
+        }
+        solved += is_solved ? 1 : 0;
+        if (is_solved && (!best || all.cost < best->cost)) best = std::move(all);
+      }
+    }
+    if (!best || (corners >= 2 && corners <= 6)) {
+      auto other = mixed(rim);
+      if (other && (!best || other->cost < best->cost)) best = std::move(other);
+    }
+    return best;
+  }
+
+  std::optional<QuadPatch> fill(const Solution& solution) {
+    QuadPatch mesh;
+    mesh.n_boundary = static_cast<int>(boundary_.points.size());
+    mesh.points = boundary_.points;
+    std::vector<int> number(vertices_.places.size(), -1);
+    std::iota(number.begin(), number.begin() + mesh.n_boundary, 0);
+    for (const Piece& piece : solution.pieces)
+      for (const RimVertex& v : piece.rim)
+        if (number[v.vertex] < 0) {
+          number[v.vertex] = static_cast<int>(mesh.points.size());
+          mesh.points.push_back(vertices_.places[v.vertex]);
+        }
+    for (const Piece& piece : solution.pieces) {
+      const PatternMesh filled =
+          piece.pattern ? mesh_pattern(outline_of(piece.rim), *piece.pattern) : mesh_mixed(piece.rim);
+      const int n_rim = static_cast<int>(piece.rim.size()), first = static_cast<int>(mesh.points.size());
+      mesh.points.insert(mesh.points.end(), filled.inside.begin(), filled.inside.end());
+      for (std::array<int, 4> quad : filled.quads) {
+        for (int& v : quad) v = v < n_rim ? number[piece.rim[v].vertex] : first + v - n_rim;
+        std::array<int, 4> sorted = quad;
+        std::ranges::sort(sorted);
+        if (std::ranges::adjacent_find(sorted) != sorted.end()) return std::nullopt;
+        mesh.quads.push_back(quad);
+      }
+    }
+    summary_.pieces += static_cast<int>(solution.pieces.size());
+    summary_.cuts += static_cast<int>(solution.pieces.size()) - 1;
+    return relaxed(mesh);
+  }
+
+  std::optional<QuadPatch> relaxed(const QuadPatch& raw) const {
+    QuadTopology topology(raw);
+    QuadRelocation relocation(topology, size_);
+    relocation.activate_all();
+    relocation.relax(kRelaxed, kSweeps);
+    relocation.keep_convex_corners();
+    relocation.hold_lengths();
+    relocation.activate_all();
+    relocation.relax(kRelaxed, kSweeps);
+    relocation.lift_worst(kCleanupFloorEta, 10);
+    QuadPatch mesh = topology.to_patch();
+    if (worst_sine(mesh) <= 0) untangle_flat(mesh, size_);
+    if (worst_sine(mesh) <= 0) return std::nullopt;
+    return mesh;
+  }
+  static double worst_sine(const QuadPatch& mesh) {
+    double least = 1;
+    for (const auto& q : mesh.quads)
+      for (const double s :
+           corner_sines<Vec2>({mesh.points[q[0]], mesh.points[q[1]], mesh.points[q[2]], mesh.points[q[3]]}))
+        least = std::min(least, s);
+    return least;
+  }
+
+  const PatchBoundary& boundary_;
+  const CrossField& cross_;
+  const ParametricSize& size_;
+  LayoutOptions options_;
+  LayoutSummary& summary_;
+  LayoutVertices vertices_;
+};
+
+}  // namespace
+
+std::optional<QuadPatch> lay_out(const PatchBoundary& boundary, const CrossField& cross,
+                                 const ParametricSize& size, const LayoutOptions& options,
+                                 LayoutSummary* summary) {
+  const Stopwatch watch;
+  LayoutSummary own;
+  own.patches = 1;
+  std::optional<QuadPatch> mesh;
+  try {
+    mesh = LayoutSearch(boundary, cross, size, options, own).run();
+  } catch (const InputError&) {
+    // A piece that is no polygon in the plane: there is no such layout.
+  } catch (const std::invalid_argument&) {
+    // Pieces that do not fit together.
+  }
+  own.without = mesh ? 0 : 1;
+  if (mesh) own.irregular = count_irregular(*mesh);
+  own.seconds = watch.work_seconds();
+  if (summary != nullptr) *summary = own;
+  return mesh;
+}
+
+std::optional<QuadPatch> more_regular(const QuadPatch& mesh, const PatchBoundary& boundary,
+                                      const CrossField& cross, const ParametricSize& size,
+                                      const LayoutOptions& options, LayoutSummary* summary) {
+  const Stopwatch watch;
+  LayoutSummary own;
+  own.patches = own.worse = 1;
+  const int irregular = count_irregular(mesh);
+  const auto quality = [&](const QuadPatch& patch) {
+    QuadTopology topology(patch);
+    const QuadRelocation relocation(topology, size);
+    ElementQuality all;
+    for (int e = 0; e < topology.element_slots(); ++e) all.add(element_quality(topology, relocation, e));
+    return all;
+  };
+  const ElementQuality before = quality(mesh);
+  const double n = static_cast<double>(mesh.quads.size());
+  double best_gain = 0;
+  std::optional<QuadPatch> best;
+  for (const double times : kWeights) {
+    LayoutOptions weighted = options;
+    weighted.irregular *= times;
+    LayoutSummary part;
+    auto found = lay_out(boundary, cross, size, weighted, &part);
+    own.without += best || found ? 0 : part.without;
+    own.looks += part.looks;
+    if (!found) continue;
+    found = make_regular(*found, size);
+    const int fewer = irregular - count_irregular(*found);
+    const ElementQuality now = quality(*found);
+    const double loss = before.value - now.value * n / static_cast<double>(found->quads.size());
+    const double gain =
+        options.tolerance * fewer - loss - kFailing * (now.failing - before.failing + now.thin - before.thin);
+    if (fewer <= 0 || gain <= best_gain || now.crowding > before.crowding ||
+        now.least_sine < std::min(before.least_sine, sine_of_eta(kCleanupFloorEta)))
+      continue;
+    best_gain = gain;
+    best = std::move(found);
+    own.cuts = part.cuts, own.pieces = part.pieces, own.mixed = part.mixed;
+  }
+  own.without = best ? 0 : own.without;
+  own.worse = best || own.without > 0 ? 0 : 1;
+  own.irregular = count_irregular(best ? *best : mesh);
+  own.seconds = watch.work_seconds();
+  if (summary != nullptr) *summary = own;
+  return best;
+}
+
+namespace {
+
+const OptionTable<LayoutOptions>& table() {
+  static const auto all = OptionTable<LayoutOptions>("layout", "options of K and R")
+                              .add({.name = "irregular",
+                                    .help = "what an irregular vertex counts against quads times eta",
+                                    .least = 0,
+                                    .most = 1000},
+                                   &LayoutOptions::irregular)
+                              .add({.name = "tolerance",
+                                    .help = "what an irregular vertex less may cost, for R: quads times eta",
+                                    .least = 0,
+                                    .most = 1e9},
+                                   &LayoutOptions::tolerance)
+                              .add({.name = "pieces",
+                                    .help = "of a patch that are looked at, at most",
+                                    .least = 1,
+                                    .most = 100000},
+                                   &LayoutOptions::pieces);
+  return all;
+}
+
+}  // namespace
+
+OptionGroup layout_group() { return table().group(); }
+LayoutOptions layout_options(const Options& options) { return table().read(options); }
+
+}  // namespace delquad
