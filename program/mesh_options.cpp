@@ -324,7 +324,8 @@ CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
       mesh->add_option("--quality", arguments.quality, "time against quality: " + qualities)
           ->capture_default_str();
   mesh->add_option("--pipeline", arguments.pipeline,
-                   "instead: letters of stages: F, D or P, then perhaps L, then B, then perhaps C, Q and O")
+                   "instead: letters of stages: F, D or P, then perhaps L, then B, or K alone; then perhaps "
+                   "C, Q, R and O")
       ->excludes(quality);
   add_set(*mesh, arguments);
   add_mesh_output(*mesh, arguments);
@@ -343,7 +344,7 @@ CLI::App* add_improve_options(CLI::App& app, MeshArguments& arguments) {
   add_sizes(*improve, arguments);
   improve->add_option(
       "--pipeline", arguments.pipeline,
-      "letters of stages: L, then B, G or T, of triangles; C, Q and O of quads; default: CO, or "
+      "letters of stages: L, then B, G or T, of triangles; C, Q, R and O of quads; default: CO, or "
       "BCO of triangles alone");
   add_set(*improve, arguments);
   add_feature_angle(*improve, arguments);

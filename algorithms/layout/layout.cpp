@@ -47,7 +47,7 @@ constexpr double kLoss = 0.5, kGoodCost = 2;
 constexpr double kEstimate = 0.25;
 /// Cuts whose pieces are filled for a try, and those of them that are followed, one less at each level. At
 /// the levels beyond only pieces without a pattern are cut, twice as deep at most.
-constexpr std::size_t kMostTried = 24;
+constexpr std::size_t kMostTried = 10;
 constexpr int kMostCuts = 3, kMostLevels = 3;
 /// Corners that a piece may have for each level that it begins above the others: large patches take long.
 constexpr int kCornersPerLevel = 12;
@@ -175,6 +175,14 @@ class LayoutSearch {
                const LayoutOptions& options, LayoutSummary& summary)
       : boundary_(boundary), cross_(cross), size_(size), options_(options), summary_(summary) {}
 
+  /// How many irregular vertices are necessary, by Euler's formula.
+  int necessary() {
+    const std::vector<Rim> rims = rims_of_boundary();
+    int turns = 0;
+    for (const Rim& rim : rims) turns += corners_of(rim);
+    return std::abs(4 * (2 - static_cast<int>(rims.size())) - turns);
+  }
+
   std::optional<QuadPatch> run() {
     std::vector<Rim> rims = rims_of_boundary();
     while (rims.size() > 1)
@@ -205,7 +213,7 @@ class LayoutSearch {
 
   std::vector<Rim> rims_of_boundary() {
     const std::vector<Vec2>& points = boundary_.points;
-    vertices_.places = points;
+    vertices_ = {points, {}};
     int hint = -1;
     for (const Vec2 p : points) vertices_.delta.push_back(size_.at(p, hint));
     std::vector<int> next(points.size(), -1), before(points.size(), -1);
@@ -570,7 +578,9 @@ std::optional<QuadPatch> more_regular(const QuadPatch& mesh, const PatchBoundary
   const double n = static_cast<double>(mesh.quads.size());
   double best_gain = 0;
   std::optional<QuadPatch> best;
+  const int necessary = LayoutSearch(boundary, cross, size, options, own).necessary();
   for (const double times : kWeights) {
+    if (irregular <= necessary) break;
     LayoutOptions weighted = options;
     weighted.irregular *= times;
     LayoutSummary part;

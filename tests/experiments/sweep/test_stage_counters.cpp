@@ -10,6 +10,7 @@
 #include "algorithms/finish/part_twins.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/linf_adaptation.h"
+#include "algorithms/layout/layout.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
@@ -34,9 +35,9 @@ using Json = nlohmann::json;
 template <class... Summaries>
 struct Types {};
 /// The summaries of all steps.
-using AllSummaries =
-    Types<FrontalSummary, AdaptationSummary, RecombineSummary, SmoothingSummary, TreatmentSummary,
-          CleanupSummary, RegularitySummary, OptimisationSummary, PartingSummary, LiftingSummary>;
+using AllSummaries = Types<FrontalSummary, AdaptationSummary, RecombineSummary, SmoothingSummary,
+                           TreatmentSummary, CleanupSummary, RegularitySummary, LayoutSummary,
+                           OptimisationSummary, PartingSummary, LiftingSummary>;
 
 template <class Visit, class... All>
 void for_each_summary(Types<All...>, Visit&& visit) {
