@@ -157,7 +157,7 @@ TEST(StageRecords, HaveEveryCounterOfEveryStep) {
   const PreparedProblem prepared = testing_support::prepare_surface(
       c, make_surface_model(testing_support::lens(64, 12, 0.45)), make_constant_size(0.3));
   MeshResult result;
-  const Json record = record_of(c, prepared, "DBCQO", &result);
+  const Json record = record_of(c, prepared, "DBRCQO", &result);
   for_each_summary(AllSummaries{}, [&](const char* step, const auto& summary) {
     const bool was_made = step != std::string("adaptation") && step != std::string("smoothing");
     ASSERT_EQ(record.contains(step), was_made) << step;
