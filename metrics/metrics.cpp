@@ -142,7 +142,16 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
     ++n_edges;
     if (edge.size() != 2) on_boundary[edge[0].lo] = on_boundary[edge[0].hi] = 1;
   });
-  double n_vertices = 0, n_interior = 0;
+  // Files that hold no lines still tell regions.
+  std::vector<char> on_curve(mesh.points.size(), 0);
+  for (const auto& line : mesh.lines) on_curve[line[0]] = on_curve[line[1]] = 1;
+  std::vector<int> region(mesh.points.size(), -1);
+  for (size_t q = 0; q < mesh.quad_region.size(); ++q)
+    for (const int i : mesh.quads[q]) {
+      if (region[i] < 0) region[i] = mesh.quad_region[q];
+      if (region[i] != mesh.quad_region[q]) on_curve[i] = 1;
+    }
+  double n_vertices = 0, n_interior = 0, n_irregular_on_curves = 0;
   // Among quads only these count; a mesh of triangles alone has its own degrees.
   const std::vector<int>& degrees = mesh.quads.empty() ? triangles_at : quads_at;
   int least = std::numeric_limits<int>::max(), most = 0;
@@ -156,6 +165,7 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
     least = std::min(least, degrees[i]);
     most = std::max(most, degrees[i]);
     if (triangles_at[i] == 0) ++metrics.quad_valences[valence];
+    n_irregular_on_curves += on_curve[i] && (valence != 4 || triangles_at[i] > 0) ? 1 : 0;
   }
   Values& values = metrics.values;
   values["n_vertices"] = n_vertices;
@@ -168,6 +178,7 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
   const double n_regular = regular == metrics.quad_valences.end() ? 0 : static_cast<double>(regular->second);
   values["d4"] = 100 * n_regular / n_interior;
   values["n_irregular"] = n_interior - n_regular;
+  values["n_irregular_on_curves"] = n_irregular_on_curves;
 }
 
 void measure_regularity(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMetrics& metrics) {
@@ -202,6 +213,8 @@ std::deque<Metric>& metrics() {
       {"n_quads", "quads", "", kNeither, kNone, "count"},
       {"n_triangles", "triangles", "", kNeither, kNone, "count"},
       {"n_irregular", "irregular", "", kLower, kInfinite, "interior vertices that d4 leaves out", 0},
+      {"n_irregular_on_curves", "on curves", "", kLower, kInfinite,
+       "those of them on lines or between regions", 0},
       {"n_necessary", "necessary", "", kNeither, kNone,
        "irregular vertices, those on the boundary with them, that corners, holes and handles force", 0},
       {"n_beyond", "beyond", "", kLower, kInfinite,

@@ -86,6 +86,8 @@ void print_summary(const MeshMetrics& metrics) {
   print_line("vertices", metrics,
              {{"d4", "d4 ", 1, " %"},
               {"n_irregular", "", 0, " irregular"},
+              {"n_irregular_on_curves", "", 0, " of them on curves"},
+              {"n_necessary", "", 0, " necessary"},
               {"n_beyond", "", 0, " more than necessary"}});
 }
 

@@ -63,6 +63,7 @@ bool is_of_quads(const std::string& key) {
                                                   "d_min",
                                                   "d_max",
                                                   "n_irregular",
+                                                  "n_irregular_on_curves",
                                                   "n_inverted",
                                                   "n_folded",
                                                   "angle_min",

@@ -40,10 +40,20 @@ function groupsOf(entities, entityOf, what, unnamed, first, pieces) {
   return { groups: [...groups.values()].filter((g) => g.count > 0), of: Array.from(entityOf, (e) => groupOf[e]) };
 }
 
+/// How many irregular vertices each region has; those on its curves are other regions', too.
+function countIrregular(mesh, groupOf) {
+  const regionsAt = new Map(mesh.irregular.map(({ vertex }) => [vertex, new Set()])), count = mesh.triangles.length / 3;
+  const add = (nodes, n, first) => nodes.forEach((v, i) => regionsAt.get(v)?.add(groupOf[first + Math.floor(i / n)]));
+  add(mesh.triangles, 3, 0);
+  add(mesh.quads, mesh.around, count);
+  for (const groups of regionsAt.values()) for (const group of groups) if (group) group.irregular = (group.irregular || 0) + 1;
+}
+
 class MeshPage {
   constructor(data, mesh) {
     Object.assign(this, { data, mesh, colouredBy: Object.keys(kQuantities)[data.mesh.quads > 0 ? 0 : 1] });
     this.regions = groupsOf(data.regions, [...mesh.triangleRegion, ...mesh.quadRegion], "elements", data.mesh.dimension === 3 ? "face" : "region", 0, 1);
+    countIrregular(mesh, this.regions.of);
     this.curves = groupsOf(data.curves, mesh.lineCurve, "lines", null, this.regions.groups.length, data.mesh.order);
     this.view = data.mesh.dimension === 3 ? new SpaceView() : new PlaneView();
     this.marks = [...data.closeups, ...data.points].map(({ at }) => at);
@@ -102,7 +112,7 @@ class MeshPage {
       this.show();
     } });
     return el("div", {}, el("span", { class: "dot", style: `background:${group.colour}` }), el("label", {}, group.box, ` ${group.label} `,
-      el("small", {}, `${grouped(Math.round(group.count))} ${group.what}`)), el("button", { title: `Of all ${group.what} only these`,
+      el("small", {}, `${grouped(Math.round(group.count))} ${group.what}${group.irregular ? `, ${grouped(group.irregular)} irregular vertices` : ""}`)), el("button", { title: `Of all ${group.what} only these`,
       click: () => this.turn((other) => other === group || (other.what !== group.what && other.on)) }, "only"));
   }
   pointRow({ names, at }, place) {

@@ -70,6 +70,16 @@ TEST(Regularity, ARotatedEdgeOfAGridIsTwoPairs) {
   EXPECT_EQ(pairs, (std::set{std::pair(at(3, 2), at(4, 2)), std::pair(at(3, 3), at(2, 3))}));
 }
 
+TEST(Regularity, IrregularVerticesOnLinesAreToldApart) {
+  Mesh mesh = star(5);
+  EXPECT_EQ(evaluate_metrics(mesh, nullptr).values.at("n_irregular_on_curves"), 0);
+  mesh.lines = {{1, 0}, {0, 3}};
+  mesh.line_curve = {0, 0};
+  mesh.curves = {{1, {}}};
+  EXPECT_EQ(evaluate_metrics(mesh, nullptr).values.at("n_irregular"), 1);
+  EXPECT_EQ(evaluate_metrics(mesh, nullptr).values.at("n_irregular_on_curves"), 1);
+}
+
 TEST(Regularity, AVertexOfSixIsInTwoPairs) {
   Mesh mesh = quad_grid(6, 6);
   // The quad from (2, 2) to (3, 3) is gone, and with it (3, 3).

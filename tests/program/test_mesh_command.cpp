@@ -94,7 +94,7 @@ TEST(MeshCommand, SaysInAFewLinesWhatTheMeshIsLike) {
             "  shape: eta mean 1.000, worst 1.000, scaled Jacobian mean 1.000, least 1.000, angles from 90.0 "
             "to 90.0 degrees, aspect mean 1.00, largest 1.00\n"
             "  size: tau 100.0 %, edges from 1.000 to 1.000 sizes\n"
-            "  vertices: d4 100.0 %, 0 irregular, 0 more than necessary\n"
+            "  vertices: d4 100.0 %, 0 irregular, 0 of them on curves, 0 necessary, 0 more than necessary\n"
             "  names: regions square; curves bottom, right, top, left\n");
   const ProgramResult all = delquad({"mesh", model, "-o", folder / "out.msh", "-v"});
   for (const char* part : {"SJ min", "eta 5 %", "seconds: "}) EXPECT_TRUE(contains(all.out, part)) << part;
