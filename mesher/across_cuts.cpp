@@ -117,7 +117,7 @@ UncutMesh run_stages(PreparedProblem& again, const Stages& stages, const Options
   MeshingState state = begin_meshing(again);
   for (const Stage* stage : stages) run_stage(*stage, again, state);
   const std::vector<char> none(again.boundary.regions.size(), 0);
-  Finishing on{again, state, none};
+  Finishing on{state.now(again), state, none};
   UncutMesh made = without_cuts(*again.surface, put_together(on));
   put_back_entities(*again.surface->given, made.mesh);
   return made;

@@ -144,7 +144,7 @@ void Meshing::run(const Stage& stage) {
 }
 
 Mesh Meshing::mesh() const {
-  const PreparedProblem& prepared = state_->prepared.inside();
+  const PreparedProblem& prepared = state_->patches.now(state_->prepared.inside());
   Mesh mesh = assemble(prepared, state_->patches.nodes.points, state_->patches.patches,
                        std::vector<char>(prepared.boundary.regions.size()));
   if (prepared.metric_plane) to_plane(*prepared.metric_plane, mesh);

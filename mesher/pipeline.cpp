@@ -224,7 +224,8 @@ void tell_farthest_node(const PreparedProblem& prepared, MeshResult& result) {
 
 }  // namespace
 
-MeshResult finish_meshing(const PreparedProblem& prepared, const std::string& label, MeshingState state) {
+MeshResult finish_meshing(const PreparedProblem& given, const std::string& label, MeshingState state) {
+  const PreparedProblem& prepared = state.now(given);
   Finishing on{prepared, state, {}, {}, label};
   MeshResult& result = on.result;
   const Stopwatch watch;

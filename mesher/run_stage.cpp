@@ -194,9 +194,9 @@ MeshingState begin_meshing(const PreparedProblem& prepared) {
   return state;
 }
 
-void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
-  const Stopwatch watch;
-  const DoingStage running(stage.name.c_str());
+namespace {
+
+void run_on_patches(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
   state.stages.push_back(&stage);
   if (stage.from == PatchForm::kQuads) state.of_quads.push_back(&stage);
   std::vector<PatchMesh>& patches = state.patches;
@@ -227,6 +227,11 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
                                                        : static_cast<double>(points_of(patches[i]).size());
       });
   add_logs(prepared, logs, state);
+}
+
+/// What is done to all patches together.
+void run_on_all(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
+  std::vector<PatchMesh>& patches = state.patches;
   Finishing finishing{prepared, state, regions_left_out(prepared, state.reasons)};
   run_finish_steps(FinishAt::kEveryStage, finishing);
   state.log.add(finishing.result.log);
@@ -247,6 +252,16 @@ void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState
       move_image_nodes(prepared, *image, state.nodes.points);
       state.reasons[i] = state.reasons[image->master];
     }
+}
+
+}  // namespace
+
+void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
+  const Stopwatch watch;
+  const DoingStage running(stage.name.c_str());
+  run_on_patches(stage, state.now(prepared), state);
+  if (stage.fills_cavities && prepared.surface) run_across_curves(state.now(prepared), state);
+  run_on_all(stage, state.now(prepared), state);
   state.seconds += watch.seconds();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <tuple>
@@ -29,8 +30,15 @@ struct MeshingState {
   SurfaceNodes nodes;  ///< those on curves
   StageLog log;
   double seconds = 0;  ///< on the clock, so far
+  /// The problem with other nodes on curves, once a stage made these; null: as it was prepared.
+  std::shared_ptr<const PreparedProblem> other = {};
+
+  /// What the stages go on from.
+  const PreparedProblem& now(const PreparedProblem& prepared) const { return other ? *other : prepared; }
 };
 MeshingState begin_meshing(const PreparedProblem& prepared);
+/// Fills cavities over curves of a surface. What lies on curves changes, and state.other with it.
+void run_across_curves(const PreparedProblem& prepared, MeshingState& state);
 /// Takes every patch through one stage. Throws InputError when the mesher had to stop.
 void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state);
 void add_times(const StepTimes& times, StageLog& log);

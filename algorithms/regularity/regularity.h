@@ -9,9 +9,10 @@
 namespace delquad {
 
 struct RegularityOptions {
-  double tolerance = 3;  ///< what an irregular vertex less may cost in the last round; none in the first
-  int quads = 200;       ///< of a cavity, at most
-  int rounds = 3;        ///< over which the tolerance grows
+  double tolerance = 3;       ///< what an irregular vertex less may cost in the last round; none in the first
+  int quads = 200;            ///< of a cavity, at most
+  int rounds = 3;             ///< over which the tolerance grows
+  bool across_curves = true;  ///< of surfaces: see make_regular_across_curves()
 };
 
 OptionGroup regularity_group();

@@ -1,0 +1,197 @@
+#include "algorithms/regularity/across_curves.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "base/activity.h"
+#include "mesher/runner.h"
+#include "patches/surface_curves.h"
+
+namespace delquad {
+namespace {
+
+/// Those whose quads and boundary may change: not images, grids and quads that stay, and none with caps.
+std::vector<char> patches_that_may_change(const PreparedProblem& prepared, const MeshingState& state) {
+  std::vector<char> may(prepared.patches.size(), 1);
+  for (std::size_t i = 0; i < may.size(); ++i) {
+    const PreparedPatch& patch = prepared.patches[i];
+    if (!state.reasons[i].empty() || patch.image || patch.given_stays || (patch.grid && patch.grid_stays))
+      may[i] = 0;
+  }
+  for (const PatchCap& cap : prepared.surface->domain.caps) may[cap.patch] = 0;
+  return may;
+}
+
+/// Places of curves in the planes of patches.
+class CurvesInPatches {
+ public:
+  explicit CurvesInPatches(const SurfaceDomain& domain) : domain_(domain), sides_(domain.patches.size()) {
+    for (std::size_t p = 0; p < domain.patches.size(); ++p)
+      for (const auto& loop : domain.patches[p].outline)
+        for (const CurveSide& side : loop) {
+          auto& of_chain = sides_[p][side.chain];
+          of_chain.resize(domain.chains[side.chain].points.size() - 1);
+          of_chain[side.line] = &side;
+        }
+  }
+  Vec2 at(int patch, int chain, double s) const {
+    const auto& of_chain = sides_[patch].at(chain);
+    const int line = std::clamp(static_cast<int>(s), 0, static_cast<int>(of_chain.size()) - 1);
+    const CurveSide& side = *of_chain[line];
+    const auto& points = domain_.patches[patch].map.flat.points;
+    const double t = side.forward ? s - line : line + 1 - s;
+    return points[side.from] + t * (points[side.to] - points[side.from]);
+  }
+
+ private:
+  const SurfaceDomain& domain_;
+  /// Of each patch by chain: of each of its lines the side there.
+  std::vector<std::unordered_map<int, std::vector<const CurveSide*>>> sides_;
+};
+
+CurveNetwork network_of(const PreparedProblem& prepared, const MeshingState& state) {
+  const SurfaceDomain& domain = prepared.surface->domain;
+  const std::vector<char> may_change = patches_that_may_change(prepared, state);
+  CurveNetwork network;
+  for (const auto& nodes : state.nodes.on_curve) {
+    auto& places = network.nodes.emplace_back();
+    for (const CurveNode& node : nodes) places.push_back(node.s);
+  }
+  std::vector<std::vector<int>> beside(domain.chains.size());
+  for (std::size_t p = 0; p < domain.patches.size(); ++p) {
+    const SurfacePatch& patch = domain.patches[p];
+    PatchAtCurves& at = network.patches.emplace_back();
+    std::vector<std::size_t> met(domain.chains.size(), 0);
+    for (const auto& loop : patch.outline)
+      for (const CurveSide& side : loop)
+        if (side.begins(domain.chains[side.chain])) beside[side.chain].push_back(static_cast<int>(p));
+    if (!may_change[p]) continue;
+    at.mesh = state.patches[p].quads;
+    at.size = prepared.patches[p].size.get();
+    std::vector<int> chain;
+    place_boundary(patch.map, patch.outline, domain.chains, state.nodes, &chain);
+    std::map<int, bool> forward;
+    for (const auto& loop : patch.outline)
+      for (const CurveSide& side : loop) forward.try_emplace(side.chain, side.forward);
+    for (const int c : chain) {
+      const int n = static_cast<int>(network.nodes[c].size()) - 1, k = static_cast<int>(met[c]++);
+      at.edges.push_back({c, forward.at(c) ? k : n - 1 - k, forward.at(c)});
+    }
+  }
+  for (std::size_t c = 0; c < beside.size(); ++c) {
+    const bool may = beside[c].size() == 2 && beside[c][0] != beside[c][1] && !domain.chain_stays[c] &&
+                     may_change[beside[c][0]] && may_change[beside[c][1]];
+    network.sides.push_back(may ? std::array{beside[c][0], beside[c][1]} : std::array{-1, -1});
+  }
+  return network;
+}
+
+/// Nodes of curves where the network has them. Those that are no more make room: `number` gets what becomes
+/// of each.
+SurfaceNodes other_nodes(const PreparedSurface& surface, const CurveNetwork& network, const SurfaceNodes& old,
+                         std::vector<int>& number) {
+  const SurfaceDomain& domain = surface.domain;
+  SurfaceNodes nodes;
+  std::vector<char> stays(old.points.size(), 1);
+  std::vector<std::map<double, int>> kept(old.on_curve.size());
+  for (std::size_t c = 0; c < old.on_curve.size(); ++c)
+    for (const CurveNode& node : old.on_curve[c]) {
+      if (std::ranges::binary_search(network.nodes[c], node.s))
+        kept[c].emplace(node.s, node.node);
+      else
+        stays[node.node] = 0;
+    }
+  number.assign(old.points.size(), -1);
+  for (std::size_t v = 0; v < old.points.size(); ++v)
+    if (stays[v]) {
+      number[v] = static_cast<int>(nodes.points.size());
+      nodes.points.push_back(old.points[v]);
+    }
+  for (std::size_t c = 0; c < network.nodes.size(); ++c) {
+    auto& on_curve = nodes.on_curve.emplace_back();
+    for (const double s : network.nodes[c]) {
+      if (const auto at = kept[c].find(s); at != kept[c].end()) {
+        on_curve.push_back({s, number[at->second]});
+        continue;
+      }
+      on_curve.push_back({s, static_cast<int>(nodes.points.size())});
+      nodes.points.push_back(place_on_curve(surface.model, domain.chains[c], domain.cut_face, s));
+    }
+  }
+  return nodes;
+}
+
+/// The problem with these nodes.
+std::shared_ptr<const PreparedProblem> with_nodes(const PreparedProblem& prepared, const SurfaceNodes& nodes,
+                                                  const std::vector<int>& number,
+                                                  const CurveNetwork& network) {
+  auto surface = std::make_shared<PreparedSurface>(*prepared.surface);
+  auto other = std::make_shared<PreparedProblem>(prepared);
+  SurfaceDomain& domain = surface->domain;
+  const auto renumber = [&](int& node) { node = number[node]; };
+  for (std::size_t p = 0; p < domain.patches.size(); ++p) {
+    SurfacePatch& patch = domain.patches[p];
+    PatchBoundary& boundary = patch.boundary;
+    if (network.patches[p].changed) {
+      boundary = place_boundary(patch.map, patch.outline, domain.chains, nodes);
+      other->patches[p].grid.reset();
+    } else {
+      std::ranges::for_each(boundary.point_node, renumber);
+    }
+    other->patches[p].boundary = boundary;
+  }
+  for (auto& [patch, cap] : domain.caps) {
+    renumber(cap.tip);
+    for (auto& quad : cap.quads) std::ranges::for_each(quad, renumber);
+    std::ranges::for_each(cap.within, renumber);
+    std::erase_if(cap.dropped, [&](int node) { return number[node] < 0; });
+    std::ranges::for_each(cap.dropped, renumber);
+  }
+  for (SharpCorner& corner : domain.sharp_corners) renumber(corner.node);
+  domain.nodes = nodes;
+  domain.boundary = boundary_mesh(surface->model.fine, domain.chains, nodes);
+  domain.boundary.unit = prepared.boundary.unit;
+  other->boundary = domain.boundary;
+  other->surface = std::move(surface);
+  return other;
+}
+
+}  // namespace
+
+void run_across_curves(const PreparedProblem& prepared, MeshingState& state) {
+  const PreparedSurface& surface = *prepared.surface;
+  const RegularityOptions options = regularity_options(prepared.settings.options);
+  // What is an image of something else, or was given, stays.
+  if (!options.across_curves || surface.mirrored || surface.is_part_of || surface.metric || surface.given ||
+      prepared.settings.order > 1 || !prepared.boundary.periodic.empty() ||
+      !prepared.boundary.periodic_faces.empty())
+    return;
+  const DoingStage doing("across curves");
+  CurveNetwork network = network_of(prepared, state);
+  const CurvesInPatches curves(surface.domain);
+  network.at = [&](int patch, int chain, double s) { return curves.at(patch, chain, s); };
+  const AcrossCurvesSummary summary = make_regular_across_curves(network, options);
+  add_summary(state.log, summary);
+  if (summary.accepted == 0) return;
+  std::vector<int> number;
+  SurfaceNodes nodes = other_nodes(surface, network, state.nodes, number);
+  state.other = with_nodes(prepared, nodes, number, network);
+  state.nodes = std::move(nodes);
+  for (std::size_t p = 0; p < network.patches.size(); ++p) {
+    if (!network.patches[p].changed) continue;
+    QuadPatch& mesh = state.patches[p].quads;
+    mesh = std::move(network.patches[p].mesh);
+    const auto& points = state.other->patches[p].boundary.points;
+    if (points.size() != static_cast<std::size_t>(mesh.n_boundary))
+      throw std::logic_error("across curves: a patch has other nodes than its curves");
+    std::ranges::copy(points, mesh.points.begin());
+    state.patches[p].inside.clear();
+  }
+}
+
+}  // namespace delquad

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "delquad/mesher.h"
+
+namespace delquad {
+namespace {
+
+constexpr double kRidge = 8;
+
+/// Two squares with an edge in common, one lying, one standing.
+MeshProblem folded_sheet() {
+  Mesh sheet;
+  sheet.points = {{0, 0, 0},      {kRidge, 0, 0}, {kRidge, kRidge, 0},
+                  {0, kRidge, 0}, {kRidge, 0, 8}, {kRidge, kRidge, 8}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+  sheet.triangle_region = {0, 0, 1, 1};
+  sheet.regions = {{1, {"floor"}}, {2, {"wall"}}};
+  MeshProblem problem;
+  problem.model = TriangleModel{sheet};
+  // More edges on the ridge than beside.
+  problem.size.field = make_function_size(
+      [](const Vec3& p) { return std::max(p.z, kRidge - p.x) > 0.5 ? 1.0 : 0.8; }, "finer at the ridge");
+  problem.size.gradation = 0;
+  return problem;
+}
+
+TEST(AcrossCurves, AFoldedSheetBecomesTwoGrids) {
+  const auto run = [](bool across, int threads) {
+    MeshProblem problem = folded_sheet();
+    problem.options.set("regularity.across_curves", across);
+    problem.options.set("curves.agreement", 0.0);
+    return mesh(problem, "DBCQO", {.threads = threads});
+  };
+  const MeshResult without = run(false, 1), result = run(true, 1);
+  ASSERT_GT(without.metrics.values.at("n_beyond"), 0);
+  EXPECT_EQ(result.metrics.values.at("n_beyond"), 0);
+  EXPECT_EQ(result.log.summaries.get<long long>("across_curves", "accepted"), 1);
+  EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
+  EXPECT_EQ(result.mesh.regions.at(1).names, std::vector<std::string>{"wall"});
+  // Lines of the ridge lie there, fewer than before, and are sides of quads of both faces.
+  const auto on_ridge = [](const MeshResult& made) {
+    return std::ranges::count_if(made.mesh.lines, [&](const auto& line) {
+      return std::ranges::all_of(line, [&](int v) {
+        const Vec3& p = made.mesh.points[v];
+        return std::abs(p.x - kRidge) < 1e-9 && std::abs(p.z) < 1e-9;
+      });
+    });
+  };
+  EXPECT_LT(on_ridge(result), on_ridge(without));
+  EXPECT_EQ(on_ridge(result), kRidge);
+  const MeshResult parallel = run(true, 3);
+  EXPECT_EQ(parallel.mesh.points, result.mesh.points);
+  EXPECT_EQ(parallel.mesh.quads, result.mesh.quads);
+}
+
+}  // namespace
+}  // namespace delquad
