@@ -15,7 +15,12 @@
 namespace delquad {
 namespace {
 
-/// Those whose quads and boundary may change: not images, grids and quads that stay, and none with caps.
+std::size_t points_on_boundary(const PatchMesh& patch) {
+  return patch.form == PatchForm::kQuads ? static_cast<std::size_t>(patch.quads.n_boundary) : 0;
+}
+
+/// Those whose quads and boundary may change: not images, grids and quads that stay, none with caps, and none
+/// whose boundary is not just the nodes of its curves.
 std::vector<char> patches_that_may_change(const PreparedProblem& prepared, const MeshingState& state) {
   std::vector<char> may(prepared.patches.size(), 1);
   for (std::size_t i = 0; i < may.size(); ++i) {
@@ -23,7 +28,16 @@ std::vector<char> patches_that_may_change(const PreparedProblem& prepared, const
     if (!state.reasons[i].empty() || patch.image || patch.given_stays || (patch.grid && patch.grid_stays))
       may[i] = 0;
   }
-  for (const PatchCap& cap : prepared.surface->domain.caps) may[cap.patch] = 0;
+  const SurfaceDomain& domain = prepared.surface->domain;
+  for (const PatchCap& cap : domain.caps) may[cap.patch] = 0;
+  for (std::size_t i = 0; i < may.size(); ++i) {
+    if (!may[i]) continue;
+    const SurfacePatch& patch = domain.patches[i];
+    const auto nodes = place_boundary(patch.map, patch.outline, domain.chains, state.nodes).point_node;
+    if (nodes != prepared.patches[i].boundary.point_node ||
+        nodes.size() != points_on_boundary(state.patches[i]))
+      may[i] = 0;
+  }
   return may;
 }
 
