@@ -202,6 +202,7 @@ const std::vector<Quality>& quality_registry() {
            .set("regularity.quads", 60)
            .set("regularity.rounds", 1)
            .set("regularity.tolerance", 0.0)
+           .set("regularity.across_curves", false)
            .set("repair.across_cuts", false)},
       // Annealing for longer leaves as many irregular vertices once there is Q.
       {"best", "DBCQO", CrossKind::kSizeAware,
