@@ -112,7 +112,7 @@ class MeshPage {
       this.show();
     } });
     return el("div", {}, el("span", { class: "dot", style: `background:${group.colour}` }), el("label", {}, group.box, ` ${group.label} `,
-      el("small", {}, `${grouped(Math.round(group.count))} ${group.what}${group.irregular ? `, ${grouped(group.irregular)} irregular vertices` : ""}`)), el("button", { title: `Of all ${group.what} only these`,
+      el("small", {}, `${grouped(Math.round(group.count))} ${group.what}${group.irregular ? `, ${grouped(group.irregular)} irregular` : ""}`)), el("button", { title: `Of all ${group.what} only these`,
       click: () => this.turn((other) => other === group || (other.what !== group.what && other.on)) }, "only"));
   }
   pointRow({ names, at }, place) {

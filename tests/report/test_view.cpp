@@ -60,7 +60,7 @@ TEST(View, ShowsQualitySizesNamesAndWorstQuads) {
                                          "names",
                                          "shape (\u03b7)",
                                          "inside 8 elementsonly",
-                                         "right </script> 9 elementsonly",
+                                         "right </script> 9 elements, 1 irregularonly",
                                          "south 4 linesonly",
                                          "sensor point, number 5",
                                          "all",
