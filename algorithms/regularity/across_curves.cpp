@@ -29,7 +29,7 @@ namespace {
 /// Polygons of a cavity.
 constexpr std::size_t kMostParts = 4;
 /// Patterns with cuts that are sought in one visit of a vertex, and edges of their rims, at most.
-constexpr int kMostPatterns = 24;
+constexpr int kMostPatterns = 8;
 constexpr std::size_t kMostRim = 48;
 /// Sides of polygons whose patterns are told by their numbers of edges alone.
 constexpr std::size_t kSimpleSides = 5;
@@ -43,7 +43,7 @@ constexpr double kDearer = 3;
 /// Stretches of a vertex that are followed, and ways on from the other side of each.
 constexpr std::size_t kMostStretches = 12, kMostWays = 6;
 /// Quads of a polygon that hands a change on straight across, or is all of a patch.
-constexpr int kMostWhole = 600;
+constexpr int kMostWhole = 100;
 /// Edges of a stretch over the wanted length, at least where it gets more of them, at most where fewer.
 constexpr double kShortest = 0.6, kLongest = 1.5;
 /// How far the middle of an edge may lie off the curve, in its lengths: a circle keeps twelve edges.
@@ -518,7 +518,7 @@ class AcrossCurves {
   /// Makes the polygon the patch's cavity.
   bool take(PatchWork& w, const std::vector<int>& elements) {
     Cavity& cavity = w.search.cavity();
-    cavity.begin(kMostWhole);
+    cavity.begin(static_cast<int>(elements.size()));
     for (const int e : elements) cavity.add(e);
     return cavity.close();
   }
