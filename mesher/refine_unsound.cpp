@@ -235,6 +235,20 @@ void leave_out_unsound(const Word& word, PreparedProblem& prepared, MeshResult& 
   result.seconds = seconds;
 }
 
+/// Meshes without cavities over curves where these were filled: what they gain is not worth an unsound mesh.
+void stay_within_patches(const Word& word, PreparedProblem& prepared, MeshResult& result) {
+  const Summaries& summaries = result.log.summaries;
+  if (!summaries.has("across_curves") || summaries.number("across_curves", "accepted") == 0) return;
+  const Options options = prepared.settings.options;
+  prepared.settings.options.set("regularity.across_curves", false);
+  MeshResult run = run_word(prepared, word);
+  run.seconds += result.seconds;
+  if (run.soundness.sound())
+    result = std::move(run);
+  else
+    prepared.settings.options = options;
+}
+
 }  // namespace
 
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
@@ -242,6 +256,8 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
   const long long once = quads_of(prepared, result), most = std::max(kLeastQuads, kMostTimes * once);
   Budget finer(most), without_small(most / 3);
   finer.spend(once);
+  stay_within_patches(word, prepared, result);
+  if (result.soundness.sound()) return;
   make_finer(prepare_anew, word, finer, prepared, result);
   if (!result.soundness.sound() && once < most / 3)
     leave_out_small(prepare_anew, word, without_small, prepared, result);
