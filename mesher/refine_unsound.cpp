@@ -235,18 +235,22 @@ void leave_out_unsound(const Word& word, PreparedProblem& prepared, MeshResult& 
   result.seconds = seconds;
 }
 
-/// Meshes without cavities over curves where these were filled: what they gain is not worth an unsound mesh.
-void stay_within_patches(const Word& word, PreparedProblem& prepared, MeshResult& result) {
-  const Summaries& summaries = result.log.summaries;
-  if (!summaries.has("across_curves") || summaries.number("across_curves", "accepted") == 0) return;
-  const Options options = prepared.settings.options;
+void stay_within_patches(PreparedProblem& prepared) {
   prepared.settings.options.set("regularity.across_curves", false);
+}
+
+/// Meshes without cavities over curves where these were filled: what they gain is not worth an unsound mesh.
+void undo_across_curves(const Word& word, PreparedProblem& prepared, MeshResult& result) {
+  const Summaries& summaries = result.log.summaries;
+  if (!repair_options(prepared.settings.options).refine_unsound || !summaries.has("across_curves") ||
+      summaries.number("across_curves", "accepted") == 0)
+    return;
+  stay_within_patches(prepared);
   MeshResult run = run_word(prepared, word);
   run.seconds += result.seconds;
-  if (run.soundness.sound())
-    result = std::move(run);
-  else
-    prepared.settings.options = options;
+  add_times(result.log.times, run.log);
+  run.log.summaries.add(kRefining, {{"within_patches", 1LL}});
+  result = std::move(run);
 }
 
 }  // namespace
@@ -256,11 +260,15 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
   const long long once = quads_of(prepared, result), most = std::max(kLeastQuads, kMostTimes * once);
   Budget finer(most), without_small(most / 3);
   finer.spend(once);
-  stay_within_patches(word, prepared, result);
-  if (result.soundness.sound()) return;
-  make_finer(prepare_anew, word, finer, prepared, result);
+  undo_across_curves(word, prepared, result);
+  const auto within_patches = [&prepare_anew](const Refinement& refinement) {
+    PreparedProblem anew = prepare_anew(refinement);
+    stay_within_patches(anew);
+    return anew;
+  };
+  make_finer(within_patches, word, finer, prepared, result);
   if (!result.soundness.sound() && once < most / 3)
-    leave_out_small(prepare_anew, word, without_small, prepared, result);
+    leave_out_small(within_patches, word, without_small, prepared, result);
   if (!result.soundness.sound()) leave_out_unsound(word, prepared, result);
 }
 

@@ -58,11 +58,11 @@ struct Counters<AcrossCurvesSummary> {
 /// make_regular() over curves that are kept.
 ///
 /// A cavity that a curve cuts is a polygon on each side, and both have a stretch of the curve in common. The
-/// number of edges of the stretch may grow or fall by two: where all polygons then have patterns with fewer
-/// irregular vertices in all, those of a curve counted on either side, they are filled, each in the plane of
-/// its patch, relocated together, and kept by what make_regular() asks for. A polygon may hand the change on
-/// to another stretch, and so across narrow patches, kMostParts in all. Nodes of the stretch get new places
-/// between the old ones; its ends stay, as all other nodes of curves do.
+/// number of edges of the stretch may grow or fall by two or four: where all polygons then have patterns with
+/// fewer irregular vertices in all, those of a curve counted on either side, they are filled, each in the
+/// plane of its patch, relocated together, and kept by what make_regular() asks for. A polygon may hand the
+/// change on to another stretch, and so across narrow patches, kMostParts in all. Nodes of the stretch get
+/// new places between the old ones; its ends stay, as all other nodes of curves do.
 AcrossCurvesSummary make_regular_across_curves(CurveNetwork& network, const RegularityOptions& options);
 
 }  // namespace delquad
