@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/activity.h"
+#include "base/stopwatch.h"
 #include "mesher/runner.h"
 #include "patches/surface_curves.h"
 
@@ -189,8 +190,10 @@ void run_across_curves(const PreparedProblem& prepared, MeshingState& state) {
   CurveNetwork network = network_of(prepared, state);
   const CurvesInPatches curves(surface.domain);
   network.at = [&](int patch, int chain, double s) { return curves.at(patch, chain, s); };
+  const Stopwatch watch;
   const AcrossCurvesSummary summary = make_regular_across_curves(network, options);
   add_summary(state.log, summary);
+  state.log.add_time("regularity", watch.time());
   if (summary.accepted == 0) return;
   std::vector<int> number;
   SurfaceNodes nodes = other_nodes(surface, network, state.nodes, number);
