@@ -14,6 +14,8 @@ namespace delquad {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// The most decimal places of values whose exact ones have `digits`: what is less is of no use to anybody.
 int most_decimals(int digits) { return std::max(6, digits + 3); }
 
@@ -253,7 +255,6 @@ std::string to_csv(const Table& table) {
 }
 
 nlohmann::ordered_json json_without_rows(const Table& table) {
-  using Json = nlohmann::ordered_json;
   Json json = {{"title", table.title},
                {"heads", {table.group_title, table.name_title}},
                {"columns", Json::array()},
@@ -293,7 +294,6 @@ void add_values(const Table& table, const TableRow& row, const RenderedTable::Li
 }  // namespace
 
 std::string to_json(const Table& table) {
-  using Json = nlohmann::ordered_json;
   Json json = json_without_rows(table);
   Table whole = table;
   whole.shown.clear();
@@ -342,7 +342,6 @@ void read_values(const nlohmann::ordered_json& line, TableRow& row) {
 }  // namespace
 
 Table read_table(const std::filesystem::path& file) {
-  using Json = nlohmann::ordered_json;
   try {
     std::ifstream in(file);
     const Json json = Json::parse(in);

@@ -17,7 +17,7 @@ namespace {
 using testing_support::worst_sine;
 
 /// More irregular vertices than any pattern here has.
-constexpr int kMany = 100;
+constexpr int kMostIrregular = 100;
 
 /// A polygon whose corners are given, with vertices a unit apart (about; `edges` of each side are given).
 Outline polygon_outline(const std::vector<Vec2>& corners, const std::vector<int>& edges,
@@ -56,7 +56,7 @@ QuadPatch filled(const Outline& outline, const Pattern& pattern) {
   return patch;
 }
 
-std::optional<int> least_irregular(const Outline& outline, int most = kMany) {
+std::optional<int> least_irregular(const Outline& outline, int most = kMostIrregular) {
   const auto pattern = best_pattern(outline, most);
   return pattern ? std::optional(irregular_vertices(*pattern)) : std::nullopt;
 }
@@ -64,7 +64,7 @@ std::optional<int> least_irregular(const Outline& outline, int most = kMany) {
 /// The mesh of the best pattern, a conforming disk in which all vertices have the quads they should have, but
 /// for as many irregular ones as the pattern has; empty where there is none.
 QuadPatch expect_filled(const Outline& outline) {
-  const std::optional<Pattern> pattern = best_pattern(outline, kMany);
+  const std::optional<Pattern> pattern = best_pattern(outline, kMostIrregular);
   if (!pattern) return {};
   const int least = irregular_vertices(*pattern);
   const std::optional<Pattern> again = best_pattern(outline, least);

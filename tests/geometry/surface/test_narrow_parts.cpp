@@ -128,12 +128,12 @@ TEST(NarrowParts, ANeckOfFreeEdgesStays) {
 TEST(NarrowParts, WhatHasANameStaysWhereThatIsAskedFor) {
   SurfaceModel model = wedge(0.2);
   model.fine.regions[2].names = {"wedge"};
-  EXPECT_EQ(ignore_small(model, {kWide, true}).fine.triangles, model.fine.triangles);
+  EXPECT_EQ(ignore_small(model, {kWide, {true}}).fine.triangles, model.fine.triangles);
   const SurfaceModel blunt = ignore_small(model, {kWide});
   EXPECT_EQ(count_texts(blunt, "face 3 (wedge)"), 1);
   EXPECT_EQ(count_texts(blunt, "has the name"), 0) << "there is a face of that name";
   for (Entity& face : model.fine.regions) face.names = {"wedge"};
-  EXPECT_EQ(ignore_small(model, {kWide, true}).fine.triangles, blunt.fine.triangles) << "no name goes";
+  EXPECT_EQ(ignore_small(model, {kWide, {true}}).fine.triangles, blunt.fine.triangles) << "no name goes";
 }
 
 TEST(NarrowParts, NamesThatGoAreTold) {
@@ -144,7 +144,7 @@ TEST(NarrowParts, NamesThatGoAreTold) {
   EXPECT_EQ(none.fine.regions.size(), 2u);
   EXPECT_EQ(count_texts(none, "no face has the name 'wedge' any more"), 1);
   EXPECT_GE(count_texts(none, "no curve has the name 'curve "), 1);
-  const SurfaceModel all = ignore_small(model, {0.3, true});
+  const SurfaceModel all = ignore_small(model, {0.3, {true}});
   EXPECT_EQ(all.fine.triangles, model.fine.triangles);
   EXPECT_EQ(count_texts(all, "any more"), 0);
 }
