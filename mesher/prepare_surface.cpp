@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
 #include "base/activity.h"
 #include "base/located.h"
@@ -76,12 +77,12 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
                              Failures& failures) {
   const auto solver = matching_solver(recombination_options(problem.options).solver, problem.options);
   const CurveOptions curves = curve_options(problem.options);
+  const double agreement = regularity_options(problem.options).weight * curves.agreement;
   while (!flattening.patches.empty()) {
     try {
       const bool may_repeat = failures.are_left_out() || washers.can_give_way();
       return make_surface_domain(model, may_repeat ? flattening : std::move(flattening), size, *solver, asked,
-                                 divisions, periodic, mapped, curves.agreement, most_steps,
-                                 curves.round_holes);
+                                 divisions, periodic, mapped, agreement, most_steps, curves.round_holes);
     } catch (const FaceError& error) {
       if (washers.give_way(error)) continue;
       failures.add(error.face(), error.what());

@@ -1,5 +1,6 @@
 # Writes the parts of the page as string literals: script -DFOLDER= -DOUTPUT=.
-set(text "#include \"report/page_json.h\"\n\nnamespace delquad {\n")
+# Compilers need not take literals that long, but all do.
+set(text "#include \"report/page_json.h\"\n\n#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n\nnamespace delquad {\n")
 function(embed name)
   set(content "")
   foreach(file ${ARGN})

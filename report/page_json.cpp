@@ -326,7 +326,7 @@ namespace {
 
 using namespace nlohmann::literals;
 
-constexpr std::size_t kCloseups = 3;
+constexpr std::size_t kCloseupsOfCell = 3;
 /// Curves of convergence a cell has at most: of its largest patches nothing is known here, so the first ones.
 constexpr std::size_t kMostCurves = 12;
 
@@ -425,7 +425,7 @@ Json cell_json(const Json& record, const std::optional<Mesh>& mesh) {
     for (std::size_t i = 0; i < std::min(curves.size(), kMostCurves); ++i)
       json["energy"].push_back(energies_json(curves[i]));
   }
-  if (mesh && !mesh->quads.empty()) json["closeups"] = closeups_json(*mesh, kCloseups);
+  if (mesh && !mesh->quads.empty()) json["closeups"] = closeups_json(*mesh, kCloseupsOfCell);
   return json;
 }
 

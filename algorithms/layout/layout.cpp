@@ -634,6 +634,10 @@ const OptionTable<LayoutOptions>& table() {
 }  // namespace
 
 OptionGroup layout_group() { return table().group(); }
-LayoutOptions layout_options(const Options& options) { return table().read(options); }
+LayoutOptions layout_options(const Options& options) {
+  LayoutOptions read = table().read(options);
+  read.tolerance *= regularity_options(options).weight;
+  return read;
+}
 
 }  // namespace delquad

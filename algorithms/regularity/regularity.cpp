@@ -232,6 +232,13 @@ const OptionTable<RegularityOptions>& table() {
                &RegularityOptions::quads)
           .add({.name = "rounds", .help = "over which the tolerance grows", .least = 1, .most = 1000},
                &RegularityOptions::rounds)
+          .add({.name = "weight",
+                .help =
+                    "of irregular vertices against sizes: times curves.agreement, regularity.tolerance and "
+                    "layout.tolerance",
+                .least = 0,
+                .most = 1000},
+               &RegularityOptions::weight)
           .add({.name = "across_curves",
                 .help = "of surfaces: whether cavities go over curves, too, whose numbers of edges change"},
                &RegularityOptions::across_curves);
@@ -241,6 +248,11 @@ const OptionTable<RegularityOptions>& table() {
 }  // namespace
 
 OptionGroup regularity_group() { return table().group(); }
-RegularityOptions regularity_options(const Options& options) { return table().read(options); }
+
+RegularityOptions regularity_options(const Options& options) {
+  RegularityOptions read = table().read(options);
+  read.tolerance *= read.weight;
+  return read;
+}
 
 }  // namespace delquad

@@ -12,10 +12,12 @@ struct RegularityOptions {
   double tolerance = 3;       ///< what an irregular vertex less may cost in the last round; none in the first
   int quads = 200;            ///< of a cavity, at most
   int rounds = 3;             ///< over which the tolerance grows
+  double weight = 1;          ///< times what an irregular vertex less may cost by the options of any room
   bool across_curves = true;  ///< of surfaces: see make_regular_across_curves()
 };
 
 OptionGroup regularity_group();
+/// With the tolerance times the weight.
 RegularityOptions regularity_options(const Options& options);
 
 struct RegularitySummary {

@@ -60,5 +60,19 @@ TEST(AcrossCurves, AFoldedSheetBecomesTwoGrids) {
   EXPECT_EQ(parallel.mesh.quads, result.mesh.quads);
 }
 
+TEST(RegularityWeight, CountsForNumbersOfEdgesAndForStages) {
+  const auto run = [](std::vector<std::string> keys, bool weighed) {
+    MeshProblem problem = folded_sheet();
+    for (const std::string& key : keys) problem.options.set(key, 0.0);
+    if (weighed) problem.options.set("regularity.weight", 0.0);
+    return mesh(problem, "DBCQO").mesh.points;
+  };
+  const auto weighed = run({}, true), none = run({"curves.agreement", "regularity.tolerance"}, false);
+  EXPECT_TRUE(weighed == none);
+  EXPECT_FALSE(weighed == run({"regularity.tolerance"}, false));
+  EXPECT_TRUE(run({"curves.agreement"}, true) == run({"curves.agreement", "regularity.tolerance"}, false));
+  EXPECT_FALSE(run({"curves.agreement"}, true) == run({"curves.agreement"}, false));
+}
+
 }  // namespace
 }  // namespace delquad
