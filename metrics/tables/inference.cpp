@@ -283,6 +283,10 @@ const std::vector<std::pair<const char*, int>> kColumns = {
     {"eta_mean", 3},   {"d4", 1},      {"d_min", 0},         {"d_max", 0},
     {"tau", 1},        {kTauGiven, 1}, {"percent_quads", 1}, {"aspect_max", 1},
     {"edge_min", 3}};
+/// And what stages do that lessen irregular vertices.
+constexpr const char* kRegularStages = "QKR";
+const std::vector<const char*> kRegularity = {"n_irregular", "n_irregular_on_curves", "n_necessary",
+                                              "n_beyond"};
 /// What pairs of pipelines are compared by, beside measures of the study's own.
 const std::vector<const char*> kCompared = {"eta_mean", "eta_worst", "d4", "tau"};
 
@@ -393,6 +397,10 @@ std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector
     if (key == std::string(kTauGiven) && !adapted) continue;
     columns.push_back({key, metric == nullptr ? key : metric->title, digits});
   }
+  if (std::ranges::any_of(records, [](const CellRecord& record) {
+        return record.pipeline.find_first_of(kRegularStages) != std::string::npos;
+      }))
+    for (const char* key : kRegularity) columns.push_back({key, find_metric(key)->title, 0});
   for (const Metric& metric : own) columns.push_back({metric.key, metric.title, metric.digits});
   add_times(study, columns);
   for (const std::string& key : study.columns) {

@@ -474,6 +474,15 @@ TEST(Times, RepeatedRunsAreShownAndTested) {
   EXPECT_FALSE(outcome.table.rows[1].marks.contains("seconds"));
 }
 
+TEST(Columns, TellWhereIrregularVerticesLieOnceAStageLessensThem) {
+  for (const char* word : {"DBCO", "DBCQO"}) {
+    const StudyResults results = make_study({{"DB", word}, 1, 1}, [](int w, int, int) { return w; });
+    const std::vector<TableColumn> columns = table_columns(results.study, results.records);
+    for (const char* key : {"n_irregular", "n_irregular_on_curves", "n_necessary", "n_beyond"})
+      EXPECT_EQ(std::ranges::count(columns, key, &TableColumn::key), word == std::string("DBCQO")) << key;
+  }
+}
+
 TEST(Rows, SayHowManyRunsTheyAreOfAndHowManyFailed) {
   StudyResults results = make_study({{"A", "B"}, 1, 4}, [](int word, int, int seed) { return word + seed; });
   results.records[0].reason = "no way";
