@@ -113,7 +113,12 @@ class CavitySearch {
   /// none.
   template <class Start, class F>
   void grow(std::span<const int> sources, int most_quads, Start&& start, F&& consider) {
-    find_near(sources, most_quads);
+    find_near(sources, most_quads, [](int) {});
+    grow(most_quads, start, consider);
+  }
+  /// The same from the sources of the last find_near().
+  template <class Start, class F>
+  void grow(int most_quads, Start&& start, F&& consider) {
     const auto begin = [&] {
       cavity_.begin(most_quads);
       return start();
@@ -163,10 +168,6 @@ class CavitySearch {
   }
 
  private:
-  void find_near(std::span<const int> sources, int most_quads) {
-    find_near(sources, most_quads, [](int) {});
-  }
-
   const QuadTopology& mesh_;
   const ValenceEnergy& energy_;
   Cavity cavity_;

@@ -11,14 +11,8 @@ constexpr double kSizeWeight = 1.5;
 
 }  // namespace
 
-ElementQuality element_quality(const QuadTopology& mesh, const QuadRelocation& relocation, int element) {
-  const int n = mesh.is_quad(element) ? 4 : 3;
-  std::array<Vec2, 4> at, side;
-  std::array<double, 4> delta;
-  for (int k = 0; k < n; ++k) {
-    const int v = mesh.corner(element, k);
-    at[k] = mesh.point(v), delta[k] = relocation.delta(v);
-  }
+ElementQuality quality_of(const std::array<Vec2, 4>& at, const std::array<double, 4>& delta, int n) {
+  std::array<Vec2, 4> side;
   double deviation = 0, shortest_side = std::numeric_limits<double>::max(), longest_side = 0;
   double shortest = shortest_side, longest = 0;  // over delta'
   for (int k = 0; k < n; ++k) {
@@ -36,8 +30,20 @@ ElementQuality element_quality(const QuadTopology& mesh, const QuadRelocation& r
   const bool is_failing = is_beyond_asked(shortest, longest, aspect, least);
   const bool is_thin = shortest < kAskedShort || aspect > kAskedAspect;
   const bool roomy = shortest >= kKeptSide && shortest_side >= kKeptSide * longest_side;
-  const double crowding = roomy ? 0 : relocation.crowding(element);
-  return {eta_of_sine(least) - kSizeWeight * (deviation / n), least, is_failing, is_thin, crowding};
+  return {eta_of_sine(least) - kSizeWeight * (deviation / n), least, is_failing, is_thin, roomy ? 0.0 : 1.0};
+}
+
+ElementQuality element_quality(const QuadTopology& mesh, const QuadRelocation& relocation, int element) {
+  const int n = mesh.is_quad(element) ? 4 : 3;
+  std::array<Vec2, 4> at;
+  std::array<double, 4> delta;
+  for (int k = 0; k < n; ++k) {
+    const int v = mesh.corner(element, k);
+    at[k] = mesh.point(v), delta[k] = relocation.delta(v);
+  }
+  ElementQuality quality = quality_of(at, delta, n);
+  if (quality.crowding > 0) quality.crowding = relocation.crowding(element);
+  return quality;
 }
 
 }  // namespace delquad

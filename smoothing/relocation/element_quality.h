@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "geometry/mesh/quad_corners.h"
 #include "geometry/mesh/quad_topology.h"
@@ -27,6 +28,8 @@ struct ElementQuality {
 /// The size deviation is the mean over the sides of 1 - min(l, 1/l), l = length / delta'. Its weight: with 1,
 /// edits that are weighed by this pay for regular vertices with tau.
 ElementQuality element_quality(const QuadTopology& mesh, const QuadRelocation& relocation, int element);
+/// Of n corners and the delta' there, without what is around: crowding is 0 or 1, which is perhaps some.
+ElementQuality quality_of(const std::array<Vec2, 4>& at, const std::array<double, 4>& delta, int n = 4);
 
 /// How near the ends of an inner side come to each other, against the longest side of its element or delta,
 /// as far as this is not more than twice that (what is far too small all over is not crowded). In `narrow`

@@ -7,6 +7,7 @@
 
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/regularity/patterns.h"
+#include "base/context.h"
 #include "geometry/mesh/quad_topology.h"
 #include "tests/support/analytic_fields.h"
 
@@ -124,6 +125,29 @@ TEST(AcrossCurves, AStripBetweenTwoFacesHandsItOn) {
   EXPECT_EQ(three.network.nodes[1].size(), 9u);
   EXPECT_EQ(three.network.nodes[2].size(), 9u);
   three.expect_conforming();
+}
+
+TEST(AcrossCurves, AnyNumberOfThreadsFillsTheSame) {
+  // Each face takes part in what two curves ask for, so that visits at once are in each other's way.
+  std::vector<int> counts;
+  for (int k = 0; k <= 12; ++k) counts.push_back(k % 2 == 0 ? 8 : 10);
+  const auto run = [&](Rectangles& many, int threads) {
+    const RunScope scope({.threads = threads});
+    return make_regular_across_curves(many.network, {});
+  };
+  const std::vector<double> widths(12, 8);
+  Rectangles one(widths, counts), three(widths, counts);
+  ASSERT_EQ(one.irregular(), 24);
+  const AcrossCurvesSummary alone = run(one, 1), together = run(three, 3);
+  EXPECT_GE(alone.accepted, 6);
+  EXPECT_EQ(one.irregular(), 0);
+  one.expect_conforming();
+  EXPECT_EQ(together.tried, alone.tried);
+  EXPECT_EQ(three.network.nodes, one.network.nodes);
+  for (std::size_t p = 0; p < widths.size(); ++p) {
+    EXPECT_EQ(three.network.patches[p].mesh.points, one.network.patches[p].mesh.points);
+    EXPECT_EQ(three.network.patches[p].mesh.quads, one.network.patches[p].mesh.quads);
+  }
 }
 
 TEST(AcrossCurves, NothingChangesWhereCurvesStay) {
