@@ -11,7 +11,7 @@ namespace delquad {
 
 struct LayoutOptions {
   double irregular = 4;  ///< what an irregular vertex counts when cuts are chosen: quads times eta
-  double tolerance = 6;  ///< what an irregular vertex less may cost where quads are there already
+  double tolerance = 4;  ///< what an irregular vertex less may cost where quads are there already
   int pieces = 2000;     ///< that are looked at in a patch, at most
 };
 
@@ -53,10 +53,10 @@ std::optional<QuadPatch> lay_out(const PatchBoundary& boundary, const CrossField
                                  const ParametricSize& size, const LayoutOptions& options = {},
                                  LayoutSummary* summary = nullptr);
 
-/// The best of some layouts that has fewer irregular vertices than a mesh of the patch, and loses less of the
-/// sum of eta - 1.5 * (size deviation) than the tolerance for each; a quad more that fails (see
-/// ElementQuality) is a loss, too. No quad of it is worse than both kCleanupFloorEta and those before. None:
-/// there is no such layout.
+/// A layout that has fewer irregular vertices than a mesh of the patch, and loses less of the sum of
+/// eta - 1.5 * (size deviation) than the tolerance for each; a quad more that fails (see ElementQuality) is a
+/// loss, too. No quad of it is worse than both kCleanupFloorEta and those before. It looks at few pieces.
+/// None: there is no such layout, or nothing to win.
 std::optional<QuadPatch> more_regular(const QuadPatch& mesh, const PatchBoundary& boundary,
                                       const CrossField& cross, const ParametricSize& size,
                                       const LayoutOptions& options = {}, LayoutSummary* summary = nullptr);
