@@ -222,7 +222,9 @@ Mesh cube_sphere(int n) {
             p[(axis + 2) % 3] = side > 0 ? v : u;
             return vertex(p);
           };
-          add_quad(mesh, at(i, j), at(i + 2, j), at(i + 2, j + 2), at(i, j + 2));
+          // One after the other: the order of points must not be the compiler's.
+          const int d = at(i, j + 2), c = at(i + 2, j + 2), b = at(i + 2, j), a = at(i, j);
+          add_quad(mesh, a, b, c, d);
         }
   return mesh;
 }
