@@ -7,7 +7,7 @@ if [ "$1" = --version ]; then
   cat "$programs/quadwild" "$programs/quad_from_patches" | sha1sum
   exit
 fi
-cp "$1" mesh.obj
+grep -v "^l " "$1" > mesh.obj # it takes lines for faces
 "$programs/quadwild" mesh.obj 2 "$config/prep_config/basic_setup_Mechanical.txt"
 # Its size is a factor of the mean edge of its own triangles.
 edge=$(awk '$1 == "v" { x[++n] = $2; y[n] = $3; z[n] = $4 }
