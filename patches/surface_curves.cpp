@@ -58,6 +58,7 @@ class TubePatch {
         }
         if (!faces(*s.forward, v, w) || !faces(*s.backward, w, v)) continue;
         const double width = norm(flat(w) - flat(v)) / stretch(s) / kAroundTube;
+        if (v != w && width < size_.at(space(v), hint) && !is_free(v, w)) continue;
         widest = std::max(widest, width);
         found.emplace_back(v, width);
         found.emplace_back(w, width);
@@ -103,6 +104,20 @@ class TubePatch {
   /// Does the straight way from v, an end of the side, to w lead into the patch?
   bool faces(const CurveSide& side, int v, int w) const {
     return v == w || dot(perp(flat(side.to) - flat(side.from)), flat(w) - flat(v)) > 0;
+  }
+
+  /// Does the boundary leave the straight way free?
+  bool is_free(int v, int w) const {
+    const Vec2 a = flat(v), b = flat(w);
+    for (const auto& loop : map_.loops)
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const int p = loop[i], q = loop[(i + 1) % loop.size()];
+        if (p == v || p == w || q == v || q == w) continue;
+        const Vec2 c = flat(p), d = flat(q);
+        if (cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0)
+          return false;
+      }
+    return true;
   }
 
   /// Parameter length over length in space.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <queue>
 #include <tuple>
@@ -20,6 +21,8 @@ constexpr int kMaxStarts = 16;  ///< paths tried from one loop
 constexpr double kNewCorner = 0.15, kNewCornerAtStart = 0.05;
 /// The same for a path that runs into a third loop.
 constexpr double kWrongLoop = 2;
+/// What is missing around a sharp tip, at least (radians), and the angle around a blunt one.
+constexpr double kTipDefect = 0.5, kBluntTip = 200 * std::numbers::pi / 180;
 
 class PathChoice {
  public:
@@ -189,7 +192,6 @@ std::optional<CutPath> plan_seam(const Chart& chart, const std::vector<CutEnd>& 
 }
 
 std::vector<int> sharp_tips(const Chart& chart) {
-  constexpr double kTipDefect = 0.5;  // radians missing around the tip
   constexpr std::size_t kMaxTips = 8;
   const std::vector<double> defects = angle_defects(chart);
   std::vector<int> tips;
@@ -218,6 +220,36 @@ std::optional<CutPath> plan_tip_cut(const Chart& chart, int tip, const std::vect
   choice.try_from({tip}, u, boundary);
   for (const auto& loop : chart.loops) choice.try_from(choice.starts(loop), negated(u), at_tip);
   return std::move(choice).best();
+}
+
+std::optional<CutPath> plan_cut_through_tip(const Chart& chart, const std::vector<CutEnd>& ends,
+                                            const std::vector<char>& on_cut) {
+  const std::vector<int>& loop = chart.loops[0];
+  const std::size_t n = loop.size();
+  const auto node = [&](std::size_t i) { return chart.fine_node[loop[i % n]]; };
+  for (std::size_t i = 0; i < n; ++i) {
+    // The cut is passed on both sides, as far as these are the same nodes.
+    std::size_t length = 0;
+    while (2 * length + 3 < n && node(i + n - length - 1) == node(i + length + 1)) ++length;
+    if (length == 0) continue;
+    const double angle = std::numbers::pi - angle_defects(chart)[loop[i]];
+    if (angle < kBluntTip || angle > 2 * std::numbers::pi - kTipDefect) continue;
+    std::vector<char> rim(chart.points.size(), 0);
+    bool is_cut = false;
+    for (std::size_t k = length + 1; k + length < n; ++k) {
+      rim[loop[(i + k) % n]] = 1;
+      is_cut |= k > length + 1 && on_cut[node(i + k - 1)] && on_cut[node(i + k)];
+    }
+    if (is_cut) continue;
+    std::vector<char> fixed = rim;
+    std::vector<double> u(chart.points.size(), 0.0);
+    fixed[loop[i]] = 1;
+    u[loop[i]] = 1;
+    PathChoice choice(chart, ends);
+    choice.try_from({loop[i]}, LaplaceSolver(chart, fixed).solve(u, std::vector<double>(u.size(), 0.0)), rim);
+    if (auto path = std::move(choice).best()) return path;
+  }
+  return std::nullopt;
 }
 
 std::optional<CutPath> plan_division(const Chart& chart) {

@@ -21,6 +21,12 @@ std::vector<int> sharp_tips(const Chart& chart);
 /// A path between a tip and the boundary, of the same kind.
 std::optional<CutPath> plan_tip_cut(const Chart& chart, int tip, const std::vector<CutEnd>& ends);
 
+/// Where a cut ends at a blunt tip, a path that goes on from there to the rest of the boundary, so that both
+/// parts have half of the angle. None where no cut does, or other cuts bound the chart (`on_cut`: fine
+/// nodes).
+std::optional<CutPath> plan_cut_through_tip(const Chart& chart, const std::vector<CutEnd>& ends,
+                                            const std::vector<char>& on_cut);
+
 /// A level curve of the chart's slowest vibration, short for the areas that it separates; on a chart with
 /// handles, rather one that separates nothing.
 std::optional<CutPath> plan_division(const Chart& chart);

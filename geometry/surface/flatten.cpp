@@ -73,9 +73,15 @@ std::vector<char> parted(const Chart& chart, const FlattenOptions& options) {
 
 class ChartWork {
  public:
-  ChartWork(const Chart& chart, const std::vector<CutEnd>& ends, const FlattenOptions& options,
-            double tolerance, int tries, bool stuck)
-      : chart_(chart), ends_(ends), options_(options), tolerance_(tolerance), tries_(tries), stuck_(stuck) {
+  ChartWork(const Chart& chart, const std::vector<CutEnd>& ends, const std::vector<char>& on_cut,
+            const FlattenOptions& options, double tolerance, int tries, bool stuck)
+      : chart_(chart),
+        ends_(ends),
+        on_cut_(on_cut),
+        options_(options),
+        tolerance_(tolerance),
+        tries_(tries),
+        stuck_(stuck) {
     if (!options.element.empty()) elements_ = elements_of(chart, options);
   }
 
@@ -133,6 +139,9 @@ class ChartWork {
         if (auto cut = elements_ ? path_to_boundary(tip) : plan_tip_cut(chart_, tip, ends_))
           return {std::move(map), std::move(cut), false};
     }
+    if (!elements_ && !stuck_)
+      if (auto through = plan_cut_through_tip(chart_, ends_, on_cut_))
+        return {std::move(map), std::move(through), true};
     if (map && acceptable(map->quality, options_.max_area_ratio)) return {std::move(map), {}, false};
     return divide(std::move(map));
   }
@@ -163,6 +172,7 @@ class ChartWork {
 
   const Chart& chart_;
   const std::vector<CutEnd>& ends_;
+  const std::vector<char>& on_cut_;  ///< fine nodes
   const FlattenOptions& options_;
   double tolerance_;
   int tries_;                              ///< cuts that were made because its map distorted
@@ -280,6 +290,7 @@ class Flattener {
 
   void flatten_open(int round) {
     const std::vector<CutEnd> ends = cut_ends();
+    const std::vector<char> on_cut = nodes_on_cuts();
     std::vector<Planned> mapped, planned;
     std::vector<Chart> charts = charts_of(open_, standing_lines());
     std::vector<Outcome> outcomes(charts.size());
@@ -293,7 +304,7 @@ class Flattener {
             tries = std::max(tries, tries_[t]);
             stuck = stuck || stuck_[t] != 0;
           }
-          outcomes[i] = ChartWork(charts[i], ends, options_, tolerance_, tries, stuck).run();
+          outcomes[i] = ChartWork(charts[i], ends, on_cut, options_, tolerance_, tries, stuck).run();
         },
         [&](std::size_t i) { return static_cast<double>(charts[i].triangles.size()); });
     for (std::size_t i = 0; i < charts.size(); ++i) {
@@ -380,10 +391,27 @@ class Flattener {
     return ends;
   }
 
+  std::vector<char> nodes_on_cuts() const {
+    std::vector<char> on_cut(mesh_.points.size(), 0);
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
+      if (is_cut_curve(mesh_.line_curve[l]))
+        for (const int p : mesh_.lines[l]) on_cut[p] = 1;
+    return on_cut;
+  }
+
   void cut(const std::vector<Planned>& planned) {
     SurfaceEditor editor(model_);
+    std::vector<CutEndOnCurve> ends;  // of this round
     for (const auto& [chart, outcome] : planned) {
       check_cancelled();
+      if (outcome.cut) {
+        const auto own = ends_on_curves(editor, chart, *outcome.cut);
+        if (std::ranges::any_of(own, [&](const CutEndOnCurve& a) {
+              return std::ranges::any_of(ends, [&](const CutEndOnCurve& b) { return are_close(a, b); });
+            }))
+          continue;
+        ends.insert(ends.end(), own.begin(), own.end());
+      }
       const bool made = outcome.cut ? apply(editor, chart, outcome) : part(editor, chart, outcome.parts);
       stuck_[chart.fine_triangle.front()] = made ? 0 : 1;
       if (outcome.map)
@@ -393,6 +421,47 @@ class Flattener {
     open_stale(editor.splits());
     sort_unique(model_.corners);
     if (options_.after_cuts) open_stale(options_.after_cuts());
+  }
+
+  bool is_cut_curve(int curve) const {
+    return std::ranges::any_of(cuts_, [&](const SurfaceCut& c) { return c.curve == curve; });
+  }
+
+  /// Where a curve of the model gets a corner by the end of a cut.
+  struct CutEndOnCurve {
+    int curve;
+    Vec3 at;
+  };
+
+  std::vector<CutEndOnCurve> ends_on_curves(const SurfaceEditor& editor, const Chart& chart,
+                                            const CutPath& path) const {
+    std::vector<CutEndOnCurve> ends;
+    if (path.closed) return ends;
+    for (const EdgePoint& p : {path.points.front(), path.points.back()}) {
+      int line = -1;
+      if (p.b >= 0) line = editor.line_on(chart.fine_node[p.a], chart.fine_node[p.b]);
+      for (const auto& loop : chart.loops) {
+        const auto at = std::ranges::find(loop, p.a);
+        if (p.b >= 0 || at == loop.end()) continue;
+        line = editor.line_on(chart.fine_node[p.a],
+                              chart.fine_node[at + 1 == loop.end() ? loop.front() : at[1]]);
+      }
+      if (line >= 0 && !is_cut_curve(mesh_.line_curve[line]))
+        ends.push_back({mesh_.line_curve[line], position(chart, p)});
+    }
+    return ends;
+  }
+
+  /// Whether they would part a curve at a short piece. The later one waits for the next round then, in which
+  /// the other end is a corner, where it can end, too.
+  bool are_close(const CutEndOnCurve& a, const CutEndOnCurve& b) const {
+    constexpr double kShortPiece = 0.1;  // of the curve
+    if (a.curve != b.curve || a.at == b.at) return false;
+    double length = 0;
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
+      if (mesh_.line_curve[l] == a.curve)
+        length += norm(mesh_.points[mesh_.lines[l][1]] - mesh_.points[mesh_.lines[l][0]]);
+    return norm(a.at - b.at) < kShortPiece * length;
   }
 
   /// Triangles that cuts of neighbours split are no longer those of their patch.
@@ -489,9 +558,8 @@ class Flattener {
     if (!model_.projector) return x;
     const int line = editor.line_on(a, b);
     const int curve = line < 0 ? -1 : mesh_.line_curve[line];
-    const bool is_cut = std::ranges::any_of(cuts_, [&](const SurfaceCut& c) { return c.curve == curve; });
-    const Vec3 y =
-        curve < 0 || is_cut ? model_.projector->to_face(chart.face, x) : model_.projector->to_curve(curve, x);
+    const Vec3 y = curve < 0 || is_cut_curve(curve) ? model_.projector->to_face(chart.face, x)
+                                                    : model_.projector->to_curve(curve, x);
     // A projection that jumps elsewhere is no use.
     constexpr double kMaxMove = 0.1;
     return norm(y - x) <= kMaxMove * norm(mesh_.points[b] - mesh_.points[a]) ? y : x;
