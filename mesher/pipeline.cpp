@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "algorithms/regularity/regularity.h"
 #include "base/activity.h"
 #include "base/parallel_each.h"
 #include "base/stopwatch.h"
@@ -128,6 +129,18 @@ MeshProblem without_small_outlines(MeshProblem problem, std::vector<Warning>& to
   return problem;
 }
 
+/// Of a surface whose faces are joined, so that rows run on there: what ends them lies far apart in large
+/// faces. Nothing changes where nothing may cost.
+Options for_compounds(Options options) {
+  constexpr double kMostTolerance = 100;
+  constexpr long long kFarQuads = 1000;
+  const RegularityOptions regularity = regularity_options(options);
+  if (regularity.tolerance == 0 || regularity.joined == 1) return options;
+  options.set("regularity.tolerance", std::min(regularity.joined * regularity.tolerance, kMostTolerance));
+  options.set("regularity.quads", std::max<long long>(regularity.quads, kFarQuads));
+  return options;
+}
+
 }  // namespace
 
 // A problem becomes a mesh in these steps: model and size, maps, curves, patches with their fields; the
@@ -139,6 +152,7 @@ PreparedProblem prepare_by(const MeshProblem& problem, ModelSteps& model) {
   p.metric_plane = problem.metric.plane;
   p.settings = {problem.name,       problem.where, problem.options, problem.max_elements,
                 problem.keep_going, problem.order, problem.criteria};
+  if (problem.surface.compounds != Compounds::kNone) p.settings.options = for_compounds(p.settings.options);
   const auto timed = [&](const char* time, const char* doing, void (ModelSteps::*step)(PreparedProblem&)) {
     const Stopwatch watch;
     const DoingStage stage(doing);

@@ -241,7 +241,13 @@ const OptionTable<RegularityOptions>& table() {
                &RegularityOptions::weight)
           .add({.name = "across_curves",
                 .help = "of surfaces: whether cavities go over curves, too, whose numbers of edges change"},
-               &RegularityOptions::across_curves);
+               &RegularityOptions::across_curves)
+          .add({.name = "joined",
+                .help = "of surfaces with compounds: so many times the tolerance, with cavities of up to "
+                        "1000 quads; 1: as elsewhere",
+                .least = 1,
+                .most = 100},
+               &RegularityOptions::joined);
   return all;
 }
 

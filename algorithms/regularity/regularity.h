@@ -14,6 +14,7 @@ struct RegularityOptions {
   int rounds = 3;             ///< over which the tolerance grows
   double weight = 1;          ///< times what an irregular vertex less may cost by the options of any room
   bool across_curves = true;  ///< of surfaces: see make_regular_across_curves()
+  double joined = 4;          ///< times the tolerance of surfaces with compounds
 };
 
 OptionGroup regularity_group();

@@ -10,6 +10,8 @@
 #include "delquad/mesher.h"
 #include "smoothing/cvt/smooth_points.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/prepare_surface.h"
+#include "tests/support/surfaces.h"
 
 namespace delquad {
 namespace {
@@ -37,6 +39,21 @@ TEST(OptionValues, WhatIsSetStaysWhereOthersHaveMore) {
   options.set_absent(Options{}.set("smoothing.p", 4).set("cleanup.rounds", 3));
   EXPECT_EQ(options, Options{}.set("smoothing.p", 8).set("cleanup.rounds", 3));
   EXPECT_TRUE(quality_named("best").options.flag("curves.round_holes"));
+}
+
+TEST(OptionValues, WhereFacesAreJoinedRegularityMayCostMore) {
+  const auto tolerance = [](Compounds compounds, const Options& options) {
+    MeshProblem problem;
+    problem.surface.compounds = compounds;
+    problem.options = options;
+    return testing_support::prepare_surface(problem, testing_support::cylinder(12, 4, 1, 2),
+                                            make_constant_size(0.5))
+        .settings.options.number("regularity.tolerance");
+  };
+  EXPECT_EQ(tolerance(Compounds::kNone, {}), 3);
+  EXPECT_EQ(tolerance(Compounds::kAll, {}), 12);
+  EXPECT_EQ(tolerance(Compounds::kAll, Options{}.set("regularity.joined", 1)), 3);
+  EXPECT_EQ(tolerance(Compounds::kAll, quality_named("good").options), 0);
 }
 
 TEST(OptionValues, AWholeNumberWillDoForANumber) {
