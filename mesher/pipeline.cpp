@@ -136,7 +136,8 @@ Options for_compounds(Options options) {
   constexpr long long kFarQuads = 1000;
   const RegularityOptions regularity = regularity_options(options);
   if (regularity.tolerance == 0 || regularity.joined == 1) return options;
-  options.set("regularity.tolerance", std::min(regularity.joined * regularity.tolerance, kMostTolerance));
+  const double tolerance = options.number("regularity.tolerance");  // the weight comes later
+  options.set("regularity.tolerance", std::min(regularity.joined * tolerance, kMostTolerance));
   options.set("regularity.quads", std::max<long long>(regularity.quads, kFarQuads));
   return options;
 }
