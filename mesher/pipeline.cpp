@@ -130,7 +130,7 @@ MeshProblem without_small_outlines(MeshProblem problem, std::vector<Warning>& to
 }
 
 /// Of a surface whose faces are joined, so that rows run on there: what ends them lies far apart in large
-/// faces. Nothing changes where nothing may cost.
+/// faces. Nothing changes where nothing may cost, and quads of cavities stay where they were asked for.
 Options for_compounds(Options options) {
   constexpr double kMostTolerance = 100;
   constexpr long long kFarQuads = 1000;
@@ -138,7 +138,7 @@ Options for_compounds(Options options) {
   if (regularity.tolerance == 0 || regularity.joined == 1) return options;
   const double tolerance = options.number("regularity.tolerance");  // the weight comes later
   options.set("regularity.tolerance", std::min(regularity.joined * tolerance, kMostTolerance));
-  options.set("regularity.quads", std::max<long long>(regularity.quads, kFarQuads));
+  if (options.find("regularity.quads") == nullptr) options.set("regularity.quads", kFarQuads);
   return options;
 }
 

@@ -42,18 +42,24 @@ TEST(OptionValues, WhatIsSetStaysWhereOthersHaveMore) {
 }
 
 TEST(OptionValues, WhereFacesAreJoinedRegularityMayCostMore) {
-  const auto tolerance = [](Compounds compounds, const Options& options) {
+  const auto prepared = [](Compounds compounds, const Options& options) {
     MeshProblem problem;
     problem.surface.compounds = compounds;
     problem.options = options;
     return testing_support::prepare_surface(problem, testing_support::cylinder(12, 4, 1, 2),
                                             make_constant_size(0.5))
-        .settings.options.number("regularity.tolerance");
+        .settings.options;
+  };
+  const auto tolerance = [&](Compounds compounds, const Options& options) {
+    return prepared(compounds, options).number("regularity.tolerance");
   };
   EXPECT_EQ(tolerance(Compounds::kNone, {}), 3);
   EXPECT_EQ(tolerance(Compounds::kAll, {}), 12);
   EXPECT_EQ(tolerance(Compounds::kAll, Options{}.set("regularity.joined", 1)), 3);
   EXPECT_EQ(tolerance(Compounds::kAll, quality_named("good").options), 0);
+  EXPECT_EQ(tolerance(Compounds::kAll, Options{}.set("regularity.weight", 2)), 12) << "it counts once, later";
+  EXPECT_EQ(prepared(Compounds::kAll, {}).integer("regularity.quads"), 1000);
+  EXPECT_EQ(prepared(Compounds::kAll, Options{}.set("regularity.quads", 50)).integer("regularity.quads"), 50);
 }
 
 TEST(OptionValues, AWholeNumberWillDoForANumber) {
