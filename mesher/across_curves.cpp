@@ -1,8 +1,10 @@
 #include "algorithms/regularity/across_curves.h"
+#include "algorithms/layout/layouts_together.h"
 
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -178,25 +180,21 @@ std::shared_ptr<const PreparedProblem> with_nodes(const PreparedProblem& prepare
 
 }  // namespace
 
-void run_across_curves(const PreparedProblem& prepared, MeshingState& state) {
+namespace {
+
+/// What is an image of something else, or was given, keeps its curves, and so does what gets nodes of higher
+/// order.
+bool keeps_curves(const PreparedProblem& prepared) {
   const PreparedSurface& surface = *prepared.surface;
-  const RegularityOptions options = regularity_options(prepared.settings.options);
-  // What is an image of something else, or was given, stays.
-  if (!options.across_curves || surface.mirrored || surface.is_part_of || surface.metric || surface.given ||
-      prepared.settings.order > 1 || !prepared.boundary.periodic.empty() ||
-      !prepared.boundary.periodic_faces.empty())
-    return;
-  const DoingStage doing("across curves");
-  CurveNetwork network = network_of(prepared, state);
-  const CurvesInPatches curves(surface.domain);
-  network.at = [&](int patch, int chain, double s) { return curves.at(patch, chain, s); };
-  const Stopwatch watch;
-  const AcrossCurvesSummary summary = make_regular_across_curves(network, options);
-  add_summary(state.log, summary);
-  state.log.add_time("regularity", watch.time());
-  if (summary.accepted == 0) return;
+  return surface.mirrored || surface.is_part_of || surface.metric || surface.given ||
+         prepared.settings.order > 1 || !prepared.boundary.periodic.empty() ||
+         !prepared.boundary.periodic_faces.empty();
+}
+
+/// The network's nodes and the meshes that changed become the state's.
+void take_over(const PreparedProblem& prepared, CurveNetwork network, MeshingState& state) {
   std::vector<int> number;
-  SurfaceNodes nodes = other_nodes(surface, network, state.nodes, number);
+  SurfaceNodes nodes = other_nodes(*prepared.surface, network, state.nodes, number);
   state.other = with_nodes(prepared, nodes, number, network);
   state.nodes = std::move(nodes);
   for (std::size_t p = 0; p < network.patches.size(); ++p) {
@@ -209,6 +207,83 @@ void run_across_curves(const PreparedProblem& prepared, MeshingState& state) {
     std::ranges::copy(points, mesh.points.begin());
     state.patches[p].inside.clear();
   }
+}
+
+/// So many edges along a curve, spaced as its nodes are now.
+std::vector<double> spaced(const std::vector<CurveNode>& nodes, int edges) {
+  const std::size_t n = nodes.size() - 1;
+  std::vector<double> places;
+  for (int k = 0; k < edges; ++k) {
+    const double at = static_cast<double>(k) * static_cast<double>(n) / edges;
+    const auto i = static_cast<std::size_t>(at);
+    places.push_back(nodes[i].s + (at - static_cast<double>(i)) * (nodes[i + 1].s - nodes[i].s));
+  }
+  places.push_back(nodes[n].s);
+  return places;
+}
+
+}  // namespace
+
+void run_across_curves(const PreparedProblem& prepared, MeshingState& state) {
+  const RegularityOptions options = regularity_options(prepared.settings.options);
+  if (!options.across_curves || keeps_curves(prepared)) return;
+  const DoingStage doing("across curves");
+  CurveNetwork network = network_of(prepared, state);
+  const CurvesInPatches curves(prepared.surface->domain);
+  network.at = [&](int patch, int chain, double s) { return curves.at(patch, chain, s); };
+  const Stopwatch watch;
+  const AcrossCurvesSummary summary = make_regular_across_curves(network, options);
+  add_summary(state.log, summary);
+  state.log.add_time("regularity", watch.time());
+  if (summary.accepted > 0) take_over(prepared, std::move(network), state);
+}
+
+void run_layouts_together(const PreparedProblem& prepared, MeshingState& state) {
+  if (keeps_curves(prepared)) return;
+  const SurfaceDomain& domain = prepared.surface->domain;
+  const Stopwatch watch;
+  const std::vector<char> may_change = patches_that_may_change(prepared, state);
+  LayoutNetwork layouts;
+  for (std::size_t c = 0; c < domain.chains.size(); ++c)
+    layouts.curves.push_back({static_cast<int>(state.nodes.on_curve[c].size()) - 1,
+                              domain.chains[c].closed() ? kFewestLoopEdges : 1, !domain.chain_stays[c]});
+  for (std::size_t p = 0; p < domain.patches.size(); ++p) {
+    LayoutPatch& patch = layouts.patches.emplace_back();
+    for (const auto& loop : domain.patches[p].outline)
+      for (const CurveSide& side : loop)
+        if (side.begins(domain.chains[side.chain]))
+          patch.runs.push_back({side.chain, layouts.curves[side.chain].edges});
+    if (!may_change[p]) continue;
+    patch.mesh = state.patches[p].quads;
+    patch.boundary = prepared.patches[p].boundary;
+    patch.cross = prepared.patches[p].cross.get();
+    patch.size = prepared.patches[p].size.get();
+  }
+  layouts.boundary = [&](int p, const std::vector<int>& edges) -> std::optional<PatchBoundary> {
+    SurfaceNodes nodes;
+    nodes.on_curve.resize(edges.size());
+    int n = 0;
+    for (const auto& [chain, now] : layouts.patches[p].runs)
+      if (nodes.on_curve[chain].empty())
+        for (const double s : spaced(state.nodes.on_curve[chain], edges[chain]))
+          nodes.on_curve[chain].push_back({s, n++});
+    PatchBoundary boundary =
+        place_boundary(domain.patches[p].map, domain.patches[p].outline, domain.chains, nodes);
+    return meshable(boundary) ? std::optional(std::move(boundary)) : std::nullopt;
+  };
+  layouts.may_be = [](const QuadPatch& mesh, const PatchBoundary& boundary) {
+    return !closes_too_tightly(mesh, boundary.point_node);
+  };
+  const TogetherSummary summary = lay_out_together(layouts, layout_options(prepared.settings.options));
+  add_summary(state.log, summary);
+  state.log.add_time("layout", watch.time());
+  if (summary.accepted == 0) return;
+  CurveNetwork network;
+  for (std::size_t c = 0; c < layouts.curves.size(); ++c)
+    network.nodes.push_back(spaced(state.nodes.on_curve[c], layouts.curves[c].edges));
+  for (LayoutPatch& patch : layouts.patches)
+    network.patches.push_back({std::move(patch.mesh), nullptr, {}, patch.changed});
+  take_over(prepared, std::move(network), state);
 }
 
 }  // namespace delquad

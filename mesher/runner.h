@@ -39,6 +39,11 @@ struct MeshingState {
 MeshingState begin_meshing(const PreparedProblem& prepared);
 /// Fills cavities over curves of a surface. What lies on curves changes, and state.other with it.
 void run_across_curves(const PreparedProblem& prepared, MeshingState& state);
+/// Lays all patches of a surface out anew, with other numbers of edges on curves, where that is better.
+void run_layouts_together(const PreparedProblem& prepared, MeshingState& state);
+/// Whether the patch is on both sides of one of its curves, and two of its quads have the same four nodes:
+/// two quads around a tube.
+bool closes_too_tightly(const QuadPatch& mesh, const std::vector<int>& point_node);
 /// Takes every patch through one stage. Throws InputError when the mesher had to stop.
 void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state);
 void add_times(const StepTimes& times, StageLog& log);

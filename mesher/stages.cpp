@@ -32,6 +32,20 @@
 #include "smoothing/surface/surface_tracks.h"
 
 namespace delquad {
+bool closes_too_tightly(const QuadPatch& mesh, const std::vector<int>& point_node) {
+  std::vector<int> nodes = point_node;
+  std::ranges::sort(nodes);
+  if (std::ranges::adjacent_find(nodes) == nodes.end()) return false;
+  std::vector<std::array<int, 4>> quads = mesh.quads;
+  const int n_nodes = nodes.back() + 1;
+  for (auto& quad : quads) {
+    for (int& v : quad) v = v < mesh.n_boundary ? point_node[v] : n_nodes + v;
+    std::ranges::sort(quad);
+  }
+  std::ranges::sort(quads);
+  return std::ranges::adjacent_find(quads) != quads.end();
+}
+
 namespace {
 
 /// `mesh`: mesh_frontal, mesh_delquad or mesh_packing.
@@ -61,22 +75,6 @@ void smooth_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
       smooth_points(patch.triangles, in.cross, in.size, *minimiser, options.smoothing, &summary);
   add_summary(log, summary);
   log.add_time("smoothing", watch.time());
-}
-
-/// Whether the patch is on both sides of one of its curves, and two of its quads have the same four nodes:
-/// two quads around a tube.
-bool closes_too_tightly(const QuadPatch& mesh, const std::vector<int>& point_node) {
-  std::vector<int> nodes = point_node;
-  std::ranges::sort(nodes);
-  if (std::ranges::adjacent_find(nodes) == nodes.end()) return false;
-  std::vector<std::array<int, 4>> quads = mesh.quads;
-  const int n_nodes = nodes.back() + 1;
-  for (auto& quad : quads) {
-    for (int& v : quad) v = v < mesh.n_boundary ? point_node[v] : n_nodes + v;
-    std::ranges::sort(quad);
-  }
-  std::ranges::sort(quads);
-  return std::ranges::adjacent_find(quads) != quads.end();
 }
 
 /// Edits of whole patches that were taken back, because they left two quads around a tube: treatments, of

@@ -4,25 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/layout/patch_layout.h"
 #include "base/box_tree.h"
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
 
 namespace delquad {
-
-/// A vertex on the rim of a piece of a patch, and how many quads it gets inside.
-struct RimVertex {
-  int vertex;
-  int quads;
-};
-/// The piece lies on its left. Where a cut opens the piece, both of its sides are on the rim.
-using Rim = std::vector<RimVertex>;
-
-/// All vertices that rims have.
-struct LayoutVertices {
-  std::vector<Vec2> places;
-  std::vector<double> delta;
-};
 
 /// A place on one of several rims.
 struct RimPlace {

@@ -42,6 +42,8 @@ constexpr double kJoining = 0.05;
 /// Of a quad that lacks all of eta, before relocation; and what a piece costs at most that needs no better
 /// ones.
 constexpr double kLoss = 0.5, kGoodCost = 2;
+/// Of an irregular vertex, and of a size deviation.
+constexpr double kIrregular = 4, kDeviation = 1.5;
 /// Of an irregular vertex while cuts are chosen for a try, in parts: those that leave a pair more may be
 /// better.
 constexpr double kEstimate = 0.25;
@@ -146,13 +148,18 @@ bool is_two_stars(std::span<const int> s) {
 /// Odd pieces have no quads.
 constexpr double kNever = 1e30;
 
+/// What the necessary irregular vertices of a piece cost.
+double cost_of_irregular(const Rim& rim, double weight) {
+  const int corners = corners_of(rim);
+  return rim.size() % 2 != 0 || rim.size() < 4 || corners < 2 ? kNever : weight * std::abs(4 - corners);
+}
+
 /// What the irregular vertices of a piece cost, as far as its rim tells.
 double cost_of(const Rim& rim, double weight) {
-  const int corners = corners_of(rim);
-  if (rim.size() % 2 != 0 || rim.size() < 4 || corners < 2) return kNever;
-  const int least = std::abs(4 - corners);
-  const auto sides = corners <= 6 ? sides_of(turns_of(rim)) : std::nullopt;
-  if (!sides) return weight * least;
+  const int corners = corners_of(rim), least = std::abs(4 - corners);
+  const double irregular_cost = cost_of_irregular(rim, weight);
+  const auto sides = irregular_cost < kNever && corners <= 6 ? sides_of(turns_of(rim)) : std::nullopt;
+  if (!sides) return irregular_cost;
   if (corners == 6)
     return weight * (rim.size() > kManyVertices || is_two_stars(sides->edges) ? least : least + kMixed);
   const int irregular = least_irregular_of(sides->edges);
@@ -169,11 +176,42 @@ double cost_of(const Rim& rim, double weight) {
   return weight * (irregular < 0 ? least + kMixed : irregular);
 }
 
+/// Twice the distance from the start of side i to the foot of the arm of a star there.
+int foot_of(std::span<const int> sides, std::size_t i) {
+  int sum = 0;
+  for (std::size_t k = 0; k < sides.size(); ++k, i = (i + 2) % sides.size()) sum = sides[i] - sum;
+  return sum;
+}
+
+/// The same where its sides can have other numbers of edges: by how far they are from those with which a grid
+/// or a star closes.
+double cost_of_closed(const Rim& rim, double weight) {
+  const double irregular = cost_of_irregular(rim, weight);
+  const auto sides = irregular < kNever ? sides_of(turns_of(rim)) : std::nullopt;
+  if (!sides) return irregular;
+  const std::vector<int>& s = sides->edges;
+  double off = 0;
+  if (s.size() == 4) {
+    for (int i = 0; i < 2; ++i)
+      off += std::abs(s[i] - s[i + 2]) * std::sqrt(double(s[i + 1]) * s[(i + 3) % 4]);
+    return kLoss * kDeviation / 4 * off;
+  }
+  if (s.size() == 3 || s.size() == 5)
+    for (std::size_t i = 0; i < s.size(); ++i) off = std::max(off, 2.0 - foot_of(s, i));
+  return irregular + off;
+}
+
 class LayoutSearch {
  public:
   LayoutSearch(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size,
-               const LayoutOptions& options, LayoutSummary& summary)
-      : boundary_(boundary), cross_(cross), size_(size), options_(options), summary_(summary) {}
+               const LayoutOptions& options, LayoutSummary& summary,
+               LayoutEdges edges = LayoutEdges::kCounted)
+      : boundary_(boundary),
+        cross_(cross),
+        size_(size),
+        options_(options),
+        summary_(summary),
+        edges_(edges) {}
 
   /// How many irregular vertices are necessary, by Euler's formula.
   int necessary() {
@@ -183,25 +221,53 @@ class LayoutSearch {
     return std::abs(4 * (2 - static_cast<int>(rims.size())) - turns);
   }
 
-  std::optional<QuadPatch> run() {
+  std::optional<PatchLayout> find() {
     std::vector<Rim> rims = rims_of_boundary();
     while (rims.size() > 1)
       if (!join(rims)) return std::nullopt;
     if (rims.empty()) return std::nullopt;
-    const auto found =
-        solve(rims[0], std::min(kMostLevels, std::abs(corners_of(rims[0])) / kCornersPerLevel));
+    auto found = solve(rims[0], std::min(kMostLevels, std::abs(corners_of(rims[0])) / kCornersPerLevel));
     if (!found) return std::nullopt;
-    return fill(*found);
+    return PatchLayout{vertices_, std::move(found->pieces)};
+  }
+
+  std::optional<QuadPatch> fill(const PatchLayout& layout) {
+    vertices_ = layout.vertices;
+    QuadPatch mesh;
+    mesh.n_boundary = static_cast<int>(boundary_.points.size());
+    mesh.points = boundary_.points;
+    std::vector<int> number(vertices_.places.size(), -1);
+    std::iota(number.begin(), number.begin() + mesh.n_boundary, 0);
+    for (const Rim& rim : layout.pieces)
+      for (const RimVertex& v : rim)
+        if (number[v.vertex] < 0) {
+          number[v.vertex] = static_cast<int>(mesh.points.size());
+          mesh.points.push_back(vertices_.places[v.vertex]);
+        }
+    for (const Rim& rim : layout.pieces) {
+      const auto piece = filled(rim);
+      const PatternMesh filled =
+          piece && piece->pattern ? mesh_pattern(outline_of(rim), *piece->pattern) : mesh_mixed(rim);
+      const int n_rim = static_cast<int>(rim.size()), first = static_cast<int>(mesh.points.size());
+      mesh.points.insert(mesh.points.end(), filled.inside.begin(), filled.inside.end());
+      for (std::array<int, 4> quad : filled.quads) {
+        for (int& v : quad) v = v < n_rim ? number[rim[v].vertex] : first + v - n_rim;
+        std::array<int, 4> sorted = quad;
+        std::ranges::sort(sorted);
+        if (std::ranges::adjacent_find(sorted) != sorted.end()) return std::nullopt;
+        mesh.quads.push_back(quad);
+      }
+    }
+    summary_.pieces += static_cast<int>(layout.pieces.size());
+    summary_.cuts += static_cast<int>(layout.pieces.size()) - 1;
+    return relaxed(mesh);
   }
 
  private:
-  struct Piece {
-    Rim rim;
-    std::optional<Pattern> pattern;  ///< none: it is meshed as a patch of its own
-  };
   struct Solution {
     double cost = 0;
-    std::vector<Piece> pieces;
+    std::vector<Rim> pieces = {};
+    std::optional<Pattern> pattern = {};  ///< of a single piece; none: it is meshed as a patch of its own
   };
   /// A line with its number of edges.
   struct Cut {
@@ -210,6 +276,8 @@ class LayoutSearch {
     double cost;
     std::vector<int> row = {};
   };
+
+  bool is_free() const { return edges_ == LayoutEdges::kFree; }
 
   std::vector<Rim> rims_of_boundary() {
     const std::vector<Vec2>& points = boundary_.points;
@@ -325,12 +393,42 @@ class LayoutSearch {
     return outline;
   }
 
+  double estimate_of(const Rim& rim) const {
+    const double weight = kEstimate * kIrregular;
+    return is_free() ? cost_of_closed(rim, weight) : cost_of(rim, weight);
+  }
+
+  /// The polygon with the numbers of edges nearest to its own for which it has a grid or a star.
+  static Outline closed(const Outline& outline) {
+    const auto sides = sides_of(outline.turn);
+    const int n = sides ? static_cast<int>(sides->edges.size()) : 0;
+    if (n < 3 || n > 5) return outline;
+    const std::vector<int>& s = sides->edges;
+    std::array<int, 5> wanted{};
+    for (int i = 0; i < n; ++i) {
+      const auto foot = [&](int side) { return std::max(1, foot_of(s, side) / 2); };
+      wanted[i] = n == 4 ? (s[i] + s[(i + 2) % 4]) / 2 : foot(i) + foot((i + 2) % n);
+    }
+    Outline other;
+    const int m = static_cast<int>(outline.places.size());
+    for (int i = 0, first = sides->start; i < n; first += s[i++])
+      for (int k = 0; k < wanted[i]; ++k) {
+        const double at = static_cast<double>(k) * s[i] / wanted[i];
+        const int j = static_cast<int>(at), a = (first + j) % m, b = (first + j + 1) % m;
+        const double t = at - j;
+        other.places.push_back(outline.places[a] + t * (outline.places[b] - outline.places[a]));
+        other.delta.push_back(outline.delta[a] + t * (outline.delta[b] - outline.delta[a]));
+        other.turn.push_back(k == 0 ? 1 : 0);
+      }
+    return other;
+  }
+
   std::optional<Solution> by_pattern(const Rim& rim) const {
-    const Outline outline = outline_of(rim);
+    const Outline outline = is_free() ? closed(outline_of(rim)) : outline_of(rim);
     auto pattern = best_pattern(outline, std::abs(4 - corners_of(rim)) + 4);
     if (!pattern) return std::nullopt;
-    const double cost = options_.irregular * irregular_vertices(*pattern) + loss_of(outline, *pattern);
-    return Solution{cost, {{rim, *std::move(pattern)}}};
+    const double cost = kIrregular * irregular_vertices(*pattern) + loss_of(outline, *pattern);
+    return Solution{cost, {rim}, std::move(pattern)};
   }
 
   /// What the quads of a pattern lack: the sum of 1 - eta + 1.5 * (size deviation), before they are
@@ -350,7 +448,7 @@ class LayoutSearch {
         const double l = std::max(2 * norm(points[b] - points[a]) / (delta[a] + delta[b]), kTinyLength);
         deviation += (1 - std::min(l, 1 / l)) / 4;
       }
-      loss += 1 - eta_of_sine(std::ranges::min(corner_sines(at))) + 1.5 * deviation;
+      loss += 1 - eta_of_sine(std::ranges::min(corner_sines(at))) + kDeviation * deviation;
     }
     return kLoss * loss;
   }
@@ -368,11 +466,10 @@ class LayoutSearch {
         bool grids = false;
         cost += kUneven * std::abs(n - 2.0 * between) / n;
         for (const Rim& part : cut_along({&rim, 1}, line, row)) {
-          cost += cost_of(part, kEstimate * options_.irregular);
+          cost += estimate_of(part);
           grids = grids || corners_of(part) <= 4;
         }
-        if (grids && rim[line.from.at].quads == 2 && rim[line.to.at].quads == 2)
-          cost += options_.irregular / 2;
+        if (grids && rim[line.from.at].quads == 2 && rim[line.to.at].quads == 2) cost += kIrregular / 2;
         if (cost < kNever) cuts.push_back({line, edges, cost});
       }
     }
@@ -393,8 +490,7 @@ class LayoutSearch {
       delta += vertices_.delta[rim[i].vertex] / n;
     }
     const double irregular = std::abs(4 - corners_of(rim)) + kMixed + kMixedPerVertex * n;
-    return Solution{options_.irregular * irregular + kLoss * kMixedLoss * area / (delta * delta),
-                    {{rim, std::nullopt}}};
+    return Solution{kIrregular * irregular + kLoss * kMixedLoss * area / (delta * delta), {rim}};
   }
 
   /// Its mesh, numbered as that of a pattern is.
@@ -425,7 +521,7 @@ class LayoutSearch {
       for (const Rim& part : cut_along({&rim, 1}, cut.line, cut.row)) {
         if (!is_polygon(part)) continue;
         const auto filled = by_pattern(part);
-        if (filled) cut.cost += filled->cost - cost_of(part, kEstimate * options_.irregular);
+        if (filled) cut.cost += filled->cost - estimate_of(part);
       }
       vertices_.places.resize(n), vertices_.delta.resize(n);
       best.push_back(std::move(cut));
@@ -440,12 +536,9 @@ class LayoutSearch {
     const int corners = corners_of(rim);
     std::optional<Solution> best;
     if (is_polygon(rim)) best = by_pattern(rim);
-    const double least = options_.irregular * std::abs(4 - corners);
-    if (best && best->cost < least + kGoodCost) return best;
-    if (level > (best ? kMostLevels : 2 * kMostLevels)) {
-      auto other = mixed(rim);
-      return other && (!best || other->cost < best->cost) ? other : best;
-    }
+    if (best && best->cost < kIrregular * std::abs(4 - corners) + kGoodCost) return best;
+    if (level > (best ? kMostLevels : 2 * kMostLevels) && (best || !is_free()))
+      return is_free() ? best : filled(rim);
     const bool convex = is_convex(rim);
     FieldLines tracer(cross_, size_, vertices_, {&rim, 1});
     for (const bool concave : {true, false}) {
@@ -468,41 +561,20 @@ class LayoutSearch {
         if (is_solved && (!best || all.cost < best->cost)) best = std::move(all);
       }
     }
-    if (!best || (corners >= 2 && corners <= 6)) {
+    if (!best || (corners >= 2 && corners <= 6 && !is_free())) {
       auto other = mixed(rim);
       if (other && (!best || other->cost < best->cost)) best = std::move(other);
     }
     return best;
   }
 
-  std::optional<QuadPatch> fill(const Solution& solution) {
-    QuadPatch mesh;
-    mesh.n_boundary = static_cast<int>(boundary_.points.size());
-    mesh.points = boundary_.points;
-    std::vector<int> number(vertices_.places.size(), -1);
-    std::iota(number.begin(), number.begin() + mesh.n_boundary, 0);
-    for (const Piece& piece : solution.pieces)
-      for (const RimVertex& v : piece.rim)
-        if (number[v.vertex] < 0) {
-          number[v.vertex] = static_cast<int>(mesh.points.size());
-          mesh.points.push_back(vertices_.places[v.vertex]);
-        }
-    for (const Piece& piece : solution.pieces) {
-      const PatternMesh filled =
-          piece.pattern ? mesh_pattern(outline_of(piece.rim), *piece.pattern) : mesh_mixed(piece.rim);
-      const int n_rim = static_cast<int>(piece.rim.size()), first = static_cast<int>(mesh.points.size());
-      mesh.points.insert(mesh.points.end(), filled.inside.begin(), filled.inside.end());
-      for (std::array<int, 4> quad : filled.quads) {
-        for (int& v : quad) v = v < n_rim ? number[piece.rim[v].vertex] : first + v - n_rim;
-        std::array<int, 4> sorted = quad;
-        std::ranges::sort(sorted);
-        if (std::ranges::adjacent_find(sorted) != sorted.end()) return std::nullopt;
-        mesh.quads.push_back(quad);
-      }
-    }
-    summary_.pieces += static_cast<int>(solution.pieces.size());
-    summary_.cuts += static_cast<int>(solution.pieces.size()) - 1;
-    return relaxed(mesh);
+  /// By a pattern, or mixed where that costs less.
+  std::optional<Solution> filled(const Rim& rim) {
+    std::optional<Solution> best;
+    if (is_polygon(rim)) best = by_pattern(rim);
+    if (best && best->cost < kIrregular * std::abs(4 - corners_of(rim)) + kGoodCost) return best;
+    auto other = mixed(rim);
+    return other && (!best || other->cost < best->cost) ? other : best;
   }
 
   std::optional<QuadPatch> relaxed(const QuadPatch& raw) const {
@@ -534,30 +606,50 @@ class LayoutSearch {
   const ParametricSize& size_;
   LayoutOptions options_;
   LayoutSummary& summary_;
+  LayoutEdges edges_;
   LayoutVertices vertices_;
 };
 
-/// Whether it has fewer irregular vertices, and what it loses for that is less than they are worth.
-bool is_better(const QuadPatch& found, const QuadPatch& mesh, const ParametricSize& size,
-               const LayoutOptions& options) {
-  const int fewer = count_irregular(mesh) - count_irregular(found);
-  if (fewer <= 0) return false;
-  const auto quality = [&](const QuadPatch& patch) {
-    QuadTopology topology(patch);
-    const QuadRelocation relocation(topology, size);
-    ElementQuality all;
-    for (int e = 0; e < topology.element_slots(); ++e) all.add(element_quality(topology, relocation, e));
-    return all;
-  };
-  const ElementQuality before = quality(mesh), now = quality(found);
-  const double times = static_cast<double>(mesh.quads.size()) / static_cast<double>(found.quads.size());
-  const double loss =
-      before.value - now.value * times + kFailing * (now.failing - before.failing + now.thin - before.thin);
-  return loss < options.tolerance * fewer && now.crowding <= before.crowding &&
-         now.least_sine >= std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
+}  // namespace
+
+PatchWorth PatchWorth::of(const QuadPatch& mesh, const ParametricSize& size) {
+  QuadTopology topology(mesh);
+  const QuadRelocation relocation(topology, size);
+  PatchWorth worth{{}, count_irregular(mesh), mesh.quads.size()};
+  for (int e = 0; e < topology.element_slots(); ++e)
+    worth.quality.add(element_quality(topology, relocation, e));
+  return worth;
 }
 
-}  // namespace
+double PatchWorth::loss(const PatchWorth& now) const {
+  const double times = static_cast<double>(quads) / static_cast<double>(now.quads);
+  return quality.value - now.quality.value * times +
+         kFailing * (now.quality.failing - quality.failing + now.quality.thin - quality.thin);
+}
+
+bool PatchWorth::keeps_worst(const PatchWorth& now, double eta) const {
+  return now.quality.crowding <= quality.crowding &&
+         now.quality.least_sine >= std::min(quality.least_sine, sine_of_eta(eta));
+}
+
+std::optional<PatchLayout> find_layout(const PatchBoundary& boundary, const CrossField& cross,
+                                       const ParametricSize& size, LayoutEdges edges,
+                                       const LayoutOptions& options, LayoutSummary& summary) {
+  return LayoutSearch(boundary, cross, size, options, summary, edges).find();
+}
+
+std::optional<QuadPatch> fill_layout(const PatchLayout& layout, const PatchBoundary& boundary,
+                                     const CrossField& cross, const ParametricSize& size,
+                                     const LayoutOptions& options, LayoutSummary& summary) {
+  try {
+    return LayoutSearch(boundary, cross, size, options, summary).fill(layout);
+  } catch (const InputError&) {
+    // A piece that is no polygon in the plane: there is no such layout.
+  } catch (const std::invalid_argument&) {
+    // Pieces that do not fit together.
+  }
+  return std::nullopt;
+}
 
 std::optional<QuadPatch> lay_out(const PatchBoundary& boundary, const CrossField& cross,
                                  const ParametricSize& size, const LayoutOptions& options,
@@ -566,13 +658,8 @@ std::optional<QuadPatch> lay_out(const PatchBoundary& boundary, const CrossField
   LayoutSummary own;
   own.patches = 1;
   std::optional<QuadPatch> mesh;
-  try {
-    mesh = LayoutSearch(boundary, cross, size, options, own).run();
-  } catch (const InputError&) {
-    // A piece that is no polygon in the plane: there is no such layout.
-  } catch (const std::invalid_argument&) {
-    // Pieces that do not fit together.
-  }
+  if (const auto layout = find_layout(boundary, cross, size, LayoutEdges::kCounted, options, own))
+    mesh = fill_layout(*layout, boundary, cross, size, options, own);
   own.without = mesh ? 0 : 1;
   if (mesh) own.irregular = count_irregular(*mesh);
   own.seconds = watch.work_seconds();
@@ -595,7 +682,11 @@ std::optional<QuadPatch> more_regular(const QuadPatch& mesh, const PatchBoundary
   }
   if (found) {
     found = make_regular(*found, size);
-    if (!is_better(*found, mesh, size, options)) found.reset(), own.worse = 1;
+    const PatchWorth before = PatchWorth::of(mesh, size), now = PatchWorth::of(*found, size);
+    const int fewer = before.irregular - now.irregular;
+    if (fewer <= 0 || before.loss(now) >= options.tolerance * fewer ||
+        !before.keeps_worst(now, kCleanupFloorEta))
+      found.reset(), own.worse = 1;
   }
   if (!found) own.irregular = irregular;
   own.seconds = watch.work_seconds();
@@ -607,21 +698,11 @@ namespace {
 
 const OptionTable<LayoutOptions>& table() {
   static const auto all = OptionTable<LayoutOptions>("layout", "options of K and R")
-                              .add({.name = "irregular",
-                                    .help = "what an irregular vertex counts against quads times eta",
-                                    .least = 0,
-                                    .most = 1000},
-                                   &LayoutOptions::irregular)
                               .add({.name = "tolerance",
                                     .help = "what an irregular vertex less may cost, for R: quads times eta",
                                     .least = 0,
                                     .most = 1e9},
-                                   &LayoutOptions::tolerance)
-                              .add({.name = "pieces",
-                                    .help = "of a patch that are looked at, at most",
-                                    .least = 1,
-                                    .most = 100000},
-                                   &LayoutOptions::pieces);
+                                   &LayoutOptions::tolerance);
   return all;
 }
 

@@ -1,16 +1,18 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <tuple>
 
+#include "algorithms/layout/patch_layout.h"
 #include "base/counters.h"
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
+#include "smoothing/relocation/element_quality.h"
 
 namespace delquad {
 
 struct LayoutOptions {
-  double irregular = 4;  ///< what an irregular vertex counts when cuts are chosen: quads times eta
   double tolerance = 4;  ///< what an irregular vertex less may cost where quads are there already
   int pieces = 2000;     ///< that are looked at in a patch, at most
 };
@@ -52,6 +54,35 @@ struct Counters<LayoutSummary> {
 std::optional<QuadPatch> lay_out(const PatchBoundary& boundary, const CrossField& cross,
                                  const ParametricSize& size, const LayoutOptions& options = {},
                                  LayoutSummary* summary = nullptr);
+
+/// Whether lines and the boundary keep their edges when pieces are chosen, or get what pieces need later.
+enum class LayoutEdges { kCounted, kFree };
+
+/// The pieces of a layout, see lay_out(); none: not found. Where edges are free, a piece costs what its sizes
+/// lose once its opposite sides (or a star's arms) have as many, and has three to five corners, but where no
+/// line cuts it.
+std::optional<PatchLayout> find_layout(const PatchBoundary& boundary, const CrossField& cross,
+                                       const ParametricSize& size, LayoutEdges edges,
+                                       const LayoutOptions& options, LayoutSummary& summary);
+/// Its quads; none: some are flat or inverted.
+std::optional<QuadPatch> fill_layout(const PatchLayout& layout, const PatchBoundary& boundary,
+                                     const CrossField& cross, const ParametricSize& size,
+                                     const LayoutOptions& options, LayoutSummary& summary);
+
+/// What a mesh of a patch is worth beside another one.
+struct PatchWorth {
+  ElementQuality quality;
+  int irregular = 0;
+  std::size_t quads = 0;
+
+  static PatchWorth of(const QuadPatch& mesh, const ParametricSize& size);
+  /// The sum of eta - 1.5 * (size deviation) that goes with `now`, for as many quads; one more that fails
+  /// (see ElementQuality) counts, too.
+  double loss(const PatchWorth& now) const;
+  /// Whether no quad of `now` is worse than both this eta and the worst there was, nor sides are more
+  /// crowded.
+  bool keeps_worst(const PatchWorth& now, double eta) const;
+};
 
 /// A layout that has fewer irregular vertices than a mesh of the patch, and loses less of the sum of
 /// eta - 1.5 * (size deviation) than the tolerance for each; a quad more that fails (see ElementQuality) is a

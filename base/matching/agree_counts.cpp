@@ -22,8 +22,8 @@ constexpr double kUneven = 8;
 constexpr double kCheaper = 1e-9;
 /// Passes over all sums and curves, at most.
 constexpr int kMostAgreements = 50;
-/// Curves of a chain, and steps of the search for one.
-constexpr int kMostCurves = 24, kMostSteps = 2000;
+/// Curves of a chain.
+constexpr int kMostCurves = 24;
 /// What a chain may cost on the way beyond what its end can gain.
 constexpr double kAdvance = 2;
 /// The price of a sum that is to become zero.
@@ -34,10 +34,11 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 class Agreement {
  public:
   Agreement(const std::vector<AgreeingCurve>& curves, int n_patches, const std::vector<ClosureSum>& sums,
-            Budget& steps, std::vector<int>& counts)
+            Budget& steps, std::vector<int>& counts, int most_looks)
       : curves_(curves),
         sums_(sums),
         steps_(steps),
+        most_looks_(most_looks),
         counts_(counts),
         outside_(n_patches),
         in_sums_(curves.size()),
@@ -69,7 +70,7 @@ class Agreement {
       for (std::size_t s = 0; s < sums_.size(); ++s) {
         check_cancelled();
         if (steps_.is_spent()) return;
-        if (values_[s] == 0) continue;
+        if (off(static_cast<int>(s)) == 0) continue;
         if (sums_[s].price_of_pair > 0) better |= close(static_cast<int>(s));
         better |= make(approach(static_cast<int>(s)).changes);
       }
@@ -100,13 +101,13 @@ class Agreement {
   bool close(int sum) {
     std::map<int, int> by;  // of each curve that changes
     forced_ = sum;
-    while (values_[sum] != 0) {
+    while (off(sum) != 0) {
       const Best best = approach(sum);
       if (!make(best.changes)) break;
       for (const Change& c : best.changes) by[c.curve] += c.by;
     }
     forced_ = -1;
-    const bool is_closed = values_[sum] == 0;
+    const bool is_closed = off(sum) == 0;
     Changes all, back;
     for (const auto& [curve, change] : by)
       if (change != 0) all.push_back({curve, change}), back.push_back({curve, -change});
@@ -119,7 +120,7 @@ class Agreement {
     const double most = price(sum, values_[sum]) + kAdvance;
     Best best;
     for (const auto& [curve, times] : sums_[sum].terms)
-      if (curves_[curve].is_free) try_change(curve, values_[sum] * times > 0 ? -1 : 1, most, best);
+      if (curves_[curve].is_free) try_change(curve, off(sum) * times > 0 ? -1 : 1, most, best);
     return best;
   }
 
@@ -161,7 +162,7 @@ class Agreement {
     double least = kNever;
     int last = -1;
     if (to == kAnywhere) least = cost_at(from, first, {}), last = 0;
-    for (int done = 0; !queue.empty() && done < kMostSteps && !steps_.is_spent(); ++done) {
+    for (int done = 0; !queue.empty() && done < most_looks_ && !steps_.is_spent(); ++done) {
       const auto [cost, s] = queue.top();
       queue.pop();
       const Step at = steps[s];
@@ -228,8 +229,15 @@ class Agreement {
   void note_costs(int curve) {
     for (int by = -kNoted; by <= kNoted; ++by) costs_[curve][by + kNoted] = new_cost_of({curve, by});
   }
+  /// By how much a sum of this value is too large or, negative, too small.
+  int off(int sum, int value) const {
+    const int least = sums_[sum].at_least;
+    return least > 0 ? std::min(0, value - least) : value;
+  }
+  int off(int sum) const { return off(sum, values_[sum]); }
   double price(int sum, int value) const {
-    return value == 0 ? 0 : sums_[sum].price_of_pair + sums_[sum].price * std::abs(value);
+    const int by = off(sum, value);
+    return by == 0 ? 0 : sums_[sum].price_of_pair + sums_[sum].price * std::abs(by);
   }
   int times_in(int sum, int curve) const {
     int times = 0;
@@ -271,7 +279,7 @@ class Agreement {
     for (const int s : touched) {
       int value = values_[s];
       for (const Change& c : changes) value += times_in(s, c.curve) * c.by;
-      gain += s == forced_ ? kForced * (std::abs(values_[s]) - std::abs(value))
+      gain += s == forced_ ? kForced * (std::abs(off(s)) - std::abs(off(s, value)))
                            : price(s, values_[s]) - price(s, value);
     }
     return gain;
@@ -292,6 +300,7 @@ class Agreement {
   const std::vector<AgreeingCurve>& curves_;
   const std::vector<ClosureSum>& sums_;
   Budget& steps_;
+  int most_looks_;
   std::vector<int>& counts_;
   int outside_;
   std::vector<std::vector<std::pair<int, int>>> in_sums_;  ///< of each curve: sums, and how often
@@ -306,7 +315,8 @@ class Agreement {
 }  // namespace
 
 void agree_counts(const std::vector<AgreeingCurve>& curves, int n_patches,
-                  const std::vector<ClosureSum>& sums, Budget& steps, std::vector<int>& counts) {
+                  const std::vector<ClosureSum>& sums, Budget& steps, std::vector<int>& counts,
+                  int most_looks) {
   assert(counts.size() == curves.size());
   [[maybe_unused]] const auto is_patch = [&](int p) { return p >= 0 && p < n_patches; };
   assert(std::ranges::all_of(curves, [&](const AgreeingCurve& curve) {
@@ -314,7 +324,7 @@ void agree_counts(const std::vector<AgreeingCurve>& curves, int n_patches,
            std::ranges::all_of(curve.patches, is_patch);
   }));
   assert(std::ranges::all_of(sums, is_patch, &ClosureSum::patch));
-  Agreement(curves, n_patches, sums, steps, counts).run();
+  Agreement(curves, n_patches, sums, steps, counts, most_looks).run();
 }
 
 }  // namespace delquad

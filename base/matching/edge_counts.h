@@ -24,15 +24,18 @@ struct ClosureSum {
   int patch;
   std::vector<std::pair<int, int>> terms;  ///< curve and how often it counts, with its sign
   double price_of_pair = 0, price = 0;
+  int at_least = 0;  ///< > 0: it is to be so much or more, in place of zero, and costs by what it lacks
 };
 
 /// Lowers the sum of all costs by changes of two kinds: by one, along a closed chain of curves and patches,
 /// so that each patch keeps its parity (what lies beyond the outline is one patch more); by two, along an
 /// open one. Both are the cheapest that a search finds from a curve on [as in bidirected flow]; several in a
 /// row may bring a sum to zero. The result is a local minimum, or as near to one as came out when all `steps`
-/// were spent: one for each curve that the searches looked at. The same input gives the same numbers.
+/// were spent: one for each curve that the searches looked at. A search looks at `most_looks` patches. The
+/// same input gives the same numbers.
 void agree_counts(const std::vector<AgreeingCurve>& curves, int n_patches,
-                  const std::vector<ClosureSum>& sums, Budget& steps, std::vector<int>& counts);
+                  const std::vector<ClosureSum>& sums, Budget& steps, std::vector<int>& counts,
+                  int most_looks = 2000);
 
 /// A graph with costs >= 0 on its edges; parallel edges and self-loops are allowed.
 struct WeightedGraph {

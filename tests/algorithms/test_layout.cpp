@@ -2,13 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/layout/field_lines.h"
+#include "algorithms/layout/layout_arcs.h"
+#include "algorithms/layout/layouts_together.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/treatment/treatment.h"
 #include "delquad/extend.h"
@@ -118,6 +123,128 @@ TEST(Layout, TakenOnlyWhereItIsMoreRegular) {
   EXPECT_FALSE(more_regular(*mesh, boundary, cross, size, {}, &summary)) << "none has fewer";
   EXPECT_EQ(summary.worse, 1);
   EXPECT_EQ(summary.irregular, 4);
+}
+
+TEST(LayoutArcs, KeepPiecesAndGetOtherNumbers) {
+  const std::vector<int> runs{16, 16, 16, 16};
+  const PatchBoundary boundary = shapes::plate_with_holes(4, 16, 1, 1, 28);
+  const HarmonicCrossField cross = field_of(boundary);
+  const FunctionSize size(0.25);
+  LayoutSummary summary;
+  const auto layout = find_layout(boundary, cross, size, LayoutEdges::kFree, {}, summary);
+  ASSERT_TRUE(layout);
+  std::vector<int> all = runs;
+  all.push_back(28);
+  const LayoutArcs arcs(*layout, boundary, all, size);
+  std::vector<int> edges;
+  for (const auto& arc : arcs.arcs()) edges.push_back(arc.edges());
+  const PatchLayout same = arcs.with(edges, boundary, size);
+  ASSERT_EQ(same.pieces.size(), layout->pieces.size());
+  for (std::size_t i = 0; i < same.pieces.size(); ++i)
+    EXPECT_EQ(same.pieces[i].size(), layout->pieces[i].size());
+  ASSERT_EQ(arcs.of_runs().size(), all.size());
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    int sum = 0;
+    for (const int a : arcs.of_runs()[r]) sum += edges[a];
+    EXPECT_EQ(sum, all[r]);
+  }
+  // Twice as many everywhere, on a boundary that has them.
+  for (int& n : edges) n *= 2;
+  const PatchBoundary finer = shapes::plate_with_holes(4, 32, 1, 1, 56);
+  const PatchLayout other = arcs.with(edges, finer, size);
+  for (std::size_t i = 0; i < other.pieces.size(); ++i)
+    EXPECT_EQ(other.pieces[i].size(), 2 * layout->pieces[i].size());
+  const auto mesh = fill_layout(other, finer, cross, FunctionSize(0.125), {}, summary);
+  ASSERT_TRUE(mesh);
+  expect_sound(*mesh, finer);
+  EXPECT_EQ(count_irregular(*mesh), 4);
+}
+
+/// Rectangles side by side, as deep as wide, with other numbers of edges on the sides that they share.
+struct RowOfBoxes {
+  static constexpr double kDepth = 2;
+  std::vector<int> uprights;
+  FunctionCross cross{0};
+  FunctionSize size{0.25};
+  LayoutNetwork network;
+
+  explicit RowOfBoxes(std::vector<int> given) : uprights(std::move(given)) {
+    const int n = static_cast<int>(uprights.size()) - 1;
+    // Uprights, then bottoms, then tops.
+    for (const int edges : uprights) network.curves.push_back({edges, 1, true});
+    for (int i = 0; i < 2 * n; ++i) network.curves.push_back({8, 1, true});
+    network.curves.front().is_free = network.curves[static_cast<std::size_t>(n)].is_free = false;
+    network.boundary = [this](int p, const std::vector<int>& edges) { return std::optional(box(p, edges)); };
+    network.may_be = [](const QuadPatch&, const PatchBoundary&) { return true; };
+    for (int p = 0; p < n; ++p) {
+      LayoutPatch& patch = network.patches.emplace_back();
+      for (const int c : curves_of(p)) patch.runs.push_back({c, network.curves[c].edges});
+      patch.boundary = box(p, numbers());
+      patch.cross = &cross, patch.size = &size;
+      patch.mesh = treat_paper(recombine(mesh_delquad(patch.boundary, *make_linf_delquad(), cross, size),
+                                         *make_primal_dual_solver()),
+                               size);
+    }
+  }
+  std::array<int, 4> curves_of(int p) const {
+    const int n = static_cast<int>(uprights.size()) - 1;
+    return {n + 1 + p, p + 1, 2 * n + 1 + p, p};
+  }
+  std::vector<int> numbers() const {
+    std::vector<int> all;
+    for (const LayoutCurve& c : network.curves) all.push_back(c.edges);
+    return all;
+  }
+  PatchBoundary box(int p, const std::vector<int>& edges) const {
+    const double x = kDepth * p;
+    const auto [bottom, right, top, left] = curves_of(p);
+    PatchBoundary boundary;
+    shapes::add_polygon(boundary, {{x, 0}, {x + kDepth, 0}, {x + kDepth, kDepth}, {x, kDepth}},
+                        {edges[bottom], edges[right], edges[top], edges[left]});
+    return boundary;
+  }
+  int irregular() const {
+    int sum = 0;
+    for (const LayoutPatch& patch : network.patches) sum += count_irregular(patch.mesh);
+    return sum;
+  }
+};
+
+TEST(LayoutsTogether, SharedCurvesGetTheNumbersWithWhichAllClose) {
+  RowOfBoxes row({8, 6, 10, 8});
+  ASSERT_GT(row.irregular(), 0);
+  const TogetherSummary summary = lay_out_together(row.network, {});
+  EXPECT_EQ(row.numbers(), std::vector(10, 8));
+  EXPECT_EQ(row.irregular(), 0);
+  EXPECT_EQ(summary.accepted, 1);
+  EXPECT_EQ(summary.patches, 3);
+  EXPECT_EQ(summary.curves, 2);
+  for (int p = 0; p < 3; ++p) {
+    EXPECT_TRUE(row.network.patches[p].changed);
+    expect_sound(row.network.patches[p].mesh, row.box(p, row.numbers()));
+  }
+  RowOfBoxes again({8, 6, 10, 8});
+  lay_out_together(again.network, {});
+  for (int p = 0; p < 3; ++p)
+    EXPECT_EQ(again.network.patches[p].mesh.points, row.network.patches[p].mesh.points);
+}
+
+TEST(LayoutsTogether, NothingChangesWhereNothingMayCost) {
+  RowOfBoxes row({8, 4, 8});
+  row.network.curves[1].is_free = false;
+  const std::vector<int> before = row.numbers();
+  const int irregular = row.irregular();
+  lay_out_together(row.network, {});
+  EXPECT_EQ(row.numbers(), before) << "its curve was given";
+  EXPECT_LE(row.irregular(), irregular);
+  RowOfBoxes other({8, 6, 8});
+  other.network.may_be = [](const QuadPatch&, const PatchBoundary&) { return false; };
+  const std::vector<int> numbers = other.numbers();
+  EXPECT_EQ(lay_out_together(other.network, {}).accepted, 0);
+  EXPECT_EQ(other.numbers(), numbers);
+  RowOfBoxes third({8, 6, 8});
+  for (LayoutPatch& patch : third.network.patches) patch.cross = nullptr;
+  EXPECT_EQ(lay_out_together(third.network, {}).filled, 0);
 }
 
 }  // namespace

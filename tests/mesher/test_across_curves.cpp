@@ -60,6 +60,36 @@ TEST(AcrossCurves, AFoldedSheetBecomesTwoGrids) {
   EXPECT_EQ(parallel.mesh.quads, result.mesh.quads);
 }
 
+TEST(LayoutsTogether, AFoldedSheetBecomesTwoGrids) {
+  const auto run = [](const char* word, int threads) {
+    MeshProblem problem = folded_sheet();
+    problem.options.set("regularity.across_curves", false);
+    problem.options.set("curves.agreement", 0.0);
+    return mesh(problem, word, {.threads = threads});
+  };
+  const MeshResult without = run("DBCO", 1), result = run("DBCRO", 1), parallel = run("DBCRO", 3);
+  ASSERT_GT(without.metrics.values.at("n_beyond"), 0);
+  EXPECT_EQ(result.metrics.values.at("n_beyond"), 0);
+  EXPECT_EQ(result.log.summaries.get<long long>("layouts_together", "accepted"), 1);
+  EXPECT_GT(result.log.summaries.get<long long>("layouts_together", "curves"), 0);
+  EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
+  EXPECT_EQ(result.mesh.regions.at(1).names, std::vector<std::string>{"wall"});
+  EXPECT_EQ(parallel.mesh.points, result.mesh.points);
+  EXPECT_EQ(parallel.mesh.quads, result.mesh.quads);
+}
+
+TEST(LayoutsTogether, CurvesWithGivenEdgesKeepThem) {
+  MeshProblem problem = folded_sheet();
+  problem.divisions = {{"curve_1", 12}};
+  problem.options.set("regularity.weight", 100.0);
+  const MeshResult with = mesh(problem, "DBCRO"), without = mesh(problem, "DBCO");
+  const auto lines = [](const MeshResult& made) {
+    return std::ranges::count_if(made.mesh.line_curve, [&](int c) { return made.mesh.curves[c].tag == 1; });
+  };
+  EXPECT_EQ(lines(with), 12);
+  EXPECT_EQ(lines(without), 12);
+}
+
 TEST(RegularityWeight, CountsForNumbersOfEdgesAndForStages) {
   const auto run = [](std::vector<std::string> keys, bool weighed) {
     MeshProblem problem = folded_sheet();

@@ -99,6 +99,25 @@ TEST(AgreeCounts, KeepsTheSizeWhereThatIsWorthMore) {
   EXPECT_EQ(strip.counts, before);
 }
 
+TEST(AgreeCounts, RaisesWhatIsToBeSoMuchAtLeast) {
+  // A triangle has a star where each two of its sides are together longer than the third by two or more.
+  const auto agreed = [](double price) {
+    std::vector<AgreeingCurve> curves;
+    std::vector<ClosureSum> sums;
+    for (int i = 0; i < 3; ++i) curves.push_back({i == 2 ? 10.0 : 4.0, 1, true, 0.1, {0}});
+    for (int i = 0; i < 3; ++i)
+      sums.push_back({0, {{i, -1}, {(i + 1) % 3, 1}, {(i + 2) % 3, 1}}, price, price, 2});
+    std::vector<int> counts{4, 4, 10};
+    Budget steps{100'000};
+    agree_counts(curves, 1, sums, steps, counts);
+    return counts;
+  };
+  const std::vector<int> counts = agreed(10);
+  EXPECT_GE(counts[0] + counts[1] - counts[2], 2);
+  EXPECT_EQ((counts[0] + counts[1] + counts[2]) % 2, 0);
+  EXPECT_EQ(agreed(0), (std::vector{4, 4, 10}));
+}
+
 TEST(AgreeCounts, KeepsTheParityOfEachPatch) {
   for (int seed = 1; seed <= 200; ++seed) {
     std::srand(seed);

@@ -1,0 +1,370 @@
+#include "algorithms/layout/layouts_together.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "algorithms/cleanup/cleanup.h"
+#include "algorithms/insertion/frontal_mesher.h"
+#include "algorithms/layout/layout_arcs.h"
+#include "algorithms/recombination/recombine.h"
+#include "algorithms/regularity/regularity.h"
+#include "algorithms/treatment/treatment.h"
+#include "base/budget.h"
+#include "base/matching/edge_counts.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "delquad/error.h"
+
+namespace delquad {
+
+namespace {
+
+// Prices are in irregular vertices, each of which costs the tolerance.
+
+/// Of an open sum, for each edge that it is off, and of a polygon without a star.
+constexpr double kPair = 1, kRow = 0.5, kNoStar = 2;
+/// Of an edge more or less of a patch without a layout, and rows that follow it.
+constexpr double kFreeEdge = 0.3, kRowsThatFollow = 2;
+/// What the sizes of quads cost whose edges are too long or short, by half of their edges, and the part of a
+/// piece in which a change of its side is felt.
+constexpr double kSizes = 1.5 / 2, kFelt = 0.5;
+/// What may not be.
+constexpr double kForbidden = 1e6;
+/// Times the tolerance, one after the other: what an open sum costs.
+constexpr double kPrices[] = {1, 3};
+/// Steps of agree_counts() each time, and patches that one of its searches looks at.
+constexpr long long kMostSteps = 500'000;
+constexpr int kMostLooks = 100;
+/// Times that numbers are chosen at each price, at most.
+constexpr int kMostRounds = 8;
+/// Pieces of a patch that are looked at.
+constexpr int kMostPieces = 600;
+/// No quad is to be worse than that and those before.
+constexpr double kLeastEta = 0.3;
+
+/// Numbers of edges: of curves, and of the arcs of each patch.
+struct Numbers {
+  std::vector<int> curves;
+  std::vector<std::vector<int>> arcs;
+};
+
+/// For agree_counts(): curves first, then arcs that are a part of a curve, or inside a patch.
+class NumberProblem {
+ public:
+  /// `price`: what an irregular vertex costs. `stays`: patches that take no part.
+  NumberProblem(const LayoutNetwork& network, const std::vector<std::optional<LayoutArcs>>& layouts,
+                const std::vector<char>& stays, double price)
+      : price_(price), n_curves_(network.curves.size()) {
+    for (const LayoutCurve& c : network.curves) add(c.edges, std::max(c.edges, 1), c.least, c.is_free);
+    for (std::size_t p = 0; p < network.patches.size(); ++p) {
+      variables_.emplace_back();
+      const LayoutPatch& patch = network.patches[p];
+      if (stays[p])
+        for (const CurveRun& run : patch.runs) curves_[run.curve].is_free = false;
+      else if (layouts[p])
+        add_layout(patch, *layouts[p]);
+      else
+        add_front(patch);
+    }
+    for (std::size_t c = 0; c < n_curves_; ++c)
+      if (curves_[c].patches.empty()) curves_[c].is_free = false;
+  }
+
+  Numbers solve(Budget& steps) {
+    agree_counts(curves_, n_places_, sums_, steps, counts_, kMostLooks);
+    Numbers numbers{{counts_.begin(), counts_.begin() + static_cast<std::ptrdiff_t>(n_curves_)}, {}};
+    for (const std::vector<int>& of_arcs : variables_) {
+      auto& arcs = numbers.arcs.emplace_back();
+      for (const int v : of_arcs) arcs.push_back(counts_[v]);
+    }
+    return numbers;
+  }
+
+ private:
+  int add(int edges, double want, int least, bool is_free) {
+    curves_.push_back({want, least, is_free, 0, {}});
+    counts_.push_back(edges);
+    return static_cast<int>(curves_.size()) - 1;
+  }
+
+  void add_front(const LayoutPatch& patch) {
+    const int place = n_places_++;
+    for (const CurveRun& run : patch.runs) {
+      curves_[run.curve].patches.push_back(place);
+      curves_[run.curve].weight += kSizes * kRowsThatFollow + kFreeEdge * price_;
+    }
+  }
+
+  void add_layout(const LayoutPatch& patch, const LayoutArcs& layout) {
+    std::vector<int>& variable = variables_.back();
+    variable.assign(layout.arcs().size(), -1);
+    for (std::size_t r = 0; r < patch.runs.size(); ++r) {
+      const std::vector<int>& arcs = layout.of_runs()[r];
+      const auto& [curve, edges] = patch.runs[r];
+      if (arcs.size() == 1) {
+        variable[arcs[0]] = curve;
+        continue;
+      }
+      // The arcs have as many edges as the curve.
+      const int place = n_places_++;
+      curves_[curve].patches.push_back(place);
+      ClosureSum whole{place, {{curve, -1}}, 0, kForbidden};
+      double length = 0;
+      for (const int a : arcs) length += layout.arcs()[a].length;
+      for (const int a : arcs) {
+        const LayoutArcs::Arc& arc = layout.arcs()[a];
+        variable[a] = add(arc.edges(), arc.length * edges / length, 1, true);
+        curves_.back().patches = {place};
+        whole.terms.emplace_back(variable[a], 1);
+      }
+      sums_.push_back(std::move(whole));
+    }
+    for (std::size_t a = 0; a < variable.size(); ++a)
+      if (variable[a] < 0) variable[a] = add(layout.arcs()[a].edges(), layout.arcs()[a].length, 1, true);
+    for (const auto& piece : layout.pieces()) add_piece(piece, variable);
+  }
+
+  void add_piece(std::span<const LayoutArcs::Step> piece, const std::vector<int>& variable) {
+    const int place = n_places_++;
+    const auto corner = std::ranges::find_if(piece, [](const auto& step) { return step.quads != 2; });
+    const auto first = static_cast<std::size_t>(corner - piece.begin());
+    std::vector<std::vector<int>> sides;
+    std::vector<double> lengths;
+    int corners = 0;
+    bool is_convex = true;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const auto& [arc, forward, quads] = piece[(first + i) % piece.size()];
+      corners += 2 - quads, is_convex &= quads <= 2;
+      if (quads != 2 || sides.empty()) sides.emplace_back(), lengths.push_back(0);
+      const int v = variable[arc];
+      sides.back().push_back(v);
+      lengths.back() += curves_[v].want;
+      curves_[v].patches.push_back(place);
+    }
+    const bool is_box = is_convex && corners == 4;
+    const double around = std::reduce(lengths.begin(), lengths.end());
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const double depth = is_box ? (lengths[(i + 1) % 4] + lengths[(i + 3) % 4]) / 2 : around / 5;
+      for (const int v : sides[i]) curves_[v].weight += kSizes * kFelt * depth;
+    }
+    if (is_box)
+      for (int i = 0; i < 2; ++i) {
+        // A pair ends two rows for each edge but one that there is room for.
+        const double room = std::max((lengths[i + 1] + lengths[(i + 3) % 4]) / 2 - 1, 0.05);
+        add_sum({place, {}, kPair, std::max(kRow, 0.5 / room)}, {{&sides[i], 1}, {&sides[i + 2], -1}});
+      }
+    if (is_convex && (corners == 3 || corners == 5))
+      for (int i = 0; i < corners; ++i) {
+        // Twice the distance from the start of side i to the foot of the star's arm, see star_feet().
+        Sides terms;
+        for (int k = 0, at = i; k < corners; ++k, at = (at + 2) % corners)
+          terms.emplace_back(&sides[at], k % 2 == 0 ? 1 : -1);
+        add_sum({place, {}, kNoStar, kRow, 2}, terms);
+      }
+  }
+
+  using Sides = std::vector<std::pair<const std::vector<int>*, int>>;
+  void add_sum(ClosureSum sum, const Sides& sides) {
+    std::map<int, int> terms;
+    for (const auto& [side, sign] : sides)
+      for (const int v : *side) terms[v] += sign;
+    for (const auto& [v, times] : terms)
+      if (times != 0) sum.terms.emplace_back(v, times);
+    sum.price_of_pair *= 2 * price_;
+    sum.price *= 2 * price_;
+    sums_.push_back(std::move(sum));
+  }
+
+  double price_;
+  std::size_t n_curves_;
+  int n_places_ = 0;  ///< what the sums are of: pieces, patches without any, and curves with several arcs
+  std::vector<AgreeingCurve> curves_;
+  std::vector<int> counts_;
+  std::vector<ClosureSum> sums_;
+  std::vector<std::vector<int>> variables_;  ///< of each patch's arcs
+};
+
+class Together {
+ public:
+  Together(LayoutNetwork& network, const LayoutOptions& options)
+      : network_(network),
+        options_(options),
+        n_(network.patches.size()),
+        layouts_(n_),
+        worth_(n_),
+        candidates_(n_),
+        takes_no_part_(n_) {}
+
+  TogetherSummary run() {
+    std::vector<int> curves;
+    for (const LayoutCurve& c : network_.curves) curves.push_back(c.edges);
+    for_each_patch([&](std::size_t p) { begin(p); });
+    for (const double times : kPrices) {
+      stays_ = takes_no_part_;
+      for (int round = 0; round < kMostRounds; ++round) {
+        Budget steps(kMostSteps);
+        const Numbers numbers =
+            NumberProblem(network_, layouts_, stays_, times * options_.tolerance).solve(steps);
+        ++summary_.chosen;
+        for_each_patch([&](std::size_t p) {
+          if (!stays_[p]) make_candidate(p, numbers);
+        });
+        if (choose(numbers)) break;
+      }
+    }
+    for (const LayoutPatch& patch : network_.patches) summary_.patches += patch.changed;
+    for (const auto& candidate : candidates_) summary_.filled += candidate.filled;
+    for (std::size_t c = 0; c < curves.size(); ++c) summary_.curves += curves[c] != network_.curves[c].edges;
+    return summary_;
+  }
+
+ private:
+  /// A mesh that a patch may get.
+  struct Candidate {
+    std::vector<int> numbers = {};  ///< edges of its arcs and curves, for which it was made
+    bool moved = false;             ///< its curves have others than now
+    double cost = kForbidden;       ///< what it loses, less what fewer irregular vertices are worth
+    std::optional<QuadPatch> mesh = {};
+    PatchBoundary boundary = {};
+    PatchWorth worth = {};
+    int filled = 0;  ///< meshes that were made so far
+  };
+
+  template <class F>
+  void for_each_patch(const F& work) {
+    parallel_for(n_, work,
+                 [&](std::size_t p) { return static_cast<double>(network_.patches[p].mesh.points.size()); });
+  }
+
+  void begin(std::size_t p) {
+    const LayoutPatch& patch = network_.patches[p];
+    takes_no_part_[p] = patch.cross == nullptr;
+    if (takes_no_part_[p]) return;
+    worth_[p] = PatchWorth::of(patch.mesh, *patch.size);
+    LayoutOptions few = options_;
+    few.pieces = std::min(few.pieces, kMostPieces);
+    LayoutSummary own;
+    if (auto layout = find_layout(patch.boundary, *patch.cross, *patch.size, LayoutEdges::kFree, few, own))
+      set_layout(p, *std::move(layout));
+  }
+
+  void set_layout(std::size_t p, PatchLayout layout) {
+    const LayoutPatch& patch = network_.patches[p];
+    std::vector<int> runs;
+    for (const CurveRun& run : patch.runs) runs.push_back(run.edges);
+    layouts_[p].emplace(std::move(layout), patch.boundary, runs, *patch.size);
+  }
+
+  void make_candidate(std::size_t p, const Numbers& numbers) {
+    const LayoutPatch& patch = network_.patches[p];
+    Candidate best{.numbers = numbers.arcs[p]};
+    for (const auto& [curve, edges] : patch.runs) {
+      best.numbers.push_back(numbers.curves[curve]);
+      best.moved |= numbers.curves[curve] != edges;
+    }
+    Candidate& now = candidates_[p];
+    if (best.numbers == now.numbers) return;
+    best.filled = now.filled;
+    const auto boundary =
+        best.moved ? network_.boundary(static_cast<int>(p), numbers.curves) : std::optional(patch.boundary);
+    const auto consider = [&](QuadPatch mesh) {
+      ++best.filled;
+      const PatchWorth worth = PatchWorth::of(mesh, *patch.size);
+      if (!mesh.triangles.empty() || !worth_[p].keeps_worst(worth, kLeastEta) ||
+          !network_.may_be(mesh, *boundary))
+        return;
+      const double cost =
+          worth_[p].loss(worth) - options_.tolerance * (worth_[p].irregular - worth.irregular);
+      if (best.mesh && cost >= best.cost) return;
+      best.cost = cost, best.mesh = std::move(mesh), best.worth = worth;
+    };
+    if (boundary && layouts_[p]) {
+      LayoutSummary own;
+      const PatchLayout layout = layouts_[p]->with(numbers.arcs[p], *boundary, *patch.size);
+      if (const auto mesh = fill_layout(layout, *boundary, *patch.cross, *patch.size, options_, own))
+        consider(make_regular(*mesh, *patch.size));
+    }
+    if (boundary && best.moved && best.cost > 0) consider(by_front(patch, *boundary));
+    if (boundary) best.boundary = *boundary;
+    now = std::move(best);
+  }
+
+  static QuadPatch by_front(const LayoutPatch& patch, const PatchBoundary& boundary) {
+    const TriPatch triangles = mesh_delquad(boundary, *make_linf_delquad(), *patch.cross, *patch.size);
+    const QuadPatch merged = recombine(triangles, *make_primal_dual_solver());
+    return make_regular(clean_up(treat_paper(merged, *patch.size), *patch.size), *patch.size);
+  }
+
+  /// Takes groups that are worth it. False: a patch of each of the others keeps its curves from now on.
+  bool choose(const Numbers& numbers) {
+    std::vector<int> group(n_);
+    std::iota(group.begin(), group.end(), 0);
+    const auto root = [&](int p) {
+      while (group[p] != p) p = group[p] = group[group[p]];
+      return p;
+    };
+    std::vector<int> beside(network_.curves.size(), -1);
+    for (int p = 0; p < static_cast<int>(n_); ++p)
+      for (const auto& [curve, edges] : network_.patches[p].runs) {
+        if (numbers.curves[curve] == edges) continue;
+        if (beside[curve] < 0) beside[curve] = p;
+        group[root(p)] = root(beside[curve]);
+      }
+    std::map<int, std::vector<int>> groups;
+    for (int p = 0; p < static_cast<int>(n_); ++p)
+      if (!stays_[p]) groups[root(p)].push_back(p);
+    bool is_done = true;
+    for (const auto& [first, patches] : groups) {
+      double cost = 0;
+      int fewer = 0;
+      for (const int p : patches)
+        cost += candidates_[p].cost, fewer += worth_[p].irregular - candidates_[p].worth.irregular;
+      const int worst = *std::ranges::max_element(patches, {}, [&](int p) { return candidates_[p].cost; });
+      if (cost < 0 && fewer > 0) {
+        ++summary_.accepted;
+        for (const int p : patches) take(p, numbers);
+      } else if (candidates_[worst].moved) {
+        is_done = false;
+        for (const int p : patches) stays_[p] = candidates_[p].cost >= candidates_[worst].cost / 2;
+      }
+    }
+    return is_done;
+  }
+
+  void take(int p, const Numbers& numbers) {
+    Candidate& candidate = candidates_[p];
+    LayoutPatch& patch = network_.patches[p];
+    summary_.gained += worth_[p].irregular - candidate.worth.irregular;
+    patch.mesh = *std::move(candidate.mesh);
+    patch.boundary = std::move(candidate.boundary);
+    patch.changed = true;
+    worth_[p] = candidate.worth;
+    for (auto& [curve, edges] : patch.runs) network_.curves[curve].edges = edges = numbers.curves[curve];
+    if (layouts_[p]) set_layout(p, layouts_[p]->with(numbers.arcs[p], patch.boundary, *patch.size));
+    candidate = {.filled = candidate.filled};
+  }
+
+  LayoutNetwork& network_;
+  const LayoutOptions& options_;
+  std::size_t n_;
+  std::vector<std::optional<LayoutArcs>> layouts_;  ///< of each patch; none: it has no layout
+  std::vector<PatchWorth> worth_;                   ///< of its mesh
+  std::vector<Candidate> candidates_;
+  std::vector<char> takes_no_part_, stays_;  ///< whether it does now
+  TogetherSummary summary_;
+};
+
+}  // namespace
+
+TogetherSummary lay_out_together(LayoutNetwork& network, const LayoutOptions& options) {
+  const Stopwatch watch;
+  TogetherSummary summary = Together(network, options).run();
+  summary.seconds = watch.work_seconds();
+  return summary;
+}
+
+}  // namespace delquad
