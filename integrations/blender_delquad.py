@@ -100,7 +100,7 @@ class OBJECT_OT_delquad(bpy.types.Operator):
     by: bpy.props.EnumProperty(name="By", items=[("QUADS", "Number of quads", ""), ("SIZE", "Size", "")])
     quads: bpy.props.IntProperty(name="Quads", default=5000, min=10, soft_max=200000)
     size: bpy.props.FloatProperty(name="Size", default=0.1, min=1e-6, unit="LENGTH", description="Length of edges, before the object's scale")
-    quality: bpy.props.EnumProperty(name="Quality", default="good", items=[(q, q.capitalize(), "") for q in ("fast", "good", "best")])
+    quality: bpy.props.EnumProperty(name="Quality", default="good", items=[(q, q.capitalize(), "") for q in ("fast", "good", "best", "regular")])
     angle: bpy.props.FloatProperty(name="Feature angle", default=math.radians(60), min=math.radians(1), max=math.pi, subtype="ANGLE",
                                    description="Edges at which faces turn by more than this stay edges")
 

@@ -209,10 +209,17 @@ void take_over(const PreparedProblem& prepared, CurveNetwork network, MeshingSta
   }
 }
 
-/// So many edges along a curve, spaced as its nodes are now.
+/// None or fewer where a cap took them away.
+int edges_of(const std::vector<CurveNode>& nodes) { return static_cast<int>(nodes.size()) - 1; }
+
+/// The nodes of a curve as they are, or so many edges, spaced as these.
 std::vector<double> spaced(const std::vector<CurveNode>& nodes, int edges) {
-  const std::size_t n = nodes.size() - 1;
   std::vector<double> places;
+  if (edges == edges_of(nodes)) {
+    for (const CurveNode& node : nodes) places.push_back(node.s);
+    return places;
+  }
+  const std::size_t n = nodes.size() - 1;
   for (int k = 0; k < edges; ++k) {
     const double at = static_cast<double>(k) * static_cast<double>(n) / edges;
     const auto i = static_cast<std::size_t>(at);
@@ -239,13 +246,15 @@ void run_across_curves(const PreparedProblem& prepared, MeshingState& state) {
 }
 
 void run_layouts_together(const PreparedProblem& prepared, MeshingState& state) {
-  if (keeps_curves(prepared)) return;
+  // Where meshes are not sound, fewer irregular vertices are not what is missing, and there may be many
+  // rounds.
+  if (keeps_curves(prepared) || prepared.surface->is_anew) return;
   const SurfaceDomain& domain = prepared.surface->domain;
   const Stopwatch watch;
   const std::vector<char> may_change = patches_that_may_change(prepared, state);
   LayoutNetwork layouts;
   for (std::size_t c = 0; c < domain.chains.size(); ++c)
-    layouts.curves.push_back({static_cast<int>(state.nodes.on_curve[c].size()) - 1,
+    layouts.curves.push_back({edges_of(state.nodes.on_curve[c]),
                               domain.chains[c].closed() ? kFewestLoopEdges : 1, !domain.chain_stays[c]});
   for (std::size_t p = 0; p < domain.patches.size(); ++p) {
     LayoutPatch& patch = layouts.patches.emplace_back();
@@ -253,7 +262,8 @@ void run_layouts_together(const PreparedProblem& prepared, MeshingState& state) 
       for (const CurveSide& side : loop)
         if (side.begins(domain.chains[side.chain]))
           patch.runs.push_back({side.chain, layouts.curves[side.chain].edges});
-    if (!may_change[p]) continue;
+    if (!may_change[p] || std::ranges::any_of(patch.runs, [](const CurveRun& run) { return run.edges < 1; }))
+      continue;
     patch.mesh = state.patches[p].quads;
     patch.boundary = prepared.patches[p].boundary;
     patch.cross = prepared.patches[p].cross.get();

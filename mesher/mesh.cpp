@@ -193,6 +193,9 @@ MeshResult mesh(MeshProblem problem, const std::string& text, const Context& con
 }
 
 const std::vector<Quality>& quality_registry() {
+  // Annealing for longer leaves as many irregular vertices once there is Q.
+  const auto best =
+      Options().set("curves.round_holes", true).set("recombination.settled", 0.05).set("cleanup.rounds", 10);
   static const std::vector<Quality> registry = {
       {"fast", "DB", CrossKind::kBoundary},
       // What Q and O move after it need not settle in B. Small cavities that cost nothing.
@@ -204,12 +207,8 @@ const std::vector<Quality>& quality_registry() {
            .set("regularity.tolerance", 0.0)
            .set("regularity.across_curves", false)
            .set("repair.across_cuts", false)},
-      // Annealing for longer leaves as many irregular vertices once there is Q.
-      {"best", "DBCQO", CrossKind::kSizeAware,
-       Options()
-           .set("curves.round_holes", true)
-           .set("recombination.settled", 0.05)
-           .set("cleanup.rounds", 10)},
+      {"best", "DBCQO", CrossKind::kSizeAware, best},
+      {"regular", "DBCQRO", CrossKind::kSizeAware, best},
   };
   return registry;
 }

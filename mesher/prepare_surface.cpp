@@ -169,6 +169,7 @@ class SurfaceSteps final : public ModelSteps {
         model_, std::move(flattening_), *on_curves,
         wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_, divisions_, washers_, mapped_,
         periodic_, refinement_.spots.empty() ? kMostAgreementSteps : kStepsAnew, failures_);
+    surface_->is_anew = !refinement_.spots.empty();
     surface_->model = std::move(model_);
     surface_->cad = cad_;
     surface_->metric = wanted_.metric;

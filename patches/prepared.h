@@ -58,6 +58,7 @@ struct PreparedSurface {
   std::shared_ptr<const MirroredSurface> mirrored;  ///< of symmetric ones, of which `model` is a part
   std::shared_ptr<const WholeSurface> is_part_of;   ///< that; null: `model` is the whole
   std::optional<GivenEntities> given;               ///< of a GivenMesh
+  bool is_anew = false;                             ///< with smaller sizes, as its mesh was not sound
   std::shared_ptr<const SurfaceModel> cad;          ///< as it was read; null of other models
 
   const SurfaceModel& whole() const { return is_part_of ? is_part_of->model : model; }

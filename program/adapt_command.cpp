@@ -250,7 +250,7 @@ void add_adapt(CLI::App& app, Commands& commands) {
           "of the fields: interpolated (default), conservative: their integrals stay, or bounded: so, within "
           "their extremes nearby")
       ->transform(CLI::CheckedTransformer(ways).description("interpolated, conservative or bounded"));
-  adapt->add_option("--quality", arguments.quality, "fast, good or best")->capture_default_str();
+  adapt->add_option("--quality", arguments.quality, "fast, good, best or regular")->capture_default_str();
   adapt->add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
   add_threads(*adapt, arguments.threads);
 }

@@ -131,7 +131,7 @@ void add_batch(CLI::App& app, Commands& commands) {
   batch->add_option("folder", arguments.data, "folder of models")->required();
   batch->add_option("-o,--output", arguments.folder, "folder for the results")->required();
   add_size(*batch, arguments.size, kSizeHelp);
-  batch->add_option("--quality", arguments.quality, "fast, good or best")->capture_default_str();
+  batch->add_option("--quality", arguments.quality, "fast, good, best or regular")->capture_default_str();
   add_criteria(*batch, arguments.criteria, arguments.strict);
   batch->add_flag("--idealize", arguments.idealize, "leave out what is below min_length of the criteria");
   batch->add_option("--ignore-below", arguments.ignore_below, "leave out what of the models is smaller")

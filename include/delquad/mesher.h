@@ -28,7 +28,7 @@ namespace delquad {
 /// Of this library: "0.1.0".
 const char* version();
 
-/// A trade of time against quality: "fast", "good" or "best".
+/// A trade of time against quality: "fast", "good", "best" or "regular".
 struct Quality {
   std::string name, word;
   CrossKind cross;

@@ -166,7 +166,7 @@ TEST(NumberOfQuads, IsMetWithoutASize) {
       problem.quads = wanted;
       expect_quads(problem, "DB");
     }
-  for (const char* quality : {"fast", "good", "best"}) {
+  for (const char* quality : {"fast", "good", "best", "regular"}) {
     MeshProblem problem = plate_of_quads();
     problem.quads = 2500;
     expect_quads(problem, quality);

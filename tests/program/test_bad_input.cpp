@@ -205,7 +205,7 @@ TEST(BadArguments, AreRefused) {
   expect_refusal(mesh({"--pipeline", "DX"}), {"'X'", "F (", "D (", "B ("});
   expect_refusal(mesh({"--pipeline", "BD"}), {"'BD'"});
   expect_refusal(mesh({"--pipeline", ""}), {"empty pipeline"});
-  expect_refusal(mesh({"--quality", "superb"}), {"'superb'", "fast, good, best"});
+  expect_refusal(mesh({"--quality", "superb"}), {"'superb'", "fast, good, best, regular"});
   expect_refusal(mesh({"--cross", "sin("}), {"--cross", "sin("});
   expect_refusal(mesh({"--json", folder / "nowhere" / "record.json"}), {"nowhere"});
   expect_refusal(mesh({"--max-elements", "50"}), {"about 100 quads", "50"});

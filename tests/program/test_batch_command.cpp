@@ -80,7 +80,7 @@ TEST_F(Batch, RefusesWhatIsNoBatch) {
   write_text(parts_ / "wedge.obj", kWedgeObj);
   EXPECT_TRUE(contains(run({"--criteria", "btach"}).err, "btach"));
   EXPECT_TRUE(contains(run({"--format", "abc"}).err, "expected .msh"));
-  EXPECT_TRUE(contains(run({"--quality", "bset"}).err, "expected one of fast, good, best"));
+  EXPECT_TRUE(contains(run({"--quality", "bset"}).err, "expected one of fast, good, best, regular"));
   EXPECT_FALSE(std::filesystem::exists(results_ / "wedge"));
 }
 

@@ -76,7 +76,7 @@ def test_models_that_fail_when_they_are_meshed(tmp_path):
         ({"size": 0.1, "word": "XY"}, "X"),
         ({"size": 0.1, "word": ""}, "word|empty"),
         ({"size": 0.1, "word": "BD"}, "B"),
-        ({"size": 0.1, "quality": "superb"}, "superb.*fast, good, best"),
+        ({"size": 0.1, "quality": "superb"}, "superb.*fast, good, best, regular"),
         ({"size": 0.1, "quality": "good", "word": "DB"}, "exclude each other"),
         ({"size": 0.1, "gradation": -1}, "gradation -1"),
         ({"size": 0.1, "min_size": 0.01}, "'curvature' too"),

@@ -191,7 +191,7 @@ def mesh(
     *,
     metric: Callable[[_Floats], npt.ArrayLike] | tuple[Mesh, npt.ArrayLike] | Mapping[str, Any] | None = None,
     word: str | None = None,
-    quality: Literal["fast", "good", "best"] | None = None,
+    quality: Literal["fast", "good", "best", "regular"] | None = None,
     cross: str | Callable[[_Floats], npt.ArrayLike] | tuple[Mesh, npt.ArrayLike] | None = None,
     sources: Iterable[tuple[npt.ArrayLike, npt.ArrayLike, float, float, float, float]] = (),
     size_on: Mapping[str, float | Mapping[str, float]] | None = None,

@@ -254,7 +254,7 @@ def mesh(
         shape (n, 6); (mesh, such values at its points), or a dictionary with one of "tensor" (these, or formulas),
         "sizes" (formulas of h1, h2 and the direction of h1), "solution" (a formula), "file" and "chord" (of surfaces: how
         far sides stray from an arc), and with "min", "max", "aspect", "gradation" and "complexity"; see docs/anisotropy.md.
-    word, quality: the stages by letters, or "fast", "good" (as if nothing is said) or "best".
+    word, quality: the stages by letters, or "fast", "good" (as if nothing is said), "best" or "regular".
     cross: "boundary", "size-aware", "gradient", "metric" (along its axes), or angles in radians: a function of points of shape (n, 2), a
         formula, or (mesh, values at its points).
     sources: (point, point, size near, size far, radius near, radius far) each; the smallest size counts.
