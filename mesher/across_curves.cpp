@@ -272,11 +272,14 @@ void run_layouts_together(const PreparedProblem& prepared, MeshingState& state) 
   layouts.boundary = [&](int p, const std::vector<int>& edges) -> std::optional<PatchBoundary> {
     SurfaceNodes nodes;
     nodes.on_curve.resize(edges.size());
-    int n = 0;
-    for (const auto& [chain, now] : layouts.patches[p].runs)
-      if (nodes.on_curve[chain].empty())
-        for (const double s : spaced(state.nodes.on_curve[chain], edges[chain]))
-          nodes.on_curve[chain].push_back({s, n++});
+    int n = static_cast<int>(state.nodes.points.size());
+    for (const auto& [chain, now] : layouts.patches[p].runs) {
+      const auto& old = state.nodes.on_curve[chain];
+      auto& on_curve = nodes.on_curve[chain];
+      if (!on_curve.empty()) continue;
+      for (const double s : spaced(old, edges[chain])) on_curve.push_back({s, n++});
+      on_curve.front().node = old.front().node, on_curve.back().node = old.back().node;  // of others, too
+    }
     PatchBoundary boundary =
         place_boundary(domain.patches[p].map, domain.patches[p].outline, domain.chains, nodes);
     return meshable(boundary) ? std::optional(std::move(boundary)) : std::nullopt;
