@@ -6,7 +6,7 @@ program=$1 script=$2 work=$3
 
 PATH=$PATH:/usr/sbin:/sbin
 for tool in slurmctld slurmd sbatch; do
-  command -v $tool >/dev/null || { printf '%s\n' "cluster.SlurmArray: Skipped" "there is no $tool (Debian: slurm-wlm)"; exit 77; }
+  command -v $tool >/dev/null || { echo "skipped: slurm-wlm: there is no program $tool"; exit 77; }
 done
 
 rm -rf "$work"
@@ -77,7 +77,7 @@ for _ in $(seq 300); do
 done
 if [ $up -eq 0 ]; then # some containers do not let a node start
   reason=$(tail -q -n 1 "$work"/log/* 2>/dev/null | tr '\n' ' ' || true)
-  printf '%s\n' "cluster.SlurmArray: Skipped" "Slurm does not come up on this machine: $reason"
+  echo "skipped: Slurm does not come up on this machine: $reason"
   exit 77
 fi
 

@@ -5,22 +5,22 @@ Runs in_freecad.py or in_blender.py in the program, whose last line is "good". E
 """
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent / "support"))
+import needs  # noqa: E402
+
 COMMANDS = {"freecad": ["freecadcmd"], "blender": ["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python"]}
-NEEDED = {"freecad": ("freecadcmd", "ccx"), "blender": ("blender",)}
+NEEDED = {"freecad": {"freecadcmd": "freecad", "ccx": "calculix-ccx"}, "blender": {"blender": "blender"}}
 
 
 def main():
     program, delquad = sys.argv[1:]
-    for needed in NEEDED[program]:
-        if shutil.which(needed) is None:
-            print(f"{needed} is not installed")
-            return 77
+    for needed, package in NEEDED[program].items():
+        needs.program(needed, package)
     with tempfile.TemporaryDirectory() as home:
         environment = {**os.environ, "HOME": home, "PATH": f"{os.path.dirname(delquad)}:{os.environ['PATH']}", "PYTHONDONTWRITEBYTECODE": "1",
                        "INTEGRATIONS": str(HERE.parents[1] / "integrations")}

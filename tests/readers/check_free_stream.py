@@ -12,11 +12,9 @@ import subprocess
 import sys
 import tempfile
 
-try:
-    import numpy as np
-except ImportError:
-    print("numpy is not installed (python3-numpy)")
-    sys.exit(77)
+from read_mesh import needs
+
+np = needs.module("numpy", "python3-numpy")
 
 MODEL = """loop = [
   { rectangle = [[0, 0], [3, 2]], boundary = ["bottom wall", "outflow", "top", "inflow"], region = "gas" },

@@ -5,24 +5,22 @@ read_mesh.py READER FILE [--dealii PROGRAM]
 
 READER: meshio, gmsh, dolfinx, dealii, ccx or vtk. Prints "points", "lines", "triangles", "quads" and "names", each where
 the reader tells it: names by dimension, each with the number of its elements. Exit code 77: the reader is not
-installed, and why.
+installed, see needs.py.
 """
 import argparse
 import json
 import os
+import pathlib
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
 
-ABSENT = 77
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import needs  # noqa: E402
+
 SECONDS = 300  # after which another program hangs
-
-
-def absent(reason):
-    print(reason)
-    sys.exit(ABSENT)
 
 
 def run(command, folder=None):
@@ -33,10 +31,7 @@ def run(command, folder=None):
 
 
 def read_meshio(path, _):
-    try:
-        import meshio
-    except ImportError:
-        absent("meshio is not installed (python3-meshio)")
+    meshio = needs.module("meshio", "python3-meshio")
     mesh = meshio.read(path)
     found = {"points": len(mesh.points), "lines": 0, "triangles": 0, "quads": 0, "names": {}}
     kinds = {"line": "lines", "triangle": "triangles", "quad": "quads"}
@@ -96,8 +91,7 @@ def read_msh22(path):
 
 
 def read_gmsh(path, _):
-    if not shutil.which("gmsh"):
-        absent("gmsh is not installed")
+    needs.program("gmsh", "gmsh")
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "out.msh")
         log = run(["gmsh", path, "-save", "-format", "msh22", "-o", out])
@@ -109,13 +103,11 @@ def read_gmsh(path, _):
 
 
 def read_dolfinx(path, _):
-    try:
-        from mpi4py import MPI
-        import dolfinx.io.gmshio as gmshio
-        import gmsh
-        import numpy
-    except ImportError as error:
-        absent(f"dolfinx is not installed (python3-dolfinx and python3-gmsh): {error}")
+    gmshio = needs.module("dolfinx.io.gmshio", "python3-dolfinx")
+    gmsh = needs.module("gmsh", "python3-gmsh")
+    from mpi4py import MPI  # dolfinx has both
+    import numpy
+
     gmsh.initialize()
     gmsh.option.setNumber("General.Terminal", 0)
     gmsh.merge(path)
@@ -132,7 +124,7 @@ def read_dolfinx(path, _):
 
 def read_dealii(path, options):
     if not options.dealii or not os.path.exists(options.dealii):
-        absent("the program that opens meshes in deal.II was not built (libdeal.ii-dev)")
+        needs.skip("libdeal.ii-dev: the program that opens meshes in deal.II was not built")
     return json.loads(run([options.dealii, path]))
 
 
@@ -199,8 +191,7 @@ def inp_nodes(path):
 
 
 def read_ccx(path, _):
-    if not shutil.which("ccx"):
-        absent("CalculiX is not installed (calculix-ccx)")
+    needs.program("ccx", "calculix-ccx")
     with open(path, encoding="utf-8") as text:
         planar = "TYPE=CPS" in text.read()
     with tempfile.TemporaryDirectory() as folder:
@@ -217,10 +208,7 @@ def read_ccx(path, _):
 
 
 def read_vtk(path, _):
-    try:
-        import vtk
-    except ImportError:
-        absent("VTK is not installed (python3-vtk9)")
+    vtk = needs.module("vtk", "python3-vtk9")
     reader = vtk.vtkXMLUnstructuredGridReader() if path.endswith(".vtu") else vtk.vtkOBJReader()
     errors = []
     reader.AddObserver("ErrorEvent", lambda *event: errors.append(str(event)))

@@ -3,12 +3,11 @@
 import math
 import os
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
 
-from read_mesh import absent, inp_nodes, run_ccx, sets_of
+from read_mesh import inp_nodes, needs, run_ccx, sets_of
 
 YOUNG, POISSON, THICKNESS = 210000.0, 0.3, 0.5
 
@@ -102,8 +101,7 @@ def pulled_pipes(delquad, folder):
 
 
 def main():
-    if not shutil.which("ccx"):
-        absent("CalculiX is not installed (calculix-ccx)")
+    needs.program("ccx", "calculix-ccx")
     for problem in (stretched_plate, holed_plate, pulled_pipes):
         with tempfile.TemporaryDirectory() as folder:
             problem(sys.argv[1], folder)

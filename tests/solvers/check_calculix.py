@@ -14,8 +14,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "readers"))
-from read_mesh import absent, inp_nodes, run_ccx, sets_of  # noqa: E402
-import shutil  # noqa: E402
+from read_mesh import inp_nodes, needs, run_ccx, sets_of  # noqa: E402
 
 YOUNG, POISSON = 210000.0, 0.3
 ZERO = 1e-10  # what rounding leaves, as a part of what is not zero
@@ -418,8 +417,7 @@ PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic, 
 
 
 def main():
-    if not shutil.which("ccx"):
-        absent("CalculiX is not installed (calculix-ccx)")
+    needs.program("ccx", "calculix-ccx")
     with tempfile.TemporaryDirectory() as folder:
         return 0 if PROBLEMS[sys.argv[2]](os.path.abspath(sys.argv[1]), folder, *sys.argv[3:]) else 1
 

@@ -6,9 +6,13 @@ POISSON: the program built from experiments/solvers/dealii_poisson.cpp, which sa
 """
 import json
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import needs  # noqa: E402
 
 PLATE = """loop = [
   { rectangle = [[0, 0], [2, 1]], boundary = ["bottom", "right", "top", "left"] },
@@ -20,11 +24,7 @@ SIZES = [0.03, 0.015]
 
 
 def main():
-    try:
-        import numpy as np
-    except ImportError:
-        print("numpy is not installed (python3-numpy)")
-        return 77
+    np = needs.module("numpy", "python3-numpy")
     delquad, poisson = sys.argv[1:]
     counts, errors = [], []
     with tempfile.TemporaryDirectory() as folder:

@@ -5,22 +5,22 @@ Meshes come by MSH and by XDMF, conditions by names of curves. Errors in L2 must
 nodes, 3. A linear displacement that is given on the curves is exact inside.
 """
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree
 
-try:
-    import gmsh
-    import numpy as np
-    import ufl
-    from dolfinx import fem
-    from dolfinx.fem.petsc import LinearProblem
-    from dolfinx.io import XDMFFile, gmshio
-    from mpi4py import MPI
-except ImportError as error:
-    print(f"{error.name} is not installed (python3-dolfinx, python3-gmsh)")
-    sys.exit(77)
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import needs  # noqa: E402
+
+gmsh = needs.module("gmsh", "python3-gmsh")
+LinearProblem = needs.module("dolfinx.fem.petsc", "python3-dolfinx").LinearProblem
+import numpy as np  # noqa: E402
+import ufl  # noqa: E402
+from dolfinx import fem  # noqa: E402
+from dolfinx.io import XDMFFile, gmshio  # noqa: E402
+from mpi4py import MPI  # noqa: E402
 
 INNER, OUTER = 0.5, 1.0
 ANNULUS = """loop = [

@@ -6,17 +6,16 @@ curved elements, and must not where the sides of the same elements are straight.
 exact. Exit code 77: numpy, scipy or meshio are missing.
 """
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
 
-try:
-    import numpy as np
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import needs  # noqa: E402
 
-    import finite_elements as fe
-except ImportError as error:
-    print(f"{error.name} is not installed (python3-{error.name})")
-    sys.exit(77)
+np = needs.module("numpy", "python3-numpy")
+fe = needs.module("finite_elements", "python3-scipy, python3-meshio")
 
 INNER, OUTER = 0.5, 1.0
 ANNULUS = """loop = [
