@@ -1,10 +1,21 @@
 """Models that the tests share."""
 
+import importlib
+
 import numpy as np
+import pytest
 
 import delquad
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+
+
+def needed(name):
+    """The module; the test is skipped where it is missing, or lacks a library or another module."""
+    try:
+        return importlib.import_module(name)
+    except (ImportError, OSError) as error:
+        pytest.skip(f"{name} cannot be imported: {error}", allow_module_level=True)
 
 
 def square():

@@ -8,12 +8,13 @@ import sys
 import pytest
 
 import delquad
+from shapes import needed
 
 PAGE = pathlib.Path(__file__).parents[2] / "docs" / "python.md"
 
 
 def test_from_a_step_file_to_a_solved_problem(tmp_path):
-    pytest.importorskip("dolfinx")
+    needed("dolfinx")
     section = PAGE.read_text(encoding="utf-8").split("## From a STEP file")[1]
     code = re.search(r"```python\n(.*?)```", section, re.DOTALL)[1]
     assert len([line for line in code.splitlines() if line]) <= 17

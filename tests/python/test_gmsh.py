@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 import delquad
+from shapes import needed
 
-gmsh = pytest.importorskip("gmsh")
+gmsh = needed("gmsh")
 
 import delquad.gmsh  # noqa: E402
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import delquad
-from shapes import SQUARE, octahedron, prism, square
+from shapes import SQUARE, needed, octahedron, prism, square
 
 
 def two_regions():
@@ -110,7 +110,7 @@ def test_help_tells_all_formats():
 
 
 def test_meshio_there_and_back():
-    pytest.importorskip("meshio")
+    needed("meshio")
     r = delquad.mesh(two_regions(), size=0.1)
     m = r.to_meshio()
     assert set(m.field_data) == {"a", "b", "rim", "box"}
@@ -121,7 +121,7 @@ def test_meshio_there_and_back():
 
 
 def test_meshio_of_others():
-    meshio = pytest.importorskip("meshio")
+    meshio = needed("meshio")
     points = np.array(SQUARE + [(2, 0), (2, 1)], dtype=float)
     cells = [("quad", [[0, 1, 2, 3]]), ("vertex", [[0]]), ("triangle", [[1, 4, 2], [4, 5, 2]])]
     plain = delquad.from_meshio(meshio.Mesh(points, cells))
@@ -143,7 +143,7 @@ def test_pictures_for_notebooks():
 
 
 def test_vtk():
-    pytest.importorskip("vtkmodules.vtkFiltersCore")
+    needed("vtkmodules.vtkFiltersCore")
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkFiltersCore import vtkMassProperties, vtkTriangleFilter
 
@@ -159,7 +159,7 @@ def test_vtk():
 
 
 def test_pyvista():
-    pytest.importorskip("pyvista")
+    needed("pyvista")
     r = delquad.mesh(two_regions(), size=0.1)
     surface = r.to_pyvista()
     assert surface.n_cells == len(r.quads) and surface.area == pytest.approx(1)

@@ -8,6 +8,7 @@ import re
 import pytest
 
 import delquad
+from shapes import needed
 
 STUBS = pathlib.Path(delquad.__file__).with_suffix(".pyi")
 TREE = ast.parse(STUBS.read_text(encoding="utf-8"))
@@ -79,7 +80,7 @@ def test_classes(name):
 
 
 def test_gmsh():
-    pytest.importorskip("gmsh")
+    needed("gmsh")
     import delquad.gmsh
 
     told = ast.parse(pathlib.Path(delquad.gmsh.__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
