@@ -23,10 +23,11 @@ dev: packages
 	@[ -d build/dev ] || cmake --preset dev $(CMAKE_FLAGS)
 	cmake --build --preset dev $(if $(TARGETS),--target $(TARGETS))
 
-# Without a build: the format of the sources, and the rooms of the house.
+# Without a build: checks the format of the sources, their structure, and the prose of new and changed lines.
 lint:
 	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
 	python3 tests/house/check_house.py .
+	python3 tests/house/check_prose.py
 
 test: build
 	ctest --preset $(PRESET) -j $$(nproc); status=$$?; \
