@@ -106,8 +106,14 @@ void expect_linear_work(const QuadPatch& raw, const ParametricSize& size, const 
   }
 }
 
-void mesh_random_patches(const char* name, const std::function<std::vector<Vec2>(std::mt19937_64&)>& make) {
-  for (int seed = 0; seed < 24; ++seed) {
+struct Seeds {
+  int begin, end;
+};
+constexpr Seeds kFew{0, 5}, kMore{5, 24};  // more: `make test-long`
+
+void mesh_random_patches(const char* name, Seeds seeds,
+                         const std::function<std::vector<Vec2>(std::mt19937_64&)>& make) {
+  for (int seed = seeds.begin; seed < seeds.end; ++seed) {
     std::mt19937_64 random(seed);
     const std::vector<Vec2> corners = make(random);
     const double size = log_uniform(random, 0.2, 3);
@@ -120,16 +126,25 @@ void mesh_random_patches(const char* name, const std::function<std::vector<Vec2>
   }
 }
 
-TEST(Termination, Slits) { mesh_random_patches("slits", slits); }
-TEST(Termination, Needles) { mesh_random_patches("needles", needles); }
-TEST(Termination, Slivers) { mesh_random_patches("slivers", slivers); }
+TEST(Termination, Slits) { mesh_random_patches("slits", kFew, slits); }
+TEST(Termination, Needles) { mesh_random_patches("needles", kFew, needles); }
+TEST(Termination, Slivers) { mesh_random_patches("slivers", kFew, slivers); }
+TEST(TerminationLong, Slits) { mesh_random_patches("slits", kMore, slits); }
+TEST(TerminationLong, Needles) { mesh_random_patches("needles", kMore, needles); }
+TEST(TerminationLong, Slivers) { mesh_random_patches("slivers", kMore, slivers); }
+
+/// The greater the seed, the more tangled.
+void tangle_grid(int seed) {
+  const QuadPatch mesh = testing_support::jittered(
+      testing_support::scrambled(testing_support::grid_patch(16, 16), seed, 400), seed, 0.1 * seed);
+  expect_linear_work(mesh, FunctionSize(1), "grid " + std::to_string(seed));
+}
 
 TEST(Termination, TangledGrids) {
-  for (int seed = 0; seed < 20; ++seed) {
-    const QuadPatch mesh = testing_support::jittered(
-        testing_support::scrambled(testing_support::grid_patch(16, 16), seed, 400), seed, 0.1 * seed);
-    expect_linear_work(mesh, FunctionSize(1), "grid " + std::to_string(seed));
-  }
+  for (const int seed : {0, 7, 19}) tangle_grid(seed);
+}
+TEST(TerminationLong, TangledGrids) {
+  for (int seed = 1; seed < 19; ++seed) tangle_grid(seed);
 }
 
 /// A disc of n quads, all around one vertex.
@@ -146,7 +161,10 @@ QuadPatch wheel(int n) {
 }
 
 TEST(Termination, VerticesOfManyQuads) {
-  for (const int n : {40, 200, 1000}) expect_linear_work(wheel(n), FunctionSize(0.3), std::to_string(n));
+  for (const int n : {40, 100}) expect_linear_work(wheel(n), FunctionSize(0.3), std::to_string(n));
+}
+TEST(TerminationLong, VerticesOfManyQuads) {
+  for (const int n : {200, 1000}) expect_linear_work(wheel(n), FunctionSize(0.3), std::to_string(n));
 }
 
 TEST(Termination, MovesTakeOffWhatTheyPromise) {
