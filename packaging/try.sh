@@ -6,25 +6,18 @@ set -eu
 here=$(realpath "$(dirname "$0")")
 packages=$(realpath "${1:-build/packages}")
 roots=${2:-build/roots}
-mkdir -p "$roots"
-roots=$(realpath "$roots")
-mirror=${MIRROR:-http://deb.debian.org/debian}
-"$here/../cmake/install-packages.sh" debootstrap
+# shellcheck source-path=SCRIPTDIR source=roots.sh
+. "$here/roots.sh"
 failed=0
 
-# try ROOT NAME: what stands in tries.sh under NAME, in a copy of the root.
+# try SUITE NAME: runs NAME of tries.sh in a copy of the bare system.
 try() {
-  [ -d "$roots/$1" ] || { debootstrap --variant=minbase "$1" "$roots/$1.new" "$mirror" >"$roots/$1.log" && mv "$roots/$1.new" "$roots/$1"; }
   root=$roots/try
-  rm -rf "$root"
-  cp -a "$roots/$1" "$root"
-  cp /etc/resolv.conf "$root/etc"
+  copy_root "$1" "$root"
   cp -r "$packages" "$root/packages"
   cp -r "$here/../examples/solvers" "$here/tries.sh" "$root"
   echo "== $2 in $1"
-  # shellcheck disable=SC2016
-  unshare -m sh -c 'mount -t proc proc "$0/proc" && exec chroot "$0" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 sh /tries.sh "$1" "$2"' "$root" "$2" "$mirror" ||
-    { echo "FAILED: $2 in $1"; failed=1; }
+  enter "$root" LC_ALL=C.UTF-8 sh /tries.sh "$2" "$mirror" || { echo "FAILED: $2 in $1"; failed=1; }
   rm -rf "$root"
 }
 
