@@ -5,6 +5,7 @@
 
 #include "io/mesh_formats.h"
 #include "tests/program/program.h"
+#include "tests/support/needs_file.h"
 
 namespace delquad::testing_support {
 namespace {
@@ -285,6 +286,7 @@ TEST(Output, ThroughDanglingLinkIsWrittenWhereItPoints) {
 
 /// Through the shell, which sets up the standard output.
 TEST(Output, LostStandardOutputIsNoSuccess) {
+  NEEDS_FILE("/dev/full");
   const TemporaryFolder folder;
   const auto model = write_text(folder / "model.toml", kSquare);
   for (const char* redirection : {"> /dev/full", ">&-"}) {
@@ -298,6 +300,7 @@ TEST(Output, LostStandardOutputIsNoSuccess) {
 
 /// What one may not write, or not all of, and a device that is full.
 TEST(Output, FullDiskLeavesNothing) {
+  NEEDS_FILE("/dev/full");
   const TemporaryFolder folder;
   const auto model = write_text(folder / "model.toml", kSquare);
   for (const MeshFormat& format : mesh_formats()) {

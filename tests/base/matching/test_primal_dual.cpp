@@ -13,6 +13,7 @@
 #include "base/matching/matching.h"
 #include "delquad/error.h"
 #include "tests/base/matching/graph_kinds.h"
+#include "tests/support/needs_file.h"
 
 namespace delquad {
 namespace {
@@ -88,10 +89,10 @@ TEST(PrimalDual, AgreesWithLemonOnCompleteGraphs) {
 
 TEST(PrimalDual, AgreesWithLemonOnOddCyclesLinkedByBridges) {
   const Tally tally =
-      solve_many(12000, [](Random& random) { return linked_cycles(random, 2 + below(random, 30)); });
-  EXPECT_GT(tally.perfect, 1000);
-  EXPECT_GT(tally.not_perfect, 1000);
-  EXPECT_GT(tally.expansions, 5000);
+      solve_many(4000, [](Random& random) { return linked_cycles(random, 2 + below(random, 30)); });
+  EXPECT_GT(tally.perfect, 300);
+  EXPECT_GT(tally.not_perfect, 300);
+  EXPECT_GT(tally.expansions, 1500);
 }
 
 TEST(PrimalDual, AgreesWithLemonOnCubicGraphsWithParallelEdges) {
@@ -281,7 +282,7 @@ long long address_space() {
   return pages * sysconf(_SC_PAGESIZE);
 }
 
-/// Ends the process with 7 when memory runs out, as with 10^7 nodes on a small machine.
+/// Ends the process with 7 when memory runs out, as with many nodes on a small machine.
 [[noreturn]] void solve_within(const MatchingGraph& graph, long long bytes) {
   const RunScope run({.threads = 1});
   const rlim_t most = static_cast<rlim_t>(address_space() + bytes);
@@ -296,10 +297,12 @@ long long address_space() {
 }
 
 TEST(PrimalDual, TooLittleMemoryIsAnException) {
+  NEEDS_FILE("/proc/self/statm");
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // without the memory that other tests have left free
   Random random(13);
-  MatchingGraph graph = cubic_graph(random, 1'000'000);
+  MatchingGraph graph = cubic_graph(random, 200'000);
   price(graph, random, 1'000'000);
-  for (const long long megabytes : {1, 10, 20, 40, 80, 100}) {
+  for (const long long megabytes : {1, 2, 4, 8, 16, 20}) {
     SCOPED_TRACE(megabytes);
     EXPECT_EXIT(solve_within(graph, megabytes << 20), testing::ExitedWithCode(7), "");
   }
@@ -309,14 +312,14 @@ TEST(PrimalDual, TooLittleMemoryIsAnException) {
 
 TEST(PrimalDual, IsCancelledAtAnyCheck) {
   Random random(9);
-  MatchingGraph graph = cubic_graph(random, 200'000);
+  MatchingGraph graph = cubic_graph(random, 100'000);
   price(graph, random, 1'000'000);
   long long all = 0;
   {
     const RunScope run({.threads = 1, .on_check = [&] { ++all; }});
     make_primal_dual_solver()->solve(graph);
   }
-  ASSERT_GT(all, 30);  // some milliseconds lie between two of them
+  ASSERT_GT(all, 15);  // some milliseconds lie between two of them
   for (long long at = 1; at <= all; at += all / 10) {
     SCOPED_TRACE(at);
     std::stop_source stop;

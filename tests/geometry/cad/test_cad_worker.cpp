@@ -27,6 +27,7 @@
 #include "geometry/cad/example_models.h"
 #include "tests/geometry/cad/cad_files.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/needs_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
@@ -137,6 +138,7 @@ bool is_over(pid_t process) {
 }
 
 TEST_F(CadWorker, EndsWhenTheRunIsCancelled) {
+  NEEDS_FILE("/proc/thread-self/children");
   std::stop_source stop;
   std::jthread canceller([&] {
     while (children_of(getpid()).empty()) std::this_thread::yield();
@@ -166,6 +168,7 @@ TEST_F(CadWorker, IsToldOfByTheTimeLimit) {
 }
 
 TEST_F(CadWorker, DiesWithItsHost) {
+  NEEDS_FILE("/proc/thread-self/children");
   const pid_t host = fork();
   if (host == 0) {
     try {
