@@ -50,14 +50,14 @@ Mesh star(int n) {
   return of_quads(points, quads);
 }
 
-TEST(Regularity, AGridHasNone) { expect_regularity(quad_grid(5, 4), 0, 0, 0, {}); }
+TEST(RegularityMeasures, AGridHasNone) { expect_regularity(quad_grid(5, 4), 0, 0, 0, {}); }
 
-TEST(Regularity, OneVertexOfATriangleOrAPentagonIsNecessary) {
+TEST(RegularityMeasures, OneVertexOfATriangleOrAPentagonIsNecessary) {
   expect_regularity(star(3), 1, 0, 1, {});
   expect_regularity(star(5), 1, 0, 1, {});
 }
 
-TEST(Regularity, ARotatedEdgeOfAGridIsTwoPairs) {
+TEST(RegularityMeasures, ARotatedEdgeOfAGridIsTwoPairs) {
   Mesh mesh = quad_grid(6, 5);
   // The edge between these two, which loses its ends to (4, 2) and (2, 3).
   const auto at = [](int i, int j) { return 7 * j + i; };
@@ -70,7 +70,7 @@ TEST(Regularity, ARotatedEdgeOfAGridIsTwoPairs) {
   EXPECT_EQ(pairs, (std::set{std::pair(at(3, 2), at(4, 2)), std::pair(at(3, 3), at(2, 3))}));
 }
 
-TEST(Regularity, IrregularVerticesOnLinesAreToldApart) {
+TEST(RegularityMeasures, IrregularVerticesOnLinesAreToldApart) {
   Mesh mesh = star(5);
   EXPECT_EQ(evaluate_metrics(mesh, nullptr).values.at("n_irregular_on_curves"), 0);
   mesh.lines = {{1, 0}, {0, 3}};
@@ -80,7 +80,7 @@ TEST(Regularity, IrregularVerticesOnLinesAreToldApart) {
   EXPECT_EQ(evaluate_metrics(mesh, nullptr).values.at("n_irregular_on_curves"), 1);
 }
 
-TEST(Regularity, AVertexOfSixIsInTwoPairs) {
+TEST(RegularityMeasures, AVertexOfSixIsInTwoPairs) {
   Mesh mesh = quad_grid(6, 6);
   // The quad from (2, 2) to (3, 3) is gone, and with it (3, 3).
   mesh.quads.erase(mesh.quads.begin() + 6 * 2 + 2);
@@ -107,7 +107,7 @@ Mesh filled_square(const std::array<int, 4>& edges) {
   return of_quads(points, fill.quads);
 }
 
-TEST(Regularity, APairEndsTheRowsThatOppositeSidesDifferBy) {
+TEST(RegularityMeasures, APairEndsTheRowsThatOppositeSidesDifferBy) {
   for (const auto& edges :
        {std::array{10, 9, 8, 9}, {9, 9, 10, 10}, {12, 12, 9, 11}, {14, 8, 10, 8}, {13, 9, 9, 11}}) {
     const int rows = std::abs(edges[0] - edges[2]), columns = std::abs(edges[1] - edges[3]);
@@ -145,7 +145,7 @@ Mesh ring(int n, int rows) {
   return of_quads(points, quads);
 }
 
-TEST(Regularity, ARingsCirclesOfDifferentCountsNeedPairs) {
+TEST(RegularityMeasures, ARingsCirclesOfDifferentCountsNeedPairs) {
   expect_regularity(ring(24, 3), 0, 4, 0, {{{1, 1}, 2}});
   // The vertices of too many quads lie on the inner circle.
   const Mesh flat = ring(24, 1);
@@ -180,14 +180,14 @@ Mesh cube_surface(int n) {
   return mesh;
 }
 
-TEST(Regularity, EightVerticesOfACubeAreNecessary) {
+TEST(RegularityMeasures, EightVerticesOfACubeAreNecessary) {
   Mesh mesh = cube_surface(3);
   expect_regularity(mesh, 8, 0, 0, {});  // corners of its six grids
   std::ranges::fill(mesh.quad_region, 0);
   expect_regularity(mesh, 8, 0, 8, {});  // as of a sphere
 }
 
-TEST(Regularity, ACurveThroughARegionCutsIt) {
+TEST(RegularityMeasures, ACurveThroughARegionCutsIt) {
   Mesh mesh = quad_grid(4, 4);
   mesh.curves.push_back({5, {"crack"}});
   for (int j = 0; j < 2; ++j) {
@@ -197,7 +197,7 @@ TEST(Regularity, ACurveThroughARegionCutsIt) {
   expect_regularity(mesh, 0, 0, 0, {});
 }
 
-TEST(Regularity, IsNotDefinedWithTriangles) {
+TEST(RegularityMeasures, IsNotDefinedWithTriangles) {
   Mesh mesh = quad_grid(2, 2);
   mesh.triangles = {{0, 1, 4}};
   EXPECT_FALSE(evaluate_metrics(mesh, nullptr).pairs);
