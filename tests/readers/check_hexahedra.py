@@ -25,10 +25,12 @@ LAYERS, HEIGHT = 6, 4.0
 def sweep(delquad, folder, name, *options):
     """The file, and how many elements its names have, by dimension."""
     model, section, path = (os.path.join(folder, n) for n in ("model.toml", "section.msh", name))
-    with open(model, "w", encoding="utf-8") as file:
-        file.write(MODEL)
-    for command in (["mesh", model, "-o", section], ["extrude", section, "--along", f"0,0,{HEIGHT}", "--layers", str(LAYERS), "--growth", "1.2", "-o", path, *options]):
-        subprocess.run([delquad, *command], check=True, capture_output=True, timeout=120)
+    if not os.path.exists(section):
+        with open(model, "w", encoding="utf-8") as file:
+            file.write(MODEL)
+        subprocess.run([delquad, "mesh", model, "-o", section], check=True, capture_output=True, timeout=120)
+    subprocess.run([delquad, "extrude", section, "--along", f"0,0,{HEIGHT}", "--layers", str(LAYERS), "--growth", "1.2", "-o", path, *options],
+                   check=True, capture_output=True, timeout=120)
     return path
 
 

@@ -121,21 +121,24 @@ def entities(path):
     return {}
 
 
-def check_file(options, reader, kind, path, wanted, everything):
-    command = [sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "read_mesh.py"), reader, path]
+def read_files(options, reader, paths):
+    """What the reader finds in each file: it is started once for all. Where it breaks off, the rest is refused."""
+    command = [sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "read_mesh.py"), reader, *paths]
     if options.dealii:
         command += ["--dealii", options.dealii]
     try:
         result = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS, check=False)
-    except subprocess.TimeoutExpired:
-        return "hangs"
-    if result.returncode == needs.SKIPPED:
-        print(result.stdout.strip())
-        sys.exit(needs.SKIPPED)
-    if result.returncode != 0:
-        return "refused: " + (result.stderr.strip() or f"exit code {result.returncode}")[-1500:]
-    # A line per name may stand before.
-    return "; ".join(differences(kind, wanted, json.loads(result.stdout.strip().splitlines()[-1]), everything))
+        printed, end = result.stdout, result.returncode and f"exit code {result.returncode} {result.stderr.strip()[-1500:]}"
+    except subprocess.TimeoutExpired as error:
+        printed, end = (error.stdout or b"").decode(), "it hangs"
+    else:
+        if result.returncode == needs.SKIPPED:
+            print(printed.strip())
+            sys.exit(needs.SKIPPED)
+    found = [json.loads(line) for line in printed.splitlines() if line.startswith("{")]
+    if end:
+        found = found[:len(paths) - 1]
+    return found + [{"refused": end}] * (len(paths) - len(found))
 
 
 def check_model(options, model, arguments, folder):
@@ -154,6 +157,7 @@ def check_model(options, model, arguments, folder):
     everything["entities"] = entities(f"{stem}.all.msh")
     good = True
     for reader in options.reader.split(","):
+        opened = []
         for kind in READERS[reader][1]:
             if reader in ("dolfinx", "dealii") and wanted["triangles"] > 0:
                 print(f"{name} {reader} {kind}: skipped, takes no triangles beside quads")
@@ -161,8 +165,10 @@ def check_model(options, model, arguments, folder):
             if reader == "dealii" and kind == "msh" and wanted["lines"] > boundary["lines"]:
                 print(f"{name} {reader} {kind}: skipped, takes no named lines inside the mesh")
                 continue
+            opened.append(kind)
+        for kind, found in zip(opened, read_files(options, reader, [f"{stem}.{kind}" for kind in opened]) if opened else [], strict=True):
             reference = boundary if kind == "boundary.msh" else wanted
-            problem = check_file(options, reader, kind, f"{stem}.{kind}", reference, everything)
+            problem = found["refused"] if "refused" in found else "; ".join(differences(kind, reference, found, everything))
             print(f"{name} {reader} {kind}: {problem or 'good'}", flush=True)
             good = good and not problem
     return good

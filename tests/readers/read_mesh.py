@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Opens a mesh in another program and says what that found there, as JSON.
+"""Opens meshes in another program and says what that found there, as a line of JSON for each.
 
-read_mesh.py READER FILE [--dealii PROGRAM]
+read_mesh.py READER FILE... [--dealii PROGRAM]
 
-READER: meshio, gmsh, dolfinx, dealii, ccx or vtk. Prints "points", "lines", "triangles", "quads" and "names", each where
+READER: meshio, gmsh, dolfinx, dealii, ccx or vtk. Prints "refused" and why, or "points", "lines", "triangles", "quads" and "names", each where
 the reader tells it: names by dimension, each with the number of its elements. Exit code 77: the reader is not
 installed, see needs.py.
 """
@@ -16,6 +16,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import traceback
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import needs  # noqa: E402
@@ -245,10 +246,15 @@ READERS = {"meshio": (read_meshio, ["msh", "bin.msh", "vtu", "obj", "inp", "mesh
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("reader", choices=READERS)
-    parser.add_argument("file")
+    parser.add_argument("files", nargs="+")
     parser.add_argument("--dealii", help="the program built from dealii_grid.cpp")
     options = parser.parse_args()
-    print(json.dumps(READERS[options.reader][0](os.path.abspath(options.file), options)))
+    for file in options.files:
+        try:
+            found = READERS[options.reader][0](os.path.abspath(file), options)
+        except Exception:
+            found = {"refused": traceback.format_exc(limit=-3)[-1500:]}
+        print("\n" + json.dumps(found), flush=True)  # the program may have left a line open
 
 
 if __name__ == "__main__":
