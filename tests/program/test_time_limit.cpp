@@ -2,14 +2,17 @@
 #include <pty.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 
 #include "tests/program/program.h"
 
 namespace delquad::testing_support {
 namespace {
 
-/// Takes half a minute, nearly all of it in smoothing.
-const std::vector<std::string> kLong = {"--size", "0.003", "--pipeline", "DLLLLLLLLLLLL", "--threads", "1"};
+/// Takes some seconds, nearly all of them in smoothing.
+const std::vector<std::string> kLong = {"--size",        "0.004*(1+x)", "--pipeline",
+                                        "DLLLLLLLLLLLL", "--threads",   "1"};
 
 std::vector<std::string> mesh_words(const TemporaryFolder& folder, const std::vector<std::string>& more) {
   std::vector<std::string> words = {"mesh",   write_text(folder / "model.toml", kSquare),
@@ -22,10 +25,10 @@ std::vector<std::string> mesh_words(const TemporaryFolder& folder, const std::ve
 TEST(TimeLimit, EndsTheRunWithTheStageAndItsFace) {
   const TemporaryFolder folder;
   auto words = mesh_words(folder, kLong);
-  words.insert(words.end(), {"--time-limit", "3"});
+  words.insert(words.end(), {"--time-limit", "1.5"});
   const ProgramResult result = delquad(words);
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_TRUE(result.err.starts_with("error: not done after 3 s (--time-limit): ")) << result.err;
+  EXPECT_TRUE(result.err.starts_with("error: not done after 1.5 s (--time-limit): ")) << result.err;
   EXPECT_TRUE(contains(result.err, "Lp-CVT smoothing of region 1 (")) << result.err;
   EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
   EXPECT_EQ(result.out, "");
@@ -58,7 +61,7 @@ TEST_P(Signals, EndTheRunWithoutAFile) {
   const TemporaryFolder folder;
   ProgramOptions options{mesh_words(folder, kLong), 0, {}, GetParam().signal_number};
   int asked = 0;
-  options.interrupt_when = [&] { return ++asked > 150; };  // a second and a half
+  options.interrupt_when = [&] { return ++asked > 50; };  // half a second
   const ProgramResult result = run_program(DELQUAD_PROGRAM, options);
   EXPECT_EQ(result.exit_code, GetParam().exit_code) << result.err;
   EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
@@ -74,7 +77,7 @@ TEST(Signals, WhileAFileIsWritten) {
                                [](const std::string& name) { return name.ends_with(".tmp"); });
   };
   ProgramOptions options{{"mesh", write_text(folder / "model.toml", kSquare), "-o", folder / "out.msh",
-                          "--size", "0.0015", "--pipeline", "D"},
+                          "--size", "0.003", "--pipeline", "D"},
                          0,
                          is_temporary,
                          SIGTERM};
@@ -87,7 +90,7 @@ TEST(Progress, NamesTheFaceOnATerminal) {
   const TemporaryFolder folder;
   auto words = mesh_words(folder, kLong);
   words.insert(words.begin(), DELQUAD_PROGRAM);
-  words.insert(words.end(), {"--time-limit", "3"});
+  words.insert(words.end(), {"--time-limit", "1.5"});
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -97,7 +100,7 @@ TEST(Progress, NamesTheFaceOnATerminal) {
     execv(argv[0], argv.data());
     _exit(127);
   }
-  ASSERT_GT(child, 0);
+  if (child < 0) GTEST_SKIP() << "no terminal can be opened on this machine: " << std::strerror(errno);
   std::string text;
   char part[4096];
   for (ssize_t n = 0; (n = read(terminal, part, sizeof part)) > 0;)
