@@ -16,6 +16,7 @@
 #include "io/mesh_io.h"
 #include "metrics/tables/result_records.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/needs_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"
 
@@ -290,6 +291,7 @@ TEST_F(Peers, MayRunClockwise) {
 
 /// Nothing that a peer started outlives the limit of its cell.
 TEST_F(Peers, HangUntilTheTimeout) {
+  NEEDS_FILE("/proc/self/stat");
   const std::string pid = (folder_ / "pid").string();
   const std::string text = peer("hang", "sleep 600 & echo $! > '" + pid + "'; wait") + kPeerSquare;
   SweepOptions options;
@@ -344,7 +346,8 @@ TEST_F(Peers, BadEntriesAreNamed) {
 
 /// Gmsh itself: keeps the boundary, its size is ours, number or field, and it gets triangulations whose file
 /// it may not read.
-TEST_F(Peers, GmshMeshesWhatWeMesh) {
+using PeersPrograms = Peers;
+TEST_F(PeersPrograms, GmshMeshesWhatWeMesh) {
   if (std::system("gmsh --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "gmsh is not installed";
   const std::string text =
       "[[peer]]\nname = \"gmsh\"\nversion = [\"gmsh\", \"--version\"]\n"
