@@ -28,7 +28,7 @@ std::string compile(const fs::path& folder, const std::string& name) {
 }
 
 /// The results of the study, and the paper about it.
-class Study : public testing::Test {
+class StudyPrograms : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TemporaryFolder>();
@@ -46,7 +46,7 @@ class Study : public testing::Test {
   static inline std::unique_ptr<TemporaryFolder> folder_;
 };
 
-TEST_F(Study, IsAPaperWithProvenClaims) {
+TEST_F(StudyPrograms, IsAPaperWithProvenClaims) {
   if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
   EXPECT_EQ(compile(folder_->path(), "paper.tex"), "");
   const std::string tables = read_text(results() / "tables.tex");
@@ -59,7 +59,7 @@ TEST_F(Study, IsAPaperWithProvenClaims) {
   EXPECT_EQ(fonts.out.find(" no  yes"), std::string::npos) << "a font that is not inside: " << fonts.out;
 }
 
-TEST_F(Study, ClaimsAreConfirmedByAnotherProgram) {
+TEST_F(StudyPrograms, ClaimsAreConfirmedByAnotherProgram) {
   if (std::system("/usr/bin/python3 -c 'import scipy' 2>/dev/null") != 0)
     GTEST_SKIP() << "python3-scipy is not installed";
   const ProgramResult whole = check_claims();
@@ -96,7 +96,7 @@ TEST_F(Study, ClaimsAreConfirmedByAnotherProgram) {
 
 /// Every tabular is measured by LaTeX itself, at 8 points: the widest that tables of ours become by default,
 /// with half-widths, marks, published numbers and long names.
-TEST(Latex, DefaultColumnsFitAPage) {
+TEST(LatexPrograms, DefaultColumnsFitAPage) {
   if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
   const TemporaryFolder folder;
   StudyResults results;
@@ -158,6 +158,45 @@ StudyResults study_of_options() {
   return results;
 }
 
+TEST(Latex, OptionsHaveARowForEachValue) {
+  const Outcome outcome = make_tables(study_of_options());
+  const std::vector<TableRow>& rows = outcome.summary.rows;
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[1].group, "passes=2");
+  EXPECT_EQ(rows[1].values.at("eta_mean_won"), 10);
+  EXPECT_EQ(rows[1].marks.size(), 4u) << "better than all others of its axis";
+  const std::string tables = outcome.files.at("tables.tex"), summary = to_tex(outcome.summary);
+  EXPECT_NE(tables.find("than every other of its axis"), std::string::npos);
+  EXPECT_EQ(tables.find("p{", tables.find("tab:pairs")), std::string::npos) << tables;
+  EXPECT_EQ(summary.find("\\midrule", summary.find("& won & lost \\\\") + 1),
+            summary.find("\\midrule", summary.find("eta mean")))
+      << "a measure is not cut: " << summary;
+}
+
+StudyResults planned_study() {
+  StudyResults results = study_of_options();
+  results.study.hypotheses = {{"passes", "2", "1", {"eta_mean", "d4"}},
+                              {"a_cost_with_a_long_name", "eta", "angle", {"tau"}, true, true}};
+  return results;
+}
+
+TEST(Latex, PlannedStudiesSayHowTheyAreTested) {
+  StudyResults results = planned_study();
+  const Outcome planned = make_tables(results);
+  const std::string tables = planned.files.at("tables.tex");
+  for (const char* part : {"one-sided but for hypotheses that are two-sided",
+                           "secondary ones, which count only", "p corr.", "\\textbf{", "as hypotheses ask"})
+    EXPECT_NE(tables.find(part), std::string::npos) << part << " in " << tables;
+  const std::string alone = to_tex(planned.hypotheses);
+  EXPECT_EQ(alone.find("p{"), std::string::npos) << "long names stand above their rows: " << alone;
+  results.study.plan_changed = true;
+  const Outcome late = make_tables(results);
+  const std::string marked = late.files.at("tables.tex");
+  EXPECT_NE(marked.find("\\textbf{Not planned: "), std::string::npos) << marked;
+  EXPECT_EQ(marked.find("\\textbf{0"), std::string::npos) << marked;
+  EXPECT_EQ(marked.find("Bold"), std::string::npos) << marked;
+}
+
 /// No box is too wide or too loose.
 std::string compile_inputs(const Outcome& outcome, const std::string& names) {
   const TemporaryFolder folder;
@@ -172,47 +211,17 @@ std::string compile_inputs(const Outcome& outcome, const std::string& names) {
   return said + (log.find("Underfull \\hbox") == log.npos ? "" : log);
 }
 
-TEST(Latex, OptionsHaveARowForEachValue) {
-  const Outcome outcome = make_tables(study_of_options());
-  const std::vector<TableRow>& rows = outcome.summary.rows;
-  ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ(rows[1].group, "passes=2");
-  EXPECT_EQ(rows[1].values.at("eta_mean_won"), 10);
-  EXPECT_EQ(rows[1].marks.size(), 4u) << "better than all others of its axis";
-  const std::string tables = outcome.files.at("tables.tex"), summary = to_tex(outcome.summary);
-  EXPECT_NE(tables.find("than every other of its axis"), std::string::npos);
-  EXPECT_EQ(tables.find("p{", tables.find("tab:pairs")), std::string::npos) << tables;
-  EXPECT_EQ(summary.find("\\midrule", summary.find("& won & lost \\\\") + 1),
-            summary.find("\\midrule", summary.find("eta mean")))
-      << "a measure is not cut: " << summary;
-  if (has_latex()) {
-    EXPECT_EQ(compile_inputs(outcome, "\\input{tables}\n\\input{summary}\n\\input{pairs}\n"), "");
-  }
+TEST(LatexPrograms, StudiesOfOptionsAreSet) {
+  if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
+  EXPECT_EQ(
+      compile_inputs(make_tables(study_of_options()), "\\input{tables}\n\\input{summary}\n\\input{pairs}\n"),
+      "");
+  EXPECT_EQ(compile_inputs(make_tables(planned_study()),
+                           "\\input{tables}\n\\input{summary}\n\\input{hypotheses}\n"),
+            "");
 }
 
-TEST(Latex, PlannedStudiesSayHowTheyAreTested) {
-  StudyResults results = study_of_options();
-  results.study.hypotheses = {{"passes", "2", "1", {"eta_mean", "d4"}},
-                              {"a_cost_with_a_long_name", "eta", "angle", {"tau"}, true, true}};
-  const Outcome planned = make_tables(results);
-  const std::string tables = planned.files.at("tables.tex");
-  for (const char* part : {"one-sided but for hypotheses that are two-sided",
-                           "secondary ones, which count only", "p corr.", "\\textbf{", "as hypotheses ask"})
-    EXPECT_NE(tables.find(part), std::string::npos) << part << " in " << tables;
-  const std::string alone = to_tex(planned.hypotheses);
-  EXPECT_EQ(alone.find("p{"), std::string::npos) << "long names stand above their rows: " << alone;
-  if (has_latex()) {
-    EXPECT_EQ(compile_inputs(planned, "\\input{tables}\n\\input{summary}\n\\input{hypotheses}\n"), "");
-  }
-  results.study.plan_changed = true;
-  const Outcome late = make_tables(results);
-  const std::string marked = late.files.at("tables.tex");
-  EXPECT_NE(marked.find("\\textbf{Not planned: "), std::string::npos) << marked;
-  EXPECT_EQ(marked.find("\\textbf{0"), std::string::npos) << marked;
-  EXPECT_EQ(marked.find("Bold"), std::string::npos) << marked;
-}
-
-TEST(Latex, LongTablesBreakOverPages) {
+TEST(LatexPrograms, LongTablesBreakOverPages) {
   if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
   const TemporaryFolder folder;
   Table table;
@@ -233,7 +242,7 @@ TEST(Latex, LongTablesBreakOverPages) {
   EXPECT_NE(read_text(folder / "t.log").find("t.pdf (3 pages"), std::string::npos);
 }
 
-TEST(Latex, TextsThatMeanSomethingToIt) {
+TEST(LatexPrograms, TextsThatMeanSomethingToIt) {
   if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
   const TemporaryFolder folder;
   write_text(folder / "reference.toml",

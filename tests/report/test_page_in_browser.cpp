@@ -61,7 +61,7 @@ void expect_page(const std::string& browser, const TemporaryFolder& folder, cons
   expect_moved_together(browser, folder);
 }
 
-TEST(PageInBrowser, DrawsPlanarCases) {
+TEST(PageInBrowserPrograms, DrawsPlanarCases) {
   NEEDS_BROWSER(browser);
   const TemporaryFolder folder;
   run_into(folder, "square", kSquareExperiment);
@@ -74,7 +74,7 @@ TEST(PageInBrowser, DrawsPlanarCases) {
   EXPECT_EQ(count(shown.out, "A square &lt;/script&gt; &amp; &lt;b&gt;more&lt;/b&gt;</h2>"), 1u);
 }
 
-TEST(PageInBrowser, DrawsSurfaces) {
+TEST(PageInBrowserPrograms, DrawsSurfaces) {
   NEEDS_BROWSER(browser);
   const TemporaryFolder folder;
   // A tetrahedron, whose faces are flat.
@@ -87,7 +87,7 @@ TEST(PageInBrowser, DrawsSurfaces) {
   expect_page(browser, folder, "results", "watertight: yes", 2);
 }
 
-TEST(PageInBrowser, ShowsPeers) {
+TEST(PageInBrowserPrograms, ShowsPeers) {
   NEEDS_BROWSER(browser);
   const TemporaryFolder folder;
   const std::string square =
@@ -104,7 +104,7 @@ TEST(PageInBrowser, ShowsPeers) {
 }
 
 /// The test would notice: a script that fails, and one that asks the network.
-TEST(PageInBrowser, ErrorsAndRequestsAreSeen) {
+TEST(PageInBrowserPrograms, ErrorsAndRequestsAreSeen) {
   NEEDS_BROWSER(browser);
   const TemporaryFolder folder;
   run_into(folder, "square", kSquareExperiment);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "tests/report/browser.h"
 
@@ -25,30 +26,56 @@ name = "square"
 loop = { rectangle = [[0, 0], [1, 1]] }
 )";
 
-class PageTools : public testing::Test {
- protected:
-  void SetUp() override {
-    browser_ = find_browser();
-    if (browser_.empty()) GTEST_SKIP() << "Chromium is not installed";
+/// A script that asks the page of the seeds; all are asked in one start of the browser.
+class Question {
+ public:
+  explicit Question(const char* script) : place_(scripts().size()) { scripts().emplace_back(script); }
+  std::size_t place() const { return place_; }
+  static std::vector<std::string>& scripts() {
+    static std::vector<std::string> all;
+    return all;
   }
-  /// r.html of the results of an experiment, which lie in results/seeds.
-  void make_page(const std::string& experiment = kSeedsExperiment) {
+
+ private:
+  std::size_t place_;
+};
+
+class PageToolsPrograms : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (find_browser().program.empty()) return;
+    seeds_ = std::make_unique<TemporaryFolder>();
+    run_into(*seeds_, "seeds", kSeedsExperiment);
+    report(*seeds_);
+    answers_ = ask_page(find_browser().program, *seeds_, Question::scripts());
+  }
+  static void TearDownTestSuite() { seeds_.reset(); }
+  void SetUp() override {
+    NEEDS_BROWSER(browser);
+    browser_ = browser;
+  }
+  static void report(const TemporaryFolder& folder) {
+    ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
+  }
+  /// A page of the test's own: its r.html, with results in results/seeds. The cells are those of all.
+  void make_page(const std::string& experiment) {
+    fs::copy(*seeds_ / "results", folder_ / "results", fs::copy_options::recursive);
     const ProgramResult made = run_into(folder_, "seeds", experiment);
     ASSERT_TRUE(made.exit_code == 0 || made.exit_code == 3) << made.err;
-    report();
+    report(folder_);
   }
-  void report() {
-    ASSERT_EQ(delquad({"report", folder_ / "results", "-o", folder_ / "r.html"}).exit_code, 0);
+  static Json answer(const Question& question) { return answers_.at(question.place()); }
+  Json ask(const std::string& script, const std::string& window = "800,600") {
+    return ask_page(browser_, folder_, {script}, window)[0];
   }
-  Json ask(const std::string& script, std::vector<std::string> more = {}) {
-    return ask_page(browser_, folder_, script, std::move(more));
-  }
-  Json record(const std::string& cell) {
-    return Json::parse(read_text(folder_ / "results/seeds" / cell / "record.json"));
+  static Json record(const std::string& cell) {
+    return Json::parse(read_text(*seeds_ / "results/seeds" / cell / "record.json"));
   }
 
   std::string browser_;
   TemporaryFolder folder_;
+  static inline std::unique_ptr<TemporaryFolder> seeds_;
+  static inline std::vector<Json> answers_;
 };
 
 std::string decoded(const std::string& base64) {
@@ -73,9 +100,7 @@ std::string text_of_pdf(const fs::path& file) {
   return result.out;
 }
 
-TEST_F(PageTools, SortsByAnyColumn) {
-  make_page();
-  const Json seen = ask(R"(
+const Question kSortsByAnyColumn(R"(
     const table = document.querySelector(".table"), rows = () => all("tbody tr", table).map((row) => row.cells);
     const place = all("thead th", table).findIndex((th) => th.dataset.key === "eta_mean");
     // The first column spans rows until the table is sorted.
@@ -88,6 +113,8 @@ TEST_F(PageTools, SortsByAnyColumn) {
     table.querySelector('[data-key="name"] button').click();
     return { looks, names: all("tbody th.word", table).map((th) => th.textContent) };
   )");
+TEST_F(PageToolsPrograms, SortsByAnyColumn) {
+  const Json seen = answer(kSortsByAnyColumn);
   const Json& looks = seen.at("looks");
   const auto sorted = [](const Json& column, bool up) {
     std::vector<double> known;
@@ -107,9 +134,7 @@ TEST_F(PageTools, SortsByAnyColumn) {
   EXPECT_EQ(seen["names"], (Json{"DB", "DB", "DG", "DG", "F", "F"}));
 }
 
-TEST_F(PageTools, FiltersByCaseAndPipeline) {
-  make_page();
-  const Json seen = ask(R"(
+const Question kFiltersByCaseAndPipeline(R"(
     const table = document.querySelector(".table"), field = table.querySelector("input[type=search]"), looks = [];
     for (const text of ["SQUARE db", "dg", "nothing like it", ""]) {
       field.value = text;
@@ -118,6 +143,8 @@ TEST_F(PageTools, FiltersByCaseAndPipeline) {
     }
     return looks;
   )");
+TEST_F(PageToolsPrograms, FiltersByCaseAndPipeline) {
+  const Json seen = answer(kFiltersByCaseAndPipeline);
   EXPECT_EQ(seen[0], (Json{{"DB"}, "1 of 6 rows"}));
   EXPECT_EQ(seen[1], (Json{{"DG", "DG"}, "2 of 6 rows"}));
   EXPECT_EQ(seen[2][0], Json::array());
@@ -125,7 +152,7 @@ TEST_F(PageTools, FiltersByCaseAndPipeline) {
 }
 
 /// The columns that the experiment asks for, which fit a common screen; all of them on demand.
-TEST_F(PageTools, ShowsTheColumnsOfTheExperiment) {
+TEST_F(PageToolsPrograms, ShowsTheColumnsOfTheExperiment) {
   make_page("columns = [\"tau\", \"n_quads\", \"eta_mean\", \"warp_max\"]\nstep_times = true\n" +
             kSeedsExperiment);
   const Json seen = ask(R"(
@@ -140,7 +167,7 @@ TEST_F(PageTools, ShowsTheColumnsOfTheExperiment) {
     choose(choice, "chosen"), look();
     return { looks, pairs: all(".pairs thead th").map((th) => th.dataset.key) };
   )",
-                        {"--window-size=1280,900"});
+                        "1280,900");
   const Json wanted = {"group", "name", "n", "tau", "n_quads", "eta_mean", "warp_max"};
   const Json& looks = seen.at("looks");
   EXPECT_EQ(looks[0]["heads"], wanted);
@@ -155,24 +182,22 @@ TEST_F(PageTools, ShowsTheColumnsOfTheExperiment) {
   EXPECT_EQ(std::ranges::count(seen["pairs"], "low"), 0);
 }
 
-TEST_F(PageTools, SavesTablesAsTheRunWroteThem) {
-  make_page();
-  const Json saved = ask(R"(
+const Question kSavesTablesAsTheRunWroteThem(R"(
     for (const button of all(".table-tools .save button")) await save(button);
     return saved;
   )");
+TEST_F(PageToolsPrograms, SavesTablesAsTheRunWroteThem) {
+  const Json saved = answer(kSavesTablesAsTheRunWroteThem);
   for (const char* extension : {".csv", ".tex", ".md"}) {
     const std::string name = std::string("seeds-table") + extension;
     ASSERT_TRUE(saved.contains(name)) << saved;
-    EXPECT_EQ(decoded(saved[name]), read_text(folder_ / "results/seeds/table" += extension));
+    EXPECT_EQ(decoded(saved[name]), read_text(*seeds_ / "results/seeds/table" += extension));
   }
 }
 
 /// A figure in each format: SVG that needs no style sheet and is the same in the dark, PNG, PDF with its
 /// words.
-TEST_F(PageTools, SavesFigures) {
-  make_page();
-  const Json saved = ask(R"(
+const Question kSavesFigures(R"(
     const names = [];
     for (const title of ["Time by step", "Quads by"]) {
       const figure = all("figure.of-chart").find((f) => f.querySelector("h4").textContent.startsWith(title));
@@ -185,6 +210,8 @@ TEST_F(PageTools, SavesFigures) {
     await wait(500);
     return { names, saved, same: first === saved[names[0]] };
   )");
+TEST_F(PageToolsPrograms, SavesFigures) {
+  const Json saved = answer(kSavesFigures);
   ASSERT_EQ(saved.at("names").size(), 9u) << saved;
   EXPECT_TRUE(saved["same"].get<bool>());
   for (std::size_t i = 0; i < 9; i += 3) {
@@ -208,8 +235,8 @@ TEST_F(PageTools, SavesFigures) {
 }
 
 /// What a drawing has that vectors here cannot say becomes an image; what it may not do, it does not do.
-TEST_F(PageTools, SavesFiguresOfTheFolder) {
-  make_page();
+TEST_F(PageToolsPrograms, SavesFiguresOfTheFolder) {
+  make_page(kSeedsExperiment);
   const fs::path figures = folder_ / "results/seeds/figures";
   fs::create_directories(figures);
   const std::string head = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 200 100\">";
@@ -221,7 +248,7 @@ TEST_F(PageTools, SavesFiguresOfTheFolder) {
                  "<defs><linearGradient id=\"g\"><stop stop-color=\"#c00\"/></linearGradient></defs>"
                  "<script>document.title = 'taken over'</script>"
                  "<rect width=\"90\" height=\"50\" fill=\"url(#g)\" onclick=\"x()\"/></svg>");
-  report();
+  report(folder_);
   const Json saved = ask(R"(
     const buttons = all(".drawings .save button");
     for (const button of buttons) await save(button);
@@ -239,9 +266,7 @@ TEST_F(PageTools, SavesFiguresOfTheFolder) {
   EXPECT_NE(text_of_pdf(folder_ / "a.pdf").find("plain"), std::string::npos);
 }
 
-TEST_F(PageTools, ShowsOneSeedAtATimeAndTheMeans) {
-  make_page();
-  const Json seen = ask(R"(
+const Question kShowsOneSeedAtATimeAndTheMeans(R"(
     const sheet = document.querySelector(".sheet"), choice = sheet.querySelector("[data-choice=seed]"), numbers = [];
     for (const place of ["0", "2", "0"]) {
       choose(choice, place);
@@ -254,6 +279,8 @@ TEST_F(PageTools, ShowsOneSeedAtATimeAndTheMeans) {
     return { numbers, options: choice.options.length, means: all(".means tbody tr", sheet).map((tr) => [...tr.cells].map((c) => c.textContent)),
              heads: all(".means thead th", sheet).map((th) => th.textContent), list, sheets: all(".sheet").length };
   )");
+TEST_F(PageToolsPrograms, ShowsOneSeedAtATimeAndTheMeans) {
+  const Json seen = answer(kShowsOneSeedAtATimeAndTheMeans);
   const auto three = [](double v) {
     return std::to_string(v).substr(0, 1) + "." + std::to_string(std::lround(v * 1000));
   };
@@ -273,9 +300,7 @@ TEST_F(PageTools, ShowsOneSeedAtATimeAndTheMeans) {
   EXPECT_EQ(seen["means"][1][1], "3");
 }
 
-TEST_F(PageTools, BoxesOfSeedsAndCases) {
-  make_page();
-  const Json seen = ask(R"(
+const Question kBoxesOfSeedsAndCases(R"(
     const label = () => document.querySelector(".spread svg.chart").getAttribute("aria-label"), labels = [label()];
     const [metric, cells] = ["metric", "cells"].map((name) => document.querySelector(`.spread [data-choice=${name}]`));
     labels.push(all(".spread rect.box").length);
@@ -285,6 +310,8 @@ TEST_F(PageTools, BoxesOfSeedsAndCases) {
     labels.push(label());
     return labels;
   )");
+TEST_F(PageToolsPrograms, BoxesOfSeedsAndCases) {
+  const Json seen = answer(kBoxesOfSeedsAndCases);
   std::vector<double> all, square;
   for (const char* name : {"disc", "square"})
     for (const char* seed : {"1", "2", "3"}) {
@@ -306,9 +333,7 @@ TEST_F(PageTools, BoxesOfSeedsAndCases) {
   EXPECT_EQ(median_in(seen[4]), square[1]);
 }
 
-TEST_F(PageTools, ColoursAndTheirRange) {
-  make_page();
-  const Json seen = ask(R"(
+const Question kColoursAndTheirRange(R"(
     const mesh = () => all("canvas").find((c) => c.getAttribute("aria-label").includes("by DB")).toDataURL(), looks = [];
     const bar = () => all("figure rect[data-eta]").map((r) => r.getAttribute("fill")).join();
     const look = () => looks.push(mesh() + bar() + document.querySelector(".scale").outerHTML);
@@ -321,13 +346,13 @@ TEST_F(PageTools, ColoursAndTheirRange) {
     choose(low, "0"), choose(map, "viridis"), look();
     return { equal: looks.map((a) => looks.indexOf(a)), complaint };
   )");
+TEST_F(PageToolsPrograms, ColoursAndTheirRange) {
+  const Json seen = answer(kColoursAndTheirRange);
   EXPECT_EQ(seen["equal"], (Json{0, 1, 2, 2, 0}));
   EXPECT_NE(seen["complaint"], "");
 }
 
-TEST_F(PageTools, LightAndDark) {
-  make_page();
-  const Json seen = ask(R"(
+const Question kLightAndDark(R"(
     const shades = () => [document.body, document.querySelector("table"), document.querySelector("canvas")].map((node) => {
       const { color, backgroundColor } = getComputedStyle(node);
       return [color, backgroundColor];
@@ -340,6 +365,8 @@ TEST_F(PageTools, LightAndDark) {
     }
     return { looks, same: [pictures[0] === pictures[1], pictures[0] === pictures[2]] };
   )");
+TEST_F(PageToolsPrograms, LightAndDark) {
+  const Json seen = answer(kLightAndDark);
   EXPECT_EQ(seen["looks"][0], seen["looks"][2]);
   EXPECT_EQ(seen["looks"][0][0][1], "rgb(255, 255, 255)");
   EXPECT_EQ(seen["looks"][1][0][1], "rgb(20, 24, 30)");
@@ -348,8 +375,8 @@ TEST_F(PageTools, LightAndDark) {
 }
 
 /// Nothing but tables and the like, which scroll by themselves, is wider than a small telephone.
-TEST_F(PageTools, FitsATelephone) {
-  make_page();
+TEST_F(PageToolsPrograms, FitsATelephone) {
+  make_page(kSeedsExperiment);
   std::string page;
   for (const char c : read_text(folder_ / "r.html"))
     page += c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
@@ -372,7 +399,7 @@ TEST_F(PageTools, FitsATelephone) {
 }
 
 /// Every column of every table is on paper, upright and across.
-TEST_F(PageTools, PrintsTablesWhole) {
+TEST_F(PageToolsPrograms, PrintsTablesWhole) {
   if (!fs::exists("/usr/bin/pdftotext")) GTEST_SKIP() << "poppler-utils is not installed";
   make_page("step_times = true\n" + kSeedsExperiment);
   const std::string header = read_text(folder_ / "results/seeds/table.md");
@@ -380,7 +407,7 @@ TEST_F(PageTools, PrintsTablesWhole) {
   for (const char* paper : {"A4 portrait", "A4 landscape"}) {
     write_text(folder_ / "p.html", page + "<style>@page { size: " + paper + "; }</style>");
     const fs::path pdf = folder_ / "p.pdf";
-    browse(browser_, folder_, "p.html", {"--print-to-pdf=" + pdf.string()});
+    browse(browser_, folder_, "p.html", {"--print-to-pdf=" + pdf.string(), "--virtual-time-budget=60000"});
     const std::string text = text_of_pdf(pdf);
     for (const char* title :
          {"vertices", "eta worst", "eta mean", "tau", "% quads", "insertion s", "total s"})

@@ -20,15 +20,22 @@ Mesh mesh_to_look_at() {
   return mesh;
 }
 
+/// Where there is a display, a browser would be opened for the user.
+ProgramResult delquad_without_display(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {"-u", "WAYLAND_DISPLAY", "-u", "DISPLAY", DELQUAD_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run_program("/usr/bin/env", {std::move(words), 0, {}});
+}
+
 /// The page of a mesh, and what `script` returns there.
 nlohmann::json ask_view(const std::string& browser, const TemporaryFolder& folder, const Mesh& mesh,
                         const std::string& script) {
   write_mesh(folder / "m.msh", mesh);
-  const ProgramResult result = delquad({"view", folder / "m.msh"});
+  const ProgramResult result = delquad_without_display({"view", folder / "m.msh"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, "view: " + (folder / "m.msh.html").string() + "\n");
   std::filesystem::rename(folder / "m.msh.html", folder / "r.html");
-  return ask_page(browser, folder, script);
+  return ask_page(browser, folder, {script})[0];
 }
 
 constexpr const char* kTryAll = R"js(
@@ -52,7 +59,7 @@ for (const axis of all("#cut-across")) {
 return { seen, numbers: all(".numbers dd").map((n) => n.textContent), facts: all("#facts")[0].textContent };
 )js";
 
-TEST(View, ShowsQualitySizesNamesAndWorstQuads) {
+TEST(ViewPrograms, ShowsQualitySizesNamesAndWorstQuads) {
   NEEDS_BROWSER(browser);
   const TemporaryFolder folder;
   const auto told = ask_view(browser, folder, mesh_to_look_at(), kTryAll);
@@ -74,7 +81,7 @@ TEST(View, ShowsQualitySizesNamesAndWorstQuads) {
   EXPECT_FALSE(told["seen"].contains("cut")) << "a plane cannot be cut open";
 }
 
-TEST(View, ShowsCurvedSurfaces) {
+TEST(ViewPrograms, ShowsCurvedSurfaces) {
   NEEDS_BROWSER(browser);
   const TemporaryFolder folder;
   const auto told = ask_view(browser, folder, curved_grid(4, 3, 2, true), kTryAll);
@@ -108,10 +115,7 @@ TEST(View, IsOpenedInABrowserWhereThereIsADisplay) {
 TEST(View, OfAMeshThatIsMade) {
   const TemporaryFolder folder;
   const auto model = write_text(folder / "m.toml", "loop = { rectangle = [[0, 0], [1, 1]] }\nsize = 0.25\n");
-  const auto result = run_program("/usr/bin/env", {{"-u", "WAYLAND_DISPLAY", "-u", "DISPLAY", DELQUAD_PROGRAM,
-                                                    "mesh", model, "-o", folder / "m.msh", "--view"},
-                                                   0,
-                                                   {}});
+  const auto result = delquad_without_display({"mesh", model, "-o", folder / "m.msh", "--view"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(read_text(folder / "m.msh.html").find("\"n_quads\":16"), std::string::npos);
 }
