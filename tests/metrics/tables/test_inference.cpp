@@ -94,9 +94,16 @@ int pair_claims_of(const StudyResults& results) {
          }));
 }
 
-/// Studies without any effect, and how many of them may claim something: 5 %, and three standard errors of
+/// How many of so many studies without any effect may claim something: 5 %, and so many standard errors of
 /// that where the tests use all of their 5 % up.
-constexpr int kAlike = 1000, kMostClaiming = 71;
+struct Alike {
+  int studies;
+  double errors;
+  int most_claiming() const {
+    return static_cast<int>(std::ceil(0.05 * studies + errors * std::sqrt(0.05 * 0.95 * studies)));
+  }
+};
+constexpr Alike kFew{200, 5}, kMany{1000, 3};  // many: `make test-long`
 
 void PrintTo(const Shape& shape, std::ostream* out) {
   *out << shape.words.size() << " words, " << shape.domains << " domains, " << shape.seeds << " seeds, "
@@ -106,11 +113,8 @@ void PrintTo(const Shape& shape, std::ostream* out) {
 const std::vector<Hypothesis> kPlan = {{"", "A", "B", {"eta_mean"}},
                                        {"", "C", "B", {"eta_mean", "d4"}, true, true}};
 
-class NoEffect : public testing::TestWithParam<Shape> {};
-
 /// Words that are alike on every domain: nothing at all may be claimed, anywhere.
-TEST_P(NoEffect, AtMostOneStudyInTwentyClaimsAnything) {
-  const Shape& shape = GetParam();
+void expect_few_claims(const Shape& shape, const Alike& alike) {
   std::mt19937_64 random(12);
   std::normal_distribution<double> normal;
   const Value value = [&](int, int, int) {
@@ -118,14 +122,13 @@ TEST_P(NoEffect, AtMostOneStudyInTwentyClaimsAnything) {
   };
   StudyResults study = make_study(shape, value);
   int claiming = 0;
-  for (int k = 0; k < kAlike; ++k, draw(study, shape, value)) claiming += claims_of(study) > 0;
-  EXPECT_LE(claiming, kMostClaiming);
+  for (int k = 0; k < alike.studies; ++k, draw(study, shape, value)) claiming += claims_of(study) > 0;
+  EXPECT_LE(claiming, alike.most_claiming());
 }
 
 /// Now the one, now the other is truly better on a domain, with all of its seeds, and none over domains:
 /// nothing may be claimed of pairs.
-TEST_P(NoEffect, SeedsOfOneDomainDoNotClaimAnythingOfPairs) {
-  const Shape& shape = GetParam();
+void expect_few_claims_of_pairs(const Shape& shape, const Alike& alike) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
   std::map<std::pair<int, int>, double> leaning;  // of a word on a domain
@@ -136,18 +139,29 @@ TEST_P(NoEffect, SeedsOfOneDomainDoNotClaimAnythingOfPairs) {
   };
   StudyResults study = make_study(shape, value);
   int claiming = 0;
-  for (int k = 0; k < kAlike; ++k, leaning.clear(), draw(study, shape, value))
+  for (int k = 0; k < alike.studies; ++k, leaning.clear(), draw(study, shape, value))
     claiming += pair_claims_of(study) > 0;
-  EXPECT_LE(claiming, kMostClaiming);
+  EXPECT_LE(claiming, alike.most_claiming());
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, NoEffect,
-                         testing::Values(Shape{{"A", "B", "C"}, 25, 4}, Shape{{"A", "B"}, 6, 8},
-                                         Shape{{"A", "B"}, 12, 1}, Shape{{"A", "B", "C"}, 2, 20},
-                                         Shape{{"A", "B"}, 1, 12}, Shape{{"A", "B"}, 8, 2, {"eta_mean"}, 4},
-                                         Shape{{"A", "B", "C"}, 12, 3, {"eta_mean", "d4"}, 1, true},
-                                         Shape{{"A", "B", "C"}, 12, 1, {"eta_mean", "d4"}, 1, false, kPlan},
-                                         Shape{{"A", "B", "C"}, 6, 3, {"eta_mean", "d4"}, 1, true, kPlan}));
+class NoEffect : public testing::TestWithParam<Shape> {};
+using NoEffectLong = NoEffect;
+
+TEST_P(NoEffect, AtMostOneStudyInTwentyClaimsAnything) { expect_few_claims(GetParam(), kFew); }
+TEST_P(NoEffect, SeedsOfOneDomainDoNotClaimAnythingOfPairs) { expect_few_claims_of_pairs(GetParam(), kFew); }
+TEST_P(NoEffectLong, AtMostOneStudyInTwentyClaimsAnything) { expect_few_claims(GetParam(), kMany); }
+TEST_P(NoEffectLong, SeedsOfOneDomainDoNotClaimAnythingOfPairs) {
+  expect_few_claims_of_pairs(GetParam(), kMany);
+}
+
+const auto kShapes = testing::Values(Shape{{"A", "B", "C"}, 25, 4}, Shape{{"A", "B"}, 6, 8},
+                                     Shape{{"A", "B"}, 12, 1}, Shape{{"A", "B", "C"}, 2, 20},
+                                     Shape{{"A", "B"}, 1, 12}, Shape{{"A", "B"}, 8, 2, {"eta_mean"}, 4},
+                                     Shape{{"A", "B", "C"}, 12, 3, {"eta_mean", "d4"}, 1, true},
+                                     Shape{{"A", "B", "C"}, 12, 1, {"eta_mean", "d4"}, 1, false, kPlan},
+                                     Shape{{"A", "B", "C"}, 6, 3, {"eta_mean", "d4"}, 1, true, kPlan});
+INSTANTIATE_TEST_SUITE_P(Shapes, NoEffect, kShapes);
+INSTANTIATE_TEST_SUITE_P(Shapes, NoEffectLong, kShapes);
 
 /// The primary hypothesis is true and as good as always proven; the secondary ones are not.
 TEST(Hypotheses, AreSecondaryOnTheSameFivePercent) {
