@@ -1,6 +1,7 @@
 #include "program/run_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <boost/algorithm/string/classification.hpp>
@@ -20,7 +21,7 @@ namespace delquad {
 namespace {
 
 struct RunArguments : SweepArguments {
-  std::filesystem::path experiment;
+  std::vector<std::filesystem::path> experiments;
   std::optional<std::string> pipelines;      ///< words separated by commas; else those of the file
   std::vector<std::filesystem::path> peers;  ///< files of further meshers, which are run, too
   long long max_elements = 50'000'000;
@@ -54,21 +55,103 @@ void choose_pipelines(const RunArguments& arguments, Experiment& experiment) {
     };
     if (std::ranges::none_of(names, is_named)) pipelines.insert(pipelines.end(), names.begin(), names.end());
   }
+  const auto of_file = static_cast<double>(experiment.words.size());
   experiment.words = located("--pipelines", [&] { return experiment.find_pipelines(pipelines); });
+  experiment.minutes *= static_cast<double>(experiment.words.size()) / of_file;
+}
+
+std::vector<Experiment> read_experiments(const RunArguments& arguments) {
+  std::vector<Experiment> experiments;
+  for (const std::filesystem::path& file : arguments.experiments) {
+    if (std::ranges::count(arguments.experiments, file.stem(), &std::filesystem::path::stem) > 1)
+      throw InputError(fmt::format(
+          "two experiments are called '{}', and their results would share a folder: run them apart",
+          file.stem().string()));
+    Experiment& experiment = experiments.emplace_back(Experiment::read(file, arguments.data));
+    experiment.max_elements = arguments.max_elements;
+    choose_pipelines(arguments, experiment);
+    experiment.check_calibration();
+  }
+  return experiments;
+}
+
+/// The folder for the results of an experiment: --output, or below it if there are several.
+std::filesystem::path folder_of(const RunArguments& arguments, const Experiment& experiment) {
+  const bool is_alone = arguments.experiments.size() == 1 || arguments.folder.empty();
+  return is_alone ? arguments.folder : arguments.folder / experiment.file.stem();
+}
+
+std::string time_text(const std::optional<double>& seconds) {
+  constexpr double kMinute = 60;
+  if (!seconds) return "its time is not known";
+  return *seconds < kMinute ? fmt::format("about {:.0f} s on two cores", *seconds)
+                            : fmt::format("about {:.0f} min on two cores", *seconds / kMinute);
+}
+
+/// Where each stands, with the time that its file says.
+std::vector<PlaceInQueue> queue(const RunArguments& arguments, const std::vector<Experiment>& experiments) {
+  std::vector<PlaceInQueue> places(experiments.size());
+  std::optional<double> after = 0;
+  for (std::size_t i = experiments.size(); i-- > 0;) {
+    const auto seconds = expected_seconds(experiments[i], folder_of(arguments, experiments[i]));
+    places[i] = {experiments[i].file.stem().string(), i, experiments.size(), seconds, after};
+    after = after && seconds ? std::optional(*after + *seconds) : std::nullopt;
+  }
+  return places;
+}
+
+/// Adds the failures of an experiment, under its name.
+void add_failures(Outcome& all, const Outcome& one, const std::string& name) {
+  all.leftover_triangles += one.leftover_triangles;
+  all.bad_inputs += one.bad_inputs;
+  all.unsound += one.unsound;
+  all.others_failed += one.others_failed;
+  all.metrics_failed += one.metrics_failed;
+  for (const auto& [reason, cells] : one.failures) {
+    std::vector<std::string>& failed = all.failures[reason];
+    if (cells.empty()) failed.push_back(name);
+    for (const std::string& cell : cells) failed.push_back(name + "/" + cell);
+  }
+}
+
+/// One after the other, whatever becomes of them; returns what failed of all.
+Outcome run_all(const RunArguments& arguments, const std::vector<Experiment>& experiments) {
+  const auto tell = [](const std::string& text) {
+    if (verbosity() != Verbosity::kQuiet) fmt::print(stderr, "{}\n", text);
+  };
+  const std::vector<PlaceInQueue> places = queue(arguments, experiments);
+  Outcome all;
+  for (const PlaceInQueue& place : places) {
+    if (place.index == 0 && place.seconds && place.seconds_after)
+      tell(fmt::format("{} experiments: {}", place.count, time_text(*place.seconds + *place.seconds_after)));
+    tell(fmt::format("{}/{} {}: {}", place.index + 1, place.count, place.name, time_text(place.seconds)));
+    SweepArguments one = arguments;
+    one.folder = folder_of(arguments, experiments[place.index]);
+    one.options.place = place;
+    try {
+      add_failures(all, run_and_print(one, experiments[place.index]), place.name);
+    } catch (const InputError& error) {
+      ++all.bad_inputs;
+      all.failures[error.what()].push_back(place.name);
+    }
+  }
+  return all;
 }
 
 int run_command(const RunArguments& arguments) {
   const RunScope run({.threads = threads_of(arguments)});
-  Experiment experiment = Experiment::read(arguments.experiment, arguments.data);
-  experiment.max_elements = arguments.max_elements;
-  choose_pipelines(arguments, experiment);
-  experiment.check_calibration();
+  const std::vector<Experiment> experiments = read_experiments(arguments);
   if (arguments.dry_run) {
-    fmt::print("{}", dry_run(experiment, arguments.folder, arguments.effect));
+    for (const Experiment& experiment : experiments) {
+      if (experiments.size() > 1) fmt::print("{}:\n", experiment.file.string());
+      fmt::print("{}", dry_run(experiment, folder_of(arguments, experiment), arguments.effect));
+    }
     return kDone;
   }
   if (arguments.folder.empty()) throw InputError("--output is required: only --dry-run goes without");
-  return exit_code(run_and_print(arguments, experiment), arguments.allow_triangles);
+  const Outcome outcome =
+      experiments.size() == 1 ? run_and_print(arguments, experiments[0]) : run_all(arguments, experiments);
+  return exit_code(outcome, arguments.allow_triangles);
 }
 
 }  // namespace
@@ -112,6 +195,8 @@ Outcome run_and_print(const SweepArguments& arguments, const Experiment& experim
 }
 
 int exit_code(const Outcome& outcome, bool allow_triangles) {
+  for (const auto& [reason, cells] : outcome.failures)
+    fmt::print(stderr, "error: {}{}{}\n", fmt::join(cells, ", "), cells.empty() ? "" : " failed: ", reason);
   if (outcome.others_failed > 0 || outcome.metrics_failed > 0) return kInternalError;
   if (outcome.bad_inputs > 0) return kBadInput;
   if (outcome.unsound > 0) return kUnsound;
@@ -126,9 +211,11 @@ int exit_code(const Outcome& outcome, bool allow_triangles) {
 void add_run(CLI::App& app, Commands& commands) {
   const auto [run, arguments] =
       add_command(app, commands, "run",
-                  "Run an experiment: every pipeline on every case, with tables and pictures", run_command);
-  run->add_option("experiment", arguments.experiment, "experiment file (.toml)")->required();
-  run->add_option("-o,--output", arguments.folder, "folder for the results");
+                  "Run experiments: every pipeline on every case, with tables and pictures", run_command);
+  run->add_option("experiments", arguments.experiments, "experiment files (.toml), run one after the other")
+      ->required();
+  run->add_option("-o,--output", arguments.folder,
+                  "folder for the results; of several experiments each has its own in it, by its name");
   add_data(*run, arguments.data);
   run->add_option("--pipelines", arguments.pipelines, "words such as F,D,FB,DB; else as the file says");
   run->add_option("--peer", arguments.peers, "file of other meshers, which are run beside; may be repeated")

@@ -19,6 +19,7 @@ int threads_of(const SweepArguments& arguments);
 
 /// Runs the experiment, and prints its tables.
 Outcome run_and_print(const SweepArguments& arguments, const Experiment& experiment);
+/// Names what failed, for the end of a command.
 int exit_code(const Outcome& outcome, bool allow_triangles);
 
 }  // namespace delquad

@@ -41,6 +41,7 @@ EXPLAINED = {
     "seed": "models.md#a-model",
     "pipelines": "experiments.md#pipelines",
     "hypotheses": "experiments.md#hypotheses",
+    **dict.fromkeys(["may_fail", "minutes"], "experiments.md#several-experiments"),
     "solver": "experiments.md#solvers",
     "slopes": "experiments.md#powers",
     "correlate": "experiments.md#correlations",

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,6 +20,14 @@ Verbosity verbosity();
 
 /// The warnings as lines to print, as many as verbosity() says.
 std::vector<std::string> lines_of(const std::vector<Warning>& warnings);
+
+/// Where an experiment stands among those that one command runs.
+struct PlaceInQueue {
+  std::string name = {};
+  std::size_t index = 0, count = 1;         ///< index < count
+  std::optional<double> seconds = {};       ///< that it may take; nothing: not known
+  std::optional<double> seconds_after = 0;  ///< that those after it may take
+};
 
 /// A bar with the name of what runs and the faces that it is at, on the last line of a terminal; silent where
 /// stderr is none, and when quiet.

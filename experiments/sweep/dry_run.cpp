@@ -105,6 +105,9 @@ std::string time_text(const Experiment& experiment, const std::vector<CellRecord
     }
     if (at != known.end()) seconds += runs * mean(at->second);
   }
+  if (known.empty() && experiment.minutes > 0)
+    return fmt::format("time: about {:.3g} min on two cores, as the experiment says\n",
+                       *expected_seconds(experiment, folder) / 60);
   if (known.empty()) return "time: not known, without records of such cells in the folder of -o\n";
   constexpr double kHour = 3600;
   return fmt::format(
@@ -212,6 +215,16 @@ class TestDesign {
 };
 
 }  // namespace
+
+std::optional<double> expected_seconds(const Experiment& experiment, const fs::path& folder) {
+  if (experiment.minutes == 0) return std::nullopt;
+  constexpr double kMinute = 60;
+  if (experiment.linf) return kMinute * experiment.minutes;
+  const std::vector<CellRecord> cells = planned_cells(experiment, folder);
+  const auto left = std::ranges::count_if(
+      cells, [](const CellRecord& cell) { return !cell.skipped && !needs_no_run(cell); });
+  return kMinute * experiment.minutes * static_cast<double>(left) / static_cast<double>(cells.size());
+}
 
 std::string list_cells(const Experiment& experiment, const fs::path& folder) {
   return text_of_cells(planned_cells(experiment, folder));

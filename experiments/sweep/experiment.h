@@ -45,6 +45,7 @@ class Experiment : public TablePlan {
   std::string calibrate_where;                    ///< file and line that ask for it; empty: nothing does
   std::vector<MetricCommand> metrics;
   std::vector<std::string> solvers;  ///< that measure every mesh, by name
+  double minutes = 0;                ///< of a run with two jobs; 0: not known
   std::vector<Axis> axes;
   std::optional<LinfStudy> linf;                        ///< then there are no cases
   long long max_elements = MeshProblem{}.max_elements;  ///< of every case
@@ -91,6 +92,7 @@ class Experiment : public TablePlan {
   void read_metric(const TomlTable& table);
   void read_plan(const TomlTable& table);
   void read_hypothesis(const TomlTable& table);
+  void read_may_fail(const TomlTable& table);
   std::vector<Metric> known_metrics() const;
   std::vector<std::string> keys_of_metrics() const;
   Word find_pipeline(const std::string& text) const;

@@ -288,6 +288,31 @@ void Experiment::read_plan(const TomlTable& table) {
   if (linf && !hypothesis_tables_.empty())
     throw InputError(table.where("hypotheses") + ": 'linf_delaunay' has no hypotheses");
   for (const TomlTable& hypothesis : hypothesis_tables_) read_hypothesis(hypothesis);
+  for (const TomlTable& cells : table.tables("may_fail")) read_may_fail(cells);
+  if (table.has("minutes")) minutes = table.positive_number("minutes");
+}
+
+/// Before pipelines are chosen that the file does not name.
+void Experiment::read_may_fail(const TomlTable& table) {
+  if (linf) throw InputError(table.where() + ": 'linf_delaunay' has no cells that may fail");
+  std::vector<std::string> names, variants, pipelines;
+  for (const TomlTable& one : cases_) names.push_back(one.text("name"));
+  for (const TomlTable& variant : variants_) variants.push_back(variant.text("name"));
+  for (const Word& word : words) pipelines.push_back(word.text);
+  MayFail cells;
+  for (const auto& [key, known, text] : {std::tuple("case", &names, &cells.name),
+                                         {"variant", &variants, &cells.variant},
+                                         {"pipeline", &pipelines, &cells.pipeline}}) {
+    if (!table.has(key)) continue;
+    *text = table.text(key);
+    if (std::ranges::find(*known, *text) == known->end())
+      throw InputError(table.where(key) + ": the experiment has no " + key + " '" + *text + "'" +
+                       suggestion(*text, *known));
+  }
+  if (table.keys().empty())
+    refuse("{}: which cells may fail? expected 'case', 'variant' or 'pipeline'", table.where());
+  table.finish(may_fail_keys());
+  may_fail.push_back(std::move(cells));
 }
 
 void Experiment::read_hypothesis(const TomlTable& table) {

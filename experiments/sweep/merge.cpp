@@ -49,6 +49,7 @@ void add_study(const StudyFile& other, const fs::path& folder, StudyFile& study)
     if (std::ranges::find(study.published, row.name, &PublishedRow::name) == study.published.end())
       study.published.push_back(row);
   for (const auto& [name, rows] : other.compare) study.compare[name].insert(rows.begin(), rows.end());
+  unite(study.may_fail, other.may_fail);
   if (!study.ratio) study.ratio = other.ratio;
   study.step_times |= other.step_times;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/located.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "experiments/console/progress.h"
 #include "experiments/sweep/cells.h"
@@ -60,7 +61,9 @@ const Branch& end_of_stretch(const Branch& branch) {
 }
 
 void say_why(const std::string& folder, const Cell& cell, const ProcessFailure& why) {
-  const char* head = why.kind == kNotApplicable ? "not applicable" : "error";
+  const char* head = why.kind == kNotApplicable ? "not applicable"
+                     : cell.may_fail            ? "failed, as it may"
+                                                : "error";
   say(fmt::format("{}: {} {}: {}", head, folder, cell.word->text, why.reason));
 }
 
@@ -115,7 +118,11 @@ class Sweep {
   /// `copy`: of the experiment's file, as seen from `folder`.
   Sweep(const Experiment& experiment, const fs::path& folder, const fs::path& copy,
         const SweepOptions& options)
-      : experiment_(experiment), folder_(folder), copy_(copy), options_(options), progress_(shard_size()) {}
+      : experiment_(experiment),
+        folder_(folder),
+        copy_(copy),
+        options_(options),
+        progress_(shard_size(), options.place) {}
 
   /// Returns how many cells were interrupted.
   std::size_t run() {
@@ -180,6 +187,7 @@ class Sweep {
       cell.identity.experiment = copy_.generic_string();
       cell.identity.start = start;
       cell.reference = reference_of(cell, work.c, model);
+      cell.may_fail = may_fail(experiment_, {work.c.name, work.c.variant, word.text});
       if (!options_.force && is_done(cell))
         progress_.found(1);
       else
@@ -214,7 +222,11 @@ Outcome run_study(const Experiment& experiment, const fs::path& folder) {
   Outcome outcome;
   Progress progress(linf_study_steps(*experiment.linf));
   outcome.table = run_linf_study(*experiment.linf, experiment.title, folder, progress);
-  for (const TableRow& row : outcome.table.rows) outcome.bad_inputs += row.failure.empty() ? 0 : 1;
+  for (const TableRow& row : outcome.table.rows) {
+    if (row.failure.empty()) continue;
+    ++outcome.bad_inputs;
+    outcome.failures[row.failure].push_back(row.group + " " + row.name);
+  }
   return outcome;
 }
 
@@ -252,10 +264,12 @@ Outcome run_experiment(const Experiment& experiment, const fs::path& folder, con
     if (experiment.repeat_times > 0) repeat_times(experiment, folder, options);
     outcome = make_tables(folder);
     outcome.others_failed += static_cast<int>(interrupted);
+    if (interrupted > 0)
+      outcome.failures[counted(interrupted, "cell") + " ended by other programs: run again"];
   }
   for (const std::string& error : write_tables(folder, outcome)) {
     ++outcome.bad_inputs;
-    say("error: " + error);
+    outcome.failures[error];
   }
   return outcome;
 }

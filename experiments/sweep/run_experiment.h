@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "experiments/console/progress.h"
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/process_tree.h"
 #include "metrics/tables/tables.h"
@@ -22,6 +23,7 @@ struct SweepOptions {
   bool force = false;          ///< run cells again that are done
   bool allow_unsound = false;  ///< meshes that are not sound are results, marked as such
   bool pictures = true;        ///< of fields and meshes, as SVG
+  PlaceInQueue place = {};
 };
 
 /// Runs every pipeline on every variant of every case, each in a process of its own: what crashes, hangs or
@@ -46,6 +48,10 @@ std::string why_folder_is_refused(const Experiment& experiment, const std::files
 
 /// Whether the folder had records already when its plan was made, or made otherwise than by `study`.
 bool is_plan_changed(const StudyFile& study, const std::filesystem::path& folder);
+
+/// How long the cells that are to be made may take with two jobs, by the minutes of the experiment. Nothing:
+/// it has none.
+std::optional<double> expected_seconds(const Experiment& experiment, const std::filesystem::path& folder);
 
 /// The cells in their order, a line each, and what there is of them: as in state_of_cell(), or "data not
 /// found".

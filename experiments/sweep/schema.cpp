@@ -139,6 +139,12 @@ TomlKeys hypothesis_keys() {
           {"secondary", "whether it counts only where all that are not are proven", kFlag}};
 }
 
+TomlKeys may_fail_keys() {
+  return {{"case", "its name; else any", kText},
+          {"variant", "its name; else any", kText},
+          {"pipeline", "one of those that are run; else any", kText}};
+}
+
 TomlKeys linf_study_keys() {
   return {{"points", "how many", kPoints, nullptr, false, true},
           {"seeds", "of the points", kSeeds, nullptr, false, true}};
@@ -182,6 +188,8 @@ TomlKeys experiment_keys() {
                    {"slopes", "powers by which measures go with another", "", slope_keys},
                    {"pairs", "what varies, by titles: compared as pipelines are", kColumnList},
                    {"hypotheses", "claims that are fixed before the run", "", hypothesis_keys, true},
+                   {"may_fail", "cells that may fail", "", may_fail_keys, true},
+                   {"minutes", "of a run on two cores, as measured: for the time left", kPositive},
                    {"reference", "a file of published rows", kText},
                    {"step_times", "whether tables have a column for each step's time", kFlag},
                    {"columns", "of tables in Markdown and LaTeX, by key", kColumnList},

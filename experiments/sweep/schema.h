@@ -21,6 +21,7 @@ TomlKeys ratio_keys();
 TomlKeys correlate_keys();
 TomlKeys slope_keys();
 TomlKeys hypothesis_keys();
+TomlKeys may_fail_keys();
 TomlKeys linf_study_keys();
 
 /// Limits of what a metric by command may ask for: digits, and seconds (a week).

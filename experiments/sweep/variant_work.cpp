@@ -17,7 +17,6 @@
 #include "base/stopwatch.h"
 #include "base/system.h"
 #include "delquad/error.h"
-#include "experiments/console/progress.h"
 #include "experiments/sweep/folders.h"
 #include "io/diagram.h"
 #include "io/digest.h"
@@ -39,8 +38,10 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-SweepProgress::SweepProgress(std::size_t cells)
-    : cells_(cells), shown_(errors_have_a_terminal() && verbosity() != Verbosity::kQuiet) {
+SweepProgress::SweepProgress(std::size_t cells, PlaceInQueue place)
+    : cells_(cells),
+      place_(std::move(place)),
+      shown_(errors_have_a_terminal() && verbosity() != Verbosity::kQuiet) {
   void* memory = mmap(nullptr, sizeof(Counts), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
   counts_ = new (memory) Counts;
@@ -56,20 +57,31 @@ void SweepProgress::found(std::size_t cells) {
   counts_->done += cells;
 }
 
+/// By the cells that were made here; before the first one, and for the experiments after it, by what their
+/// files say.
+std::string SweepProgress::time_left(std::size_t done) const {
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  double left = 0;
+  if (done > found_)
+    left = elapsed * static_cast<double>(cells_ - done) / static_cast<double>(done - found_);
+  else if (place_.seconds)
+    left = std::max(0.0, *place_.seconds - elapsed);
+  else
+    return "";
+  return ", about " + clock_text(left + place_.seconds_after.value_or(0)) +
+         (place_.seconds_after ? " left" : " left for it");
+}
+
 void SweepProgress::draw() {
   if (!shown_ || cells_ == 0) return;
-  constexpr std::size_t kWidth = 24;  // of the bar, in characters
+  constexpr std::size_t kWidth = 16;  // of the bar, in characters
   const std::size_t done = std::min<std::size_t>(counts_->done, cells_), failed = counts_->failed;
   const std::size_t filled = kWidth * done / cells_;
-  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  std::string left;
-  if (done > found_)
-    left = ", about " +
-           clock_text(elapsed * static_cast<double>(cells_ - done) / static_cast<double>(done - found_)) +
-           " left";
-  fmt::print(stderr, "\r\x1b[2K[{}{}] {}/{} cells{}{}", std::string(filled, '#'),
-             std::string(kWidth - filled, '.'), done, cells_,
-             failed > 0 ? fmt::format(", {} failed", failed) : "", left);
+  const std::string place =
+      place_.count > 1 ? fmt::format("{}/{} {}: ", place_.index + 1, place_.count, place_.name) : "";
+  fmt::print(stderr, "\r\x1b[2K[{}{}] {}{}/{} cells{}{}", std::string(filled, '#'),
+             std::string(kWidth - filled, '.'), place, done, cells_,
+             failed > 0 ? fmt::format(", {} failed", failed) : "", time_left(done));
   std::fflush(stderr);
 }
 

@@ -8,17 +8,18 @@
 #include <string>
 #include <vector>
 
+#include "experiments/console/progress.h"
 #include "experiments/sweep/cells.h"
 #include "experiments/sweep/peer.h"
 #include "experiments/sweep/process_tree.h"
 
 namespace delquad {
 
-/// How many cells of a sweep are done, counted by every process that works on it, and a bar with the time
-/// left on the last line of a terminal.
+/// How many cells of a sweep are done, counted by every process that works on it. A bar on the last line of a
+/// terminal shows them, with the time left for the sweep and for the experiments after it.
 class SweepProgress {
  public:
-  explicit SweepProgress(std::size_t cells);
+  SweepProgress(std::size_t cells, PlaceInQueue place);
   ~SweepProgress();
   SweepProgress(const SweepProgress&) = delete;
   SweepProgress& operator=(const SweepProgress&) = delete;
@@ -38,11 +39,14 @@ class SweepProgress {
   void draw();
 
  private:
+  std::string time_left(std::size_t done) const;
+
   struct Counts {
     std::atomic<std::size_t> done = 0, failed = 0, interrupted = 0;
   };
   Counts* counts_;  ///< memory that all processes share
   std::size_t cells_, found_ = 0;
+  PlaceInQueue place_;
   bool shown_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
@@ -55,6 +59,7 @@ struct Cell {
   CellIdentity identity;
   std::filesystem::path folder;
   ReferenceCell reference = {};  ///< that a peer is calibrated to
+  bool may_fail = false;
 };
 
 bool is_done(const Cell& cell);

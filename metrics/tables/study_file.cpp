@@ -79,6 +79,9 @@ Json to_json(const StudyFile& study) {
                                   {"measures", h.measures},
                                   {"two_sided", h.two_sided},
                                   {"secondary", h.secondary}});
+  for (const MayFail& cells : study.may_fail)
+    json["may_fail"].push_back(
+        {{"case", cells.name}, {"variant", cells.variant}, {"pipeline", cells.pipeline}});
   if (study.plan_changed) json["plan_changed"] = true;
   for (const PublishedRow& row : study.published)
     json["published"].push_back({{"name", row.name}, {"source", row.source}, {"values", row.values}});
@@ -113,6 +116,8 @@ StudyFile from_json(const Json& json) {
   for (const Json& h : json.value("hypotheses", Json::array()))
     study.hypotheses.push_back({h.at("along"), h.at("better"), h.at("than"), h.at("measures"),
                                 h.at("two_sided"), h.at("secondary")});
+  for (const Json& cells : json.value("may_fail", Json::array()))
+    study.may_fail.push_back({cells.at("case"), cells.at("variant"), cells.at("pipeline")});
   study.plan_changed = json.value("plan_changed", false);
   json.at("compare").get_to(study.compare);
   for (const Json& row : json.at("published"))
@@ -179,6 +184,20 @@ std::optional<StudyFile> read_study(const std::filesystem::path& folder) {
   } catch (const Json::exception& error) {
     throw InputError(json_problem(folder / kStudyFile, "does not describe an experiment's results", error));
   }
+}
+
+bool is_one_of(const MayFail& cells, const CellAddress& cell) {
+  const auto is_it = [](const std::string& wanted, const std::string& text) {
+    return wanted.empty() || wanted == text;
+  };
+  const auto variant =
+      std::ranges::find(cell.variant, "variant", &std::pair<std::string, std::string>::first);
+  return is_it(cells.name, cell.name) && is_it(cells.pipeline, cell.pipeline) &&
+         is_it(cells.variant, variant == cell.variant.end() ? "" : variant->second);
+}
+
+bool may_fail(const TablePlan& plan, const CellAddress& cell) {
+  return std::ranges::any_of(plan.may_fail, [&](const MayFail& cells) { return is_one_of(cells, cell); });
 }
 
 std::optional<std::array<std::size_t, 3>> place_of(const StudyFile& study, const CellAddress& cell) {

@@ -51,6 +51,12 @@ struct Hypothesis {
   bool operator==(const Hypothesis&) const = default;
 };
 
+/// Cells that may fail, as an experiment declares them: [[may_fail]].
+struct MayFail {
+  std::string name, variant, pipeline;  ///< of the case and of the [[variant]]; empty: any
+  bool operator==(const MayFail&) const = default;
+};
+
 /// What an experiment says of its tables.
 struct TablePlan {
   std::string title;
@@ -63,6 +69,7 @@ struct TablePlan {
   std::optional<CorrelationRequest> correlation;  ///< what its results are to say of measures
   std::vector<std::string> pairs;  ///< titles of axes whose values are compared as pipelines are
   std::vector<Hypothesis> hypotheses;
+  std::vector<MayFail> may_fail;
 };
 
 /// What a folder of results says of its experiment, besides the records of its cells: study.json.
@@ -98,6 +105,9 @@ struct CellAddress {
   std::vector<std::pair<std::string, std::string>> variant;  ///< what varies, by title, with its value
   std::string pipeline;
 };
+/// Whether the cell is one of those that may fail.
+bool is_one_of(const MayFail& cells, const CellAddress& cell);
+bool may_fail(const TablePlan& plan, const CellAddress& cell);
 /// Where the cell stands among those of the experiment: case, variant and pipeline. Nothing: it has none
 /// such.
 std::optional<std::array<std::size_t, 3>> place_of(const StudyFile& study, const CellAddress& cell);

@@ -25,6 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+CellAddress address_of(const CellRecord& record) { return {record.name, record.variant, record.pipeline}; }
+
 constexpr const char *kHypotheses = "hypotheses", *kCorrelations = "correlations", *kSlopes = "slopes",
                      *kSummary = "summary";
 constexpr const char *kRunsFile = "runs.csv", *kRunColumns = "runs_columns.csv", *kPrinted = "tables.tex",
@@ -55,6 +57,7 @@ class Tabulation {
     add_notes(quad_count_notes(records_), table);
     note_cells();
     note_failed_metrics();
+    note_may_fail();
     if (study_.ratio) note_ratio(*study_.ratio);
     outcome_.pairs = pairs_table(study_.title, inference_.pairs(), inference_.family());
     outcome_.hypotheses = hypotheses_table(study_, inference_);
@@ -92,10 +95,13 @@ class Tabulation {
 
   void add_row(const Samples& samples) {
     TableRow row{samples.group, samples.pipeline, {}, {}, "", ""};
-    for (const CellRecord* failed : samples.failed)
+    for (const CellRecord* failed : samples.failed) {
+      if (may_fail(study_, address_of(*failed))) continue;
       ++(failed->kind == "bad input" ? outcome_.bad_inputs
          : failed->kind == "unsound" ? outcome_.unsound
                                      : outcome_.others_failed);
+      outcome_.failures[failed->reason].push_back(failed->group + " " + failed->pipeline);
+    }
     if (samples.done.empty()) {
       if (samples.failed.empty())
         row.skipped = samples.skipped[0]->kind;
@@ -309,6 +315,25 @@ class Tabulation {
         record.name, uniform ? " = " + record.uniform_size : "", fmt::join(record.size_adapted_to, " and ")));
   }
 
+  /// How many of the cells that may fail did.
+  void note_may_fail() {
+    for (const MayFail& cells : study_.may_fail) {
+      std::size_t all = 0, failed = 0;
+      for (const CellRecord& record : records_) {
+        if (record.skipped || !is_one_of(cells, address_of(record))) continue;
+        ++all;
+        failed += record.reason.empty() ? 0 : 1;
+      }
+      if (all == 0) continue;
+      std::vector<std::string> which;
+      if (!cells.name.empty()) which.push_back("case " + cells.name);
+      if (!cells.variant.empty()) which.push_back("variant " + cells.variant);
+      if (!cells.pipeline.empty()) which.push_back("pipeline " + cells.pipeline);
+      outcome_.table.notes.push_back(fmt::format("{}: declared in `may_fail`; {} of {} cells failed",
+                                                 fmt::join(which, ", "), failed, all));
+    }
+  }
+
   void note_ratio(const ExpectedRatio& ratio) {
     for (const Samples& a : inference_.samples()) {
       if (a.pipeline != ratio.numerator) continue;
@@ -341,9 +366,8 @@ StudyResults read_results(const fs::path& folder) {
     refuse("{}: is missing: expected the folder of 'delquad run -o'", (folder / "study.json").string());
   results.study = *std::move(study);
   results.time_problems = attach_times(results.records);
-  results.left_out = std::erase_if(results.records, [&](const CellRecord& r) {
-    return !place_of(results.study, {r.name, r.variant, r.pipeline});
-  });
+  results.left_out = std::erase_if(
+      results.records, [&](const CellRecord& r) { return !place_of(results.study, address_of(r)); });
   return results;
 }
 
@@ -357,7 +381,11 @@ Outcome make_tables(const StudyResults& results) {
   const RunsCsv runs = runs_csv(results.study, results.records);
   outcome.files[kRunsFile] = runs.lines;
   outcome.files[kRunColumns] = runs.columns;
-  outcome.metrics_failed = std::ranges::count_if(results.records, &CellRecord::metric_failed);
+  for (const CellRecord& record : results.records) {
+    if (!record.metric_failed) continue;
+    ++outcome.metrics_failed;
+    outcome.failures["a measure by command failed"].push_back(record.group + " " + record.pipeline);
+  }
   outcome.table.notes.insert(outcome.table.notes.end(), results.time_problems.begin(),
                              results.time_problems.end());
   if (results.left_out > 0)

@@ -26,8 +26,10 @@ struct Outcome {
   std::map<std::string, std::string> files = {};
   std::vector<Figure> figures;                         ///< of several pipelines over several cases
   long long leftover_triangles = 0;                    ///< in cells whose pipeline makes quads only
-  int bad_inputs = 0, unsound = 0, others_failed = 0;  ///< cells that failed
+  int bad_inputs = 0, unsound = 0, others_failed = 0;  ///< cells that failed, and may not
   long long metrics_failed = 0;  ///< cells with a mesh, in which a measure by command failed
+  /// These numbers in words: by reason the cells, or none.
+  std::map<std::string, std::vector<std::string>> failures = {};
 };
 
 /// The records of an experiment's cells, and what it consists of.
