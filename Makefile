@@ -4,12 +4,13 @@ RESULTS ?= results
 # Models that are no part of the project, see `make data`; experiments without theirs are skipped.
 DATA ?= $(if $(wildcard ../shared/data),../shared/data,data)
 # Files of peers that `make suite` runs beside our own words.
-SUITE_PEERS ?= $(if $(shell command -v gmsh),experiments/peers/gmsh.toml)
+SUITE_PEERS ?= $(if $(shell command -v gmsh),experiments/peers/adapters/gmsh.toml)
+DELQUAD = build/$(PRESET)/delquad
 CMAKE_FLAGS ?=
 # How long `make fuzz` tries its targets, all of them together.
 SECONDS ?= 120
 
-.PHONY: packages package build dev lint test sanitize python data paper peers public public_models suite site bench fuzz
+.PHONY: packages package build dev lint test sanitize python data paper studies suite_models peers public public_models suite site bench fuzz
 
 packages:
 	@cmake/install-packages.sh
@@ -34,46 +35,61 @@ test: build
 	  grep -h -A1 ': Skipped$$' build/$(PRESET)/Testing/Temporary/LastTest.log | grep -v -e '^--$$' -e ': Skipped$$' | sort | uniq -c; \
 	  exit $$status
 
-PEERS = $(wildcard experiments/peers*.toml)
-
-# Every experiment but those with other meshers: tables, pictures and a page that shows them, under $(RESULTS)/.
-paper: EXPERIMENTS = $(filter-out $(PEERS),$(wildcard experiments/*.toml experiments/made/*.toml))
-# Those; failed cells are part of their tables.
-peers: EXPERIMENTS = $(PEERS)
-peers: MAY_FAIL = ||:
-# Models of other projects, beside what these published.
-public: EXPERIMENTS = $(wildcard experiments/public/*.toml)
-public: MAY_FAIL = ||:
-public: INTO = $(RESULTS)/public
+# Each of these runs the experiments of a folder and makes a page of their tables and pictures. Cells that are done are kept. Where a cell
+# fails that may not, the exit code says so after all else is done.
+# The paper's tables and figures. SMALL=1: with few pipelines, to try that all of it runs.
+paper: EXPERIMENTS = $(wildcard experiments/paper/*.toml)
+paper: INTO = $(RESULTS)$(if $(SMALL),/small)
+paper: FLAGS = $(if $(SMALL),--pipelines D$(,)DB)
+# Everything else that was measured.
+studies: EXPERIMENTS = $(wildcard experiments/studies/*.toml experiments/studies/on_suite/*.toml)
+studies: suite_models
+# Ours beside other meshers; those that are not installed fail.
+peers: EXPERIMENTS = $(wildcard experiments/peers/*.toml)
+peers: STATUS = 0
+# Models of other projects, beside what these published; without those that could not be fetched.
+public: EXPERIMENTS = experiments/public/mbb.toml experiments/public/hexme.toml \
+  $(shell [ ! -f experiments/public/models/NACA0012.toml ] || echo experiments/public/hohqmesh.toml) \
+  $(shell [ ! -f experiments/public/models/marmousi_lines.toml ] || echo experiments/public/marmousi.toml)
+public: STATUS = 0
 public: public_models
-paper peers public: INTO ?= $(RESULTS)
-paper peers public: build
-	@build/$(PRESET)/delquad suite models -o experiments/made/models > /dev/null
-	@for e in $(EXPERIMENTS); do \
-	  build/$(PRESET)/delquad run $$e --data $(DATA) -o $(INTO)/$$(basename $$e .toml) $(MAY_FAIL) || exit $$?; \
-	done
-	build/$(PRESET)/delquad report $(INTO) -o $(INTO)/report.html
-	@echo "Tables and pictures lie in $(INTO)/; $(INTO)/report.html shows them."
+
+, = ,
+STATUS = $$status
+studies peers public: INTO = $(RESULTS)/$@
+studies peers public: PACKAGES = python3 $(if $(filter peers,$@),python3-meshio)
+paper studies peers public: build
+	@cmake/install-packages.sh $(PACKAGES)
+	@$(DELQUAD) run $(EXPERIMENTS) -o $(INTO) --data $(DATA) -j $$(nproc) $(FLAGS) > /dev/null; status=$$?; \
+	  $(DELQUAD) report $(INTO) -o $(INTO)/report.html || exit $$?; \
+	  echo "Tables and pictures lie in $(INTO)/; $(INTO)/report.html shows them."; \
+	  exit $(STATUS)
+
+suite_models: build
+	@$(DELQUAD) suite models -o experiments/studies/on_suite/models > /dev/null
 
 # Fetches these models, and writes those in formats of others anew: as model files, and with gmsh, where it is, as .brep.
 public_models:
+	@cmake/install-packages.sh curl ca-certificates python3
 	@python3 experiments/data/fetch.py $(DATA) --list experiments/data/public.toml
-	@python3 experiments/public/hohqmesh.py $(DATA)/hohqmesh/Benchmarks/ControlFiles/*.control experiments/public/models
-	@python3 experiments/public/geo.py $(DATA)/marmousi.geo experiments/public/models/marmousi_lines.toml polyline
-	@python3 experiments/public/geo.py $(DATA)/marmousi.geo experiments/public/models/marmousi_splines.toml spline
-	@! command -v gmsh > /dev/null || for f in $(DATA)/hexme/original/*.geo; do gmsh $$f -0 -o $${f%.geo}.brep -v 2; done
+	@mkdir -p experiments/public/models
+	@[ ! -d $(DATA)/hohqmesh ] || python3 experiments/public/hohqmesh.py $(DATA)/hohqmesh/Benchmarks/ControlFiles/*.control experiments/public/models
+	@[ ! -f $(DATA)/marmousi.geo ] || for curve in polyline:lines spline:splines; do \
+	  python3 experiments/public/geo.py $(DATA)/marmousi.geo experiments/public/models/marmousi_$${curve#*:}.toml $${curve%:*} || exit $$?; done
+	@[ ! -d $(DATA)/hexme ] || ! command -v gmsh > /dev/null || for f in $(DATA)/hexme/original/*.geo; do gmsh $$f -0 -o $${f%.geo}.brep -v 2; done
 
 # Fetches what is missing of the paper's own models, and checks what is there.
 data:
+	@cmake/install-packages.sh curl ca-certificates python3
 	@python3 experiments/data/fetch.py $(DATA)
 
 # Ours and other programs on the models that the program makes itself: failed cells are part of the ranking.
 suite: build
-	build/$(PRESET)/delquad suite models $(addprefix --public ,$(wildcard $(DATA) experiments/public/models)) -o $(RESULTS)/suite/models
-	build/$(PRESET)/delquad run $(RESULTS)/suite/models/suite.toml -o $(RESULTS)/suite/run -j 2 --timeout 300 \
+	$(DELQUAD) suite models $(addprefix --public ,$(wildcard $(DATA) experiments/public/models)) -o $(RESULTS)/suite/models
+	$(DELQUAD) run $(RESULTS)/suite/models/suite.toml -o $(RESULTS)/suite/run -j 2 --timeout 300 \
 	  $(foreach peers,$(SUITE_PEERS),--peer $(peers)) > $(RESULTS)/suite/run.log ||:
-	build/$(PRESET)/delquad suite table $(RESULTS)/suite
-	build/$(PRESET)/delquad report $(RESULTS)/suite -o $(RESULTS)/suite/report.html
+	$(DELQUAD) suite table $(RESULTS)/suite
+	$(DELQUAD) report $(RESULTS)/suite -o $(RESULTS)/suite/report.html
 	@echo "$(RESULTS)/suite/ranking has the table; $(RESULTS)/suite/report.html shows the meshes."
 
 # Debian packages, an archive and a Python wheel for other machines, in build/packages: docs/packages.md.

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """What fewer irregular vertices cost: Delquad's qualities at several weights beside QuadWild with Bi-MDF at several alphas.
 
-Each CAD model is meshed at --size-part of its diagonal. Where the variable QUADWILD names the folder of QuadWild's sources, built (as
-for experiments/peers/quadwild.sh, whose settings these are), it gets Delquad's triangles (F at that size): its patches are made once a
-model, its quads for each alpha, at the number of `good` within --within or the nearest of --tries. Of all, `delquad metrics` measures
-the mesh against the same size. The table has means over the models that all programs meshed; --json keeps what was made; --figure draws irregular vertices
+The size of each CAD model is --size-part of its diagonal in length. If the variable QUADWILD names the folder of QuadWild's built sources, it gets Delquad's triangles
+(F at that size), with the settings of experiments/peers/adapters/quadwild.sh. Its patches are made once a model, its quads for each alpha,
+at the number of `good` within --within or the nearest of --tries. `delquad metrics` measures all meshes against the same size. The table has means over the models that all programs meshed; --json keeps what was made; --figure draws irregular vertices
 against tau and eta. Without QUADWILD it has Delquad's half.
 """
 

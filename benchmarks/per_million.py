@@ -3,10 +3,10 @@
 
 Each program makes about --quads quads on a plate with holes, on a closed triangulation and on a CAD model, from the file read to the
 file written, with one thread, --runs times in turn; the least time counts (of a run above --once seconds the first). Its mesh is
-measured by `delquad metrics`. Gmsh makes quads by frontal-Delaunay for quads and Blossom (8), which leaves triangles, and nothing but
-quads by halving those of twice the size (6); a triangle counts as half a quad. QuadriFlow and Instant Meshes begin with a triangulation,
-which is given to them: of a CAD model and the plate Delquad's F at the same size, which is not in their time. Settings are those of
-experiments/peers; Instant Meshes divides its quads in four, so that it gets twice the size, and
+measured by `delquad metrics`. Gmsh makes quads by frontal-Delaunay for quads and Blossom (8), which leaves triangles. It makes nothing but
+quads by halving quads of twice the size (6); a triangle counts as half a quad. QuadriFlow and Instant Meshes begin with a triangulation.
+For a CAD model and the plate this is Delquad's F at the same size, whose time does not count. Settings are as in
+experiments/peers/adapters. Instant Meshes divides its quads in four, so that it gets twice the size.
 QuadriFlow has its default flow, since the other one (-mcf) may not end. What is not there is skipped with a line that says so. --figure draws the seconds on a logarithmic axis.
 """
 

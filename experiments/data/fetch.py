@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Fetches the models of a list that are missing in a folder: files with curl, repositories with git.
 
-Usage: fetch.py FOLDER [--list LIST.toml] [--mirror URL]. The list is files.toml if absent. A file appears when its SHA-256 is right, a repository at its commit, and not otherwise.
---mirror (or DELQUAD_MIRROR) is asked first, for URL/NAME; then the urls of the list.
+Usage: fetch.py FOLDER [--list LIST.toml] [--mirror URL]. The list is files.toml if absent. A file appears only if its SHA-256 is right, a repository only at its commit.
+
+--mirror (or DELQUAD_MIRROR) is asked first, for URL/NAME; then the urls of the list. The exit code is 1 if something else than a model was found, and 0 if nothing was.
 """
 import argparse
 import hashlib
@@ -22,6 +23,8 @@ def digest(path):
 
 def download(url, path):
     """Why it failed; empty: it did not."""
+    if not shutil.which("curl"):
+        return "curl is not installed"
     curl = ["curl", "--fail", "--silent", "--show-error", "--location", "--connect-timeout", "20", "--retry", "2"]
     run = subprocess.run([*curl, "--output", path, url], capture_output=True, text=True)
     if run.returncode == 0:
@@ -30,7 +33,7 @@ def download(url, path):
 
 
 def fetch(file, folder, mirror):
-    """Whether the file is there in the end."""
+    """Whether nothing wrong was found: the file is there in the end, or was not to be had."""
     path = folder / file["name"]
     if path.exists():
         if digest(path) == file["sha256"]:
@@ -41,21 +44,22 @@ def fetch(file, folder, mirror):
         return False
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    reasons, is_wrong = [], False
     try:
         for url in ([f"{mirror.rstrip('/')}/{file['name']}"] if mirror else []) + file["urls"]:
             reason = download(url, part)
             if not reason and digest(part) != file["sha256"]:
-                reason = f"SHA-256 is {digest(part)}: expected {file['sha256']}"
+                reason, is_wrong = f"SHA-256 is {digest(part)}", True
             if not reason:
                 part.rename(path)
                 print(f"{path}: fetched from {url}\n  {file['what']}; {file['licence']}")
                 return True
-            print(f"warning: {url}: {reason}", file=sys.stderr)
+            reasons.append(f"{url}: {reason}")
     finally:
         part.unlink(missing_ok=True)
-    print(f"error: {path}: not fetched. By hand: put the file of {file['urls'][0]} there "
+    print(f"{'error: ' if is_wrong else ''}{path}: not fetched ({'; '.join(reasons)}). By hand: put the file of {file['urls'][0]} there "
           f"(SHA-256 {file['sha256']})", file=sys.stderr)
-    return False
+    return not is_wrong
 
 
 def git(*arguments):
@@ -64,7 +68,7 @@ def git(*arguments):
 
 
 def clone(repository, folder, mirror):
-    """Whether the repository is there in the end."""
+    """Whether nothing wrong was found: the repository is there in the end, or was not to be had."""
     path, commit = folder / repository["name"], repository["commit"]
     if path.exists():
         head = git("-C", path, "rev-parse", "HEAD")[0]
@@ -73,6 +77,7 @@ def clone(repository, folder, mirror):
             return True
         print(f"error: {path}: is not at commit {commit}; move it away to fetch it anew", file=sys.stderr)
         return False
+    reasons = []
     for url in ([f"{mirror.rstrip('/')}/{repository['name']}"] if mirror else []) + [repository["url"]]:
         part = path.with_name(f".{path.name}.{os.getpid()}.part")
         try:
@@ -85,11 +90,11 @@ def clone(repository, folder, mirror):
                 part.rename(path)
                 print(f"{path}: fetched from {url}\n  {repository['what']}; {repository['licence']}")
                 return True
-            print(f"warning: {url}: {reason}", file=sys.stderr)
+            reasons.append(f"{url}: {reason}")
         finally:
             shutil.rmtree(part, ignore_errors=True)
-    print(f"error: {path}: not fetched. By hand: put commit {commit} of {repository['url']} there", file=sys.stderr)
-    return False
+    print(f"{path}: not fetched ({'; '.join(reasons)}). By hand: put commit {commit} of {repository['url']} there", file=sys.stderr)
+    return True
 
 
 def main():
@@ -100,11 +105,11 @@ def main():
     arguments = parser.parse_args()
     models = tomllib.loads(arguments.list.read_text())
     try:
-        there = [fetch(file, arguments.folder, arguments.mirror) for file in models.get("file", [])]
-        there += [clone(repository, arguments.folder, arguments.mirror) for repository in models.get("repository", [])]
+        right = [fetch(file, arguments.folder, arguments.mirror) for file in models.get("file", [])]
+        right += [clone(repository, arguments.folder, arguments.mirror) for repository in models.get("repository", [])]
     except OSError as error:
         sys.exit(f"error: {error.filename or arguments.folder}: {error.strerror}")
-    return 0 if all(there) else 1
+    return 0 if all(right) else 1
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import math
 import pathlib
 import sys
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "studies"))
 from interpolation_error import read_msh  # noqa: E402
 
 

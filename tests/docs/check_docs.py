@@ -30,7 +30,7 @@ import tomllib
 import traceback
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-NOT_OURS = {"build", "results", "data", ".git", "made"}
+NOT_OURS = {"build", "results", "data", ".git"}
 SHELL = re.compile(r"(export|cat|mkdir|make|cmake|git|pip|cp|cd|ccx|rsvg-convert|awk|(\S*/)?(delquad|python3|own_strategy)) ")
 MARK = re.compile(r"<!-- (not run|slow|needs|before): (.*?) -->", re.DOTALL)
 SECONDS, SLOW_SECONDS = 300, 7200  # by the clock, on a busy machine
@@ -121,9 +121,9 @@ def workplace(folder, build):
     """A folder that looks like the repository, but in which nothing of it is overwritten."""
     (folder / "experiments").mkdir()
     for path in [*ROOT.iterdir(), *(ROOT / "experiments").iterdir()]:
-        if path.name not in NOT_OURS and path.name != "experiments":
+        if path.name not in NOT_OURS | {"experiments", "studies"}:
             (folder / path.relative_to(ROOT)).symlink_to(path)
-    shutil.copytree(ROOT / "experiments/made", folder / "experiments/made", ignore=shutil.ignore_patterns("models"))
+    shutil.copytree(ROOT / "experiments/studies", folder / "experiments/studies", ignore=shutil.ignore_patterns("models"))
     (folder / "build").mkdir()
     (folder / "build/release").symlink_to(build)
     (folder / "results").mkdir()

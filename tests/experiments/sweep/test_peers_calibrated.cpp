@@ -380,7 +380,7 @@ TEST_F(CalibratedPeers, GmshFollowsSizesOnSurfaces) {
       "pipelines = [\"DB\"]\ncalibrate = \"quads\"\n[[case]]\nname = \"bracket\"\nexample = "
       "\"bracket\"\nsize = \"3 + "
       "0.05*x\"\n");
-  e.add_peer_file(fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers/gmsh.toml");
+  e.add_peer_file(fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers/adapters/gmsh.toml");
   e.words = e.find_pipelines({"DB", "gmsh"});
   run_experiment(e, out());
   const auto cells = records();
@@ -392,7 +392,7 @@ TEST_F(CalibratedPeers, GmshFollowsSizesOnSurfaces) {
 /// The adapters that come with the project, each on a planar domain and on a surface: a mesh, or a reason why
 /// not.
 TEST_F(CalibratedPeers, AdaptersMeshOrSayWhyNot) {
-  const fs::path folder = fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers";
+  const fs::path folder = fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers/adapters";
   Experiment e = experiment(
       "pipelines = [\"DB\"]\ncalibrate = \"quads\"\n"
       "[[case]]\nname = \"ring\"\nsize = 0.1\nloop = [{ circle = { centre = [0, 0], radius = 1 } }, { circle "
@@ -468,11 +468,12 @@ TEST_F(CalibratedPeers, AdaptersSpeakToProgramsThatAreAbsentHere) {
       "[[case]]\nname = \"touching\"\nsize = 0.5\nloop = [{ rectangle = [[0, 0], [2, 1]] }, "
       "{ polygon = [[0, 0], [1, 0.3], [0.5, 0.7]] }]\n");
   for (const char* name : {"gmsh", "instant_meshes", "mmg", "quadriflow", "quadwild", "tqmesh"})
-    e.add_peer_file(fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers" / (std::string(name) + ".toml"));
+    e.add_peer_file(fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers/adapters" /
+                    (std::string(name) + ".toml"));
   e.words =
       e.find_pipelines({"instant-meshes", "mmg", "quadriflow-source", "quadwild", "tqmesh", "gmsh-quasi"});
   run_experiment(e, out());
-  const std::string peers = DELQUAD_SOURCE_DIR "/experiments/peers/";
+  const std::string peers = DELQUAD_SOURCE_DIR "/experiments/peers/adapters/";
   const auto answer = [&](std::vector<std::string> words) {
     return testing_support::run_program("/bin/sh", {std::move(words), 0, {}});
   };

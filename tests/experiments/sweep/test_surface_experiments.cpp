@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using testing_support::shared_data;
 
 Table run(const char* file, const std::vector<std::string>& words) {
-  Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / file, shared_data());
+  Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / "paper" / file, shared_data());
   e.words = e.find_pipelines(words);
   const testing_support::TemporaryFolder folder;
   return run_experiment(e, folder / "out").table;
