@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <random>
 #include <thread>
 
@@ -15,6 +16,7 @@
 #include "experiments/sweep/verify.h"
 #include "metrics/tables/result_records.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/needs_file.h"
 #include "tests/support/run_program.h"
 
 namespace delquad {
@@ -33,6 +35,16 @@ constexpr int kResumedCells = 24;
 
 class Resume : public testing::Test {
  protected:
+  static void SetUpTestSuite() {
+    done_ = std::make_unique<testing_support::TemporaryFolder>();
+    run_experiment(Experiment::read(write_text(*done_ / "sweep.toml", kSweep)), *done_ / "out");
+  }
+  static void TearDownTestSuite() { done_.reset(); }
+  /// Copies the results of the sweep, which is run once for all tests, to a folder.
+  std::string done(const std::string& name = "out") const {
+    fs::copy(*done_ / "out", out(name), fs::copy_options::recursive);
+    return out(name);
+  }
   fs::path write(const std::string& text) { return write_text(folder_ / "sweep.toml", text); }
   testing_support::ProgramResult program(std::vector<std::string> arguments) {
     return run_program(DELQUAD_PROGRAM, {std::move(arguments), 0, {}});
@@ -40,6 +52,7 @@ class Resume : public testing::Test {
   std::string out(const std::string& name = "out") const { return (folder_ / name).string(); }
 
   testing_support::TemporaryFolder folder_;
+  static inline std::unique_ptr<testing_support::TemporaryFolder> done_;
 };
 
 /// Everything but times, by cell.
@@ -57,14 +70,14 @@ std::map<std::string, std::map<std::string, double>> values_of(const fs::path& f
 std::map<fs::path, fs::file_time_type> record_times(const fs::path& folder) {
   std::map<fs::path, fs::file_time_type> times;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.path().filename() == "record.json") times[entry.path()] = entry.last_write_time();
+    if (entry.path().filename() == "record.json" && entry.path().parent_path().extension() != ".tmp")
+      times[entry.path()] = entry.last_write_time();
   return times;
 }
 
 TEST_F(Resume, DoneCellsAreLeftAloneUntilTheyAreOutdated) {
   const Experiment experiment = Experiment::read(write(kSweep));
-  run_experiment(experiment, out());
-  const auto first = record_times(out());
+  const auto first = record_times(done());
   ASSERT_EQ(first.size(), std::size_t{kResumedCells});
   run_experiment(experiment, out());
   EXPECT_EQ(record_times(out()), first);
@@ -94,7 +107,6 @@ TEST_F(Resume, DoneCellsAreLeftAloneUntilTheyAreOutdated) {
 
 TEST_F(Resume, AnyNumberOfProcessesAndShardsMakesTheSame) {
   const Experiment experiment = Experiment::read(write(kSweep));
-  run_experiment(experiment, out("whole"));
   SweepOptions parallel;
   parallel.limits.jobs = 4;
   run_experiment(experiment, out("parallel"), parallel);
@@ -106,7 +118,7 @@ TEST_F(Resume, AnyNumberOfProcessesAndShardsMakesTheSame) {
     constexpr std::size_t kSoFar[] = {8, 16, 20, 24};
     EXPECT_EQ(record_times(out("shards")).size(), kSoFar[i]);
   }
-  const auto whole = values_of(out("whole"));
+  const auto whole = values_of(done("whole"));
   ASSERT_EQ(whole.size(), std::size_t{kResumedCells});
   EXPECT_EQ(values_of(out("parallel")), whole);
   EXPECT_EQ(values_of(out("shards")), whole);
@@ -117,7 +129,7 @@ TEST_F(Resume, AnyNumberOfProcessesAndShardsMakesTheSame) {
 /// Points are inserted once for pipelines that begin alike: their records show the same time, to the last
 /// bit.
 TEST_F(Resume, PipelinesThatBeginAlikeShareTheirStages) {
-  run_experiment(Experiment::read(write(kSweep)), out());
+  done();
   const auto inserting = [&](const std::string& word) {
     for (const CellRecord& record : read_records(out()))
       if (record.group == "disc@seed=2" && record.pipeline == word)
@@ -133,7 +145,7 @@ TEST_F(Resume, PipelinesThatBeginAlikeShareTheirStages) {
 /// What is left of an earlier run does not stand for what a new one failed to make.
 TEST_F(Resume, AForcedRunThatFailsLeavesNoOldResult) {
   const std::string file = write(kSweep).string();
-  ASSERT_EQ(program({"run", file, "-o", out()}).exit_code, 0);
+  done();
   EXPECT_EQ(program({"run", file, "-o", out(), "--force", "--timeout", "0.001"}).exit_code, 1);
   for (const CellRecord& record : read_records(out())) EXPECT_EQ(record.kind, "timeout") << record.group;
 }
@@ -141,6 +153,7 @@ TEST_F(Resume, AForcedRunThatFailsLeavesNoOldResult) {
 /// A scheduler takes the machine away: that says nothing of the mesh. The parent of a command is the watcher
 /// of its group, whose parent is the cell.
 TEST_F(Resume, AnInterruptedCellIsToBeMadeYet) {
+  NEEDS_FILE("/proc/self/stat");
   const std::string flag = out("flag");
   const std::string file =
       write(kSweep + "[[metric]]\nname = \"one\"\ncommand = [\"sh\", \"-c\", '''[ -e " + flag +
@@ -160,7 +173,7 @@ TEST_F(Resume, AnInterruptedCellIsToBeMadeYet) {
 }
 
 TEST_F(Resume, TablesLeaveOutWhatTheExperimentNoLongerHas) {
-  run_experiment(Experiment::read(write(kSweep)), out());
+  done();
   std::string fewer = kSweep;
   fewer.replace(fewer.find("[1, 2, 3]"), 9, "[1, 2]");
   const Outcome outcome = run_experiment(Experiment::read(write(fewer)), out());
@@ -170,7 +183,9 @@ TEST_F(Resume, TablesLeaveOutWhatTheExperimentNoLongerHas) {
 /// At any moment: no result is lost, none is half there, and the end is the same.
 TEST_F(Resume, SurvivesBeingKilled) {
   const std::string file = write(kSweep).string();
-  ASSERT_EQ(program({"run", file, "-o", out("whole")}).exit_code, 0);
+  const Experiment experiment = Experiment::read(file);
+  SweepOptions two;
+  two.limits.jobs = 2;
   std::mt19937 random(3);
   std::map<fs::path, fs::file_time_type> before;
   std::size_t kills = 0;
@@ -180,13 +195,17 @@ TEST_F(Resume, SurvivesBeingKilled) {
       const int null = open("/dev/null", O_WRONLY);
       dup2(null, STDOUT_FILENO);
       dup2(null, STDERR_FILENO);
-      execl(DELQUAD_PROGRAM, "delquad", "run", file.c_str(), "-o", out("killed").c_str(), "-j", "2", nullptr);
-      _exit(127);
+      run_experiment(experiment, out("killed"), two);
+      _exit(0);
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(60 + random() % 120));
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(random() % (20 + 25 * kills)));  // it comes to an end
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    if (!fs::exists(out("killed"))) continue;
+    const int lock = open((out("killed") + "/.lock").c_str(), O_RDWR);
+    if (lock < 0) continue;
+    flock(lock, LOCK_EX);  // which processes of the cells hold until they are over, too
+    close(lock);
     const auto now = record_times(out("killed"));
     for (const auto& [path, time] : before) {
       ASSERT_TRUE(now.contains(path)) << path;
@@ -197,20 +216,14 @@ TEST_F(Resume, SurvivesBeingKilled) {
         EXPECT_TRUE(fs::exists(path.parent_path() / name)) << path.parent_path() / name;
     before = now;
   }
-  // Processes that were killed a moment ago may hold the lock for one more.
-  testing_support::ProgramResult last;
-  for (int patience = 50; patience > 0; --patience) {
-    last = program({"run", file, "-o", out("killed")});
-    if (last.exit_code == 0) break;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
+  const auto last = program({"run", file, "-o", out("killed")});
   ASSERT_EQ(last.exit_code, 0) << last.err;
-  EXPECT_EQ(values_of(out("killed")), values_of(out("whole")));
+  EXPECT_EQ(values_of(out("killed")), values_of(done("whole")));
 }
 
 TEST_F(Resume, AFolderHasOneRunAndOneExperiment) {
   const Experiment experiment = Experiment::read(write(kSweep));
-  run_experiment(experiment, out());
+  done();
   const Experiment other = Experiment::read(write_text(folder_ / "other.toml", kSweep));
   expect_input_error([&] { run_experiment(other, out()); }, {"'sweep'", "'other'"});
   const int lock = open((out() + "/.lock").c_str(), O_RDWR);
@@ -228,9 +241,9 @@ TEST_F(Resume, FailuresAreCellsWithReasons) {
           "[[case]]\nname = \"bad\"\nsize = \"0.2 - x\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
           "[[case]]\nname = \"long\"\nsize = 0.0004\nloop = { rectangle = [[0, 0], [1, 1]] }\n")
           .string();
-  const auto result = program({"run", file, "-o", out(), "--timeout", "2", "-j", "2"});
+  const auto result = program({"run", file, "-o", out(), "--timeout", "1", "-j", "2"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("error: long DB: not done after 2 s (--timeout): "), std::string::npos)
+  EXPECT_NE(result.err.find("error: long DB: not done after 1 s (--timeout): "), std::string::npos)
       << result.err;
   EXPECT_NE(result.err.find("error: bad DB: "), std::string::npos) << result.err;
   const auto records = read_records(out());
@@ -264,7 +277,7 @@ TEST_F(Resume, TablesComeFromRecordsAlone) {
 }
 
 TEST_F(Resume, RecordsCanBeMadeAgain) {
-  run_experiment(Experiment::read(write(kSweep)), out());
+  done();
   const fs::path record = out() + "/disc@seed=2/DBC/record.json";
   Rerun rerun = rerun_record(record);
   EXPECT_TRUE(rerun.same_mesh);
