@@ -10,30 +10,40 @@ CMAKE_FLAGS ?=
 # How long `make fuzz` tries its targets, all of them together.
 SECONDS ?= 120
 
-.PHONY: packages package build dev lint test sanitize python data paper studies suite_models peers public public_models suite site bench fuzz
+.PHONY: package build dev lint test test-long sanitize python data paper studies suite_models peers public public_models suite site bench fuzz
 
-packages:
-	@cmake/install-packages.sh
-
-build: packages
+# The program, the programs and libraries that it loads, and the library for C++.
+build:
+	@cmake/install-packages.sh build
 	cmake --preset $(PRESET) $(CMAKE_FLAGS)
-	cmake --build --preset $(PRESET)
+	cmake --build --preset $(PRESET) --target delquad
 
 # For daily work: file by file, with warnings as errors; only what was touched is compiled again. TARGETS: some of them by name.
-dev: packages
-	@[ -d build/dev ] || cmake --preset dev $(CMAKE_FLAGS)
+dev:
+	@cmake/install-packages.sh build python test
+	@[ -d build/dev ] || cmake --preset dev -DBUILD_TESTING=ON $(CMAKE_FLAGS)
 	cmake --build --preset dev $(if $(TARGETS),--target $(TARGETS))
 
 # Without a build: checks the format of the sources, their structure, and the prose of new and changed lines.
 lint:
+	@cmake/install-packages.sh lint
 	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
 	python3 tests/house/check_house.py .
 	python3 tests/house/check_prose.py
 
-test: build
-	ctest --preset $(PRESET) -j $$(nproc); status=$$?; \
-	  grep -h -A1 ': Skipped$$' build/$(PRESET)/Testing/Temporary/LastTest.log | grep -v -e '^--$$' -e ': Skipped$$' | sort | uniq -c; \
+# Builds and runs the tests, and says which were skipped and why. TESTS: options of ctest, such as -R "^mesher" or -LE programs.
+TESTS ?= -LE long
+test:
+	@cmake/install-packages.sh build python test
+	cmake --preset $(PRESET) -DBUILD_TESTING=ON -DDELQUAD_PYTHON=$(if $(filter asan,$(PRESET)),OFF,ON) $(CMAKE_FLAGS)
+	cmake --build --preset $(PRESET)
+	ctest --preset $(PRESET) -j $$(nproc) $(TESTS); status=$$?; \
+	  sed -n -e '/: Skipped$$/{n;p}' -e 's/^skipped: //p' build/$(PRESET)/Testing/Temporary/LastTest.log | sort | uniq -c; \
 	  exit $$status
+
+# Tests that take minutes.
+test-long:
+	@$(MAKE) test TESTS="-L long"
 
 # Each of these runs the experiments of a folder and makes a page of their tables and pictures. Cells that are done are kept. Where a cell
 # fails that may not, the exit code says so after all else is done.
@@ -94,39 +104,42 @@ suite: build
 
 # Debian packages, an archive and a Python wheel for other machines, in build/packages: docs/packages.md.
 package: build
-	@cmake/install-packages.sh dpkg-dev file patchelf xz-utils
+	@cmake/install-packages.sh package python
+	cmake --preset $(PRESET) -DDELQUAD_PYTHON=ON
+	cmake --build --preset $(PRESET) --target delquad_python
 	packaging/package.sh build/$(PRESET) build/packages
 
 # The documentation as pages with a search, a gallery, and the references of C++ and Python, in build/site; with the tables of $(RESULTS) where
 # there are any. They need no network.
 site: build
-	@cmake/install-packages.sh mkdocs mkdocs-material doxygen
+	@cmake/install-packages.sh site
 	/usr/bin/python3 docs/site/make_site.py build/$(PRESET) $(RESULTS) build/site
 
-# The rooms below the mesher, under the address and undefined-behaviour sanitizers; `make test PRESET=asan` takes all up to it.
-SANITIZED = base matching mesh geometry_surface io boundaries insertion treatment recombination cleanup regularity cvt optimisation metrics
-space = $(subst ,, )
-sanitize: packages
-	cmake --preset asan $(CMAKE_FLAGS)
-	cmake --build --preset asan --target $(SANITIZED:%=test_%)
-	ctest --preset asan -j $$(nproc) -R '^($(subst $(space),|,$(strip $(SANITIZED))))\.'
+# The modules that edit meshes and read files, under the address and undefined-behavior sanitizers.
+sanitize:
+	@cmake/install-packages.sh build test
+	cmake --preset asan -DBUILD_TESTING=ON $(CMAKE_FLAGS)
+	cmake --build --preset asan --target test_basics
+	ctest --preset asan -j $$(nproc) -LE long
 
-# The Python module, in build/$(PRESET)/python, and its tests.
-python: packages
-	cmake --preset $(PRESET) $(CMAKE_FLAGS)
+# The Python module, in build/$(PRESET)/python.
+python:
+	@cmake/install-packages.sh build python
+	cmake --preset $(PRESET) -DDELQUAD_PYTHON=ON $(CMAKE_FLAGS)
 	cmake --build --preset $(PRESET) --target delquad_python
-	ctest --preset $(PRESET) -R '^python\.'
 
 # BENCH_FLAGS: for Google Benchmark, or --record.
-bench: build
-	@cmake/install-packages.sh python3-scipy
+bench:
+	@cmake/install-packages.sh build bench
+	cmake --preset $(PRESET) -DDELQUAD_BENCHMARKS=ON $(CMAKE_FLAGS)
+	cmake --build --preset $(PRESET)
 	python3 benchmarks/cleanup_cost.py --counts 60000 250000 --words DB DBCO DLBCO --delquad build/$(PRESET)/delquad --data $(DATA)
 	/usr/bin/python3 benchmarks/ratios.py build/$(PRESET) $(BENCH_FLAGS)
 
 # Readers, experiments and the mesher against inputs that nobody would write: ends with an error when something was found,
 # see CONTRIBUTING.md. TARGETS: some of them by name.
-fuzz: packages
-	@cmake/install-packages.sh clang-16 libclang-rt-16-dev
+fuzz:
+	@cmake/install-packages.sh build fuzz
 	cmake --preset fuzz $(CMAKE_FLAGS)
 	cmake --build --preset fuzz
 	python3 tests/fuzz/run.py build/fuzz --seconds $(SECONDS) $(if $(TARGETS),--targets $(TARGETS))

@@ -22,8 +22,8 @@ class Build(build_ext):
         if installed:
             shutil.copytree(installed, target / "delquad", dirs_exist_ok=True)
             return
-        options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON", "-DBUILD_TESTING=OFF", "-DDELQUAD_BENCHMARKS=OFF",
-                   "-DDELQUAD_PYTHON=ON", "-DDELQUAD_PYTHON_DESTINATION=.", f"-DPython3_EXECUTABLE={sys.executable}"]
+        options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON", "-DDELQUAD_PYTHON=ON",
+                   "-DDELQUAD_PYTHON_DESTINATION=.", f"-DPython3_EXECUTABLE={sys.executable}"]
         options += shlex.split(os.environ.get("CMAKE_ARGS", ""))
         for command in (
             ["-S", source, "-B", build, "-G", "Ninja", *options],

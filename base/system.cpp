@@ -34,6 +34,18 @@ fs::path file_of(void (*function)()) {
   return known ? found.dli_fname : fs::path();
 }
 
+fs::path library_file(const std::string& file_name) {
+  return file_of(&library_file).parent_path() / file_name;
+}
+
+const void* symbol_of_library(const std::string& file_name, const char* symbol) {
+  const fs::path file = library_file(file_name);
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  const void* found = library == nullptr ? nullptr : dlsym(library, symbol);
+  if (found == nullptr) throw InputError(fmt::format("{}: cannot be loaded: {}", file.string(), dlerror()));
+  return found;
+}
+
 bool can_be_run(const fs::path& file) {
   std::error_code unknown;
   return fs::is_regular_file(file, unknown) && access(file.c_str(), X_OK) == 0;

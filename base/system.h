@@ -21,6 +21,11 @@ template <class F>
 std::filesystem::path file_of(F* function) {
   return file_of(reinterpret_cast<void (*)()>(function));
 }
+/// One of this project's libraries, which lies beside the library that this code is in.
+std::filesystem::path library_file(const std::string& file_name);
+/// A symbol of such a library, which is loaded and stays for good. Throws InputError that names the file and
+/// the system's reason.
+const void* symbol_of_library(const std::string& file_name, const char* symbol);
 /// Whether this process may run it.
 bool can_be_run(const std::filesystem::path& file);
 

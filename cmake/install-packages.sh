@@ -1,13 +1,15 @@
 #!/bin/sh
-# Installs the Debian packages of packages.txt (and those given as arguments) that this machine lacks.
+# install-packages.sh NAME...: installs the Debian packages that this machine lacks. A NAME is a group of packages.txt, or a package.
 set -eu
-here=$(dirname "$0")
+list=$(dirname "$0")/packages.txt
 missing=""
-for package in $(cat "$here/packages.txt") "$@"; do
-  dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"
+for name in "$@"; do
+  packages=$(sed -n "s/^$name: //p" "$list")
+  for package in ${packages:-$name}; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"
+  done
 done
 [ -n "$missing" ] || exit 0
-
 refuse() {
   echo "These Debian packages are needed and cannot be installed from here ($1):" >&2
   echo " $missing" >&2

@@ -26,7 +26,7 @@ ours=$(find "$archive" "$module" -type f \( -path '*/bin/*' -o -name 'delquad-ca
 # Not glibc and the C++ library, which a process has once. The others become delquad-NAME, as it may have another NAME.
 # shellcheck disable=SC2086
 needed=$(ldd $ours | awk '$2 == "=>" { print $3 }' | sort -u |
-  grep -vE '/lib(c|m|dl|rt|pthread|util|resolv|anl|mvec|stdc\+\+|gcc_s|delquad)\.so')
+  grep -vE '/lib(c|m|dl|rt|pthread|util|resolv|anl|mvec|stdc\+\+|gcc_s|delquad[-_a-z]*)\.so')
 libraries=$archive/lib/delquad
 mkdir "$libraries"
 renamed=""
@@ -42,7 +42,7 @@ done
 for file in "$libraries"/* $ours; do  # in two steps: patchelf 0.14 mixes them up
   # shellcheck disable=SC2086
   patchelf $renamed "$file"
-  patchelf --force-rpath --set-rpath "\$ORIGIN:\$ORIGIN/libs:\$ORIGIN/delquad:\$ORIGIN/../lib/delquad" "$file"
+  patchelf --force-rpath --set-rpath "\$ORIGIN:\$ORIGIN/libs:\$ORIGIN/delquad:\$ORIGIN/../lib:\$ORIGIN/../lib/delquad" "$file"
 done
 
 # Their licences.

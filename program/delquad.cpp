@@ -113,7 +113,7 @@ std::string reason_of(const CLI::ParseError& error, const CLI::App& app, int arg
 
 /// Version, commit and compiler; with `all` the libraries, too.
 void print_version(bool all) {
-  const auto known = versions();
+  const auto known = all ? versions() : own_versions();
   std::map<std::string, std::string> of(known.begin(), known.end());
   fmt::print("delquad {} (commit {}, {}, {})\n", of["delquad"], of["commit"], of["compiler"], of["build"]);
   for (const char* own : {"delquad", "commit", "compiler", "build"}) of.erase(own);

@@ -32,7 +32,7 @@ std::string program_digest() {
   static const std::string program = [] {
     std::string all = versions_record();
     for (const fs::path& file :
-         {running_program(), file_of(&program_digest), file_of(&cad_program), cad_program()})
+         {running_program(), file_of(&program_digest), file_of(&cad_program), cad_library(), cad_program()})
       if (!file.empty()) all += file_digest(file.has_parent_path() ? file : running_program());
     return digest(all);
   }();

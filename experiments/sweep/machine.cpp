@@ -44,12 +44,22 @@ MachineState machine_state() {
   return {fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))), system_load()};
 }
 
+std::vector<std::pair<std::string, std::string>> own_versions() {
+  return {{"delquad", version()}, {"commit", kCommit}, {"build", kBuildType}, {"compiler", kCompiler}};
+}
+
 std::vector<std::pair<std::string, std::string>> versions() {
   static const std::string kernel = ask_kernel_version();
-  return {{"delquad", version()},         {"commit", kCommit},      {"build", kBuildType},
-          {"compiler", kCompiler},        {"cgal", kCgalVersion},   {"eigen", kEigenVersion},
-          {"lemon", kLemonVersion},       {"fmt", kFmtVersion},     {"nlohmann_json", kJsonVersion},
-          {"muparser", kMuparserVersion}, {"ceres", kCeresVersion}, {"opencascade", kernel}};
+  auto all = own_versions();
+  all.insert(all.end(), {{"cgal", kCgalVersion},
+                         {"eigen", kEigenVersion},
+                         {"lemon", kLemonVersion},
+                         {"fmt", kFmtVersion},
+                         {"nlohmann_json", kJsonVersion},
+                         {"muparser", kMuparserVersion},
+                         {"ceres", kCeresVersion},
+                         {"opencascade", kernel}});
+  return all;
 }
 
 }  // namespace delquad

@@ -62,5 +62,7 @@ SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& optio
 
 /// The program that does it (see find_worker()); empty: there is none, and nothing can be read.
 std::filesystem::path cad_program();
+/// The library with the kernel, which is loaded when needed; empty: there is none.
+std::filesystem::path cad_library();
 
 }  // namespace delquad

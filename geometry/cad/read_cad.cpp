@@ -14,11 +14,11 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/cad/agree_faces.h"
-#include "geometry/cad/cad_reader.h"
 #include "geometry/cad/cad_shape.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/cad/examples/shapes.h"
 #include "geometry/cad/heal_shape.h"
+#include "geometry/cad/kernel.h"
 #include "geometry/cad/loose_joints.h"
 #include "geometry/cad/shape_projector.h"
 #include "geometry/cad/tessellate.h"
@@ -254,15 +254,13 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
 
 }  // namespace
 
-}  // namespace cad
-
-SurfaceModel read_cad(const CadModel& cad, const CadOptions& options) {
+SurfaceModel read_by_kernel(const CadModel& cad, const CadOptions& options) {
   const DoingStage stage("reading");
   const std::string name = cad.file.empty() ? "CAD data" : cad.file.string();
   if (cad.file.empty() && cad.bytes.empty())
     throw InputError("a CAD model without a file and without bytes: expected one of them");
   try {
-    return cad::make_model(name, cad::prepare_shape(cad, options), options);
+    return make_model(name, prepare_shape(cad, options), options);
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (message.starts_with(name)) throw;
@@ -270,14 +268,11 @@ SurfaceModel read_cad(const CadModel& cad, const CadOptions& options) {
   }
 }
 
-SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options) {
-  return read_cad(CadModel{path}, options);
+SurfaceModel read_example_by_kernel(const std::string& name, const CadOptions& options) {
+  const DoingStage stage("reading");
+  return make_model(name, prepare_shape(make_product(name), options), options);
 }
 
-SurfaceModel read_example(const std::string& name, const CadOptions& options) {
-  check_example(name);
-  const DoingStage stage("reading");
-  return cad::make_model(name, cad::prepare_shape(cad::make_product(name), options), options);
-}
+}  // namespace cad
 
 }  // namespace delquad

@@ -20,8 +20,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "geometry/cad/example_models.h"
 #include "geometry/cad/examples/shapes.h"
+#include "geometry/cad/kernel.h"
 
 namespace delquad {
 
@@ -135,19 +135,18 @@ void write_step(const std::string& name, const CadShape& cad, std::ostream& out)
 
 }  // namespace
 
-}  // namespace cad
-
-void write_suite_model(const std::string& name, std::ostream& out) {
-  cad::write_step(name, cad::make_example(name), out);
+void write_suite_model_by_kernel(const std::string& name, std::ostream& out) {
+  write_step(name, make_example(name), out);
 }
 
-void write_example(const std::string& name, CadFormat format, std::ostream& out) {
-  check_example(name);
-  const cad::CadShape shape = cad::make_example(name);
+void write_example_by_kernel(const std::string& name, CadFormat format, std::ostream& out) {
+  const CadShape shape = make_example(name);
   if (format == CadFormat::kStep)
-    cad::write_step(name, shape, out);
+    write_step(name, shape, out);
   else
     BRepTools::Write(shape.shape, out);
 }
+
+}  // namespace cad
 
 }  // namespace delquad

@@ -14,8 +14,13 @@ import threading
 import tomllib
 import unittest
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import needs  # noqa: E402
+
 FETCH = pathlib.Path(sys.argv[1])
 CONTENT = b"a model\n" * 1000
+needs.program("curl", "curl")
+needs.program("git", "git")
 
 
 class Server(http.server.BaseHTTPRequestHandler):
@@ -40,7 +45,10 @@ class Server(http.server.BaseHTTPRequestHandler):
 class Fetch(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Server)
+        try:
+            cls.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Server)
+        except OSError as error:
+            needs.skip(f"no server can listen on this machine: {error}")
         threading.Thread(target=cls.server.serve_forever, daemon=True).start()
         cls.base = f"http://127.0.0.1:{cls.server.server_port}"
 

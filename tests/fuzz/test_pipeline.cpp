@@ -11,7 +11,7 @@
 #include "tests/fuzz/reader_seeds.h"
 #include "tests/fuzz/target.h"
 #include "tests/support/temporary_folder.h"
-#ifdef DELQUAD_HAS_CAD
+#if DELQUAD_HAS_CAD
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <TopoDS_Shape.hxx>
 
@@ -43,7 +43,7 @@ std::vector<Whole> whole_files() {
   add(".stl", stl_seeds());
   add(".ply", ply_seeds());
   add(".3mf", three_mf_seeds());
-#ifdef DELQUAD_HAS_CAD
+#if DELQUAD_HAS_CAD
   for (const auto& [extension, format] :
        {std::pair{".step", CadFormat::kStep}, {".brep", CadFormat::kBrep}}) {
     std::ostringstream text;

@@ -14,7 +14,7 @@ std::vector<Target> all_targets() {
   std::vector<Target> all;
   for (const auto& targets : {reader_targets(), case_targets(), result_targets(), mesher_targets()})
     all.insert(all.end(), targets.begin(), targets.end());
-#ifdef DELQUAD_HAS_CAD
+#if DELQUAD_HAS_CAD
   for (const Target& target : cad_targets()) all.push_back(target);
 #endif
   return all;

@@ -76,17 +76,13 @@ HEADER_OF = {name: header for header, names in STANDARD.items() for name in name
 
 
 def rooms(root):
-    """Folder -> rooms that it links, in the order of the build."""
-    text = (root / "CMakeLists.txt").read_text()
-    names = " ".join(re.findall(r"set\(DELQUAD_(?:LIBRARY|BENCH)_ROOMS([^)]*)\)", text)).split()
+    """Folder of each module -> the modules that it links, in the order of the build."""
     links = {}
-    for name in names:
-        calls = re.findall(r"delquad_room\(([^)]*)\)", (root / name / "CMakeLists.txt").read_text())
-        found = set()
-        for call in calls:
-            words = re.search(r"LINKS((?:\s+[a-z_/]+)*)", call)
-            found |= set(words[1].split()) if words else set()
-        links[name] = found
+    for call in re.findall(r"^ *delquad_module\(([^)]*)\)", (root / "cmake/modules.cmake").read_text(), re.MULTILINE):
+        if call.split()[0] == "folder":  # the function itself
+            continue
+        linked = re.search(r"LINKS((?:\s+[a-z_/]+)*)", call)
+        links[call.split()[0]] = set(linked[1].split()) if linked else set()
     return links
 
 

@@ -528,13 +528,13 @@ PLANAR = ("su2", "2dm", "gr3", "nc", "re2", "specfem", "foam")
 
 
 def mesh(program, model, out, arguments, order):
-    """What the program says where it made no mesh."""
+    """Meshes the model; returns the error of the program, empty if it made the mesh."""
     made = subprocess.run([program, "mesh", model, "-o", out, "--order", str(order), *arguments], capture_output=True, text=True, check=False)
     return made.stderr.strip() if made.returncode else ""
 
 
 def check(program, folder, model, arguments, order, kind, wanted):
-    """What is wrong; nothing: it is as it was written; None: it is not looked at."""
+    """Returns the differences to the written mesh; None if the format cannot hold it."""
     reader, has_curved, digits, label, boundary_only = FORMATS[kind]
     if order > 1 and not has_curved or kind in PLANAR and model.endswith(".off"):
         return None

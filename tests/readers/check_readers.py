@@ -122,7 +122,7 @@ def entities(path):
 
 
 def read_files(options, reader, paths):
-    """What the reader finds in each file: it is started once for all. Where it breaks off, the rest is refused."""
+    """Starts the reader once for all files, and returns its report of each. If it ends early, the rest counts as refused."""
     command = [sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "read_mesh.py"), reader, *paths]
     if options.dealii:
         command += ["--dealii", options.dealii]

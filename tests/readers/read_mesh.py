@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Opens meshes in another program and says what that found there, as a line of JSON for each.
+"""Opens meshes in another program and prints its findings, a line of JSON for each mesh.
 
 read_mesh.py READER FILE... [--dealii PROGRAM]
 
-READER: meshio, gmsh, dolfinx, dealii, ccx or vtk. Prints "refused" and why, or "points", "lines", "triangles", "quads" and "names", each where
-the reader tells it: names by dimension, each with the number of its elements. Exit code 77: the reader is not
+READER: meshio, gmsh, dolfinx, dealii, ccx or vtk. Prints "refused" and why, or "points", "lines", "triangles", "quads" and "names", if
+the reader tells them. Names are listed by dimension, each with the number of its elements. Exit code 77: the reader is not
 installed, see needs.py.
 """
 import argparse

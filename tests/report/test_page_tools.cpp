@@ -57,7 +57,7 @@ class PageToolsPrograms : public testing::Test {
   static void report(const TemporaryFolder& folder) {
     ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
   }
-  /// A page of the test's own: its r.html, with results in results/seeds. The cells are those of all.
+  /// A page of the test's own: its r.html, with results in results/seeds. All tests share the cells.
   void make_page(const std::string& experiment) {
     fs::copy(*seeds_ / "results", folder_ / "results", fs::copy_options::recursive);
     const ProgramResult made = run_into(folder_, "seeds", experiment);

@@ -1,4 +1,7 @@
-"""What a test needs of the machine. Where it is missing, the test prints "skipped: REASON" and ends with exit code 77, which CTest takes for skipped."""
+"""Checks for programs and modules that a test needs.
+
+If one is missing, the test prints "skipped: REASON" and ends with exit code 77, which CTest takes for skipped.
+"""
 import importlib
 import shutil
 import sys
@@ -7,7 +10,7 @@ SKIPPED = 77
 
 
 def leave_out(reason):
-    """Of a part of a test, which goes on."""
+    """Says why a part of a test is left out; the test goes on."""
     print(f"skipped: {reason}", flush=True)
 
 

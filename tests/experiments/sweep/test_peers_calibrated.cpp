@@ -373,8 +373,9 @@ TEST_F(CalibratedPeers, FilesMayBeNamedOnTheCommandLine) {
   EXPECT_EQ(cells({"--peer", two, "--pipelines", "FB,two"}), line("FB") + line("two"));
 }
 
+using CalibratedPeersPrograms = CalibratedPeers;
 /// A graded size on a surface, as a view on our triangles.
-TEST_F(CalibratedPeers, GmshFollowsSizesOnSurfaces) {
+TEST_F(CalibratedPeersPrograms, GmshFollowsSizesOnSurfaces) {
   if (std::system("gmsh --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "gmsh is not installed";
   Experiment e = experiment(
       "pipelines = [\"DB\"]\ncalibrate = \"quads\"\n[[case]]\nname = \"bracket\"\nexample = "
@@ -391,7 +392,7 @@ TEST_F(CalibratedPeers, GmshFollowsSizesOnSurfaces) {
 
 /// The adapters that come with the project, each on a planar domain and on a surface: a mesh, or a reason why
 /// not.
-TEST_F(CalibratedPeers, AdaptersMeshOrSayWhyNot) {
+TEST_F(CalibratedPeersPrograms, AdaptersMeshOrSayWhyNot) {
   const fs::path folder = fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers/adapters";
   Experiment e = experiment(
       "pipelines = [\"DB\"]\ncalibrate = \"quads\"\n"

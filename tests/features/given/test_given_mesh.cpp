@@ -231,7 +231,7 @@ TEST(GivenMeshes, TheWayThroughAFileIsTheSame) {
 
 /// Stages from outside may do anything.
 const bool kShearAdded = [] {
-  add_stage({'Y', "shear", PatchForm::kQuads, PatchForm::kQuads,
+  add_stage({'V', "shear", PatchForm::kQuads, PatchForm::kQuads,
              [](const StageInput&, PatchMesh& patch, StageLog&) {
                QuadPatch& quads = patch.quads;
                for (std::size_t v = quads.n_boundary; v < quads.points.size(); ++v) quads.points[v].x += 0.02;
@@ -242,7 +242,7 @@ const bool kShearAdded = [] {
 TEST(GivenMeshes, AreKeptWhereTheResultWouldBeWorse) {
   ASSERT_TRUE(kShearAdded);
   const Mesh grid = given_grid(10);
-  const MeshResult result = improve_given(grid, "Y");
+  const MeshResult result = improve_given(grid, "V");
   expect_kept(grid, result);
   EXPECT_EQ(result.metrics.values.at("eta_worst"), 1);
   ASSERT_EQ(result.warnings.size(), 1u);
@@ -252,7 +252,7 @@ TEST(GivenMeshes, AreKeptWhereTheResultWouldBeWorse) {
 
 /// The worst angle, shortest edge and largest aspect, and the number of quads.
 void expect_no_worse(const MeshResult& after, const Mesh& given) {
-  const auto before = improve_given(given, "Y").metrics.values;  // sheared, and so kept as it is
+  const auto before = improve_given(given, "V").metrics.values;  // sheared, and so kept as it is
   const auto& now = after.metrics.values;
   constexpr double kRounding = 1e-6;
   EXPECT_GE(now.at("eta_worst"), before.at("eta_worst") - kRounding);
@@ -282,7 +282,7 @@ TEST(GivenMeshes, WhatGetsWorseIsTakenWhereItIsAskedFor) {
   MeshProblem problem;
   problem.model = GivenMesh{given_grid(10)};
   problem.options.set("repair.keep_given", false);
-  const MeshResult result = mesh(problem, "Y");
+  const MeshResult result = mesh(problem, "V");
   EXPECT_LT(result.metrics.values.at("eta_worst"), 1);
   EXPECT_TRUE(result.warnings.empty());
 }

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -21,6 +22,7 @@
 
 #include "base/activity.h"
 #include "base/context.h"
+#include "base/find_program.h"
 #include "delquad/error.h"
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/cad_request.h"
@@ -45,19 +47,25 @@ std::string contents(const std::filesystem::path& path) {
 /// Sets where the worker is looked for, or removes that, until the end of the scope.
 class Variable {
  public:
-  explicit Variable(const char* value) : before_(std::getenv(kName)) {
+  explicit Variable(const char* value) {
+    if (const char* before = std::getenv(kName)) before_ = before;
     if (value != nullptr)
       setenv(kName, value, 1);
     else
       unsetenv(kName);
   }
-  ~Variable() { setenv(kName, before_.c_str(), 1); }
+  ~Variable() {
+    if (before_)
+      setenv(kName, before_->c_str(), 1);
+    else
+      unsetenv(kName);
+  }
   Variable(const Variable&) = delete;
   Variable& operator=(const Variable&) = delete;
 
  private:
   static constexpr const char* kName = "DELQUAD_CAD_WORKER";
-  std::string before_;
+  std::optional<std::string> before_;
 };
 
 class CadWorker : public ::testing::Test {
@@ -106,8 +114,12 @@ TEST_F(CadWorker, IsFoundWhereTheProgramSays) {
   EXPECT_EQ(cad::find_worker(), worker);
   EXPECT_EQ(read_cad(box_).fine.regions.size(), 6u);
   set_cad_worker("");
-  // The tests lie in folders of their own.
-  expect_input_error([] { cad::find_worker(); }, {"delquad-cad", "DELQUAD_CAD_WORKER", "libexec"});
+  EXPECT_EQ(cad::find_worker(), worker) << "it lies beside the library";
+  expect_input_error(
+      [] {
+        find_program({"delquad-none", "nothing", "DELQUAD_NONE"});
+      },
+      {"delquad-none", "DELQUAD_NONE", "libexec"});
 }
 
 /// One that ends without a word, one that says something else, one that is no program.

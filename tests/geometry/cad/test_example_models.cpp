@@ -29,7 +29,7 @@ std::filesystem::path write_file(const TemporaryFolder& folder, const std::strin
   return path;
 }
 
-struct Topology {
+struct ShapeCounts {
   const char* name;
   std::size_t faces, curves, corners;
   int euler;
@@ -37,7 +37,7 @@ struct Topology {
   std::map<std::string, int> named = {};  ///< faces by name
 };
 
-void PrintTo(const Topology& topology, std::ostream* out) { *out << topology.name; }
+void PrintTo(const ShapeCounts& topology, std::ostream* out) { *out << topology.name; }
 
 std::size_t count_free_curves(const Mesh& mesh) {
   std::set<std::pair<int, int>> free;
@@ -58,7 +58,7 @@ std::map<std::string, int> face_names(const Mesh& mesh) {
   return names;
 }
 
-void expect_topology(const SurfaceModel& model, const Topology& expected) {
+void expect_topology(const SurfaceModel& model, const ShapeCounts& expected) {
   EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
   expect_sound(model);
   EXPECT_EQ(model.fine.regions.size(), expected.faces);
@@ -77,11 +77,11 @@ void expect_topology(const SurfaceModel& model, const Topology& expected) {
   }
 }
 
-class ExampleModels : public ::testing::TestWithParam<Topology> {};
+class ExampleModels : public ::testing::TestWithParam<ShapeCounts> {};
 
 TEST_P(ExampleModels, AreWholeByEveryWay) {
   const TemporaryFolder folder;
-  const Topology& expected = GetParam();
+  const ShapeCounts& expected = GetParam();
   expect_topology(read_cad(write_file(folder, expected.name, CadFormat::kBrep)), expected);
   for (const SurfaceModel& model :
        {read_cad(write_file(folder, expected.name, CadFormat::kStep)), read_example(expected.name)}) {
@@ -101,7 +101,7 @@ TEST_P(ExampleModels, AreTheSameBytesEachTime) {
   }
 }
 
-const std::vector<Topology> kTopologies = {
+const std::vector<ShapeCounts> kTopologies = {
     // Genus 5. The bent plate has 36 curves; holes, bore and boss add 13 closed ones.
     {"bracket", 22, 49, 24, -8, 0, {{"base", 1}, {"body", 16}, {"bore", 1}, {"holes", 4}}},
     // 7 x 4 corners of patches and the two ends of slivers inside of sides.
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(All, ExampleModels, ::testing::ValuesIn(kTopologies),
 TEST(ExampleModels, AreAllListedAndTested) {
   std::vector<std::string> listed, tested;
   for (const Example& example : example_models()) listed.push_back(example.name);
-  for (const Topology& topology : kTopologies) tested.push_back(topology.name);
+  for (const ShapeCounts& topology : kTopologies) tested.push_back(topology.name);
   EXPECT_EQ(listed, tested);
 }
 

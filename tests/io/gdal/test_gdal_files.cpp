@@ -43,10 +43,7 @@ std::string sea() {
 
 class GdalFiles : public testing::Test {
  protected:
-  GdalFiles() {
-    setenv("DELQUAD_GDAL_WORKER", DELQUAD_GDAL_PROGRAM, /*overwrite=*/0);
-    GDALAllRegister();
-  }
+  GdalFiles() { GDALAllRegister(); }
 
   /// Adds a layer of one feature.
   std::filesystem::path write_layer(const std::string& name, const char* driver, const std::string& layer,

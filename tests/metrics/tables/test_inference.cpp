@@ -94,8 +94,8 @@ int pair_claims_of(const StudyResults& results) {
          }));
 }
 
-/// How many of so many studies without any effect may claim something: 5 %, and so many standard errors of
-/// that where the tests use all of their 5 % up.
+/// The number of studies without any effect that may claim something: 5 %. If the tests use all of their
+/// 5 %, some standard errors are added.
 struct Alike {
   int studies;
   double errors;

@@ -1,0 +1,141 @@
+# The modules of the library, from the bottom to the top: each links only modules above its line here. LINKS: the modules whose
+# headers it includes; tests/house checks both. PRIVATE: libraries of other projects. COLD: nothing in it takes time, so that it
+# is compiled with less optimization. FOLDERS: folders inside it whose sources are its own. ONLY: its sources, if these are not all of the folder.
+# A file module.cmake in the folder adds generated sources and optional libraries.
+function(delquad_module folder)
+  cmake_parse_arguments(ARG "COLD" "" "LINKS;PRIVATE;ONLY;FOLDERS" ${ARGN})
+  string(REPLACE "/" "_" name ${folder})
+  if(DELQUAD_MODULES AND NOT folder IN_LIST DELQUAD_MODULES)
+    return()
+  endif()
+  list(TRANSFORM ARG_FOLDERS PREPEND ${folder}/)
+  set(patterns ${folder} ${ARG_FOLDERS})
+  list(TRANSFORM patterns APPEND "/*.cpp")
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+  list(FILTER sources EXCLUDE REGEX "/(worker_)?main\\.cpp$")
+  if(ARG_ONLY)
+    list(TRANSFORM ARG_ONLY PREPEND ${folder}/ OUTPUT_VARIABLE sources)
+  endif()
+  add_library(delquad_${name} OBJECT ${sources})
+  target_link_libraries(delquad_${name} PRIVATE delquad_flags fmt::fmt Threads::Threads ${ARG_PRIVATE})
+  delquad_common_headers(delquad_${name} ${ARG_COLD})
+  target_link_libraries(${DELQUAD_INTO} PRIVATE delquad_${name})
+  include(${folder}/module.cmake OPTIONAL)
+endfunction()
+
+# Compiles the headers that nearly every source includes once for all targets with the same optimization. Without unity builds each
+# source has to include its headers itself.
+function(delquad_common_headers target is_cold)
+  if(is_cold)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+  if(NOT CMAKE_UNITY_BUILD)
+    return()
+  endif()
+  set(owner delquad_headers)
+  if(is_cold)
+    set(owner delquad_headers_cold)
+  endif()
+  if(NOT TARGET ${owner})
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${owner}.cpp CONTENT "")
+    add_library(${owner} OBJECT ${PROJECT_BINARY_DIR}/${owner}.cpp)
+    target_link_libraries(${owner} PRIVATE delquad_flags fmt::fmt Threads::Threads)
+    if(is_cold)
+      target_compile_options(${owner} PRIVATE $<$<CONFIG:Release>:-O1>)
+    endif()
+    target_precompile_headers(${owner} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/common_headers.h)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${owner})
+endfunction()
+
+# A shared library of the modules that follow.
+function(delquad_shared target output_name)
+  add_library(${target} SHARED)
+  target_link_libraries(${target} PRIVATE delquad_flags)
+  if(NOT DELQUAD_SANITIZE)
+    target_link_options(${target} PRIVATE LINKER:-z,defs)
+  endif()
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${output_name} LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION}
+                        SOVERSION ${PROJECT_VERSION})
+  set(DELQUAD_INTO ${target} PARENT_SCOPE)
+endfunction()
+
+delquad_shared(delquad_library delquad)
+delquad_module(base PRIVATE CGAL::CGAL TBB::tbb ${CMAKE_DL_LIBS})
+delquad_module(base/matching LINKS base)
+delquad_module(geometry/mesh LINKS base PRIVATE CGAL::CGAL)
+delquad_module(geometry/planar LINKS base geometry/mesh PRIVATE Eigen3::Eigen)
+delquad_module(geometry/surface LINKS base geometry/mesh geometry/planar PRIVATE Eigen3::Eigen)
+delquad_module(geometry/cad ONLY example_models.cpp find_worker.cpp load_kernel.cpp LINKS base geometry/mesh geometry/surface PRIVATE ${CMAKE_DL_LIBS})
+delquad_module(fields LINKS base geometry/mesh PRIVATE CGAL::CGAL Eigen3::Eigen)
+delquad_module(fields/surface LINKS base geometry/mesh geometry/surface fields)
+delquad_module(patches LINKS base base/matching geometry/mesh geometry/planar geometry/surface fields fields/surface)
+delquad_module(smoothing/relocation LINKS base geometry/mesh fields)
+delquad_module(smoothing/cvt LINKS base geometry/mesh fields PRIVATE CGAL::CGAL Ceres::ceres)
+delquad_module(smoothing/optimisation LINKS base geometry/mesh geometry/planar fields smoothing/relocation PRIVATE Ceres::ceres)
+delquad_module(smoothing/surface LINKS base geometry/mesh fields patches smoothing/optimisation)
+delquad_module(metrics LINKS base geometry/mesh fields)
+delquad_module(metrics/surface LINKS base geometry/mesh geometry/surface fields metrics)
+delquad_module(metrics/solve LINKS base geometry/mesh metrics PRIVATE Eigen3::Eigen)
+delquad_module(algorithms/insertion LINKS base geometry/mesh fields PRIVATE CGAL::CGAL)
+delquad_module(algorithms/recombination LINKS base base/matching geometry/mesh)
+delquad_module(algorithms/treatment LINKS base base/matching geometry/mesh fields smoothing/relocation algorithms/recombination)
+delquad_module(algorithms/cleanup LINKS base geometry/mesh fields smoothing/relocation algorithms/treatment)
+delquad_module(algorithms/regularity LINKS base geometry/mesh fields smoothing/relocation algorithms/treatment algorithms/cleanup)
+delquad_module(algorithms/layout LINKS base base/matching geometry/mesh fields smoothing/relocation smoothing/optimisation
+               algorithms/insertion algorithms/recombination algorithms/treatment algorithms/cleanup algorithms/regularity)
+delquad_module(algorithms/finish LINKS base geometry/mesh patches algorithms/treatment smoothing/relocation smoothing/surface metrics
+               metrics/surface)
+delquad_module(io COLD FOLDERS formats LINKS base geometry/mesh metrics PRIVATE ZLIB::ZLIB EXPAT::EXPAT PkgConfig::libzip Boost::headers)
+delquad_module(io/gdal COLD LINKS base io)
+delquad_module(features/seed LINKS base geometry/planar fields)
+delquad_module(features/sizes LINKS base geometry/mesh geometry/planar geometry/surface fields fields/surface patches)
+delquad_module(features/crosses LINKS base geometry/mesh geometry/surface fields patches algorithms/insertion)
+delquad_module(features/divisions COLD LINKS geometry/mesh geometry/planar patches features/sizes)
+delquad_module(features/embedded COLD LINKS base geometry/mesh geometry/planar geometry/surface features/sizes)
+delquad_module(features/symmetry LINKS base geometry/mesh geometry/planar geometry/surface fields patches features/divisions PRIVATE
+               Eigen3::Eigen)
+delquad_module(features/periodic LINKS base geometry/mesh geometry/planar geometry/surface patches features/sizes)
+delquad_module(features/grids LINKS base base/matching geometry/mesh geometry/planar patches smoothing/relocation smoothing/optimisation
+               metrics)
+delquad_module(features/washers COLD LINKS base geometry/mesh geometry/planar geometry/surface)
+delquad_module(features/layers LINKS base geometry/mesh geometry/planar patches features/sizes features/grids)
+delquad_module(features/scaling LINKS base geometry/mesh fields patches features/layers)
+delquad_module(features/thin LINKS base geometry/mesh geometry/planar patches features/sizes)
+delquad_module(features/naming COLD LINKS base geometry/mesh geometry/surface)
+delquad_module(io/cases COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/cad fields io io/gdal features/layers
+               PRIVATE PkgConfig::muparser tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
+delquad_module(metrics/judgement COLD LINKS base geometry/mesh patches metrics metrics/surface metrics/solve features/sizes
+               features/symmetry features/layers)
+delquad_module(features/given COLD LINKS base geometry/mesh geometry/planar geometry/surface patches metrics metrics/judgement
+               features/embedded)
+delquad_module(features/curved LINKS base geometry/mesh geometry/planar patches metrics features/layers PRIVATE Ceres::ceres)
+delquad_module(features/extrusion COLD LINKS base geometry/mesh metrics io PRIVATE Eigen3::Eigen)
+delquad_module(features/curves LINKS base base/matching geometry/mesh geometry/planar geometry/surface geometry/cad fields fields/surface
+               patches features/seed features/sizes features/divisions features/embedded features/symmetry features/periodic
+               features/grids features/thin features/naming)
+delquad_module(features/metric LINKS base geometry/mesh geometry/planar geometry/surface fields fields/surface patches metrics
+               features/seed features/curves)
+delquad_module(mesher LINKS base geometry/mesh geometry/planar geometry/surface geometry/cad fields patches smoothing/cvt
+               smoothing/optimisation smoothing/surface metrics metrics/surface algorithms/insertion algorithms/treatment
+               algorithms/recombination algorithms/cleanup algorithms/regularity algorithms/layout algorithms/finish io/cases
+               features/seed features/sizes features/crosses features/divisions features/embedded features/symmetry features/periodic
+               features/grids features/washers features/layers features/scaling features/thin features/given features/curved
+               features/curves features/metric metrics/judgement)
+delquad_module(adapt LINKS base geometry/mesh fields mesher PRIVATE Eigen3::Eigen)
+
+if(DELQUAD_PROGRAMS)
+  delquad_shared(delquad_bench delquad_bench)
+  target_link_libraries(delquad_bench PUBLIC delquad_library)
+  delquad_module(metrics/tables COLD LINKS base metrics metrics/solve io PRIVATE Boost::headers nlohmann_json::nlohmann_json)
+  delquad_module(experiments/console COLD LINKS base io)
+  delquad_module(experiments/sweep COLD LINKS base geometry/mesh geometry/cad adapt metrics metrics/surface metrics/solve metrics/judgement
+                 metrics/tables algorithms/insertion io io/cases mesher experiments/console PRIVATE nlohmann_json::nlohmann_json)
+  delquad_module(experiments/suite COLD LINKS base geometry/mesh geometry/cad metrics metrics/tables io io/cases mesher experiments/console
+                 experiments/sweep PRIVATE OpenSSL::Crypto tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
+  delquad_module(report COLD LINKS base geometry/mesh metrics metrics/tables io mesher experiments/sweep PRIVATE ZLIB::ZLIB
+                 nlohmann_json::nlohmann_json)
+  delquad_module(program COLD LINKS base geometry/mesh geometry/surface geometry/cad fields metrics metrics/solve
+                 metrics/judgement metrics/tables io io/cases features/extrusion mesher adapt experiments/console experiments/sweep
+                 experiments/suite report PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
+endif()

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <ostream>
+#include <string>
+
+#include "delquad/model.h"
+#include "geometry/cad/example_models.h"
+#include "geometry/surface/surface_model.h"
+
+namespace delquad::cad {
+
+/// The library with the functions of this module that need OpenCASCADE. It is loaded when the first of them
+/// is called.
+inline constexpr const char* kKernelLibrary = "libdelquad-kernel.so";
+
+/// Its functions: read_cad() and read_example(), write_example() and write_suite_model().
+struct Kernel {
+  SurfaceModel (*read_cad)(const CadModel&, const CadOptions&);
+  SurfaceModel (*read_example)(const std::string&, const CadOptions&);
+  void (*write_example)(const std::string&, CadFormat, std::ostream&);
+  void (*write_suite_model)(const std::string&, std::ostream&);
+};
+
+/// The implementations of the four, in this library. They do not check the name of an example.
+SurfaceModel read_by_kernel(const CadModel& model, const CadOptions& options);
+SurfaceModel read_example_by_kernel(const std::string& name, const CadOptions& options);
+void write_example_by_kernel(const std::string& name, CadFormat format, std::ostream& out);
+void write_suite_model_by_kernel(const std::string& name, std::ostream& out);
+
+}  // namespace delquad::cad

@@ -1,0 +1,56 @@
+#include <system_error>
+
+#include "base/system.h"
+#include "delquad/error.h"
+#include "geometry/cad/cad_reader.h"
+#include "geometry/cad/kernel.h"
+
+namespace delquad {
+
+namespace {
+
+/// Throws InputError with `refusal` if the program was built without OpenCASCADE.
+const cad::Kernel& kernel([[maybe_unused]] const std::string& refusal) {
+#ifdef DELQUAD_HAS_CAD
+  static const auto* loaded =
+      static_cast<const cad::Kernel*>(symbol_of_library(cad::kKernelLibrary, "delquad_kernel"));
+  return *loaded;
+#else
+  throw InputError(refusal);
+#endif
+}
+
+}  // namespace
+
+std::filesystem::path cad_library() {
+  const std::filesystem::path file = library_file(cad::kKernelLibrary);
+  std::error_code unknown;
+  return std::filesystem::exists(file, unknown) ? file : std::filesystem::path();
+}
+
+SurfaceModel read_cad(const CadModel& model, const CadOptions& options) {
+  return kernel(model.file.string() + ": built without OpenCASCADE: cannot read STEP or BREP")
+      .read_cad(model, options);
+}
+
+SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options) {
+  return read_cad(CadModel{path}, options);
+}
+
+SurfaceModel read_example(const std::string& name, const CadOptions& options) {
+  check_example(name);
+  return kernel("built without OpenCASCADE: cannot make the example '" + name + "'")
+      .read_example(name, options);
+}
+
+void write_example(const std::string& name, CadFormat format, std::ostream& out) {
+  check_example(name);
+  kernel("built without OpenCASCADE: cannot make the example '" + name + "'")
+      .write_example(name, format, out);
+}
+
+void write_suite_model(const std::string& name, std::ostream& out) {
+  kernel("built without OpenCASCADE: cannot make the model '" + name + "'").write_suite_model(name, out);
+}
+
+}  // namespace delquad

@@ -1,0 +1,148 @@
+#include <utility>
+
+#include "geometry/mesh/element_nodes.h"
+#include "io/entity_names.h"
+#include "io/library_file.h"
+#include "io/library_format.h"
+#include "io/mesh_io.h"
+#include "io/text_writer.h"
+#include "io/xml.h"
+
+#include <hdf5.h>
+
+namespace delquad {
+
+namespace {
+
+/// The file with the numbers, in the group "/mesh".
+class Hdf5File {
+ public:
+  Hdf5File(const std::filesystem::path& path, const std::filesystem::path& temporary) : path_(path) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are told by what is returned
+    file_ = H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    check(file_ >= 0);
+  }
+  ~Hdf5File() {
+    if (file_ >= 0) H5Fclose(file_);
+  }
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  void put(const char* name, hsize_t rows, hsize_t columns, const void* values, bool are_reals) {
+    const hsize_t sizes[2] = {rows, columns};
+    const hid_t space = H5Screate_simple(columns > 1 ? 2 : 1, sizes, nullptr);
+    const hid_t memory = are_reals ? H5T_NATIVE_DOUBLE : H5T_NATIVE_LLONG;
+    const hid_t in_file = are_reals ? H5T_IEEE_F64LE : H5T_STD_I64LE;
+    // Times would make the same mesh other bytes.
+    const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(how, false);
+    const hid_t set = H5Dcreate2(file_, name, in_file, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    const bool written = set >= 0 && H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
+    const bool closed = H5Dclose(set) >= 0;
+    H5Pclose(how), H5Sclose(space);
+    check(written && closed);
+  }
+  void close() {
+    check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0);  // what closing cannot write it does not tell
+    check(H5Fclose(std::exchange(file_, -1)) >= 0);
+  }
+
+ private:
+  void check(bool done) const { require_written(done, path_, "the HDF5 library", "it"); }
+  const std::filesystem::path& path_;
+  hid_t file_ = -1;
+};
+
+/// Elements of one kind: their nodes, and the numbers of their names.
+struct XdmfGrid {
+  std::string name, topology, attribute;
+  std::size_t nodes_each;
+  std::vector<long long> nodes = {}, numbers = {};
+  std::size_t count() const { return numbers.size(); }
+};
+
+std::vector<XdmfGrid> xdmf_grids(const Mesh& mesh, const std::vector<MeshGroup>& groups) {
+  const std::vector<int> of_lines = group_numbers(groups, 1, mesh.lines.size());
+  const std::vector<int> of_elements = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
+  const std::size_t nodes_of_curved = mesh.order == 2 ? 9 : 4;
+  XdmfGrid triangles{"triangles", "Triangle", "region", 3};
+  XdmfGrid quads{"mesh", mesh.order == 2 ? "Quadrilateral_9" : "Quadrilateral", "region", nodes_of_curved};
+  XdmfGrid lines{"lines", mesh.order == 2 ? "Edge_3" : "PolyLine", "curve", mesh.order == 2 ? 3U : 2U};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    triangles.nodes.insert(triangles.nodes.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    triangles.numbers.push_back(of_elements[t]);
+  }
+  const std::vector<int> places = gmsh_places(mesh.order);
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    const std::vector<int> nodes = nodes_of_quad(mesh, q, places);
+    quads.nodes.insert(quads.nodes.end(), nodes.begin(), nodes.end());
+    quads.numbers.push_back(of_elements[mesh.triangles.size() + q]);
+  }
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    if (of_lines[l] == 0) continue;
+    const std::vector<int> nodes = nodes_ends_first(mesh, l);
+    lines.nodes.insert(lines.nodes.end(), nodes.begin(), nodes.end());
+    lines.numbers.push_back(of_lines[l]);
+  }
+  std::vector<XdmfGrid> grids;
+  for (XdmfGrid* grid : {&quads, &triangles, &lines})
+    if (grid->count() > 0) grids.push_back(std::move(*grid));
+  return grids;
+}
+
+void write_xdmf_text(TextWriter& out, const Mesh& mesh, const std::vector<MeshGroup>& groups,
+                     const std::vector<XdmfGrid>& grids, const std::string& numbers, bool planar) {
+  out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n";
+  if (!mesh.unit.empty()) out << "    <Information Name=\"unit\" Value=\"" << mesh.unit << "\"/>\n";
+  for (const MeshGroup& group : groups)
+    if (group.dim > 0)
+      out << "    <Information Name=\"" << (group.dim == 1 ? "curve " : "region ") << group.number
+          << "\" Value=\"" << xml_escaped(group.name) << "\"/>\n";
+  for (const XdmfGrid& grid : grids) {
+    out << "    <Grid Name=\"" << grid.name << "\" GridType=\"Uniform\">\n      <Topology TopologyType=\""
+        << grid.topology << "\" NumberOfElements=\"" << grid.count() << "\" NodesPerElement=\""
+        << grid.nodes_each << "\">\n        <DataItem Dimensions=\"" << grid.count() << ' ' << grid.nodes_each
+        << "\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">" << numbers << ":/" << grid.name
+        << "_nodes</DataItem>\n      </Topology>\n      <Geometry GeometryType=\"" << (planar ? "XY" : "XYZ")
+        << "\">\n        <DataItem Dimensions=\"" << mesh.points.size() << ' ' << (planar ? 2 : 3)
+        << "\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">" << numbers
+        << ":/points</DataItem>\n      </Geometry>\n      <Attribute Name=\"" << grid.attribute
+        << "\" AttributeType=\"Scalar\" Center=\"Cell\">\n        <DataItem Dimensions=\"" << grid.count()
+        << "\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">" << numbers << ":/" << grid.name << '_'
+        << grid.attribute << "</DataItem>\n      </Attribute>\n    </Grid>\n";
+  }
+  out << "  </Domain>\n</Xdmf>\n";
+}
+
+/// XDMF 3, the numbers in an HDF5 file of the same name beside it; grids "mesh" (quads), "triangles" and
+/// "lines" with the numbers of names, which are Information elements.
+void write_xdmf(const std::filesystem::path& path, const Mesh& mesh) {
+  const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
+  const std::vector<XdmfGrid> grids = xdmf_grids(mesh, groups);
+  const bool planar = is_planar(mesh);
+  const std::filesystem::path numbers = std::filesystem::path(path).replace_extension(".h5");
+  const auto write_numbers = [&](const std::filesystem::path& temporary) {
+    Hdf5File file(numbers, temporary);
+    std::vector<double> places;
+    for (const Vec3& p : mesh.points) {
+      places.insert(places.end(), {p.x, p.y});
+      if (!planar) places.push_back(p.z);
+    }
+    file.put("points", mesh.points.size(), planar ? 2 : 3, places.data(), true);
+    for (const XdmfGrid& grid : grids) {
+      file.put((grid.name + "_nodes").c_str(), grid.count(), grid.nodes_each, grid.nodes.data(), false);
+      file.put((grid.name + "_" + grid.attribute).c_str(), grid.count(), 1, grid.numbers.data(), false);
+    }
+    file.close();
+  };
+  const auto write_text = as_text([&](TextWriter& out) {
+    write_xdmf_text(out, mesh, groups, grids, numbers.filename().string(), planar);
+  });
+  write_files_atomically({{numbers, by_library(numbers, write_numbers)}, {path, write_text}});
+}
+
+}  // namespace
+
+}  // namespace delquad
+
+extern "C" const delquad::LibraryFormat delquad_format = {nullptr, delquad::write_xdmf, nullptr};

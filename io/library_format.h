@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "delquad/hexahedra.h"
+#include "io/mesh_io.h"
+
+namespace delquad {
+
+/// A mesh format that a library of another project reads or writes. Its code lies in a library of its own,
+/// libdelquad-<name>, which is loaded with the first file of this format.
+struct LibraryFormat {
+  Mesh (*read)(const std::filesystem::path&, ReadNotes*, Strays) = nullptr;  ///< null: it is not read
+  void (*write)(const std::filesystem::path&, const Mesh&) = nullptr;
+  void (*write_hexahedra)(const std::filesystem::path&, const HexMesh&) = nullptr;  ///< null: it has none
+};
+
+}  // namespace delquad

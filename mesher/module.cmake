@@ -1,0 +1,1 @@
+target_compile_definitions(delquad_mesher PRIVATE DELQUAD_VERSION="${PROJECT_VERSION}")
