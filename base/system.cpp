@@ -40,7 +40,7 @@ fs::path library_file(const std::string& file_name) {
 
 const void* symbol_of_library(const std::string& file_name, const char* symbol) {
   const fs::path file = library_file(file_name);
-  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   const void* found = library == nullptr ? nullptr : dlsym(library, symbol);
   if (found == nullptr) throw InputError(fmt::format("{}: cannot be loaded: {}", file.string(), dlerror()));
   return found;

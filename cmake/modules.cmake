@@ -1,9 +1,9 @@
 # The modules of the library, from the bottom to the top: each links only modules above its line here. LINKS: the modules whose
 # headers it includes; tests/house checks both. PRIVATE: libraries of other projects. COLD: nothing in it takes time, so that it
-# is compiled with less optimization. FOLDERS: folders inside it whose sources are its own. ONLY: its sources, if these are not all of the folder.
+# is compiled by -O1. HOT: its inner loops gain by -O3. All others are compiled by -O2. FOLDERS: folders inside it whose sources are its own. ONLY: its sources, if these are not all of the folder.
 # A file module.cmake in the folder adds generated sources and optional libraries.
 function(delquad_module folder)
-  cmake_parse_arguments(ARG "COLD" "" "LINKS;PRIVATE;ONLY;FOLDERS" ${ARGN})
+  cmake_parse_arguments(ARG "COLD;HOT" "" "LINKS;PRIVATE;ONLY;FOLDERS" ${ARGN})
   string(REPLACE "/" "_" name ${folder})
   if(DELQUAD_MODULES AND NOT folder IN_LIST DELQUAD_MODULES)
     return()
@@ -18,7 +18,11 @@ function(delquad_module folder)
   endif()
   add_library(delquad_${name} OBJECT ${sources})
   target_link_libraries(delquad_${name} PRIVATE delquad_flags fmt::fmt Threads::Threads ${ARG_PRIVATE})
-  delquad_common_headers(delquad_${name} ${ARG_COLD})
+  if(ARG_HOT)
+    target_compile_options(delquad_${name} PRIVATE $<$<CONFIG:Release>:-O3>)
+  else()
+    delquad_common_headers(delquad_${name} ${ARG_COLD})
+  endif()
   target_link_libraries(${DELQUAD_INTO} PRIVATE delquad_${name})
   include(${folder}/module.cmake OPTIONAL)
 endfunction()
@@ -62,7 +66,7 @@ endfunction()
 
 delquad_shared(delquad_library delquad)
 delquad_module(base PRIVATE CGAL::CGAL TBB::tbb ${CMAKE_DL_LIBS})
-delquad_module(base/matching LINKS base)
+delquad_module(base/matching HOT LINKS base)
 delquad_module(geometry/mesh LINKS base PRIVATE CGAL::CGAL)
 delquad_module(geometry/planar LINKS base geometry/mesh PRIVATE Eigen3::Eigen)
 delquad_module(geometry/surface LINKS base geometry/mesh geometry/planar PRIVATE Eigen3::Eigen)
@@ -70,10 +74,10 @@ delquad_module(geometry/cad ONLY example_models.cpp find_worker.cpp load_kernel.
 delquad_module(fields LINKS base geometry/mesh PRIVATE CGAL::CGAL Eigen3::Eigen)
 delquad_module(fields/surface LINKS base geometry/mesh geometry/surface fields)
 delquad_module(patches LINKS base base/matching geometry/mesh geometry/planar geometry/surface fields fields/surface)
-delquad_module(smoothing/relocation LINKS base geometry/mesh fields)
-delquad_module(smoothing/cvt LINKS base geometry/mesh fields PRIVATE CGAL::CGAL Ceres::ceres)
-delquad_module(smoothing/optimisation LINKS base geometry/mesh geometry/planar fields smoothing/relocation PRIVATE Ceres::ceres)
-delquad_module(smoothing/surface LINKS base geometry/mesh fields patches smoothing/optimisation)
+delquad_module(smoothing/relocation HOT LINKS base geometry/mesh fields)
+delquad_module(smoothing/cvt HOT LINKS base geometry/mesh fields PRIVATE CGAL::CGAL Ceres::ceres)
+delquad_module(smoothing/optimisation HOT LINKS base geometry/mesh geometry/planar fields smoothing/relocation PRIVATE Ceres::ceres)
+delquad_module(smoothing/surface HOT LINKS base geometry/mesh fields patches smoothing/optimisation)
 delquad_module(metrics LINKS base geometry/mesh fields)
 delquad_module(metrics/surface LINKS base geometry/mesh geometry/surface fields metrics)
 delquad_module(metrics/solve LINKS base geometry/mesh metrics PRIVATE Eigen3::Eigen)
@@ -93,15 +97,15 @@ delquad_module(features/sizes LINKS base geometry/mesh geometry/planar geometry/
 delquad_module(features/crosses LINKS base geometry/mesh geometry/surface fields patches algorithms/insertion)
 delquad_module(features/divisions COLD LINKS geometry/mesh geometry/planar patches features/sizes)
 delquad_module(features/embedded COLD LINKS base geometry/mesh geometry/planar geometry/surface features/sizes)
-delquad_module(features/symmetry LINKS base geometry/mesh geometry/planar geometry/surface fields patches features/divisions PRIVATE
+delquad_module(features/symmetry COLD LINKS base geometry/mesh geometry/planar geometry/surface fields patches features/divisions PRIVATE
                Eigen3::Eigen)
-delquad_module(features/periodic LINKS base geometry/mesh geometry/planar geometry/surface patches features/sizes)
+delquad_module(features/periodic COLD LINKS base geometry/mesh geometry/planar geometry/surface patches features/sizes)
 delquad_module(features/grids LINKS base base/matching geometry/mesh geometry/planar patches smoothing/relocation smoothing/optimisation
                metrics)
 delquad_module(features/washers COLD LINKS base geometry/mesh geometry/planar geometry/surface)
-delquad_module(features/layers LINKS base geometry/mesh geometry/planar patches features/sizes features/grids)
-delquad_module(features/scaling LINKS base geometry/mesh fields patches features/layers)
-delquad_module(features/thin LINKS base geometry/mesh geometry/planar patches features/sizes)
+delquad_module(features/layers COLD LINKS base geometry/mesh geometry/planar patches features/sizes features/grids)
+delquad_module(features/scaling COLD LINKS base geometry/mesh fields patches features/layers)
+delquad_module(features/thin COLD LINKS base geometry/mesh geometry/planar patches features/sizes)
 delquad_module(features/naming COLD LINKS base geometry/mesh geometry/surface)
 delquad_module(io/cases COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/cad fields io io/gdal features/layers
                PRIVATE PkgConfig::muparser tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
@@ -116,13 +120,13 @@ delquad_module(features/curves LINKS base base/matching geometry/mesh geometry/p
                features/grids features/thin features/naming)
 delquad_module(features/metric LINKS base geometry/mesh geometry/planar geometry/surface fields fields/surface patches metrics
                features/seed features/curves)
-delquad_module(mesher LINKS base geometry/mesh geometry/planar geometry/surface geometry/cad fields patches smoothing/cvt
+delquad_module(mesher COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/cad fields patches smoothing/cvt
                smoothing/optimisation smoothing/surface metrics metrics/surface algorithms/insertion algorithms/treatment
                algorithms/recombination algorithms/cleanup algorithms/regularity algorithms/layout algorithms/finish io/cases
                features/seed features/sizes features/crosses features/divisions features/embedded features/symmetry features/periodic
                features/grids features/washers features/layers features/scaling features/thin features/given features/curved
                features/curves features/metric metrics/judgement)
-delquad_module(adapt LINKS base geometry/mesh fields mesher PRIVATE Eigen3::Eigen)
+delquad_module(adapt COLD LINKS base geometry/mesh fields mesher PRIVATE Eigen3::Eigen)
 
 if(DELQUAD_PROGRAMS)
   delquad_shared(delquad_bench delquad_bench)
