@@ -37,7 +37,7 @@ class Facing {
         places_(equal_places(counts)) {
     sees_.resize(places_.size());
     for (size_t c = 0; c < places_.size(); ++c) sees_[c].resize(places_[c].size());
-    live_.assign(places_.size(), 1);
+    for (const int count : counts) live_.push_back(count > 0);  // a curve of one point has no edges
   }
 
   CurvePlaces run() {
