@@ -21,13 +21,13 @@ namespace {
 
 constexpr std::size_t kMostTold = 4;  // faces in a text for people
 
-constexpr long long kTick = 1'000'000'000;  // nanoseconds
+constexpr long long kNanosecondsPerSecond = 1'000'000'000;
 
 long long ticks() {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-double seconds_of(long long nanoseconds) { return static_cast<double>(nanoseconds) / kTick; }
+double seconds_of(long long nanoseconds) { return static_cast<double>(nanoseconds) / kNanosecondsPerSecond; }
 
 /// Characters put together without memory of their own.
 class Text {
@@ -50,7 +50,7 @@ class Text {
   }
   /// " (4.2 s)"
   void add_age(long long since) {
-    const std::int64_t tenths = (ticks() - since) / (kTick / 10);
+    const std::int64_t tenths = (ticks() - since) / (kNanosecondsPerSecond / 10);
     add(" (");
     add(tenths / 10);
     add(".");

@@ -27,7 +27,7 @@ namespace delquad {
 namespace {
 
 /// Milliseconds between looks at whether the run is cancelled, or the process has ended unheard.
-constexpr int kTick = 20;
+constexpr int kPollMilliseconds = 20;
 constexpr std::size_t kLengthBytes = sizeof(std::uint64_t), kHead = 1 + kLengthBytes;
 
 [[noreturn]] void refuse(const std::string& what, int error) {
@@ -191,7 +191,7 @@ void WorkerProcess::ask(const std::string& request,
   for (std::size_t sent = 0;;) {
     check_cancelled();
     pollfd entry{socket_, static_cast<short>(sent < message.size() ? POLLIN | POLLOUT : POLLIN), 0};
-    const int ready = poll(&entry, 1, kTick);
+    const int ready = poll(&entry, 1, kPollMilliseconds);
     if (ready < 0 && errno != EINTR) refuse("poll", errno);
     if ((entry.revents & POLLOUT) != 0) {
       const ssize_t n =

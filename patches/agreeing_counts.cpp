@@ -99,9 +99,6 @@ std::vector<ClosureSum> closure_sums(const SurfaceCurves& curves, const CurveDem
 
 namespace {
 
-/// What the sizes of quads cost whose edges along a curve are too long or short, against eta: as in
-/// QuadRelocation, by half of their edges.
-constexpr double kDeviation = 1.5 / 2;
 /// Sides that differ more, as a part of them, do not get equal: where their lengths do, rows end all the
 /// same.
 constexpr double kWidestGap = 0.25;
@@ -161,12 +158,12 @@ void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveD
     closes[sum.patch] = 1;
     for (auto& [chain, times] : sum.terms) {
       chain = leader[chain];
-      agreeing[chain].weight += kDeviation * std::abs(times) * depth / 2;
+      agreeing[chain].weight += kDeviationCost * std::abs(times) * depth / 2;
     }
   }
   for (AgreeingCurve& curve : agreeing)
     for (const int p : curve.patches)
-      if (!closes[p]) curve.weight += kDeviation * kRowsThatFollow + kIrregularPerFreeEdge * price;
+      if (!closes[p]) curve.weight += kDeviationCost * kRowsThatFollow + kIrregularPerFreeEdge * price;
   agree_counts(agreeing, static_cast<int>(curves.maps.size()), sums, steps, counts);
 }
 

@@ -27,6 +27,10 @@ std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patch
                              const MatchingSolver& solver, std::vector<int>& odd_patches,
                              ChangeCost cost = cost_of_change);
 
+/// The cost, against eta, of edges along a curve that are longer or shorter than the size: the weight of
+/// QuadRelocation, shared by the two quads at an edge.
+inline constexpr double kDeviationCost = 1.5 / 2;
+
 /// The sums that are zero around patches which quads without irregular vertices can fill. With the turns at
 /// its corners (a right angle for each quad less than two), the boundary of a disk comes back to its
 /// beginning in the grid, along both axes, and so does a hole with four concave corners; both loops of a ring

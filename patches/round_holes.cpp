@@ -10,7 +10,7 @@ namespace delquad {
 namespace {
 
 /// Lengths of holes, in sizes: smaller ones have no row of their own, larger ones more rows to adapt in.
-constexpr double kShortest = 5, kLongest = 16;
+constexpr double kShortestHole = 5, kLongestHole = 16;
 /// A hole is round whose length is more than this times its extent, and that nowhere turns by more (radians).
 constexpr double kRound = 3, kSmooth = 0.5;
 /// How far the next wall has to be, in sizes.
@@ -19,8 +19,6 @@ constexpr double kRoom = 1.5;
 constexpr double kIrregularPerEdge = 1;
 /// As many edges as there are around a square that encloses the hole, where its length gives pi for four.
 constexpr double kSquare = 4 / std::numbers::pi;
-/// What an edge costs whose length is not the size, against eta, by half of a quad's edges.
-constexpr double kDeviation = 1.5 / 2;
 
 class RoundHoles {
  public:
@@ -82,8 +80,8 @@ class RoundHoles {
         if (behind.insert(q).second) quads += expected_quads(fine_, curves_.maps[q], size_);
       }
     }
-    return length > kShortest && length < kLongest &&
-           kDeviation * quads / length / 2 < kIrregularPerEdge * price_ &&
+    return length > kShortestHole && length < kLongestHole &&
+           kDeviationCost * quads / length / 2 < kIrregularPerEdge * price_ &&
            std::ranges::all_of(around, [&](int c) { return has_room(p, c); });
   }
 
