@@ -54,7 +54,7 @@ paper: FLAGS = $(if $(SMALL),--pipelines D$(,)DB)
 # Everything else that was measured.
 studies: EXPERIMENTS = $(wildcard experiments/studies/*.toml experiments/studies/on_suite/*.toml)
 studies: suite_models
-# Ours beside other meshers; those that are not installed fail.
+# Ours beside other meshers; those that are not installed are told.
 peers: EXPERIMENTS = $(wildcard experiments/peers/*.toml)
 peers: STATUS = 0
 # Models of other projects, beside what these published; without those that could not be fetched.

@@ -112,6 +112,8 @@ void add_failures(Outcome& all, const Outcome& one, const std::string& name) {
     if (cells.empty()) failed.push_back(name);
     for (const std::string& cell : cells) failed.push_back(name + "/" + cell);
   }
+  for (const auto& [reason, cells] : one.inapplicable)
+    for (const std::string& cell : cells) all.inapplicable[reason].push_back(name + "/" + cell);
 }
 
 /// One after the other, whatever becomes of them; returns what failed of all.
@@ -195,6 +197,7 @@ Outcome run_and_print(const SweepArguments& arguments, const Experiment& experim
 }
 
 int exit_code(const Outcome& outcome, bool allow_triangles) {
+  for (const std::string& note : inapplicable_notes(outcome)) fmt::print(stderr, "{}\n", note);
   for (const auto& [reason, cells] : outcome.failures)
     fmt::print(stderr, "error: {}{}{}\n", fmt::join(cells, ", "), cells.empty() ? "" : " failed: ", reason);
   if (outcome.others_failed > 0 || outcome.metrics_failed > 0) return kInternalError;

@@ -254,7 +254,6 @@ void Experiment::read_peer(const TomlTable& table) {
   read_format("output", {"msh", "obj", "off", "stl"}, peer.output);
   if (table.has("exit_codes")) peer.exit_codes = read_counts(table, "exit_codes", 0, 255);
   peer.keeps_boundary = table.flag("keeps_boundary", peer.keeps_boundary);
-  peer.optional = table.flag("optional", peer.optional);
   read_domains(table, peer);
   const std::string word = table.text("calibrate_to", calibrate_to);
   if (table.has("calibrate_to")) located(table.where("calibrate_to"), [&] { check_reference_word(word); });

@@ -224,7 +224,7 @@ struct PeerRun {
 };
 
 void check_end(const Peer& peer, const std::string& program, const ProgramRun& run, const fs::path& log) {
-  if (run.error == ENOENT && peer.optional) throw NotApplicable(program + " is not installed");
+  if (run.error == ENOENT) throw NotApplicable(program + " is not installed");
   const auto is_good = [&](int code) {
     return std::ranges::find(peer.exit_codes, code) != peer.exit_codes.end();
   };

@@ -39,7 +39,6 @@ struct Peer {
   /// Its planar meshes have just the boundary edges that they were given; else they are made to cover the
   /// same area.
   bool keeps_boundary = true;
-  bool optional = false;  ///< where its program is not there, its cells are not applicable
   HandOver planar = HandOver::kModel, surfaces = HandOver::kModel;
   std::string size_field = {};    ///< format of the file that {size_field} stands for; empty: none
   bool metrics = false;           ///< it knows metrics, whose tensors that file has then

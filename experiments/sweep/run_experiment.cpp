@@ -61,10 +61,9 @@ const Branch& end_of_stretch(const Branch& branch) {
 }
 
 void say_why(const std::string& folder, const Cell& cell, const ProcessFailure& why) {
-  const char* head = why.kind == kNotApplicable ? "not applicable"
-                     : cell.may_fail            ? "failed, as it may"
-                                                : "error";
-  say(fmt::format("{}: {} {}: {}", head, folder, cell.word->text, why.reason));
+  if (why.kind == kNotApplicable) return;  // told once, at the end
+  say(fmt::format("{}: {} {}: {}", cell.may_fail ? "failed, as it may" : "error", folder, cell.word->text,
+                  why.reason));
 }
 
 /// What reports a failure for all cells of a branch that were not done.

@@ -93,8 +93,7 @@ TomlKeys peer_keys() {
           {"size_field", "format of the file that {size_field} stands for", one_of(size_field_formats())},
           {"metrics", "whether it knows metrics, and finds their tensors in that file", kFlag},
           {"calibrate", "whether its size is changed until it has our number of quads", kCalibrate},
-          {"calibrate_to", "the word whose number that is", kText},
-          {"optional", "whether it may be missing", kFlag}};
+          {"calibrate_to", "the word whose number that is", kText}};
 }
 
 TomlKeys peer_file_keys() { return {{"peer", "other meshers", "", peer_keys, true, true}}; }

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/located.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "metrics/tables/inference.h"
@@ -272,7 +273,7 @@ class Tabulation {
       if (domain_of(record) != record.name)
         say(fmt::format("{} is the domain {}, and counts with it", record.name, record.domain));
       if (record.kind == kNotApplicable)
-        say(fmt::format("{} {} is not applicable: {}", record.group, record.pipeline, record.reason));
+        outcome_.inapplicable[record.reason].push_back(record.group + " " + record.pipeline);
       else if (record.skipped)
         say(fmt::format("{}: {}", record.name, record.reason));
       say_size(record, say);
@@ -281,6 +282,7 @@ class Tabulation {
       for (const std::string& warning : record.warnings)
         if (warning.starts_with(record.name + " ")) say("warning: " + warning);
     }
+    for (const std::string& note : inapplicable_notes(outcome_)) say(note);
     for (const std::string& note : calibration_notes(records_)) say(note);
     if (records_.size() < study_.cells)
       notes.push_back(
@@ -357,6 +359,15 @@ class Tabulation {
 };
 
 }  // namespace
+
+std::vector<std::string> inapplicable_notes(const Outcome& outcome) {
+  std::vector<std::string> notes;
+  for (const auto& [reason, cells] : outcome.inapplicable)
+    notes.push_back(cells.size() == 1 ? fmt::format("{} is not applicable: {}", cells[0], reason)
+                                      : fmt::format("{} and {} more are not applicable: {}", cells[0],
+                                                    counted(cells.size() - 1, "cell"), reason));
+  return notes;
+}
 
 StudyResults read_results(const fs::path& folder) {
   StudyResults results;

@@ -30,7 +30,11 @@ struct Outcome {
   long long metrics_failed = 0;  ///< cells with a mesh, in which a measure by command failed
   /// These numbers in words: by reason the cells, or none.
   std::map<std::string, std::vector<std::string>> failures = {};
+  std::map<std::string, std::vector<std::string>> inapplicable =
+      {};  ///< by reason, cells that have not failed
 };
+/// A line for each reason in Outcome::inapplicable.
+std::vector<std::string> inapplicable_notes(const Outcome& outcome);
 
 /// The records of an experiment's cells, and what it consists of.
 struct StudyResults {

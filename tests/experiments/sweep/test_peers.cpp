@@ -201,15 +201,13 @@ TEST_F(Peers, FailAlone) {
                            peer("garbage", "head -c 3000 /dev/urandom > $2") + peer("mute", "true") +
                            peer("empty", ": > $2") + peer("hole", copy("hole.msh")) +
                            peer("moved", copy("moved.msh")) + peer("folded", copy("folded.msh")) +
-                           "[[peer]]\nname = \"absent\"\ncommand = [\"no-such-mesher\", \"{input}\", "
-                           "\"{output}\"]\nversion = [\"no-such-mesher\", \"-v\"]\n" +
                            kPeerSquare;
   const Outcome outcome = run_experiment(
       experiment("[\"crash\", \"code\", \"garbage\", \"DB\", \"mute\", \"empty\", \"hole\", \"moved\", "
-                 "\"folded\", \"absent\"]",
+                 "\"folded\"]",
                  text),
       out());
-  EXPECT_EQ(outcome.others_failed, 9);
+  EXPECT_EQ(outcome.others_failed, 8);
   auto cells = records();
   EXPECT_EQ(cells.at("DB").reason, "");
   cells.erase("DB");
@@ -220,8 +218,7 @@ TEST_F(Peers, FailAlone) {
                                                       {"empty", "its mesh cannot be read"},
                                                       {"hole", "its mesh covers 93.75 %"},
                                                       {"moved", "boundary edges are not in its mesh"},
-                                                      {"folded", "is not sound"},
-                                                      {"absent", "no-such-mesher: not found"}};
+                                                      {"folded", "is not sound"}};
   for (const auto& [name, record] : cells) {
     EXPECT_EQ(record.kind, "peer") << name;
     EXPECT_NE(record.reason.find(reasons.at(name)), std::string::npos) << name << ": " << record.reason;

@@ -235,11 +235,10 @@ TEST_F(CalibratedPeers, AreThereWhereACalibrationIsAskedFor) {
 
 /// Nothing has failed where a mesher cannot be told a case.
 TEST_F(CalibratedPeers, MayBeNotApplicable) {
-  const std::string peers =
-      peer("number", "true") + peer("surfaces", "true", "", "planar = \"none\"\n") +
-      peer("code", "echo working; echo 'needs a cube'; exit 77", "") +
-      "[[peer]]\nname = \"absent\"\noptional = true\ncommand = [\"no-such-mesher\", \"{input}\", "
-      "\"{output}\"]\nversion = [\"no-such-mesher\"]\n";
+  const std::string peers = peer("number", "true") + peer("surfaces", "true", "", "planar = \"none\"\n") +
+                            peer("code", "echo working; echo 'needs a cube'; exit 77", "") +
+                            "[[peer]]\nname = \"absent\"\ncommand = [\"no-such-mesher\", \"{input}\", "
+                            "\"{output}\"]\nversion = [\"no-such-mesher\"]\n";
   const std::string text =
       "pipelines = [\"DB\", \"number\", \"surfaces\", \"code\", \"absent\"]\n" + peers + kGraded;
   const Outcome outcome = run_experiment(experiment(text), out());
