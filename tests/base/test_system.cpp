@@ -11,6 +11,7 @@
 
 #include "base/process.h"
 #include "delquad/error.h"
+#include "tests/support/expect_input_error.h"
 
 namespace delquad {
 namespace {
@@ -25,6 +26,15 @@ TEST(System, KnowsItsOwnFile) {
   EXPECT_TRUE(fs::equivalent(file_of(&somewhere_here), program)) << file_of(&somewhere_here);
   EXPECT_FALSE(fs::equivalent(file_of(&std::abort), program)) << "that is the C library's";
   EXPECT_FALSE(can_be_run(program.parent_path())) << "a folder";
+}
+
+TEST(System, LibrariesThatCannotBeLoadedAreNamed) {
+  const std::string missing = "libdelquad-missing.so";
+  expect_input_error([&] { symbol_of_library(missing, "delquad_format"); },
+                     {library_file(missing).c_str(), "cannot be loaded", "No such file"});
+  const std::string foreign = file_of(&library_file).filename().string();  // the library that this code is in
+  expect_input_error([&] { symbol_of_library(foreign, "delquad_format"); },
+                     {foreign.c_str(), "delquad_format"});
 }
 
 TEST(System, TemporaryFoldersArePrivateAndGo) {
