@@ -27,8 +27,8 @@ std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patch
                              const MatchingSolver& solver, std::vector<int>& odd_patches,
                              ChangeCost cost = cost_of_change);
 
-/// The cost, against eta, of edges along a curve that are longer or shorter than the size: the weight of
-/// QuadRelocation, shared by the two quads at an edge.
+/// The cost, against eta, of edges whose length differs from the size. It is half of the weight in
+/// QuadRelocation: two quads share an edge.
 inline constexpr double kDeviationCost = 1.5 / 2;
 
 /// The sums that are zero around patches which quads without irregular vertices can fill. With the turns at
