@@ -179,7 +179,7 @@ TEST(Report, SeveralExperimentsOfWhichSomeAreBroken) {
 }
 
 /// Thousands of cells stay in the tables, and out of the sheets.
-TEST(Report, LargeSweeps) {
+TEST(ReportLong, LargeSweeps) {
   const TemporaryFolder folder;
   std::string seeds = "1";
   for (int seed = 2; seed <= 2100; ++seed) seeds += ", " + std::to_string(seed);

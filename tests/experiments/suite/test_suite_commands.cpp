@@ -146,7 +146,7 @@ TEST(SuiteCommands, AddMeasuresAndRanks) {
   EXPECT_EQ(delquad({"report", work / "out", "-o", work / "page.html"}).exit_code, 0);
 }
 
-TEST(SuiteCommands, AddRefusesMeshesBesideTheModel) {
+TEST(SuiteCommandsLong, AddRefusesMeshesBesideTheModel) {
   const Folder work("moved");
   const auto moved = [&](const std::string& model, const std::string& to, Vec3 by) {
     Mesh m = read_mesh(work.mesh(model, "in/" + to));
@@ -232,7 +232,7 @@ TEST(SuiteCommands, PublicModelsAreThoseThatWereFetched) {
 }
 
 /// Each hard model is meshed soundly by `fast`, or refused with one message; but for one that takes long.
-TEST(SuiteCommands, HardModelsAreSoundOrRefused) {
+TEST(SuiteCommandsLong, HardModelsAreSoundOrRefused) {
   const TemporaryFolder work;
   for (const SuiteModel& model : select_models({.families = {"hard"}})) {
     if (model.name == "tiny_edges") continue;
