@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "fields/fields.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/surface/triangulated_model.h"
+#include "io/cases/problem_record.h"
 
 namespace delquad {
 namespace {
@@ -164,24 +166,12 @@ void check_lines_are_free(const MeshProblem& problem, const std::string& source)
 void refuse_surface_options(const MeshProblem& problem, bool angle_may_be, const char* is,
                             const char* wanted) {
   const SurfaceSpec& s = problem.surface;
-  std::vector<std::string> given;
-  const auto add = [&](bool is_given, const char* key) {
-    if (is_given) given.push_back(key);
-  };
-  add(s.compounds != Compounds::kNone, "compound");
-  add(s.merge_curves > 0, "merge_curves");
-  const bool has_outlines = std::holds_alternative<PlanarModel>(problem.model);
-  add(s.ignore_below > 0 && !has_outlines, "ignore_below");
-  add(s.idealize && !has_outlines, "idealize");
-  add(s.simplify && !has_outlines, "simplify");
-  add(s.fill_holes > 0 && !has_outlines, "fill_holes");
-  add(s.feature_angle && !angle_may_be, "feature_angle");
-  add(s.weld_tolerance.has_value(), "weld_tolerance");
-  add(s.mirror.has_value(), "mirror");
-  add(s.glue, "glue");
-  add(!s.unit.empty(), "unit");
-  add(!s.embed.empty(), "embed");
-  add(!s.names.empty(), "name");
+  std::set<std::string> allowed = {"keep", "groups"};
+  if (angle_may_be) allowed.insert("feature_angle");
+  if (std::holds_alternative<PlanarModel>(problem.model))
+    allowed.insert({"ignore_below", "idealize", "simplify", "fill_holes"});
+  std::vector<std::string> given = given_keys(s);
+  std::erase_if(given, [&](const std::string& key) { return allowed.contains(key); });
   if (!given.empty())
     throw InputError(fmt::format("{}: {}: {} {} for {}", s.where.empty() ? problem.where : s.where, is,
                                  fmt::join(given, ", "), given.size() == 1 ? "is" : "are", wanted));

@@ -375,12 +375,11 @@ Json surface_facts(const Json& surface) {
 std::string size_text(const Json& size) {
   std::string text = size.at("base").is_null() ? "" : size.at("base").get<std::string>();
   const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
-  if (const auto n = size.at("sources").size(); n > 0) add(fmt::format("{} sources", n));
+  if (const auto n = size.at("source").size(); n > 0) add(fmt::format("{} sources", n));
   for (const Json& named : size.value("on", Json::array()))
     add(fmt::format("'{}' {}", named.at("name").get<std::string>(), named.at("size").get<double>()));
   for (const char* key : {"gradation", "curvature", "min", "max"})
-    if (const Json value = size.value(key, Json()); !value.is_null())
-      add(fmt::format("{} {}", key, value.get<double>()));
+    if (const double value = size.value(key, 0.0); value > 0) add(fmt::format("{} {}", key, value));
   return text.empty() ? "as the model says" : text;
 }
 
@@ -432,9 +431,12 @@ Json cell_json(const Json& record, const std::optional<Mesh>& mesh) {
 Json facts_json(const Json& record) {
   Json facts = Json::array();
   facts.push_back({"model", record.at("model")});
-  const Json options = record.value("options", Json::object());
-  if (options.contains("size")) facts.push_back({"size", size_text(options["size"])});
-  if (options.contains("cross")) facts.push_back({"directions", options["cross"]});
+  if (const Json problem = record.value("problem", Json::object()); !problem.empty()) {
+    facts.push_back({"size", size_text(problem.at("size"))});
+    const Json& cross = problem.at("cross");
+    const Json& given = cross.at(cross.at("text").is_null() ? "kind" : "text");
+    facts.push_back({"directions", given.is_null() ? "boundary" : given});
+  }
   if (record.contains("domain")) facts.push_back({"patches", record["domain"].at("patches").dump()});
   return facts;
 }

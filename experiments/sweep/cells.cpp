@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <random>
 
 #include "base/activity.h"
 #include "base/stopwatch.h"
@@ -12,6 +13,7 @@
 #include "experiments/sweep/geometry_moments.h"
 #include "experiments/sweep/run_program.h"
 #include "geometry/cad/cad_reader.h"
+#include "io/cases/problem_record.h"
 #include "io/digest.h"
 #include "io/mesh_io.h"
 #include "metrics/solve/solver_metrics.h"
@@ -39,26 +41,6 @@ std::string program_digest() {
   return added_parts_text().empty() ? program : digest(program + added_parts_text());
 }
 
-/// Curves by points on them, which tell any two that differ apart.
-std::string describe(const PlanarModel& model) {
-  constexpr int kPoints = 17;  // odd, so that none falls on a symmetry but the middle
-  std::string text;
-  for (const ModelCurve& curve : model.curves) {
-    text += curve.name + '\n';
-    const auto add = [&](double t) {
-      const Vec2 p = curve.shape->point(t);
-      text += fmt::format("{:a} {:a}\n", p.x, p.y);
-    };
-    for (int k = 0; k <= kPoints; ++k) add(double(k) / kPoints);
-    for (const double t : curve.shape->fixed_parameters()) add(t);
-  }
-  for (const ModelLoop& loop : model.loops) {
-    text += loop.region + '\n';
-    for (const int curve : loop.curves) text += fmt::format("{} ", curve);
-  }
-  return text;
-}
-
 /// Asked until it tells; empty where the peer does not, and `why` says for what reason.
 std::string version_of(const Peer& peer, std::string& why) {
   static std::map<std::pair<fs::path, std::vector<std::string>>, std::string> known;
@@ -73,20 +55,18 @@ std::string version_of(const Peer& peer, std::string& why) {
   }
 }
 
+/// A key that no cell has: what is made of values in memory is never used again.
+std::string random_key() {
+  std::random_device random;
+  return digest(fmt::format("{} {} {} {}", random(), random(), random(), random()));
+}
+
 }  // namespace
 
 void set_added_parts(const std::string& text) { added_parts_text() = text; }
 
 std::string model_digest(const Case& c) {
-  if (const PlanarModel* model = planar_model(c)) {
-    std::string text = describe(*model);
-    for (const ModelLoop& loop : model->loops) {
-      if (!loop.is_hole) continue;
-      const Vec2 first = model->curves[loop.curves.front()].shape->point(0);
-      text += fmt::format("hole {:a} {:a}\n", first.x, first.y);
-    }
-    return digest(text);
-  }
+  if (const PlanarModel* model = planar_model(c)) return digest(record_of(*model).dump());
   const std::string example = example_of(c);
   return example.empty() ? file_digest(model_path(c)) : digest("example " + example);
 }
@@ -111,8 +91,9 @@ CellIdentity identify(const Experiment& experiment, const Case& c, const std::st
     cell.metrics.push_back({&metric, metric_files(metric)});
   cell.solvers = experiment.solvers;
   pipeline += metrics_by_command_record(cell);
-  cell.key = digest(
-      fmt::format("{}\n{}\n{}\n{}\n{}", model, options_record(c), c.seed, pipeline, cell.program_digest));
+  const ProblemRecord problem = record_of(c);
+  cell.key = digest(fmt::format("{}\n{}\n{}", problem.digest(), pipeline, cell.program_digest));
+  if (!problem.in_memory.empty()) cell.key = random_key();
   return cell;
 }
 

@@ -10,6 +10,7 @@
 #include "experiments/sweep/peer.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/mesh/check_mesh.h"
+#include "io/cases/problem_record.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -78,9 +79,12 @@ void write_boundary(TextWriter& out, const Prepared& prepared) {
 
 /// The file of a surface as it is, or the example as a STEP file.
 fs::path surface_file(const PeerTask& task, const fs::path& folder) {
-  const SurfaceSpec& s = task.c.surface;
-  if (s.compounds != Compounds::kNone || s.merge_curves > 0 || s.ignore_below > 0 || s.idealize ||
-      s.fill_holes > 0 || s.glue || s.mirror || s.weld_tolerance || !s.unit.empty())
+  SurfaceSpec plain;  // with what leaves the faces as they are
+  plain.feature_angle = task.c.surface.feature_angle;
+  plain.names = task.c.surface.names;
+  plain.keep = task.c.surface.keep;
+  plain.simplify = task.c.surface.simplify;
+  if (!are_same(task.c.surface, plain))
     throw NotApplicable("'" + task.peer.name +
                         "' gets the model's file as it is, but the case changes its faces");
   const std::string example = example_of(task.c);

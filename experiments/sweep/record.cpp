@@ -9,11 +9,12 @@
 #include "base/parallel.h"
 #include "base/warning.h"
 #include "delquad/error.h"
-#include "io/cases/read_problem.h"
+#include "io/cases/problem_record.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/metric_measures.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
+#include "metrics/tables/result_records.h"
 
 namespace delquad {
 namespace {
@@ -38,171 +39,6 @@ void add_times(Json& json, const StepTimes& times) {
   json["cpu_seconds"] = cpu;
   json["clock_seconds"] = clock;
   json["alone_seconds"] = alone;
-}
-
-Json size_json(const SizeSpec& size) {
-  Json json = {{"base", size.text.empty() ? Json() : Json(size.text)}, {"sources", Json::array()}};
-  if (const auto file = size_file_of(size.text, size.folder)) json["digest"] = file_digest(file->path);
-  for (const SizeSource& s : size.sources)
-    json["sources"].push_back({{"at", point_json(s.a)},
-                               {"to", point_json(s.b)},
-                               {"near", s.size_near},
-                               {"far", s.size_far},
-                               {"radius_near", s.radius_near},
-                               {"radius_far", s.radius_far}});
-  for (const NamedSize& n : size.named)
-    json["on"].push_back({{"name", n.name},
-                          {"size", n.size},
-                          {"reach", n.reach},
-                          {"growth", n.growth},
-                          {"curvature", n.curvature}});
-  const double given[] = {size.gradation, size.curvature, size.min, size.max};
-  const char* keys[] = {"gradation", "curvature", "min", "max"};
-  for (int k = 0; k < 4; ++k) json[keys[k]] = given[k] > 0 ? Json(given[k]) : Json();
-  return json;
-}
-
-Json metric_field_json(const MetricSpec& metric) {
-  Json json = {{"min", metric.limits.min},
-               {"max", metric.limits.max},
-               {"aspect", metric.limits.aspect},
-               {"gradation", metric.gradation},
-               {"complexity", metric.complexity}};
-  if (metric.chord > 0) json["chord"] = metric.chord;
-  if (!metric.tensor.empty()) json["tensor"] = metric.tensor;
-  if (!metric.sizes.empty()) json["sizes"] = metric.sizes;
-  if (!metric.solution.empty()) json["solution"] = metric.solution;
-  if (!metric.file.empty()) json["file"] = metric.file;
-  if (const auto file = size_file_of(metric.file, metric.folder)) json["digest"] = file_digest(file->path);
-  return json;
-}
-
-Json adapt_json(const AdaptLoop& loop) {
-  const AdaptSpec& spec = loop.spec;
-  return {{"kind", loop.kind},          {"meshes", loop.meshes},  {"norm", spec.norm},
-          {"min", spec.limits.min},     {"max", spec.limits.max}, {"aspect", spec.limits.aspect},
-          {"gradation", spec.gradation}};
-}
-
-Json compound_json(const SurfaceSpec& surface) {
-  switch (surface.compounds) {
-    case Compounds::kNone:
-      return Json();
-    case Compounds::kTangent:
-      return "tangent";
-    case Compounds::kAll:
-      return "all";
-    case Compounds::kGroups:
-      return surface.groups;
-  }
-  return Json();
-}
-
-Json embed_json(const std::vector<EmbeddedLine>& lines) {
-  Json json = Json::array();
-  for (const EmbeddedLine& line : lines) {
-    Json points = Json::array();
-    for (const Vec3& x : line.points) points.push_back(point_json(x));
-    json.push_back({{"name", line.name}, {"points", points}});
-  }
-  return json;
-}
-
-Json surface_json(const SurfaceSpec& surface) {
-  Json json = {{"compound", compound_json(surface)},
-               {"merge_curves", surface.merge_curves > 0 ? Json(surface.merge_curves) : Json()},
-               {"feature_angle", surface.feature_angle ? Json(*surface.feature_angle) : Json()},
-               {"ignore_below", surface.ignore_below > 0 ? Json(surface.ignore_below) : Json()},
-               {"idealize", surface.idealize},
-               {"keep", surface.keep},
-               {"glue", surface.glue},
-               {"unit", surface.unit.empty() ? Json() : Json(surface.unit)},
-               {"weld_tolerance", surface.weld_tolerance ? Json(*surface.weld_tolerance) : Json()},
-               {"mirror", Json()}};
-  if (surface.mirror)
-    json["mirror"] = {{"point", point_json(surface.mirror->point)},
-                      {"normal", point_json(surface.mirror->normal)},
-                      {"tolerance", surface.mirror->tolerance},
-                      {"join", surface.mirror->join}};
-  if (surface.simplify) json["simplify"] = *surface.simplify;
-  if (surface.fill_holes > 0) json["fill_holes"] = surface.fill_holes;
-  if (!surface.embed.empty()) json["embed"] = embed_json(surface.embed);
-  return json;
-}
-
-Json value_json(const OptionValue& value) {
-  return std::visit([](const auto& v) { return Json(v); }, value);
-}
-
-/// The group's options; null: the strategy's own.
-Json group_json(const OptionGroup& group, const Options& options) {
-  Json json = Json::object();
-  for (const OptionKey& key : group.keys) {
-    const std::string name = group.name + "." + key.name;
-    const bool is_own = !key.absent.empty() && options.find(name) == nullptr;
-    json[key.name] = is_own ? Json() : value_json(options.value(name));
-  }
-  return json;
-}
-
-Json layer_json(const LayerSpec& layer) {
-  return {{"on", layer.on},
-          {"first", layer.first},
-          {"growth", layer.growth},
-          {"number", layer.number > 0 ? Json(layer.number) : Json()},
-          {"thickness", layer.thickness > 0 ? Json(layer.thickness) : Json()},
-          {"fan", layer.fan}};
-}
-
-Json limit_json(const CriterionLimit& limit) {
-  return {{"criterion", limit.key}, {"limit", limit.value}, {"in_sizes", limit.in_sizes}, {"on", limit.on}};
-}
-
-Json criteria_json(const Criteria& criteria) {
-  Json json = {{"time_step_by", criteria.time_step_by}, {"strict", criteria.strict}};
-  for (const CriterionLimit& limit : criteria.limits) json["limits"].push_back(limit_json(limit));
-  if (const auto& material = criteria.material)
-    json["material"] = {material->young, material->poisson, material->density};
-  return json;
-}
-
-Json options_json(const Case& c) {
-  Json json = {{"surface", c.surface.where.empty() ? Json() : surface_json(c.surface)},
-               {"size", size_json(c.size)},
-               {"cross", text_of(c.cross)},
-               {"max_points", 4 * c.max_elements},
-               {"max_elements", c.max_elements}};
-  if (c.metric.asks()) json["metric"] = metric_field_json(c.metric);
-  if (!c.solution.empty()) json["solution"] = c.solution;
-  if (c.adapt) json["adapt"] = adapt_json(*c.adapt);
-  if (c.refine != 1) json["refine"] = c.refine;
-  if (c.quads) json["quads"] = *c.quads;
-  for (const CurveDivision& d : c.divisions)
-    json["divide"].push_back(
-        {{"name", d.name}, {"edges", d.edges}, {"progression", d.progression}, {"bump", d.bump}});
-  for (const PeriodicPair& pair : c.periodic)
-    json["periodic"].push_back({{"from", pair.from}, {"to", pair.to}, {"matrix", pair.motion.matrix()}});
-  if (c.symmetry.automatic) json["symmetry"] = "auto";
-  for (const SymmetryPlane& plane : c.symmetry.planes)
-    json["symmetry"].push_back({{"point", point_json(plane.point)}, {"normal", point_json(plane.normal)}});
-  if (c.mapped.automatic) json["mapped"] = "auto";
-  if (!c.mapped.names.empty()) json["mapped"] = c.mapped.names;
-  for (const GridCorners& grid : c.mapped.corners) {
-    Json corners = Json::array();
-    for (const GridCorner& corner : grid.corners)
-      corners.push_back(corner.name.empty() ? point_json(corner.at) : Json(corner.name));
-    json["mapped_corners"].push_back({{"name", grid.region}, {"corners", corners}});
-  }
-  for (const LayerSpec& layer : c.layers) json["layer"].push_back(layer_json(layer));
-  for (const WasherSpec& w : c.washers)
-    json["washers"].push_back(
-        {{"diameter", {w.least, w.most}}, {"rows", w.rows}, {"edges", w.edges}, {"width", w.width}});
-  for (const FilletRows& f : c.fillet_rows)
-    json["fillet_rows"].push_back({{"radius", {f.least, f.most}}, {"rows", f.rows}});
-  if (word_start(c.model) == WordStart::kGivenMesh) json["start"] = true;
-  if (!c.criteria.empty()) json["criteria"] = criteria_json(c.criteria);
-  for (const OptionGroup& group : option_groups()) json[group.name] = group_json(group, c.options);
-  return json;
 }
 
 Json domain_json(const Prepared& p) {
@@ -350,15 +186,14 @@ Json failing_quads(const CriteriaReport& report, const Mesh& mesh) {
 Json report_json(const CriteriaReport& report, const Mesh& mesh) {
   Json limits = Json::array();
   for (const CriterionResult& r : report.results) {
-    Json json = limit_json(r.limit);
+    Json json = record_of(r.limit);
     json["failing"] = r.failing.size();
     json["worst"] = r.worst;
     json["at"] = point_json(r.at.at);
     json["cause"] = r.cause;
     limits.push_back(json);
   }
-  return {{"name", report.name},
-          {"elements", report.elements},
+  return {{"elements", report.elements},
           {"failing", report.failing},
           {"failing_quads", failing_quads(report, mesh)},
           {"limits", limits},
@@ -507,6 +342,7 @@ Json start_record(const Case& c, const Word& word, const std::string& status, co
   // First: they are looked for without reading the rest.
   const auto mesh = cell != nullptr ? cell->files.find("mesh.msh") : decltype(cell->files.end()){};
   const bool has_mesh = cell != nullptr && mesh != cell->files.end();
+  json["record"] = kRecordVersion;
   if (cell != nullptr) json["key"] = cell->key;
   if (cell != nullptr && metrics != "ok") json["metrics_status"] = metrics;
   if (has_mesh) json["mesh_bytes"] = mesh->second.bytes;
@@ -529,6 +365,12 @@ Json start_record(const Case& c, const Word& word, const std::string& status, co
   return json;
 }
 
+void add_problem(Json& json, const Case& c) {
+  const ProblemRecord problem = record_of(c);
+  json["problem"] = problem.json;
+  if (!problem.in_memory.empty()) json["not_repeatable"] = problem.in_memory;
+}
+
 /// A file name or what a peer prints need not be UTF-8; JSON must be.
 constexpr auto kReplace = Json::error_handler_t::replace;
 
@@ -542,7 +384,7 @@ std::string run_record(const Case& c, const Word& word, const MeshResult& result
   json["sound"] = result.soundness.accepted();
   if (!result.soundness.accepted()) json["unsound"] = result.soundness.reasons;
   for (const std::string& beyond : result.soundness.beyond) json["unsound"].push_back(beyond);
-  json["options"] = options_json(c);
+  add_problem(json, c);
   json["domain"] = domain_json(result.prepared);
   json["cross_field"] = cross_json(result.prepared);
   json["warnings"] = texts(result.warnings);
@@ -569,7 +411,7 @@ std::string failure_record(const Case& c, const Word& word, const std::string& s
   Json json = start_record(c, word, status, cell);
   json["kind"] = kind;
   json["reason"] = reason;
-  json["options"] = options_json(c);
+  add_problem(json, c);
   add_origin(json, cell != nullptr ? &cell->start : nullptr);
   return cell != nullptr ? sealed(print(json)) : print(json);
 }
@@ -581,7 +423,6 @@ std::string metrics_by_command_record(const CellIdentity& cell) {
   for (const std::string& solver : cell.solvers) json.push_back("solver " + solver);
   return json.empty() ? "" : json.dump(-1, ' ', false, kReplace);
 }
-std::string options_record(const Case& c) { return options_json(c).dump(-1, ' ', false, kReplace); }
 std::string versions_record() { return versions_json().dump(); }
 
 std::string metrics_record(const std::string& mesh_file, const Mesh& mesh, const std::string& size,

@@ -49,8 +49,6 @@ std::string metrics_record(const std::string& mesh_file, const Mesh& mesh, const
 std::string peer_record(const CellIdentity& cell);
 /// What determines the values of a cell's measures by command and by solvers, in one line of JSON.
 std::string metrics_by_command_record(const CellIdentity& cell);
-/// Every option of a case in one line of JSON.
-std::string options_record(const Case& c);
 /// Version, commit, compiler and libraries in one line of JSON.
 std::string versions_record();
 

@@ -73,7 +73,7 @@ Experiment recorded_experiment(const Json& record, const fs::path& results, cons
   if (const std::vector<std::string> wrong = check_copy(results, file); !wrong.empty())
     throw InputError(wrong[0]);
   Experiment experiment = Experiment::read(results / file, data);
-  experiment.max_elements = record.at("options").at("max_elements");
+  experiment.max_elements = record.at("problem").at("max_elements");
   return experiment;
 }
 
@@ -105,7 +105,8 @@ const std::vector<std::string> kNoValues = {"digest",      "key",
                                             "peer",        "peer_file",
                                             "own_metrics", "experiment",
                                             "digests",     "files",
-                                            "options",     "versions",
+                                            "problem",     "not_repeatable",
+                                            "record",      "versions",
                                             "machine",     "started",
                                             "threads",     "peak_memory_bytes",
                                             "warnings"};
@@ -115,6 +116,7 @@ Json read_json(const std::filesystem::path& file) {
   if (!in) throw InputError(file.string() + ": cannot be read");
   try {
     Json json = Json::parse(in);
+    located(file.string(), [&] { check_record_version(json.value("record", 1)); });
     if (json.at("status") != "ok")
       refuse("{}: is of a cell that was not done: {}", file.string(), json.at("reason").get<std::string>());
     json.at("digests").at("mesh");
@@ -152,7 +154,7 @@ void compare_objects(const std::string& what, const Json& before, const Json& no
 
 std::vector<std::string> compare_causes(const Json& before, const Json& now) {
   std::vector<std::string> differences;
-  compare_objects("option", before.at("options"), now.at("options"), differences);
+  compare_objects("problem", before.at("problem"), now.at("problem"), differences);
   compare_objects("version", before.at("versions"), now.at("versions"), differences);
   compare_objects("peer", before.value("peer", Json::object()), now.value("peer", Json::object()),
                   differences);
@@ -236,7 +238,7 @@ Lines check_files(VerifiedCell& cell) {
 Json essence(const Json& record) {
   Json json = Json::object();
   for (const char* key :
-       {"experiment", "case", "variant", "pipeline", "peer", "options", "digests", "metrics"})
+       {"experiment", "case", "variant", "pipeline", "peer", "problem", "digests", "metrics"})
     json[key] = record.value(key, Json());
   return json;
 }

@@ -1,6 +1,7 @@
 #include "delquad/model.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -12,6 +13,7 @@
 
 #include "base/located.h"
 #include "delquad/error.h"
+#include "geometry/planar/defined_curve.h"
 
 namespace delquad {
 
@@ -45,7 +47,14 @@ void check_points(std::span<const Vec2> points, const char* what) {
 /// By which angle a line turns at b, radians, at least 0.
 double turn(Vec2 a, Vec2 b, Vec2 c) { return std::abs(std::atan2(cross(b - a, c - b), dot(b - a, c - b))); }
 
-class Polyline final : public Curve {
+/// Every bit of the coordinates.
+std::string exact_text(std::span<const Vec2> points) {
+  std::string text;
+  for (const Vec2 p : points) text += fmt::format(" {:a} {:a}", p.x, p.y);
+  return text;
+}
+
+class Polyline final : public DefinedCurve {
  public:
   explicit Polyline(std::vector<Vec2> points) : points_(std::move(points)) {
     // Equal parameter spans, not lengths: a tiny edge beside a huge one keeps a span of its own.
@@ -64,6 +73,7 @@ class Polyline final : public Curve {
   }
 
   std::vector<double> fixed_parameters() const override { return {knots_.begin() + 1, knots_.end() - 1}; }
+  std::string definition() const override { return "polyline" + exact_text(points_); }
 
  private:
   std::vector<Vec2> points_;
@@ -98,7 +108,7 @@ std::vector<Vec2> second_derivatives(std::span<const double> t, std::span<const 
   return second;
 }
 
-class Spline final : public Curve {
+class Spline final : public DefinedCurve {
  public:
   Spline(std::vector<Vec2> points, double corner) : points_(std::move(points)), t_{0} {
     const std::size_t n = points_.size() - 1;
@@ -138,6 +148,9 @@ class Spline final : public Curve {
   }
 
   std::vector<double> fixed_parameters() const override { return fixed_; }
+  std::string definition() const override {
+    return fmt::format("spline{} corners {:a}", exact_text(points_), fmt::join(fixed_, " "));
+  }
 
  private:
   std::vector<Vec2> points_;
@@ -146,7 +159,7 @@ class Spline final : public Curve {
   std::vector<double> fixed_;
 };
 
-class Arc final : public Curve {
+class Arc final : public DefinedCurve {
  public:
   Arc(Vec2 centre, double radius, double angle0, double angle1)
       : centre_(centre), radius_(radius), angle0_(angle0), angle1_(angle1) {
@@ -157,6 +170,9 @@ class Arc final : public Curve {
   Vec2 point(double t) const override {
     const double angle = t < 1 ? angle0_ + t * (angle1_ - angle0_) : closed_ ? angle0_ : angle1_;
     return centre_ + radius_ * Vec2{std::cos(angle), std::sin(angle)};
+  }
+  std::string definition() const override {
+    return fmt::format("arc {:a} {:a} {:a} {:a} {:a}", centre_.x, centre_.y, radius_, angle0_, angle1_);
   }
 
  private:

@@ -22,20 +22,24 @@ struct AdaptLoop {
   AdaptSpec spec = {};             ///< its number of quads is that of the case
 };
 
-/// A problem, and what else its file says: what a pipeline works on.
-struct Case : MeshProblem {
-  Case() { where.clear(), size.where.clear(), cross.where.clear(); }  // nobody has asked for anything
+/// The part of a case that is no problem of meshing.
+struct CaseOfStudy {
+  /// Keys that an experiment varies, by title, with their values; the folder of the results.
+  std::vector<std::pair<std::string, std::string>> variant = {};
+  std::string folder = {};
+  std::filesystem::path model_file = {};   ///< the .toml file that the model comes from; empty: none
+  bool may_be_absent = false;              ///< the model's file is data that the case is skipped without
+  std::filesystem::path data_folder = {};  ///< that the key `data` counts from; empty: it is not allowed
+  std::string domain = {};                 ///< what its results count as, with others; empty: its geometry
+  std::string solution = {};  ///< a formula in x and y, that is computed with; empty: the domain's own
+  std::optional<AdaptLoop> adapt = {};  ///< to it
+  std::map<std::string, std::string> compare =
+      {};  ///< pipeline -> name of the published row to show beside it
+};
 
-  /// What an experiment varies, by title, and the folder of the results.
-  std::vector<std::pair<std::string, std::string>> variant;
-  std::string folder;
-  std::filesystem::path model_file;   ///< the .toml file that the model comes from; empty: none
-  bool may_be_absent = false;         ///< the model's file is data that the case is skipped without
-  std::filesystem::path data_folder;  ///< that the key `data` counts from; empty: it is not allowed
-  std::string domain;                 ///< what its results count as, with others; empty: its geometry
-  std::string solution;            ///< a formula in x and y, that is computed with; empty: the domain's own
-  std::optional<AdaptLoop> adapt;  ///< to it
-  std::map<std::string, std::string> compare;  ///< pipeline -> name of the published row to show beside it
+/// A problem, and what else its file says: what a pipeline works on.
+struct Case : MeshProblem, CaseOfStudy {
+  Case() { where.clear(), size.where.clear(), cross.where.clear(); }  // nobody has asked for anything
 };
 
 bool has_model(const MeshProblem& problem);

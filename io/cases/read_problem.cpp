@@ -23,6 +23,7 @@
 #include "fields/added_fields.h"
 #include "fields/fields.h"
 #include "geometry/mesh/outline.h"
+#include "geometry/planar/defined_curve.h"
 #include "geometry/planar/model_chain.h"
 #include "geometry/planar/planar_model.h"
 #include "io/cases/expression.h"
@@ -384,15 +385,32 @@ MetricFunction make_solution_metric(const std::string& solution, double step) {
   };
 }
 
+namespace {
+
+class ExpressionCurve final : public DefinedCurve {
+ public:
+  ExpressionCurve(std::shared_ptr<const Curve> curve, std::string definition)
+      : curve_(std::move(curve)), definition_(std::move(definition)) {}
+  Vec2 point(double t) const override { return curve_->point(t); }
+  std::string definition() const override { return definition_; }
+
+ private:
+  std::shared_ptr<const Curve> curve_;
+  std::string definition_;
+};
+
+}  // namespace
+
 std::shared_ptr<const Curve> make_expression_curve(const std::string& x_text, const std::string& y_text,
                                                    double t0, double t1) {
   const Expression x(x_text, {"t"}), y(y_text, {"t"});
-  return make_parametric_curve(
-      [x, y](double t) {
-        const double value[] = {t};
-        return Vec2{x(value), y(value)};
-      },
-      t0, t1);
+  const auto point = [x, y](double t) {
+    const double value[] = {t};
+    return Vec2{x(value), y(value)};
+  };
+  return std::make_shared<ExpressionCurve>(
+      make_parametric_curve(point, t0, t1),
+      fmt::format("'{}' '{}' from {:a} to {:a}", x_text, y_text, t0, t1));
 }
 
 }  // namespace delquad

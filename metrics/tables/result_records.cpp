@@ -101,6 +101,7 @@ const std::vector<Derived>& derived() {
 }
 
 CellRecord parse(const Json& json) {
+  check_record_version(json.value("record", 1));
   CellRecord record;
   json.at("case").get_to(record.name);
   json.at("pipeline").get_to(record.pipeline);
@@ -134,10 +135,11 @@ CellRecord parse(const Json& json) {
   if (json.contains("unsound")) json.at("unsound").get_to(record.unsound);
   if (json.contains(kCalibrationStep)) record.calibration = parse_calibration(json.at(kCalibrationStep));
   record.size_adapted_to = json.value("/domain/size_adapted_to"_json_pointer, std::vector<std::string>());
-  const Json options = json.value("options", Json::object()), size = options.value("size", Json::object());
+  const Json problem = json.value("problem", Json::object()), size = problem.value("size", Json::object());
   const std::string base = size.value("base", Json()).is_string() ? size.at("base").get<std::string>() : "";
-  const bool is_other = options.contains("refine") || options.contains("quads");
-  if (!is_other && as_number(base) && size.value("sources", Json::array()).empty() && !size.contains("on"))
+  const bool is_other = problem.value("refine", 1.0) != 1 || !problem.value("quads", Json()).is_null();
+  if (!is_other && as_number(base) && size.value("source", Json::array()).empty() &&
+      size.value("on", Json::array()).empty())
     record.uniform_size = base;
   return record;
 }
@@ -297,6 +299,12 @@ std::vector<CellRecord> read_records(const fs::path& folder) {
     });
   find_domains(records);
   return records;
+}
+
+void check_record_version(int version) {
+  if (version == kRecordVersion) return;
+  throw InputError(fmt::format("record of version {}: expected version {}: run the experiment again", version,
+                               kRecordVersion));
 }
 
 bool has_mesh(const std::string& state) { return state == "done" || state == "metric failed"; }

@@ -35,14 +35,14 @@ const std::string kStudy =
     R"( "FB", "expected": 1.5, "source": "s"}, "repeat_times": 2, "columns": ["n_quads"], "correlate": {"of": ["own"],)"
     R"( "with": ["eta_mean"]}})";
 const std::string kRecord =
-    R"({"case": "disc", "pipeline": "DB", "variant": {"seed": "1"}, "status": "ok", "quads_only": true, "metrics":)"
+    R"({"record": 2, "case": "disc", "pipeline": "DB", "variant": {"seed": "1"}, "status": "ok", "quads_only": true, "metrics":)"
     R"( {"n_quads": 12, "eta_mean": 0.9, "own": null}, "own_metrics": [{"key": "own", "title": "Own", "unit": "",)"
     R"( "better": "higher", "digits": 3}], "failed_metrics": {"own": "why"}, "meshing_seconds": 0.5, "seconds":)"
     R"( {"insertion": 0.1, "peer": 2}, "warnings": ["w"], "unsound": ["u"], "domain": {"size_adapted_to":)"
-    R"( ["curvature"]}, "options": {"size": {"base": "0.1", "sources": []}}, "calibration": {"to": "DB",)"
+    R"( ["curvature"]}, "problem": {"size": {"base": "0.1", "source": []}}, "calibration": {"to": "DB",)"
     R"( "size_factor": 1.5, "wanted_quads": 12, "quads": 11, "runs": 3}})";
 const std::string kFailed =
-    R"({"case": "disc", "pipeline": "FB", "variant": {"seed": "2"}, "status": "failed", "kind": "input", "reason": "r"})";
+    R"({"record": 2, "case": "disc", "pipeline": "FB", "variant": {"seed": "2"}, "status": "failed", "kind": "input", "reason": "r"})";
 
 /// A folder of results of which one file holds the input: its records and tables.
 class Results {
@@ -116,7 +116,7 @@ seeds = [1, 2]
 std::vector<std::string> record_seeds() {
   return {
       kRecord,
-      R"({"case": "disc", "pipeline": "DB", "variant": {"seed": "1"}, "status": "failed", "kind": "k", "reason": "r"})"};
+      R"({"record": 2, "case": "disc", "pipeline": "DB", "variant": {"seed": "1"}, "status": "failed", "kind": "k", "reason": "r"})"};
 }
 std::vector<std::string> study_seeds() { return {kStudy}; }
 

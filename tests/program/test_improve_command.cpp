@@ -29,7 +29,7 @@ TEST(ImproveCommand, PrintsBeforeAndAfterAndKeepsNames) {
     ASSERT_NE(before, after);
     EXPECT_LT(std::stod(result.out.substr(before + 9)), 0.9) << name;
     EXPECT_GT(std::stod(result.out.substr(after + 9)), 0.99) << name;
-    EXPECT_TRUE(contains(read_text(folder / "record.json"), "\"start\": true"));
+    EXPECT_TRUE(contains(read_text(folder / "record.json"), "\"given\": true"));
     const Mesh given = read_mesh(folder / name), better = read_mesh(folder / "out.msh");
     EXPECT_EQ(better.lines.size(), given.lines.size()) << name;
     ASSERT_EQ(better.curves.size(), given.curves.size()) << name;

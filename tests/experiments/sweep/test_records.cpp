@@ -328,8 +328,8 @@ TEST_F(Records, DamageIsToldPlainly) {
   EXPECT_EQ(reason(""), name + ":1:1: it ends there, too early");
   EXPECT_EQ(reason("{\n  \"case\": \"a\",\n  oops"), name + ":3:3: no JSON there");
   EXPECT_EQ(reason("{\n\"case\": \"a"), name + ":2:11: it ends there, too early");
-  EXPECT_EQ(reason("{}"), name + ": 'case' is missing");
-  EXPECT_EQ(reason("{\"case\": 3}"), name + ": a value in it is not of the expected kind");
+  EXPECT_EQ(reason("{\"record\": 2}"), name + ": 'case' is missing");
+  EXPECT_EQ(reason("{\"record\": 2, \"case\": 3}"), name + ": a value in it is not of the expected kind");
   const std::string cut = whole.substr(0, whole.find(',', whole.size() / 2) + 1);
   EXPECT_NE(reason(cut).find("it ends there, too early"), std::string::npos) << reason(cut);
 }

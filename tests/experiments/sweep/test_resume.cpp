@@ -299,7 +299,7 @@ TEST_F(Resume, RecordsCanBeMadeAgain) {
   EXPECT_FALSE(rerun.same_mesh);
   EXPECT_FALSE(rerun.values.empty());
   ASSERT_EQ(rerun.differences.size(), 1u);
-  EXPECT_EQ(rerun.differences[0], "option size base: \"0.3\" in the record, \"0.2\" now");
+  EXPECT_EQ(rerun.differences[0], "problem size base: \"0.3\" in the record, \"0.2\" now");
   mixed.replace(mixed.find("\"case\": \"disc\""), 14, "\"case\": \"disk\"");
   write_text(record, mixed);
   expect_input_error([&] { rerun_record(record); }, {"no case 'disk'", "\"2\""});

@@ -76,7 +76,7 @@ TEST_F(SmoothingStage, RecordsAndDrawsItsConvergence) {
   EXPECT_GE(s["accepted_evaluations"][0].size(), s["iterations"]);
   EXPECT_LE(s["accepted_evaluations"][0].size(), s["evaluations"]);
   EXPECT_EQ(s["termination"].size(), 1u);
-  EXPECT_EQ(fl["options"]["smoothing"]["outer_iterations"], 2);
+  EXPECT_EQ(fl["problem"]["options"]["smoothing"]["outer_iterations"], 2);
   EXPECT_TRUE(fl["seconds"].contains("smoothing"));
   EXPECT_TRUE(fs::exists(folder_ / "out" / "disk" / "DLB" / "convergence.svg"));
   EXPECT_FALSE(fs::exists(folder_ / "out" / "disk" / "F" / "convergence.svg"));
@@ -84,7 +84,7 @@ TEST_F(SmoothingStage, RecordsAndDrawsItsConvergence) {
 
 TEST_F(SmoothingStage, LloydRuns) {
   run("{ method = \"lloyd\" }", "[\"FLB\"]");
-  EXPECT_EQ(record("FLB")["options"]["smoothing"]["method"], "lloyd");
+  EXPECT_EQ(record("FLB")["problem"]["options"]["smoothing"]["method"], "lloyd");
   EXPECT_LT(record("FLB")["smoothing"]["final_energy"], record("FLB")["smoothing"]["first_energy"]);
 }
 

@@ -186,8 +186,8 @@ TEST(StageRecords, StepsThatAreSwitchedOffAreNotThere) {
   const Json record = record_of(c, prepared, "DB");
   EXPECT_FALSE(record.contains("part_twins"));
   EXPECT_FALSE(record.contains("lift_bad_quads"));
-  EXPECT_EQ(record["options"]["repair"]["part_twins"], false);
-  EXPECT_EQ(record["options"]["repair"]["lift_bad_quads"], false);
+  EXPECT_EQ(record["problem"]["options"]["repair"]["part_twins"], false);
+  EXPECT_EQ(record["problem"]["options"]["repair"]["lift_bad_quads"], false);
 }
 
 /// A tube cut open, four high and two around: its left side and its right side are the same curve.

@@ -1,0 +1,157 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "io/cases/problem_fields.h"
+
+namespace delquad {
+
+using RecordJson = nlohmann::ordered_json;
+
+/// The file that a size or metric is read from.
+std::optional<std::filesystem::path> file_of(const SizeSpec& size);
+std::optional<std::filesystem::path> file_of(const MetricSpec& metric);
+
+/// Writes structs as their descriptions say, without fields that determine no result. Files count by content.
+class Recorder {
+ public:
+  /// Keys of functions, fields and meshes in memory: what is made with them cannot be repeated from a record.
+  std::vector<std::string> in_memory;
+
+  template <Described T>
+  RecordJson object(const T& value) {
+    RecordJson json = RecordJson::object();
+    for_each_field(value, [&](const FieldInfo& info, const auto& member) {
+      if (info.rule.no_result != nullptr) return;
+      const std::size_t outer = path_.size();
+      path_ += (path_.empty() ? "" : ".") + std::string(info.key);
+      RecordJson one = write(member, info.rule);
+      if (info.rule.form == Form::kMost)
+        json[info.key].push_back(std::move(one));
+      else
+        json[info.key] =
+            info.rule.form == Form::kLeast ? RecordJson::array({std::move(one)}) : std::move(one);
+      path_.resize(outer);
+    });
+    if constexpr (requires { file_of(value); })
+      if (const auto file = file_of(value)) json["content"] = content(*file);
+    return json;
+  }
+
+ private:
+  template <class T>
+  RecordJson write(const T& value, const Rule& rule) {
+    if constexpr (Described<T>)
+      return object(value);
+    else if constexpr (std::is_enum_v<T>)
+      return words_of(rule.words).at(static_cast<std::size_t>(value));
+    else if constexpr (std::is_same_v<T, bool>)
+      return rule.words != nullptr ? RecordJson(words_of(rule.words).at(value ? 1 : 0)) : RecordJson(value);
+    else if constexpr (std::is_floating_point_v<T>)
+      return number(value);
+    else if constexpr (std::is_arithmetic_v<T>)
+      return value;
+    else
+      return write_other(value, rule);
+  }
+  /// A vector or array.
+  template <class List>
+  requires requires(const List& list) { list.begin(); }
+  RecordJson write_other(const List& values, const Rule& rule) {
+    RecordJson json = RecordJson::array();
+    for (const auto& value : values) json.push_back(write(value, rule));
+    return json;
+  }
+  template <class T>
+  RecordJson write_other(const std::map<std::string, T>& values, const Rule& rule) {
+    RecordJson json = RecordJson::object();
+    for (const auto& [key, value] : values) json[key] = write(value, rule);
+    return json;
+  }
+  template <class A, class B>
+  RecordJson write_other(const std::pair<A, B>& pair, const Rule& rule) {
+    return RecordJson::array({write(pair.first, rule), write(pair.second, rule)});
+  }
+  template <class T>
+  RecordJson write_other(const std::optional<T>& value, const Rule& rule) {
+    return value ? write(*value, rule) : RecordJson();
+  }
+  template <class... T>
+  RecordJson write_other(const std::variant<T...>& value, const Rule& rule) {
+    RecordJson json = {{"kind", words_of(rule.words).at(value.index())}};
+    json.update(std::visit([&](const auto& one) { return object(one); }, value));
+    return json;
+  }
+  template <class T>
+  RecordJson write_other(const std::function<T>& function, const Rule&) {
+    return write_in_memory(function != nullptr);
+  }
+  template <class T>
+  RecordJson write_other(const std::shared_ptr<const T>& pointer, const Rule&) {
+    return write_in_memory(pointer != nullptr);
+  }
+  RecordJson write_other(const std::shared_ptr<const Curve>& curve, const Rule&);
+  RecordJson write_other(const Mesh& mesh, const Rule&) { return write_in_memory(!mesh.points.empty()); }
+  RecordJson write_other(const DeclaredSurfaces& all, const Rule&) {
+    return write_in_memory(!all.surfaces.empty());
+  }
+  RecordJson write_other(const std::string& text, const Rule& rule);
+  RecordJson write_other(const std::filesystem::path& file, const Rule&) { return content(file); }
+  RecordJson write_other(const Vec2& p, const Rule&) { return {number(p.x), number(p.y)}; }
+  RecordJson write_other(const Vec3& p, const Rule&) { return {number(p.x), number(p.y), number(p.z)}; }
+  RecordJson write_other(const Options& options, const Rule&);
+
+  static RecordJson number(double value);
+  /// Kind and digest of a file, and the part of it that its name asks for ("FILE:LAYER@CRS"); null: there is
+  /// none.
+  static RecordJson content(const std::filesystem::path& file);
+  /// Tells that there is a value which no record holds.
+  RecordJson write_in_memory(bool is_there);
+
+  std::string path_;
+};
+
+/// A struct as its description says.
+template <Described T>
+RecordJson record_of(const T& value) {
+  return Recorder().object(value);
+}
+
+/// Whether two structs have the same result.
+template <Described T>
+bool are_same(const T& a, const T& b) {
+  return record_of(a) == record_of(b);
+}
+
+/// Keys of the fields that are not as they are in T().
+template <Described T>
+std::vector<std::string> given_keys(const T& value) {
+  const RecordJson given = record_of(value), absent = record_of(T());
+  std::vector<std::string> keys;
+  for (const auto& [key, one] : given.items())
+    if (!absent.contains(key) || absent[key] != one) keys.push_back(key);
+  return keys;
+}
+
+/// A problem as it was understood.
+struct ProblemRecord {
+  RecordJson json;
+  std::vector<std::string> in_memory;  ///< see Recorder
+
+  /// Returns the digest of everything that determines a result.
+  std::string digest() const;
+};
+ProblemRecord record_of(const Case& c);
+
+}  // namespace delquad
