@@ -7,22 +7,15 @@
 
 #include "base/located.h"
 #include "base/stopwatch.h"
-#include "experiments/sweep/schema.h"
-#include "io/cases/case_file.h"
-#include "io/cases/case_keys.h"
 #include "io/cases/expression.h"
+#include "io/cases/read_described.h"
 
 namespace delquad {
 namespace {
 
-using namespace toml_types;
-
 constexpr const char* kGiven = "given";          // the case's own sizes
-constexpr const char* kUniform = "uniform";      // the same size everywhere
 constexpr const char* kSquares = "squares";      // a loop
 constexpr const char* kStretched = "stretched";  // a loop
-const std::vector<std::string> kKinds = {kGiven, kUniform, kSquares, kStretched};
-constexpr int kMostMeshes = 100;
 
 bool is_loop(const AdaptLoop& loop) { return loop.kind == kSquares || loop.kind == kStretched; }
 
@@ -38,39 +31,14 @@ Case without_seed(const Case& c) {
 
 }  // namespace
 
-TomlKeys adapt_keys() {
-  return {
-      {"kind", "of the meshes: of the case's own sizes, of one size, or a loop", one_of(kKinds)},
-      {"meshes", "of a loop, with the uniform one that it begins from", between("integer", 2, kMostMeshes)},
-      {"norm", "p of the Lp norm of the error of interpolation", at_least("number", 1)},
-      {"min", "least length", kPositive},
-      {"max", "largest length", kPositive},
-      {"aspect", "the most that one length is of the other", at_least("number", 1)},
-      {"gradation", "the most that lengths grow by per unit length, a factor", at_least("number", 1)}};
-}
-
 void read_adapt_keys(const TomlTable& table, Case& target) {
   if (table.has("solution")) {
     target.solution = table.text("solution");
     located(table.where("solution"), [&] { solution_of(target); });
   }
-  const auto adapt = table.optional_table("adapt");
-  if (!adapt) return;
-  adapt->require_known(adapt_keys());
+  if (!table.has("adapt")) return;
   AdaptLoop loop = target.adapt.value_or(AdaptLoop());
-  loop.kind = adapt->text("kind", loop.kind);
-  if (std::ranges::find(kKinds, loop.kind) == kKinds.end())
-    refuse("{}: kind '{}'{}", adapt->where("kind"), loop.kind, suggestion_or_all(loop.kind, kKinds));
-  loop.meshes = read_count(*adapt, "meshes", 2, kMostMeshes, loop.meshes);
-  loop.spec.norm = number_at_least(*adapt, "norm", 1, loop.spec.norm);
-  const auto length = [&](const char* key, double absent) {
-    return adapt->has(key) ? adapt->positive_number(key) : absent;
-  };
-  MetricLimits& limits = loop.spec.limits;
-  limits = {length("min", limits.min), length("max", limits.max),
-            number_at_least(*adapt, "aspect", 1, limits.aspect)};
-  loop.spec.gradation = number_at_least(*adapt, "gradation", 1, loop.spec.gradation);
-  adapt->finish(adapt_keys());
+  read_described(table.table("adapt"), loop);
   target.adapt = loop;
 }
 

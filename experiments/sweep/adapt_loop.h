@@ -14,7 +14,6 @@ namespace delquad {
 void read_adapt_keys(const TomlTable& table, Case& target);
 /// They do not go with everything: throws InputError with file and line.
 void check_adapt(const Case& c);
-TomlKeys adapt_keys();
 
 /// Its solution with the gradient; empty where it has none. `c` need not outlive it.
 Solution solution_of(const Case& c);

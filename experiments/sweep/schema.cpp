@@ -6,6 +6,7 @@
 #include "experiments/sweep/adapt_loop.h"
 #include "experiments/sweep/peer.h"
 #include "io/cases/case_keys.h"
+#include "io/cases/read_described.h"
 
 namespace delquad {
 namespace {
@@ -149,21 +150,10 @@ TomlKeys linf_study_keys() {
           {"seeds", "of the points", kSeeds, nullptr, false, true}};
 }
 
-namespace {
-
-/// What cases have that models lack, beside their name.
-TomlKeys study_keys() {
-  return {{"solution", "a formula in x and y, for Poisson's equation", kText},
-          {"adapt", "meshes that follow the solution", "", adapt_keys}};
-}
-
-}  // namespace
-
 TomlKeys experiment_case_keys() {
   TomlKeys keys = case_keys();
   keys.insert(keys.begin(), {"name", "of its folder", kFolderName, nullptr, false, true});
-  keys.push_back({"domain", "that results count as, with others of the name; else the geometry", kText});
-  std::ranges::move(study_keys(), std::back_inserter(keys));
+  std::ranges::move(keys_of<CaseOfStudy>(), std::back_inserter(keys));
   return keys;
 }
 
@@ -201,7 +191,8 @@ TomlKeys experiment_keys() {
                    {"variant", "keys of cases that vary together", "", variant_keys, true},
                    {"case", "what is meshed", "", experiment_case_keys, true},
                    {"cases_of", "another experiment whose cases come before these", kText}};
-  std::ranges::move(study_keys(), std::back_inserter(keys));
+  for (TomlKey& key : keys_of<CaseOfStudy>())  // a domain is that of one case
+    if (key.name != "domain") keys.push_back(std::move(key));
   for (TomlKey& key : case_keys())  // here 'metric' is a measure
     if (key.name != "metric") keys.push_back(std::move(key));
   return keys;

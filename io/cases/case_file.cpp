@@ -20,6 +20,7 @@
 #include "io/cases/case_keys.h"
 #include "io/cases/model_file.h"
 #include "io/cases/outline_files.h"
+#include "io/cases/read_described.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
 
@@ -54,14 +55,7 @@ Criteria read_table(const TomlTable& table) {
     read_limits(part, part.text("name"), criteria);
     part.finish(named_criteria_keys());
   }
-  if (const auto material = table.optional_table("material")) {
-    material->require_known(material_keys());
-    criteria.material = Material{material->positive_number("young"), material->number("poisson"),
-                                 material->positive_number("density")};
-    material->finish(material_keys());
-  }
-  criteria.time_step_by = table.text("time_step_by", criteria.time_step_by);
-  criteria.strict = table.flag("strict", false);
+  read_fields(table, criteria);
   table.finish(criteria_keys());
   if (criteria.empty()) throw InputError(table.where() + ": no criteria: expected a preset or limits");
   check_criteria(criteria);
@@ -86,23 +80,109 @@ Criteria read_criteria_key(const TomlTable& table) {
 
 }  // namespace
 
-double number_at_least(const TomlTable& table, const std::string& key, double least, double absent) {
-  const double value = table.number(key, absent);
-  if (table.has(key) && value < least)
-    refuse("{}: '{}' is {}: expected at least {}", table.where(key), key, value, least);
-  return value;
+namespace {
+
+std::string expected_number(const Rule& rule) {
+  if (rule.above && !rule.most) return fmt::format("a number above {}", *rule.above);
+  if (rule.above) return fmt::format("above {} and at most {}", *rule.above, *rule.most);
+  if (rule.least && rule.most) return fmt::format("{} to {}", *rule.least, *rule.most);
+  return rule.least ? fmt::format("at least {}", *rule.least) : fmt::format("at most {}", *rule.most);
+}
+
+void check_limits(const TomlTable& table, const std::string& key, const Rule& rule, double value) {
+  const bool is_inside = value >= rule.least.value_or(value) && value <= rule.most.value_or(value) &&
+                         (!rule.above || value > *rule.above);
+  if (!is_inside) refuse("{}: '{}' is {}: expected {}", table.where(key), key, value, expected_number(rule));
+}
+
+}  // namespace
+
+std::string limited_type(const std::string& type, const Rule& rule) {
+  std::string text = fmt::format(R"({{"type": {})", type);
+  const auto add = [&](const char* name, const std::optional<double>& limit) {
+    if (limit) text += fmt::format(R"(, "{}": {})", name, *limit);
+  };
+  add("minimum", rule.least);
+  add("exclusiveMinimum", rule.above);
+  add("maximum", rule.most);
+  return text + "}";
+}
+
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule, std::string& value) {
+  value = rule.form == Form::kFormula ? table.expression(key) : table.text(key);
+  if (rule.words == nullptr) return;
+  const std::vector<std::string> words = words_of(rule.words);
+  if (std::ranges::find(words, value) == words.end())
+    refuse("{}: {} '{}': expected {}{}", table.where(key), key, value, fmt::join(words, ", "),
+           suggestion(value, words));
+}
+
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule, bool& value) {
+  if (rule.words == nullptr) {
+    value = table.flag(key, value);
+    return;
+  }
+  std::string word;
+  read_value(table, key, rule, word);
+  value = word != words_of(rule.words)[0];
+}
+
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule, long long& value) {
+  value = table.integer(key);
+  check_limits(table, key, rule, static_cast<double>(value));
+}
+
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule, int& value) {
+  long long whole = 0;
+  read_value(table, key, rule, whole);
+  value = static_cast<int>(whole);
+}
+
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule, double& value) {
+  if (rule.form == Form::kLeast || rule.form == Form::kMost) {
+    const std::vector<double> ends = table.numbers(key);
+    if (ends.size() != 2)
+      refuse("{}: '{}' has {} numbers: expected the least and the most", table.where(key), key, ends.size());
+    value = ends[rule.form == Form::kLeast ? 0 : 1];
+    return;
+  }
+  value = rule.above == 0 && !rule.most ? table.positive_number(key) : table.number(key);
+  check_limits(table, key, rule, value);
+  if (rule.form == Form::kDegrees) value *= std::numbers::pi / 180;
+}
+
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule, Vec3& value) {
+  if (rule.form != Form::kVector) {
+    value = table.space_point(key);
+    return;
+  }
+  const std::vector<double> v = table.numbers(key);
+  if (v.size() != 3) refuse("{}: '{}' must be three numbers [x, y, z]", table.where(key), key);
+  value = {v[0], v[1], v[2]};
+}
+
+void read_value(const TomlTable& table, const std::string& key, const Rule&, std::array<Vec3, 2>& value) {
+  const std::vector<Vec3> corners = table.space_points(key);
+  if (corners.size() != 2) throw InputError(table.where(key) + ": expected two opposite corners");
+  value = {corners[0], corners[1]};
+}
+
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule, std::vector<int>& value) {
+  value.clear();
+  for (const double n : table.numbers(key)) {
+    if (n != std::floor(n)) refuse("{}: {}: expected whole numbers", table.where(key), n);
+    check_limits(table, key, rule, n);
+    value.push_back(static_cast<int>(n));
+  }
+}
+
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
+                std::vector<std::string>& value) {
+  value = rule.form == Form::kTexts && table.kind(key) == TomlKind::kText ? std::vector{table.text(key)}
+                                                                          : table.texts(key);
 }
 
 namespace {
-
-/// A whole number between `least` and `most`.
-long long integer_between(const TomlTable& table, const std::string& key, long long least, long long most,
-                          long long absent) {
-  if (!table.has(key)) return absent;
-  const long long value = table.integer(key);
-  if (value >= least && value <= most) return value;
-  refuse("{}: '{}' is {}: expected {} to {}", table.where(key), key, value, least, most);
-}
 
 OptionValue read_value(const TomlTable& table, const OptionKey& key) {
   if (std::holds_alternative<bool>(key.value)) return table.flag(key.name, false);
@@ -119,120 +199,15 @@ void read_options(const TomlTable& table, const OptionGroup& group, Options& opt
   table.finish(keys_of(group));
 }
 
-SizeSource read_source(const TomlTable& table) {
-  table.require_known(source_keys());
-  const Vec3 at = table.space_point("at");
-  SizeSource source{at,
-                    table.has("to") ? table.space_point("to") : at,
-                    table.positive_number("near"),
-                    table.positive_number("far"),
-                    number_at_least(table, "radius_near", 0, 0),
-                    table.positive_number("radius_far")};
-  if (source.radius_far <= source.radius_near)
-    throw InputError(table.where("radius_far") + ": 'radius_far' must be larger than 'radius_near'");
-  table.finish(source_keys());
-  return source;
-}
-
-NamedSize read_named_size(const TomlTable& table) {
-  table.require_known(named_size_keys());
-  NamedSize named{.name = table.text("name"), .where = table.where()};
-  if (table.has("size")) named.size = table.positive_number("size");
-  named.reach = number_at_least(table, "reach", 0, 0);
-  if (table.has("growth")) named.growth = table.positive_number("growth");
-  named.curvature = number_at_least(table, "curvature", kLeastPerTurn, 0);
-  table.finish(named_size_keys());
-  if (!table.has("size") && !table.has("curvature"))
-    throw InputError(table.where() + ": '" + named.name + "' gets no size: expected 'size' or 'curvature'");
-  return named;
-}
-
-constexpr long long kMostDivided = 100'000'000;
-
-CurveDivision read_division(const TomlTable& table) {
-  table.require_known(division_keys());
-  CurveDivision division{.name = table.text("name"), .where = table.where()};
-  if (!table.has("edges")) table.integer("edges");  // says that it is missing
-  division.edges = static_cast<int>(integer_between(table, "edges", 1, kMostDivided, 0));
-  for (const auto& [key, value] :
-       {std::pair("progression", &division.progression), std::pair("bump", &division.bump)})
-    if (table.has(key)) *value = table.positive_number(key);
-  table.finish(division_keys());
-  return division;
-}
-
-PeriodicPair read_periodic(const TomlTable& table) {
-  PeriodicPair pair{.from = table.text("from"), .to = table.text("to"), .motion = {}, .where = table.where()};
-  if (table.has("translate")) pair.motion.shift = table.space_point("translate");
-  if (table.has("rotate")) pair.motion.angle = table.number("rotate") * std::numbers::pi / 180;
-  if (table.has("centre")) pair.motion.centre = table.space_point("centre");
-  if (table.has("axis")) pair.motion.axis = table.space_point("axis");
-  if (!table.has("translate") && !table.has("rotate"))
-    throw InputError(table.where() + ": how '" + pair.from + "' moves to '" + pair.to +
-                     "' is missing: expected 'translate' or 'rotate'");
-  table.finish(periodic_keys());
-  return pair;
-}
-
-GridCorners read_grid_corners(const TomlTable& table) {
-  GridCorners corners{.region = table.text("name"), .corners = {}, .where = table.where()};
-  for (const auto& corner : table.texts_and_points("corners")) {
-    if (const auto* name = std::get_if<std::string>(&corner))
-      corners.corners.push_back({*name, {}});
-    else
-      corners.corners.push_back({{}, std::get<Vec3>(corner)});
-  }
-  table.finish(mapped_keys());
-  return corners;
-}
-
 MappedSpec read_mapped(const TomlTable& table) {
   MappedSpec mapped{.names = {}, .automatic = false, .where = table.where("mapped"), .corners = {}};
   if (table.kind("mapped") == TomlKind::kFlag)
     throw InputError(mapped.where + ": 'mapped' must be names of regions, or \"auto\"");
   auto [names, tables] = table.texts_and_tables("mapped");
   mapped.names = std::move(names);
-  if (table.kind("mapped") == TomlKind::kText) mapped.automatic = std::erase(mapped.names, "auto") > 0;
-  for (const TomlTable& one : tables) mapped.corners.push_back(read_grid_corners(one));
+  mapped.automatic = std::erase(mapped.names, "auto") > 0;
+  for (const TomlTable& one : tables) read_described(one, mapped.corners.emplace_back());
   return mapped;
-}
-
-LayerSpec read_layer(const TomlTable& table) {
-  table.require_known(layer_keys());
-  LayerSpec layer;
-  layer.where = table.where();
-  layer.on = table.kind("on") == TomlKind::kText ? std::vector{table.text("on")} : table.texts("on");
-  layer.first = table.positive_number("first");
-  layer.growth = table.number("growth", layer.growth);
-  layer.number = static_cast<int>(integer_between(table, "number", 1, 10000, 0));
-  if (table.has("thickness")) layer.thickness = table.positive_number("thickness");
-  layer.fan = table.number("fan", layer.fan);
-  if (table.has("into"))
-    layer.into =
-        table.kind("into") == TomlKind::kText ? std::vector{table.text("into")} : table.texts("into");
-  table.finish(layer_keys());
-  layer_heights(layer);
-  return layer;
-}
-
-/// `Spec`: WasherSpec or FilletRows.
-template <class Spec>
-Spec read_rows(const TomlTable& table, const std::string& range, const TomlKeys& keys) {
-  table.require_known(keys);
-  Spec spec;
-  spec.where = table.where();
-  const std::vector<double> ends = table.numbers(range);
-  if (ends.size() != 2)
-    throw InputError(fmt::format("{}: '{}' has {} numbers: expected the least and the most", spec.where,
-                                 range, ends.size()));
-  spec.least = ends[0], spec.most = ends[1];
-  spec.rows = static_cast<int>(integer_between(table, "rows", 1, 1000, spec.rows));
-  if constexpr (requires { spec.edges; }) {
-    spec.edges = static_cast<int>(integer_between(table, "edges", 4, kMostDivided, spec.edges));
-    if (table.has("width")) spec.width = table.positive_number("width");
-  }
-  table.finish(keys);
-  return spec;
 }
 
 SymmetrySpec read_symmetry(const TomlTable& table) {
@@ -245,62 +220,15 @@ SymmetrySpec read_symmetry(const TomlTable& table) {
     symmetry.automatic = true;
     return symmetry;
   }
-  for (const TomlTable& plane : table.tables("symmetry")) {
-    symmetry.planes.push_back({plane.space_point("point"), plane.space_point("normal")});
-    plane.finish(symmetry_keys());
-    if (norm(symmetry.planes.back().normal) == 0)
-      throw InputError(plane.where("normal") + ": the normal has no length");
-  }
+  for (const TomlTable& plane : table.tables("symmetry"))
+    read_described(plane, symmetry.planes.emplace_back());
   return symmetry;
 }
 
-SizeSpec read_size(const TomlTable& table) {
-  SizeSpec size;
-  size.where = table.where("size");
-  size.folder = table.file().parent_path();
-  if (table.kind("size") != TomlKind::kTable) {
-    size.text = table.expression("size");
-    return size;
-  }
-  const TomlTable fields = table.table("size");
-  fields.require_known(size_keys());
-  if (fields.has("base")) size.text = fields.expression("base");
-  for (const TomlTable& source : fields.tables("source")) size.sources.push_back(read_source(source));
-  for (const TomlTable& named : fields.tables("on")) size.named.push_back(read_named_size(named));
-  if (fields.has("gradation")) size.gradation = fields.positive_number("gradation");
-  size.curvature = number_at_least(fields, "curvature", kLeastPerTurn, 0);
-  if (fields.has("min")) size.min = fields.positive_number("min");
-  if (fields.has("max")) size.max = fields.positive_number("max");
-  fields.finish(size_keys());
-  check_size_limits(size);
-  return size;
-}
-
-MetricSpec read_metric_spec(const TomlTable& table) {
-  table.require_known(metric_spec_keys());
-  MetricSpec metric;
-  metric.where = table.where();
-  metric.folder = table.file().parent_path();
-  const auto formulas = [&](const char* key) {
-    return table.has(key) ? table.texts(key) : std::vector<std::string>();
-  };
-  metric.tensor = formulas("tensor");
-  metric.sizes = formulas("sizes");
-  metric.solution = table.text("solution", "");
-  metric.file = table.text("file", "");
-  if (table.has("tensor") + table.has("sizes") + table.has("solution") + table.has("file") +
-          table.has("chord") !=
-      1)
-    throw InputError(metric.where + ": expected one of 'tensor', 'sizes', 'solution', 'file' and 'chord'");
-  const auto length = [&](const char* key) { return table.has(key) ? table.positive_number(key) : 0; };
-  metric.chord = length("chord");
-  metric.limits = {length("min"), length("max"), number_at_least(table, "aspect", 1, 0)};
-  if (metric.limits.max > 0 && metric.limits.min > metric.limits.max)
-    throw InputError(table.where("min") + ": 'min' is larger than 'max'");
-  metric.gradation = number_at_least(table, "gradation", 1, 0);
-  metric.complexity = length("complexity");
-  table.finish(metric_spec_keys());
-  return metric;
+void read_size(const TomlTable& table, SizeSpec& size) {
+  if (table.kind("size") == TomlKind::kTable) return read_value(table, "size", {}, size);
+  size = {
+      .text = table.expression("size"), .folder = table.file().parent_path(), .where = table.where("size")};
 }
 
 void set_model(Model model, Case& target) {
@@ -359,86 +287,68 @@ void read_model_keys(const TomlTable& table, Case& target) {
   }
 }
 
-Vec3 read_vector(const TomlTable& table, const std::string& key) {
-  const std::vector<double> v = table.numbers(key);
-  if (v.size() != 3) refuse("{}: '{}' must be three numbers [x, y, z]", table.where(key), key);
-  return {v[0], v[1], v[2]};
+}  // namespace
+
+void finish_reading(const TomlTable& table, SizeSource& source) {
+  if (!table.has("to")) source.b = source.a;
+  if (source.radius_far <= source.radius_near)
+    throw InputError(table.where("radius_far") + ": 'radius_far' must be larger than 'radius_near'");
 }
 
-MirrorPlane read_mirror(const TomlTable& table, double weld_tolerance) {
-  MirrorPlane plane{read_vector(table, "point"), read_vector(table, "normal"), weld_tolerance};
+void finish_reading(const TomlTable& table, NamedSize& named) {
+  if (!table.has("size") && !table.has("curvature"))
+    throw InputError(table.where() + ": '" + named.name + "' gets no size: expected 'size' or 'curvature'");
+}
+
+void finish_reading(const TomlTable&, SizeSpec& size) { check_size_limits(size); }
+
+void finish_reading(const TomlTable& table, MetricSpec& metric) {
+  const int kinds = table.has("tensor") + table.has("sizes") + table.has("solution") + table.has("file") +
+                    table.has("chord");
+  if (kinds > 1 || (kinds == 0 && !table.is_of_options()))
+    throw InputError(metric.where + ": expected one of 'tensor', 'sizes', 'solution', 'file' and 'chord'");
+  if (metric.limits.max > 0 && metric.limits.min > metric.limits.max)
+    throw InputError(table.where("min") + ": 'min' is larger than 'max'");
+}
+
+void finish_reading(const TomlTable& table, PeriodicPair& pair) {
+  if (!table.has("translate") && !table.has("rotate"))
+    throw InputError(table.where() + ": how '" + pair.from + "' moves to '" + pair.to +
+                     "' is missing: expected 'translate' or 'rotate'");
+}
+
+void finish_reading(const TomlTable& table, SymmetryPlane& plane) {
+  if (norm(plane.normal) == 0) throw InputError(table.where("normal") + ": the normal has no length");
+}
+
+void finish_reading(const TomlTable& table, GridCorners& grid) {
+  for (const auto& corner : table.texts_and_points("corners")) {
+    if (const auto* name = std::get_if<std::string>(&corner))
+      grid.corners.push_back({*name, {}});
+    else
+      grid.corners.push_back({{}, std::get<Vec3>(corner)});
+  }
+}
+
+void finish_reading(const TomlTable&, LayerSpec& layer) { layer_heights(layer); }
+
+void finish_reading(const TomlTable& table, MirrorPlane& plane) {
   if (!(norm(plane.normal) > 0))
     throw InputError(table.where("normal") + ": the normal of the mirror's plane has no length");
-  if (table.has("tolerance"))
-    plane.tolerance =
-        checked_weld_tolerance(table.number("tolerance"), table.where("tolerance"), "tolerance");
-  plane.join = table.flag("join", plane.join);
-  table.finish(mirror_keys());
-  return plane;
 }
 
-NamedPart read_named_part(const TomlTable& table) {
-  table.require_known(named_part_keys());
-  NamedPart part{.name = table.text("as"), .where = table.where()};
-  const std::string of = table.text("of", "faces");
-  if (of != "faces" && of != "curves")
-    throw InputError(table.where("of") + ": '" + of + "': expected 'faces' or 'curves'");
-  part.curves = of == "curves";
-  if (table.has("number"))
-    for (const double n : table.numbers("number")) {
-      if (!(n >= 1 && n <= std::numeric_limits<int>::max() && n == std::floor(n)))
-        throw InputError(fmt::format("{}: {}: expected whole numbers from 1 on", table.where("number"), n));
-      part.numbers.push_back(static_cast<int>(n));
-    }
-  part.like = table.text("like", "");
-  if (table.has("box")) {
-    const std::vector<Vec3> corners = table.space_points("box");
-    if (corners.size() != 2) throw InputError(table.where("box") + ": expected two opposite corners");
-    part.box = {corners[0], corners[1]};
-  }
-  if (table.has("normal")) part.normal = read_vector(table, "normal");
-  if (table.has("at")) part.at = read_vector(table, "at");
-  table.finish(named_part_keys());
-  return part;
-}
-
-/// The keys of a [surface] table: compound, merge_curves, ignore_below, idealize, keep, feature_angle,
-/// weld_tolerance, mirror, glue, unit. Throws InputError with file and line.
-SurfaceSpec read_surface_spec(const TomlTable& table) {
-  SurfaceSpec spec;
-  spec.where = table.where();
+void finish_reading(const TomlTable& table, SurfaceSpec& surface) {
   if (table.kind("compound") == TomlKind::kText) {
-    spec.compounds = parse_compounds(table.text("compound"), table.where("compound"));
+    surface.compounds = parse_compounds(table.text("compound"), table.where("compound"));
   } else if (table.has("compound")) {
-    spec.compounds = Compounds::kGroups;
-    spec.groups = table.integer_lists("compound");
-    for (const auto& group : spec.groups)
+    surface.compounds = Compounds::kGroups;
+    surface.groups = table.integer_lists("compound");
+    for (const auto& group : surface.groups)
       if (group.size() < 2) throw InputError(table.where("compound") + ": a compound has two faces or more");
   }
-  if (table.has("ignore_below")) spec.ignore_below = table.positive_number("ignore_below");
-  spec.idealize = table.flag("idealize", false);
-  if (table.has("keep")) spec.keep = table.texts("keep");
-  for (const TomlTable& part : table.tables("name")) spec.names.push_back(read_named_part(part));
-  if (table.has("fill_holes")) spec.fill_holes = table.positive_number("fill_holes");
-  if (table.has("simplify")) spec.simplify = number_at_least(table, "simplify", 0, 0);
-  if (table.has("merge_curves")) spec.merge_curves = table.positive_number("merge_curves");
-  if (table.has("feature_angle"))
-    spec.feature_angle = checked_feature_angle(table.number("feature_angle"), table.where("feature_angle"));
-  if (table.has("weld_tolerance"))
-    spec.weld_tolerance =
-        checked_weld_tolerance(table.number("weld_tolerance"), table.where("weld_tolerance"));
-  if (const auto mirror = table.optional_table("mirror"))
-    spec.mirror = read_mirror(*mirror, spec.weld_tolerance.value_or(TriangulatedOptions{}.weld_tolerance));
-  spec.glue = table.flag("glue", false);
-  if (table.has("unit")) {
-    spec.unit = table.text("unit");
-    located(table.where("unit"), [&] { length_unit(spec.unit); });
-  }
-  table.finish(surface_keys());
-  return spec;
+  if (const auto mirror = table.optional_table("mirror"); mirror && !mirror->has("tolerance"))
+    surface.mirror->tolerance = surface.weld_tolerance.value_or(TriangulatedOptions{}.weld_tolerance);
 }
-
-}  // namespace
 
 Criteria read_criteria(const std::string& preset_or_file) {
   return read_text(preset_or_file, {}, "criteria");
@@ -466,36 +376,21 @@ std::filesystem::path model_path(const MeshProblem& problem) {
 
 void read_case_keys(const TomlTable& table, Case& target) {
   read_model_keys(table, target);
-  if (const auto surface = table.optional_table("surface")) {
-    std::vector<EmbeddedLine> embed = std::move(target.surface.embed);
-    target.surface = read_surface_spec(*surface);
-    target.surface.embed = std::move(embed);
-  }
+  std::vector<EmbeddedLine> embed = std::move(target.surface.embed);
+  for_each_field(static_cast<MeshProblem&>(target), [&](const FieldInfo& info, auto& member) {
+    // At the top of an experiment [[metric]] is a measure.
+    if (info.rule.form != Form::kPlain || table.kind(info.key) == TomlKind::kNone) return;
+    if (info.key == std::string("metric") && table.kind(info.key) != TomlKind::kTable) return;
+    if constexpr (requires { read_value(table, info.key, info.rule, member); })
+      read_value(table, info.key, info.rule, member);
+  });
+  target.surface.embed = std::move(embed);
   if (table.has("embed") && !has_planar_model(table)) target.surface.embed = read_embedded_lines(table);
-  if (table.has("layer")) target.layers.clear();
-  for (const TomlTable& layer : table.tables("layer")) target.layers.push_back(read_layer(layer));
-  if (table.has("washers")) target.washers.clear();
-  for (const TomlTable& washer : table.tables("washers"))
-    target.washers.push_back(read_rows<WasherSpec>(washer, "diameter", washer_keys()));
-  if (table.has("fillet_rows")) target.fillet_rows.clear();
-  for (const TomlTable& fillet : table.tables("fillet_rows"))
-    target.fillet_rows.push_back(read_rows<FilletRows>(fillet, "radius", fillet_keys()));
-  if (table.has("size")) target.size = read_size(table);
-  if (table.kind("metric") == TomlKind::kTable) target.metric = read_metric_spec(table.table("metric"));
-  if (table.has("divide")) target.divisions.clear();
-  for (const TomlTable& division : table.tables("divide"))
-    target.divisions.push_back(read_division(division));
+  if (table.has("size")) read_size(table, target.size);
   if (table.has("mapped")) target.mapped = read_mapped(table);
   if (table.has("symmetry")) target.symmetry = read_symmetry(table);
-  if (table.has("periodic")) target.periodic.clear();
-  for (const TomlTable& pair : table.tables("periodic")) target.periodic.push_back(read_periodic(pair));
   if (table.has("cross")) target.cross = {.text = table.expression("cross"), .where = table.where("cross")};
   if (table.has("criteria")) target.criteria = read_criteria_key(table);
-  target.order = static_cast<int>(integer_between(table, "order", 1, kMostOrder, target.order));
-  if (table.has("refine")) target.refine = table.positive_number("refine");
-  if (table.has("quads"))
-    target.quads = integer_between(table, "quads", 1, std::numeric_limits<long long>::max(), 0);
-  target.seed = integer_between(table, "seed", 0, std::numeric_limits<long long>::max(), target.seed);
   for (const OptionGroup& group : option_groups())
     if (const auto given = table.optional_table(group.name)) read_options(*given, group, target.options);
   if (const auto compare = table.optional_table("compare"))

@@ -19,9 +19,6 @@ void read_case_keys(const TomlTable& table, Case& target);
 /// the file does not say. Throws InputError for other extensions and for experiment files.
 Case read_model_case(const std::filesystem::path& file, const Case& defaults = {});
 
-/// Throws InputError with file and line where it is less.
-double number_at_least(const TomlTable& table, const std::string& key, double least, double absent);
-
 /// "all" or "tangent". Throws InputError, beginning with `where`, for anything else.
 Compounds parse_compounds(const std::string& text, const std::string& where);
 

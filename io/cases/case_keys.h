@@ -19,23 +19,8 @@ TomlKeys pattern_keys();
 TomlKeys circle_keys();
 TomlKeys arc_keys();
 TomlKeys expression_keys();
-TomlKeys named_part_keys();
-TomlKeys surface_keys();
-TomlKeys mirror_keys();
-TomlKeys named_size_keys();
-TomlKeys mapped_keys();
-TomlKeys symmetry_keys();
-TomlKeys periodic_keys();
-TomlKeys division_keys();
-TomlKeys size_keys();
-TomlKeys source_keys();
-TomlKeys layer_keys();
-TomlKeys washer_keys();
-TomlKeys fillet_keys();
-TomlKeys metric_spec_keys();
 TomlKeys criteria_keys();
 TomlKeys named_criteria_keys();
-TomlKeys material_keys();
 /// The options of a group.
 TomlKeys keys_of(const OptionGroup& group);
 
@@ -45,14 +30,20 @@ inline const std::string kText = R"({"type": "string"})";
 inline const std::string kFlag = R"({"type": "boolean"})";
 inline const std::string kNumber = R"({"type": "number"})";
 inline const std::string kPositive = R"({"type": "number", "exclusiveMinimum": 0})";
-inline const std::string kSize = R"({"type": ["number", "string"], "exclusiveMinimum": 0})";
 inline const std::string kExpression = R"({"type": ["number", "string"]})";
 inline const std::string kTexts = R"({"type": "array", "items": {"type": "string"}})";
-/// A number, or integer, that is at least `least`.
-std::string at_least(const std::string& type, double least);
+inline const std::string kTextOrTexts = R"({"type": ["string", "array"], "items": {"type": "string"}})";
+inline const std::string kIntegers = R"({"type": "array", "items": {"type": "integer"}})";
+inline const std::string kRange =
+    R"({"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2})";
+inline const std::string kSpacePoint =
+    R"({"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 3})";
+inline const std::string kVector =
+    R"({"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3})";
+/// A list of at least so many points.
+std::string points(int least, const std::string& point);
+/// A number, or integer, within limits.
 std::string between(const std::string& type, double least, double most);
-/// Above `low`.
-std::string above(double low, double most);
 std::string one_of(const std::vector<std::string>& texts);
 }  // namespace toml_types
 

@@ -55,10 +55,12 @@ struct TomlTable::Data {
   std::set<std::string> asked;
   std::shared_ptr<const TomlChoices> choices;  // null: none
   std::string below;  // dotted path from the table with choices, with its dot at the end
+  std::shared_ptr<const std::vector<std::string>> options = nullptr;  // by line, in place of a file
 
-  std::string place(const toml::node& node) const {
-    return file.string() + ":" + std::to_string(node.source().begin.line);
+  std::string place(unsigned line) const {
+    return options ? options->at(line - 1) : file.string() + ":" + std::to_string(line);
   }
+  std::string place(const toml::node& node) const { return place(node.source().begin.line); }
   /// As the file has it: what was chosen stands in another table.
   std::string name(const std::string& key) const {
     return is_chosen(below + key) ? choices->values.lower_bound(below + key)->second.path + "." + below + key
@@ -102,7 +104,7 @@ struct TomlTable::Data {
   }
   const toml::node& need(const std::string& key, const std::string& what) {
     const toml::node* node = find(key);
-    if (!node) refuse("{}:{}: '{}' is missing: expected {}", file.string(), line(), name(key), what);
+    if (!node) refuse("{}: '{}' is missing: expected {}", place(line()), name(key), what);
     return *node;
   }
   unsigned line() const { return std::max(1u, static_cast<unsigned>(table->source().begin.line)); }
@@ -135,7 +137,7 @@ struct TomlTable::Data {
     return result;
   }
   std::shared_ptr<Data> child(const toml::table& inner, const std::string& inner_path) const {
-    return std::make_shared<Data>(Data{root, &inner, file, inner_path, {}, nullptr, ""});
+    return std::make_shared<Data>(Data{root, &inner, file, inner_path, {}, nullptr, "", options});
   }
 };
 
@@ -154,8 +156,28 @@ TomlTable TomlTable::read(const std::filesystem::path& file) {
   }
 }
 
+TomlTable TomlTable::of_options(const std::vector<std::pair<std::string, std::string>>& lines) {
+  std::string text;
+  auto names = std::make_shared<std::vector<std::string>>();
+  for (const auto& [name, line] : lines) {
+    text += line + "\n";
+    names->push_back(name);
+  }
+  names->push_back(names->empty() ? "" : names->back());  // the end of the text
+  try {
+    auto root = std::make_shared<const toml::table>(toml::parse(text));
+    const toml::table* top = root.get();
+    return TomlTable(
+        std::make_shared<Data>(Data{std::move(root), top, "", "", {}, nullptr, "", std::move(names)}));
+  } catch (const toml::parse_error& error) {
+    refuse("{}: {}", names->at(error.source().begin.line - 1), error.description());
+  }
+}
+
+bool TomlTable::is_of_options() const { return data_->options != nullptr; }
+
 const std::filesystem::path& TomlTable::file() const { return data_->file; }
-std::string TomlTable::where() const { return data_->file.string() + ":" + std::to_string(data_->line()); }
+std::string TomlTable::where() const { return data_->place(data_->line()); }
 std::string TomlTable::where(const std::string& key) const {
   const toml::node* node = data_->find(key);
   return node ? data_->place(*node) : where();
@@ -402,11 +424,10 @@ void TomlTable::require_among(const std::vector<std::string>& known) const {
   for (const std::string& name : data_->keys()) {
     if (std::ranges::find(known, name) != known.end()) continue;
     const auto key = data_->table->find(name);
-    std::string place = data_->file.string() + ":";
-    if (key != data_->table->end())
-      place += std::to_string(key->first.source().begin.line);
-    else
-      place = data_->place(*data_->choices->values.lower_bound(data_->below + name)->second.node);
+    const std::string place =
+        key != data_->table->end()
+            ? data_->place(key->first.source().begin.line)
+            : data_->place(*data_->choices->values.lower_bound(data_->below + name)->second.node);
     std::string message = place + ": unknown key '" + data_->name(name) + "'";
     if (const std::string near = suggestion(name, known); !near.empty()) throw InputError(message + near);
     message += "; known here:";

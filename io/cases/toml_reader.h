@@ -37,6 +37,11 @@ class TomlTable {
  public:
   /// Throws InputError when the file cannot be read or is not TOML.
   static TomlTable read(const std::filesystem::path& file);
+  /// Keys that change a problem one by one, each as the name of an option, for messages, and a line of TOML.
+  static TomlTable of_options(const std::vector<std::pair<std::string, std::string>>& lines);
+  /// Whether it is made of options: what it lacks stays as it is, inside of tables, too, and lists of tables
+  /// become longer.
+  bool is_of_options() const;
 
   const std::filesystem::path& file() const;
   /// "file:line" of the table.

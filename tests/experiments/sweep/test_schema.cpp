@@ -8,7 +8,7 @@
 #include "delquad/error.h"
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/schema.h"
-#include "io/cases/case_keys.h"
+#include "io/cases/read_described.h"
 #include "tests/support/run_program.h"
 
 namespace delquad {
@@ -29,8 +29,8 @@ struct KeyPlace {
 
 std::vector<KeyPlace> places() {
   std::vector<KeyPlace> all = {{"", case_keys(), ""},
-                               {"size", size_keys(), "base = 1, curvature = 20, max = 100"},
-                               {"surface", surface_keys(), ""}};
+                               {"size", keys_of<SizeSpec>(), "base = 1, curvature = 20, max = 100"},
+                               {"surface", keys_of<SurfaceSpec>(), ""}};
   for (const OptionGroup& group : option_groups()) all.push_back({group.name, keys_of(group), ""});
   return all;
 }
