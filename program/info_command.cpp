@@ -20,7 +20,7 @@
 namespace delquad {
 namespace {
 
-struct InfoArguments : SurfaceArguments {
+struct InfoArguments : KeyArguments {
   std::filesystem::path model, json, output;
   std::optional<std::string> size;
 };
@@ -263,7 +263,7 @@ void print_difficulties(const ModelInfo& info, double size) {
 int info_command(const InfoArguments& arguments) {
   const double size = read_size(arguments.size);
   Case c = read_model_case(arguments.model);
-  set_surface(arguments, c);
+  set_keys(arguments, c);
   if (size > 0) c.size.text = *arguments.size;
   check_distinct({{"the model", arguments.model}, {"--json", arguments.json}, {"-o", arguments.output}});
   if (!arguments.json.empty()) check_output(arguments.json);

@@ -7,6 +7,8 @@
 #include "bindings/python/arrays.h"
 #include "bindings/python/problem.h"
 #include "geometry/mesh/check_mesh.h"
+#include "io/cases/case_file.h"
+#include "io/cases/case_keys.h"
 #include "io/mesh_formats.h"
 
 namespace delquad::python {
@@ -153,18 +155,23 @@ py::object judged(const Mesh& mesh, const Criteria& criteria, const std::optiona
   return dict_of(judge(mesh, criteria, constant.get()));
 }
 
+/// Keys of model files, each as the keyword that asks for it, for messages, and a line of TOML.
+using KeyLines = std::vector<std::pair<std::string, std::string>>;
+
+void set_keys(const KeyLines& lines, Case& c) {
+  const TomlTable table = TomlTable::of_options(lines);
+  table.require_known(case_keys());
+  read_case_keys(table, c);
+  table.finish();
+}
+
 void define_criteria(py::module_& m) {
   py::class_<Criteria>(m, "Criteria", "Limits that elements are judged by.")
-      .def(py::init<>())
-      .def(py::init(&read_criteria))
-      .def("set", [](Criteria& c, const std::string& key, const std::string& value,
-                     const std::string& on) { c.set(key, value, on); })
-      .def("material",
-           [](Criteria& c, double young, double poisson, double density) {
-             c.material = Material{young, poisson, density};
-           })
-      .def_readwrite("time_step_by", &Criteria::time_step_by)
-      .def_readwrite("strict", &Criteria::strict);
+      .def(py::init([](const KeyLines& lines) {
+        Case c;
+        set_keys(lines, c);
+        return c.criteria;
+      }));
   m.def("judge", &judged, arg("mesh"), arg("criteria"), arg("size"));
 }
 
@@ -220,12 +227,6 @@ void define_result(py::module_& m) {
       .def("_complaint", [](const Result& r) { return r.rest.soundness.complaint(); });
 }
 
-Compounds compounds_named(const std::string& name) {
-  if (name == "all") return Compounds::kAll;
-  if (name == "tangent") return Compounds::kTangent;
-  throw InputError("compounds: '" + name + "': expected 'all', 'tangent' or lists of faces' tags");
-}
-
 /// A problem that Python fills in.
 struct Problem : ModelHandle {
   explicit Problem(const ModelHandle& model) : ModelHandle(model) {}
@@ -240,16 +241,12 @@ struct Problem : ModelHandle {
   }
 };
 
-void define_size(py::class_<Problem>& c) {
-  c.def("size_number",
-        [](Problem& p, double size) {
-          p.new_size().field = located("size", [&] { return make_constant_size(size); });
+void define_fields(py::class_<Problem>& c) {
+  c.def("clear",
+        [](Problem& p, const std::string& what) {
+          if (what == "size") p.new_size();
+          if (what == "cross") p.problem.cross = {};
         })
-      .def("size_text",
-           [](Problem& p, const std::string& text) {
-             if (text.empty()) throw InputError("size: an empty text: expected a number or an expression");
-             p.new_size().text = text;
-           })
       .def("size_function",
            [](Problem& p, py::object function) {
              p.new_size();
@@ -260,90 +257,18 @@ void define_size(py::class_<Problem>& c) {
              p.new_size().field =
                  located("size", [&] { return make_nodal_size(mesh, read_numbers(values, "values")); });
            })
-      .def("add_source",
-           [](Problem& p, const py::object& a, const py::object& b, double size_near, double size_far,
-              double radius_near, double radius_far) {
-             p.problem.size.sources.push_back({read_vec3(a, "sources: a point"),
-                                               read_vec3(b, "sources: a point"), size_near, size_far,
-                                               radius_near, radius_far});
+      .def("cross_function",
+           [](Problem& p, py::object function) {
+             p.new_cross(CrossKind::kField);
+             p.callbacks.cross = std::move(function);
            })
-      .def(
-          "add_named_size",
-          [](Problem& p, const std::string& name, double size, double reach, double growth,
-             double curvature) {
-            p.problem.size.named.push_back({name, size, reach, growth, curvature, "size_on"});
-          },
-          py::arg("name"), py::arg("size") = 0, py::arg("reach") = 0,
-          py::arg("growth") = NamedSize::kNamedGrowth, py::arg("curvature") = 0)
-      .def(
-          "divide",
-          [](Problem& p, const std::string& name, int edges, double progression, double bump) {
-            p.problem.divisions.push_back({name, edges, progression, bump, "divide"});
-          },
-          py::arg("name"), py::arg("edges"), py::arg("progression") = 1, py::arg("bump") = 1)
-      .def(
-          "periodic",
-          [](Problem& p, const std::string& from, const std::string& to, const py::object& translate,
-             double rotate, const py::object& centre, const py::object& axis) {
-            p.problem.periodic.push_back(
-                {from,
-                 to,
-                 {read_vec3(translate, "periodic: translate"), rotate * std::numbers::pi / 180,
-                  read_vec3(centre, "periodic: centre"), read_vec3(axis, "periodic: axis")},
-                 "periodic"});
-          },
-          py::arg("from"), py::arg("to"), py::arg("translate"), py::arg("rotate"), py::arg("centre"),
-          py::arg("axis"))
-      .def("symmetry",
-           [](Problem& p, const std::vector<std::pair<py::object, py::object>>& planes, bool automatic) {
-             p.problem.symmetry = {{}, automatic, "symmetry"};
-             for (const auto& [point, normal] : planes)
-               p.problem.symmetry.planes.push_back(
-                   {read_vec3(point, "symmetry: the point"), read_vec3(normal, "symmetry: the normal")});
+      .def("cross_nodal",
+           [](Problem& p, const Mesh& mesh, const py::object& values) {
+             p.new_cross(CrossKind::kField).field =
+                 located("cross", [&] { return make_nodal_cross(mesh, read_numbers(values, "values")); });
            })
-      .def("mapped",
-           [](Problem& p, const std::vector<std::string>& names, bool automatic) {
-             p.problem.mapped = {names, automatic, "mapped", {}};
-           })
-      .def(
-          "add_washer",
-          [](Problem& p, std::array<double, 2> diameter, int rows, int edges, double width) {
-            p.problem.washers.push_back({diameter[0], diameter[1], rows, edges, width, "washers"});
-          },
-          py::arg("diameter"), py::arg("rows") = 1, py::arg("edges") = 0, py::arg("width") = 0)
-      .def(
-          "add_fillet_rows",
-          [](Problem& p, std::array<double, 2> radius, int rows) {
-            p.problem.fillet_rows.push_back({radius[0], radius[1], rows, "fillet_rows"});
-          },
-          py::arg("radius"), py::arg("rows") = 1)
-      .def("mapped_corners",
-           [](Problem& p, const std::string& name, const std::vector<py::object>& corners) {
-             GridCorners grid{name, {}, "mapped"};
-             for (const py::object& corner : corners) {
-               if (py::isinstance<py::str>(corner))
-                 grid.corners.push_back({corner.cast<std::string>(), {}});
-               else if (py::hasattr(corner, "__len__") && py::len(corner) == 2) {
-                 const Vec2 at = read_vec2(corner, "mapped: a corner");
-                 grid.corners.push_back({{}, {at.x, at.y, 0}});
-               } else
-                 grid.corners.push_back({{}, read_vec3(corner, "mapped: a corner")});
-             }
-             p.problem.mapped.corners.push_back(std::move(grid));
-           })
-      .def("size_limits",
-           [](Problem& p, const std::optional<double>& gradation, const std::optional<double>& curvature,
-              const std::optional<double>& min, const std::optional<double>& max) {
-             SizeSpec& size = p.problem.size;
-             if (gradation) size.gradation = *gradation;
-             if (curvature) size.curvature = *curvature;
-             if (min) size.min = *min;
-             if (max) size.max = *max;
-           });
-}
-
-void define_metric(py::class_<Problem>& c) {
-  c.def("metric_function", [](Problem& p, py::object function) { p.callbacks.metric = std::move(function); })
+      .def("metric_function",
+           [](Problem& p, py::object function) { p.callbacks.metric = std::move(function); })
       .def("metric_nodal",
            [](Problem& p, const Mesh& mesh, const py::object& values) {
              if (const auto array = py::array::ensure(values);
@@ -359,118 +284,23 @@ void define_metric(py::class_<Problem>& c) {
              p.problem.metric.function =
                  located("metric", [&] { return make_nodal_metric(mesh, std::move(metric)); });
            })
-      .def("metric_texts",
-           [](Problem& p, const std::string& kind, const std::vector<std::string>& texts) {
-             MetricSpec& metric = p.problem.metric;
-             if (kind == "tensor")
-               metric.tensor = texts;
-             else if (kind == "sizes")
-               metric.sizes = texts;
-             else if (texts.size() == 1 && kind == "chord")
-               metric.chord = as_number(texts[0]).value_or(0);
-             else if (texts.size() == 1)
-               (kind == "solution" ? metric.solution : metric.file) = texts[0];
-           })
-      .def("metric_limits",
-           [](Problem& p, double min, double max, double aspect, double gradation, double complexity) {
-             p.problem.metric.limits = {min, max, aspect};
-             p.problem.metric.gradation = gradation;
-             p.problem.metric.complexity = complexity;
-           });
-}
-
-void define_cross(py::class_<Problem>& c) {
-  c.def("cross_text",
-        [](Problem& p, const std::string& text) {
-          if (text.empty()) throw InputError("cross: an empty text: expected 'boundary' or an angle");
-          p.problem.cross = {.text = text};
-        })
-      .def("cross_function",
-           [](Problem& p, py::object function) {
-             p.new_cross(CrossKind::kField);
-             p.callbacks.cross = std::move(function);
-           })
-      .def("cross_nodal", [](Problem& p, const Mesh& mesh, const py::object& values) {
-        p.new_cross(CrossKind::kField).field =
-            located("cross", [&] { return make_nodal_cross(mesh, read_numbers(values, "values")); });
+      .def("embed", [](Problem& p, const py::object& points, const std::string& name) {
+        p.problem.surface.embed.push_back({read_points(points, "embed: points"), name, "embed"});
       });
-}
-
-void define_layers(py::class_<Problem>& c) {
-  c.def("add_layer", [](Problem& p, const std::vector<std::string>& on, const std::vector<std::string>& into,
-                        double first, double growth, int number, double thickness, double fan) {
-    const std::string where = "layer " + std::to_string(p.problem.layers.size() + 1);
-    p.problem.layers.push_back({on, first, growth, number, thickness, fan, into, where});
-  });
-}
-
-void define_surface(py::class_<Problem>& c) {
-  c.def("compounds_named",
-        [](Problem& p, const std::string& name) { p.problem.surface.compounds = compounds_named(name); })
-      .def("compounds",
-           [](Problem& p, const std::vector<std::vector<int>>& groups) {
-             p.problem.surface.compounds = Compounds::kGroups;
-             p.problem.surface.groups = groups;
-           })
-      .def("mirror",
-           [](Problem& p, const py::object& point, const py::object& normal) {
-             p.problem.surface.mirror = MirrorPlane{read_vec3(point, "mirror: the point"),
-                                                    read_vec3(normal, "mirror: the normal"), 0};
-           })
-      .def("feature_angle", [](Problem& p, double degrees) { p.problem.surface.feature_angle = degrees; })
-      .def("weld", [](Problem& p, double tolerance) { p.problem.surface.weld_tolerance = tolerance; })
-      .def("embed",
-           [](Problem& p, const py::object& points, const std::string& name) {
-             p.problem.surface.embed.push_back({read_points(points, "embed: points"), name, "embed"});
-           })
-      .def(
-          "name_part",
-          [](Problem& p, const std::string& name, const std::string& of, const std::vector<int>& number,
-             const std::string& like, const py::object& box, const py::object& normal, const py::object& at) {
-            NamedPart part{.name = name, .curves = of == "curves", .numbers = number, .like = like};
-            part.where = "names: '" + name + "'";
-            if (of != "faces" && !part.curves)
-              throw InputError(part.where + ": of '" + of + "': expected 'faces' or 'curves'");
-            if (!box.is_none()) {
-              const std::vector<Vec3> corners = read_points(box, part.where + ": the box");
-              if (corners.size() != 2) throw InputError(part.where + ": a box has two corners");
-              part.box = {corners[0], corners[1]};
-            }
-            if (!normal.is_none()) part.normal = read_vec3(normal, part.where + ": the normal");
-            if (!at.is_none()) part.at = read_vec3(at, part.where + ": the place");
-            p.problem.surface.names.push_back(part);
-          },
-          py::arg("name"), py::arg("of") = "faces", py::arg("number") = std::vector<int>(),
-          py::arg("like") = "", py::arg("box") = py::none(), py::arg("normal") = py::none(),
-          py::arg("at") = py::none())
-      .def("unit", [](Problem& p, const std::string& name) { p.problem.surface.unit = name; })
-      .def("glue", [](Problem& p, bool yes) { p.problem.surface.glue = yes; })
-      .def("fill_holes", [](Problem& p, double diameter) { p.problem.surface.fill_holes = diameter; })
-      .def("simplify", [](Problem& p, double sizes) { p.problem.surface.simplify = sizes; })
-      .def("ignore_below", [](Problem& p, double length) { p.problem.surface.ignore_below = length; })
-      .def("idealize", [](Problem& p, bool yes) { p.problem.surface.idealize = yes; })
-      .def("keep",
-           [](Problem& p, std::vector<std::string> names) { p.problem.surface.keep = std::move(names); })
-      .def("merge_curves", [](Problem& p, double length) { p.problem.surface.merge_curves = length; });
 }
 
 void define_problem(py::module_& m) {
   py::class_<Problem> c(m, "Problem", "A model with all that is asked of its mesh.");
   c.def(py::init<const ModelHandle&>());
-  define_size(c);
-  define_metric(c);
-  define_cross(c);
-  define_layers(c);
-  define_surface(c);
-  c.def("option", [](Problem& p, const std::string& name, const OptionValue& value) {
-    p.problem.options.set(name, value);
-  });
-  c.def("criteria", [](Problem& p, const Criteria& criteria) { p.problem.criteria = criteria; });
-  c.def("name", [](Problem& p, const std::string& name) { p.problem.name = name; })
-      .def("seed", [](Problem& p, long long seed) { p.problem.seed = seed; })
-      .def("order", [](Problem& p, int order) { p.problem.order = order; })
-      .def("refine", [](Problem& p, double by) { p.problem.refine = by; })
-      .def("quads", [](Problem& p, long long n) { p.problem.quads = n; })
+  define_fields(c);
+  c.def("set",
+        [](Problem& p, const KeyLines& lines) {
+          Case c;
+          static_cast<MeshProblem&>(c) = std::move(p.problem);
+          set_keys(lines, c);
+          p.problem = std::move(c);
+        })
+      .def("name", [](Problem& p, const std::string& name) { p.problem.name = name; })
       .def("max_elements", [](Problem& p, long long n) { p.problem.max_elements = n; })
       .def("keep_going", [](Problem& p, bool yes) { p.problem.keep_going = yes; })
       .def("progress", [](Problem& p, py::object function) { p.callbacks.progress = std::move(function); })

@@ -71,7 +71,7 @@ TEST(Criteria, AreAnErrorWhenStrict) {
   const ProgramResult none =
       delquad({"mesh", model, "-o", folder / "m.msh", "--size", "0.4", "--criteria", ""});
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_TRUE(contains(none.err, "--criteria: it is empty")) << none.err;
+  EXPECT_TRUE(contains(none.err, "--criteria: unknown criteria ''")) << none.err;
   const ProgramResult alone = delquad({"mesh", model, "-o", folder / "m.msh", "--size", "0.4", "--strict"});
   EXPECT_EQ(alone.exit_code, 2);
   EXPECT_TRUE(contains(alone.err, "expected --criteria")) << alone.err;
@@ -127,9 +127,9 @@ TEST(Washers, AreToldOnTheCommandLine) {
   for (const auto& [text, part] :
        {std::pair("5-7", "expected LEAST-MOST:ROWS, perhaps with :EDGES and :WIDTH"),
         {"5-7:2:15", "15 edges around holes: expected an even number"},
-        {"5-7:0", "0 rows: expected at least 1"},
-        {"5-7:-1", "expected LEAST-MOST:ROWS"},
-        {"5-7:1.5", "expected LEAST-MOST:ROWS"},
+        {"5-7:0", "'rows' is 0: expected 1 to 1000"},
+        {"5-7:-1", "'rows' is -1: expected 1 to 1000"},
+        {"5-7:1.5", "--washers 5-7:1.5: 'washers.rows' must be an integer"},
         {"5-x:2", "expected LEAST-MOST:ROWS"},
         {"7-5:2", "diameters from 7 to 5"}}) {
     const ProgramResult bad = run(text);

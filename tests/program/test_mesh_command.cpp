@@ -59,7 +59,7 @@ TEST(MeshCommand, SizesAreDividedAndFoundByNumber) {
   for (const auto& [given, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{"--quads", "100"}, "refine"},
            {{"--quads", "100", "--size", "0.1"}, "--size and --quads"},
-           {{"--quads", "0"}, "whole number"},
+           {{"--quads", "0"}, "--quads: 'quads' is 0: expected at least 1"},
            {{"--refine", "-1"}, "> 0"}}) {
     std::vector<std::string> command = {"mesh", model, "-o", folder / "no.msh"};
     command.insert(command.end(), given.begin(), given.end());
@@ -147,15 +147,15 @@ TEST(MeshCommand, QualityChoosesWordAndCross) {
     return read_text(folder / "record.json");
   };
   const auto has = [](const std::string& text, const std::string& word, const std::string& cross) {
-    return contains(text, "\"pipeline\": \"" + word + "\"") && contains(text, "\"cross\": \"" + cross + "\"");
+    return contains(text, "\"pipeline\": \"" + word + "\"") && contains(text, cross);
   };
-  EXPECT_TRUE(has(record({}), "DBQO", "size-aware"));
-  EXPECT_TRUE(has(record({"--quality", "fast"}), "DB", "boundary"));
-  EXPECT_TRUE(has(record({"--quality", "good"}), "DBQO", "size-aware"));
-  EXPECT_TRUE(has(record({"--quality", "best"}), "DBCQO", "size-aware"));
+  EXPECT_TRUE(has(record({}), "DBQO", "\"kind\": \"size-aware\""));
+  EXPECT_TRUE(has(record({"--quality", "fast"}), "DB", "\"kind\": \"boundary\""));
+  EXPECT_TRUE(has(record({"--quality", "good"}), "DBQO", "\"kind\": \"size-aware\""));
+  EXPECT_TRUE(has(record({"--quality", "best"}), "DBCQO", "\"kind\": \"size-aware\""));
   // What is said elsewhere counts.
-  EXPECT_TRUE(has(record({"--cross", "0.1"}), "DBQO", "0.1"));
-  EXPECT_TRUE(has(record({"--pipeline", "DBC"}), "DBC", "boundary"));
+  EXPECT_TRUE(has(record({"--cross", "0.1"}), "DBQO", "\"text\": \"0.1\""));
+  EXPECT_TRUE(has(record({"--pipeline", "DBC"}), "DBC", "\"text\": null"));
 }
 
 TEST(MeshCommand, StagesAreToldByOptions) {
@@ -168,8 +168,14 @@ TEST(MeshCommand, StagesAreToldByOptions) {
   ASSERT_EQ(with("regularity.tolerance=7.5").exit_code, 0);
   EXPECT_TRUE(contains(read_text(folder / "record.json"), "\"tolerance\": 7.5"));
   EXPECT_EQ(with("recombination.solver=lemon").exit_code, 0);
+  // Any key of model files will do.
+  ASSERT_EQ(with("size.max=0.05").exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder / "record.json"), "\"max\": 0.05"));
+  ASSERT_EQ(with("layer={ on = \"wall\", first = 0.01, number = 2 }").exit_code, 2)
+      << "no curve has that name";
+  EXPECT_EQ(with("order=2").exit_code, 0);
   for (const char* bad : {"regularity.tolerance", "regularity.tolerance=-1", "regularity.tolerance=much",
-                          "regularity.tolerence=1", "=1"}) {
+                          "regularity.tolerence=1", "surface.glew=true", "=1"}) {
     const ProgramResult result = with(bad);
     EXPECT_EQ(result.exit_code, 2) << bad;
     EXPECT_TRUE(contains(result.err, "--set")) << result.err;

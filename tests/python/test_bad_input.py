@@ -59,7 +59,7 @@ def test_models_that_fail_when_they_are_meshed(tmp_path):
     says(delquad.InputError, "none.step", tmp_path / "none.step", 1)
     says(delquad.InputError, "unknown kind", tmp_path / "a.xyz", 1)
     says(TypeError, "model: expected", 17, 1)
-    says(TypeError, "option", square(), 1, options={"insertion.h_max": [1.5]})
+    says(delquad.InputError, "options: 'insertion.h_max' must be a finite number", square(), 1, options={"insertion.h_max": [1.5]})
     (tmp_path / "broken.msh").write_bytes(b"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2 3")
     says(delquad.InputError, "broken.msh", tmp_path / "broken.msh", 1)
 
@@ -68,9 +68,9 @@ def test_models_that_fail_when_they_are_meshed(tmp_path):
     "named, pattern",
     [
         ({}, "expected a size"),
-        ({"size": 0}, "finite and positive"),
-        ({"size": -1}, "finite and positive"),
-        ({"size": float("nan")}, "finite and positive"),
+        ({"size": 0}, "size: size 0: expected a finite number > 0"),
+        ({"size": -1}, "size: size -1: expected a finite number > 0"),
+        ({"size": float("nan")}, "size: .* must be a finite number"),
         ({"size": ""}, "size"),
         ({"size": "x +"}, "size: .*x +"),
         ({"size": 0.1, "word": "XY"}, "X"),
@@ -78,15 +78,15 @@ def test_models_that_fail_when_they_are_meshed(tmp_path):
         ({"size": 0.1, "word": "BD"}, "B"),
         ({"size": 0.1, "quality": "superb"}, "superb.*fast, good, best, regular"),
         ({"size": 0.1, "quality": "good", "word": "DB"}, "exclude each other"),
-        ({"size": 0.1, "gradation": -1}, "gradation -1"),
+        ({"size": 0.1, "gradation": -1}, "gradation: 'size.gradation' must be a number > 0"),
         ({"size": 0.1, "min_size": 0.01}, "'curvature' too"),
         ({"size": 0.1, "feature_angle": 30}, "planar"),
         ({"size": 0.1, "max_elements": 0}, "at most 0 elements"),
         ({"size": 1e-5}, "more than the"),
-        ({"size": 0.1, "seed": -1}, "seed -1"),
-        ({"size": 0.1, "sources": [((0, 0, 0), (0, 0, 0), 0, 1, 0, 1)]}, "size source 1"),
+        ({"size": 0.1, "seed": -1}, "seed: 'seed' is -1"),
+        ({"size": 0.1, "sources": [((0, 0, 0), (0, 0, 0), 0, 1, 0, 1)]}, "sources: 'size.source.near' must be a number > 0"),
         ({"size": 0.1, "cross": "sideways"}, "cross"),
-        ({"size": 0.1, "options": {"insertion.h_mix": 1.5}}, "insertion.h_mix.*insertion.h_max"),
+        ({"size": 0.1, "options": {"insertion.h_mix": 1.5}}, "options: unknown key 'insertion.h_mix'; did you mean 'h_max'"),
         ({"size": 0.1, "options": {"insertion.h_max": 100}}, "insertion.h_max"),
         ({"size": 0.1, "options": {"insertion.h_max": True}}, "insertion.h_max"),
     ],
@@ -98,10 +98,10 @@ def test_problems(named, pattern):
 def test_surfaces():
     model = delquad.triangles(*octahedron())
     says(delquad.InputError, "a surface needs a size", model)
-    says(delquad.InputError, "feature angle 200", model, 0.2, feature_angle=200)
-    says(delquad.InputError, "weld tolerance 2", model, 0.2, weld=2)
-    says(delquad.InputError, "curvature 1", model, 0.2, curvature=1)
-    says(delquad.InputError, "compounds: 'some'", model, 0.2, compounds="some")
+    says(delquad.InputError, "feature_angle: 'feature_angle' is 200", model, 0.2, feature_angle=200)
+    says(delquad.InputError, "weld: 'weld_tolerance' is 2", model, 0.2, weld=2)
+    says(delquad.InputError, "curvature: 'curvature' is 1", model, 0.2, curvature=1)
+    says(delquad.InputError, "compounds: compound 'some'", model, 0.2, compounds="some")
     says(delquad.InputError, "no face 77", model, 0.2, compounds=[[1, 77]])
     says(delquad.InputError, "surface takes its crosses", model, 0.2, cross=lambda x: x[:, 0])
 

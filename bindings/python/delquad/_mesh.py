@@ -1,7 +1,9 @@
 """mesh(), and models that are given as Python values."""
 
+import json
 import numbers
 import os
+from collections.abc import Iterable, Mapping
 
 from . import _core
 
@@ -50,122 +52,80 @@ def _as_model(model):
     )
 
 
-def _set_field(problem, what, value):
-    """A size or cross: a text, a function, or values at the points of a mesh."""
-    if isinstance(value, str):
-        getattr(problem, what + "_text")(value)
-    elif callable(value):
+def _toml(value):
+    """A value as TOML writes it."""
+    if hasattr(value, "tolist"):  # of numpy
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (str, os.PathLike)):
+        return json.dumps(os.fspath(value), ensure_ascii=False)
+    if isinstance(value, numbers.Real):
+        return repr(value if isinstance(value, numbers.Integral) else float(value))
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{json.dumps(str(key))} = {_toml(one)}" for key, one in value.items()) + "}"
+    if isinstance(value, Iterable):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    raise TypeError(f"expected numbers, texts, lists or dictionaries, got {type(value).__name__}")
+
+
+def _line(keyword, key, value):
+    """A key of model files that a keyword stands for."""
+    try:
+        return keyword, f"{key} = {_toml(value)}"
+    except TypeError as error:
+        raise TypeError(f"{keyword}: {error}") from None
+
+
+def _set_field(problem, what, key, value):
+    """A size or cross: a number, a text, a function, or values at the points of a mesh."""
+    if callable(value):
         getattr(problem, what + "_function")(value)
     elif isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], _core.Mesh):
         getattr(problem, what + "_nodal")(*value)
+    elif isinstance(value, str) or hasattr(value, "__float__"):
+        problem.clear(what)
+        return [_line(what, key, value if isinstance(value, str) else float(value))]
     else:
-        return False
-    return True
-
-
-def _set_size(problem, size):
-    if _set_field(problem, "size", size):
-        return
-    try:
-        number = float(size)
-    except (TypeError, ValueError):
         raise TypeError(
-            "size: expected a number, a function of points, a text, or a mesh and values at its points, got "
-            + type(size).__name__
-        ) from None
-    problem.size_number(number)
+            f"{what}: expected a number, a text, a function of points, or a mesh and values at its points, got "
+            + type(value).__name__
+        )
+    return []
 
 
 def _set_metric(problem, metric):
-    asked = dict(metric) if isinstance(metric, dict) else {"tensor": metric}
-    limits = [float(asked.pop(key, 0)) for key in ("min", "max", "aspect", "gradation", "complexity")]
-    if len(asked) != 1 or not asked.keys() <= {"tensor", "sizes", "solution", "file", "chord"}:
-        raise TypeError(
-            "metric: expected one of 'tensor', 'sizes', 'solution', 'file' and 'chord', with 'min', 'max', 'aspect', "
-            f"'gradation' and 'complexity', got {', '.join(asked) or 'none'}"
-        )
-    [(kind, given)] = asked.items()
-    if callable(given):
-        problem.metric_function(given)
-    elif kind == "tensor" and len(given) == 2:
-        problem.metric_nodal(*given)
-    else:
-        problem.metric_texts(kind, [str(given)] if kind in ("solution", "file", "chord") else [str(text) for text in given])
-    problem.metric_limits(*limits)
+    asked = dict(metric) if isinstance(metric, Mapping) else {"tensor": metric}
+    kinds = asked.keys() & {"tensor", "sizes", "solution", "file", "chord"}
+    if len(kinds) != 1:
+        raise TypeError("metric: expected one of 'tensor', 'sizes', 'solution', 'file' and 'chord'")
+    [kind] = kinds
+    if callable(asked[kind]):
+        problem.metric_function(asked.pop(kind))
+    elif kind == "tensor" and len(asked[kind]) == 2:
+        problem.metric_nodal(*asked.pop(kind))
+    return [_line("metric", f"metric.{key}", value) for key, value in asked.items()]
 
 
-def _set_cross(problem, cross):
-    if not _set_field(problem, "cross", cross):
-        raise TypeError(
-            "cross: expected 'boundary', 'size-aware', 'gradient', an angle as text, a function of points, or a "
-            "mesh and angles at its points, got " + type(cross).__name__
-        )
+def _named(keyword, given, plain, key="name"):
+    """Tables with their names, from {name: table or the value of one key}."""
+    if not isinstance(given or {}, Mapping):
+        raise _core.InputError(f"{keyword}: {given!r}: expected a dictionary of names")
+    return [{key: name, **(one if isinstance(one, Mapping) else {plain: one})} for name, one in (given or {}).items()]
 
 
-_LAYER = {"first": float, "growth": float, "number": int, "thickness": float, "fan": float}
-
-
-def _add_layer(problem, layer):
-    values = {"growth": 1.2, "number": 0, "thickness": 0, "fan": 60, **layer}
-    on = values.pop("on", None)
-    into = values.pop("into", [])
-    unknown = sorted(set(values) - set(_LAYER))
-    if on is None or unknown or "first" not in values:
-        raise _core.InputError(
-            "layers: expected 'on', 'first' and either 'number' or 'thickness', perhaps 'growth', 'fan' and 'into'"
-            + (f", got '{unknown[0]}'" if unknown else "")
-        )
-    names = [[given] if isinstance(given, str) else list(given) for given in (on, into)]
-    problem.add_layer(*names, *(read(values[key]) for key, read in _LAYER.items()))
-
-
-def _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, idealize, keep, fill_holes, simplify, mirror, glue, unit):
-    if isinstance(compounds, str):
-        problem.compounds_named(compounds)
-    elif compounds is not None:
-        problem.compounds([[int(tag) for tag in group] for group in compounds])
-    if feature_angle is not None:
-        problem.feature_angle(feature_angle)
-    if weld is not None:
-        problem.weld(weld)
-    if merge_curves is not None:
-        problem.merge_curves(merge_curves)
-    if ignore_below is not None:
-        problem.ignore_below(ignore_below)
-    if idealize:
-        problem.idealize(True)
-    if keep:
-        problem.keep([keep] if isinstance(keep, str) else list(keep))
-    if fill_holes is not None:
-        problem.fill_holes(fill_holes)
-    if simplify is not None:
-        problem.simplify(simplify)
-    if mirror is not None:
-        point, normal = mirror
-        problem.mirror(point, normal)
-    if glue:
-        problem.glue(True)
-    if unit is not None:
-        problem.unit(unit)
+def _tables(given, *keys):
+    """Tables from tuples of their values; texts stay."""
+    if isinstance(given, str):
+        return given
+    return [one if isinstance(one, str) else dict(zip(keys, one, strict=True)) for one in given]
 
 
 def _criteria(criteria):
-    """A preset, the path of a file, or limits by name."""
-    if isinstance(criteria, (str, os.PathLike)):
-        return _core.Criteria(os.fspath(criteria))
-    limits = dict(criteria)
-    result = _core.Criteria(limits.pop("preset")) if "preset" in limits else _core.Criteria()
-    if "material" in limits:
-        material = limits.pop("material")
-        if set(material) != {"young", "poisson", "density"}:
-            raise _core.InputError("criteria: the material: expected 'young', 'poisson' and 'density'")
-        result.material(*(float(material[key]) for key in ("young", "poisson", "density")))
-    result.time_step_by = limits.pop("time_step_by", result.time_step_by)
-    result.strict = limits.pop("strict", result.strict)
-    for on, named in [("", limits), *limits.pop("on", {}).items()]:
-        for key, value in named.items():
-            result.set(key, value if isinstance(value, str) else repr(float(value)), on)
-    return result
+    """A preset, the path of a file, or limits by name: as files have them."""
+    if isinstance(criteria, Mapping) and "on" in criteria:
+        criteria = {**criteria, "on": _named("criteria", criteria["on"], "min_length")}
+    return _line("criteria", "criteria", criteria)
 
 
 def judge(mesh, criteria, size=None):
@@ -177,7 +137,7 @@ def judge(mesh, criteria, size=None):
     "why" in words; "critical_step" and "estimated_step" by program, times where there is a material, else lengths;
     "step_of_squares" of the least size.
     """
-    return _core.judge(mesh, _criteria(criteria), None if size is None else float(size))
+    return _core.judge(mesh, _core.Criteria([_criteria(criteria)]), None if size is None else float(size))
 
 
 def _embed(problem, embed):
@@ -305,73 +265,61 @@ def mesh(
     if word is not None and quality is not None:
         raise _core.InputError("word and quality exclude each other: a quality stands for a word")
     problem = _core.Problem(_as_model(model))
-    if size is not None:
-        _set_size(problem, size)
-    if metric is not None:
-        _set_metric(problem, metric)
     if quads is not None and isinstance(size, numbers.Real):
         raise _core.InputError(
             "size and quads: a size that is a number says how many quads there are: expected one of both"
         )
-    for source in sources:
-        problem.add_source(*source)
-    for on, asked in (size_on or {}).items():
-        problem.add_named_size(on, **(asked if isinstance(asked, dict) else {"size": asked}))
-    for on, asked in (divide or {}).items():
-        problem.divide(on, **(asked if isinstance(asked, dict) else {"edges": asked}))
-    for pair in periodic:
-        motion = {"translate": (0, 0, 0), "rotate": 0, "centre": (0, 0, 0), "axis": (0, 0, 1)} | pair
-        problem.periodic(motion.pop("from"), motion.pop("to"), **motion)
-    if symmetry:
-        problem.symmetry([] if symmetry == "auto" else list(symmetry), symmetry == "auto")
-    if mapped:
-        grids = [mapped] if isinstance(mapped, str) else list(mapped)
-        automatic = isinstance(mapped, str) and mapped == "auto"
-        problem.mapped([] if automatic else [grid for grid in grids if isinstance(grid, str)], automatic)
-        for grid in grids:
-            if not isinstance(grid, str):
-                name, corners = grid
-                problem.mapped_corners(name, list(corners))
-    for layer in layers:
-        _add_layer(problem, layer)
-    for add, what, asked in ((problem.add_washer, "washers", washers), (problem.add_fillet_rows, "fillet_rows", fillet_rows)):
-        for rows in asked:
-            try:
-                add(**rows)
-            except TypeError:
-                raise _core.InputError(f"{what}: {dict(rows)}: expected a range of two lengths, and numbers") from None
-    problem.size_limits(gradation, curvature, min_size, max_size)
-    if cross is not None:
-        _set_cross(problem, cross)
-    _set_surface(problem, compounds, feature_angle, weld, merge_curves, ignore_below, idealize, keep, fill_holes, simplify, mirror, glue, unit)
+    lines = [] if size is None else _set_field(problem, "size", "size.base", size)
+    lines += [] if metric is None else _set_metric(problem, metric)
+    lines += [] if cross is None else _set_field(problem, "cross", "cross", cross)
+    source = ("at", "to", "near", "far", "radius_near", "radius_far")
+    given = {
+        "sources": ("size.source", [dict(zip(source, one, strict=True)) for one in sources]),
+        "size_on": ("size.on", _named("size_on", size_on, "size")),
+        "gradation": ("size.gradation", gradation),
+        "curvature": ("size.curvature", curvature),
+        "min_size": ("size.min", min_size),
+        "max_size": ("size.max", max_size),
+        "divide": ("divide", _named("divide", divide, "edges")),
+        "periodic": ("periodic", periodic),
+        "symmetry": ("symmetry", _tables(symmetry, "point", "normal")),
+        "mapped": ("mapped", _tables(mapped, "name", "corners")),
+        "layers": ("layer", layers),
+        "washers": ("washers", washers),
+        "fillet_rows": ("fillet_rows", fillet_rows),
+        "compounds": ("surface.compound", compounds),
+        "feature_angle": ("surface.feature_angle", feature_angle),
+        "weld": ("surface.weld_tolerance", weld),
+        "merge_curves": ("surface.merge_curves", merge_curves),
+        "ignore_below": ("surface.ignore_below", ignore_below),
+        "idealize": ("surface.idealize", idealize or None),
+        "keep": ("surface.keep", [keep] if isinstance(keep, str) else keep),
+        "fill_holes": ("surface.fill_holes", fill_holes),
+        "simplify": ("surface.simplify", simplify),
+        "mirror": ("surface.mirror", mirror and _tables([mirror], "point", "normal")[0]),
+        "glue": ("surface.glue", glue or None),
+        "unit": ("surface.unit", unit),
+        "names": ("surface.name", _named("names", names, "at", "as")),
+        "seed": ("seed", seed),
+        "order": ("order", order),
+        "refine": ("refine", refine),
+        "quads": ("quads", quads),
+        "min_angle": ("limits.min_angle", min_angle),
+        "max_aspect": ("limits.max_aspect", max_aspect),
+    }
+    for keyword, (key, value) in given.items():
+        value = value if isinstance(value, str) or not isinstance(value, Iterable) else list(value) or None
+        if value is not None:
+            lines.append(_line(keyword, key, value))
+    if criteria is not None:
+        lines.append(_criteria(criteria))
+    lines += [_line("options", key, value) for key, value in (options or {}).items()]
+    problem.set(lines)
     _embed(problem, embed)
-    if not isinstance(names or {}, dict):
-        raise _core.InputError(f"names: {names!r}: expected a dictionary of names, each with what tells its faces or curves")
-    for part, fits in (names or {}).items():
-        try:
-            problem.name_part(part, **fits)
-        except TypeError:
-            expected = "at, box, normal, number (a list of whole numbers), like or of"
-            raise _core.InputError(f"names: {part!r}: {fits!r}: expected {expected}") from None
     if quality is not None:
         _core.check_quality(quality)
-    for limit, value in (("limits.min_angle", min_angle), ("limits.max_aspect", max_aspect)):
-        if value is not None:
-            problem.option(limit, float(value))
-    if criteria is not None:
-        problem.criteria(_criteria(criteria))
-    for key, value in (options or {}).items():
-        problem.option(key, value.item() if hasattr(value, "item") else value)
     if name is not None:
         problem.name(name)
-    if seed is not None:
-        problem.seed(seed)
-    if order is not None:
-        problem.order(order)
-    if refine is not None:
-        problem.refine(refine)
-    if quads is not None:
-        problem.quads(quads)
     problem.max_elements(max_elements)
     problem.keep_going(keep_going)
     if progress:
