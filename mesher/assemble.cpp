@@ -14,6 +14,7 @@
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
+#include "mesher/cross_in_space.h"
 #include "mesher/runner.h"
 #include "metrics/metric_measures.h"
 
@@ -139,11 +140,21 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
   result.log.add_time("soundness", soundness_time);
 }
 
+void add_misalignment(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides,
+                      MeshMetrics& metrics) {
+  if (mesh.quads.empty() || !has_finite_points(mesh)) return;
+  if (const CrossInSpace cross_at = cross_in_space(prepared))
+    metrics.values["misalignment"] = mean_misalignment(mesh, sides, cross_at);
+}
+
 MeshMetrics metrics_of(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides) {
   const MetricAt metric = metric_of(prepared);
-  if (!metric)
-    return own_measures(mesh, prepared.size.field.get(), prepared.size.asked.get(), sides,
-                        quads_in_layers(prepared, mesh));
+  if (!metric) {
+    MeshMetrics metrics = own_measures(mesh, prepared.size.field.get(), prepared.size.asked.get(), sides,
+                                       quads_in_layers(prepared, mesh));
+    add_misalignment(prepared, mesh, sides, metrics);
+    return metrics;
+  }
   MeshMetrics metrics = own_measures(mesh, nullptr, nullptr, sides);
   metrics.values.merge(measure_by_metric(mesh, sides, metric));
   return metrics;

@@ -278,10 +278,13 @@ MeshMetrics Prepared::metrics(const Mesh& made, const std::string& word) const {
 MeshResult Prepared::measure(Mesh of_others) const {
   MeshResult result;
   result.mesh = std::move(of_others);
-  // Its first quads are no layers of ours.
-  result.metrics = metric_of(*made_) ? metrics_of(*made_, result.mesh, sorted_half_edges(result.mesh))
-                                     : own_measures(result.mesh, made_->size.field.get(),
-                                                    made_->size.asked.get(), sorted_half_edges(result.mesh));
+  const std::vector<HalfEdge> sides = sorted_half_edges(result.mesh);
+  if (metric_of(*made_)) {
+    result.metrics = metrics_of(*made_, result.mesh, sides);
+  } else {  // its first quads are no layers of ours
+    result.metrics = own_measures(result.mesh, made_->size.field.get(), made_->size.asked.get(), sides);
+    add_misalignment(*made_, result.mesh, sides, result.metrics);
+  }
   measure_from_outside(*made_, result.mesh, "", result.metrics);
   result.soundness = check_elements(*made_, result.mesh);
   result.bad_elsewhere = static_cast<int>(

@@ -55,6 +55,9 @@ Mesh put_together(Finishing& on);
 void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, MeshResult& result);
 /// By the size, or by the metric, that is meshed by.
 MeshMetrics metrics_of(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides);
+/// Adds how well the edges follow the cross field.
+void add_misalignment(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides,
+                      MeshMetrics& metrics);
 /// Adds the measures from outside.
 void measure_from_outside(const PreparedProblem& prepared, const Mesh& mesh, const std::string& word,
                           MeshMetrics& metrics);

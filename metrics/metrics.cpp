@@ -244,6 +244,9 @@ std::deque<Metric>& metrics() {
        "edges inside, on no line, below a tenth of the size, by equation (5)", 0},
       {"tau_given", "tau given", "%", kHigher, 0,
        "tau against the size as given, before curvature and short curves made it smaller"},
+      {"misalignment", "off cross", "deg", kLower, 45,
+       "angle between edges of two quads and the nearest direction of the cross field at their middles, mean",
+       1},
   };
   return registry;
 }

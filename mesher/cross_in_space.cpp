@@ -1,0 +1,80 @@
+#include "mesher/cross_in_space.h"
+
+#include <cmath>
+#include <memory>
+
+#include "geometry/mesh/nearest_triangle.h"
+
+namespace delquad {
+namespace {
+
+CrossInSpace in_plane(const PreparedProblem& prepared) {
+  return [&](const Vec3& x, double reach, int& hint) -> std::optional<std::array<Vec3, 2>> {
+    const BackgroundMesh& background = *prepared.plane.background;
+    const auto [t, b] = background.locate({x.x, x.y}, hint);
+    const TriPatch& tri = background.triangles();
+    const auto& v = tri.triangles[t];
+    const Vec2 u = b[0] * tri.points[v[0]] + b[1] * tri.points[v[1]] + b[2] * tri.points[v[2]];
+    if (norm(u - Vec2{x.x, x.y}) > reach) return std::nullopt;
+    int anywhere = -1;
+    const double angle = prepared.patches[background.triangle_patch()[t]].cross->at(u, anywhere).angle();
+    const double c = std::cos(angle), s = std::sin(angle);
+    return std::array{Vec3{c, s, 0}, Vec3{-s, c, 0}};
+  };
+}
+
+/// All maps of a surface, and where their triangles lie in space.
+struct Maps {
+  std::vector<std::array<std::size_t, 2>> origins;  ///< of each triangle the patch and its number there
+  std::unique_ptr<const NearestTriangle> nearest;
+};
+
+CrossInSpace on_surface(const PreparedProblem& prepared) {
+  const auto maps = std::make_shared<Maps>();
+  const PreparedSurface& surface = *prepared.surface;
+  std::vector<std::array<int, 3>> triangles;
+  for (std::size_t p = 0; p < prepared.patches.size(); ++p) {
+    const FlatPatch& map = surface.domain.patches[p].map;
+    for (std::size_t t = 0; t < map.flat.triangles.size(); ++t) {
+      const auto& v = map.flat.triangles[t];
+      triangles.push_back({map.fine_node[v[0]], map.fine_node[v[1]], map.fine_node[v[2]]});
+      maps->origins.push_back({p, t});
+    }
+  }
+  if (triangles.empty()) return nullptr;
+  maps->nearest = std::make_unique<NearestTriangle>(surface.model.fine.points, std::move(triangles));
+  return [&, maps](const Vec3& x, double reach, int& hint) -> std::optional<std::array<Vec3, 2>> {
+    const NearestTriangle::Found found = maps->nearest->find_from(hint, x);
+    if (found.triangle < 0 || !(found.distance <= reach)) return std::nullopt;
+    hint = found.triangle;
+    const auto [patch, t] = maps->origins[found.triangle];
+    const FlatPatch& map = surface.domain.patches[patch].map;
+    const auto& v = map.flat.triangles[t];
+    const auto& at = map.flat.points;
+    const std::array<double, 3>& b = found.weights;
+    int anywhere = -1;
+    const double angle = prepared.patches[patch]
+                             .cross->at(b[0] * at[v[0]] + b[1] * at[v[1]] + b[2] * at[v[2]], anywhere)
+                             .angle();
+    // In the terms of two sides of the triangle, which are those in space.
+    const Vec2 p = at[v[1]] - at[v[0]], q = at[v[2]] - at[v[0]];
+    const double area = cross(p, q);
+    const auto& points = surface.model.fine.points;
+    const Vec3 &a = points[map.fine_node[v[0]]], side = points[map.fine_node[v[1]]] - a,
+               other = points[map.fine_node[v[2]]] - a;
+    const auto in_space = [&](const Vec2& d) {
+      return (cross(d, q) / area) * side + (cross(p, d) / area) * other;
+    };
+    const double c = std::cos(angle), s = std::sin(angle);
+    return std::array{in_space({c, s}), in_space({-s, c})};
+  };
+}
+
+}  // namespace
+
+CrossInSpace cross_in_space(const PreparedProblem& prepared) {
+  if (prepared.surface) return prepared.surface->metric ? nullptr : on_surface(prepared);
+  return prepared.metric_plane || !prepared.plane.background ? nullptr : in_plane(prepared);
+}
+
+}  // namespace delquad

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "metrics/alignment.h"
+#include "patches/prepared.h"
+
+namespace delquad {
+
+/// The fields of all patches; null where the problem has a metric in place of sizes. `prepared` has to
+/// outlive it.
+CrossInSpace cross_in_space(const PreparedProblem& prepared);
+
+}  // namespace delquad
