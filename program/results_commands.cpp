@@ -85,11 +85,7 @@ struct CompareArguments {
 
 /// The results in a folder, or the metrics of a mesh.
 std::vector<CellRecord> records_of(const fs::path& path) {
-  if (!fs::is_regular_file(path)) {
-    std::vector<CellRecord> records = read_records(path);
-    for (const std::string& problem : attach_times(records)) fmt::print(stderr, "warning: {}\n", problem);
-    return records;
-  }
+  if (!fs::is_regular_file(path)) return read_records(path);
   CellRecord record;
   record.group = "mesh";
   record.values = evaluate_metrics(read_mesh(path), nullptr).values;

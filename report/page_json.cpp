@@ -89,20 +89,32 @@ Json table_json(const Table& table) {
   json["files"] = table_files_json(table);
   if (!table.shown.empty()) json["shown"] = table.shown;
   for (const TableRow& row : table.rows) {
-    Json marks = Json::object();
-    for (const auto& [key, mark] : row.marks) marks[key] = mark == Mark::kBest ? "best" : "as good";
     json["rows"].push_back({{"group", row.group},
                             {"name", shown_name(row)},
                             {"values", values_json(row.values)},
                             {"published", values_json(row.published)},
                             {"half_widths", values_json(row.half_widths)},
-                            {"marks", marks},
+                            {"bold", row.bold},
                             {"texts", row.texts},
                             {"source", row.source},
                             {"failure", row.failure},
                             {"skipped", row.skipped}});
   }
   return json;
+}
+
+std::optional<PowerLaw> fit_power_law(const std::vector<double>& x, const std::vector<double>& y) {
+  std::vector<double> u, v;
+  for (const double value : x) u.push_back(std::log(value));
+  for (const double value : y) v.push_back(std::log(value));
+  const double u0 = mean(u), v0 = mean(v);
+  double squares = 0, products = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    squares += (u[i] - u0) * (u[i] - u0);
+    products += (u[i] - u0) * (v[i] - v0);
+  }
+  if (!(squares > 0)) return std::nullopt;
+  return PowerLaw{std::exp(v0 - products / squares * u0), products / squares};
 }
 
 Json growth_json(const std::vector<CellRecord>& records) {

@@ -19,6 +19,13 @@ using Json = nlohmann::ordered_json;
 /// As the page shows it, with its files; empty ones are null.
 Json table_json(const Table& table);
 
+/// y = factor * x^exponent.
+struct PowerLaw {
+  double factor, exponent;
+};
+/// The law that fits positive pairs best, by least squares of the logarithms; nothing where all x are alike.
+std::optional<PowerLaw> fit_power_law(const std::vector<double>& x, const std::vector<double>& y);
+
 /// For each pipeline and case: elements and seconds of the case's variants, and the power law that they
 /// follow where there are three sizes or more, the largest at least four times the smallest.
 Json growth_json(const std::vector<CellRecord>& records);

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""What words are worth: which_quality.py RESULTS prints, for each measure, a word's mean over that of DB.
+"""Which quality matters: which_quality.py RESULTS prints what tells errors, and what words are worth.
 
-Errors count times the power of the number of vertices that makes them independent of it. Of each domain the
-mean over seeds is taken, of these the geometric mean over domains, with the least and the greatest.
+First come Spearman's rank correlations of errors with measures of quality over the runs of each domain: means over
+domains with the least and the greatest. Then, for each measure, comes a word's mean over seeds divided by the mean of
+DB: the geometric mean over domains. Errors count times the power of the number of vertices that makes them independent
+of it.
 """
 import collections
 import glob
@@ -10,6 +12,8 @@ import json
 import math
 import sys
 
+QUALITIES = ["eta_mean", "eta_worst", "d4", "n_irregular", "tau", "aspect_mean", "aspect_max", "warp_mean"]
+ERRORS = {"poisson_h1": 0.5, "poisson_l2": 1, "elasticity_h1": 0.5, "poisson_condition": -1, "poisson_cg_iterations": -0.5}
 MEASURES = {"eta_mean": 0, "poisson_h1": 0.5, "poisson_l2": 1, "elasticity_h1": 0.5, "poisson_cg_iterations": -0.5}
 
 cells = collections.defaultdict(list)
@@ -29,6 +33,37 @@ def mean(case, word, key):
     return sum(values) / len(values) if values else math.nan
 
 
+def ranks(values):
+    """The rank of each value, from 1; ties share their mean rank."""
+    return [sum(v < x for v in values) + (sum(v == x for v in values) + 1) / 2 for x in values]
+
+
+def spearman(a, b):
+    """NaN of fewer than three pairs, and where one of both is the same everywhere."""
+    if len(a) < 3 or min(a) == max(a) or min(b) == max(b):
+        return math.nan
+    a, b = ranks(a), ranks(b)
+    middle = (len(a) + 1) / 2
+    spread = [math.sqrt(sum((x - middle) ** 2 for x in v)) for v in (a, b)]
+    return sum((x - middle) * (y - middle) for x, y in zip(a, b)) / spread[0] / spread[1]
+
+
+def correlations(error, quality):
+    """The rank correlation within each case."""
+    for case in sorted({case for case, _ in cells}):
+        runs = [m for (of, _), all_runs in cells.items() if of == case for m in all_runs]
+        runs = [m for m in runs if m.get(error) is not None and m.get(quality) is not None]
+        rho = spearman([m[error] * m["n_vertices"] ** ERRORS[error] for m in runs], [m[quality] for m in runs])
+        if not math.isnan(rho):
+            yield rho
+
+
+print("| | " + " | ".join(QUALITIES) + " |\n|---|" + "---|" * len(QUALITIES))
+for error in ERRORS:
+    found = [list(correlations(error, quality)) for quality in QUALITIES]
+    print(f"| {error} | " + " | ".join(
+        f"{sum(r) / len(r):.2f} ({min(r):.2f} to {max(r):.2f})" if r else "-" for r in found) + " |")
+print()
 print("| | " + " | ".join(MEASURES) + " |\n|---|" + "---|" * len(MEASURES))
 for word in sorted({word for _, word in cells} - {"DB"}):
     line = []

@@ -10,7 +10,6 @@
 #include "base/system.h"
 #include "delquad/error.h"
 #include "experiments/sweep/adapt_loop.h"
-#include "experiments/sweep/geometry_moments.h"
 #include "experiments/sweep/run_program.h"
 #include "geometry/cad/cad_reader.h"
 #include "io/cases/problem_record.h"
@@ -75,7 +74,6 @@ CellIdentity identify(const Experiment& experiment, const Case& c, const std::st
                       const Word& word) {
   CellIdentity cell;
   cell.model_digest = model;
-  if (const PlanarModel* planar = planar_model(c)) cell.geometry = geometry_moments(*planar);
   cell.program_digest = program_digest();
   std::string pipeline = word.text;
   if ((cell.peer = experiment.peer_of(word)) != nullptr) {

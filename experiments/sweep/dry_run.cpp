@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
-#include <tuple>
 
 #include "base/text.h"
 #include "experiments/sweep/cells.h"
@@ -45,12 +43,12 @@ void add_planned_values(const Experiment& experiment, const Case& c, const Word&
       if (cell.values.contains(key.substr(0, key.find('.')))) cell.values[key] = number;
   cell.values["n_quads"] = 1;
   cell.values["n_triangles"] = word.quads_only() ? 0 : 1;
-  if (experiment.repeat_times > 0)
-    cell.times[time_key(experiment)].assign(static_cast<std::size_t>(experiment.repeat_times), number);
 }
 
 /// The cells in their order; `kind` is what there is of them.
-std::vector<CellRecord> planned_cells(const Experiment& experiment, const fs::path& folder) {
+std::vector<CellRecord> planned_cells(const Experiment& experiment, const StudyFile& study,
+                                      const fs::path& folder) {
+  const std::map<std::string, std::string> domains = domains_of(study);
   std::vector<CellRecord> cells;
   for (std::size_t i = 0; i < experiment.n_cases(); ++i)
     for (std::size_t v = 0; v < experiment.n_variants(); ++v) {
@@ -60,8 +58,7 @@ std::vector<CellRecord> planned_cells(const Experiment& experiment, const fs::pa
       for (const Word& word : experiment.words) {
         const CellIdentity identity = identify(experiment, c, model, word);
         CellRecord& cell =
-            cells.emplace_back(CellRecord{c.folder, word.text, "", {}, c.name, c.domain, model});
-        cell.moments = identity.geometry;
+            cells.emplace_back(CellRecord{c.folder, word.text, "", {}, c.name, domains.at(c.name), model});
         cell.variant = c.variant;
         cell.skipped = absent;
         cell.kind = absent           ? "data not found"
@@ -71,7 +68,6 @@ std::vector<CellRecord> planned_cells(const Experiment& experiment, const fs::pa
         add_planned_values(experiment, c, word, static_cast<double>(cells.size()), cell);
       }
     }
-  find_domains(cells);
   return cells;
 }
 
@@ -97,13 +93,13 @@ std::string time_text(const Experiment& experiment, const std::vector<CellRecord
   double seconds = 0;
   int unknown = 0, guessed = 0;
   for (const CellRecord& cell : cells) {
-    const int runs = cell.skipped ? 0 : experiment.repeat_times + (needs_no_run(cell) ? 0 : 1);
+    if (cell.skipped || needs_no_run(cell)) continue;
     auto at = known.find(cell.name + "/" + cell.pipeline);
-    if (runs > 0 && at == known.end()) {
+    if (at == known.end()) {
       at = known.find(cell.pipeline);
       ++(at == known.end() ? unknown : guessed);
     }
-    if (at != known.end()) seconds += runs * mean(at->second);
+    if (at != known.end()) seconds += mean(at->second);
   }
   if (known.empty() && experiment.minutes > 0)
     return fmt::format("time: about {:.3g} min on two cores, as the experiment says\n",
@@ -136,82 +132,55 @@ std::string domains_text(const std::vector<CellRecord>& cells) {
 /// The tests of a design, all of them as clear as they can be.
 class TestDesign {
  public:
-  TestDesign(const Experiment& experiment, const std::vector<CellRecord>& cells)
-      : study_(describe(experiment)), inference_(study_, cells) {}
+  TestDesign(const StudyFile& study, const std::vector<CellRecord>& cells)
+      : inference_(study, cells), is_planned_(!study.hypotheses.empty()) {}
 
   std::string text(std::optional<double> effect) const {
-    const auto now = at_best(0);
-    std::string text =
-        is_planned()
-            ? fmt::format("tests of hypotheses: {} primary, {} secondary\n", now[0].size(), now[1].size())
-            : fmt::format(
-                  "tests: at most {}, of which {} could prove something; {} are of pairs, over domains\n",
-                  now[0].size(), now[0].counted(), over_domains().size());
+    const ClaimFamily now = at_best(0);
+    std::string text = is_planned_ ? fmt::format("tests of hypotheses: {}\n", now.size())
+                                   : fmt::format("tests: at most {}, of which {} could prove something\n",
+                                                 now.size(), now.counted());
     // Tests of the same power are told together.
-    std::map<std::tuple<bool, bool, std::size_t>, std::vector<const PairComparison*>> alike;
-    for (const PairComparison& pair : over_domains())
-      alike[{pair.secondary, pair.one_sided, pair.domains.names.size()}].push_back(&pair);
-    for (const auto& [kind, pairs] : alike) text += line(pairs, now, effect);
+    std::map<std::size_t, std::vector<std::size_t>> by_domains;
+    for (const PairComparison& pair : is_planned_ ? inference_.hypotheses() : inference_.pairs())
+      by_domains[pair.domains.names.size()].push_back(pair.test);
+    for (const auto& [domains, tests] : by_domains)
+      text += fmt::format("  {} over {} domains: {}\n", tests.size(), domains,
+                          line(domains, tests[0], now, effect));
     return text;
   }
 
  private:
-  using Families = std::array<ClaimFamily, 2>;  ///< primary and secondary
-
-  bool is_planned() const { return !study_.hypotheses.empty(); }
-  const std::vector<PairComparison>& over_domains() const {
-    return is_planned() ? inference_.hypotheses() : inference_.pairs();
-  }
-
   /// With `more` domains than there are.
-  Families at_best(int more) const {
-    Families families;
-    for (const bool secondary : {false, true}) {
-      if (secondary && !is_planned()) break;
-      std::set<std::size_t> growing;
-      for (const PairComparison& pair : over_domains())
-        if (pair.secondary == secondary) growing.insert(pair.test);
-      const ClaimFamily& family = is_planned() ? inference_.planned(secondary) : inference_.family();
-      for (std::size_t i = 0; i < family.size(); ++i) {
-        RankTest test = family.test(i);
-        if (growing.contains(i)) test.least_p = std::ldexp(test.least_p, -more);
-        test.p = test.least_p;
-        families[secondary].add(test);
-      }
-      families[secondary].decide(secondary ? families[0].largest_p() : 0);
+  ClaimFamily at_best(int more) const {
+    const ClaimFamily& planned = is_planned_ ? inference_.planned() : inference_.family();
+    ClaimFamily family;
+    for (std::size_t i = 0; i < planned.size(); ++i) {
+      const double p = std::ldexp(planned.test(i).least_p, -more);
+      family.add({p, p, 0});
     }
-    return families;
+    family.decide();
+    return family;
   }
 
-  /// Of tests that have as many domains and sides.
-  std::string line(const std::vector<const PairComparison*>& pairs, const Families& now,
+  /// Tells about tests that have as many domains.
+  std::string line(std::size_t domains, std::size_t test, const ClaimFamily& now,
                    std::optional<double> effect) const {
-    const PairComparison& pair = *pairs[0];
-    const std::size_t domains = pair.domains.names.size();
-    const ClaimFamily& family = now[pair.secondary];
-    const auto can_prove = [&](const Families& families) {
-      return families[pair.secondary].finding(pair.test) == Finding::kProven;
-    };
-    std::string text = fmt::format("  {}{} {}-sided over {} domains: ", pair.secondary ? "secondary, " : "",
-                                   pairs.size(), pair.one_sided ? "one" : "two", domains);
-    if (!can_prove(now)) {
+    if (now.finding(test) != Finding::kProven) {
       int more = 1;
-      while (!can_prove(at_best(more))) ++more;
-      return text + fmt::format("nothing can be proven; it takes {} domains\n",
-                                domains + static_cast<std::size_t>(more));
+      while (at_best(more).finding(test) != Finding::kProven) ++more;
+      return fmt::format("nothing can be proven; it takes {} domains",
+                         domains + static_cast<std::size_t>(more));
     }
-    text += "p corrected " + p_text(family.adjusted_p(pair.test)) + " at the least";
-    if (effect)
-      text +=
-          fmt::format("; power {:.2f} for {:g} deviations",
-                      wilcoxon_power(domains, *effect, kSignificance / static_cast<double>(family.counted()),
-                                     pair.one_sided),
-                      *effect);
-    return text + "\n";
+    const std::string text = fmt::format("p corrected {} at the least", p_text(now.adjusted_p(test)));
+    if (!effect) return text;
+    const double level = kSignificance / static_cast<double>(now.counted());
+    return text + fmt::format("; power {:.2f} for {:g} deviations", wilcoxon_power(domains, *effect, level),
+                              *effect);
   }
 
-  StudyFile study_;
   Inference inference_;
+  bool is_planned_;
 };
 
 }  // namespace
@@ -220,29 +189,28 @@ std::optional<double> expected_seconds(const Experiment& experiment, const fs::p
   if (experiment.minutes == 0) return std::nullopt;
   constexpr double kMinute = 60;
   if (experiment.linf) return kMinute * experiment.minutes;
-  const std::vector<CellRecord> cells = planned_cells(experiment, folder);
+  const std::vector<CellRecord> cells = planned_cells(experiment, describe(experiment), folder);
   const auto left = std::ranges::count_if(
       cells, [](const CellRecord& cell) { return !cell.skipped && !needs_no_run(cell); });
   return kMinute * experiment.minutes * static_cast<double>(left) / static_cast<double>(cells.size());
 }
 
 std::string list_cells(const Experiment& experiment, const fs::path& folder) {
-  return text_of_cells(planned_cells(experiment, folder));
+  return text_of_cells(planned_cells(experiment, describe(experiment), folder));
 }
 
 std::string dry_run(const Experiment& experiment, const fs::path& folder, std::optional<double> effect) {
   if (experiment.linf) return "";  // it has no cells
   experiment.check_hypotheses();
   const std::string refusal = why_folder_is_refused(experiment, folder);
-  const std::vector<CellRecord> cells = planned_cells(experiment, refusal.empty() ? folder : "");
   const StudyFile study = describe(experiment);
+  const std::vector<CellRecord> cells = planned_cells(experiment, study, refusal.empty() ? folder : "");
   const bool is_late = !study.hypotheses.empty() && !folder.empty() && is_plan_changed(study, folder);
   const std::string warning = refusal.empty() && is_late ? kNotPlanned : refusal;
   return text_of_cells(cells) + (warning.empty() ? "" : "warning: " + warning + "\n") +
          fmt::format("cells: {}, of which {} are done\n", cells.size(),
                      std::ranges::count_if(cells, needs_no_run)) +
-         time_text(experiment, cells, folder) + domains_text(cells) +
-         TestDesign(experiment, cells).text(effect);
+         time_text(experiment, cells, folder) + domains_text(cells) + TestDesign(study, cells).text(effect);
 }
 
 }  // namespace delquad

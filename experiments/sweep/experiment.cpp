@@ -1,14 +1,20 @@
 #include "experiments/sweep/experiment.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "base/located.h"
 #include "experiments/sweep/adapt_loop.h"
+#include "experiments/sweep/case_geometry.h"
 #include "experiments/sweep/run_program.h"
 #include "experiments/sweep/schema.h"
 #include "io/cases/case_file.h"
 #include "io/cases/read_problem.h"
+#include "io/digest.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/tables.h"
@@ -42,26 +48,24 @@ std::vector<std::string> read_solvers(const TomlTable& table) {
   return solvers;
 }
 
-CorrelationRequest read_correlation(const TomlTable& table, const std::vector<std::string>& metrics) {
-  CorrelationRequest request{table.texts("of"), table.texts("with")};
-  for (const auto& [key, list] : {std::pair("of", &request.of), std::pair("with", &request.with)}) {
-    if (list->empty()) refuse("{}: '{}' is empty: expected keys of measures", table.where(key), key);
-    for (const std::string& metric : *list) check_known(table, key, metric, metrics);
-  }
-  table.finish(correlate_keys());
-  return request;
+/// Keys that experiments had once, and what stands in for them.
+using GoneKeys = std::vector<std::pair<const char*, const char*>>;
+
+void refuse_gone(const TomlTable& table, const GoneKeys& keys) {
+  const std::vector<std::string> present = table.keys();
+  for (const auto& [key, way] : keys)
+    if (std::ranges::find(present, key) != present.end())
+      refuse("{}: there is no '{}' any longer: {}", table.where(key), key, way);
 }
 
-SlopeRequest read_slopes(const TomlTable& table, std::vector<std::string> metrics,
-                         const std::vector<Axis>& axes) {
-  SlopeRequest request{table.texts("of"), table.text("along"), table.text("against", SlopeRequest().against)};
-  metrics.emplace_back("seconds");
-  for (const std::string& metric : request.of) check_known(table, "of", metric, metrics);
-  check_known(table, "against", request.against, metrics);
-  find_axis(axes, request.along, table, "along");
-  table.finish(slope_keys());
-  return request;
-}
+const GoneKeys kGone = {
+    {"ratio", "runs.csv has both values: divide them there"},
+    {"slopes", "fit runs.csv, as experiments/studies/what_buys_error.py does"},
+    {"correlate", "correlate columns of runs.csv, as experiments/studies/which_quality.py does"},
+    {"repeat_times", "vary 'seed' in [matrix], and take the times from runs.csv"}};
+const GoneKeys kGoneOfHypotheses = {
+    {"secondary", "all hypotheses are one family: leave the others out, and pairs.* explores them"},
+    {"two_sided", "every hypothesis is tested two-sided: remove the key"}};
 
 /// Keys of columns: measures and times.
 std::vector<std::string> read_columns(const TomlTable& table, std::vector<std::string> known) {
@@ -96,16 +100,6 @@ std::vector<PublishedRow> read_published(const std::filesystem::path& file,
   }
   top.finish();
   return rows;
-}
-
-ExpectedRatio read_ratio(const TomlTable& table, const std::vector<std::string>& metrics) {
-  ExpectedRatio ratio{table.text("metric"), table.text("numerator"), table.text("denominator"),
-                      table.positive_number("expected"), table.text("source", "")};
-  check_known(table, "metric", ratio.metric, metrics);
-  located(table.where("numerator"), [&] { return parse_word(ratio.numerator); });
-  located(table.where("denominator"), [&] { return parse_word(ratio.denominator); });
-  table.finish(ratio_keys());
-  return ratio;
 }
 
 LinfStudy read_linf_study(const TomlTable& table) {
@@ -295,8 +289,11 @@ std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& tex
 
 Experiment Experiment::read(const std::filesystem::path& file, const std::filesystem::path& data) {
   const TomlTable table = TomlTable::read(file);
+  refuse_gone(table, kGone);
+  for (const TomlTable& hypothesis : table.tables("hypotheses")) refuse_gone(hypothesis, kGoneOfHypotheses);
   table.require_known(experiment_keys());
   Experiment experiment;
+  experiment.table_ = table;
   experiment.file = file;
   experiment.cases_ = read_cases(table);
   if (table.has("start") ||
@@ -309,25 +306,15 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   experiment.solvers = read_solvers(table);
   for (const TomlTable& metric : table.tables("metric")) experiment.read_metric(metric);
   const std::vector<std::string> metrics = experiment.keys_of_metrics();
-  if (const auto correlation = table.optional_table("correlate"))
-    experiment.correlation = read_correlation(*correlation, metrics);
   if (table.has("reference")) {
     experiment.reference = file.parent_path() / table.text("reference");
     experiment.published = read_published(experiment.reference, metrics);
   }
   experiment.step_times = table.flag("step_times", false);
-  experiment.repeat_times = read_count(table, "repeat_times", 2, kMostRepetitions, 0);
   experiment.columns = read_columns(table, metrics);
-  if (const auto ratio = table.optional_table("ratio")) {
-    experiment.ratio = read_ratio(*ratio, metrics);
-    for (const std::string& text : {experiment.ratio->numerator, experiment.ratio->denominator})
-      located(ratio->where(), [&] { experiment.find_pipeline(text); });
-  }
   if (const auto study = table.optional_table("linf_delaunay")) experiment.linf = read_linf_study(*study);
   experiment.read_variants(table.tables("variant"));
   if (const auto matrix = table.optional_table("matrix")) experiment.read_matrix(*matrix);
-  if (const auto slopes = table.optional_table("slopes"))
-    experiment.slopes = read_slopes(*slopes, metrics, experiment.axes);
   experiment.read_plan(table);
 
   experiment.defaults_.where = file.string();
@@ -355,20 +342,60 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   return experiment;
 }
 
+namespace {
+
+/// The text of a table, but for the keys `without`.
+std::string text_of(const TomlTable& table, const std::vector<std::string>& without) {
+  std::string text;
+  for (const std::string& leaf : table.leaves())
+    if (std::ranges::find(without, leaf.substr(0, leaf.find('.'))) == without.end())
+      text += leaf + " = " + table.element_text(leaf, TomlTable::kWhole) + "\n";
+  return text;
+}
+
+std::string sorted_text(std::vector<std::string> parts) {
+  std::ranges::sort(parts);
+  return fmt::format("{}\n", fmt::join(parts, "\n"));
+}
+
+}  // namespace
+
+std::string Experiment::plan() const {
+  std::string text = text_of(*table_, {"title", "columns", "reference", "compare", "minutes", "step_times",
+                                       "may_fail", "case", "cases_of", "hypotheses", "pipelines"});
+  text += fmt::format("{}\n", max_elements);
+  std::vector<std::string> parts;
+  for (const Word& word : words) parts.push_back(word.text);
+  text += sorted_text(std::exchange(parts, {}));
+  for (const TomlTable& hypothesis : hypothesis_tables_) parts.push_back(text_of(hypothesis, {}));
+  text += sorted_text(std::exchange(parts, {}));
+  std::set<std::filesystem::path> no_plan = {absolute(file)};
+  if (!reference.empty()) no_plan.insert(absolute(reference));
+  for (std::size_t i = 0; i < n_cases(); ++i) {
+    parts.push_back(text_of(cases_[i], {"compare"}));
+    const Case c = read_variant(i);
+    if (const auto model = model_path(c); !model.empty() && exists(model)) parts.back() += file_digest(model);
+    no_plan.insert(absolute(cases_[i].file()));
+  }
+  text += sorted_text(std::exchange(parts, {}));
+  for (const std::filesystem::path& name : files())
+    if (std::ranges::none_of(no_plan, [&](const auto& other) { return other.lexically_normal() == name; }))
+      parts.push_back(file_digest(name));
+  return digest(text + sorted_text(parts));
+}
+
 StudyFile describe(const Experiment& experiment) {
   StudyFile study;
   static_cast<TablePlan&>(study) = experiment;
   study.experiment = experiment.file.stem().string();
   for (const Word& word : experiment.words) study.pipelines.push_back(word.text);
   for (const Axis& axis : experiment.axes) study.axes.emplace_back(axis.title, axis.values);
-  for (const TomlTable& variant : experiment.variants_)
-    for (const std::string& leaf : variant.leaves())
-      study.variants[variant.text("name")] +=
-          leaf + " = " + variant.element_text(leaf, TomlTable::kWhole) + "\n";
+  study.plan = experiment.plan();
   study.cells = experiment.n_cells();
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const Case c = experiment.read_variant(i);
     study.cases.push_back(c.name);
+    study.geometry[c.name] = geometry_of(c);
     if (!c.compare.empty()) study.compare[c.name] = c.compare;
   }
   return study;

@@ -98,7 +98,12 @@ class Experiment : public TablePlan {
   Word find_pipeline(const std::string& text) const;
   void check_comparisons(const TomlTable& table, const Case& c) const;
 
-  Case defaults_;                                ///< what the file says for every case
+  /// Digest of all that determines the results, but for the order of cases and hypotheses: the text of the
+  /// experiment without words for people, and the bytes of files that it names.
+  std::string plan() const;
+
+  std::optional<TomlTable> table_;               ///< the file
+  Case defaults_;                                ///< what it says for every case
   WordStart word_start_ = WordStart::kBoundary;  ///< a given mesh, where one of the cases has one
   std::vector<TomlTable> cases_;
   std::vector<TomlTable> variants_;  ///< named sets of keys, the first axis; empty: none

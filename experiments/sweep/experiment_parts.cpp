@@ -315,8 +315,8 @@ void Experiment::read_may_fail(const TomlTable& table) {
 }
 
 void Experiment::read_hypothesis(const TomlTable& table) {
-  Hypothesis h{table.text("along", ""), table.expression("better"),     table.expression("than"),
-               table.texts("measures"), table.flag("two_sided", false), table.flag("secondary", false)};
+  Hypothesis h{table.text("along", ""), table.expression("better"), table.expression("than"),
+               table.texts("measures")};
   table.finish(hypothesis_keys());
   if (h.better == h.than) refuse("{}: '{}' is compared with itself", table.where("than"), h.than);
   if (!h.along.empty()) {
@@ -334,12 +334,8 @@ void Experiment::read_hypothesis(const TomlTable& table) {
       refuse("{}: the hypothesis has the measure '{}': {}", table.where("measures"), key, why);
     };
     if (std::ranges::count(h.measures, key) > 1) refuse_measure("it stands there twice");
-    if (key == time_key(*this)) {
-      if (repeat_times == 0)
-        refuse_measure("times are compared of repeated runs alone: expected 'repeat_times'");
-      if (!h.along.empty()) refuse_measure("times are compared of pipelines alone");
-      continue;
-    }
+    if (key.starts_with("seconds"))
+      refuse_measure("a time of one run is no sample: expected another measure; runs.csv has the times");
     const auto at = std::ranges::find(known, key.substr(0, key.find('.')), &Metric::key);
     if (at == known.end()) refuse_measure("there is none of that key" + suggestion(key, keys_of_metrics()));
     if (at->better == Better::kNeither) refuse_measure("neither more nor less of it is better");

@@ -43,6 +43,7 @@ void add_study(const StudyFile& other, const fs::path& folder, StudyFile& study)
            Json(titles(study)).dump());
   study.plan_changed |= other.plan_changed || !have_same_plan(other, study);
   unite(study.cases, other.cases);
+  study.geometry.insert(other.geometry.begin(), other.geometry.end());
   unite(study.pipelines, other.pipelines);
   for (std::size_t k = 0; k < study.axes.size(); ++k) unite(study.axes[k].second, other.axes[k].second);
   for (const PublishedRow& row : other.published)
@@ -50,7 +51,6 @@ void add_study(const StudyFile& other, const fs::path& folder, StudyFile& study)
       study.published.push_back(row);
   for (const auto& [name, rows] : other.compare) study.compare[name].insert(rows.begin(), rows.end());
   unite(study.may_fail, other.may_fail);
-  if (!study.ratio) study.ratio = other.ratio;
   study.step_times |= other.step_times;
 }
 

@@ -359,7 +359,6 @@ Json start_record(const Case& c, const Word& word, const std::string& status, co
   if (cell->peer != nullptr) json["peer_file"] = cell->peer_file;
   json["experiment"] = cell->experiment;
   json["digests"] = {{"model", cell->model_digest}, {"program", cell->program_digest}};
-  json["geometry"] = {{"domain", c.domain.empty() ? Json() : Json(c.domain)}, {"moments", cell->geometry}};
   if (has_mesh) json["digests"]["mesh"] = mesh->second.digest;
   json["files"] = files_json(*cell);
   return json;

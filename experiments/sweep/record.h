@@ -15,7 +15,6 @@ namespace delquad {
 struct CellIdentity {
   std::string key;  ///< digest of everything that determines the result
   std::string model_digest, program_digest;
-  std::vector<double> geometry = {};                   ///< see geometry_moments(); none of surfaces
   std::string experiment = {};                         ///< its copy, as seen from the folder of the results
   MachineState start = {};                             ///< when work on it began
   std::map<std::string, FileMark> files = {};          ///< of the cell, but for the record

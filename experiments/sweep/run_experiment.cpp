@@ -14,7 +14,6 @@
 #include "experiments/sweep/experiment_copy.h"
 #include "experiments/sweep/folders.h"
 #include "experiments/sweep/linf_study.h"
-#include "experiments/sweep/repeat_times.h"
 #include "experiments/sweep/variant_work.h"
 #include "metrics/tables/study_file.h"
 
@@ -241,7 +240,8 @@ std::string why_folder_is_refused(const Experiment& experiment, const fs::path& 
 
 bool is_plan_changed(const StudyFile& study, const fs::path& folder) {
   const StudyFile before = read_study(folder).value_or(StudyFile());
-  return before.plan_changed || (!have_same_plan(before, study) && !record_files(folder).empty());
+  return before.plan_changed ||
+         (!have_same_plan(before, study) && fs::exists(folder) && !record_files(folder).empty());
 }
 
 Outcome run_experiment(const Experiment& experiment, const fs::path& folder, const SweepOptions& options) {
@@ -260,7 +260,6 @@ Outcome run_experiment(const Experiment& experiment, const fs::path& folder, con
     const fs::path copy = keep_experiment(experiment, folder);
     write_study(folder, study);
     const std::size_t interrupted = Sweep(experiment, folder, copy, options).run();
-    if (experiment.repeat_times > 0) repeat_times(experiment, folder, options);
     outcome = make_tables(folder);
     outcome.others_failed += static_cast<int>(interrupted);
     if (interrupted > 0)

@@ -35,8 +35,7 @@ struct SweepOptions {
 /// DIR/<case>/{cross.svg, size.svg} and the tables (see tables.h); with a matrix, <case> has the values that
 /// vary in its name. What the experiment was read from is copied, see keep_experiment(). A cell's files
 /// appear together, its record last; a run that is killed at any moment leaves the cells that are done, and
-/// none half done. What cannot be written goes to the table. Last, runs
-/// are repeated for their times, where the experiment asks for it (see repeat_times.h).
+/// none half done. What cannot be written goes to the table.
 ///
 /// Throws InputError when the folder cannot be written to, holds the results of another experiment, or
 /// belongs to another run that is still going on.

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <system_error>
 
@@ -97,19 +98,11 @@ using Json = nlohmann::ordered_json;
 
 /// Parts of a record that are no values: what determines them (compared apart), and what no two runs have in
 /// common.
-const std::vector<std::string> kNoValues = {"digest",      "key",
-                                            "mesh_bytes",  "metrics_status",
-                                            "case",        "pipeline",
-                                            "status",      "model",
-                                            "seed",        "variant",
-                                            "peer",        "peer_file",
-                                            "own_metrics", "experiment",
-                                            "digests",     "files",
-                                            "problem",     "not_repeatable",
-                                            "record",      "versions",
-                                            "machine",     "started",
-                                            "threads",     "peak_memory_bytes",
-                                            "warnings"};
+const std::vector<std::string> kNoValues = {
+    "digest",  "key",     "mesh_bytes",        "metrics_status", "case",      "pipeline",    "status",
+    "model",   "seed",    "variant",           "peer",           "peer_file", "own_metrics", "experiment",
+    "digests", "files",   "problem",           "not_repeatable", "record",    "versions",    "machine",
+    "started", "threads", "peak_memory_bytes", "warnings"};
 
 Json read_json(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -234,6 +227,25 @@ Lines check_files(VerifiedCell& cell) {
   return wrong;
 }
 
+/// Whether a record lies in the folder of another cell.
+Lines check_place(const VerifiedCell& cell) {
+  const fs::path folder = fs::absolute(cell.file).lexically_normal().parent_path();
+  const std::string variant = folder.parent_path().filename().string(), pipeline = folder.filename().string();
+  CellAddress address{cell.record.at("case"), {}, cell.record.at("pipeline")};
+  for (const auto& [title, value] : cell.record.at("variant").items())
+    address.variant.emplace_back(title, value);
+  bool is_right = pipeline == address.pipeline && variant.substr(0, variant.find('@')) == address.name;
+  try {
+    const auto study = read_study(results_of(cell.file));
+    const auto at = study ? find_cell(*study, variant, pipeline) : std::nullopt;
+    is_right = is_right && (!at || at->variant == address.variant);
+  } catch (const InputError&) {  // as check_study() says
+  }
+  if (is_right) return {};
+  return {fmt::format("{}: is the record of {} {} {}, in the folder of another cell", cell.file.string(),
+                      address.name, cell.record.at("variant").dump(), address.pipeline)};
+}
+
 /// What the checks of a cell need later on: there may be many.
 Json essence(const Json& record) {
   Json json = Json::object();
@@ -252,6 +264,7 @@ Lines check_record(VerifiedCell& cell) {
   try {
     cell.record = Json::parse(text);
     std::ranges::move(check_files(cell), std::back_inserter(wrong));
+    std::ranges::move(check_place(cell), std::back_inserter(wrong));
     cell.record = essence(cell.record);
   } catch (const Json::exception& error) {
     wrong.push_back(json_problem(cell.file, "is no record of a cell", error));
@@ -325,20 +338,22 @@ Lines check_variant(const Variant& variant, const fs::path& data) {
   return wrong;
 }
 
-/// Tables that are not those of the records.
+/// Tables and figures that the records do not make.
 Lines check_tables(const fs::path& folder, const Outcome& outcome) {
   const TemporaryFolder scratch;
   write_tables(scratch.path(), outcome);
+  std::set<fs::path> names;
+  for (const std::string& name : result_files())
+    if (fs::path(name).has_extension() && name != "study.json") names.insert(name);
+  for (const auto& file : fs::recursive_directory_iterator(scratch.path()))
+    if (file.is_regular_file()) names.insert(file.path().lexically_relative(scratch.path()));
   Lines wrong;
-  for (const std::string& name : result_files()) {
-    if (name == "study.json" || fs::path(name).extension().empty()) continue;
-    const fs::path file = folder / name;
-    const bool expected = fs::exists(scratch.path() / name);
-    if (expected && !fs::exists(file))
+  for (const fs::path& name : names) {
+    const fs::path file = folder / name, expected = scratch.path() / name;
+    if (fs::exists(expected) && !fs::exists(file))
       wrong.push_back(file.string() + ": is missing");
-    else if (expected != fs::exists(file) ||
-             (expected && file_bytes(scratch.path() / name) != file_bytes(file)))
-      wrong.push_back(file.string() + ": is not the table of these records");
+    else if (fs::exists(file) && (!fs::exists(expected) || file_bytes(expected) != file_bytes(file)))
+      wrong.push_back(file.string() + ": is not what these records make");
   }
   return wrong;
 }

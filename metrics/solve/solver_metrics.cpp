@@ -29,18 +29,17 @@ const std::vector<Solver>& solvers() {
 struct Part {
   const char *key, *title, *source;
   int digits;
-  double power;  ///< as power_of_vertices()
   double (*of)(const SolverErrors&);
 };
 
 constexpr Part kParts[] = {
-    {"_l2", " L2", "error over solution in L2", 6, -1, [](const SolverErrors& e) { return e.l2; }},
-    {"_h1", " H1", "error over solution, of the gradients, in L2", 6, -0.5,
+    {"_l2", " L2", "error over solution in L2", 6, [](const SolverErrors& e) { return e.l2; }},
+    {"_h1", " H1", "error over solution, of the gradients, in L2", 6,
      [](const SolverErrors& e) { return e.h1; }},
-    {"_condition", " condition", "of the stiffness matrix with Jacobi's scaling by node", 1, 1,
+    {"_condition", " condition", "of the stiffness matrix with Jacobi's scaling by node", 1,
      [](const SolverErrors& e) { return e.condition; }},
     {"_cg_iterations", " CG", "iterations of conjugate gradients with Jacobi's preconditioner to 1e-8", 0,
-     0.5, [](const SolverErrors& e) { return static_cast<double>(e.cg_iterations); }}};
+     [](const SolverErrors& e) { return static_cast<double>(e.cg_iterations); }}};
 
 const Solver& find_solver(const std::string& name) {
   const auto at = std::ranges::find(solvers(), name, &Solver::name);
@@ -81,13 +80,6 @@ SolverOutcome measure_by_solver(const Mesh& mesh, const std::string& name, const
     outcome.undefined = error.what();
   }
   return outcome;
-}
-
-double power_of_vertices(const std::string& key) {
-  for (const Solver& solver : solvers())
-    for (const Part& part : kParts)
-      if (key == solver.name + part.key) return part.power;
-  return 0;
 }
 
 }  // namespace delquad

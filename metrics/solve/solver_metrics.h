@@ -22,9 +22,4 @@ struct SolverOutcome {
 /// `exact`: of Poisson's equation; empty: the domain's own. Throws InputError for a solver that there is not.
 SolverOutcome measure_by_solver(const Mesh& mesh, const std::string& solver, const Solution& exact = {});
 
-/// Finer meshes of the same kind have measures of solvers in proportion to this power of their number of
-/// vertices (h ~ N^-1/2): -1/2 of errors in H1, -1 of those in L2, 1 of conditions, 1/2 of iterations. 0: of
-/// other measures.
-double power_of_vertices(const std::string& key);
-
 }  // namespace delquad

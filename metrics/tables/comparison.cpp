@@ -11,7 +11,6 @@
 #include "base/nearest_name.h"
 #include "base/text.h"
 #include "metrics/metrics.h"
-#include "metrics/tables/inference.h"
 #include "metrics/tables/samples.h"
 #include "metrics/tables/table.h"
 
@@ -21,18 +20,16 @@ namespace {
 constexpr const char* kTimeColumn = "seconds";
 constexpr int kDigits = 4;
 
-/// +1 where more is better, -1 where less is.
-int direction(const std::string& key, const std::vector<Metric>& own) {
-  if (key == kTimeColumn) return -1;
+/// One that is better one way.
+Metric comparable(const std::string& key, const std::vector<Metric>& own) {
   std::vector<Metric> metrics(metric_registry().begin(), metric_registry().end());
-  for (const Metric& metric : own)
-    if (find_metric(metric.key) == nullptr) metrics.push_back(metric);
-  const auto at = std::ranges::find(metrics, key, &Metric::key);
-  if (at != metrics.end() && at->better != Better::kNeither) return at->better == Better::kHigher ? 1 : -1;
+  metrics.insert(metrics.end(), own.begin(), own.end());
+  metrics.push_back({kTimeColumn, "s", "s", Better::kLower, HUGE_VAL, ""});
+  std::erase_if(metrics, [](const Metric& m) { return m.better == Better::kNeither; });
+  if (const auto at = std::ranges::find(metrics, key, &Metric::key); at != metrics.end()) return *at;
   std::vector<std::string> known;
   for (const Metric& m : metrics)
-    if (m.better != Better::kNeither) known.push_back(m.key);
-  known.emplace_back(kTimeColumn);
+    if (std::ranges::find(known, m.key) == known.end()) known.push_back(m.key);
   refuse("metric '{}' cannot be compared: expected some of {}{}", key, fmt::join(known, ", "),
          suggestion(key, known));
 }
@@ -85,157 +82,79 @@ std::vector<Row> pair_cells(const std::vector<CellRecord>& before, const std::ve
   return rows;
 }
 
-bool is_small(double before, double after, double tolerance) {
-  return std::abs(after - before) <= tolerance * std::max(std::abs(before), std::abs(after));
+bool is_small(double change, double magnitude, double tolerance) {
+  return std::abs(change) <= tolerance * magnitude;
 }
 
-/// What a change that is not small means. `test`: its number in the family; none: single runs.
-Verdict judge(double better_by, std::optional<std::size_t> test, int direction, const ClaimFamily& family) {
-  if (!test || family.finding(*test) == Finding::kTooFew)
-    return better_by > 0 ? Verdict::kBetter : Verdict::kWorse;
-  if (family.finding(*test) != Finding::kProven || family.test(*test).lean * direction * better_by <= 0)
-    return Verdict::kNotProven;
-  return better_by > 0 ? Verdict::kImproved : Verdict::kRegressed;
-}
-
-std::vector<double> times_of(const Runs& runs) {
-  std::vector<double> all;
-  for (const CellRecord* run : runs)
-    if (const auto at = run->times.find(kTimeColumn); at != run->times.end())
-      all.insert(all.end(), at->second.begin(), at->second.end());
-  return all;
-}
-
-/// One measure of one row, on its way to a verdict.
-class RowChange {
- public:
-  RowChange(const Row& row, std::string metric, int direction, ClaimFamily& family)
-      : change_{row.group, row.pipeline,       std::move(metric), std::nan(""), std::nan(""),
-                0,         Verdict::kUnchanged},
-        direction_(direction) {
-    if (change_.metric == kTimeColumn)
-      add_times(row, family);
-    else
-      add_values(row, family);
+MeasureChange change_of(const Row& row, const Metric& metric, double tolerance) {
+  MeasureChange change{row.group, row.pipeline,       metric.key, std::nan(""), std::nan(""),
+                       0,         Verdict::kUnchanged};
+  std::vector<double> before, after;
+  bool lost = false, found = false, up = false, down = false;
+  for (std::size_t i = 0; i < row.before.size(); ++i) {
+    const double a = value_of(*row.before[i], metric.key), b = value_of(*row.after[i], metric.key);
+    lost = lost || (!std::isnan(a) && std::isnan(b));
+    found = found || (std::isnan(a) && !std::isnan(b));
+    if (std::isnan(a) || std::isnan(b)) continue;
+    before.push_back(a);
+    after.push_back(b);
+    (b > a ? up : down) |= a != b;
   }
-
-  MeasureChange judged(const ClaimFamily& family, double tolerance) const {
-    MeasureChange change = change_;
-    if (lost_ || found_) {
-      change.verdict = lost_ ? Verdict::kWorse : Verdict::kBetter;
-    } else if (!std::isnan(change.before) && !is_small(change.before, change.after, tolerance)) {
-      const bool is_single_time = change.metric == kTimeColumn && !test_;
-      change.verdict = is_single_time
-                           ? Verdict::kNotProven
-                           : judge((change.after - change.before) * direction_, test_, direction_, family);
-    }
+  change.runs = before.size();
+  if (!before.empty()) {
+    change.before = mean(before);
+    change.after = mean(after);
+  }
+  if (lost || found)
+    change.verdict = lost ? Verdict::kWorse : Verdict::kBetter;
+  else if (before.empty() || is_small(change.after - change.before,
+                                      std::max(std::abs(change.before), std::abs(change.after)), tolerance))
     return change;
-  }
-
- private:
-  void add_values(const Row& row, ClaimFamily& family) {
-    std::vector<double> before, after, differences;
-    for (std::size_t i = 0; i < row.before.size(); ++i) {
-      const double a = value_of(*row.before[i], change_.metric), b = value_of(*row.after[i], change_.metric);
-      lost_ = lost_ || (!std::isnan(a) && std::isnan(b));
-      found_ = found_ || (std::isnan(a) && !std::isnan(b));
-      if (std::isnan(a) || std::isnan(b)) continue;
-      before.push_back(a);
-      after.push_back(b);
-      differences.push_back(b - a);
-    }
-    set(before, after);
-    if (differences.size() > 1) test_ = family.add(wilcoxon(differences));
-  }
-
-  void add_times(const Row& row, ClaimFamily& family) {
-    const std::vector<double> before = times_of(row.before), after = times_of(row.after);
-    if (before.empty() || after.empty()) {
-      add_single_times(row);
-      return;
-    }
-    change_.before = median(before);
-    change_.after = median(after);
-    change_.runs = std::min(before.size(), after.size());
-    test_ = family.add(mann_whitney(after, before));
-  }
-
-  void add_single_times(const Row& row) {
-    std::vector<double> before, after;
-    for (std::size_t i = 0; i < row.before.size(); ++i) {
-      const double a = value_of(*row.before[i], kTimeColumn), b = value_of(*row.after[i], kTimeColumn);
-      if (std::isnan(a) || std::isnan(b)) continue;
-      before.push_back(a);
-      after.push_back(b);
-    }
-    set(before, after);
-  }
-
-  void set(const std::vector<double>& before, const std::vector<double>& after) {
-    change_.runs = before.size();
-    if (before.empty()) return;
-    change_.before = mean(before);
-    change_.after = mean(after);
-  }
-
-  MeasureChange change_;
-  int direction_;
-  bool lost_ = false, found_ = false;  ///< values that are no longer defined, or now are
-  std::optional<std::size_t> test_;
-};
-
-/// One measure of one pipeline over all domains, on its way to a verdict.
-struct OverDomains {
-  std::string pipeline, metric;
-  PairedDomains domains;  ///< after minus before
-  double magnitude;       ///< the larger mean of both
-  int direction;
-  std::size_t test;
-
-  DomainChange judged(const ClaimFamily& family, double tolerance) const {
-    const double change = mean(domains.means());
-    Verdict verdict = Verdict::kUnchanged;
-    if (std::abs(change) > tolerance * magnitude) {
-      verdict = judge(change * direction, test, direction, family);
-      // What is too little to prove over domains is told of its rows.
-      if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) verdict = Verdict::kNotProven;
-    }
-    return {pipeline, metric, domains.names.size(), domains.runs, change, interval_of_mean(domains.means()),
-            verdict};
-  }
-};
+  else if (metric.key == kTimeColumn || (up && down))
+    change.verdict = Verdict::kNotProven;
+  else
+    change.verdict = up == (metric.better == Better::kHigher) ? Verdict::kBetter : Verdict::kWorse;
+  return change;
+}
 
 double mean_magnitude(const Runs& runs, const std::string& key) {
-  std::vector<double> values;
-  for (const CellRecord* run : runs)
-    if (const double v = value_of(*run, key); !std::isnan(v)) values.push_back(v);
-  return values.empty() ? 0 : std::abs(mean(values));
+  const std::vector<double> means = means_by_domain(runs, key);
+  return means.empty() ? 0 : std::abs(mean(means));
 }
 
-std::vector<OverDomains> compare_over_domains(const std::vector<Row>& rows,
-                                              const std::vector<std::string>& metrics,
-                                              const std::vector<int>& directions, ClaimFamily& family) {
+/// Failed cells lose.
+std::vector<DomainChange> compare_over_domains(const std::vector<CellRecord>& before,
+                                               const std::vector<CellRecord>& after,
+                                               const std::vector<Metric>& metrics, double tolerance,
+                                               ClaimFamily& family) {
   std::vector<std::string> words;
-  std::map<std::string, std::pair<Runs, Runs>> by_word;
-  for (const Row& row : rows) {
-    if (!by_word.contains(row.pipeline)) words.push_back(row.pipeline);
-    auto& [before, after] = by_word[row.pipeline];
-    before.insert(before.end(), row.before.begin(), row.before.end());
-    after.insert(after.end(), row.after.begin(), row.after.end());
-  }
-  std::vector<OverDomains> result;
-  for (const std::string& word : words)
-    for (std::size_t m = 0; m < metrics.size(); ++m) {
-      const auto& [before, after] = by_word[word];
-      const ValueKind kind = metrics[m] == kTimeColumn ? ValueKind::kRepeatedTime : ValueKind::kMeasure;
-      PairedDomains domains = pair_by_domain(after, before, metrics[m], kind);
-      if (domains.names.size() < kFewestDomains) continue;
-      const std::size_t test = family.add(wilcoxon(domains.means()));
-      const double magnitude =
-          std::max(mean_magnitude(before, metrics[m]), mean_magnitude(after, metrics[m]));
-      result.push_back({word, metrics[m], std::move(domains), magnitude, directions[m], test});
+  std::map<std::string, Runs> old, now;
+  for (const auto& [records, runs] : {std::pair(&before, &old), std::pair(&after, &now)})
+    for (const CellRecord& record : *records) {
+      if (record.skipped) continue;
+      if (runs == &old && !old.contains(record.pipeline)) words.push_back(record.pipeline);
+      (*runs)[record.pipeline].push_back(&record);
     }
-  return result;
+  std::vector<DomainChange> all;
+  for (const std::string& word : words)
+    for (const Metric& metric : metrics) {
+      if (metric.key == kTimeColumn) continue;
+      PairComparison pair{"after", "before", metric, pair_by_domain(now[word], old[word], metric, "", false)};
+      if (pair.domains.names.size() < kFewestDomains) continue;
+      pair.interval = interval_of_mean(pair.domains.finite());
+      pair.test = family.add(wilcoxon(pair.domains.differences));
+      all.push_back({word, std::move(pair), Verdict::kUnchanged});
+    }
+  family.decide();
+  for (auto& [word, pair, verdict] : all) {
+    const std::string& key = pair.metric.key;
+    const double magnitude = std::max(mean_magnitude(old[word], key), mean_magnitude(now[word], key));
+    if (!pair.domains.has_failures() && is_small(mean(pair.domains.differences), magnitude, tolerance))
+      continue;
+    const auto better = first_is_better(pair, family);
+    verdict = !better ? Verdict::kNotProven : *better ? Verdict::kImproved : Verdict::kRegressed;
+  }
+  return all;
 }
 
 const char* text_of(Verdict verdict) {
@@ -249,14 +168,14 @@ const char* text_of(Verdict verdict) {
   }
 }
 
-/// What stands behind a change that is not proven, and of how many runs it is.
-std::string remark(Verdict verdict, std::size_t runs) {
-  const std::string n = runs == 1 ? "one run" : fmt::format("{} runs", runs);
-  if (verdict == Verdict::kNotProven) return fmt::format("  (not proven; {})", n);
+/// The words behind a change, with the number of runs.
+std::string remark(Verdict verdict, std::size_t runs, const std::string& failures = "") {
+  std::string text = runs == 1 ? "one run" : fmt::format("{} runs", runs);
+  if (!failures.empty()) text += "; " + failures;
+  if (verdict == Verdict::kNotProven) return fmt::format("  (not proven; {})", text);
   if (verdict == Verdict::kBetter || verdict == Verdict::kWorse)
-    return fmt::format("  ({}; {}, too few to prove anything)",
-                       verdict == Verdict::kBetter ? "better" : "worse", n);
-  return fmt::format("  ({})", n);
+    return fmt::format("  ({}; {})", verdict == Verdict::kBetter ? "better" : "worse", text);
+  return fmt::format("  ({})", text);
 }
 
 }  // namespace
@@ -268,34 +187,29 @@ int Comparison::count(Verdict verdict) const {
 
 Comparison compare_records(const std::vector<CellRecord>& before, const std::vector<CellRecord>& after,
                            const std::vector<std::string>& metrics, double tolerance) {
-  std::vector<int> directions;
-  std::vector<Metric> own = own_metrics_of(before);
-  for (Metric& metric : own_metrics_of(after))
-    if (std::ranges::find(own, metric.key, &Metric::key) == own.end()) own.push_back(std::move(metric));
-  for (const std::string& metric : metrics) directions.push_back(direction(metric, own));
+  std::vector<Metric> own = own_metrics_of(before), metrics_asked;
+  std::ranges::copy(own_metrics_of(after), std::back_inserter(own));
+  for (const std::string& key : metrics) metrics_asked.push_back(comparable(key, own));
 
   Comparison result;
-  const std::vector<Row> rows = pair_cells(before, after, result);
+  for (const Row& row : pair_cells(before, after, result))
+    for (const Metric& metric : metrics_asked) result.changes.push_back(change_of(row, metric, tolerance));
   ClaimFamily family;
-  std::vector<RowChange> changes;
-  for (const Row& row : rows)
-    for (std::size_t m = 0; m < metrics.size(); ++m)
-      changes.emplace_back(row, metrics[m], directions[m], family);
-  const std::vector<OverDomains> over_domains = compare_over_domains(rows, metrics, directions, family);
-  family.decide();
-  for (const RowChange& change : changes) result.changes.push_back(change.judged(family, tolerance));
-  for (const OverDomains& change : over_domains)
-    result.over_domains.push_back(change.judged(family, tolerance));
+  result.over_domains = compare_over_domains(before, after, metrics_asked, tolerance, family);
   if (family.size() > 0) result.note = family.note();
   return result;
 }
 
 std::string to_text(const Comparison& comparison) {
   std::string text;
-  for (const DomainChange& c : comparison.over_domains)
-    if (c.verdict != Verdict::kUnchanged)
-      text += fmt::format("{:<9}  {} over {} domains: {} {}{}\n", text_of(c.verdict), c.pipeline, c.domains,
-                          c.metric, interval_text(c.change, *c.interval, kDigits), remark(c.verdict, c.runs));
+  for (const auto& [pipeline, pair, verdict] : comparison.over_domains) {
+    if (verdict == Verdict::kUnchanged) continue;
+    const std::vector<double> finite = pair.domains.finite();
+    text += fmt::format("{:<9}  {} over {} domains: {} {}{}\n", text_of(verdict), pipeline,
+                        pair.domains.names.size(), pair.metric.key,
+                        pair.interval ? interval_text(mean(finite), *pair.interval, kDigits) : "-",
+                        remark(verdict, pair.domains.runs, pair.failures()));
+  }
   for (const MeasureChange& c : comparison.changes)
     if (c.verdict != Verdict::kUnchanged)
       text += fmt::format("{:<9}  {} {}: {} {:.6g} -> {:.6g}{}\n", text_of(c.verdict), c.group, c.pipeline,

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "metrics/tables/inference.h"
 #include "metrics/tables/result_records.h"
-#include "metrics/tables/statistics.h"
 
 namespace delquad {
 
@@ -14,9 +14,9 @@ enum class Verdict {
   kUnchanged,
   kImproved,   ///< as is proven
   kRegressed,  ///< as is proven
-  kBetter,     ///< a fact of these runs, which are too few to prove anything
+  kBetter,     ///< a fact: in every run
   kWorse,      ///< the same
-  kNotProven   ///< changed, but runs scatter too much, or it is the time of single runs
+  kNotProven   ///< changed, now the one way, now the other; or it is a time
 };
 
 /// One measure of one row (a pipeline on a variant, with every seed), before and after.
@@ -27,12 +27,10 @@ struct MeasureChange {
   Verdict verdict;
 };
 
-/// One measure of one pipeline over all domains that both runs have.
+/// One measure of one pipeline over all domains that both runs have: "after" is the first of the pair.
 struct DomainChange {
-  std::string pipeline, metric;
-  std::size_t domains, runs;
-  double change;                     ///< after minus before, the mean of the domains' means
-  std::optional<Interval> interval;  ///< by interval_of_mean()
+  std::string pipeline;
+  PairComparison pair;
   Verdict verdict;
 };
 
@@ -47,19 +45,18 @@ struct Comparison {
   std::vector<std::string> failing;        ///< failed both times
   std::string note = {};                   ///< over how many tests was corrected; empty: none
   int count(Verdict verdict) const;        ///< of rows, and over domains
-  /// Something got worse: a measure, as is proven or a fact of runs too few to prove anything, or a cell that
-  /// is missing or failed.
+  /// Something got worse: a measure, as is proven or in every run of a row, or a cell that is missing or
+  /// failed.
   bool regressed() const {
     return count(Verdict::kRegressed) + count(Verdict::kWorse) + missing.size() + failed.size() > 0;
   }
 };
 
-/// Cells are paired by case, variant and seed. A measure has changed when its means differ by more than
-/// `tolerance` times the larger of both magnitudes; a value that is no longer defined is worse. Where a row
-/// has several seeds on both sides, and over all domains where there are six or more, changes are tested by
-/// Wilcoxon's signed-rank test, times of repeated runs by the Mann-Whitney U test, all of them one family
-/// (see ClaimFamily). Throws InputError for a metric that does not exist or of which neither more nor less is
-/// better. "seconds" counts as a metric.
+/// Cells are paired by case, variant and seed. A measure has changed if its means differ by more than
+/// `tolerance` times the larger magnitude. A value that is no longer defined is worse. Over all
+/// domains, where there are six or more, changes are tested as pairs of pipelines are, all of them one
+/// family. Throws InputError for a metric that does not exist or of which neither more nor less is better.
+/// "seconds" counts as a metric, of which nothing is proven.
 Comparison compare_records(const std::vector<CellRecord>& before, const std::vector<CellRecord>& after,
                            const std::vector<std::string>& metrics, double tolerance);
 

@@ -25,12 +25,11 @@ constexpr double kLeastCost = 1e-6;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 const std::vector<const char*> kNames = {"time_quality", "irregular_tau", "profile_eta", "profile_tau",
                                          "profile_time"};
-constexpr const char *kEffects = "effects_", *kAgainst = "_against_";
+constexpr const char* kEffects = "effects_";
 
 /// Whether a file has the name of a figure of ours.
 bool is_own(const std::string& name) {
-  return std::ranges::find(kNames, name) != kNames.end() || name.starts_with(kEffects) ||
-         name.find(kAgainst) != std::string::npos;
+  return std::ranges::find(kNames, name) != kNames.end() || name.starts_with(kEffects);
 }
 
 bool is_sound(const CellRecord& record) {
@@ -38,7 +37,7 @@ bool is_sound(const CellRecord& record) {
 }
 
 /// The variants that every pipeline has a record of, and the pipelines.
-struct SmoothedEnergies {
+struct CommonCells {
   std::vector<std::string> pipelines, variants;
   std::map<std::pair<std::string, std::string>, const CellRecord*> cells;  // by variant and pipeline
 
@@ -52,8 +51,8 @@ void add_once(std::vector<T>& list, const T& item) {
   if (std::ranges::find(list, item) == list.end()) list.push_back(item);
 }
 
-SmoothedEnergies comparison_of(const std::vector<CellRecord>& records) {
-  SmoothedEnergies c;
+CommonCells comparison_of(const std::vector<CellRecord>& records) {
+  CommonCells c;
   std::set<std::string> triangles_only, quads, absent;
   for (const CellRecord& record : records) {
     if (record.reason.empty())
@@ -76,7 +75,7 @@ SmoothedEnergies comparison_of(const std::vector<CellRecord>& records) {
 }
 
 /// What pipelines have no value for, in words: "gmsh: 1 failed, 2 not applicable".
-std::vector<std::string> notes_on_missing(const SmoothedEnergies& c) {
+std::vector<std::string> notes_on_missing(const CommonCells& c) {
   std::vector<std::string> notes;
   for (const std::string& pipeline : c.pipelines) {
     int failed = 0, inapplicable = 0, unsound = 0;
@@ -96,7 +95,7 @@ std::vector<std::string> notes_on_missing(const SmoothedEnergies& c) {
 }
 
 template <class X, class Y>
-Figure scatter(const SmoothedEnergies& c, const char* name, const Diagram& frame, X x, Y y) {
+Figure scatter(const CommonCells& c, const char* name, const Diagram& frame, X x, Y y) {
   Figure figure{name, frame, "case,pipeline,x,y\n"};
   for (const std::string& pipeline : c.pipelines) {
     DiagramSeries series{pipeline, {}};
@@ -114,7 +113,7 @@ Figure scatter(const SmoothedEnergies& c, const char* name, const Diagram& frame
 
 /// The part of the variants (in percent) on which a pipeline's cost is at most so many times the least.
 template <class Cost>
-Figure profile(const SmoothedEnergies& c, const char* name, const std::string& title, Cost cost) {
+Figure profile(const CommonCells& c, const char* name, const std::string& title, Cost cost) {
   Figure figure{name,
                 {title, {"times the least", true}, {"% of the cells", false}, DiagramKind::kSteps, {}},
                 "pipeline,factor,percent\n"};
@@ -148,7 +147,7 @@ Figure profile(const SmoothedEnergies& c, const char* name, const std::string& t
 }  // namespace
 
 std::vector<Figure> make_figures(const std::vector<CellRecord>& records) {
-  const SmoothedEnergies c = comparison_of(records);
+  const CommonCells c = comparison_of(records);
   std::set<std::string> cases;
   for (const std::string& variant : c.variants) cases.insert(c.cell(variant, c.pipelines[0]).name);
   if (c.pipelines.size() < 2 || cases.size() < kFewestCases) return {};
@@ -173,8 +172,7 @@ std::vector<Figure> make_figures(const std::vector<CellRecord>& records) {
 std::vector<Figure> figures_of_effects(const Inference& inference) {
   std::vector<Figure> figures;
   for (const PairComparison& pair : inference.pairs()) {
-    const std::vector<double> means = pair.domains.means();
-    const auto interval = interval_of_mean(means);
+    const auto& interval = pair.interval;
     if (!interval) continue;
     const std::string name = kEffects + pair.metric.key;
     auto at = std::ranges::find(figures, name, &Figure::name);
@@ -185,40 +183,20 @@ std::vector<Figure> figures_of_effects(const Inference& inference) {
                     DiagramKind::kIntervals,
                     {}};
       frame.notes = {
-          fmt::format("{} 0: the first is better. Full: proven at 5 %{}.",
+          fmt::format("{} 0: the first is better. Full: proven at 5 %, without a failure{}.",
                       pair.metric.better == Better::kHigher ? "Above" : "Below",
                       inference.family().is_exploratory() ? "; empty: not planned, or not proven" : "")};
       at = figures.insert(at, {name, std::move(frame), "pair,low,effect,high,proven\n"});
     }
-    const double effect = mean(means);
+    const double effect = mean(pair.domains.finite());
     const bool proven = inference.first_is_better(pair).has_value();
-    DiagramSeries series{pair.first + " - " + pair.second,
+    const std::string failures = pair.failures();
+    DiagramSeries series{pair.first + " - " + pair.second + (failures.empty() ? "" : " (" + failures + ")"),
                          {{interval->low, 0}, {effect, 0}, {interval->high, 0}}};
-    if (proven) series.marked = {{effect, 0}};
+    if (proven && failures.empty()) series.marked = {{effect, 0}};
     at->csv += fmt::format("{},{},{},{},{}\n", csv_quoted(series.name), interval->low, effect, interval->high,
                            proven ? "yes" : "no");
     at->diagram.series.push_back(std::move(series));
-  }
-  return figures;
-}
-
-std::vector<Figure> figures_of_slopes(const SlopeRequest& request, const std::vector<CellRecord>& records) {
-  std::vector<Figure> figures;
-  for (const std::string& key : request.of) {
-    Figure figure{key + kAgainst + request.against,
-                  {key + " against " + request.against, {request.against, true}, {key, true}, {}, {}},
-                  "case,pipeline,x,y\n"};
-    for (const CellRecord& record : records) {
-      const Vec2 at = {value_of(record, request.against), value_of(record, key)};
-      if (!(at.x > 0 && at.y > 0)) continue;
-      auto series = std::ranges::find(figure.diagram.series, record.pipeline, &DiagramSeries::name);
-      if (series == figure.diagram.series.end())
-        series = figure.diagram.series.insert(series, {record.pipeline, {}});
-      series->points.push_back(at);
-      figure.csv +=
-          fmt::format("{},{},{},{}\n", csv_quoted(record.group), csv_quoted(record.pipeline), at.x, at.y);
-    }
-    if (!figure.diagram.series.empty()) figures.push_back(std::move(figure));
   }
   return figures;
 }

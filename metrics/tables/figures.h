@@ -26,11 +26,9 @@ inline constexpr const char* kFigures = "figures";
 /// makes quads. Variants that some pipeline has no record of yet, or whose data was absent, are left out.
 std::vector<Figure> make_figures(const std::vector<CellRecord>& records);
 
-/// For each measure of pairs their effects, with 95 % intervals: dots of what is proven are full.
+/// For each measure of pairs their effects, with 95 % intervals: dots of what is proven, without a failure,
+/// are full.
 std::vector<Figure> figures_of_effects(const Inference& inference);
-/// Each measure of the request against what it goes with, over all runs.
-std::vector<Figure> figures_of_slopes(const SlopeRequest& request, const std::vector<CellRecord>& records);
-
 /// Writes them to DIR/figures as SVG, PDF and CSV, and removes those of earlier runs that there are no
 /// longer; returns what could not be written.
 std::vector<std::string> write_figures(const std::filesystem::path& folder,

@@ -1,6 +1,7 @@
 #include "metrics/tables/inference.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -14,214 +15,99 @@ namespace delquad {
 
 namespace {
 
-bool competes(const Samples& row, const std::string& key) {
-  const auto is_rival = [&](const CellRecord* record) {
-    return record->unsound.empty() && makes_quads(*record) &&
-           !(is_of_quads(key) && leaves_triangles(*record));
-  };
-  return !row.done.empty() && std::ranges::all_of(row.done, is_rival);
-}
-
-}  // namespace
-
-Marking::Marking(const std::vector<Samples>& samples, const std::vector<TestedMeasure>& measures,
-                 ClaimFamily& family)
-    : samples_(samples) {
-  for (std::size_t first = 0, last; first < samples.size(); first = last) {
-    last = first;
-    while (last < samples.size() && samples[last].group == samples[first].group) ++last;
-    for (const TestedMeasure& measure : measures)
-      if (measure.metric.better != Better::kNeither) add_group(first, last, measure, family);
-  }
-}
-
-void Marking::add_group(std::size_t first, std::size_t last, const TestedMeasure& measure,
-                        ClaimFamily& family) {
-  const std::string& key = measure.metric.key;
-  Contest contest{key, measure.metric.better == Better::kHigher ? 1.0 : -1.0, {}, {}, {}};
-  for (std::size_t i = first; i < last; ++i) {
-    const bool is_time = measure.kind == ValueKind::kRepeatedTime;
-    const std::vector<double> values = is_time ? samples_[i].times(key) : samples_[i].of(key);
-    if (values.empty() || !competes(samples_[i], key)) continue;
-    contest.rivals.push_back(i);
-    contest.values.push_back(is_time ? median(values) : mean(values));
-  }
-  if (contest.rivals.size() < 2) return;
-  for (const std::size_t b : contest.rivals)
-    for (const std::size_t a : contest.rivals)
-      if (a < b) contest.duels.push_back({a, b, family.add(test(measure, a, b))});
-  contests_.push_back(std::move(contest));
-}
-
-RankTest Marking::test(const TestedMeasure& measure, std::size_t first, std::size_t second) const {
-  const std::string& key = measure.metric.key;
-  if (measure.kind == ValueKind::kRepeatedTime)
-    return mann_whitney(samples_[first].times(key), samples_[second].times(key));
-  return wilcoxon(pair_by_run(samples_[first].done, samples_[second].done, key));
-}
-
-bool Marking::can_prove(const ClaimFamily& family, const Contest& contest) {
-  return std::ranges::any_of(contest.duels,
-                             [&](const Duel& d) { return !std::isnan(family.adjusted_p(d.test)); });
-}
-
-bool Marking::can_prove(const ClaimFamily& family) const {
-  return std::ranges::any_of(contests_, [&](const Contest& c) { return can_prove(family, c); });
-}
-
-void Marking::mark(const ClaimFamily& family, std::span<TableRow> rows) const {
-  for (const Contest& contest : contests_) {
-    if (!can_prove(family, contest)) continue;
-    const auto [low, high] = std::ranges::minmax_element(contest.values);
-    if (*low == *high) continue;
-    std::size_t best = 0;
-    for (std::size_t k = 1; k < contest.values.size(); ++k)
-      if (contest.sign * (contest.values[k] - contest.values[best]) > 0) best = k;
-    const std::size_t winner = contest.rivals[best];
-    std::vector<std::size_t> as_good;
-    for (const Duel& duel : contest.duels) {
-      if (duel.first != winner && duel.second != winner) continue;
-      const double lean = contest.sign * family.test(duel.test).lean * (duel.first == winner ? 1 : -1);
-      if (family.finding(duel.test) != Finding::kProven || lean <= 0)
-        as_good.push_back(duel.first == winner ? duel.second : duel.first);
-    }
-    rows[winner].marks[contest.key] = as_good.empty() ? Mark::kBest : Mark::kAsGoodAsBest;
-    for (const std::size_t row : as_good) rows[row].marks[contest.key] = Mark::kAsGoodAsBest;
-  }
-}
-
-std::vector<std::string> Marking::notes(const ClaimFamily& family, std::span<const TableRow> rows) const {
-  if (contests_.empty()) return {};
-  if (family.is_exploratory()) return {family.note() + " Nothing is marked."};
-  bool best = false, as_good = false, single = true;
-  for (const TableRow& row : rows)
-    for (const auto& [key, mark] : row.marks) (mark == Mark::kBest ? best : as_good) = true;
-  const bool too_few =
-      std::ranges::any_of(contests_, [&](const Contest& c) { return !can_prove(family, c); });
-  for (const Samples& row : samples_) single = single && row.done.size() < 2;
-  std::vector<std::string> notes;
-  if (best) notes.push_back("Bold: proven to be the best of its group, at 5 %.");
-  if (as_good) notes.push_back("~: the best of its group, or not proven to be worse than it.");
-  if (single && !best && !as_good)
-    notes.push_back(
-        "Single runs: a value that is better here need not be better on the same domain, turned a "
-        "little. Nothing is marked as the best; that takes several seeds.");
-  else if (too_few)
-    notes.push_back("Where nothing is marked, all are alike or there are too few seeds to tell.");
-  return notes;
-}
-
-namespace {
-
-/// Compares runs with quads; in measures of quads alone those of pipelines that leave no triangles.
+/// Compares runs of pipelines that make quads; in measures of quads alone of those that leave no triangles.
 class Comparing {
  public:
   explicit Comparing(const std::vector<CellRecord>& records) : records_(records) {
-    for (const CellRecord& record : records)
-      if (record.reason.empty() && leaves_triangles(record)) with_triangles_.insert(record.pipeline);
+    for (const CellRecord& record : records) {
+      if (leaves_triangles(record)) with_triangles_.insert(record.pipeline);
+      if (record.reason.empty()) (makes_quads(record) ? with_quads_ : done_).insert(record.pipeline);
+    }
   }
 
   PairComparison operator()(const std::string& along, const std::string& first, const std::string& second,
-                            const TestedMeasure& measure) const {
-    const std::string head = along.empty() ? "" : along + "=", &key = measure.metric.key;
-    return {head + first, head + second, measure.metric,
-            pair_by_domain(runs(along, first, key), runs(along, second, key), key, measure.kind, along), 0};
+                            const Metric& metric) const {
+    const std::string head = along.empty() ? "" : along + "=";
+    PairComparison pair{
+        head + first, head + second, metric,
+        pair_by_domain(runs(along, first, metric.key), runs(along, second, metric.key), metric, along)};
+    pair.interval = interval_of_mean(pair.domains.finite());
+    return pair;
   }
 
  private:
   std::vector<const CellRecord*> runs(const std::string& along, const std::string& value,
                                       const std::string& key) const {
+    const auto competes = [&](const std::string& pipeline) {
+      return (with_quads_.contains(pipeline) || !done_.contains(pipeline)) &&
+             !(is_of_quads(key) && with_triangles_.contains(pipeline));
+    };
     std::vector<const CellRecord*> result;
     for (const CellRecord& record : records_)
-      if (record.reason.empty() && makes_quads(record) && value_along(record, along) == value &&
-          !(is_of_quads(key) && with_triangles_.contains(record.pipeline)))
+      if (!record.skipped && value_along(record, along) == value && competes(record.pipeline))
         result.push_back(&record);
     return result;
   }
 
   const std::vector<CellRecord>& records_;
-  std::set<std::string> with_triangles_;
+  std::set<std::string> with_triangles_, with_quads_, done_;
 };
-
-/// Whether the first is proven to be better; not where the mean and most of the ranks disagree.
-std::optional<bool> first_is_better(const PairComparison& pair, const ClaimFamily& family) {
-  const double effect = mean(pair.domains.means());
-  const double lean = family.test(pair.test).lean;
-  if (family.finding(pair.test) != Finding::kProven || effect * lean <= 0) return std::nullopt;
-  return (effect > 0) == (pair.metric.better == Better::kHigher);
-}
 
 /// What is said where the first is proven to be better, and to be worse.
 using Words = std::array<const char*, 2>;
 
 std::string in_words(const PairComparison& pair, const ClaimFamily& family, const Words& words) {
   if (family.is_exploratory()) return "exploratory";
-  const std::vector<double> means = pair.domains.means();
-  if (means.size() >= kFewestDomains && std::ranges::all_of(means, [](double d) { return d == 0; }))
+  const std::vector<double>& all = pair.domains.differences;
+  if (all.size() >= kFewestDomains && std::ranges::all_of(all, [](double d) { return d == 0; }))
     return "no difference";
   if (family.finding(pair.test) == Finding::kTooFew) return "too few domains";
   const auto better = first_is_better(pair, family);
-  return !better ? "not proven" : *better ? words[0] : words[1];
+  if (!better) return "not proven";
+  const std::string failures = pair.failures();
+  return words[*better ? 0 : 1] + (failures.empty() ? "" : " (" + failures + ")");
 }
 
 TableRow row_of(const PairComparison& pair, const ClaimFamily& family, const Words& words) {
-  const std::vector<double> means = pair.domains.means();
-  const double sign = pair.metric.better == Better::kHigher ? 1 : -1, effect = mean(means);
+  const PairedDomains& domains = pair.domains;
+  const std::vector<double> finite = domains.finite();
+  const double sign = pair.metric.better == Better::kHigher ? 1 : -1, effect = mean(finite);
   const auto count = [&](double side) {
-    return static_cast<double>(std::ranges::count_if(means, [&](double d) { return side * sign * d > 0; }));
+    return static_cast<double>(
+        std::ranges::count_if(domains.differences, [&](double d) { return side * sign * d > 0; }));
   };
   TableRow row{pair.first + " - " + pair.second, pair.metric.title, {}, {}, "", ""};
-  row.values = {{"domains", static_cast<double>(means.size())},
-                {"runs", static_cast<double>(pair.domains.runs)},
+  row.values = {{"domains", static_cast<double>(domains.names.size())},
+                {"runs", static_cast<double>(domains.runs)},
                 {"better", count(1)},
                 {"worse", count(-1)},
+                {"first_failed", static_cast<double>(domains.failed[0])},
+                {"second_failed", static_cast<double>(domains.failed[1])},
                 {"effect", effect},
                 {"p", family.test(pair.test).p},
                 {"p_corrected", family.adjusted_p(pair.test)}};
-  const auto interval = interval_of_mean(means);
-  if (interval) {
-    row.values["low"] = interval->low;
-    row.values["high"] = interval->high;
-    row.texts["effect"] = interval_text(effect, *interval, pair.metric.digits);
+  if (pair.interval) {
+    row.values["low"] = pair.interval->low;
+    row.values["high"] = pair.interval->high;
+    row.texts["effect"] = interval_text(effect, *pair.interval, pair.metric.digits);
   }
   for (const char* key : {"p", "p_corrected"})
     if (!std::isnan(row.values[key])) row.texts[key] = p_text(row.values[key]);
   row.texts["first_is"] = in_words(pair, family, words);
-  if (first_is_better(pair, family)) row.marks["effect"] = Mark::kBest;
+  if (first_is_better(pair, family) && !domains.has_failures()) row.bold.insert("effect");
   return row;
 }
 
-}  // namespace
-
-std::vector<PairComparison> compare_pairs(const StudyFile& study, const std::vector<CellRecord>& records,
-                                          const std::vector<TestedMeasure>& measures, ClaimFamily& family) {
-  const Comparing compare(records);
-  std::vector<PairComparison> pairs;
-  const auto add_all = [&](const std::string& along, const std::vector<std::string>& values) {
-    for (std::size_t i = 0; i < values.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        for (const TestedMeasure& measure : measures) {
-          if (!along.empty() && measure.kind == ValueKind::kRepeatedTime) continue;
-          PairComparison pair = compare(along, values[i], values[j], measure);
-          if (pair.domains.names.size() < 2) continue;
-          pair.test = family.add(wilcoxon(pair.domains.means()));
-          pairs.push_back(std::move(pair));
-        }
-  };
-  add_all("", study.pipelines);
-  for (const auto& [title, values] : study.axes)
-    if (std::ranges::find(study.pairs, title) != study.pairs.end()) add_all(title, values);
-  return pairs;
-}
-
-namespace {
-
-Table comparison_table(const std::string& title, const char* pairs, const char* verdict) {
-  Table table{title, pairs, "measure", {}, {}, {}};
+Table comparison_table(const std::string& title, const char* heading, const char* verdict,
+                       const std::vector<PairComparison>& pairs, const ClaimFamily& family,
+                       const Words& words) {
+  Table table{title, heading, "measure", {}, {}, {}};
   table.columns = {{"domains", "domains", 0},
                    {"runs", "runs", 0},
                    {"better", "better", 0},
                    {"worse", "worse", 0},
+                   {"first_failed", "first failed", 0},
+                   {"second_failed", "second failed", 0},
                    {"effect", "difference", 4},
                    {"low", "low", 4},
                    {"high", "high", 4},
@@ -229,20 +115,46 @@ Table comparison_table(const std::string& title, const char* pairs, const char* 
                    {"p_corrected", "p corrected", 4},
                    {"first_is", verdict, 0}};
   table.shown = {"domains", "runs", "better", "worse", "effect", "p", "p_corrected", "first_is"};
+  if (std::ranges::any_of(pairs, [](const PairComparison& p) { return p.domains.has_failures(); }))
+    table.shown.insert(table.shown.begin() + 4, {"first_failed", "second_failed"});
   table.notes = {
       "First minus second, averaged over the seeds and variants of each domain (geometry); domains are the "
-      "sample. Better, worse: on how many of them the first is. Difference: the mean of the domains, "
-      "with its 95 % interval (bootstrap-t over domains, of fewer than six Student's)."};
+      "sample. Better, worse: on how many of them the first is. A side that failed on a domain is worse "
+      "there. Difference: the mean of the domains on which neither failed, with its 95 % interval."};
+  std::vector<std::string> said;
+  for (const PairComparison& pair : pairs) {
+    table.rows.push_back(row_of(pair, family, words));
+    if (pair.domains.left_out.empty()) continue;
+    const std::string text = fmt::format("{} and {} both failed on {}: left out", pair.first, pair.second,
+                                         fmt::join(pair.domains.left_out, ", "));
+    if (std::ranges::find(said, text) == said.end()) said.push_back(text);
+  }
+  table.notes.insert(table.notes.end(), said.begin(), said.end());
   return table;
 }
 
 }  // namespace
 
-Table pairs_table(const std::string& title, const std::vector<PairComparison>& pairs,
-                  const ClaimFamily& family) {
-  Table table = comparison_table(title + ": pairs of pipelines", "pipelines", "first is");
+std::string PairComparison::failures() const {
+  std::string text;
+  for (const auto& [name, count] : {std::pair(&first, domains.failed[0]), {&second, domains.failed[1]}})
+    if (count > 0) text += fmt::format("{}{} failed on {}", text.empty() ? "" : ", ", *name, count);
+  return text;
+}
+
+std::optional<bool> first_is_better(const PairComparison& pair, const ClaimFamily& family) {
+  if (family.finding(pair.test) != Finding::kProven || !pair.interval) return std::nullopt;
+  const bool is_larger = family.test(pair.test).lean > 0;
+  if (is_larger ? pair.interval->low <= 0 : pair.interval->high >= 0) return std::nullopt;
+  return is_larger == (pair.metric.better == Better::kHigher);
+}
+
+Table pairs_table(const std::string& title, const Inference& inference) {
+  const std::vector<PairComparison>& pairs = inference.pairs();
+  const ClaimFamily& family = inference.family();
+  Table table = comparison_table(title + ": pairs of pipelines", "pipelines", "first is", pairs, family,
+                                 {"better", "worse"});
   const auto has_few = [](const PairComparison& pair) { return pair.domains.names.size() < kFewestDomains; };
-  for (const PairComparison& pair : pairs) table.rows.push_back(row_of(pair, family, {"better", "worse"}));
   const bool says_nothing = std::ranges::all_of(pairs, has_few) && !family.is_exploratory();
   table.notes.push_back("p: Wilcoxon's signed-rank test over the domains, two-sided." +
                         (says_nothing ? "" : " " + family.note()));
@@ -251,38 +163,29 @@ Table pairs_table(const std::string& title, const std::vector<PairComparison>& p
   return table;
 }
 
-Table hypotheses_table(const StudyFile& study, const Inference& inference) {
-  Table table = comparison_table(study.title + ": hypotheses", "hypothesis", "verdict");
-  for (const PairComparison& pair : inference.hypotheses()) {
-    TableRow& row =
-        table.rows.emplace_back(row_of(pair, inference.planned(pair.secondary), {"proven", "refuted"}));
-    row.group = fmt::format("{} better than {}{}{}", pair.first, pair.second,
-                            pair.one_sided ? "" : ", two-sided", pair.secondary ? ", secondary" : "");
-  }
-  const ClaimFamily &primary = inference.planned(false), &secondary = inference.planned(true);
-  table.notes.emplace_back(
-      "p: Wilcoxon's signed-rank test over the domains; one-sided, so that the contrary is never proven, but "
-      "for hypotheses that say two-sided.");
-  if (primary.size() > 0) table.notes.push_back(primary.note("of the primary hypotheses"));
-  if (secondary.size() > 0)
-    table.notes.push_back(
-        "Secondary hypotheses count where all primary ones are proven: p corrected is no less than theirs. " +
-        secondary.note("of the secondary hypotheses"));
+Table hypotheses_table(const std::string& title, const Inference& inference) {
+  const ClaimFamily& family = inference.planned();
+  Table table = comparison_table(title + ": hypotheses", "hypothesis", "verdict", inference.hypotheses(),
+                                 family, {"proven", "refuted"});
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    table.rows[i].group =
+        fmt::format("{} better than {}", inference.hypotheses()[i].first, inference.hypotheses()[i].second);
+  table.notes.push_back("p: Wilcoxon's signed-rank test over the domains, two-sided. " +
+                        family.note("of the hypotheses"));
   return table;
 }
 
 namespace {
 
 constexpr const char* kSeconds = "seconds";
-constexpr const char* kSecondsTotal = "seconds_total";
 constexpr const char* kTauGiven = "tau_given";
 constexpr int kTimeDigits = 2;
 /// What the paper's tables show, with the counts, and what eta cannot see.
 const std::vector<std::pair<const char*, int>> kColumns = {
-    {"n_vertices", 0}, {"n_quads", 0}, {"n_triangles", 0},   {"eta_worst", 3},
-    {"eta_mean", 3},   {"d4", 1},      {"d_min", 0},         {"d_max", 0},
-    {"tau", 1},        {kTauGiven, 1}, {"percent_quads", 1}, {"aspect_max", 1},
-    {"edge_min", 3}};
+    {"n_vertices", 0}, {"n_quads", 0},     {"n_triangles", 0},   {"eta_worst", 3},
+    {"eta_mean", 3},   {"d4", 1},          {"d_min", 0},         {"d_max", 0},
+    {"tau", 1},        {kTauGiven, 1},     {"percent_quads", 1}, {"aspect_max", 1},
+    {"edge_min", 3},   {"misalignment", 1}};
 /// And what stages do that lessen irregular vertices.
 constexpr const char* kRegularStages = "QKR";
 const std::vector<const char*> kRegularity = {"n_irregular", "n_irregular_on_curves", "n_necessary",
@@ -296,66 +199,57 @@ std::optional<Metric> metric_of(const std::string& key, const std::vector<Metric
   return at == own.end() ? std::nullopt : std::optional(*at);
 }
 
-void add_measure(const std::string& key, const std::vector<Metric>& own,
-                 std::vector<TestedMeasure>& measures) {
+void add_measure(const std::string& key, const std::vector<Metric>& own, std::vector<Metric>& measures) {
   const std::optional<Metric> metric = metric_of(key, own);
-  const bool known = std::ranges::any_of(measures, [&](const auto& m) { return m.metric.key == key; });
-  if (metric && metric->better != Better::kNeither && !known) measures.push_back({*metric});
+  const bool known = std::ranges::find(measures, key, &Metric::key) != measures.end();
+  if (metric && metric->better != Better::kNeither && !known) measures.push_back(*metric);
 }
 
-/// Only where runs were repeated is there anything to say of times.
-void add_time(const StudyFile& study, std::vector<TestedMeasure>& measures) {
-  if (study.repeat_times < 2) return;
-  const char* key = time_key(study);
-  measures.push_back(
-      {{key, "s", "s", Better::kLower, std::nan(""), "", kTimeDigits}, ValueKind::kRepeatedTime});
+std::vector<PairComparison> compare_pairs(const StudyFile& study, const std::vector<CellRecord>& records,
+                                          ClaimFamily& family) {
+  const Comparing compare(records);
+  const std::vector<Metric> measures = compared_measures(study, records);
+  std::vector<PairComparison> pairs;
+  const auto add_all = [&](const std::string& along, const std::vector<std::string>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        for (const Metric& metric : measures) {
+          PairComparison pair = compare(along, values[i], values[j], metric);
+          if (pair.domains.names.size() < 2) continue;
+          pair.test = family.add(wilcoxon(pair.domains.differences));
+          pairs.push_back(std::move(pair));
+        }
+  };
+  add_all("", study.pipelines);
+  for (const auto& [title, values] : study.axes)
+    if (std::ranges::find(study.pairs, title) != study.pairs.end()) add_all(title, values);
+  return pairs;
 }
 
-}  // namespace
-
-std::vector<TestedMeasure> marked_measures(const StudyFile& study, const std::vector<CellRecord>& records) {
-  const std::vector<Metric> own = own_metrics_of(records);
-  std::vector<TestedMeasure> measures;
-  for (const TableColumn& column : table_columns(study, records)) add_measure(column.key, own, measures);
-  add_time(study, measures);
-  return measures;
-}
-
-std::vector<TestedMeasure> compared_measures(const StudyFile& study, const std::vector<CellRecord>& records) {
-  const std::vector<Metric> own = own_metrics_of(records);
-  std::vector<TestedMeasure> measures;
-  for (const char* key : kCompared) add_measure(key, own, measures);
-  for (const Metric& metric : own) add_measure(metric.key, own, measures);
-  for (const std::string& key : study.columns) add_measure(key, own, measures);
-  add_time(study, measures);
-  return measures;
-}
-
-/// Wilcoxon's tests of all hypotheses, those of primary ones in the first family.
 std::vector<PairComparison> compare_hypotheses(const StudyFile& study, const std::vector<CellRecord>& records,
-                                               std::array<ClaimFamily, 2>& families) {
+                                               ClaimFamily& family) {
   const std::vector<Metric> own = own_metrics_of(records);
-  std::vector<TestedMeasure> times;
-  add_time(study, times);
   const Comparing compare(records);
   std::vector<PairComparison> all;
   for (const Hypothesis& h : study.hypotheses)
     for (const std::string& key : h.measures) {
       // Of a measure that no record knows there is nothing to compare.
-      TestedMeasure measure = {metric_of(key, own).value_or(Metric{key, key, "", Better::kHigher, 0, ""})};
-      if (!times.empty() && key == times[0].metric.key) measure = times[0];
-      PairComparison pair = compare(h.along, h.better, h.than, measure);
-      pair.one_sided = !h.two_sided;
-      pair.secondary = h.secondary;
-      const double sign = measure.metric.better == Better::kHigher ? 1 : -1;
-      std::vector<double> gains = pair.domains.means();
-      for (double& gain : gains) gain *= sign;
-      RankTest test = wilcoxon(gains, pair.one_sided);
-      test.lean *= sign;
-      pair.test = families[h.secondary ? 1 : 0].add(test);
-      all.push_back(std::move(pair));
+      const Metric metric = metric_of(key, own).value_or(Metric{key, key, "", Better::kHigher, 0, ""});
+      all.push_back(compare(h.along, h.better, h.than, metric));
+      all.back().test = family.add(wilcoxon(all.back().domains.differences));
     }
   return all;
+}
+
+}  // namespace
+
+std::vector<Metric> compared_measures(const StudyFile& study, const std::vector<CellRecord>& records) {
+  const std::vector<Metric> own = own_metrics_of(records);
+  std::vector<Metric> measures;
+  for (const char* key : kCompared) add_measure(key, own, measures);
+  for (const Metric& metric : own) add_measure(metric.key, own, measures);
+  for (const std::string& key : study.columns) add_measure(key, own, measures);
+  return measures;
 }
 
 Interval range_of(const std::string& key) {
@@ -368,24 +262,6 @@ Interval range_of(const std::string& key) {
     return {0, HUGE_VAL};
   return TableColumn().range;
 }
-
-namespace {
-
-void add_times(const StudyFile& study, std::vector<TableColumn>& columns) {
-  const bool repeated = study.repeat_times > 0;
-  if (study.step_times) {
-    for (const StepTime& step : step_times_of_tables())
-      columns.push_back({step.key, step.title, kTimeDigits});
-    columns.push_back({kFinishSeconds, "finish s", kTimeDigits});
-  } else
-    columns.push_back({kSeconds, repeated ? "s, median" : "s", kTimeDigits});
-  if (repeated)
-    columns.push_back({kLeastTime, study.step_times ? "total s, least" : "s, least", kTimeDigits});
-}
-
-}  // namespace
-
-const char* time_key(const TablePlan& study) { return study.step_times ? kSecondsTotal : kSeconds; }
 
 std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector<CellRecord>& records) {
   const bool adapted =
@@ -402,7 +278,13 @@ std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector
       }))
     for (const char* key : kRegularity) columns.push_back({key, find_metric(key)->title, 0});
   for (const Metric& metric : own) columns.push_back({metric.key, metric.title, metric.digits});
-  add_times(study, columns);
+  if (study.step_times) {
+    for (const StepTime& step : step_times_of_tables())
+      columns.push_back({step.key, step.title, kTimeDigits});
+    columns.push_back({kFinishSeconds, "finish s", kTimeDigits});
+  } else {
+    columns.push_back({kSeconds, "s", kTimeDigits});
+  }
   for (const std::string& key : study.columns) {
     if (std::ranges::find(columns, key, &TableColumn::key) != columns.end()) continue;
     if (key == kSeconds) columns.push_back({key, "s", kTimeDigits});
@@ -418,13 +300,10 @@ std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector
 }
 
 Inference::Inference(const StudyFile& study, const std::vector<CellRecord>& records)
-    : samples_(group_samples(records)),
-      marking_(samples_, marked_measures(study, records), family_),
-      pairs_(compare_pairs(study, records, compared_measures(study, records), family_)),
+    : pairs_(compare_pairs(study, records, family_)),
       hypotheses_(compare_hypotheses(study, records, planned_)) {
-  study.hypotheses.empty() ? family_.decide() : family_.explore();
-  planned_[0].decide();
-  planned_[1].decide(planned_[0].largest_p());
+  study.hypotheses.empty() && !study.plan_changed ? family_.decide() : family_.explore();
+  study.plan_changed ? planned_.explore() : planned_.decide();
 }
 
 std::optional<bool> Inference::first_is_better(const PairComparison& pair) const {
@@ -434,8 +313,7 @@ std::optional<bool> Inference::first_is_better(const PairComparison& pair) const
     if (planned.metric.key != pair.metric.key ||
         !(is_same || (planned.first == pair.second && planned.second == pair.first)))
       continue;
-    if (const auto better = delquad::first_is_better(planned, planned_[planned.secondary ? 1 : 0]))
-      return *better == is_same;
+    if (const auto better = delquad::first_is_better(planned, planned_)) return *better == is_same;
   }
   return std::nullopt;
 }

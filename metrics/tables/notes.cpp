@@ -202,7 +202,7 @@ std::vector<std::string> quadless_notes(const std::vector<CellRecord>& records) 
   for (const auto& [word, all, with_triangles, without_quads] : cases_by_word(records))
     if (!without_quads.empty())
       notes.push_back(
-          fmt::format("{} made no quads on {} ({}): no pair with it has these", word,
+          fmt::format("{} made no quads on {} ({}): it failed there in pairs", word,
                       without_quads.size() == 1 ? "one case" : fmt::format("{} cases", without_quads.size()),
                       named(without_quads)));
   return notes;

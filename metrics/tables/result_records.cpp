@@ -113,9 +113,6 @@ CellRecord parse(const Json& json) {
   record.model = json.value("/digests/model"_json_pointer, "");
   record.is_peer = json.contains("peer");
   record.seed = json.value("seed", 0LL);
-  const Json geometry = json.value("geometry", Json::object());
-  record.moments = geometry.value("moments", record.moments);
-  if (const Json domain = geometry.value("domain", Json()); domain.is_string()) domain.get_to(record.domain);
   if (const auto status = json.at("status").get<std::string>(); status != "ok") {
     json.at("reason").get_to(record.reason);
     record.skipped = status == "skipped" || status == kNotApplicable;
@@ -252,34 +249,6 @@ const std::string& domain_of(const CellRecord& record) {
   return record.domain.empty() ? record.name : record.domain;
 }
 
-namespace {
-
-bool have_same_geometry(const CellRecord& a, const CellRecord& b) {
-  constexpr double kSame = 1e-5;
-  if (!a.model.empty() && a.model == b.model) return true;
-  return !a.moments.empty() && std::ranges::equal(a.moments, b.moments, [](double x, double y) {
-    return std::abs(x - y) <= kSame * (1 + std::abs(x));
-  });
-}
-
-}  // namespace
-
-void find_domains(std::vector<CellRecord>& records) {
-  std::map<std::string, const CellRecord*> first;  // by name, of its geometry
-  for (CellRecord& record : records) {
-    if (!record.domain.empty() || !record.reason.empty()) continue;
-    const auto [at, is_new] = first.try_emplace(record.name, &record);
-    if (is_new)
-      for (const CellRecord& other : records) {
-        if (&other == &record) break;
-        if (!other.reason.empty() || !have_same_geometry(other, record)) continue;
-        at->second = first.contains(other.name) ? first.at(other.name) : &other;
-        break;
-      }
-    if (at->second->name != record.name) record.domain = domain_of(*at->second);
-  }
-}
-
 std::vector<CellRecord> read_records(const fs::path& folder) {
   const std::vector<fs::path> files = record_files(folder);
   if (files.empty()) throw InputError(folder.string() + ": holds no record.json of an experiment");
@@ -297,7 +266,9 @@ std::vector<CellRecord> read_records(const fs::path& folder) {
     std::ranges::stable_sort(records, {}, [&](const CellRecord& r) {
       return place_of(*study, {r.name, r.variant, r.pipeline}).value_or(kNoPlace);
     });
-  find_domains(records);
+  const auto domains = study ? domains_of(*study) : std::map<std::string, std::string>();
+  for (CellRecord& record : records)
+    if (const auto at = domains.find(record.name); at != domains.end()) record.domain = at->second;
   return records;
 }
 
@@ -321,96 +292,6 @@ std::string state_of_cell(const fs::path& folder, const std::string& key) {
   std::error_code missing;
   const auto bytes = fs::file_size(folder / "mesh.msh", missing);
   return !missing && std::to_string(bytes) == head_value(head, "mesh_bytes") ? "done" : "damaged";
-}
-
-namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-constexpr const char* kTimesFile = "times.json";
-
-Json to_json(const CellTimes& cell) {
-  Json json = {{"pipeline", cell.pipeline}, {"key", cell.key}};
-  if (!cell.failure.empty()) json["failure"] = cell.failure;
-  for (const auto& [key, seconds] : cell.seconds) json[key] = seconds;
-  return json;
-}
-
-CellTimes times_of(const Json& json, std::size_t repetitions) {
-  CellTimes cell{json.at("pipeline"), json.at("key"), {}, json.value("failure", "")};
-  for (const char* key : {"seconds", "seconds_total"})
-    if (json.contains(key)) json.at(key).get_to(cell.seconds[key]);
-  for (const auto& [key, seconds] : cell.seconds)
-    if (seconds.size() != repetitions || std::ranges::any_of(seconds, [](double s) { return !(s >= 0); }))
-      refuse("'{}' of {} holds no {} times", key, cell.pipeline, repetitions);
-  return cell;
-}
-
-VariantTimes times_of(const Json& json) {
-  VariantTimes times;
-  json.at("repetitions").get_to(times.repetitions);
-  times.load_before = json.at("load_average").at(0);
-  times.load_after = json.at("load_average").at(1);
-  for (const Json& cell : json.at("cells"))
-    times.cells.push_back(times_of(cell, static_cast<std::size_t>(times.repetitions)));
-  return times;
-}
-
-/// The times of one cell, or what is wrong with them.
-std::string attach(const VariantTimes& times, const fs::path& file, CellRecord& record) {
-  const auto at = std::ranges::find(times.cells, record.pipeline, &CellTimes::pipeline);
-  if (at == times.cells.end() || !record.reason.empty()) return "";
-  if (!has_mesh(state_of_cell(record.folder, at->key)))
-    return fmt::format("{}: the times of {} were taken of another program, model or option: run it again",
-                       file.string(), record.pipeline);
-  if (!at->failure.empty())
-    return fmt::format("{}: no times of {}: {}", file.string(), record.pipeline, at->failure);
-  record.times = at->seconds;
-  return "";
-}
-
-}  // namespace
-
-void write_times(const fs::path& folder, const VariantTimes& times) {
-  Json json = {{"repetitions", times.repetitions},
-               {"load_average", {times.load_before, times.load_after}},
-               {"cells", Json::array()}};
-  for (const CellTimes& cell : times.cells) json["cells"].push_back(to_json(cell));
-  write_text_file(folder / kTimesFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-}
-
-std::optional<VariantTimes> read_times(const fs::path& folder) {
-  std::ifstream in(folder / kTimesFile);
-  if (!in) return std::nullopt;
-  const auto damaged = [&](const std::exception& why) {
-    return InputError(json_problem(folder / kTimesFile, "is no file of repeated times", why));
-  };
-  try {
-    return times_of(Json::parse(in));
-  } catch (const Json::exception& error) {
-    throw damaged(error);
-  } catch (const InputError& error) {
-    throw damaged(error);
-  }
-}
-
-std::vector<std::string> attach_times(std::vector<CellRecord>& records) {
-  std::vector<std::string> problems;
-  std::map<fs::path, std::optional<VariantTimes>> known;
-  for (CellRecord& record : records) {
-    if (record.folder.empty()) continue;
-    const fs::path folder = record.folder.parent_path();
-    const auto [at, is_new] = known.try_emplace(folder);
-    if (is_new) try {
-        at->second = read_times(folder);
-      } catch (const InputError& error) {
-        problems.push_back(error.what());
-      }
-    if (!at->second) continue;
-    if (std::string problem = attach(*at->second, folder / kTimesFile, record); !problem.empty())
-      problems.push_back(std::move(problem));
-  }
-  return problems;
 }
 
 }  // namespace delquad

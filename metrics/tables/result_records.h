@@ -36,19 +36,15 @@ struct CellRecord {
   std::string reason;                    ///< why there are no values; empty: there are
   std::map<std::string, double> values;  ///< by metric key, "seconds" and those of steps; NaN: not defined
   std::string name = {};                 ///< of the case alone
-  /// What it is a look at: of cases of the same geometry the name of the first one, or what the case says.
-  /// Empty: the case is a domain of its own.
+  /// What it is a look at, see domains_of(); empty: the case is a domain of its own.
   std::string domain = {};
   std::string model = {};  ///< digest of what the case is made from
   bool is_peer = false;    ///< another mesher, and no word
   long long seed = 0;
-  std::vector<double> moments = {};  ///< of its geometry, none of surfaces
   std::vector<std::pair<std::string, std::string>> variant = {};
   std::string kind = {};  ///< of the reason: as in failure_record(), or "damaged": the record cannot be read
   bool skipped = false;   ///< for that reason, and not failed
   bool quads_only = false;  ///< triangles that are left are an error
-  /// Of runs repeated for their times, by key: "seconds" and "seconds_total". Not in the record: see times.h.
-  std::map<std::string, std::vector<double>> times = {};
   std::vector<std::string> warnings = {};
   std::vector<std::string> unsound = {};          ///< why its mesh is not sound; empty: it is
   std::string uniform_size = {};                  ///< delta, where it was asked to be the same everywhere
@@ -79,36 +75,9 @@ std::vector<CellRecord> read_records(const std::filesystem::path& folder);
 /// kNotApplicable by its record; "to do": there is none; "damaged": the record was changed or cut off, or its
 /// mesh has not as many bytes as it says; "outdated": of another key. Costs little: meshes are not read.
 std::string state_of_cell(const std::filesystem::path& folder, const std::string& key);
-/// Gives records of cells whose geometry is that of an earlier case its domain, unless they say one.
-void find_domains(std::vector<CellRecord>& records);
 /// What the record counts as among domains.
 const std::string& domain_of(const CellRecord& record);
 /// By its state, whether a cell has its mesh: measures by command may have failed.
 bool has_mesh(const std::string& state);
-
-/// Times of a cell that was run again and again.
-struct CellTimes {
-  std::string pipeline;
-  std::string key;  ///< of the cell: what its result depends on
-  /// One for each run, by key: "seconds", as in records, and "seconds_total"; of peers the latter alone.
-  std::map<std::string, std::vector<double>> seconds;
-  std::string failure = {};  ///< why there are none; empty: there are
-};
-
-/// DIR/<case>/times.json: the times of all pipelines on one variant of a case, run in changing order.
-struct VariantTimes {
-  int repetitions = 0;
-  double load_before = 0, load_after = 0;  ///< processes that want to run, averaged over a minute
-  std::vector<CellTimes> cells;
-};
-
-/// Throws InputError when it cannot be written.
-void write_times(const std::filesystem::path& folder, const VariantTimes& times);
-/// Nothing where there is none; throws InputError for a file that is damaged.
-std::optional<VariantTimes> read_times(const std::filesystem::path& folder);
-
-/// Gives each record the times of its cell. Returns what is wrong with files of times that are there: damaged
-/// ones, and times of other cells than those of the records.
-std::vector<std::string> attach_times(std::vector<CellRecord>& records);
 
 }  // namespace delquad

@@ -41,9 +41,7 @@ std::string value_of_axis(const CellRecord& record, const std::string& title) {
 class RunColumns {
  public:
   RunColumns(const StudyFile& study, const std::vector<CellRecord>& records)
-      : study_(study),
-        marked_(marked_measures(study, records)),
-        compared_(compared_measures(study, records)) {
+      : study_(study), compared_(compared_measures(study, records)) {
     add_texts(study);
     for (const Metric& metric : metric_registry()) add(metric);
     for (const Metric& metric : own_metrics_of(records)) add(metric);
@@ -54,7 +52,6 @@ class RunColumns {
       add({time.key, time.title, "s", kLower, HUGE_VAL,
            *time.step == 0 ? "from the model to the mesh, of all threads"
                            : fmt::format("the step '{}', of all threads", time.step)});
-    add_repeated(study, records);
   }
 
   RunsCsv csv(const std::vector<CellRecord>& records) const {
@@ -103,24 +100,6 @@ class RunColumns {
     if (metric.source.empty()) columns_.back().metric.source = "a measure of the experiment";
   }
 
-  /// One column for each of the runs that were repeated for their times.
-  void add_repeated(const StudyFile& study, const std::vector<CellRecord>& records) {
-    const std::string key = time_key(study);
-    for (const TestedMeasure& measure : marked_)
-      for (std::size_t k = 0; measure.kind == ValueKind::kRepeatedTime; ++k) {
-        const auto time = [key, k](const CellRecord& r) {
-          const auto at = r.times.find(key);
-          return at == r.times.end() || k >= at->second.size() ? std::nan("") : at->second[k];
-        };
-        if (std::ranges::all_of(records, [&](const CellRecord& r) { return std::isnan(time(r)); })) break;
-        Metric metric = measure.metric;
-        metric.key += fmt::format("_run_{}", k + 1);
-        metric.source = "of the runs that are repeated for their times, the median counts";
-        columns_.push_back(
-            {metric, {0, HUGE_VAL}, "number", [time](const CellRecord& r) { return csv_number(time(r)); }});
-      }
-  }
-
   static Interval range_of_metric(const Metric& metric) {
     const Interval known = range_of(metric.key);
     if (std::isfinite(known.low)) return known;
@@ -133,19 +112,13 @@ class RunColumns {
 
   /// In which claims it is tested.
   const char* tested(const std::string& key) const {
-    if (!study_.hypotheses.empty()) {
-      const bool is_planned = std::ranges::any_of(study_.hypotheses, [&](const Hypothesis& h) {
-        return std::ranges::any_of(
-            h.measures, [&](const std::string& m) { return key == m || key.starts_with(m + "_run_"); });
-      });
-      return is_planned ? "hypotheses" : "";
-    }
-    const auto holds = [&](const std::vector<TestedMeasure>& measures) {
-      return std::ranges::any_of(measures, [&](const TestedMeasure& m) {
-        return m.kind == ValueKind::kMeasure ? m.metric.key == key : key.starts_with(m.metric.key + "_run_");
-      });
-    };
-    return holds(compared_) ? "table and pairs" : holds(marked_) ? "table" : "";
+    if (study_.hypotheses.empty())
+      return std::ranges::find(compared_, key, &Metric::key) != compared_.end() ? "pairs" : "";
+    return std::ranges::any_of(
+               study_.hypotheses,
+               [&](const Hypothesis& h) { return std::ranges::find(h.measures, key) != h.measures.end(); })
+               ? "hypotheses"
+               : "";
   }
 
   std::string description(const RunColumn& column) const {
@@ -159,7 +132,7 @@ class RunColumns {
   }
 
   const StudyFile& study_;
-  std::vector<TestedMeasure> marked_, compared_;
+  std::vector<Metric> compared_;
   std::vector<RunColumn> columns_;
 };
 

@@ -9,17 +9,6 @@
 namespace delquad {
 namespace {
 
-double tested_value(const CellRecord& record, const std::string& key, ValueKind kind) {
-  if (kind == ValueKind::kMeasure) return value_of(record, key);
-  const auto at = record.times.find(key);
-  return at == record.times.end() ? std::nan("") : median(at->second);
-}
-
-struct Difference {
-  const CellRecord* record;
-  double value;
-};
-
 /// The row of a cell, but for the value along the axis.
 std::string row_across(const CellRecord& record, const std::string& along) {
   return row_group(record, along) + (along.empty() ? "" : " " + record.pipeline);
@@ -30,18 +19,13 @@ std::string partner_key(const CellRecord& record, const std::string& along) {
   return along.empty() ? record.group : row_across(record, along) + " " + value_along(record, kSeedAxis);
 }
 
-/// a - b wherever both have a value, in the order of a.
-std::vector<Difference> differences(std::span<const CellRecord* const> a,
-                                    std::span<const CellRecord* const> b, const std::string& key,
-                                    ValueKind kind, const std::string& along = "") {
-  std::map<std::string, double> others;
-  for (const CellRecord* record : b) others[partner_key(*record, along)] = tested_value(*record, key, kind);
-  std::vector<Difference> result;
-  for (const CellRecord* record : a)
-    if (const auto at = others.find(partner_key(*record, along)); at != others.end())
-      if (const double d = tested_value(*record, key, kind) - at->second; !std::isnan(d))
-        result.push_back({record, d});
-  return result;
+/// Values of a domain, by variant.
+using ByVariant = std::map<std::string, std::vector<double>>;
+
+double domain_mean_of(ByVariant variants) {
+  DomainSamples domain;
+  for (auto& [variant, seeds] : variants) domain.push_back(std::move(seeds));
+  return domain_mean(domain);
 }
 
 }  // namespace
@@ -66,6 +50,7 @@ bool is_of_quads(const std::string& key) {
                                                   "n_irregular_on_curves",
                                                   "n_inverted",
                                                   "n_folded",
+                                                  "misalignment",
                                                   "angle_min",
                                                   "angle_max",
                                                   "warp_max",
@@ -99,14 +84,6 @@ std::vector<double> Samples::of(const std::string& key) const {
   return values;
 }
 
-std::vector<double> Samples::times(const std::string& key) const {
-  std::vector<double> values;
-  for (const CellRecord* record : done)
-    if (const auto at = record->times.find(key); at != record->times.end())
-      values.insert(values.end(), at->second.begin(), at->second.end());
-  return values;
-}
-
 std::vector<Samples> group_samples(const std::vector<CellRecord>& records) {
   std::vector<Samples> rows;
   std::map<std::pair<std::string, std::string>, std::size_t> known;
@@ -124,51 +101,72 @@ std::vector<Samples> group_samples(const std::vector<CellRecord>& records) {
   return rows;
 }
 
-std::vector<double> PairedDomains::means() const {
+std::vector<double> PairedDomains::finite() const {
   std::vector<double> result;
-  for (const DomainSamples& domain : differences) result.push_back(domain_mean(domain));
+  std::ranges::copy_if(differences, std::back_inserter(result), [](double d) { return std::isfinite(d); });
   return result;
 }
-
-namespace {
-
-PairedDomains grouped_by_domain(const std::vector<Difference>& differences_of_runs,
-                                const std::string& along) {
-  std::map<std::string, std::map<std::string, std::vector<double>>> by_domain;  // then by variant
-  PairedDomains result;
-  for (const Difference& d : differences_of_runs) {
-    const std::string& domain = domain_of(*d.record);
-    if (!by_domain.contains(domain)) result.names.push_back(domain);
-    by_domain[domain][row_across(*d.record, along)].push_back(d.value);
-    ++result.runs;
-  }
-  for (const std::string& name : result.names) {
-    DomainSamples& domain = result.differences.emplace_back();
-    for (auto& [variant, seeds] : by_domain[name]) domain.push_back(std::move(seeds));
-  }
-  return result;
-}
-
-}  // namespace
 
 PairedDomains pair_by_domain(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,
-                             const std::string& key, ValueKind kind, const std::string& along) {
-  return grouped_by_domain(differences(a, b, key, kind, along), along);
-}
-
-std::vector<double> means_by_domain(std::span<const CellRecord* const> runs, const std::string& key,
-                                    ValueKind kind) {
-  std::vector<Difference> values;  // from 0
-  for (const CellRecord* record : runs)
-    if (const double v = tested_value(*record, key, kind); !std::isnan(v)) values.push_back({record, v});
-  return grouped_by_domain(values, "").means();
-}
-
-std::vector<double> pair_by_run(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,
-                                const std::string& key) {
-  std::vector<double> result;
-  for (const Difference& d : differences(a, b, key, ValueKind::kMeasure)) result.push_back(d.value);
+                             const Metric& metric, const std::string& along, bool of_quads) {
+  struct Domain {
+    ByVariant differences;
+    bool failed[2] = {false, false};
+  };
+  std::map<std::string, const CellRecord*> partners;
+  for (const CellRecord* record : b) partners[partner_key(*record, along)] = record;
+  std::map<std::string, Domain> domains;
+  std::vector<std::string> names;
+  PairedDomains result;
+  for (const CellRecord* record : a) {
+    const auto partner = partners.find(partner_key(*record, along));
+    if (partner == partners.end()) continue;
+    const CellRecord* sides[2] = {record, partner->second};
+    double values[2];
+    bool has_mesh[2], none[2];
+    for (const int side : {0, 1}) {
+      values[side] = value_of(*sides[side], metric.key);
+      has_mesh[side] = sides[side]->reason.empty() && (!of_quads || makes_quads(*sides[side]));
+      none[side] = !has_mesh[side] || std::isnan(values[side]);
+    }
+    // The measure may not be defined for a mesh that is there.
+    if (none[0] && none[1] && (has_mesh[0] || has_mesh[1])) continue;
+    const auto [at, is_new] = domains.try_emplace(domain_of(*record));
+    if (is_new) names.push_back(at->first);
+    for (const int side : {0, 1}) at->second.failed[side] |= none[side];
+    if (none[0] || none[1]) continue;
+    at->second.differences[row_across(*record, along)].push_back(values[0] - values[1]);
+    ++result.runs;
+  }
+  const double best = metric.better == Better::kHigher ? HUGE_VAL : -HUGE_VAL;
+  for (const std::string& name : names) {
+    const Domain& domain = domains[name];
+    if (domain.failed[0] && domain.failed[1]) {
+      result.left_out.push_back(name);
+      continue;
+    }
+    for (const int side : {0, 1}) result.failed[side] += domain.failed[side];
+    result.names.push_back(name);
+    result.differences.push_back(domain.failed[0]   ? -best
+                                 : domain.failed[1] ? best
+                                                    : domain_mean_of(domain.differences));
+  }
   return result;
+}
+
+std::vector<double> means_by_domain(std::span<const CellRecord* const> runs, const std::string& key) {
+  std::map<std::string, ByVariant> domains;
+  std::vector<std::string> names;
+  for (const CellRecord* record : runs) {
+    const double value = value_of(*record, key);
+    if (std::isnan(value)) continue;
+    const auto [at, is_new] = domains.try_emplace(domain_of(*record));
+    if (is_new) names.push_back(at->first);
+    at->second[row_group(*record)].push_back(value);
+  }
+  std::vector<double> means;
+  for (const std::string& name : names) means.push_back(domain_mean_of(domains[name]));
+  return means;
 }
 
 }  // namespace delquad

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -34,34 +35,32 @@ struct Samples {
 
   /// Of a measure, those that are known.
   std::vector<double> of(const std::string& key) const;
-  /// Of repeated runs, all seeds together.
-  std::vector<double> times(const std::string& key) const;
 };
 
 /// By group, in the order of the first cell of each. The records have to outlive it.
 std::vector<Samples> group_samples(const std::vector<CellRecord>& records);
 
-/// What a value is tested by: that of the record, or the median of repeated runs where there are any.
-enum class ValueKind { kMeasure, kRepeatedTime };
-
-/// a - b on every domain where both have a value for the same case, variant and seed; of two values along an
-/// axis also the same pipeline, and the variant without that axis.
+/// Two sides on every domain where they ran the same case, variant and seed. Two values along an axis ran
+/// them with the same pipeline, and share the variant but for that axis. A domain's difference is the mean
+/// over its variants of the mean over their seeds.
+///
+/// A side fails on a domain if it has no value in a run in which the other side has one. It loses there: the
+/// difference is infinite. Where both fail, the domain is left out.
 struct PairedDomains {
   std::vector<std::string> names;
-  std::vector<DomainSamples> differences;
-  std::size_t runs = 0;  ///< pairs of them
+  std::vector<double> differences;             ///< by domain, first minus second
+  std::array<std::size_t, 2> failed = {0, 0};  ///< on how many of the domains each side has
+  std::vector<std::string> left_out;
+  std::size_t runs = 0;  ///< pairs of them, both with a value
 
-  std::vector<double> means() const;  ///< of each domain
+  /// The differences of domains on which neither has failed.
+  std::vector<double> finite() const;
+  bool has_failures() const { return failed[0] + failed[1] > 0; }
 };
+/// Takes records that were not skipped. `of_quads`: a mesh without quads counts as none.
 PairedDomains pair_by_domain(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,
-                             const std::string& key, ValueKind kind = ValueKind::kMeasure,
-                             const std::string& along = "");
+                             const Metric& metric, const std::string& along = "", bool of_quads = true);
 /// The mean of each domain on which there are values.
-std::vector<double> means_by_domain(std::span<const CellRecord* const> runs, const std::string& key,
-                                    ValueKind kind = ValueKind::kMeasure);
-
-/// a - b of the runs of the same variant and seed, whatever their domain.
-std::vector<double> pair_by_run(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,
-                                const std::string& key);
+std::vector<double> means_by_domain(std::span<const CellRecord* const> runs, const std::string& key);
 
 }  // namespace delquad

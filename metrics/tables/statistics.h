@@ -1,11 +1,8 @@
 #pragma once
 
 #include <cassert>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <random>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,43 +23,17 @@ struct RankTest {
   double least_p = 1;  ///< the least that so many samples can give, however they come out
   double lean = 0;     ///< above 0: the first is larger
 };
-/// Wilcoxon's signed-rank test of differences, first minus second. Zeros are left out, ties share their mean
-/// rank; exact up to 60 differences, by the normal distribution beyond. p = 1 of none. `one_sided`: only the
-/// first may turn out to be larger.
-RankTest wilcoxon(std::span<const double> differences, bool one_sided = false);
+/// Wilcoxon's signed-rank test of differences, first minus second, two-sided. Zeros are left out, ties share
+/// their mean rank; differences may be infinite. Exact up to 60 differences, by the normal distribution
+/// beyond. p = 1 of none.
+RankTest wilcoxon(std::span<const double> differences);
 /// How likely Wilcoxon's test of `n` differences proves at `level` that the first is larger, where they are
 /// normal with a mean of `effect` standard deviations: by 10 000 draws, the same every time.
-double wilcoxon_power(std::size_t n, double effect, double level, bool one_sided);
-/// The Mann-Whitney U test of two samples that are not paired. Ties share their mean rank; exact up to 60
-/// values together, by the normal distribution (corrected for ties and continuity) beyond. p = 1 where one
-/// sample is empty.
-RankTest mann_whitney(std::span<const double> first, std::span<const double> second);
+double wilcoxon_power(std::size_t n, double effect, double level);
 /// Holm's step-down adjustment [holm1979]: a hypothesis may be rejected at a level when its adjusted p-value
 /// is at most that level; then the probability of any false rejection is at most the level, however the tests
 /// depend on each other.
 std::vector<double> holm(std::span<const double> p);
-
-/// y = factor * x^exponent.
-struct PowerLaw {
-  double factor, exponent;
-  double half_width;  ///< of the 95 % interval of the exponent, by Student's t; NaN of fewer than three pairs
-};
-/// The law that fits positive pairs best, by least squares of the logarithms; nothing where all x are alike.
-std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y);
-
-/// Whole numbers below n, the same with every compiler and library, unlike the standard's distributions.
-class RandomIndex {
- public:
-  explicit RandomIndex(std::uint64_t seed) : random_(seed) {}
-  std::size_t operator()(std::size_t n) {
-    assert(n > 0);
-    const double part = std::ldexp(static_cast<double>(random_() >> 11), -53);
-    return static_cast<std::size_t>(part * static_cast<double>(n));
-  }
-
- private:
-  std::mt19937_64 random_;
-};
 
 /// Samples of one domain: of each of its variants the seeds.
 using DomainSamples = std::vector<std::vector<double>>;
@@ -74,9 +45,8 @@ struct Interval {
   double low, high;
 };
 
-/// The 95 % interval of the mean by the bootstrap of Student's statistic [davison1997, section 2.4], of 2000
-/// resamples; by Student's t of fewer than six values, and where too many resamples have no deviation. The
-/// same numbers every time. Nothing of fewer than two values.
+/// The 95 % interval of the mean by Student's statistic without its skewness [hall1992]; of fewer than six
+/// values by Student's statistic as it is. Nothing of fewer than two values.
 std::optional<Interval> interval_of_mean(std::span<const double> values);
 
 /// The probability of any false claim in all tables of a study.
@@ -99,9 +69,8 @@ class ClaimFamily {
  public:
   /// Returns the number of the test.
   std::size_t add(const RankTest& test);
-  /// To be called once, after all tests are added and before anything is asked. `gate`: corrected p-values
-  /// are no less, such as the largest_p() of a family without whose proofs nothing is claimed of this one.
-  void decide(double gate = 0);
+  /// To be called once, after all tests are added and before anything is asked.
+  void decide();
   /// In place of decide(): the tests are shown, and nothing is claimed.
   void explore();
   bool is_exploratory() const { return !findings_.empty() && findings_[0] == Finding::kExploratory; }
@@ -114,8 +83,6 @@ class ClaimFamily {
   double adjusted_p(std::size_t test) const { return adjusted_[test]; }
   std::size_t size() const { return tests_.size(); }
   std::size_t counted() const { return counted_; }
-  /// The largest corrected p-value: 1 where a test does not count, 0 of none.
-  double largest_p() const;
   /// For people: over how many tests was corrected, and how many do not count.
   std::string note(const char* whole = "of this study") const;
 

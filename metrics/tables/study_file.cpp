@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -54,43 +55,26 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kStudyFile = "study.json";
 
 Json to_json(const StudyFile& study) {
-  Json json = {{"title", study.title},
-               {"experiment", study.experiment},
-               {"cases", study.cases},
-               {"pipelines", study.pipelines},
-               {"cells", study.cells},
-               {"step_times", study.step_times},
-               {"compare", study.compare},
-               {"axes", study.axes},
-               {"variants", study.variants},
-               {"published", Json::array()},
-               {"ratio", Json()}};
-  if (study.repeat_times > 0) json["repeat_times"] = study.repeat_times;
+  Json json = {{"title", study.title},      {"experiment", study.experiment},
+               {"cases", study.cases},      {"pipelines", study.pipelines},
+               {"cells", study.cells},      {"step_times", study.step_times},
+               {"compare", study.compare},  {"axes", study.axes},
+               {"plan", study.plan},        {"geometry", Json::object()},
+               {"published", Json::array()}};
+  for (const auto& [name, geometry] : study.geometry)
+    json["geometry"][name] = {
+        {"domain", geometry.domain}, {"digest", geometry.digest}, {"shape", geometry.shape}};
   if (!study.columns.empty()) json["columns"] = study.columns;
-  if (const auto& slopes = study.slopes)
-    json["slopes"] = {{"of", slopes->of}, {"along", slopes->along}, {"against", slopes->against}};
-  if (study.correlation)
-    json["correlate"] = {{"of", study.correlation->of}, {"with", study.correlation->with}};
   if (!study.pairs.empty()) json["pairs"] = study.pairs;
   for (const Hypothesis& h : study.hypotheses)
-    json["hypotheses"].push_back({{"better", h.better},
-                                  {"than", h.than},
-                                  {"along", h.along},
-                                  {"measures", h.measures},
-                                  {"two_sided", h.two_sided},
-                                  {"secondary", h.secondary}});
+    json["hypotheses"].push_back(
+        {{"better", h.better}, {"than", h.than}, {"along", h.along}, {"measures", h.measures}});
   for (const MayFail& cells : study.may_fail)
     json["may_fail"].push_back(
         {{"case", cells.name}, {"variant", cells.variant}, {"pipeline", cells.pipeline}});
   if (study.plan_changed) json["plan_changed"] = true;
   for (const PublishedRow& row : study.published)
     json["published"].push_back({{"name", row.name}, {"source", row.source}, {"values", row.values}});
-  if (const auto& ratio = study.ratio)
-    json["ratio"] = {{"metric", ratio->metric},
-                     {"numerator", ratio->numerator},
-                     {"denominator", ratio->denominator},
-                     {"expected", ratio->expected},
-                     {"source", ratio->source}};
   return json;
 }
 
@@ -101,30 +85,22 @@ StudyFile from_json(const Json& json) {
   json.at("cases").get_to(study.cases);
   json.at("pipelines").get_to(study.pipelines);
   json.at("axes").get_to(study.axes);
-  study.variants = json.value("variants", study.variants);
+  study.plan = json.value("plan", "");
+  const Json geometry = json.value("geometry", Json::object());
+  for (const auto& [name, of] : geometry.items())
+    study.geometry[name] = {of.at("domain"), of.at("digest"), of.at("shape")};
   json.at("cells").get_to(study.cells);
   json.at("step_times").get_to(study.step_times);
-  study.repeat_times = json.value("repeat_times", 0);
   study.columns = json.value("columns", study.columns);
-  if (json.contains("slopes")) {
-    const Json& slopes = json.at("slopes");
-    study.slopes = SlopeRequest{slopes.at("of"), slopes.at("along"), slopes.at("against")};
-  }
-  if (json.contains("correlate"))
-    study.correlation = CorrelationRequest{json.at("correlate").at("of"), json.at("correlate").at("with")};
   study.pairs = json.value("pairs", study.pairs);
   for (const Json& h : json.value("hypotheses", Json::array()))
-    study.hypotheses.push_back({h.at("along"), h.at("better"), h.at("than"), h.at("measures"),
-                                h.at("two_sided"), h.at("secondary")});
+    study.hypotheses.push_back({h.at("along"), h.at("better"), h.at("than"), h.at("measures")});
   for (const Json& cells : json.value("may_fail", Json::array()))
     study.may_fail.push_back({cells.at("case"), cells.at("variant"), cells.at("pipeline")});
   study.plan_changed = json.value("plan_changed", false);
   json.at("compare").get_to(study.compare);
   for (const Json& row : json.at("published"))
     study.published.push_back({row.at("name"), row.at("source"), row.at("values")});
-  if (const Json& ratio = json.at("ratio"); !ratio.is_null())
-    study.ratio = ExpectedRatio{ratio.at("metric"), ratio.at("numerator"), ratio.at("denominator"),
-                                ratio.at("expected"), ratio.at("source")};
   return study;
 }
 
@@ -168,8 +144,35 @@ const std::vector<StepTime>& step_times_of_tables() {
 }
 
 bool have_same_plan(const StudyFile& a, const StudyFile& b) {
-  return a.hypotheses == b.hypotheses &&
-         (a.hypotheses.empty() || (a.cases == b.cases && a.axes == b.axes && a.variants == b.variants));
+  return (a.hypotheses.empty() && b.hypotheses.empty()) || a.plan == b.plan;
+}
+
+namespace {
+
+bool are_same(const CaseGeometry& a, const CaseGeometry& b) {
+  constexpr double kSame = 1e-5;
+  if (!a.digest.empty() && a.digest == b.digest) return true;
+  return !a.shape.empty() && std::ranges::equal(a.shape, b.shape, [](double x, double y) {
+    return std::abs(x - y) <= kSame * (1 + std::abs(x));
+  });
+}
+
+}  // namespace
+
+std::map<std::string, std::string> domains_of(const StudyFile& study) {
+  std::map<std::string, std::string> domains;
+  for (const std::string& name : study.cases) {
+    const auto at = study.geometry.find(name);
+    std::string& domain = domains[name] = name;
+    if (at == study.geometry.end()) continue;
+    if (!at->second.domain.empty()) domain = at->second.domain;
+    for (const std::string& other : study.cases) {
+      if (other == name || domain != name) break;
+      const auto before = study.geometry.find(other);
+      if (before != study.geometry.end() && are_same(before->second, at->second)) domain = domains[other];
+    }
+  }
+  return domains;
 }
 
 void write_study(const std::filesystem::path& folder, const StudyFile& study) {

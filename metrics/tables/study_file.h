@@ -10,9 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "metrics/tables/correlation.h"
-#include "metrics/tables/slopes.h"
-
 namespace delquad {
 
 /// What is wrong with a file of results, for people, by what reading its JSON has thrown: "FILE:LINE:COLUMN:
@@ -34,20 +31,11 @@ struct StepTime {
 };
 const std::vector<StepTime>& step_times_of_tables();
 
-/// How a metric of one pipeline should relate to that of another on the same case.
-struct ExpectedRatio {
-  std::string metric, numerator, denominator;  ///< key and two words
-  double expected = 1;
-  std::string source;
-};
-
 /// A claim that is fixed before the run: [[hypotheses]].
 struct Hypothesis {
   std::string along;                  ///< title of the axis whose values are compared; empty: pipelines
   std::string better, than;           ///< pipelines, or values of that axis
   std::vector<std::string> measures;  ///< keys; each is a test
-  bool two_sided = false;             ///< the contrary may be proven, too
-  bool secondary = false;             ///< counts only where all that are not are proven
   bool operator==(const Hypothesis&) const = default;
 };
 
@@ -61,15 +49,18 @@ struct MayFail {
 struct TablePlan {
   std::string title;
   std::vector<PublishedRow> published;
-  std::optional<ExpectedRatio> ratio;
-  bool step_times = false;             ///< the table has a column for each step's time
-  int repeat_times = 0;                ///< how often every pipeline is run again for its time; 0: not at all
-  std::vector<std::string> columns;    ///< of tables in Markdown and LaTeX, by key; empty: all
-  std::optional<SlopeRequest> slopes;  ///< by which powers they go
-  std::optional<CorrelationRequest> correlation;  ///< what its results are to say of measures
-  std::vector<std::string> pairs;  ///< titles of axes whose values are compared as pipelines are
+  bool step_times = false;           ///< the table has a column for each step's time
+  std::vector<std::string> columns;  ///< of tables in Markdown and LaTeX, by key; empty: all
+  std::vector<std::string> pairs;    ///< titles of axes whose values are compared as pipelines are
   std::vector<Hypothesis> hypotheses;
   std::vector<MayFail> may_fail;
+};
+
+/// Geometries are the same if their digests are equal or their shapes agree.
+struct CaseGeometry {
+  std::string domain;         ///< what the case says; empty: the geometry tells
+  std::string digest;         ///< of the model's file, without what is no geometry; empty: there is none
+  std::vector<double> shape;  ///< moments; empty: not known
 };
 
 /// What a folder of results says of its experiment, besides the records of its cells: study.json.
@@ -78,17 +69,22 @@ struct StudyFile : TablePlan {
   std::vector<std::string> cases, pipelines;
   /// What varies, in its order, with its values.
   std::vector<std::pair<std::string, std::vector<std::string>>> axes;
-  std::map<std::string, std::string> variants;  ///< named sets of keys, as text
-  std::size_t cells = 0;                        ///< that the experiment has
+  std::map<std::string, CaseGeometry> geometry;  ///< by case
+  std::string plan;       ///< digest of all that determines the results, but for the order of cases
+  std::size_t cells = 0;  ///< that the experiment has
   /// case -> pipeline -> name of the published row beside it
   std::map<std::string, std::map<std::string, std::string>> compare;
-  bool plan_changed = false;  ///< hypotheses, cases or axes, after the first record was there
+  bool plan_changed = false;  ///< after the first record was there
 };
 /// What tables say then.
 inline constexpr const char* kNotPlanned =
-    "Not planned: hypotheses, cases or [matrix] were changed after the first mesh was made.";
-/// Whether two have the same hypotheses and, where there are any, cases and axes.
+    "Not planned: hypotheses, cases, models, options or pipelines were changed after the first mesh was "
+    "made.";
+/// Whether two have the same plan, or both no hypotheses.
 bool have_same_plan(const StudyFile& a, const StudyFile& b);
+/// By case, the domain that it counts as: it says one, or an earlier case has the same geometry, or it is one
+/// by itself.
+std::map<std::string, std::string> domains_of(const StudyFile& study);
 
 /// Value `i` of those of an axis, as it stands in the name of a folder: what might not stand there is
 /// replaced by `_`, and long or doubtful texts by a digest.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "metrics/tables/inference.h"
@@ -11,15 +9,12 @@
 
 namespace delquad {
 
-/// Words beside each other, over all domains. Of each in each measure that pairs are compared by: the mean of
-/// its domains' means with the 95 % interval of interval_of_mean(); on how many domains it is better than
-/// every other word that it has a pair with there, and on how many worse than every one; and than which words
-/// it is proven to be better.
-struct Summary {
-  Table by_word;     ///< a row for each word, with all measures
-  Table by_measure;  ///< the same as it is printed: a group for each measure, a row for each word
-};
-/// No rows where there are fewer than two domains.
-Summary summarise(const StudyFile& study, const std::vector<CellRecord>& records, const Inference& inference);
+/// Pipelines beside each other, over all domains: a row for each in each measure that pairs are compared by.
+/// A study of one pipeline has rows for the values of the axes that it compares.
+///
+/// A row has the mean of the domains' means with the interval of interval_of_mean(). It counts the domains on
+/// which it failed, is better than every other row that it has a pair with, and is worse than every one. Last
+/// it names the rows than which it is proven to be better. There are no rows for fewer than two domains.
+Table summarise(const StudyFile& study, const std::vector<CellRecord>& records, const Inference& inference);
 
 }  // namespace delquad

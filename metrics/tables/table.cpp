@@ -60,11 +60,6 @@ std::string p_text(double p) {
   return p < kLeastShown ? "< 0.0001" : fmt::format("{:.4f}", p);
 }
 
-std::string seconds_text(double seconds) {
-  constexpr double kTwoDecimals = 1;
-  return seconds < kTwoDecimals ? fmt::format("{:.3g}", seconds) : number_text(seconds, 2);
-}
-
 std::string csv_quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   return fmt::format("\"{}\"", replace_all(text, "\"", "\"\""));
@@ -84,10 +79,7 @@ std::size_t characters(const std::string& text) {
 
 std::string markdown_escaped(const std::string& text) { return replace_all(text, "|", "\\|"); }
 
-constexpr TableStyle kMarkdown = {"**", "**", "~", " \u00b1 ", markdown_escaped};
-/// As to_json() has it: marks stand by themselves.
-constexpr TableStyle kPlain = {"", "", "", " \u00b1 ", [](const std::string& text) { return text; }};
-
+constexpr TableStyle kMarkdown = {"**", "**", " \u00b1 ", markdown_escaped};
 /// A line with "failed" where its first value would be.
 std::vector<std::string> cells_of(const RenderedTable::Line& line) {
   std::vector<std::string> cells = line.names;
@@ -142,8 +134,7 @@ std::string cell(const TableRow& row, const TableColumn& column, const TableStyl
   const int decimals = decimals_of(half_width, column.digits);
   std::string text = std::isnan(ours) ? "-" : number_text(ours, decimals);
   if (const auto own = row.texts.find(column.key); own != row.texts.end()) text = style.escape(own->second);
-  if (const auto mark = row.marks.find(column.key); mark != row.marks.end())
-    text = mark->second == Mark::kBest ? style.best_begin + text + style.best_end : style.as_good + text;
+  if (row.bold.contains(column.key)) text = style.bold_begin + text + style.bold_end;
   text += spread_text(ours, half_width, column, style);
   if (std::isnan(published)) return text;
   if (std::isnan(ours)) return fmt::format("{} ({})", text, published);
@@ -278,36 +269,23 @@ nlohmann::ordered_json by_column(const Table& table, const std::map<std::string,
   return json;
 }
 
-/// What there is of a row that has values: the numbers, what they are marked as, and how they are shown.
-void add_values(const Table& table, const TableRow& row, const RenderedTable::Line& shown,
-                nlohmann::ordered_json& line) {
-  if (!row.unsound.empty()) line["unsound"] = row.unsound;
-  if (!row.incomplete.empty()) line["incomplete"] = row.incomplete;
-  line["values"] = by_column(table, row.values);
-  if (!row.half_widths.empty()) line["half_widths"] = by_column(table, row.half_widths);
-  for (const auto& [key, mark] : row.marks) line["marks"][key] = mark == Mark::kBest ? "best" : "as good";
-  for (std::size_t k = 0; k < table.columns.size(); ++k)
-    if (row.values.contains(table.columns[k].key) || row.texts.contains(table.columns[k].key))
-      line["shown"][table.columns[k].key] = shown.values[k];
-}
-
 }  // namespace
 
 std::string to_json(const Table& table) {
   Json json = json_without_rows(table);
-  Table whole = table;
-  whole.shown.clear();
-  for (TableRow& row : whole.rows) row.published.clear();
-  const RenderedTable rendered = render(whole, kPlain);
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const TableRow& row = table.rows[i];
+  for (const TableRow& row : table.rows) {
     Json line = {{table.group_title, row.group}, {table.name_title, row.name}};
     if (!row.failure.empty() || !row.skipped.empty()) {
       line["status"] = row.failure.empty() ? "skipped" : "failed";
       line["reason"] = row.failure.empty() ? row.skipped : row.failure;
     } else {
       line["status"] = "ok";
-      add_values(table, row, rendered.lines[i], line);
+      if (!row.unsound.empty()) line["unsound"] = row.unsound;
+      if (!row.incomplete.empty()) line["incomplete"] = row.incomplete;
+      line["values"] = by_column(table, row.values);
+      if (!row.half_widths.empty()) line["half_widths"] = by_column(table, row.half_widths);
+      if (!row.bold.empty()) line["bold"] = row.bold;
+      if (!row.texts.empty()) line["texts"] = row.texts;
     }
     if (!row.published.empty()) {
       line["published"] = by_column(table, row.published);
@@ -334,9 +312,7 @@ void read_values(const nlohmann::ordered_json& line, TableRow& row) {
   read("half_widths", row.half_widths);
   row.unsound = line.value("unsound", "");
   row.incomplete = line.value("incomplete", "");
-  if (line.contains("marks"))
-    for (const auto& [key, mark] : line["marks"].items())
-      row.marks[key] = mark == "best" ? Mark::kBest : Mark::kAsGoodAsBest;
+  row.bold = line.value("bold", row.bold);
 }
 
 }  // namespace

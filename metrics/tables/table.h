@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,6 @@ struct TableColumn {
   Interval range = {-HUGE_VAL, HUGE_VAL};  ///< that no value leaves
 };
 
-enum class Mark {
-  kBest,         ///< of its group, as is proven
-  kAsGoodAsBest  ///< the best of its group, which is not proven, or not proven to be worse
-};
-
 struct TableRow {
   std::string group, name;                  ///< first two columns: case and pipeline
   std::map<std::string, double> values;     ///< by column key; absent or NaN: not known
@@ -32,7 +28,7 @@ struct TableRow {
   std::string skipped = {};                 ///< why it was left out; empty: it was not
   /// Of means over several runs: half the width of their 95 % confidence interval, by column key.
   std::map<std::string, double> half_widths = {};
-  std::map<std::string, Mark> marks = {};  ///< by column key
+  std::set<std::string> bold = {};  ///< keys of columns: proven
   std::map<std::string, std::string> texts =
       {};                       ///< what stands for a value, by column key; absent: the number
   std::string unsound = {};     ///< how many of the meshes are not sound; empty: all are
@@ -88,9 +84,9 @@ std::string to_json(const Table& table);
 /// What to_json() has written. Throws InputError naming the file.
 Table read_table(const std::filesystem::path& file);
 
-/// How a format shows marks, and texts that mean something to it.
+/// How a format shows bold values, and texts that mean something to it.
 struct TableStyle {
-  const char *best_begin, *best_end, *as_good, *plus_minus;
+  const char *bold_begin, *bold_end, *plus_minus;
   std::string (*escape)(const std::string&);
 };
 
@@ -107,8 +103,8 @@ struct RenderedTable {
   std::vector<std::string> notes;  ///< not escaped
 };
 
-/// The columns that are to be shown. `notes` say why rows failed, what the marks and brackets mean, and where
-/// published values stand.
+/// The columns that are to be shown. `notes` say why rows failed, what brackets mean, and where published
+/// values stand.
 RenderedTable render(const Table& table, const TableStyle& style);
 
 /// As fields of CSV: in quotes where it must be; every digit, and nothing of NaN.
@@ -134,7 +130,5 @@ std::string interval_text(double value, const Interval& interval, int digits);
 
 /// "0.0123"; "< 0.0001" below that.
 std::string p_text(double p);
-/// Seconds, with three significant digits or two decimals.
-std::string seconds_text(double seconds);
 
 }  // namespace delquad

@@ -4,20 +4,17 @@
 #include <boost/locale/utf.hpp>
 #include <cctype>
 #include <numeric>
-#include <set>
 #include <string_view>
 
 #include "metrics/tables/table.h"
 
 // Tables for LaTeX. They are set at 8 points, and columns that do not fit beside each other stand below each
-// other, over the same rows. Widths are those of Computer Modern, rounded up.
+// other, over the same rows.
 
 namespace delquad {
 namespace {
 
 constexpr double kPageWidth = 345;    ///< points: \textwidth of LaTeX's classes on A4 at 10 points
-constexpr double kFigure = 4.25;      ///< points, at 8 points
-constexpr double kBold = 1.15;        ///< times as wide
 constexpr double kColumnSpace = 6;    ///< points: twice \tabcolsep as set below
 constexpr double kMostOfNames = 100;  ///< points that one of the names' columns takes; longer ones are broken
 constexpr std::size_t kLongestPiece = 12;  ///< characters of a name without a place to break it
@@ -41,8 +38,6 @@ bool is_in_every_font(char32_t code) {
   return code >= 0xC0 && code <= 0xFF && kMissing.find(code) == kMissing.npos;
 }
 
-constexpr const char* kTilde = "$\\sim$";
-
 std::string tex_character(char c) {
   switch (c) {
     case '\\':
@@ -50,7 +45,7 @@ std::string tex_character(char c) {
     case '^':
       return "\\^{}";
     case '~':
-      return kTilde;  // as marks have it
+      return "$\\sim$";
     case '<':
     case '>':
     case '|':
@@ -86,71 +81,37 @@ std::string tex_escaped(const std::string& text) {
 /// Comments end with their line.
 std::string in_one_line(const std::string& text) { return replace_all(text, "\n", " "); }
 
-constexpr TableStyle kTex = {"\\textbf{", "}", kTilde, " $\\pm$ ", tex_escaped};
+constexpr TableStyle kTex = {"\\textbf{", "}", " $\\pm$ ", tex_escaped};
 
-/// In widths of a figure, rounded up.
-double width_of(char c) {
-  constexpr std::string_view kThinLetters = " .,:;'!il|", kWideLetters = "mwMW%";
-  if ((static_cast<unsigned char>(c) & 0xC0) == 0x80 || c == '{' || c == '}' || c == '$') return 0;
-  if (kThinLetters.find(c) != kThinLetters.npos) return 0.67;
-  if (kWideLetters.find(c) != kWideLetters.npos) return 2.1;
-  return (c >= 'A' && c <= 'Z') || c == '=' || c == '+' ? 1.65 : 1.07;
-}
-
-/// In points. Commands are signs, of at most two figures; bold is wider by a seventh.
+/// In points, at 8 points and rounded up, of text that is not escaped.
 double width_of(const std::string& text) {
-  const bool is_bold = text.starts_with(kTex.best_begin);
-  double figures = 0;
-  for (std::size_t i = is_bold ? std::string_view(kTex.best_begin).size() : 0; i < text.size(); ++i) {
-    if (text[i] != '\\') {
-      figures += width_of(text[i]);
-      continue;
-    }
-    figures += 2;
-    if (i + 1 < text.size() && !std::isalpha(static_cast<unsigned char>(text[i + 1])))
-      ++i;
-    else
-      while (i + 1 < text.size() && std::isalpha(static_cast<unsigned char>(text[i + 1]))) ++i;
-  }
-  return kFigure * figures * (is_bold ? kBold : 1);
+  constexpr std::string_view kThinOnes = " .,:;'!il|[]()/", kWideOnes = "mwMW%";
+  double width = 0;
+  for (const char c : text)
+    if ((static_cast<unsigned char>(c) & 0xC0) != 0x80)
+      width += kThinOnes.find(c) != kThinOnes.npos              ? 3.2
+               : kWideOnes.find(c) != kWideOnes.npos            ? 8.9
+               : (c >= 'A' && c <= 'Z') || c == '=' || c == '+' ? 7.1
+                                                                : 4.8;
+  return width;
 }
 
-/// With places where a long name may be broken: after what is no letter or figure, and in words of more than
-/// `longest` characters.
+/// Escaped, with places where words of more than `longest` characters may be broken: after what is no letter
+/// or figure, and after every few characters.
 std::string breakable(const std::string& text, std::size_t longest) {
   std::string result;
-  std::size_t piece = 0;
-  for (std::size_t i = 0; i < text.size();) {
-    // Commands stay whole: from a backslash to the end of its letters and braces.
-    std::size_t end = i + 1;
-    if (text[i] == '\\' && end < text.size()) {
-      if (!std::isalpha(static_cast<unsigned char>(text[end++])))
-        ;
-      else
-        while (end < text.size() && std::isalpha(static_cast<unsigned char>(text[end]))) ++end;
-      if (text.compare(end, 2, "{}") == 0) end += 2;
-    } else if (text[i] == '$') {
-      end = text.find('$', i + 1) + 1;
-    }
-    while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) ++end;
-    const bool plain = std::isalnum(static_cast<unsigned char>(text[i])) != 0;
-    result += text.substr(i, end - i);
-    if (text[i] != ' ' && (!plain || ++piece == longest)) {
+  for (std::size_t begin = 0, end; begin <= text.size(); begin = end + 1) {
+    end = std::min(text.find(' ', begin), text.size());
+    if (begin > 0) result += ' ';
+    std::size_t piece = 0;
+    for (std::size_t i = begin, bytes; i < end; i += bytes) {
+      bytes = decode(std::string_view(text).substr(i)).second;
+      result += tex_escaped(text.substr(i, bytes));
+      const bool is_plain = std::isalnum(static_cast<unsigned char>(text[i])) != 0;
+      if (end - begin <= longest || (is_plain && ++piece < kLongestPiece)) continue;
       result += "\\allowbreak{}";
       piece = 0;
     }
-    i = end;
-  }
-  return result;
-}
-
-/// Only what is longer than words are, such as a path, may be broken anywhere but at spaces.
-std::string breakable_note(const std::string& note, std::size_t longest = kLongestWord) {
-  std::string result;
-  for (std::size_t begin = 0, end; begin <= note.size(); begin = end + 1) {
-    end = std::min(note.find(' ', begin), note.size());
-    const std::string word = note.substr(begin, end - begin);
-    result += (begin > 0 ? " " : "") + (word.size() > longest ? breakable(word, kLongestPiece) : word);
   }
   return result;
 }
@@ -166,27 +127,24 @@ class TexTable {
   /// above their rows, in place of a column.
   explicit TexTable(const Table& table, bool in_one_piece = false)
       : title_(table.title),
+        plain_(render(table, {"", "", " +- ", [](const std::string& text) { return text; }})),
         rendered_(render(table, kTex)),
         in_one_piece_(in_one_piece),
         in_groups_(in_one_piece) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      double width = width_of(rendered_.head.names[k]);
-      for (const auto& line : rendered_.lines) width = std::max(width, width_of(line.names[k]));
+    for (const std::size_t k : {0, 1}) {
+      const double width = widest([&](const auto& line) { return line.names[k]; });
       if (k == 0) in_groups_ |= width > kMostOfNames;
       if (k == 0 && in_groups_) continue;
       names_[k] = std::min(width, kMostOfNames);
       broken_[k] = width > kMostOfNames;
     }
-    for (const TableColumn& column : shown_columns(table)) keys_.push_back(column.key);
-    for (const TableRow& row : table.rows)
-      for (const auto& [key, value] : row.values) numbers_.insert(key);
-    double failed = 0;
-    for (const auto& line : rendered_.lines) failed = std::max(failed, width_of(line.missing));
-    for (std::size_t k = 0; k < rendered_.head.values.size(); ++k) {
-      double width = std::max(failed, width_of(rendered_.head.values[k]));
-      for (const auto& line : rendered_.lines) width = std::max(width, width_of(line.values[k]));
-      values_.push_back(width + kColumnSpace);
-    }
+    for (const TableColumn& column : shown_columns(table))
+      are_texts_.push_back(std::ranges::none_of(
+          table.rows, [&](const TableRow& row) { return row.values.contains(column.key); }));
+    const double failed = widest([](const auto& line) { return line.missing; });
+    for (std::size_t k = 0; k < are_texts_.size(); ++k)
+      values_.push_back(std::max(failed, widest([&](const auto& line) { return line.values[k]; })) +
+                        kColumnSpace);
     // What is too wide is broken: alone, or the widest of a table that is to stay in one piece.
     paragraphs_.assign(values_.size(), 0);
     const double excess = std::accumulate(values_.begin(), values_.end(), -room());
@@ -207,65 +165,65 @@ class TexTable {
   std::string body() const {
     std::string text = "\\begingroup\\fontsize{8}{9.5}\\selectfont\\setlength{\\tabcolsep}{3pt}%\n";
     for (const Block& block : blocks()) text += tabular(block) + "\\par\\medskip\n";
-    if (!rendered_.notes.empty()) {
-      text += "{\\raggedright\n";
-      for (const std::string& note : rendered_.notes)
-        text += fmt::format("\\noindent {}\\par\n",
-                            replace_all(breakable_note(tex_escaped(in_one_line(note))), " \\%", "~\\%"));
-      text += "}\n";
-    }
+    if (!plain_.notes.empty()) text += "{\\raggedright\n";
+    for (const std::string& note : plain_.notes)
+      text += fmt::format("\\noindent {}\\par\n",
+                          replace_all(breakable(in_one_line(note), kLongestWord), " \\%", "~\\%"));
+    if (!plain_.notes.empty()) text += "}\n";
     return text + "\\endgroup\n";
   }
 
  private:
+  /// The greatest width in the head and all lines.
+  template <class Text>
+  double widest(Text text) const {
+    double width = width_of(text(plain_.head));
+    for (const auto& line : plain_.lines) width = std::max(width, width_of(text(line)));
+    return width;
+  }
+
   /// Points for columns beside those of names.
   double room() const { return kPageWidth - names_[0] - names_[1] - 2 * kColumnSpace; }
 
-  /// As many columns beside each other as fit, at least one; those of a measure (eta_mean, eta_mean_won, ...)
-  /// stay together.
+  /// As many columns beside each other as fit, at least one.
   std::vector<Block> blocks() const {
     std::vector<Block> result = {{0, 0}};
     double used = 0;
-    for (std::size_t k = 0, end; k < values_.size(); k = end) {
-      double width = values_[k];
-      for (end = k + 1;
-           end < values_.size() && keys_[end].starts_with(keys_[k] + "_") && width + values_[end] <= room();
-           ++end)
-        width += values_[end];
-      if (used + width > room() && result.back().last > result.back().first) {
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+      if (used + values_[k] > room() + 0.01 && result.back().last > result.back().first) {
         result.push_back({k, k});
         used = 0;
       }
-      used += width;
-      result.back().last = end;
+      used += values_[k];
+      result.back().last = k + 1;
     }
     return result;
   }
 
   std::string name(std::size_t k, const std::string& text) const {
-    return broken_[k] ? "\\raggedright " + breakable(text, kLongestPiece) : text;
+    return broken_[k] ? "\\raggedright " + breakable(text, 0) : tex_escaped(text);
   }
 
   /// A name above its rows; one that is wider than the page is broken.
   static std::string group_line(const std::string& group) {
-    const std::string name = "\\emph{" + group + "}";
-    return width_of(group) <= kPageWidth ? name
-                                         : fmt::format("\\parbox[t]{{{}pt}}{{\\raggedright\\emph{{{}}}}}",
-                                                       kPageWidth, breakable(group, kLongestPiece));
+    if (width_of(group) <= kPageWidth) return "\\emph{" + tex_escaped(group) + "}";
+    return fmt::format("\\parbox[t]{{{}pt}}{{\\raggedright\\emph{{{}}}}}", kPageWidth, breakable(group, 0));
   }
 
-  std::string line(const RenderedTable::Line& line, const Block& block) const {
-    std::string text = (in_groups_ ? "" : name(0, line.names[0]) + " & ") + name(1, line.names[1]);
+  std::string line(const RenderedTable::Line& plain, const RenderedTable::Line& line,
+                   const Block& block) const {
+    std::string text = (in_groups_ ? "" : name(0, plain.names[0]) + " & ") + name(1, plain.names[1]);
     bool said = line.missing.empty();
     for (std::size_t k = block.first; k < block.last; ++k) {
       std::string value = line.values[k];
       if (!said && value.empty()) {
         value = line.missing;
         said = true;
+      } else if (are_texts_[k] && paragraphs_[k] > 0) {
+        value = breakable(plain.values[k], kLongestText);
       }
       if (paragraphs_[k] > 0)
-        value = (numbers_.contains(keys_[k]) ? "\\raggedleft" : "\\raggedright") +
-                ("\\let\\\\\\tabularnewline " + breakable_note(value, kLongestText));
+        value = (are_texts_[k] ? "\\raggedright" : "\\raggedleft") + ("\\let\\\\\\tabularnewline " + value);
       text += " & " + value;
     }
     return text + " \\\\\n";
@@ -280,26 +238,25 @@ class TexTable {
       text += broken_[k] ? fmt::format("p{{{:.0f}pt}}", kMostOfNames) : "l";
     for (std::size_t k = block.first; k < block.last; ++k)
       text += paragraphs_[k] > 0 ? fmt::format("p{{{:.0f}pt}}", paragraphs_[k] - kColumnSpace) : "r";
-    text += "@{}}\n\\toprule\n" + line(rendered_.head, block) + "\\midrule\n";
+    text += "@{}}\n\\toprule\n" + line(plain_.head, rendered_.head, block) + "\\midrule\n";
     if (is_long()) text += "\\endhead\n\\bottomrule\n\\endfoot\n";
-    for (std::size_t i = 0; i < rendered_.lines.size(); ++i) {
-      const std::string& group = rendered_.lines[i].names[0];
-      if (in_groups_ && (i == 0 || group != rendered_.lines[i - 1].names[0]))
+    for (std::size_t i = 0; i < plain_.lines.size(); ++i) {
+      const std::string& group = plain_.lines[i].names[0];
+      if (in_groups_ && (i == 0 || group != plain_.lines[i - 1].names[0]))
         text +=
             fmt::format("{}\\multicolumn{{{}}}{{@{{}}l@{{}}}}{{{}}} \\\\\n", i == 0 ? "" : "\\addlinespace\n",
                         1 + block.last - block.first, group_line(group));
-      text += line(rendered_.lines[i], block);
+      text += line(plain_.lines[i], rendered_.lines[i], block);
     }
     return text + (is_long() ? "\\end{longtable}" : "\\bottomrule\n\\end{tabular}");
   }
 
   std::string title_;
-  RenderedTable rendered_;
+  RenderedTable plain_, rendered_;
   bool in_one_piece_, in_groups_;
   double names_[2] = {0, 0};  ///< widths
   bool broken_[2] = {false, false};
-  std::vector<std::string> keys_;   ///< of columns
-  std::set<std::string> numbers_;   ///< keys of those that have them
+  std::vector<char> are_texts_;     ///< of columns
   std::vector<double> values_;      ///< widths, with the space between columns
   std::vector<double> paragraphs_;  ///< the same of values that are broken; 0: they are not
 };

@@ -28,8 +28,6 @@ namespace fs = std::filesystem;
 
 CellAddress address_of(const CellRecord& record) { return {record.name, record.variant, record.pipeline}; }
 
-constexpr const char *kHypotheses = "hypotheses", *kCorrelations = "correlations", *kSlopes = "slopes",
-                     *kSummary = "summary";
 constexpr const char *kRunsFile = "runs.csv", *kRunColumns = "runs_columns.csv", *kPrinted = "tables.tex",
                      *kReferences = "references.bib";
 
@@ -42,46 +40,35 @@ class Tabulation {
     Table& table = outcome_.table;
     table.title = study_.title;
     table.columns = table_columns(study_, records_);
-    choose_columns();
+    if (!study_.columns.empty()) table.shown = {kRuns};
+    for (const std::string& key : study_.columns)
+      if (key != kRuns) table.shown.push_back(key);
     for (const PublishedRow& row : study_.published)
       table.rows.push_back({"published", row.name, row.values, {}, row.source, ""});
-    const std::size_t first = table.rows.size();
-    for (const Samples& row : inference_.samples()) add_row(row);
-    const auto rows = std::span(table.rows).subspan(first);
-    inference_.marking().mark(inference_.family(), rows);
-    note_claims(rows);
-    add_notes(triangle_notes(records_,
-                             "there it does not compete in measures of quads (eta, d4 and the like), from "
-                             "which the triangles are missing"),
+    for (const Samples& row : group_samples(records_)) add_row(row);
+    add_notes(triangle_notes(records_, "measures of quads (eta, d4 and the like) leave these triangles out"),
               table);
-    note_times();
     add_notes(quad_count_notes(records_), table);
     note_cells();
     note_failed_metrics();
     note_may_fail();
-    if (study_.ratio) note_ratio(*study_.ratio);
-    outcome_.pairs = pairs_table(study_.title, inference_.pairs(), inference_.family());
-    outcome_.hypotheses = hypotheses_table(study_, inference_);
-    say_late(is_planned() ? outcome_.hypotheses : outcome_.pairs);
-    note_pairs(outcome_.pairs);
-    if (!outcome_.hypotheses.rows.empty()) note_pairs(outcome_.hypotheses);
+    outcome_.pairs = pairs_table(study_.title, inference_);
+    outcome_.hypotheses = hypotheses_table(study_.title, inference_);
+    outcome_.summary = summarise(study_, records_, inference_);
     outcome_.figures = make_figures(records_);
     std::ranges::move(figures_of_effects(inference_), std::back_inserter(outcome_.figures));
-    if (study_.slopes)
-      std::ranges::move(figures_of_slopes(*study_.slopes, records_), std::back_inserter(outcome_.figures));
-    auto [by_word, by_measure] = summarise(study_, records_, inference_);
-    outcome_.summary = std::move(by_word);
+    print();
+    say_late(is_planned() ? outcome_.hypotheses : outcome_.pairs);
     say_late(outcome_.summary);
-    if (!outcome_.summary.rows.empty()) note_pairs(outcome_.summary);
-    say_late(by_measure);
-    print(std::move(by_measure));
+    for (Table* one : {&outcome_.pairs, &outcome_.hypotheses, &outcome_.summary})
+      if (one == &outcome_.pairs || !one->rows.empty()) note_pairs(*one);
     return std::move(outcome_);
   }
 
  private:
   bool is_planned() const { return !study_.hypotheses.empty(); }
 
-  /// What was asked only after the runs is no claim: that is said, and nothing stays marked.
+  /// Says that questions which were asked after the runs are no claims.
   std::string late_note() const {
     return !study_.plan_changed ? ""
            : is_planned()       ? kNotPlanned
@@ -89,9 +76,7 @@ class Tabulation {
                             "mesh was made.";
   }
   void say_late(Table& table) const {
-    if (!study_.plan_changed) return;
-    table.notes.insert(table.notes.begin(), late_note());
-    for (TableRow& row : table.rows) row.marks.clear();
+    if (study_.plan_changed) table.notes.insert(table.notes.begin(), late_note());
   }
 
   void add_row(const Samples& samples) {
@@ -131,15 +116,11 @@ class Tabulation {
     outcome_.table.rows.push_back(std::move(row));
   }
 
-  void add_value(const Samples& samples, const std::string& key, TableRow& row) const {
-    const bool is_time = study_.repeat_times > 0 && (key == time_key(study_) || key == kLeastTime);
-    const std::vector<double> values = is_time ? samples.times(time_key(study_)) : samples.of(key);
+  static void add_value(const Samples& samples, const std::string& key, TableRow& row) {
+    const std::vector<double> values = samples.of(key);
     if (values.empty()) return;
-    row.values[key] = !is_time            ? mean(values)
-                      : key == kLeastTime ? *std::ranges::min_element(values)
-                                          : median(values);
-    if (is_time) row.texts[key] = seconds_text(row.values[key]);
-    if (!is_time && values.size() > 1) row.half_widths[key] = confidence_half_width(values);
+    row.values[key] = mean(values);
+    if (values.size() > 1) row.half_widths[key] = confidence_half_width(values);
   }
 
   void add_published(const Samples& samples, TableRow& row) const {
@@ -157,32 +138,6 @@ class Tabulation {
       }
   }
 
-  /// Those that the experiment asks for, with the number of runs, and the least time beside the median.
-  void choose_columns() {
-    if (study_.columns.empty()) return;
-    std::vector<std::string>& shown = outcome_.table.shown;
-    shown = {kRuns};
-    for (const std::string& key : study_.columns) {
-      if (key != kRuns) shown.push_back(key);
-      if (study_.repeat_times > 0 && key == time_key(study_)) shown.push_back(kLeastTime);
-    }
-  }
-
-  void note_claims(std::span<const TableRow> rows) {
-    const ClaimFamily& family = inference_.family();
-    const std::vector<std::string> notes = inference_.marking().notes(family, rows);
-    if (notes.empty()) return;
-    add_notes(notes, outcome_.table);
-    if (inference_.marking().can_prove(family))
-      outcome_.table.notes.push_back(
-          "Proven: by Wilcoxon's signed-rank test over the seeds, of times by the Mann-Whitney U test over "
-          "repeated runs. " +
-          family.note());
-    if (study_.hypotheses.empty() && study_.cases.size() < kFewestDomains)
-      outcome_.table.notes.push_back(fmt::format(
-          "With fewer than {} domains (cases) nothing can be proven over domains.", kFewestDomains));
-  }
-
   static void add_notes(const std::vector<std::string>& notes, Table& table) {
     table.notes.insert(table.notes.end(), notes.begin(), notes.end());
   }
@@ -197,30 +152,22 @@ class Tabulation {
     add_notes(quad_count_notes(records_), table);
   }
 
-  /// How differences are tested, for captions.
-  std::string test_text() const {
-    std::string sides = "two-sided", whole = " over all tests of the study";
-    const auto any = [&](auto what) { return std::ranges::any_of(inference_.hypotheses(), what); };
-    if (any(&PairComparison::one_sided))
-      sides = any([](const PairComparison& p) { return !p.one_sided; })
-                  ? "one-sided but for hypotheses that are two-sided"
-                  : "one-sided";
-    if (is_planned()) whole = " over all hypotheses";
-    if (any(&PairComparison::secondary))
-      whole =
-          " over the primary hypotheses, and over the secondary ones, which count only where all primary "
-          "ones are proven~\\cite{westfall2001};";
-    return "Wilcoxon's signed-rank test over domains~\\cite{wilcoxon1945}, " + sides +
-           ", corrected by Holm's method~\\cite{holm1979}" + whole +
-           " that could prove a difference~\\cite{tarone1990}";
-  }
-
   /// Summary and pairs in as few columns as say all, and with captions.
-  void print(Table summary) {
+  void print() {
+    Table summary = outcome_.summary, pairs = is_planned() ? outcome_.hypotheses : outcome_.pairs;
     if (summary.rows.empty()) return;
-    const std::string interval = "with its 95\\,\\% interval by bootstrap-t over domains~\\cite{davison1997}",
-                      late = study_.plan_changed ? "\\textbf{" + late_note() + "} " : "",
-                      bold = study_.plan_changed ? "" : " Bold: proven at 5\\,\\%";
+    const std::string tests =
+        "Wilcoxon's signed-rank test over domains~\\cite{wilcoxon1945}, two-sided, corrected by Holm's "
+        "method~\\cite{holm1979} over all " +
+        std::string(is_planned() ? "hypotheses" : "tests of the study") +
+        " that could prove a difference~\\cite{tarone1990}";
+    const std::string interval =
+        "with its 95\\,\\% interval by Student's statistic without its "
+        "skewness~\\cite{hall1992}, over domains";
+    const std::string late = study_.plan_changed ? "\\textbf{" + late_note() + "} " : "";
+    const auto bold = [&](const char* what) {
+      return study_.plan_changed ? "" : fmt::format(" Bold: proven at 5\\,\\%{}.", what);
+    };
     summary.notes.clear();
     if (!is_planned()) summary.notes.push_back(inference_.family().note());
     note_pairs(summary);
@@ -229,37 +176,31 @@ class Tabulation {
                       late + "Mean over domains " + interval +
                           ". Won, lost: on how many domains one is better, or worse, than every other" +
                           (summary.name_title == "pipeline" ? "" : " of its axis") +
-                          ". Proven better than: " + (is_planned() ? "as hypotheses ask, by " : "by ") +
-                          test_text() + "." + (bold.empty() ? "" : bold + " to be better than all others."));
-    Table pairs = is_planned() ? outcome_.hypotheses : outcome_.pairs;
+                          "; who failed is worse. Proven better than: " +
+                          (is_planned() ? "as hypotheses ask, by " : "by ") + tests + "." +
+                          bold(" to be better than all others, without a failure"));
+    const bool fails = std::ranges::find(pairs.shown, "first_failed") != pairs.shown.end();
     pairs.columns = {{"domains", "domains", 0},
                      {"won_lost", "won/lost", 0},
                      {"effect", "difference", 4},
                      {"p_corrected", "p corr.", 4},
                      {"first_is", is_planned() ? "verdict" : "first is", 0}};
+    if (fails) pairs.columns.insert(pairs.columns.begin() + 2, {"failed", "failed", 0});
     pairs.shown.clear();
-    pairs.notes.clear();
-    for (TableRow& row : pairs.rows)
+    std::erase_if(pairs.notes, [](const std::string& note) { return !note.ends_with(": left out"); });
+    for (TableRow& row : pairs.rows) {
       row.texts["won_lost"] = fmt::format("{}/{}", row.values.at("better"), row.values.at("worse"));
-    text +=
-        to_tex_floats(pairs, "tab:pairs",
-                      late +
-                          "Won/lost: on how many domains the first is better and worse. Difference: first "
-                          "minus second, mean over domains " +
-                          interval + ". p corr.: of " + test_text() + "." + (bold.empty() ? "" : bold + "."));
+      row.texts["failed"] =
+          fmt::format("{}/{}", row.values.at("first_failed"), row.values.at("second_failed"));
+    }
+    text += to_tex_floats(
+        pairs, "tab:pairs",
+        late + "Won/lost: on how many domains the first is better and worse" +
+            (fails ? "; failed: on how many the first and the second did, and lost there" : "") +
+            ". Difference: first minus second, mean over domains " + interval + ". p corr.: of " + tests +
+            "." + bold(fails ? ", without a failure" : ""));
     outcome_.files[kPrinted] = "% To be input with booktabs; references.bib has what is cited.\n" + text;
     outcome_.files[kReferences] = kBibliography;
-  }
-
-  void note_times() {
-    if (study_.repeat_times == 0) return;
-    std::size_t most = 0;
-    for (const Samples& row : inference_.samples()) most = std::max(most, row.times(time_key(study_)).size());
-    outcome_.table.notes.push_back(
-        most == 0 ? "The runs have not been repeated yet for their times."
-                  : fmt::format("Times: median and least of {} runs on the clock, the pipelines in changing "
-                                "order.",
-                                most));
   }
 
   /// What there is to say of single cells, and of those that are not there.
@@ -336,22 +277,6 @@ class Tabulation {
     }
   }
 
-  void note_ratio(const ExpectedRatio& ratio) {
-    for (const Samples& a : inference_.samples()) {
-      if (a.pipeline != ratio.numerator) continue;
-      for (const Samples& b : inference_.samples()) {
-        if (b.pipeline != ratio.denominator || b.group != a.group) continue;
-        const std::vector<double> above = a.of(ratio.metric), below = b.of(ratio.metric);
-        if (above.empty() || below.empty() || mean(below) == 0) continue;
-        const double quotient = mean(above) / mean(below);
-        outcome_.table.notes.push_back(fmt::format(
-            "{}: {} of {} / {} = {:.4f}; expected {:.4f} ({:+.2f} %{}{})", a.group, ratio.metric,
-            ratio.numerator, ratio.denominator, quotient, ratio.expected,
-            100 * (quotient / ratio.expected - 1), ratio.source.empty() ? "" : "; ", ratio.source));
-      }
-    }
-  }
-
   const StudyFile& study_;
   const std::vector<CellRecord>& records_;
   Inference inference_;
@@ -376,7 +301,6 @@ StudyResults read_results(const fs::path& folder) {
   if (!study)
     refuse("{}: is missing: expected the folder of 'delquad run -o'", (folder / "study.json").string());
   results.study = *std::move(study);
-  results.time_problems = attach_times(results.records);
   results.left_out = std::erase_if(
       results.records, [&](const CellRecord& r) { return !place_of(results.study, address_of(r)); });
   return results;
@@ -384,11 +308,6 @@ StudyResults read_results(const fs::path& folder) {
 
 Outcome make_tables(const StudyResults& results) {
   Outcome outcome = Tabulation(results.study, results.records).run();
-  if (results.study.correlation)
-    outcome.correlations =
-        correlation_table(results.study.title, correlate(*results.study.correlation, results.records));
-  if (results.study.slopes)
-    outcome.slopes = slope_table(results.study.title, *results.study.slopes, results.records);
   const RunsCsv runs = runs_csv(results.study, results.records);
   outcome.files[kRunsFile] = runs.lines;
   outcome.files[kRunColumns] = runs.columns;
@@ -397,8 +316,6 @@ Outcome make_tables(const StudyResults& results) {
     ++outcome.metrics_failed;
     outcome.failures["a measure by command failed"].push_back(record.group + " " + record.pipeline);
   }
-  outcome.table.notes.insert(outcome.table.notes.end(), results.time_problems.begin(),
-                             results.time_problems.end());
   if (results.left_out > 0)
     outcome.table.notes.push_back(
         fmt::format("{} records of cells that the experiment no longer has are left out", results.left_out));
@@ -407,22 +324,42 @@ Outcome make_tables(const StudyResults& results) {
 
 Outcome make_tables(const fs::path& folder) { return make_tables(read_results(folder)); }
 
+namespace {
+
+/// The table that a name stands for, in the formats that it is written in.
+struct WrittenTable {
+  const char* name;
+  const Table Outcome::*table;
+  bool in_all_formats;
+};
+const WrittenTable kTables[] = {{"table", &Outcome::table, true},
+                                {"pairs", &Outcome::pairs, false},
+                                {"hypotheses", &Outcome::hypotheses, false},
+                                {"summary", &Outcome::summary, false}};
+
+/// By name; without a text those that are not there.
+std::map<std::string, std::string> texts_of(const Outcome& outcome) {
+  std::map<std::string, std::string> files = {
+      {kRunsFile, ""}, {kRunColumns, ""}, {kPrinted, ""}, {kReferences, ""}};
+  for (const auto& [name, text] : outcome.files) files[name] = text;
+  for (const auto& [name, table, in_all] : kTables)
+    for (const TableFormat& format : table_formats()) {
+      const std::string extension = format.extension;
+      const bool is_written = in_all || extension == ".md" || extension == ".csv";
+      files[name + extension] =
+          is_written && !(outcome.*table).rows.empty() ? format.print(outcome.*table) : "";
+    }
+  return files;
+}
+
+}  // namespace
+
 std::vector<std::string> write_tables(const fs::path& folder, const Outcome& outcome) {
-  std::map<std::string, std::string> files = outcome.files;
-  for (const auto& [name, table] :
-       {std::pair("table", &outcome.table), std::pair("pairs", &outcome.pairs),
-        std::pair(kHypotheses, &outcome.hypotheses), std::pair(kSummary, &outcome.summary),
-        std::pair(kCorrelations, &outcome.correlations), std::pair(kSlopes, &outcome.slopes)})
-    for (const TableFormat& format : table_formats())
-      if (!table->rows.empty()) files[std::string(name) + format.extension] = format.print(*table);
   std::vector<std::string> errors;
-  // What an earlier run asked for and this one does not would be taken for its own.
   std::error_code kept;  // in a folder that cannot be written to, as the errors say then
-  for (const TableFormat& format : table_formats())
-    if (outcome.hypotheses.rows.empty())
-      fs::remove(folder / (std::string(kHypotheses) + format.extension), kept);
-  for (const auto& [name, text] : files) try {
-      write_text_file(folder / name, text);
+  for (const auto& [name, text] : texts_of(outcome)) try {
+      // What an earlier run asked for and this one does not would be taken for its own.
+      text.empty() ? void(fs::remove(folder / name, kept)) : write_text_file(folder / name, text);
     } catch (const InputError& error) {
       errors.push_back(error.what());
     }
@@ -431,10 +368,8 @@ std::vector<std::string> write_tables(const fs::path& folder, const Outcome& out
 }
 
 std::vector<std::string> result_files() {
-  std::vector<std::string> files = {"study.json", "experiment", kFigures,   kRunsFile,
-                                    kRunColumns,  kPrinted,     kReferences};
-  for (const char* name : {"table", "pairs", kHypotheses, kSummary, kCorrelations, kSlopes})
-    for (const TableFormat& format : table_formats()) files.push_back(std::string(name) + format.extension);
+  std::vector<std::string> files = {"study.json", "experiment", kFigures};
+  for (const auto& [name, text] : texts_of({})) files.push_back(name);
   return files;
 }
 

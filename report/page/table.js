@@ -117,10 +117,9 @@ class TableView {
     const ours = row.values[key], published = row.published[key];
     const stands = row.texts && row.texts[key];  // for a value, as the table's own files have it
     const [text, around] = stands ? [stands, null] : ours === undefined ? ["\u2013", null] : shownNumber(ours, row.half_widths[key], digits, range);
-    const content = (row.marks[key] === "as good" ? "~" : "") + text;
     const beside = published === undefined ? null : el("span", { class: "beside" },
       ours === undefined ? `published ${published}` : `${published}, ${ours >= published ? "+" : ""}${fixed(ours - published, digits)}`);
-    return el("td", {}, row.marks[key] === "best" ? el("b", {}, content) : content, around ? el("span", { class: "beside" }, around) : null, beside);
+    return el("td", {}, row.bold.includes(key) ? el("b", {}, text) : text, around ? el("span", { class: "beside" }, around) : null, beside);
   }
   /// The same rows for paper: so few columns at a time that none is cut off.
   printed() {

@@ -31,9 +31,9 @@ bool try_experiment(std::string_view bytes) {
 const std::string kStudy =
     R"({"title": "t", "experiment": "e", "cases": ["disc"], "pipelines": ["DB", "FB"], "cells": 4, "step_times": true,)"
     R"( "compare": {"disc": {"DB": "row"}}, "axes": [["seed", ["1", "2"]]], "published": [{"name": "row", "source": "s",)"
-    R"( "values": {"n_quads": 7, "eta_mean": 0.5}}], "ratio": {"metric": "n_quads", "numerator": "DB", "denominator":)"
-    R"( "FB", "expected": 1.5, "source": "s"}, "repeat_times": 2, "columns": ["n_quads"], "correlate": {"of": ["own"],)"
-    R"( "with": ["eta_mean"]}})";
+    R"( "values": {"n_quads": 7, "eta_mean": 0.5}}], "columns": ["n_quads"], "pairs": ["seed"], "plan": "p", "geometry":)"
+    R"( {"disc": {"domain": "", "digest": "d", "shape": [1, 2.5]}}, "hypotheses": [{"better": "DB", "than": "FB", "along":)"
+    R"( "", "measures": ["own"]}]})";
 const std::string kRecord =
     R"({"record": 2, "case": "disc", "pipeline": "DB", "variant": {"seed": "1"}, "status": "ok", "quads_only": true, "metrics":)"
     R"( {"n_quads": 12, "eta_mean": 0.9, "own": null}, "own_metrics": [{"key": "own", "title": "Own", "unit": "",)"
@@ -87,9 +87,10 @@ columns = ["n_quads", "eta_mean"]
 step_times = true
 solver = ["poisson"]
 size = 0.3
-[correlate]
-of = ["poisson_h1"]
-with = ["eta_mean"]
+[[hypotheses]]
+better = "DB"
+than = "FB"
+measures = ["poisson_h1"]
 [matrix]
 seed = [1, 2]
 insertion = { h_max = [1.2, 1.5] }

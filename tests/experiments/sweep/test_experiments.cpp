@@ -114,24 +114,20 @@ TEST(Experiments, MisspeltNamesAreSuggested) {
          {"e.toml:4", "'spere'", "did you mean 'sphere'?"});
 }
 
-TEST(Experiments, RatiosAreNoted) {
+TEST(Experiments, KeysThatWentSayTheNewWay) {
   const testing_support::TemporaryFolder folder;
-  const auto file = testing_support::write_text(
-      folder / "e.toml",
-      "pipelines = [\"F\", \"D\"]\nratio = { metric = \"n_vertices\", numerator = \"F\", denominator = "
-      "\"D\", expected = "
-      "1.1547 }\n[[case]]\nname = \"a\"\nsize = 0.05\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
-  const Outcome outcome = run_experiment(Experiment::read(file), folder / "out");
-  ASSERT_EQ(outcome.table.notes.size(), 2u);
-  EXPECT_EQ(outcome.table.notes[0], "a: uniform delta = 0.05");
-  EXPECT_NE(outcome.table.notes[1].find("F / D = 1.1"), std::string::npos) << outcome.table.notes[1];
-  expect_input_error(
-      [&] {
-        Experiment::read(testing_support::write_text(
-            folder / "e.toml",
-            "[ratio]\nmetric = \"n_vertex\"\nnumerator = \"F\"\ndenominator = \"D\"\nexpected = 1\n"));
-      },
-      {"e.toml:2", "'n_vertices'"});
+  const auto expect = [&](const std::string& text, std::initializer_list<const char*> parts) {
+    const auto file = testing_support::write_text(
+        folder / "e.toml", text + "\n[[case]]\nname = \"a\"\nsize = 1\nexample = \"sphere\"\n");
+    expect_input_error([&] { Experiment::read(file); }, parts);
+  };
+  expect("[ratio]\nmetric = \"d4\"", {"e.toml:1", "no 'ratio' any longer", "runs.csv"});
+  expect("[slopes]\nof = [\"d4\"]", {"e.toml:1", "no 'slopes' any longer", "what_buys_error.py"});
+  expect("[correlate]\nof = [\"d4\"]", {"e.toml:1", "no 'correlate' any longer", "which_quality.py"});
+  expect("repeat_times = 4", {"e.toml:1", "no 'repeat_times' any longer", "'seed' in [matrix]"});
+  const std::string claim = "[[hypotheses]]\nbetter = \"DB\"\nthan = \"FB\"\nmeasures = [\"d4\"]\n";
+  expect(claim + "secondary = true", {"e.toml:5", "no 'secondary' any longer", "one family"});
+  expect(claim + "two_sided = true", {"e.toml:5", "no 'two_sided' any longer", "two-sided"});
 }
 
 TEST(Experiments, DataExcludesOtherModels) {

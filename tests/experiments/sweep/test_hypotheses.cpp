@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "delquad/mesh.h"
 #include "experiments/sweep/run_experiment.h"
+#include "io/mesh_io.h"
 #include "metrics/tables/study_file.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/run_program.h"
@@ -53,7 +57,7 @@ TEST_F(Planned, HypothesesAreRefusedBeforeTheRun) {
   expect_refusal(with("\"DBC\"", "\"F\""), {"e.toml:8", "no case of which 'F' and 'DB' have quads"});
   expect_refusal(with("eta_mean", "eta_men"), {"e.toml:9", "'eta_men'", "'eta_mean'"});
   expect_refusal(with("eta_mean", "n_vertices"), {"e.toml:9", "'n_vertices'", "neither more nor less"});
-  expect_refusal(with("eta_mean", "seconds"), {"e.toml:9", "'repeat_times'"});
+  expect_refusal(with("eta_mean", "seconds"), {"e.toml:9", "'seconds'", "runs.csv"});
   expect_refusal(with("\"eta_mean\"", "\"d4\", \"d4\""), {"e.toml:9", "'d4'", "twice"});
   expect_refusal(good + "along = \"cros\"\n", {"e.toml:10", "'cros' does not vary", "'cross'"});
   expect_refusal(good + "along = \"seed\"\n", {"e.toml:10", "'seed' does not vary"});
@@ -69,37 +73,35 @@ TEST_F(Planned, HypothesesAreRefusedBeforeTheRun) {
 }
 
 TEST_F(Planned, ADryRunSaysWhatCanBeProven) {
-  const std::string keys = "better = \"DBC\"\nthan = \"DB\"\nmeasures = [\"eta_mean\"]\n",
-                    two = "two_sided = true\n";
-  const std::string one = plan(keys, 0.5);
-  expect_part(one, "to do          r1@cross=boundary,seed=1 F\n");
-  expect_part(one, "cells: 36, of which 0 are done\ntime: not known");
-  expect_part(one, "domains (geometries): 5\n  one domain: r1, large\n");
-  expect_part(one, "tests of hypotheses: 1 primary, 0 secondary\n");
-  // Of five: 2^-5. The power of five that all agree, P(Z > -.5)^5, by hand.
-  expect_part(
-      one, "  1 one-sided over 5 domains: p corrected 0.0312 at the least; power 0.16 for 0.5 deviations\n");
-  expect_part(plan(keys + two), "  1 two-sided over 5 domains: nothing can be proven; it takes 6 domains\n");
-  // Seven: 7 * 2^-n is at most .05 from eight on, 7 * 2^-n * 2 from nine on.
-  const std::string seven =
-      "\"eta_mean\", \"eta_worst\", \"d4\", \"tau\", \"aspect_max\", \"poisson_h1\", \"poisson_l2\"";
+  const std::string keys = "better = \"DBC\"\nthan = \"DB\"\nmeasures = [\"eta_mean\"]\n";
+  const std::string five = plan(keys);
+  expect_part(five, "to do          r1@cross=boundary,seed=1 F\n");
+  expect_part(five, "cells: 36, of which 0 are done\ntime: not known");
+  expect_part(five, "domains (geometries): 5\n  one domain: r1, large\n");
+  expect_part(five,
+              "tests of hypotheses: 1\n  1 over 5 domains: nothing can be proven; it takes 6 domains\n");
+  // Six have 2 * 2^-6, and the power of all six to agree is P(Z > -0.5)^6, by hand.
+  const std::string sixth = "[[case]]\nname = \"r6\"\nsize = 0.4\nloop = { rectangle = [[0, 0], [1, 6]] }\n";
+  expect_part(dry_run(read(claim(keys) + sixth), "", 0.5),
+              "  1 over 6 domains: p corrected 0.0312 at the least; power 0.11 for 0.5 deviations\n");
+  // Seven: 7 * 2 * 2^-n is at most 0.05 from nine on.
   std::string many = keys;
-  many.replace(many.find("\"eta_mean\""), 10, seven);
-  expect_part(plan(many), "  7 one-sided over 5 domains: nothing can be proven; it takes 8 domains\n");
-  expect_part(plan(many + two), "  7 two-sided over 5 domains: nothing can be proven; it takes 9 domains\n");
-  // Secondary ones wait for the primary one.
-  const std::string second =
-      "[[hypotheses]]\nalong = \"cross\"\nbetter = \"x\"\nthan = \"boundary\"\n"
-      "measures = [\"tau\"]\nsecondary = true\n";
-  expect_part(plan(keys + second), "  secondary, 1 one-sided over 5 domains: p corrected 0.0312");
-  expect_part(plan(many + second),
-              "  secondary, 1 one-sided over 5 domains: nothing can be proven; it takes 8 domains\n");
+  many.replace(
+      many.find("\"eta_mean\""), 10,
+      "\"eta_mean\", \"eta_worst\", \"d4\", \"tau\", \"aspect_max\", \"poisson_h1\", \"poisson_l2\"");
+  expect_part(plan(many), "  7 over 5 domains: nothing can be proven; it takes 9 domains\n");
   // Without hypotheses DB and DBC are one pair, in eta mean, eta worst, d4, tau and four measures of the
   // solver.
-  const std::string all = dry_run(read(kHead + kRectangles), "", {});
-  expect_part(all,
-              "could prove something; 8 are of pairs, over domains\n  8 two-sided over 5 domains: nothing "
-              "can be proven");
+  expect_part(
+      dry_run(read(kHead + kRectangles), "", {}),
+      "tests: at most 8, of which 0 could prove something\n  8 over 5 domains: nothing can be proven");
+}
+
+/// The first command of docs/experiments.md.
+TEST_F(Planned, ADryRunNeedsNoResultsInTheFolder) {
+  const std::string experiment = claim("better = \"DBC\"\nthan = \"DB\"\nmeasures = [\"eta_mean\"]\n");
+  expect_part(dry_run(read(experiment), folder_ / "results", 1), "cells: 36, of which 0 are done\n");
+  EXPECT_FALSE(fs::exists(folder_ / "results"));
 }
 
 TEST_F(Planned, ProgramNeedsNoFolderForADryRun) {
@@ -149,6 +151,87 @@ TEST_F(Planned, PlansThatWereChangedAfterwardsSaySo) {
   EXPECT_TRUE(note_after(
       text("tau", "[[case]]\nname = \"b\"\nsize = 0.5\nloop = { rectangle = [[0, 0], [1, 2]] }\n")))
       << "a case more";
+}
+
+/// Whatever a case says belongs to the plan: seeds, sizes and models could be tried until something is
+/// proven.
+TEST_F(Planned, NothingOfCasesCanBeTried) {
+  const std::string head =
+      "pipelines = [\"DB\", \"DBC\"]\n[[hypotheses]]\nbetter = \"DBC\"\nthan = \"DB\"\nmeasures = [\"d4\"]\n";
+  const std::string first = "[[case]]\nname = \"a\"\nseed = 1\nsize = 0.5\nmodel = \"a.toml\"\n";
+  const std::string second = "[[case]]\nname = \"b\"\nsize = 0.5\nloop = { rectangle = [[0, 0], [1, 2]] }\n";
+  const auto model = [&](double width) {
+    write_text(folder_ / "a.toml", "loop = { rectangle = [[0, 0], [" + std::to_string(width) + ", 1]] }\n");
+  };
+  model(1);
+  const auto plan_of = [&](const std::string& text) { return describe(read(text)).plan; };
+  const auto with = [](std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
+  const std::string before = plan_of(head + first + second);
+  EXPECT_EQ(plan_of(head + second + first), before) << "the order of cases";
+  EXPECT_EQ(plan_of("title = \"x\"\ncolumns = [\"d4\"]\n# y\n" + head + first + second), before);
+  EXPECT_EQ(plan_of(head + with(first, "0.5", "5e-1") + second), before) << "the same number";
+  for (const std::string& other :
+       {with(first, "seed = 1", "seed = 2"), with(first, "size = 0.5", "size = 0.4"),
+        first + "cleanup = { rounds = 1 }\n", first + "domain = \"b\"\n"})
+    EXPECT_NE(plan_of(head + other + second), before) << other;
+  EXPECT_NE(plan_of(with(head, "DBC\"]", "DBC\", \"FB\"]") + first + second), before) << "a pipeline more";
+  model(1.5);
+  EXPECT_NE(plan_of(head + first + second), before) << "another model in the same file";
+}
+
+/// Headers of STEP and sizes of an outline that was exported make no domains.
+TEST_F(Planned, DomainsAreGeometries) {
+  std::string text = "pipelines = [\"DB\"]\n";
+  const auto add = [&](const std::string& name, const std::string& model) {
+    text += "[[case]]\nname = \"" + name + "\"\nsize = 1\nmodel = \"" + model + "\"\n";
+  };
+  for (const std::string name : {"s1", "s2", "s3"}) {
+    write_text(folder_ / (name + ".step"),
+               "ISO-10303-21;\nHEADER;\nFILE_NAME('" + name + "');\nENDSEC;\nDATA;\n#1=" +
+                   (name == "s3" ? "OTHER" : "POINT") + "();\nENDSEC;\nEND-ISO-10303-21;\n");
+    add(name, name + ".step");
+  }
+  // A polygon by lines, each of `n` edges, turned and scaled; the last one is another.
+  for (const int n : {1, 2, 5, 6}) {
+    Mesh mesh;
+    const std::vector<Vec2> corners = {{0, 0}, {3, 0}, {3, n == 6 ? 1.5 : 1.0}, {1, 1}, {1, 2}, {0, 2}};
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      for (int i = 0; i < n; ++i) {
+        const Vec2 u = corners[k] + i / double(n) * (corners[(k + 1) % corners.size()] - corners[k]);
+        const double c = n * std::cos(n), s = n * std::sin(n);
+        mesh.points.push_back({c * u.x - s * u.y + n, s * u.x + c * u.y, 0});
+        const int here = static_cast<int>(mesh.points.size()) - 1;
+        mesh.lines.push_back({here, (here + 1) % (n * 6)});
+      }
+    mesh.line_curve.assign(mesh.lines.size(), 0);
+    mesh.curves = {{1, {"rim"}}};
+    const std::string name = "p" + std::to_string(n);
+    write_mesh(folder_ / (name + ".msh"), mesh);
+    add(name, name + ".msh");
+  }
+  const std::map<std::string, std::string> expected = {{"s1", "s1"}, {"s2", "s1"}, {"s3", "s3"}, {"p1", "p1"},
+                                                       {"p2", "p1"}, {"p5", "p1"}, {"p6", "p6"}};
+  EXPECT_EQ(domains_of(describe(read(text))), expected);
+}
+
+/// The key `domain` counts as it stands now, and belongs to the plan.
+TEST_F(Planned, DomainsOfTheExperimentCountForOldRecords) {
+  const auto text = [](const std::string& domain) {
+    std::string cases = "pipelines = [\"DB\"]\n";
+    for (const std::string n : {"1", "2"})
+      cases += "[[case]]\nname = \"r" + n + "\"\nsize = 0.5\nloop = { rectangle = [[0, 0], [1, " + n +
+               "]] }\n" + domain;
+    return cases;
+  };
+  const fs::path out = folder_ / "out";
+  run_experiment(read(text("")), out);
+  const auto domain_of_second = [&] { return read_results(out).records.at(1).domain; };
+  EXPECT_EQ(domain_of_second(), "r2");
+  run_experiment(read(text("domain = \"same\"\n")), out);
+  EXPECT_EQ(domain_of_second(), "same");
+  expect_part(read_text(out / "runs.csv"), "r2,same,");
 }
 
 }  // namespace

@@ -64,10 +64,6 @@ TEST_F(Matrix, VariantsAreSetsOfKeysUnderAName) {
   EXPECT_EQ(none.options.number("insertion.rejection"), 0.5);
   EXPECT_FALSE(none.options.flag("repair.part_twins"));
   EXPECT_TRUE(all.cross.text.empty() && all.options.flag("repair.part_twins"));
-  StudyFile study = describe(e), other = describe(read(variants));
-  other.variants["none"] += "more";
-  study.hypotheses = other.hypotheses = {{"variant", "all", "none", {"d4"}}};
-  EXPECT_FALSE(have_same_plan(study, other)) << "what a variant sets belongs to the plan";
   expect_input_error([&] { read("[[variant]]\nname = \"x\"\n[[variant]]\nname = \"x\"\n"); },
                      {"e.toml:4", "'x' is there twice"});
   expect_input_error([&] { read("[[variant]]\nname = \"x\"\nloop = 1\n"); }, {"e.toml:3", "'variant.loop'"});

@@ -211,8 +211,16 @@ TEST_F(Records, VerifyFindsWhatWasChanged) {
   text = read_text(out() / "table.csv");
   text[text.find("DB") + 1] = 'C';
   write_text(out() / "table.csv", text);
-  expect_finding({"table.csv: is not the table"});
+  expect_finding({"table.csv: is not what these records make"});
   restore();
+  const auto variants = [&](const char* folder) { return cell().parent_path() / folder; };
+  for (const fs::path& picture : {variants("size.svg"), variants("cross.svg")}) {
+    write_text(picture, read_text(picture) + " ");
+    ASSERT_GE(findings().size(), 1u) << picture;
+    EXPECT_NE(findings()[0].find(picture.filename().string() + ": holds "), std::string::npos)
+        << findings()[0];
+    restore();
+  }
   text = read_text(out() / "study.json");
   replace(text, "\"title\": \"e\"", "\"title\": \"f\"");
   write_text(out() / "study.json", text);
@@ -230,6 +238,36 @@ TEST_F(Records, VerifyFindsWhatWasChanged) {
   restore();
   write_text(record, "{}");
   EXPECT_NE(findings()[0].find("record.json: was changed"), std::string::npos) << findings()[0];
+}
+
+/// Enough cases and pipelines for figures and for tables that go to print.
+TEST_F(Records, VerifySeesFiguresBibliographyAndSwappedFolders) {
+  std::string text = "pipelines = [\"DB\", \"DBC\"]\n";
+  for (const std::string n : {"1", "2", "3"})
+    text += "[[case]]\nname = \"r" + n + "\"\nsize = 0.4\nloop = { rectangle = [[0, 0], [1, " + n + "]] }\n";
+  run(text);
+  ASSERT_TRUE(findings().empty()) << findings()[0];
+  for (const char* name : {"figures/profile_tau.svg", "figures/profile_tau.csv", "references.bib",
+                           "tables.tex", "summary.md", "pairs.csv"}) {
+    const std::string before = read_text(out() / name);
+    write_text(out() / name, before + " ");
+    EXPECT_EQ(findings().size(), 1u) << name;
+    expect_finding({std::string(name).c_str(), "is not what these records make"});
+    write_text(out() / name, before);
+  }
+  const auto swap = [&](const fs::path& a, const fs::path& b) {
+    fs::rename(a, out() / "aside");
+    fs::rename(b, a);
+    fs::rename(out() / "aside", b);
+  };
+  swap(out() / "r1" / "DB", out() / "r1" / "DBC");
+  ASSERT_EQ(findings().size(), 2u);
+  EXPECT_NE(findings()[0].find("is the record of r1 {} DBC, in the folder of another cell"),
+            std::string::npos)
+      << findings()[0];
+  swap(out() / "r1" / "DB", out() / "r1" / "DBC");
+  swap(out() / "r2", out() / "r3");
+  EXPECT_GE(findings().size(), 4u);
 }
 
 /// A number that was changed is found, though nothing else says so.

@@ -54,7 +54,7 @@ TEST(Tables, TexIsEscapedBooktabs) {
 }
 
 /// What a reader of the paper has to know stands in the paper, not in comments.
-TEST(Tables, TexSaysWhatFailedAndWhatMarksMean) {
+TEST(Tables, TexSaysWhatFailed) {
   const std::string text = to_tex(example());
   EXPECT_TRUE(holds(text, "case$|$2 & DB & failed &  \\\\\n")) << text;
   const auto notes = text.substr(text.find("\\end{tabular}"));
@@ -148,19 +148,16 @@ TEST(Tables, JsonHoldsValuesAndReasons) {
   EXPECT_TRUE(holds(text, "\"reason\": \"size, \\\"x\\\", is < 0\"")) << text;
 }
 
-TEST(Tables, MarksAndSpreadsAreShown) {
+TEST(Tables, ProofsAndSpreadsAreShown) {
   Table table = example();
   table.rows[0].half_widths["d4"] = 1.25;
-  table.rows[0].marks["d4"] = Mark::kBest;
-  table.rows[1].marks["eta_mean"] = Mark::kAsGoodAsBest;
+  table.rows[0].bold = {"d4"};
   const std::string markdown = to_markdown(table), tex = to_tex(table), json = to_json(table);
   EXPECT_TRUE(holds(markdown, "**88.3** ± 1.3 |")) << markdown;
-  EXPECT_TRUE(holds(markdown, "~0.500 |")) << markdown;
   EXPECT_TRUE(holds(tex, "\\textbf{88.3} $\\pm$ 1.3")) << tex;
-  EXPECT_TRUE(holds(tex, "$\\sim$0.500")) << tex;
   EXPECT_TRUE(holds(to_csv(table), "88.25,1.25,,")) << to_csv(table);
-  EXPECT_TRUE(holds(json, "\"d4\": \"best\"")) << json;
-  EXPECT_TRUE(holds(json, "\"d4\": \"88.3 ± 1.3\"")) << json;
+  EXPECT_TRUE(holds(json, "\"bold\": [\n        \"d4\"\n      ]")) << json;
+  EXPECT_TRUE(holds(json, "\"half_widths\": {\n        \"d4\": 1.25\n      }")) << json;
 }
 
 TEST(Tables, RoundingHidesNoInterval) {
@@ -181,7 +178,7 @@ TEST(Tables, IntervalsEndWhereTheMeasureDoes) {
   table.rows[1].values["eta_mean"] = 1;
   const testing_support::TemporaryFolder folder;
   const Table read = read_table(testing_support::write_text(folder / "table.json", to_json(table)));
-  for (const std::string& text : {to_markdown(table), to_json(table), to_markdown(read)}) {
+  for (const std::string& text : {to_markdown(table), to_markdown(read)}) {
     EXPECT_TRUE(holds(text, "0.88 [0.63, 1.00]")) << text;
     EXPECT_TRUE(holds(text, "88.3 ± 1.3")) << text;
     EXPECT_TRUE(holds(text, "1.000 ± < 0.001")) << text;
@@ -192,15 +189,14 @@ TEST(Tables, IntervalsEndWhereTheMeasureDoes) {
 TEST(Tables, JsonCanBeReadAgain) {
   Table table = example();
   table.rows[0].half_widths["d4"] = 1.25;
-  table.rows[0].marks["d4"] = Mark::kBest;
-  table.rows[1].marks["eta_mean"] = Mark::kAsGoodAsBest;
+  table.rows[0].bold = {"d4"};
   table.rows[1].incomplete = "2 of 8 failed";
   const testing_support::TemporaryFolder folder;
   const Table same = read_table(testing_support::write_text(folder / "table.json", to_json(table)));
   ASSERT_EQ(same.rows.size(), table.rows.size());
   for (std::size_t i = 0; i < same.rows.size(); ++i) {
     EXPECT_EQ(same.rows[i].half_widths, table.rows[i].half_widths);
-    EXPECT_EQ(same.rows[i].marks, table.rows[i].marks);
+    EXPECT_EQ(same.rows[i].bold, table.rows[i].bold);
     EXPECT_EQ(same.rows[i].incomplete, table.rows[i].incomplete);
   }
 }

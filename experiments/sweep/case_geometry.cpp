@@ -1,0 +1,168 @@
+#include "experiments/sweep/case_geometry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/text.h"
+#include "delquad/error.h"
+#include "geometry/mesh/half_edges.h"
+#include "io/cases/read_problem.h"
+#include "io/digest.h"
+
+namespace delquad {
+namespace {
+
+/// Points of a curve or a surface, with the length or area that each stands for. Polynomials of the fifth
+/// degree have the same integral over both.
+class Samples3D {
+ public:
+  void add_segment(const Vec3& a, const Vec3& b) {
+    const double length = norm(b - a), off = std::sqrt(0.15);
+    for (const auto& [t, weight] : {std::pair(0.5 - off, 5.0), {0.5, 8.0}, {0.5 + off, 5.0}})
+      points_.push_back({a + t * (b - a), weight / 18 * length});
+  }
+
+  void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double area = norm(cross(b - a, c - a)) / 2, root = std::sqrt(15.0);
+    points_.push_back({1.0 / 3 * (a + b + c), 0.225 * area});
+    for (const double sign : {-1.0, 1.0}) {
+      const double s = (6 + sign * root) / 21, weight = (155 + sign * root) / 1200 * area;
+      for (const auto& [p, q, r] : {std::array{a, b, c}, {b, c, a}, {c, a, b}})
+        points_.push_back({s * p + s * q + (1 - 2 * s) * r, weight});
+    }
+    dimension_ = 2;
+  }
+
+  /// Its dimension and size, and invariants of its moments up to the fifth, in radii of gyration.
+  std::vector<double> invariants() const {
+    Vec3 centre{0, 0, 0};
+    double total = 0, square = 0;
+    for (const auto& [at, weight] : points_) total += weight, centre = centre + weight * at;
+    if (!(total > 0)) return {};
+    centre = (1 / total) * centre;
+    for (const auto& [at, weight] : points_) square += weight * dot(at - centre, at - centre);
+    const double radius = std::sqrt(square / total);
+    std::array<double, 3> v{}, w{};
+    std::array<double, 9> s{}, q{};
+    std::array<double, 27> t{};
+    double fourth = 0;
+    for (const auto& [at, weight] : points_) {
+      const Vec3 p = (1 / radius) * (at - centre);
+      const double x[] = {p.x, p.y, p.z}, r = dot(p, p), part = weight / total;
+      fourth += part * r * r;
+      for (std::size_t i = 0; i < 3; ++i) {
+        v[i] += part * r * x[i];
+        w[i] += part * r * r * x[i];
+        for (std::size_t j = 0; j < 3; ++j) {
+          s[3 * i + j] += part * x[i] * x[j];
+          q[3 * i + j] += part * r * x[i] * x[j];
+          for (std::size_t k = 0; k < 3; ++k) t[9 * i + 3 * j + k] += part * x[i] * x[j] * x[k];
+        }
+      }
+    }
+    const auto length = [](const auto& tensor) {
+      double sum = 0;
+      for (const double value : tensor) sum += value * value;
+      return std::sqrt(sum);
+    };
+    double vw = 0, vsv = 0, sq = 0, sss = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      vw += v[i] * w[i];
+      for (std::size_t j = 0; j < 3; ++j) {
+        vsv += v[i] * s[3 * i + j] * v[j];
+        sq += s[3 * i + j] * q[3 * i + j];
+        for (std::size_t k = 0; k < 3; ++k) sss += s[3 * i + j] * s[3 * j + k] * s[3 * k + i];
+      }
+    }
+    return {double(dimension_),
+            total / std::pow(radius, dimension_),
+            length(s),
+            sss,
+            length(v),
+            length(t),
+            fourth,
+            length(q),
+            sq,
+            length(w),
+            std::cbrt(vw),
+            std::cbrt(vsv)};
+  }
+
+ private:
+  struct Point {
+    Vec3 at;
+    double weight;
+  };
+  std::vector<Point> points_;
+  int dimension_ = 1;
+};
+
+void add(const PlanarModel& model, Samples3D& samples) {
+  constexpr int kAll = 20'000, kFewest = 16, kMost = 2000;  // of a circle: lengths to 1e-6
+  const int of_curve = std::clamp(kAll / std::max(1, static_cast<int>(model.curves.size())), kFewest, kMost);
+  for (const ModelCurve& curve : model.curves) {
+    std::vector<double> at = curve.shape->fixed_parameters();
+    for (int k = 0; k <= of_curve; ++k) at.push_back(static_cast<double>(k) / of_curve);
+    std::ranges::sort(at);
+    Vec2 before = curve.shape->point(at[0]);
+    for (const double t : at) {
+      const Vec2 here = curve.shape->point(t);
+      samples.add_segment({before.x, before.y, 0}, {here.x, here.y, 0});
+      before = here;
+    }
+  }
+}
+
+/// Elements, or of flat ones the outline.
+void add(const Mesh& mesh, Samples3D& samples) {
+  const auto& p = mesh.points;
+  const bool is_flat = std::ranges::all_of(p, [&](const Vec3& x) { return x.z == p[0].z; });
+  if (mesh.triangles.empty() && mesh.quads.empty())
+    for (const auto& line : mesh.lines) samples.add_segment(p[line[0]], p[line[1]]);
+  else if (is_flat)
+    for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
+      if (edge.size() == 1) samples.add_segment(p[edge[0].lo], p[edge[0].hi]);
+    });
+  else {
+    for (const auto& v : mesh.triangles) samples.add_triangle(p[v[0]], p[v[1]], p[v[2]]);
+    for (const auto& v : mesh.quads) {
+      samples.add_triangle(p[v[0]], p[v[1]], p[v[2]]);
+      samples.add_triangle(p[v[2]], p[v[3]], p[v[0]]);
+    }
+  }
+}
+
+/// Leaves out the header of STEP, which has names and dates.
+std::string digest_of_cad(const std::filesystem::path& file) {
+  const std::string bytes = file_bytes(file);
+  const auto data = bytes.find("DATA;");
+  const bool is_step = bytes.starts_with("ISO-10303-21") && data != std::string::npos;
+  return digest(is_step ? std::string_view(bytes).substr(data) : bytes);
+}
+
+}  // namespace
+
+CaseGeometry geometry_of(const Case& c) {
+  CaseGeometry geometry{c.domain, "", {}};
+  if (const std::string example = example_of(c); !example.empty())
+    geometry.digest = digest("example " + example);
+  else
+    try {
+      MeshProblem problem;
+      problem.model = c.model;
+      problem.keep_going = true;
+      problem = read_files(std::move(problem));
+      Samples3D samples;
+      if (const auto* planar = std::get_if<PlanarModel>(&problem.model)) add(*planar, samples);
+      if (const auto* lines = std::get_if<LineModel>(&problem.model)) add(lines->mesh, samples);
+      if (const auto* triangles = std::get_if<TriangleModel>(&problem.model)) add(triangles->mesh, samples);
+      if (const auto* given = std::get_if<GivenMesh>(&problem.model)) add(given->mesh, samples);
+      if (const auto* cad = std::get_if<CadModel>(&problem.model)) geometry.digest = digest_of_cad(cad->file);
+      geometry.shape = samples.invariants();
+    } catch (const InputError&) {  // as its cells will say
+    }
+  return geometry;
+}
+
+}  // namespace delquad
