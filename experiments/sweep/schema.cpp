@@ -110,33 +110,12 @@ TomlKeys metric_keys() {
           {"timeout", "seconds that it may take", between("integer", 1, kMostSeconds)}};
 }
 
-TomlKeys ratio_keys() {
-  return {{"metric", "key of a measure", kText, nullptr, false, true},
-          {"numerator", "a pipeline", kText, nullptr, false, true},
-          {"denominator", "a pipeline", kText, nullptr, false, true},
-          {"expected", "what it should be", kPositive, nullptr, false, true},
-          {"source", "where that stands", kText}};
-}
-
-TomlKeys correlate_keys() {
-  return {{"of", "keys of measures", kColumnList, nullptr, false, true},
-          {"with", "keys of others", kColumnList, nullptr, false, true}};
-}
-
-TomlKeys slope_keys() {
-  return {{"of", "keys of measures", kColumnList, nullptr, false, true},
-          {"along", "what varies, by its title", kText, nullptr, false, true},
-          {"against", "the measure that they go with, or seconds; else n_vertices", kText}};
-}
-
 TomlKeys hypothesis_keys() {
   return {{"better", "what is expected to be better: a pipeline, or a value of 'along'", kExpression, nullptr,
            false, true},
           {"than", "what it is expected to be better than", kExpression, nullptr, false, true},
           {"along", "what varies, by its title; else pipelines are compared", kText},
-          {"measures", "keys of measures, each of them a test", kColumnList, nullptr, false, true},
-          {"two_sided", "whether the contrary is tested, too", kFlag},
-          {"secondary", "whether it counts only where all that are not are proven", kFlag}};
+          {"measures", "keys of measures, each of them a test", kColumnList, nullptr, false, true}};
 }
 
 TomlKeys may_fail_keys() {
@@ -173,8 +152,6 @@ TomlKeys experiment_keys() {
                    {"calibrate_to", "the word whose number that is", kText},
                    {"metric", "measures that other programs take", "", metric_keys, true},
                    {"solver", "finite elements that measure every mesh", kSolvers},
-                   {"correlate", "measures with others, within domains", "", correlate_keys},
-                   {"slopes", "powers by which measures go with another", "", slope_keys},
                    {"pairs", "what varies, by titles: compared as pipelines are", kColumnList},
                    {"hypotheses", "claims that are fixed before the run", "", hypothesis_keys, true},
                    {"may_fail", "cells that may fail", "", may_fail_keys, true},
@@ -182,9 +159,6 @@ TomlKeys experiment_keys() {
                    {"reference", "a file of published rows", kText},
                    {"step_times", "whether tables have a column for each step's time", kFlag},
                    {"columns", "of tables in Markdown and LaTeX, by key", kColumnList},
-                   {"repeat_times", "how often all is run again for its time, in changing order",
-                    between("integer", 2, kMostRepetitions)},
-                   {"ratio", "of a measure between two pipelines", "", ratio_keys},
                    {"linf_delaunay", "in place of cases: point sets", "", linf_study_keys},
                    // Its keys are those of cases, see whole_matrix_schema().
                    {"matrix", "what varies", R"({"type": "object"})"},

@@ -17,15 +17,12 @@ TomlKeys variant_keys();
 TomlKeys peer_keys();
 TomlKeys peer_file_keys();
 TomlKeys metric_keys();
-TomlKeys ratio_keys();
-TomlKeys correlate_keys();
-TomlKeys slope_keys();
 TomlKeys hypothesis_keys();
 TomlKeys may_fail_keys();
 TomlKeys linf_study_keys();
 
 /// Limits of what a metric by command may ask for: digits, and seconds (a week).
-inline constexpr int kMostDigits = 12, kMostSeconds = 604'800, kMostRepetitions = 1000;
+inline constexpr int kMostDigits = 12, kMostSeconds = 604'800;
 
 /// The JSON Schema (draft 2020-12) of experiment files, made from the keys that they are read against. Ends
 /// with a newline.
