@@ -24,9 +24,9 @@ EXPLAINED = {
     **dict.fromkeys(["refine", "quads", "cross"], "meshing.md#sizes-and-directions"),
     **dict.fromkeys(["peer", "peer_files", "calibrate", "calibrate_to"], "experiments.md#peers"),
     **dict.fromkeys(["solution", "adapt"], "experiments.md#meshes-that-follow-a-solution"),
-    **dict.fromkeys(["columns", "step_times", "reference", "ratio", "data", "domain", "compare"], "experiments.md#an-experiment"),
+    **dict.fromkeys(["columns", "step_times", "reference", "data", "domain", "compare"], "experiments.md#an-experiment"),
     **dict.fromkeys(["matrix", "variant", "pairs"], "experiments.md#variants"),
-    **dict.fromkeys(["repeat_times", "linf_delaunay"], "experiments.md#times"),
+    "linf_delaunay": "experiments.md#point-sets",
     "start": "meshing.md#a-mesh-that-is-there-already",
     "order": "meshing.md#curved-elements",
     "metric": "anisotropy.md",
@@ -43,8 +43,6 @@ EXPLAINED = {
     "hypotheses": "experiments.md#hypotheses",
     **dict.fromkeys(["may_fail", "minutes"], "experiments.md#several-experiments"),
     "solver": "experiments.md#solvers",
-    "slopes": "experiments.md#powers",
-    "correlate": "experiments.md#correlations",
 }
 
 

@@ -131,7 +131,7 @@ class Site:
                 continue
             name = folder.relative_to(self.results).as_posix().replace("/", "_")
             page = ""
-            for kind in ("table", "hypotheses", "summary", "pairs", "slopes", "correlations"):
+            for kind in ("table", "hypotheses", "summary", "pairs"):
                 if (folder / f"{kind}.md").exists():
                     page += (folder / f"{kind}.md").read_text().replace("\n# ", "\n## ") + "\n"
             made = set()
