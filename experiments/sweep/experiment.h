@@ -98,8 +98,8 @@ class Experiment : public TablePlan {
   Word find_pipeline(const std::string& text) const;
   void check_comparisons(const TomlTable& table, const Case& c) const;
 
-  /// Digest of all that determines the results, but for the order of cases and hypotheses: the text of the
-  /// experiment without words for people, and the bytes of files that it names.
+  /// Returns the digest of all that determines the results, except the order of cases and hypotheses. It
+  /// covers the text of the experiment without words for people, and the bytes of files that it names.
   std::string plan() const;
 
   std::optional<TomlTable> table_;               ///< the file

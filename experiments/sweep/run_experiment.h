@@ -34,8 +34,8 @@ struct SweepOptions {
 /// Writes DIR/study.json, DIR/<case>/<pipeline>/{mesh.msh, mesh.vtu, picture.svg, record.json},
 /// DIR/<case>/{cross.svg, size.svg} and the tables (see tables.h); with a matrix, <case> has the values that
 /// vary in its name. What the experiment was read from is copied, see keep_experiment(). A cell's files
-/// appear together, its record last; a run that is killed at any moment leaves the cells that are done, and
-/// none half done. What cannot be written goes to the table.
+/// appear together, its record last. A run that is killed at any moment leaves the cells that are done, and
+/// none half done. The table names files that cannot be written.
 ///
 /// Throws InputError when the folder cannot be written to, holds the results of another experiment, or
 /// belongs to another run that is still going on.

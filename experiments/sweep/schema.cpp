@@ -165,7 +165,7 @@ TomlKeys experiment_keys() {
                    {"variant", "keys of cases that vary together", "", variant_keys, true},
                    {"case", "what is meshed", "", experiment_case_keys, true},
                    {"cases_of", "another experiment whose cases come before these", kText}};
-  for (TomlKey& key : keys_of<CaseOfStudy>())  // a domain is that of one case
+  for (TomlKey& key : keys_of<CaseOfStudy>())  // a domain belongs to one case
     if (key.name != "domain") keys.push_back(std::move(key));
   for (TomlKey& key : case_keys())  // here 'metric' is a measure
     if (key.name != "metric") keys.push_back(std::move(key));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tuple>
+
 #include "io/cases/case.h"
 #include "io/cases/description.h"
 

@@ -69,8 +69,8 @@ Table hypotheses_table(const std::string& title, const Inference& inference);
 std::vector<Metric> compared_measures(const StudyFile& study, const std::vector<CellRecord>& records);
 /// What no value of a measure of the project's own can leave.
 Interval range_of(const std::string& key);
-/// The columns of the study's table: the number of runs, the measures of the paper's tables, the study's own
-/// measures, other measures in its columns, and times.
+/// Returns the columns of the study's table. They are the number of runs, the measures of the paper's tables,
+/// the study's own measures, other measures in its columns, and times.
 std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector<CellRecord>& records);
 
 }  // namespace delquad

@@ -36,7 +36,7 @@ struct CellRecord {
   std::string reason;                    ///< why there are no values; empty: there are
   std::map<std::string, double> values;  ///< by metric key, "seconds" and those of steps; NaN: not defined
   std::string name = {};                 ///< of the case alone
-  /// What it is a look at, see domains_of(); empty: the case is a domain of its own.
+  /// The domain that the case counts as, see domains_of(); empty: the case is a domain of its own.
   std::string domain = {};
   std::string model = {};  ///< digest of what the case is made from
   bool is_peer = false;    ///< another mesher, and no word
