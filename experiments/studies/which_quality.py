@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Which quality matters: which_quality.py RESULTS prints what tells errors, and what words are worth.
 
-First come Spearman's rank correlations of errors with measures of quality over the runs of each domain: means over
-domains with the least and the greatest. Then, for each measure, comes a word's mean over seeds divided by the mean of
-DB: the geometric mean over domains. Errors count times the power of the number of vertices that makes them independent
+First come Spearman's rank correlations of errors with measures of quality over the runs of each domain. They are means
+over domains, with the least and the greatest. Then, for each measure, comes a pipeline's mean over seeds divided by the
+mean of DB: the geometric mean over domains. Errors count times the power of the number of vertices that makes them independent
 of it.
 """
 import collections
