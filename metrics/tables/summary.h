@@ -14,8 +14,8 @@ namespace delquad {
 ///
 /// A row has the mean of the domains' means with the interval of interval_of_mean(). It counts the domains
 /// that it failed on, won and lost. It wins a domain if it is better there than every other row that it has a
-/// pair with. It loses the domain if it is worse than every one. Last it names the rows than which it is proven
-/// to be better. There are no rows for fewer than two domains.
+/// pair with. It loses the domain if it is worse than every one. Last it names the rows than which it is
+/// proven to be better. There are no rows for fewer than two domains.
 Table summarise(const StudyFile& study, const std::vector<CellRecord>& records, const Inference& inference);
 
 }  // namespace delquad
