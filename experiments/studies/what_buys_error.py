@@ -3,8 +3,8 @@
 
 The column `power` has the power by which errors go with the number of vertices, as the mean over cases. The others
 compare all rows at one number of vertices. They divide the error of the first pipeline's loop of squares by the row's
-error. The power of the quotient is 1 in L2 and 2 in H1. Errors fall by these powers of the number of vertices where layers are
-resolved. Rows are pipelines and options, the last column is the geometric mean over cases.
+error. The quotient is taken to the power of 1 in L2 and 2 in H1. Errors fall by these powers of the number of vertices
+where layers are resolved. Rows are pipelines and options, the last column is the geometric mean over cases.
 """
 import collections
 import csv
