@@ -13,6 +13,9 @@ namespace fs = std::filesystem;
 using testing_support::TemporaryFolder;
 using testing_support::write_text;
 
+/// Before other tests add some.
+const std::vector<OptionGroup> kOptionGroups = option_groups();
+
 /// Gives all lists one element and all that is optional a value, then changes one part of a problem.
 class Change {
  public:
@@ -129,7 +132,7 @@ class Change {
         key, counts, [&] { function = [](T...) { return R(); }; }, true);
   }
   void other(Options& options, const std::string& key, bool counts) {
-    for (const OptionGroup& group : option_groups())
+    for (const OptionGroup& group : kOptionGroups)
       for (const OptionKey& option : group.keys) {
         if (allowed_values(option).size() == 1) continue;  // parts from outside add others
         const std::string name = group.name + "." + option.name;
