@@ -283,9 +283,9 @@ void VariantWork::finish(const Cell& cell) {
     result.log.add_time("write", writing.time());
     CellIdentity identity = cell.identity;
     identity.files = marks_of(at);
-    for (const std::string name : {"cross.svg", "size.svg"})  // of all cells of the variant
-      if (const fs::path picture = folder / c.folder / name; pictures && fs::exists(picture))
-        identity.files["../" + name] = mark_of(picture);
+    for (const std::string field : {"cross.svg", "size.svg"})  // of all cells of the variant
+      if (const fs::path picture = folder / c.folder / field; pictures && fs::exists(picture))
+        identity.files["../" + field] = mark_of(picture);
     write_text_file(at / "record.json", run_record(c, *cell.word, result, &identity));
   });
   remove_scratch(cell);

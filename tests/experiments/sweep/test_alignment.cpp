@@ -28,8 +28,8 @@ double misalignment(const Prepared& prepared, const Mesh& mesh) {
 TEST(Misalignment, IsTheAngleBetweenEdgesAndTheFieldOfThePlane) {
   MeshProblem problem;
   PlanarModel square;
-  square.curves = {{make_polyline({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}})}};
-  square.loops = {{{0}}};
+  square.curves.emplace_back().shape = make_polyline({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}});
+  square.loops.emplace_back().curves = {0};
   problem.model = square;
   problem.size.text = "0.1";
   const Prepared along_sides = prepare(problem);
