@@ -25,8 +25,6 @@ constexpr double kNoFeatures = 180;
 /// far apart. The next one where one spoils too much.
 constexpr std::array kDearer = {8.0, 4.0};
 constexpr double kMostDear = 100;
-/// Quads of a cavity, at least: they reach from one to another.
-constexpr long long kFarQuads = 1000;
 /// A worst eta below this is worth a third run.
 constexpr double kGoodEta = 0.6;
 

@@ -10,6 +10,9 @@
 
 namespace delquad {
 
+/// Quads of a cavity, if irregular vertices lie far apart: the cavity reaches from one to another.
+inline constexpr long long kFarQuads = 1000;
+
 /// What is done beside the stages of a pipeline: see finish_steps().
 struct RepairOptions {
   bool part_twins = true;

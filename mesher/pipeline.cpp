@@ -133,7 +133,6 @@ MeshProblem without_small_outlines(MeshProblem problem, std::vector<Warning>& to
 /// faces. Nothing changes where nothing may cost, and quads of cavities stay where they were asked for.
 Options for_compounds(Options options) {
   constexpr double kMostTolerance = 100;
-  constexpr long long kFarQuads = 1000;
   const RegularityOptions regularity = regularity_options(options);
   if (regularity.tolerance == 0 || regularity.joined == 1) return options;
   const double tolerance = options.number("regularity.tolerance");  // the weight comes later
