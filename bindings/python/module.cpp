@@ -295,10 +295,10 @@ void define_problem(py::module_& m) {
   define_fields(c);
   c.def("set",
         [](Problem& p, const KeyLines& lines) {
-          Case c;
-          static_cast<MeshProblem&>(c) = std::move(p.problem);
-          set_keys(lines, c);
-          p.problem = std::move(c);
+          Case keys;
+          static_cast<MeshProblem&>(keys) = p.problem;
+          set_keys(lines, keys);
+          p.problem = std::move(keys);
         })
       .def("name", [](Problem& p, const std::string& name) { p.problem.name = name; })
       .def("max_elements", [](Problem& p, long long n) { p.problem.max_elements = n; })
