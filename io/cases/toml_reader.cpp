@@ -160,6 +160,7 @@ TomlTable TomlTable::of_options(const std::vector<std::pair<std::string, std::st
   std::string text;
   auto names = std::make_shared<std::vector<std::string>>();
   for (const auto& [name, line] : lines) {
+    if (line.find_first_of("\n\r") != line.npos) refuse("{}: expected one line", name);
     text += line + "\n";
     names->push_back(name);
   }
@@ -170,7 +171,10 @@ TomlTable TomlTable::of_options(const std::vector<std::pair<std::string, std::st
     return TomlTable(
         std::make_shared<Data>(Data{std::move(root), top, "", "", {}, nullptr, "", std::move(names)}));
   } catch (const toml::parse_error& error) {
-    refuse("{}: {}", names->at(error.source().begin.line - 1), error.description());
+    const std::string& name = names->at(error.source().begin.line - 1);
+    if (error.description().find("cannot redefine") != std::string_view::npos)
+      refuse("{}: another option sets this key, too: expected one of them", name);
+    refuse("{}: {}", name, error.description());
   }
 }
 

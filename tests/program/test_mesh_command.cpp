@@ -175,11 +175,15 @@ TEST(MeshCommand, StagesAreToldByOptions) {
       << "no curve has that name";
   EXPECT_EQ(with("order=2").exit_code, 0);
   for (const char* bad : {"regularity.tolerance", "regularity.tolerance=-1", "regularity.tolerance=much",
-                          "regularity.tolerence=1", "surface.glew=true", "=1"}) {
+                          "regularity.tolerence=1", "surface.glew=true", "=1", "order=2\n["}) {
     const ProgramResult result = with(bad);
     EXPECT_EQ(result.exit_code, 2) << bad;
     EXPECT_TRUE(contains(result.err, "--set")) << result.err;
   }
+  const ProgramResult twice =
+      delquad({"mesh", model, "-o", folder / "out.msh", "--set", "order=2", "--set", "order=1"});
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_TRUE(contains(twice.err, "--set order=1: another option sets this key, too")) << twice.err;
 }
 
 TEST(MeshCommand, OtherFormatsHoldTheSameMesh) {
