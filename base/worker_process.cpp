@@ -17,6 +17,7 @@
 #include <mutex>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/context.h"
 #include "base/process.h"
@@ -63,15 +64,17 @@ std::pair<int, int> connected_pair() {
   refuse("no pair of sockets", error);
 }
 
-/// How the worker starts: its standard input is the socket, it has no other files, no signal is ignored or
-/// blocked, and it is a process group of its own.
+/// How the worker starts: some of its standard streams are the socket, and it has no other files. No signal
+/// is ignored or blocked. It is a process group of its own.
 class Spawning {
  public:
-  explicit Spawning(int socket) {
+  Spawning(int socket, const std::vector<int>& streams) {
     posix_spawn_file_actions_init(&files_);
-    posix_spawn_file_actions_adddup2(&files_, socket, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&files_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&files_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+      if (std::ranges::find(streams, stream) != streams.end())
+        posix_spawn_file_actions_adddup2(&files_, socket, stream);
+      else
+        posix_spawn_file_actions_addopen(&files_, stream, "/dev/null", O_RDWR, 0);
     posix_spawn_file_actions_addclosefrom_np(&files_, STDERR_FILENO + 1);
     posix_spawnattr_init(&attributes_);
     sigset_t all, none;
@@ -91,11 +94,11 @@ class Spawning {
   Spawning& operator=(const Spawning&) = delete;
 
   /// Returns an error number, 0: none.
-  int start(const std::string& program, pid_t& pid) const {
-    // The worker ends with its parent, which may already be another by the time it can ask for that.
-    std::string name = program, parent = std::to_string(process_number());
-    char* argv[] = {name.data(), parent.data(), nullptr};
-    return posix_spawn(&pid, program.c_str(), &files_, &attributes_, argv, environ);
+  int start(std::vector<std::string>& words, pid_t& pid) const {
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    return posix_spawnp(&pid, arguments[0], &files_, &attributes_, arguments.data(), environ);
   }
 
  private:
@@ -148,14 +151,18 @@ std::string receive_request(int socket) {
 
 }  // namespace
 
-WorkerProcess::WorkerProcess(const std::filesystem::path& program) {
+// The worker ends with its parent, which may already be another by the time it can ask for that.
+WorkerProcess::WorkerProcess(const std::filesystem::path& program)
+    : WorkerProcess({program.string(), std::to_string(process_number())}, {STDIN_FILENO}) {}
+
+WorkerProcess::WorkerProcess(std::vector<std::string> words, const std::vector<int>& streams) {
   const auto [ours, its] = connected_pair();
-  const int error = Spawning(its).start(program, pid_);
+  const int error = Spawning(its, streams).start(words, pid_);
   close(its);
   socket_ = ours;
   if (error == 0) return;
   close(ours);
-  refuse(program.string(), error);
+  refuse(words[0], error);
 }
 
 WorkerProcess::~WorkerProcess() {
@@ -169,7 +176,7 @@ WorkerProcess::~WorkerProcess() {
 /// A program around may wait for all its children; then this one is not to be found any more.
 bool WorkerProcess::has_ended() {
   if (pid_ < 0) return true;
-  const pid_t ended = waitpid(pid_, nullptr, WNOHANG);
+  const pid_t ended = waitpid(pid_, &status_, WNOHANG);
   if (ended == pid_ || (ended < 0 && errno == ECHILD)) pid_ = -1;
   return pid_ < 0;
 }
@@ -203,6 +210,21 @@ void WorkerProcess::ask(const std::string& request,
     const bool more = (ready <= 0 && !ended) || (entry.revents & ~POLLOUT) == 0 || read_some(buffer);
     if (hear_all(buffer, hear) || !more || ended) return;
   }
+}
+
+ProgramEnd run_to_end(const std::vector<std::string>& words, unsigned seconds) {
+  WorkerProcess program(words, {STDOUT_FILENO, STDERR_FILENO});
+  const rlimit time{seconds, seconds};
+  prlimit(program.pid_, RLIMIT_CPU, &time, nullptr);
+  ProgramEnd end{-1, ""};
+  for (bool more = true; more;) {
+    check_cancelled();
+    pollfd entry{program.socket_, POLLIN, 0};
+    more = poll(&entry, 1, kPollMilliseconds) > 0 ? program.read_some(end.printed) : !program.has_ended();
+  }
+  if (!program.has_ended()) program.status_ = wait_for_end(std::exchange(program.pid_, -1));
+  if (WIFEXITED(program.status_)) end.exit_code = WEXITSTATUS(program.status_);
+  return end;
 }
 
 void send_reply(int socket, char kind, const std::string& text) {

@@ -3,8 +3,18 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace delquad {
+
+/// How a program ended.
+struct ProgramEnd {
+  int exit_code;        ///< -1: by a signal, or not known
+  std::string printed;  ///< to standard output and standard error
+};
+/// Runs a program of the PATH, for so many seconds of processor time at most, without input and as a
+/// WorkerProcess apart from this one. Throws InputError when it cannot be started, and Cancelled.
+ProgramEnd run_to_end(const std::vector<std::string>& words, unsigned seconds);
 
 /// A process of a program that reads files by a library, which may crash on damaged ones, or find no end. It
 /// has neither standard output nor error nor any file of this one's, and a signal of the terminal does not
@@ -23,12 +33,16 @@ class WorkerProcess {
   void ask(const std::string& request, const std::function<void(char, const std::string&)>& hear);
 
  private:
+  friend ProgramEnd run_to_end(const std::vector<std::string>&, unsigned);
+  /// `streams`: standard ones of the process that are the socket; the others are the null device.
+  WorkerProcess(std::vector<std::string> words, const std::vector<int>& streams);
   /// Whether more may come.
   bool read_some(std::string& buffer) const;
   bool has_ended();
 
   int socket_ = -1;
   int pid_ = -1;
+  int status_ = -1;
 };
 
 /// After a reply whose kind is no small letter the worker is done.

@@ -20,7 +20,6 @@ for component in program library; do
 done
 cmake --install "$build" --component python --prefix "$work/python" --strip >/dev/null
 module=$(dirname "$(find "$work/python" -name '_core*')")
-rm -f "$archive/libexec/delquad-gdal" "$module/delquad-gdal"  # GDAL needs more than a hundred libraries
 ours=$(find "$archive" "$module" -type f \( -path '*/bin/*' -o -name 'delquad-cad' -o -name '*.so*' \))
 
 # Not glibc and the C++ library, which a process has once. The others become delquad-NAME, as it may have another NAME.

@@ -40,7 +40,7 @@ mesh.write("bracket.cgns")'
 }
 without_gdal() {
   printf '{"type": "Polygon", "coordinates": []}' >coast.shp
-  ! "$1" mesh coast.shp -o coast.msh --size 1 2>message && grep -q "delquad-gdal, which reads" message
+  ! "$1" mesh coast.shp -o coast.msh --size 1 2>message && grep -q "install them (Debian: gdal-bin)" message
 }
 
 case $1 in

@@ -7,8 +7,8 @@
 
 #include "delquad/mesh.h"
 
-// Files that GDAL reads, in a process of its own (see WorkerProcess): loading it takes 90 ms of processor
-// time, and damaged files must not bring the program down.
+// Files that the programs of GDAL read (Debian: gdal-bin). Throws InputError that names them where they are
+// not installed.
 
 namespace delquad {
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
-#include <gdal_priv.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
-#include <ogrsf_frmts.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -25,13 +24,6 @@ constexpr int kUtm31 = 32631, kDegrees4326 = 4326;
 /// Corner of the domain of the tests, metres of UTM.
 constexpr double kX = 500'000, kY = 5'800'000;
 
-OGRSpatialReference system_of(int code) {
-  OGRSpatialReference system;
-  system.importFromEPSG(code);
-  system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return system;
-}
-
 std::string ring(double x, double y, double side) {
   return fmt::format("({0} {1}, {2} {1}, {2} {3}, {0} {3}, {0} {1})", x, y, x + side, y + side);
 }
@@ -43,26 +35,23 @@ std::string sea() {
 
 class GdalFiles : public testing::Test {
  protected:
-  GdalFiles() { GDALAllRegister(); }
+  static void run_gdal(std::vector<std::string> words) {
+    const auto result = testing_support::run_program("/usr/bin/env", {std::move(words), 0, {}});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+  static std::string system_of(int code) { return fmt::format("EPSG:{}", code); }
 
   /// Adds a layer of one feature.
   std::filesystem::path write_layer(const std::string& name, const char* driver, const std::string& layer,
                                     int code, const std::string& wkt) {
     const std::filesystem::path path = folder_ / name;
-    GDALDatasetUniquePtr file(std::filesystem::exists(path)
-                                  ? GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE)
-                                  : GetGDALDriverManager()->GetDriverByName(driver)->Create(
-                                        path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-    OGRSpatialReference system = system_of(code > 0 ? code : kUtm31);
-    OGRLayer* made = file->CreateLayer(layer.c_str(), code > 0 ? &system : nullptr, wkbUnknown);
-    OGRFieldDefn field("Name", OFTString);
-    made->CreateField(&field);
-    OGRFeature feature(made->GetLayerDefn());
-    feature.SetField("Name", "Nordsee");
-    OGRGeometry* geometry = nullptr;
-    OGRGeometryFactory::createFromWkt(wkt.c_str(), nullptr, &geometry);
-    feature.SetGeometryDirectly(geometry);
-    EXPECT_EQ(made->CreateFeature(&feature), OGRERR_NONE);
+    const auto table = write_text(folder_ / "feature.csv", "WKT,Name\n\"" + wkt + "\",Nordsee\n");
+    std::vector<std::string> words = {"ogr2ogr", "-f", driver, "-nln", layer, "-select", "Name"};
+    if (std::filesystem::exists(path)) words.emplace_back("-update");
+    if (code > 0) words.insert(words.end(), {"-a_srs", system_of(code)});
+    words.insert(words.end(), {path, table});
+    run_gdal(words);
+    if (code == 0) std::filesystem::remove(std::filesystem::path(path).replace_extension("prj"));
     return path;
   }
 
@@ -71,15 +60,12 @@ class GdalFiles : public testing::Test {
                                    int columns, std::vector<float> values) {
     const std::filesystem::path path = folder_ / name;
     const int rows = static_cast<int>(values.size()) / columns;
-    GDALDatasetUniquePtr file(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-        path.c_str(), columns, rows, 1, GDT_Float32, nullptr));
-    const OGRSpatialReference system = system_of(code);
-    file->SetSpatialRef(&system);
-    file->SetGeoTransform(place.data());
-    file->GetRasterBand(1)->SetNoDataValue(-9999);
-    EXPECT_EQ(file->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, columns, rows, values.data(), columns, rows,
-                                               GDT_Float32, 0, 0),
-              CE_None);
+    const auto text = write_text(folder_ / "values.asc",
+                                 fmt::format("ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ndx {}\ndy {}\n"
+                                             "NODATA_value -9999\n{}\n",
+                                             columns, rows, place[0], place[3] + rows * place[5], place[1],
+                                             -place[5], fmt::join(values, " ")));
+    run_gdal({"gdal_translate", "-q", "-ot", "Float32", "-a_srs", system_of(code), text, path});
     return path;
   }
 
@@ -145,6 +131,16 @@ TEST_F(GdalFiles, DamagedFilesAreRefused) {
   write_text(folder_ / "text.gpkg", "no such file");
   expect_input_error([&] { read("text.gpkg"); }, {"text.gpkg: GDAL"});
   expect_input_error([&] { read_raster(write_text(folder_ / "text.tif", "none"), ""); }, {"text.tif: GDAL"});
+}
+
+TEST_F(GdalFiles, WithoutItsProgramsAnErrorNamesThem) {
+  const auto shape = write_text(folder_ / "coast.shp", "");
+  const auto result = testing_support::run_program(
+      "/usr/bin/env",
+      {{"PATH=/nowhere", DELQUAD_PROGRAM, "mesh", shape, "--size", "1", "-o", folder_ / "a.msh"}, 0, {}});
+  EXPECT_NE(result.exit_code, 0);
+  for (const char* part : {"coast.shp", "ogrinfo", "install them (Debian: gdal-bin)"})
+    EXPECT_TRUE(contains(result.err, part)) << result.err;
 }
 
 TEST_F(GdalFiles, RastersAreBilinearBetweenTheMiddlesOfCells) {
