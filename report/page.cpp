@@ -1,10 +1,9 @@
 #include "report/page.h"
 
-#include <cmath>
 #include <ostream>
+#include <utility>
 
 #include "experiments/sweep/record.h"
-#include "report/packed_mesh.h"
 
 namespace delquad {
 namespace {
@@ -39,31 +38,10 @@ void end_page(std::ostream& out, Json data, bool in_space, std::string_view scri
   out << "<script type=\"module\">" << kPageScript << script << "</script>\n</body>\n</html>\n";
 }
 
-Json add_picture(std::ostream& out, const std::string& id, const Mesh& mesh, double most,
-                 const PictureOptions& options) {
-  // Bytes of an element with vertices of its own, to one that shares them.
-  constexpr double kOwnVertices = 2;
-  const double bytes =
-      packed_bytes(static_cast<double>(mesh.triangles.size()), static_cast<double>(mesh.quads.size()));
-  const int step = bytes <= most ? 1 : static_cast<int>(std::ceil(kOwnVertices * bytes / most));
-  const PackedMesh packed = step > 1 ? pack_mesh(thinned(mesh, step), {}, options.with_entities)
-                                     : pack_mesh(mesh, options.failing, options.with_entities);
+Json add_picture(std::ostream& out, const std::string& id, PackedMesh packed) {
   out << "<script type=\"text/plain\" id=\"" << id << "\">" << packed.text << "</script>\n";
-  return {{"id", id},
-          {"step", step},
-          {"failing", step > 1 ? 0 : options.failing.size()},
-          {"dimension", packed.dimension},
-          {"order", packed.order},
-          {"points", packed.points},
-          {"triangles", packed.triangles},
-          {"quads", packed.quads},
-          {"lines", packed.lines},
-          {"irregular", packed.irregular},
-          {"pairs", packed.pairs},
-          {"origin", packed.origin},
-          {"unit", packed.unit},
-          {"entities", options.with_entities},
-          {"bytes", packed.text.size()}};
+  packed.info["id"] = id;
+  return std::move(packed.info);
 }
 
 }  // namespace delquad

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <functional>
-#include <limits>
 #include <map>
 #include <ostream>
 
@@ -26,11 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kDrawingBytes = 500'000, kAllDrawings = 3'000'000;  // of one, of a page
-/// Of the values that charts of the spread are made of, packed, all studies together.
-constexpr std::size_t kSampleBytes = 2'000'000;
-/// A picture with less shows nothing; rather some cells have none.
-constexpr double kLeastPicture = 20e3;
+/// A page holds drawings, values of cells and pictures of meshes up to this.
+constexpr std::size_t kMostBytes = 50'000'000;
 /// That are shown one by one; more would make a page that no browser likes. Tables have all.
 constexpr std::size_t kMostCells = 2000;
 
@@ -105,23 +100,9 @@ Contents read_contents(const fs::path& folder) {
   return contents;
 }
 
-double value_of(const CellRecord& record, const char* key) {
-  const auto at = record.values.find(key);
-  return at == record.values.end() ? 0 : at->second;
-}
-
-double whole_bytes(const CellRecord& record) {
-  return packed_bytes(value_of(record, "n_triangles"), value_of(record, "n_quads"));
-}
-
 class Page {
  public:
-  Page(const Contents& contents, std::ostream& out) : contents_(contents), out_(out) {
-    std::vector<double> bytes;
-    for (const Study& study : contents.studies)
-      for (const CellRecord& record : study.results.records) bytes.push_back(whole_bytes(record));
-    share_ = std::max(kLeastPicture, fair_share(std::move(bytes), kPictureBytes));
-  }
+  Page(const Contents& contents, std::ostream& out) : contents_(contents), out_(out) {}
 
   void write() {
     begin_page(out_, "Delquad: results", kPageStyle, kPageBody);
@@ -136,6 +117,13 @@ class Page {
   const std::vector<std::string>& problems() const { return problems_; }
 
  private:
+  /// Whether there is room for so much, which then is used.
+  bool take(std::size_t bytes) {
+    if (used_ + bytes > kMostBytes) return false;
+    used_ += bytes;
+    return true;
+  }
+
   Json study_json(const Study& study) {
     const Outcome outcome = make_tables(study.results);
     const Json tables = {table_json(outcome.table), table_json(outcome.pairs),
@@ -166,13 +154,8 @@ class Page {
     Json json = Json::array();
     for (const fs::path& file : files) {
       json.push_back({{"name", file.stem().string()}});
-      const std::uintmax_t bytes = fs::file_size(file);
-      if (bytes > kDrawingBytes || drawing_bytes_ + bytes > kAllDrawings) {
-        json.back()["left_out"] = file.string();
-        continue;
-      }
-      drawing_bytes_ += bytes;
-      json.back()["svg"] = file_bytes(file);
+      const bool fits = take(fs::file_size(file));
+      json.back()[fits ? "svg" : "left_out"] = fits ? file_bytes(file) : file.string();
     }
     return json;
   }
@@ -180,8 +163,7 @@ class Page {
   /// Where the values of the cells stand in the page; "left out" when there is no room for them.
   Json add_samples(const std::vector<CellRecord>& records, const std::vector<TableColumn>& columns) {
     const std::string text = packed_text(samples_json(records, columns).dump());
-    if (sample_bytes_ + text.size() > kSampleBytes) return "left out";
-    sample_bytes_ += text.size();
+    if (!take(text.size())) return "left out";
     const std::string id = fmt::format("samples-{}", samples_++);
     out_ << "<script type=\"text/plain\" id=\"" << id << "\">" << text << "</script>\n";
     return id;
@@ -236,22 +218,22 @@ class Page {
       const Json record = Json::parse(in);
       std::optional<Mesh> mesh;
       std::string reason;
-      if (written_ + std::min(whole_bytes(cell), share_) > kPictureBytes)
-        reason = "no room left in this file; see " + (cell.folder / "picture.svg").string();
-      else if (cell.reason.empty())
-        try {
+      if (cell.reason.empty()) try {
           mesh = read_mesh(cell.folder / "mesh.msh");
         } catch (const InputError& error) {
           problems_.push_back(reason = error.what());
         }
       Json json = cell_json(record, mesh);
       if (mesh) {
-        json["mesh"] = add_picture(out_, fmt::format("mesh-{}", pictures_++), *mesh, share_,
-                                   {.failing = failing_quads(record, *mesh)});
-        written_ += json["mesh"]["bytes"].get<double>();
-        in_space_ |= json["mesh"]["dimension"] == 3;
+        PackedMesh packed = pack_mesh(*mesh, failing_quads(record, *mesh));
+        if (take(packed.text.size())) {
+          json["mesh"] = add_picture(out_, fmt::format("mesh-{}", pictures_++), std::move(packed));
+          in_space_ |= json["mesh"]["dimension"] == 3;
+        } else {
+          reason = "no room left in this file; see " + (cell.folder / "picture.svg").string();
+        }
       }
-      if (json.contains("closeups")) written_ += static_cast<double>(json["closeups"].dump().size());
+      if (json.contains("closeups")) used_ += json["closeups"].dump().size();
       if (!reason.empty()) json["no_picture"] = reason;
       if (Json facts = facts_json(record); facts.size() > sheet["facts"].size())
         sheet["facts"] = std::move(facts);
@@ -272,26 +254,13 @@ class Page {
 
   const Contents& contents_;
   std::ostream& out_;
-  double share_ = 0, written_ = 0;
-  std::size_t cells_ = 0;
+  std::size_t used_ = 0, cells_ = 0;
   int pictures_ = 0, samples_ = 0;
-  std::size_t sample_bytes_ = 0;
-  std::uintmax_t drawing_bytes_ = 0;
   bool in_space_ = false;
   std::vector<std::string> problems_;
 };
 
 }  // namespace
-
-double fair_share(std::vector<double> bytes, double budget) {
-  std::ranges::sort(bytes);
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const double share = budget / static_cast<double>(bytes.size() - i);
-    if (bytes[i] > share) return share;
-    budget -= bytes[i];
-  }
-  return std::numeric_limits<double>::infinity();
-}
 
 std::vector<std::string> write_report(const fs::path& folder, const fs::path& file) {
   const Contents contents = read_contents(folder);

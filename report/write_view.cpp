@@ -49,8 +49,7 @@ void write_view(const std::filesystem::path& file, const Mesh& mesh, const std::
   data["points"] = points_json(mesh);
   write_file_atomically(file, [&](std::ostream& out) {
     begin_page(out, "Delquad: a mesh", std::string(kPageStyle) + std::string(kViewStyle), kViewBody);
-    data["mesh"] =
-        add_picture(out, "mesh", mesh, kPictureBytes, {.failing = notes.failing, .with_entities = true});
+    data["mesh"] = add_picture(out, "mesh", pack_mesh(mesh, notes.failing, true));
     const bool in_space = data["mesh"]["dimension"] == 3;
     end_page(out, std::move(data), in_space, kViewScript);
   });

@@ -53,7 +53,6 @@ function drawingsNode(study) {
 function leftOut(study) {
   const cells = study.sheets.flatMap((sheet) => sheet.seeds.flatMap((seed) => seed.cells)), lines = [];
   const count = (n, one, many, rest) => n > 0 && lines.push(`${grouped(n)} ${n === 1 ? one : many} ${rest}`);
-  count(cells.filter((c) => c.mesh && c.mesh.step > 1).length, "mesh is", "meshes are", "too large to be shown whole: some of the elements are drawn, larger than they are.");
   count(cells.filter((c) => c.no_picture).length, "mesh has", "meshes have", "no picture here; the place of each says why.");
   count(study.cells_left_out || 0, "more cell counts", "more cells count", "in the tables, but this page has no room to show them one by one.");
   if (study.samples === "left out") lines.push("The values of single cells, which charts of their spread need, are too many for this page.");

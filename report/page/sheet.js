@@ -148,10 +148,8 @@ class Sheet {
     canvas.style.aspectRatio = 1.25;
     const buttons = el("div", { class: "head" });
     this.pictures.push({ canvas, cell, buttons });
-    const thin = cell.mesh.step > 1 ? el("p", { class: "hint" },
-      `Too large to be shown whole here: one element of ${cell.mesh.step} is drawn, larger than it is.`) : null;
     const failing = cell.mesh.failing > 0 ? el("p", { class: "hint" }, `${cell.mesh.failing} quads beyond the criteria are red.`) : null;
-    return el("figure", {}, canvas, buttons, thin, failing);
+    return el("figure", {}, canvas, buttons, failing);
   }
   /// Once for each seed.
   draw() {

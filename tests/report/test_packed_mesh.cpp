@@ -2,12 +2,13 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "metrics/metrics.h"
 #include "report/packed_mesh.h"
-#include "report/write_report.h"
 #include "tests/support/curved_grid.h"
 #include "tests/support/grid_mesh.h"
 
@@ -17,10 +18,12 @@ namespace {
 using testing_support::quad_grid;
 using testing_support::triangle_grid;
 
+constexpr double kExact = 1e-6;  // coordinates are of single precision
+
 /// What page/packed_mesh.js does.
 class Unpacker {
  public:
-  explicit Unpacker(const PackedMesh& packed) : packed_(packed) {
+  explicit Unpacker(const PackedMesh& packed) : info_(packed.info) {
     const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::vector<unsigned char> bytes;
     std::uint32_t held = 0;
@@ -38,68 +41,52 @@ class Unpacker {
 
   Mesh run() {
     Mesh mesh;
-    mesh.triangles.resize(packed_.triangles);
-    polygons.assign(packed_.quads, std::vector<int>(4 * static_cast<std::size_t>(packed_.order)));
-    mesh.lines.resize(packed_.lines);
-    for (auto& v : mesh.triangles) read_vertices(v);
-    for (auto& v : polygons) {
-      read_vertices(v);
-      if (packed_.order == 1) mesh.quads.push_back({v[0], v[1], v[2], v[3]});
-    }
-    for (std::size_t q = 0; q < packed_.quads; ++q) eta.push_back(static_cast<int>(next()));
-    for (auto& v : mesh.lines) read_vertices(v);
-    for (std::size_t i = 0; i < packed_.irregular; ++i) {
-      const auto vertex = static_cast<int>(next());
-      irregular.emplace_back(vertex, static_cast<int>(next()));
-    }
-    for (std::size_t i = 0; i < packed_.pairs; ++i) {
-      const auto few = static_cast<int>(next());
-      pairs.emplace_back(few, static_cast<int>(next()));
-    }
-    mesh.points.resize(packed_.points);
+    mesh.triangles.resize(count("triangles"));
+    polygons.assign(count("quads"), std::vector<int>(4 * count("order")));
+    mesh.lines.resize(count("lines"));
+    mesh.points.resize(count("points"));
     double Vec3::*const axes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
-    for (int k = 0; k < 3; ++k) {
-      std::int64_t at = 0;
-      for (Vec3& p : mesh.points) {
-        if (k < packed_.dimension) {
-          const std::uint64_t n = next();
-          at += n & 1 ? -static_cast<std::int64_t>((n + 1) / 2) : static_cast<std::int64_t>(n / 2);
-        }
-        p.*axes[k] = packed_.origin[k] + static_cast<double>(at) * packed_.unit;
-      }
+    for (std::size_t k = 0; k < 3; ++k)
+      for (Vec3& p : mesh.points) p.*axes[k] = info_.at("origin").at(k).get<double>() + next<float>();
+    for (auto& v : mesh.triangles) read_all(v);
+    for (auto& v : polygons) {
+      read_all(v);
+      if (count("order") == 1) mesh.quads.push_back({v[0], v[1], v[2], v[3]});
     }
-    for (std::size_t i = 0; with_entities && i < packed_.triangles + packed_.quads + packed_.lines; ++i)
-      entities.push_back(static_cast<int>(next()));
+    eta.resize(count("quads"));
+    read_all(eta);
+    for (auto& v : mesh.lines) read_all(v);
+    irregular.resize(count("irregular"));
+    for (auto& v : irregular) read_all(v);
+    pairs.resize(count("pairs"));
+    for (auto& v : pairs) read_all(v);
+    if (info_.at("entities")) entities.resize(count("triangles") + count("quads") + count("lines"));
+    read_all(entities);
     EXPECT_EQ(at_, bytes_.size());
     return mesh;
   }
 
-  bool with_entities = false;
   std::vector<int> eta, entities;
   std::vector<std::vector<int>> polygons;  ///< of quads
-  std::vector<std::pair<int, int>> irregular, pairs;
+  std::vector<std::array<int, 2>> irregular, pairs;
 
  private:
-  std::uint64_t next() {
-    std::uint64_t value = 0;
-    for (int shift = 0;; shift += 7) {
-      const unsigned char byte = bytes_.at(at_++);
-      value |= static_cast<std::uint64_t>(byte & 127) << shift;
-      if (byte < 128) return value;
-    }
+  std::size_t count(const char* key) const { return info_.at(key).get<std::size_t>(); }
+  template <class Number>
+  Number next() {
+    Number number;
+    std::memcpy(&number, bytes_.data() + at_, sizeof number);
+    at_ += sizeof number;
+    return number;
   }
-  template <class Vertices>
-  void read_vertices(Vertices& v) {
-    for (int& vertex : v) {
-      const int back = static_cast<int>(next());
-      vertex = back == 0 ? used_++ : used_ - back;
-    }
+  template <class Numbers>
+  void read_all(Numbers& numbers) {
+    for (int& number : numbers) number = next<int>();
   }
 
-  const PackedMesh& packed_;
+  const Json info_;
   std::vector<unsigned char> bytes_;
   std::size_t at_ = 0;
-  int used_ = 0;
 };
 
 /// Corners of each element, from its least one on, rounded to `unit`; sorted.
@@ -130,8 +117,7 @@ void expect_same(const Mesh& a, const Mesh& b, double unit) {
 TEST(PackedMesh, ReadsBackPlanarQuads) {
   const Mesh mesh = quad_grid(7, 5, 7, 5);
   const PackedMesh packed = pack_mesh(mesh);
-  EXPECT_EQ(packed.dimension, 2);
-  EXPECT_EQ(packed.unit, 1.0 / 64);
+  EXPECT_EQ(packed.info["dimension"], 2);
   Unpacker unpacker(packed);
   expect_same(unpacker.run(), mesh, 0.5);
   EXPECT_EQ(unpacker.eta, std::vector<int>(35, 127));
@@ -146,20 +132,15 @@ TEST(PackedMesh, ElementsKeepTheirEntities) {
   Mesh mesh = quad_grid(7, 5, 7, 5);
   mesh.regions.push_back({2, {}});
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) mesh.quad_region[q] = q % 7 < 3 ? 1 : 0;
-  for (const int step : {1, 5}) {
-    const Mesh shown = step > 1 ? thinned(mesh, step) : mesh;
-    const PackedMesh packed = pack_mesh(shown, {}, true);
-    Unpacker unpacker(packed);
-    unpacker.with_entities = true;
-    const Mesh read = unpacker.run();
-    ASSERT_EQ(unpacker.entities.size(), shown.quads.size() + mesh.lines.size());
-    for (std::size_t q = 0; q < read.quads.size(); ++q) {
-      double x = 0;
-      for (const int v : read.quads[q]) x += read.points[v].x / 4;
-      EXPECT_EQ(unpacker.entities[q], x < 3 ? 1 : 0);
-    }
-    EXPECT_EQ(std::vector<int>(unpacker.entities.end() - 24, unpacker.entities.end()), mesh.line_curve);
+  Unpacker unpacker(pack_mesh(mesh, {}, true));
+  const Mesh read = unpacker.run();
+  ASSERT_EQ(unpacker.entities.size(), mesh.quads.size() + mesh.lines.size());
+  for (std::size_t q = 0; q < read.quads.size(); ++q) {
+    double x = 0;
+    for (const int v : read.quads[q]) x += read.points[v].x / 4;
+    EXPECT_EQ(unpacker.entities[q], x < 3 ? 1 : 0);
   }
+  EXPECT_EQ(std::vector<int>(unpacker.entities.end() - 24, unpacker.entities.end()), mesh.line_curve);
 }
 
 TEST(PackedMesh, ReadsBackTrianglesInSpaceWithAllTheyHave) {
@@ -167,7 +148,7 @@ TEST(PackedMesh, ReadsBackTrianglesInSpaceWithAllTheyHave) {
   for (Vec3& p : mesh.points) p = {p.x - 3, p.y + 1e6, p.x * p.y};
   std::swap(mesh.triangles[0], mesh.triangles[20]);
   const PackedMesh packed = pack_mesh(mesh);
-  EXPECT_EQ(packed.dimension, 3);
+  EXPECT_EQ(packed.info["dimension"], 3);
   Unpacker unpacker(packed);
   expect_same(unpacker.run(), mesh, 0.25);
 }
@@ -175,9 +156,8 @@ TEST(PackedMesh, ReadsBackTrianglesInSpaceWithAllTheyHave) {
 TEST(PackedMesh, JoinsTheNodesOfCurvedElements) {
   const Mesh mesh = testing_support::curved_grid(3, 2, 3, true);
   const PackedMesh packed = pack_mesh(mesh);
-  EXPECT_EQ(packed.order, 3);
-  EXPECT_EQ(packed.lines, 3 * mesh.lines.size());
-  EXPECT_EQ(packed.points, mesh.points.size() - 4 * mesh.quads.size()) << "all but those inside";
+  EXPECT_EQ(packed.info["order"], 3);
+  EXPECT_EQ(packed.info["lines"], 3 * mesh.lines.size());
   Unpacker unpacker(packed);
   const Mesh unpacked = unpacker.run();
   ASSERT_EQ(unpacker.polygons.size(), mesh.quads.size());
@@ -185,7 +165,7 @@ TEST(PackedMesh, JoinsTheNodesOfCurvedElements) {
     const auto is_same = [&](const std::vector<int>& polygon) {
       const std::vector<int> nodes = nodes_around(mesh, q);
       for (std::size_t k = 0; k < nodes.size(); ++k)
-        if (norm(unpacked.points[polygon[k]] - mesh.points[nodes[k]]) > packed.unit) return false;
+        if (norm(unpacked.points[polygon[k]] - mesh.points[nodes[k]]) > kExact) return false;
       return true;
     };
     EXPECT_EQ(std::ranges::count_if(unpacker.polygons, is_same), 1) << q;
@@ -198,13 +178,13 @@ TEST(PackedMesh, NamesPairsOfIrregularVertices) {
   mesh.quads[14] = {16, 17, 18, 23};
   mesh.quads[15] = {18, 25, 24, 23};
   const PackedMesh packed = pack_mesh(mesh);
-  EXPECT_EQ(packed.irregular, 4u);
+  EXPECT_EQ(packed.info["irregular"], 4u);
   Unpacker unpacker(packed);
   const Mesh read = unpacker.run();
   ASSERT_EQ(unpacker.pairs.size(), 2u);
   for (const auto& [few, many] : unpacker.pairs) {
-    EXPECT_NEAR(read.points[few].x, 3, packed.unit);
-    EXPECT_NEAR(norm(read.points[few] - read.points[many]), 1, 2 * packed.unit);
+    EXPECT_NEAR(read.points[few].x, 3, kExact);
+    EXPECT_NEAR(norm(read.points[few] - read.points[many]), 1, 2 * kExact);
   }
 }
 
@@ -219,8 +199,8 @@ TEST(PackedMesh, NamesIrregularVerticesAndEta) {
   Unpacker unpacker(packed);
   const Mesh read = unpacker.run();
   ASSERT_EQ(unpacker.irregular.size(), 1u);
-  EXPECT_EQ(unpacker.irregular[0].second, 3);
-  EXPECT_LT(norm(read.points[unpacker.irregular[0].first]), packed.unit);
+  EXPECT_EQ(unpacker.irregular[0][1], 3);
+  EXPECT_LT(norm(read.points[unpacker.irregular[0][0]]), kExact);
   std::vector<int> expected;
   for (const double eta : quad_etas(mesh)) expected.push_back(static_cast<int>(128 * eta));
   std::sort(expected.begin(), expected.end());
@@ -229,7 +209,7 @@ TEST(PackedMesh, NamesIrregularVerticesAndEta) {
 }
 
 TEST(PackedMesh, OfNothingAndOfOnePlace) {
-  EXPECT_EQ(pack_mesh({}).points, 0u);
+  EXPECT_EQ(pack_mesh({}).info["points"], 0u);
   Mesh mesh = quad_grid(1, 1);
   for (Vec3& p : mesh.points) p = {5, 5, 0};
   const PackedMesh packed = pack_mesh(mesh);
@@ -249,36 +229,6 @@ TEST(PackedMesh, KeepsTheSmallestEdge) {
   for (const Vec3& p : read.points) xs.push_back(p.x);
   std::sort(xs.begin(), xs.end());
   EXPECT_NEAR(xs[2], 1e-5, 1e-6);
-}
-
-double area(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& v : mesh.quads)
-    sum += norm(cross(mesh.points[v[2]] - mesh.points[v[0]], mesh.points[v[3]] - mesh.points[v[1]])) / 2;
-  return sum;
-}
-
-TEST(Thinned, CoversAsMuchWithFewer) {
-  const Mesh mesh = quad_grid(60, 60);
-  const Mesh thin = thinned(mesh, 9);
-  EXPECT_EQ(thin.quads.size(), 400u);
-  EXPECT_EQ(thin.lines.size(), mesh.lines.size());
-  EXPECT_NEAR(area(thin), area(mesh), 1e-9);
-  // Spread evenly: no quarter has less than a fifth of them.
-  int counts[2][2] = {};
-  for (const auto& v : thin.quads) {
-    const Vec3 c = 0.5 * (thin.points[v[0]] + thin.points[v[2]]);
-    ++counts[c.x > 0.5][c.y > 0.5];
-  }
-  for (const auto& row : counts)
-    for (const int count : row) EXPECT_GE(count, 80);
-}
-
-TEST(FairShare, GivesWhatFitsAndSharesTheRest) {
-  EXPECT_EQ(fair_share({1, 2, 3}, 10), std::numeric_limits<double>::infinity());
-  EXPECT_EQ(fair_share({}, 10), std::numeric_limits<double>::infinity());
-  EXPECT_EQ(fair_share({100, 1, 100, 2}, 23), 10);
-  EXPECT_EQ(fair_share({8, 8, 8, 8}, 16), 4);
 }
 
 }  // namespace

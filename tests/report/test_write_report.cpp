@@ -44,7 +44,7 @@ TEST(Report, HasEveryCellWithItsPictureOrItsReason) {
   const Json& done = study["sheets"][0]["seeds"][0]["cells"];
   ASSERT_EQ(done.size(), 3u);
   EXPECT_EQ(done[0]["mesh"]["quads"], 0);
-  EXPECT_EQ(done[1]["mesh"]["step"], 1);
+  EXPECT_GT(done[1]["mesh"]["quads"], 0);
   EXPECT_FALSE(done[0].contains("closeups"));
   EXPECT_EQ(done[1]["closeups"].size(), 3u);
   EXPECT_FALSE(done[1].contains("energy"));
@@ -116,7 +116,7 @@ TEST(Report, FiguresOfTheFolder) {
   fs::create_directories(folder / "results/square/figures");
   const std::string small = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"/>";
   write_text(folder / "results/square/figures/b.svg", small);
-  write_text(folder / "results/square/figures/a.svg", small + std::string(600'000, ' '));
+  write_text(folder / "results/square/figures/a.svg", small + std::string(50'000'000, ' '));
   write_text(folder / "results/square/figures/notes.txt", "no figure");
   ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
   const Json drawings = data_of(folder / "r.html")["studies"][0]["drawings"];
