@@ -10,7 +10,7 @@ CMAKE_FLAGS ?=
 # How long `make fuzz` tries its targets, all of them together.
 SECONDS ?= 120
 
-.PHONY: package build dev lint test test-long sanitize python data paper studies suite_models peers public public_models suite site bench fuzz
+.PHONY: doc-tables package build dev lint test test-long sanitize python data paper studies suite_models peers public public_models suite site bench fuzz
 
 # The program, the programs and libraries that it loads, and the library for C++.
 build:
@@ -74,6 +74,14 @@ paper studies peers public: build
 	  $(DELQUAD) report $(INTO) -o $(INTO)/report.html || exit $$?; \
 	  echo "Tables and pictures lie in $(INTO)/; $(INTO)/report.html shows them."; \
 	  exit $(STATUS)
+
+# Runs the experiments of README and docs that take seconds, and writes the tables of measurements anew of whose experiments there are results.
+doc-tables: build
+	@cmake/install-packages.sh python3
+	@for name in $(shell python3 docs/make_tables.py --cheap); do \
+	  $(DELQUAD) run experiments/studies/$$name.toml -o $(RESULTS)/studies/$$name > /dev/null || exit $$?; done
+	@! cd $(RESULTS)/studies/which_quality 2> /dev/null || python3 $(CURDIR)/experiments/studies/which_quality.py . > printed.md
+	@python3 docs/make_tables.py $(RESULTS)
 
 suite_models: build
 	@$(DELQUAD) suite models -o experiments/studies/on_suite/models > /dev/null

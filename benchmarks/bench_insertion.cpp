@@ -27,7 +27,7 @@ void insertion(benchmark::State& state, char letter, Grading grading, int thread
   state.SetComplexityN(static_cast<benchmark::IterationCount>(triangles));
 }
 
-void cgal_same_points(benchmark::State& state, char letter, Grading grading) {
+void triangulation_alone(benchmark::State& state, char letter, Grading grading) {
   using Delaunay = CGAL::Delaunay_triangulation_2<CGAL::Exact_predicates_inexact_constructions_kernel>;
   const SquareCase domain(grading, static_cast<double>(state.range(0)));
   const TriPatch mesh = mesh_frontal(domain.boundary(), *strategy(letter), domain.cross, domain.size);
@@ -46,13 +46,13 @@ void sizes(benchmark::internal::Benchmark* b) {
 }
 
 BENCHMARK_CAPTURE(insertion, D_uniform, 'D', Grading::kUniform, 1)->Apply(sizes);
-BENCHMARK_CAPTURE(cgal_same_points, D_uniform, 'D', Grading::kUniform)->Apply(sizes);
+BENCHMARK_CAPTURE(triangulation_alone, D_uniform, 'D', Grading::kUniform)->Apply(sizes);
 BENCHMARK_CAPTURE(insertion, D_graded, 'D', Grading::kGraded, 1)->Apply(sizes);
-BENCHMARK_CAPTURE(cgal_same_points, D_graded, 'D', Grading::kGraded)->Apply(sizes);
+BENCHMARK_CAPTURE(triangulation_alone, D_graded, 'D', Grading::kGraded)->Apply(sizes);
 BENCHMARK_CAPTURE(insertion, F_uniform, 'F', Grading::kUniform, 1)->Apply(sizes);
-BENCHMARK_CAPTURE(cgal_same_points, F_uniform, 'F', Grading::kUniform)->Apply(sizes);
+BENCHMARK_CAPTURE(triangulation_alone, F_uniform, 'F', Grading::kUniform)->Apply(sizes);
 BENCHMARK_CAPTURE(insertion, F_graded, 'F', Grading::kGraded, 1)->Apply(sizes);
-BENCHMARK_CAPTURE(cgal_same_points, F_graded, 'F', Grading::kGraded)->Apply(sizes);
+BENCHMARK_CAPTURE(triangulation_alone, F_graded, 'F', Grading::kGraded)->Apply(sizes);
 
 BENCHMARK_CAPTURE(insertion, D_uniform_2_threads, 'D', Grading::kUniform, 2)
     ->Arg(1000000)

@@ -47,7 +47,7 @@ void evaluate(benchmark::State& state) {
   state.SetComplexityN(problem.delaunay().n_points());
 }
 
-void cgal_same_points(benchmark::State& state) {
+void triangulation_alone(benchmark::State& state) {
   using Delaunay = CGAL::Delaunay_triangulation_2<CGAL::Exact_predicates_inexact_constructions_kernel>;
   const Seeds seeds(static_cast<double>(state.range(0)));
   std::vector<Delaunay::Point> points;
@@ -115,7 +115,7 @@ BENCHMARK(evaluate)
     ->Args({50000, 2})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
-BENCHMARK(cgal_same_points)->Apply(sizes);
+BENCHMARK(triangulation_alone)->Apply(sizes);
 BENCHMARK(solve)->ArgsProduct({{1000, 10000, 50000}, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(to_energy_of_lloyd, lloyd, true)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(to_energy_of_lloyd, lbfgs, false)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);

@@ -154,6 +154,7 @@ def main():
     arguments = parser.parse_args()
     if not arguments.delquad.exists():
         return print(f"skipped: {arguments.delquad} is not built")
+    print(subprocess.run([arguments.delquad, "--version"], check=True, capture_output=True, text=True).stdout)
     models = arguments.models or sorted((ROOT.parent / "shared/data/cad").glob("*.*"))
     delquad, quadwild = arguments.delquad.resolve(), Path(os.environ.get("QUADWILD", "")).resolve()
     there = "QUADWILD" in os.environ and (quadwild / "build/Build/bin/quadwild").exists()

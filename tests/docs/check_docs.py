@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Whether README and docs hold: links lead somewhere, the reference of keys is up to date, every block of code runs, and the site's tables lead to records.
+"""Checks README and docs: links lead somewhere, the reference of keys is up to date, and every block of code runs.
+The site's tables lead to records, and tables of measurements are what `make doc-tables` writes.
 
-Usage: check_docs.py links|keys|blocks|tables [--build FOLDER] [--slow] [PAGE ...]
+Usage: check_docs.py links|keys|blocks|tables|measured [--build FOLDER] [--slow] [PAGE ...]
 
 A block is fenced, or indented by four spaces and more. Those of a page run in their order, in one empty folder that looks like the repository:
 shell by bash, Python in one process, C++ as one program. TOML is checked against `delquad schema`, and saved where its first line is a comment
@@ -213,7 +214,7 @@ def run_page(page, build, schema, slow):
     with tempfile.TemporaryDirectory() as home, contextlib.chdir(home):
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what blocks print
         workplace(pathlib.Path(home), build)
-        os.environ.update(HOME=home, PATH=f"{build}:{os.environ['PATH']}", PYTHONPATH=f"{build}/python", PYTHON=sys.executable, DELQUAD_CAD_WORKER=f"{build}/delquad-cad", PYTHONDONTWRITEBYTECODE="1")
+        os.environ.update(HOME=home, PATH=f"{build}:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}", PYTHONPATH=f"{build}/python", DELQUAD_CAD_WORKER=f"{build}/delquad-cad", PYTHONDONTWRITEBYTECODE="1")
         for display in ("DISPLAY", "WAYLAND_DISPLAY"):  # where `delquad view` would open a browser
             os.environ.pop(display, None)
         sys.path.insert(0, f"{build}/python")
@@ -269,10 +270,15 @@ loop = [{ rectangle = [[0, 0], [1, 1]] }]
 """
 
 
+def load(path):
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
 def check_tables(build):
-    spec = importlib.util.spec_from_file_location("make_site", ROOT / "docs/site/make_site.py")
-    make_site = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(make_site)
+    make_site = load(ROOT / "docs/site/make_site.py")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "square.toml").write_text(EXPERIMENT)
@@ -301,9 +307,30 @@ def check_tables(build):
             yield "the tables do not lead to the ranking"
 
 
+# Tables of measurements
+
+
+def check_measured(build):
+    make_tables = load(ROOT / "docs/make_tables.py")
+    with tempfile.TemporaryDirectory() as name:
+        results = pathlib.Path(name)
+        for study in make_tables.CHEAP:
+            command = [build / "delquad", "run", ROOT / f"experiments/studies/{study}.toml", "-o", results / "studies" / study, "--pictures", "none"]
+            subprocess.run(command, check=True, capture_output=True)
+        found = set()
+        for page in make_tables.pages():
+            before = page.read_text()
+            after = make_tables.renewed(before, results)
+            found |= {name for name, _ in make_tables.MARK.findall(before)}
+            for old, new in zip(make_tables.MARK.finditer(before), make_tables.MARK.finditer(after)):
+                if re.sub("^Made by .*", "", old[0], flags=re.MULTILINE) != re.sub("^Made by .*", "", new[0], flags=re.MULTILINE):
+                    yield f"{page.relative_to(ROOT)}: table {old[1]} is not what `make doc-tables` writes:\n{new[0]}"
+        yield from (f"no page has a table '{name}'" for name in set(make_tables.TABLES) - found)
+
+
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("what", choices=["links", "keys", "blocks", "tables"])
+    parser.add_argument("what", choices=["links", "keys", "blocks", "tables", "measured"])
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
     parser.add_argument("--slow", action="store_true")
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
@@ -315,6 +342,8 @@ def main():
         wrong = check_keys(build)
     elif given.what == "tables":
         wrong = list(check_tables(build))
+    elif given.what == "measured":
+        wrong = list(check_measured(build))
     else:
         wrong = check_blocks([page.resolve() for page in given.pages] or list(files(".md")), build, given.slow)
     print(*wrong, sep="\n")

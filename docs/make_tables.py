@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Writes the tables of measurements in README and docs anew: make_tables.py RESULTS [NAME ...]; --cheap: which experiments take seconds
+
+A table stands in its page between <!-- table: NAME, made by COMMAND --> and <!-- end -->. Its last line says by which command and version it
+was made, and when. TABLES says which columns and rows of which table it shows. Tables whose results are not in RESULTS stay as they are.
+"""
+import datetime
+import json
+import pathlib
+import re
+import statistics
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+MARK = re.compile(r"<!-- table: (\w+), made by (.*?) -->\n.*?<!-- end -->", re.DOTALL)
+
+QUALITY = ["eta worst", "eta mean", "d4", "tau"]
+SHAPE = ["case", "quads", *QUALITY, "edge min", "aspect max"]
+METRIC = ["case", "quads", "eta_M mean", "eta_M worst", "tau_M", "in range", "irregular"]
+CLAIM = ["hypothesis", "measure", "domains", "better", "worse", "difference", "p corrected"]
+# For each table: its file below RESULTS, its columns (none: all), its rows by patterns, and its number there.
+TABLES = {
+    "own_surfaces": ("studies/own_surfaces/table.md", SHAPE, {"pipeline": "DB"}),
+    "insertion_options": ("studies/insertion_options/table.md", SHAPE, {"pipeline": "DB"}),
+    "cleanup": ("studies/cleanup/table.md", ["case", "pipeline", "quads", *QUALITY, "edge min", "aspect max"], {}),
+    "regularity": ("studies/regularity/table.md", ["case", "pipeline", "quads", "irregular", "necessary", "beyond", "eta mean", "tau"], {"case": ".*weight=1"}),
+    "metric_solutions": ("studies/metric_solutions/table.md", METRIC, {"case": ".*size-aware.*", "pipeline": "DBCO"}),
+    "metric_fields": ("studies/metric_fields/table.md", [*METRIC, "aligned"], {"pipeline": "DBCO"}),
+    "which_quality": ("studies/which_quality/printed.md", [], {}),
+    "which_pipeline": ("studies/which_quality/printed.md", [], {}, 1),
+    "pipelines": ("studies/ablation/summary.md", ["measure", "pipeline", "domains", "mean", "won", "lost"], {}),
+    "hypotheses": ("studies/ablation/hypotheses.md", CLAIM, {}),
+    "cross_fields": ("studies/cross_fields/hypotheses.md", [], {}),
+    "ideas": ("studies/ideas/summary.md", [], {}),
+    "peers": ("peers/peers/table.md", ["case", "pipeline", "quads", "triangles", *QUALITY, "total CPU s"], {}),
+    "peers_metric": ("peers/peers_metric/table.md", [], {"case": ".*complexity=2500"}),
+    "mbb": ("public/mbb/table.md", ["case", "pipeline", "quads", "triangles", "Verdict.libmesh_shape", "Verdict.shape_mean", "SJ mean"], {}),
+    "dial": ("benchmarks/dial.md", [], {}),
+    "per_million": ("benchmarks/per_million.md", [], {}),
+}
+# The experiments in experiments/studies/ that take seconds, and need no other model: a test compares their tables.
+CHEAP = ["own_surfaces", "insertion_options", "cleanup"]
+
+
+def rows_of(text, number):
+    """A table's rows by the titles of its columns."""
+    lines = re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE)[number].splitlines()
+    head, _, *rows = [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines]
+    return [dict(zip(head, row)) for row in rows]
+
+
+def table(columns, rows):
+    lines = [columns, ["---" if i == 0 else "---:" for i in range(len(columns))], *([row[key] for key in columns] for row in rows)]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def of_results(file, columns, wanted, number=0):
+    """Without the rows of what was skipped."""
+    rows = [row for row in rows_of(file.read_text(), number) if all(re.fullmatch(pattern, row[key]) for key, pattern in wanted.items())]
+    rows = [row for row in rows if not {"skipped", "not applicable"} & set(row.values())]
+    return table(columns or list(rows[0]), rows)
+
+
+def of_matching():
+    """How many times as fast as LEMON, and for which version: what `make bench` recorded last."""
+    number, ratios = list(json.loads((ROOT / "benchmarks/bench.json").read_text()).items())[-1]
+    rows = {}
+    for name, values in ratios.items():
+        if found := re.fullmatch(r"matching: ours/(\w+)/(\d+) against lemon", name):
+            rows.setdefault(found[1], {"graph": found[1].replace("_", " ")})[found[2] + " nodes"] = f"{statistics.median(values):.1f}"
+    return table(["graph", "10000 nodes", "100000 nodes"], rows.values()), f"version {number}"
+
+
+def version(file):
+    """By which commits the results beside a table were made, and when; what a program printed begins with its version."""
+    records = [json.loads(record.read_text()) for record in file.parent.glob("*/*/record.json")]
+    if not records:
+        return f"{file.read_text().splitlines()[0].split(';')[0]}, {datetime.date.fromtimestamp(file.stat().st_mtime)}"
+    commits = sorted({record["versions"]["commit"][:8] for record in records if "versions" in record})
+    return f"commit {' and '.join(commits)}, {max(record.get('started', '') for record in records)[:10]}"
+
+
+def renewed(page, results, names=()):
+    def renew(found):
+        name, command = found.groups()
+        if name == "matching":
+            text, made = of_matching()
+        else:
+            file = results / TABLES[name][0]
+            if names and name not in names or not file.exists():
+                return found[0]
+            text, made = of_results(file, *TABLES[name][1:]), version(file)
+        return f"<!-- table: {name}, made by {command} -->\n\n{text}\nMade by `{command}`, {made}.\n\n<!-- end -->"
+
+    return MARK.sub(renew, page)
+
+
+def pages():
+    return [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "--cheap":
+        sys.exit(print(*CHEAP))
+    for page in pages():
+        page.write_text(renewed(page.read_text(), pathlib.Path(sys.argv[1]), sys.argv[2:]))
