@@ -3,14 +3,14 @@ PRESET ?= release
 RESULTS ?= results
 # Models that are no part of the project, see `make data`; experiments without theirs are skipped.
 DATA ?= $(if $(wildcard ../shared/data),../shared/data,data)
-# Files of peers that `make suite` runs beside our own words.
+# Files of peers that `make suite` runs beside our own pipelines.
 SUITE_PEERS ?= $(if $(shell command -v gmsh),experiments/peers/adapters/gmsh.toml)
 DELQUAD = build/$(PRESET)/delquad
 CMAKE_FLAGS ?=
 # How long `make fuzz` tries its targets, all of them together.
 SECONDS ?= 120
 
-.PHONY: doc-tables package build dev lint test test-long sanitize python data paper studies suite_models peers public public_models suite site bench fuzz
+.PHONY: doc-tables package build dev lint test test-long sanitize python data paper studies peers public public_models suite site bench fuzz
 
 # The program, the programs and libraries that it loads, and the library for C++.
 build:
@@ -53,7 +53,6 @@ paper: INTO = $(RESULTS)$(if $(SMALL),/small)
 paper: FLAGS = $(if $(SMALL),--pipelines D$(,)DB)
 # Everything else that was measured.
 studies: EXPERIMENTS = $(wildcard experiments/studies/*.toml experiments/studies/on_suite/*.toml)
-studies: suite_models
 # Ours beside other meshers; those that are not installed are told.
 peers: EXPERIMENTS = $(wildcard experiments/peers/*.toml)
 peers: STATUS = 0
@@ -83,9 +82,6 @@ doc-tables: build
 	@! cd $(RESULTS)/studies/which_quality 2> /dev/null || python3 $(CURDIR)/experiments/studies/which_quality.py . > printed.md
 	@python3 docs/make_tables.py $(RESULTS)
 
-suite_models: build
-	@$(DELQUAD) suite models -o experiments/studies/on_suite/models > /dev/null
-
 # Fetches these models, and writes those in formats of others anew: as model files, and with gmsh, where it is, as .brep.
 public_models:
 	@cmake/install-packages.sh curl ca-certificates python3
@@ -101,12 +97,13 @@ data:
 	@cmake/install-packages.sh curl ca-certificates python3
 	@python3 experiments/data/fetch.py $(DATA)
 
-# Ours and other programs on the models that the program makes itself: failed cells are part of the ranking.
+# Ours and other programs on the models of the suite: failed cells are part of the ranking.
 suite: build
-	$(DELQUAD) suite models $(addprefix --public ,$(wildcard $(DATA) experiments/public/models)) -o $(RESULTS)/suite/models
-	$(DELQUAD) run $(RESULTS)/suite/models/suite.toml -o $(RESULTS)/suite/run -j 2 --timeout 300 \
+	@cmake/install-packages.sh python3 python3-scipy
+	@mkdir -p $(RESULTS)/suite
+	$(DELQUAD) run $(wildcard experiments/suite/*.toml) -o $(RESULTS)/suite/run -j 2 --timeout 300 \
 	  $(foreach peers,$(SUITE_PEERS),--peer $(peers)) > $(RESULTS)/suite/run.log ||:
-	$(DELQUAD) suite table $(RESULTS)/suite
+	/usr/bin/python3 experiments/suite/ranking.py $(RESULTS)/suite
 	$(DELQUAD) report $(RESULTS)/suite -o $(RESULTS)/suite/report.html
 	@echo "$(RESULTS)/suite/ranking has the table; $(RESULTS)/suite/report.html shows the meshes."
 

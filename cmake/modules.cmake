@@ -144,11 +144,9 @@ if(DELQUAD_PROGRAMS)
   delquad_module(experiments/console COLD LINKS base io)
   delquad_module(experiments/sweep COLD LINKS base geometry/mesh geometry/cad adapt metrics metrics/surface metrics/solve metrics/judgement
                  metrics/tables algorithms/insertion io io/cases mesher experiments/console PRIVATE nlohmann_json::nlohmann_json)
-  delquad_module(experiments/suite COLD LINKS base geometry/mesh geometry/cad metrics metrics/tables io io/cases mesher experiments/console
-                 experiments/sweep PRIVATE OpenSSL::Crypto tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
   delquad_module(report COLD LINKS base geometry/mesh metrics metrics/tables io mesher experiments/sweep PRIVATE ZLIB::ZLIB
                  nlohmann_json::nlohmann_json)
   delquad_module(program COLD LINKS base geometry/mesh geometry/surface geometry/cad fields metrics metrics/solve
                  metrics/judgement metrics/tables io io/cases features/extrusion mesher adapt experiments/console experiments/sweep
-                 experiments/suite report PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
+                 report PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
 endif()

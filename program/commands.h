@@ -50,6 +50,5 @@ void add_extrude(CLI::App& app, Commands& commands);
 void add_compare(CLI::App& app, Commands& commands);
 void add_info(CLI::App& app, Commands& commands);
 void add_example(CLI::App& app, Commands& commands);
-void add_suite(CLI::App& app, Commands& commands);
 
 }  // namespace delquad

@@ -62,9 +62,8 @@ void add_common(CLI::App& app, CommonArguments& common) {
 
 Commands add_commands(CLI::App& app, CommonArguments& common) {
   Commands commands;
-  for (const auto add :
-       {add_run, add_batch, add_results, add_lists, add_mesh, add_adapt, add_view, add_convert, add_metrics,
-        add_extrude, add_compare, add_info, add_example, add_suite})
+  for (const auto add : {add_run, add_batch, add_results, add_lists, add_mesh, add_adapt, add_view,
+                         add_convert, add_metrics, add_extrude, add_compare, add_info, add_example})
     add(app, commands);
   for (const Command& command : commands)
     if (command.has_time_limit)
@@ -90,6 +89,8 @@ std::string meant_by(const std::string& argument, const CLI::App& app) {
   std::vector<const CLI::App*> parsed(given.begin(), given.end());
   const std::string dashes = argument.starts_with("--") ? "--" : "";
   std::vector<std::string> known;
+  if (argument == "suite" && parsed.empty())
+    return " (the suite is files now: 'delquad run experiments/suite/planar.toml', see docs/suite.md)";
   if (dashes.empty() && parsed.empty()) known = names_of_commands(app);
   parsed.push_back(&app);
   if (!dashes.empty())

@@ -82,7 +82,7 @@ CellIdentity identify(const Experiment& experiment, const Case& c, const std::st
                          .lexically_normal()
                          .lexically_relative(fs::absolute(experiment.file).lexically_normal().parent_path())
                          .generic_string();
-    cell.peer_files = command_files(cell.peer->folder, cell.peer->command);
+    cell.peer_files = command_files(cell.peer->folder, command_of_case(*cell.peer, c.name));
     pipeline += peer_record(cell);
   }
   for (const MetricCommand& metric : experiment.metrics)

@@ -151,8 +151,10 @@ std::vector<std::filesystem::path> Experiment::files() const {
   for (const TomlTable& table : cases_) add(table.file());
   add(reference);
   for (const fs::path& peer_file : peer_files) add(peer_file);
+  std::set<std::string> names;
   for (std::size_t i = 0; i < n_cases(); ++i) {
     const Case c = read_variant(i);
+    names.insert(c.name);
     add(c.model_file);
     if (const auto size = size_file_of(c.size.text, c.size.folder)) add(size->path);
     if (const auto metric = size_file_of(c.metric.file, c.metric.folder)) add(metric->path);
@@ -162,9 +164,13 @@ std::vector<std::filesystem::path> Experiment::files() const {
   const auto add_beside = [&](const fs::path& folder, const std::string& word) {
     if (!fs::path(word).is_absolute()) add(folder / word);
   };
-  for (const Peer& peer : peers)
-    for (const std::vector<std::string>* command : {&peer.command, &peer.version})
-      for (const auto& [word, digest] : command_files(peer.folder, *command)) add_beside(peer.folder, word);
+  const auto add_files_of = [&](const Peer& peer, const std::vector<std::string>& command) {
+    for (const auto& [word, digest] : command_files(peer.folder, command)) add_beside(peer.folder, word);
+  };
+  for (const Peer& peer : peers) {
+    add_files_of(peer, peer.version);
+    for (const std::string& name : names) add_files_of(peer, command_of_case(peer, name));
+  }
   for (const MetricCommand& metric : metrics)
     for (const auto& [word, digest] : metric_files(metric)) add_beside(metric.folder, word);
   return {found.begin(), found.end()};

@@ -248,7 +248,7 @@ void Experiment::read_peer(const TomlTable& table) {
     extension = "." + format;
   };
   peer.command = read_command(table, "command");
-  check_placeholders(table, peer.command, peer_placeholders(), {{"{input}"}, {"{output}"}});
+  check_placeholders(table, peer.command, peer_placeholders(), {{"{input}", "{case}"}, {"{output}"}});
   peer.version = read_command(table, "version");
   read_format("input", {"geo", "msh", "obj", "inp", "mesh"}, peer.input);
   read_format("output", {"msh", "obj", "off", "stl"}, peer.output);

@@ -360,7 +360,7 @@ PeerRun run_calibrated(const Peer& peer, const Case& c, const Prepared& prepared
 std::vector<std::string> peer_command(const PeerTask& task, const fs::path& input, const std::string& output,
                                       const fs::path& size_field) {
   const Peer& peer = task.peer;
-  std::vector<std::string> words = located_command(peer, peer.command);
+  std::vector<std::string> words = located_command(peer, command_of_case(peer, task.c.name));
   for (std::string& word : words) {
     if (word.find("{size}") != std::string::npos)
       word = replace_all(word, "{size}", fmt::format("{}", told_size(task)));
@@ -372,10 +372,15 @@ std::vector<std::string> peer_command(const PeerTask& task, const fs::path& inpu
     word = replace_all(word, "{input}", input.string());
     word = replace_all(word, "{output}", output);
     word = replace_all(word, "{seed}", std::to_string(task.c.seed));
-    word = replace_all(word, "{case}", task.c.name);
     if (word.find("{data}") != std::string::npos)
       word = replace_all(word, "{data}", fs::absolute(task.c.data_folder).lexically_normal().string());
   }
+  return words;
+}
+
+std::vector<std::string> command_of_case(const Peer& peer, const std::string& name) {
+  std::vector<std::string> words = peer.command;
+  for (std::string& word : words) word = replace_all(word, "{case}", name);
   return words;
 }
 
@@ -406,6 +411,7 @@ void check_peer_mesh(const Peer& peer, const Prepared& prepared, Mesh& mesh) {
   if (!violations.empty())
     refuse<PeerError>("its mesh is not sound ({} violations): {}", violations.size(), violations[0]);
   prepared.is_surface() ? check_surface(prepared, mesh) : check_planar(peer, prepared, mesh);
+  if (prepared.is_surface() || !peer.keeps_boundary) check_place(prepared, mesh);
 }
 
 MeshResult run_peer(const Peer& peer, const Case& c, const Prepared& prepared, const std::string& label,

@@ -101,6 +101,9 @@ std::optional<double> uniform_size(const Case& c);
 std::vector<std::string> peer_command(const PeerTask& task, const std::filesystem::path& input,
                                       const std::string& output, const std::filesystem::path& size_field);
 
+/// The command with the case's name in it: files that it names belong to the cell's key.
+std::vector<std::string> command_of_case(const Peer& peer, const std::string& name);
+
 /// A size field by its values at the nodes of triangles that are as large as it says, or a metric.
 struct SampledSize {
   Mesh mesh;
@@ -123,9 +126,13 @@ Mesh boundary_of(const Prepared& prepared);
 /// told.
 std::filesystem::path write_peer_input(const PeerTask& task, const std::filesystem::path& folder);
 
-/// Makes `mesh` run counterclockwise on planar domains. Throws PeerError when it is not sound, does not cover
-/// the domain or, where the peer keeps it, has other edges on the boundary.
+/// Makes `mesh` run counterclockwise on planar domains. Throws PeerError if it is not sound or does not cover
+/// the domain. On a boundary that the peer keeps it may have no other edges; else throws as check_place().
 void check_peer_mesh(const Peer& peer, const Prepared& prepared, Mesh& mesh);
+
+/// Throws PeerError if a place of the mesh or of the model is further from the other than 1.25 times the size
+/// there. In the plane the boundaries are compared, and the edges have to follow the curves between regions.
+void check_place(const Prepared& prepared, const Mesh& mesh);
 
 /// The number of quads that a word makes of a case, see count_of_quads(): by the record of its cell, or,
 /// where that is not there or of something else, by running it in a process of its own, which gives the same

@@ -13,6 +13,7 @@
 #include "io/cases/problem_record.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
+#include "io/text_scanner.h"
 #include "io/text_writer.h"
 
 namespace delquad {
@@ -77,7 +78,7 @@ void write_boundary(TextWriter& out, const Prepared& prepared) {
   }
 }
 
-/// The file of a surface as it is, or the example as a STEP file.
+/// The file of a surface, unpacked, or the example as a STEP file.
 fs::path surface_file(const PeerTask& task, const fs::path& folder) {
   SurfaceSpec plain;  // with what leaves the faces as they are
   plain.feature_angle = task.c.surface.feature_angle;
@@ -88,7 +89,12 @@ fs::path surface_file(const PeerTask& task, const fs::path& folder) {
     throw NotApplicable("'" + task.peer.name +
                         "' gets the model's file as it is, but the case changes its faces");
   const std::string example = example_of(task.c);
-  if (example.empty()) return fs::absolute(model_path(task.c));
+  if (example.empty()) {
+    const fs::path given = fs::absolute(model_path(task.c));
+    if (given.extension() != ".gz") return given;
+    write_text_file(folder / ("model" + kind_of_file(given)), read_whole_file(given));
+    return folder / ("model" + kind_of_file(given));
+  }
   const fs::path file = folder / "model.step";
   write_file_atomically(file, [&](std::ostream& out) { write_example(example, CadFormat::kStep, out); });
   return file;
@@ -105,7 +111,7 @@ bool is_triangulation(const fs::path& file) {
   return !is_surface_file(file) || kind == ".stl" || kind == ".obj" || kind == ".off";
 }
 
-/// Every Gmsh reads MSH and STL; OBJ, OFF and packed files only some do.
+/// Every Gmsh reads MSH and STL; only some read OBJ and OFF.
 fs::path read_by_gmsh(const fs::path& file, const fs::path& folder) {
   if (!is_triangulation(file) || file.extension() == ".stl" || file.extension() == ".msh") return file;
   const Mesh read = read_mesh(file);

@@ -18,10 +18,6 @@ enum class CadFormat { kStep, kBrep };
 /// STEP only. Throws InputError for unknown names, and where the program was built without OpenCASCADE.
 void write_example(const std::string& name, CadFormat format, std::ostream& out);
 
-/// A CAD model of the suite as STEP: one of the examples, or of those of examples/hard.cpp, which are listed
-/// nowhere else. Throws InputError where the program was built without OpenCASCADE.
-void write_suite_model(const std::string& name, std::ostream& out);
-
 /// An example as read_cad() would read it from a STEP file. Throws as write_example().
 SurfaceModel read_example(const std::string& name, const CadOptions& options = {});
 

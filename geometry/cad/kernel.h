@@ -13,18 +13,16 @@ namespace delquad::cad {
 /// is called.
 inline constexpr const char* kKernelLibrary = "libdelquad-kernel.so";
 
-/// Its functions: read_cad() and read_example(), write_example() and write_suite_model().
+/// Its functions: read_cad(), read_example() and write_example().
 struct Kernel {
   SurfaceModel (*read_cad)(const CadModel&, const CadOptions&);
   SurfaceModel (*read_example)(const std::string&, const CadOptions&);
   void (*write_example)(const std::string&, CadFormat, std::ostream&);
-  void (*write_suite_model)(const std::string&, std::ostream&);
 };
 
-/// The implementations of the four, in this library. They do not check the name of an example.
+/// The implementations of the three, in this library. They do not check the name of an example.
 SurfaceModel read_by_kernel(const CadModel& model, const CadOptions& options);
 SurfaceModel read_example_by_kernel(const std::string& name, const CadOptions& options);
 void write_example_by_kernel(const std::string& name, CadFormat format, std::ostream& out);
-void write_suite_model_by_kernel(const std::string& name, std::ostream& out);
 
 }  // namespace delquad::cad

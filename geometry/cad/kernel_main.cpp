@@ -2,5 +2,5 @@
 
 /// The symbol that load_kernel.cpp looks for.
 extern "C" __attribute__((visibility("default"))) const delquad::cad::Kernel delquad_kernel = {
-    delquad::cad::read_by_kernel, delquad::cad::read_example_by_kernel, delquad::cad::write_example_by_kernel,
-    delquad::cad::write_suite_model_by_kernel};
+    delquad::cad::read_by_kernel, delquad::cad::read_example_by_kernel,
+    delquad::cad::write_example_by_kernel};

@@ -49,8 +49,4 @@ void write_example(const std::string& name, CadFormat format, std::ostream& out)
       .write_example(name, format, out);
 }
 
-void write_suite_model(const std::string& name, std::ostream& out) {
-  kernel("built without OpenCASCADE: cannot make the model '" + name + "'").write_suite_model(name, out);
-}
-
 }  // namespace delquad

@@ -45,15 +45,6 @@ CadShape make_example(const std::string& name) {
       {"sheet", make_sheet},
       {"thin_box", make_thin_box},
       {"variable_fillet", make_variable_fillet},
-      {"seam_groove", make_seam_groove},
-      {"narrow_chamfer", make_narrow_chamfer},
-      {"tiny_edges", make_tiny_edges},
-      {"bodies_on_bodies", make_bodies_on_bodies},
-      {"crossing_webs", make_crossing_webs},
-      {"pole_wedge", make_pole_wedge},
-      {"stalled_spline", make_stalled_spline},
-      {"near_radii", make_near_radii},
-      {"touching_holes", make_touching_holes},
   };
   const auto at = kMakers.find(name);
   if (at != kMakers.end()) return at->second();
@@ -134,10 +125,6 @@ void write_step(const std::string& name, const CadShape& cad, std::ostream& out)
 }
 
 }  // namespace
-
-void write_suite_model_by_kernel(const std::string& name, std::ostream& out) {
-  write_step(name, make_example(name), out);
-}
 
 void write_example_by_kernel(const std::string& name, CadFormat format, std::ostream& out) {
   const CadShape shape = make_example(name);

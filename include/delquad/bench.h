@@ -1,6 +1,6 @@
 #pragma once
 
-// The bench: experiments, the suite, reports and the program, on top of the library. Component "bench" of the
+// The bench: experiments, reports and the program, on top of the library. Component "bench" of the
 // package, target delquad::bench.
 
 namespace delquad {

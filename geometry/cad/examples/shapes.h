@@ -29,20 +29,6 @@ CadShape make_sheet();
 CadShape make_thin_box();
 CadShape make_variable_fillet();
 
-/// Models that stand for what CAD files fail by, for the suite alone: a groove across a seam, chamfers far
-/// below any size, edges of 4 micrometres, bodies that lie on each other, faces of which four meet in
-/// an edge, a sphere's wedge with two poles, a surface whose parameters stand still, cylinders of nearly
-/// equal radius, and a face whose outlines touch.
-CadShape make_seam_groove();
-CadShape make_narrow_chamfer();
-CadShape make_tiny_edges();
-CadShape make_bodies_on_bodies();
-CadShape make_crossing_webs();
-CadShape make_pole_wedge();
-CadShape make_stalled_spline();
-CadShape make_near_radii();
-CadShape make_touching_holes();
-
 /// One of all by its name, which must exist.
 CadShape make_example(const std::string& name);
 /// The same whose faces have the example's name first, as those of a product in a STEP file.

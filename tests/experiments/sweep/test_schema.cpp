@@ -192,7 +192,7 @@ TEST_F(SchemaPrograms, AgreesWithThePeersOfJsonSchema) {
     expected += file.string() + ": " + verdict + "\n";
   };
   std::vector<fs::path> files;
-  for (const char* folder : {"paper", "studies", "studies/on_suite", "peers"})
+  for (const char* folder : {"paper", "studies", "studies/on_suite", "suite", "peers"})
     for (const auto& entry : fs::directory_iterator(fs::path(DELQUAD_EXPERIMENTS) / folder))
       if (entry.path().extension() == ".toml") files.push_back(entry.path());
   std::ranges::sort(files);
