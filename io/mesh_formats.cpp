@@ -72,7 +72,7 @@ std::string extensions_of(const Can& can) {
 bool can_write(const MeshFormat& format) { return format.write != nullptr || !format.package.empty(); }
 
 MeshFormat msh_format(), vtu_format(), obj_format(), inp_format(), medit_format(), vtk_format(),
-    exodus_format(), cgns_format(), med_format(), xdmf_format(), ucd_format(), mfem_format(), su2_format(),
+    exodus_format(), cgns_format(), med_format(), xdmf_format(), mfem_format(), su2_format(),
     nastran_format(), unv_format(), ls_dyna_format(), sms_format(), gr3_format(), ugrid_format(),
     ism_format(), hohqmesh_abaqus_format(), re2_format(), specfem_format(), foam_format(), off_format(),
     stl_format(), ply_format(), three_mf_format();
@@ -88,7 +88,6 @@ const std::vector<MeshFormat>& mesh_formats() {
                                               cgns_format(),
                                               med_format(),
                                               xdmf_format(),
-                                              ucd_format(),
                                               mfem_format(),
                                               su2_format(),
                                               nastran_format(),

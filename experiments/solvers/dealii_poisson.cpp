@@ -1,5 +1,5 @@
 // Errors of bilinear elements of deal.II for the planar solution of 'solver = ["poisson"]', as JSON:
-// dealii_poisson MESH.msh, or MESH.ucd
+// dealii_poisson MESH.msh
 #include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -15,7 +15,6 @@
 
 #include <fstream>
 #include <iostream>
-#include <string>
 using namespace dealii;
 
 // sin(pi/2 r^2) with r the distance from the centroid in radii of gyration.
@@ -34,9 +33,8 @@ struct Wave : Function<2> {
 int main(int, char** argv) {
   Triangulation<2> grid;
   GridIn<2> reader(grid);
-  const std::string path = argv[1];
-  std::ifstream file(path);
-  path.ends_with(".ucd") ? reader.read_ucd(file) : reader.read_msh(file);
+  std::ifstream file(argv[1]);
+  reader.read_msh(file);
   Wave u;
   FE_Q<2> fe(1);
   DoFHandler<2> dofs(grid);

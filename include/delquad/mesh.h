@@ -133,7 +133,7 @@ void reduce_bandwidth(Mesh& mesh);
 /// What a reader did to the file's content that its user should know, one sentence each.
 using ReadNotes = std::vector<std::string>;
 
-/// Reads by extension: .msh, .vtu, .obj, .inp, .mesh, .ucd, .mfem, .bdf, .off, .stl, .ply, .3mf, packed, too
+/// Reads by extension: .msh, .vtu, .obj, .inp, .mesh, .mfem, .bdf, .off, .stl, .ply, .3mf, packed, too
 /// (.gz). Throws InputError with file and line, or byte; for any other extension, naming those known.
 Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 

@@ -15,9 +15,6 @@ Mesh read_inp(const std::filesystem::path& path);
 /// Reads Medit text: references are tags of curves and regions, names are those that write_medit() leaves in
 /// comments. A file that shows to be one of MFEM is read as such.
 Mesh read_medit(const std::filesystem::path& path);
-/// Reads unstructured cell data of AVS, as text: lines, triangles and quads; materials are tags of curves and
-/// regions, names are those that write_ucd() leaves in comments; values are left out.
-Mesh read_ucd(const std::filesystem::path& path);
 /// Reads MFEM meshes v1.0 of dimension 2: attributes are tags, names those that write_mfem() leaves in
 /// comments. Curved ones are of quads, their nodes those of H1 or of closed L2 elements up to kMostOrder;
 /// nodes that elements have in common must lie at one place.

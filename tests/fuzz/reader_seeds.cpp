@@ -243,11 +243,6 @@ const std::string kMedit =
     "0\nEdges\n1\n1 2 7\n"
     "Corners\n1\n1\nTriangles\n1\n1 2 3 5\nQuadrilaterals\n1\n1 2 3 4 6\nEnd\n";
 
-const std::string kUcd =
-    "# by hand\n4 3 1 0 0\n10 0 0 0\n20 1 0 0\n30 1 1 0\n40 0 1 0\n1 0 quad 10 20 30 40\n2 7 line 10 20\n3 1 "
-    "pt 40\n"
-    "1 1\nh, m\n10 0.5\n";
-
 const std::string
     kMfem =
         "MFEM mesh v1.0\n# by hand\ndimension\n2\nelements\n2\n1 3 0 1 4 3\n2 3 4 1 2 5\nboundary\n1\n3 1 2 "
@@ -291,7 +286,6 @@ std::vector<std::string> vtu_seeds() {
 }
 std::vector<std::string> inp_seeds() { return written(".inp") + std::vector{kInp}; }
 std::vector<std::string> medit_seeds() { return written(".mesh") + std::vector{kMedit}; }
-std::vector<std::string> ucd_seeds() { return written(".ucd") + std::vector{kUcd}; }
 std::vector<std::string> mfem_seeds() {
   return written(".mfem") + written_curved(".mfem", kMostOrder) +
          std::vector{kMfem + kMfemPlaces, kMfem + kMfemNodes};

@@ -17,7 +17,6 @@ std::vector<std::string> three_mf_seeds();
 std::vector<std::string> vtu_seeds();
 std::vector<std::string> inp_seeds();
 std::vector<std::string> medit_seeds();
-std::vector<std::string> ucd_seeds();
 std::vector<std::string> mfem_seeds();
 std::vector<std::string> nastran_seeds();
 

@@ -76,7 +76,6 @@ std::vector<Target> reader_targets() {
           {"vtu", try_reader<read_vtu>, vtu_seeds},
           {"inp", try_reader<read_inp>, inp_seeds},
           {"medit", try_reader<read_medit>, medit_seeds},
-          {"ucd", try_reader<read_ucd>, ucd_seeds},
           {"mfem", try_reader<read_mfem>, mfem_seeds},
           {"nastran", try_reader<read_nastran>, nastran_seeds}};
 }

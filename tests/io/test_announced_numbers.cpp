@@ -44,21 +44,5 @@ TEST(AnnouncedNumbers, MustBeThoseThatFollow) {
   }
 }
 
-TEST(AnnouncedNumbers, CellsOfUcdToo) {
-  const testing_support::TemporaryFolder folder;
-  const std::string nodes = "4 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n", cell = "1 1 quad 1 2 3 4\n";
-  const auto read = [&](const std::string& text) {
-    return read_mesh(testing_support::write_text(folder / "case.ucd", text));
-  };
-  EXPECT_EQ(read(nodes + cell).quads.size(), 1u);
-  expect_input_error([&] { read(nodes + cell + "2 1 tri 1 2 3\n"); },
-                     {"case.ucd:7: ", "4 nodes and 1 cells", "'2'"});
-  for (const char* header : {"3", "5"})
-    expect_input_error([&] { read(header + nodes.substr(1) + cell); }, {"case.ucd:"});
-  std::string with_values = nodes + cell + "1 1\nstress, Pa\n1 2.5\n";
-  with_values[4] = '1';
-  EXPECT_EQ(read(with_values).quads.size(), 1u);
-}
-
 }  // namespace
 }  // namespace delquad

@@ -210,7 +210,7 @@ TEST(MeshFormats, AreToldByExtension) {
   expect_input_error(
       [&] { write_mesh(folder / "a.stl", quad_grid(1, 1)); },
       {"a.stl", "'.stl'",
-       ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .ucd, .mfem, .su2, .bdf, .unv, .k, "
+       ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .mfem, .su2, .bdf, .unv, .k, "
        ".2dm, .gr3, .nc, .ism, .abq, .re2, "
        ".specfem, .foam or .svg"});
   expect_input_error([&] { write_mesh(folder / "a.msh.gz", quad_grid(1, 1)); }, {"a.msh.gz", "'.gz'"});
@@ -220,7 +220,7 @@ TEST(MeshFormats, AreToldByExtension) {
       },
       {"a.obj", "binary", ".msh"});
   expect_input_error([&] { read_mesh(folder / "a.xyz"); },
-                     {"a.xyz", ".msh, .vtu, .obj, .inp, .mesh, .ucd, .mfem, .bdf, "});
+                     {"a.xyz", ".msh, .vtu, .obj, .inp, .mesh, .mfem, .bdf, "});
   write_mesh(folder / "a.svg", quad_grid(3, 3));
   EXPECT_NE(read_text(folder / "a.svg").find("<svg"), std::string::npos);
 }

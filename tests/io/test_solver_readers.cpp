@@ -64,48 +64,6 @@ void expect_same_elements(const Mesh& a, const Mesh& b, double rounding, bool wi
   }
 }
 
-class UcdReader : public testing_support::ReaderTest<> {
- protected:
-  UcdReader() : ReaderTest("case.ucd") {}
-};
-
-TEST_F(UcdReader, ReadsWhatWeWrite) {
-  const Mesh mesh = two_kinds();
-  write_mesh(folder_ / "a.ucd", mesh);
-  const Mesh back = read_mesh(folder_ / "a.ucd");
-  EXPECT_EQ(back.points, mesh.points);
-  expect_same_elements(mesh, back, 0, true);
-}
-
-const std::string kUcd =
-    "# by hand\n5 4 1 0 0\n10 0 0 0\n20 1 0 0\n30 1 1 0\n40 0 1 0\n50 9 9 9\n1 0 quad 10 20 30 40\n2 7 line "
-    "10 20\n"
-    "3 7 line 20 30\n4 1 pt 50\n1 1\nh, m\n10 0.5\n";
-
-TEST_F(UcdReader, ReadsOtherNumbersAndLeavesValuesOut) {
-  const Mesh mesh = read(kUcd);
-  EXPECT_EQ(mesh.points.size(), 4u) << "points alone go";
-  EXPECT_EQ(mesh.quads, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}}));
-  EXPECT_EQ(mesh.line_curve, (std::vector<int>{0, 0}));
-  EXPECT_EQ(mesh.curves[0].tag, 7);
-  EXPECT_GT(mesh.regions[0].tag, 0) << "of material 0";
-}
-
-TEST_F(UcdReader, NamesTheLineOfWhatIsWrong) {
-  const auto with = [](const char* what, const char* other) {
-    std::string text = kUcd;
-    return text.replace(text.find(what), std::string_view(what).size(), other);
-  };
-  expect_error("", {"case.ucd:1: ", "number of nodes"});
-  expect_error("MFEM mesh v1.0\n", {"case.ucd", "an MFEM file"});
-  expect_error(with("20 1 0 0", "20 1 x 0"), {"case.ucd:4: ", "coordinate", "'x'"});
-  expect_error(with("20 1 0 0", "10 1 0 0"), {"case.ucd:4: ", "node 10 is there twice"});
-  expect_error(with("quad 10 20 30 40", "quad 10 20 30 41"), {"case.ucd:8: ", "no node 41"});
-  expect_error(with("quad 10", "hex 10"), {"case.ucd:8: ", "'hex'", "pt, line, tri or quad"});
-  expect_error(with("5 4 1", "5 999999 1"), {"case.ucd:2: ", "999999", "bytes"});
-  expect_error("2 0 0 0 0\n1 0 0 0\n2 1 0 0\n", {"case.ucd:3: ", "no lines, triangles or quads"});
-}
-
 class MfemReader : public testing_support::ReaderTest<> {
  protected:
   MfemReader() : ReaderTest("case.mfem") {}

@@ -217,12 +217,11 @@ TEST(BadArguments, AreRefused) {
     EXPECT_EQ(result.exit_code, 2) << count;
     EXPECT_TRUE(contains(result.err, "whole number from 1 to 1e15")) << result.err;
   }
-  expect_refusal(
-      delquad({"mesh", model, "-o", folder / "out.stl", "--size", "0.1"}),
-      {".stl",
-       ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .ucd, .mfem, .su2, .bdf, .unv, .k, "
-       ".2dm, .gr3, .nc, .ism, .abq, .re2, "
-       ".specfem, .foam or .svg"});
+  expect_refusal(delquad({"mesh", model, "-o", folder / "out.stl", "--size", "0.1"}),
+                 {".stl",
+                  ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .mfem, .su2, .bdf, .unv, .k, "
+                  ".2dm, .gr3, .nc, .ism, .abq, .re2, "
+                  ".specfem, .foam or .svg"});
   expect_refusal(delquad({"mesh", model, "-o", folder / "nowhere" / "out.msh", "--size", "0.1"}),
                  {"nowhere"});
   expect_refusal(delquad({"mesh", folder / "model.sat", "-o", out, "--size", "0.1"}),

@@ -161,19 +161,6 @@ def named_comments(path, pattern):
         return {key: name for key, name in re.findall(pattern, text.read(), re.MULTILINE)}
 
 
-def read_ucd(path):
-    mesh = meshio.read(path, file_format="avsucd")
-    found = Found(mesh.points)
-    elements, lines = named_comments(path, r"^# material (\d+): (.*)$"), named_comments(path, r"^# material (\d+) of lines: (.*)$")
-    for block, materials in zip(mesh.cells, mesh.cell_data["avsucd:material"]):
-        for row, material in zip(block.data, materials):
-            if block.type == "line":
-                found.add(found.lines, lines[str(material)], [row])
-            else:
-                found.add(found.elements, elements[str(material)], [row])
-    return found
-
-
 def read_su2(path):
     mesh = meshio.read(path)
     found = Found(mesh.points)
@@ -520,7 +507,7 @@ def cut(name):
 # Reader, whether it has order 2, digits of coordinates, how names are changed, whether it has lines of the boundary alone.
 FORMATS = {"e": (read_exodus, True, 12, str, False), "cgns": (read_cgns, True, 12, cut, False), "med": (read_med, True, 12, str, False),
            "xdmf": (read_xdmf, True, 12, str, False), "vtk": (read_vtk, True, 12, lambda name: name.replace(" ", "_"), False),
-           "ucd": (read_ucd, False, 12, str, False), "su2": (read_su2, False, 12, plain, True), "bdf": (read_bdf, True, 9, str, False),
+           "su2": (read_su2, False, 12, plain, True), "bdf": (read_bdf, True, 9, str, False),
            "mfem": (read_mfem, True, 12, str, True), "unv": (read_unv, False, 12, lambda name: word(name)[:30], False), "k": (read_k, False, 6, str, False),
            "2dm": (read_2dm, False, 12, word, False), "gr3": (read_gr3, False, 12, str, True), "nc": (read_ugrid, False, 12, word, False),
            "re2": (read_re2, True, 12, word, True), "specfem": (read_specfem, True, 12, str, True), "foam": (read_foam, False, 5, plain, True)}
