@@ -11,85 +11,70 @@
 namespace delquad {
 namespace {
 
-/// SU2's own format, of planar meshes: a marker for each name of the boundary.
-void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
-  if (!is_planar(mesh))
-    refuse("{}: SU2 computes in planar meshes or in volumes: this is a surface in space", path.string());
-  const std::vector<MeshGroup> groups = mesh_groups(mesh, {plain_label});
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-  constexpr int kLine = 3, kTriangle = 5, kQuad = 9;
+/// Writes elements of the dimension by `each_element`, and a marker for each group of sides, of type
+/// `side_type`. The solver takes no sides inside: `is_outside` says which are around the mesh.
+template <class M, class EachElement, class Sides, class IsOutside>
+void write_elements(const std::filesystem::path& path, const M& mesh, std::vector<MeshGroup> groups, int dim,
+                    const char* title, std::size_t n_elements, const EachElement& each_element, int side_type,
+                    const Sides& sides, const IsOutside& is_outside) {
   write_text_file(path, [&](TextWriter& out) {
-    out << "% quad mesh by Delquad\n";
-    if (!mesh.unit.empty()) out << "% lengths in " << mesh.unit << '\n';
-    for (const std::string& line : renamed_groups(groups)) out << "% " << line << '\n';
-    out << "NDIME= 2\nNELEM= " << mesh.triangles.size() + mesh.quads.size() << '\n';
-    int n = 0;
-    const auto write = [&](int type, const auto& elements) {
-      for (const auto& nodes : elements) {
-        out << type;
-        for (const int v : nodes) out << ' ' << v;
-        out << ' ' << n++ << '\n';
-      }
-    };
-    write(kTriangle, mesh.triangles);
-    write(kQuad, mesh.quads);
-    out << "NPOIN= " << mesh.points.size() << '\n';
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
-      out << mesh.points[i].x << ' ' << mesh.points[i].y << ' ' << i << '\n';
-    // Markers are for the boundary: the solver takes no lines inside.
-    std::vector<std::pair<const MeshGroup*, std::vector<int>>> markers;
-    for (const MeshGroup& group : groups) {
-      std::vector<int> lines;
-      for (const int l : group.items)
-        if (group.dim == 1 && sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).size() == 1)
-          lines.push_back(l);
-      if (!lines.empty()) markers.emplace_back(&group, std::move(lines));
-    }
-    out << "NMARK= " << markers.size() << '\n';
-    for (const auto& [group, lines] : markers) {
-      out << "MARKER_TAG= " << group->label << "\nMARKER_ELEMS= " << lines.size() << '\n';
-      for (const int l : lines) out << kLine << ' ' << mesh.lines[l][0] << ' ' << mesh.lines[l][1] << '\n';
-    }
-  });
-}
-
-/// In space: a marker for each name of faces on the boundary.
-void write_hex_su2(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions&) {
-  std::vector<MeshGroup> groups = hex_groups(mesh, {plain_label});
-  std::erase_if(groups, [](const MeshGroup& group) { return group.dim != 2; });
-  const std::vector<HexSide> sides = sorted_hex_sides(mesh);
-  constexpr int kQuad = 9, kHexahedron = 12;
-  write_text_file(path, [&](TextWriter& out) {
-    out << "% mesh of hexahedra by Delquad\n";
+    out << "% " << title << " by Delquad\n";
     if (!mesh.unit.empty()) out << "% lengths in " << mesh.unit << '\n';
     for (const std::string& line : renamed_groups(groups)) out << "% " << line << '\n';
     const auto write = [&](int type, const auto& nodes) {
       out << type;
       for (const int v : nodes) out << ' ' << v;
     };
-    out << "NDIME= 3\nNELEM= " << mesh.hexahedra.size() << '\n';
-    for (std::size_t h = 0; h < mesh.hexahedra.size(); ++h) {
-      write(kHexahedron, mesh.hexahedra[h]);
-      out << ' ' << h << '\n';
-    }
+    out << "NDIME= " << dim << "\nNELEM= " << n_elements << '\n';
+    int n = 0;
+    each_element([&](int type, const auto& nodes) {
+      write(type, nodes);
+      out << ' ' << n++ << '\n';
+    });
     out << "NPOIN= " << mesh.points.size() << '\n';
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
-      out << mesh.points[i].x << ' ' << mesh.points[i].y << ' ' << mesh.points[i].z << ' ' << i << '\n';
-    std::vector<std::pair<const MeshGroup*, std::vector<int>>> markers;
-    for (const MeshGroup& group : groups) {
-      std::vector<int> quads = group.items;
-      std::erase_if(quads, [&](int q) { return sides_at_quad(mesh, sides, q).size() != 1; });
-      if (!quads.empty()) markers.emplace_back(&group, std::move(quads));
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      out << mesh.points[i].x << ' ' << mesh.points[i].y << ' ';
+      if (dim == 3) out << mesh.points[i].z << ' ';
+      out << i << '\n';
     }
-    out << "NMARK= " << markers.size() << '\n';
-    for (const auto& [group, quads] : markers) {
-      out << "MARKER_TAG= " << group->label << "\nMARKER_ELEMS= " << quads.size() << '\n';
-      for (const int q : quads) {
-        write(kQuad, mesh.quads[q]);
+    std::erase_if(groups, [&](const MeshGroup& group) { return group.dim != dim - 1; });
+    for (MeshGroup& group : groups) std::erase_if(group.items, [&](int side) { return !is_outside(side); });
+    std::erase_if(groups, [](const MeshGroup& group) { return group.items.empty(); });
+    out << "NMARK= " << groups.size() << '\n';
+    for (const MeshGroup& group : groups) {
+      out << "MARKER_TAG= " << group.label << "\nMARKER_ELEMS= " << group.items.size() << '\n';
+      for (const int side : group.items) {
+        write(side_type, sides[side]);
         out << '\n';
       }
     }
   });
+}
+
+constexpr int kLine = 3, kTriangle = 5, kQuad = 9, kHexahedron = 12;
+
+void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
+  if (!is_planar(mesh))
+    refuse("{}: SU2 computes in planar meshes or in volumes: this is a surface in space", path.string());
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  const auto each = [&](const auto& write) {
+    for (const auto& v : mesh.triangles) write(kTriangle, v);
+    for (const auto& v : mesh.quads) write(kQuad, v);
+  };
+  write_elements(path, mesh, mesh_groups(mesh, {plain_label}), 2, "quad mesh",
+                 mesh.triangles.size() + mesh.quads.size(), each, kLine, mesh.lines,
+                 [&](int l) { return sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).size() == 1; });
+}
+
+void write_hex_su2(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions&) {
+  std::vector<MeshGroup> groups = hex_groups(mesh, {plain_label});
+  std::erase_if(groups, [](const MeshGroup& group) { return group.dim != 2; });
+  const std::vector<HexSide> sides = sorted_hex_sides(mesh);
+  const auto each = [&](const auto& write) {
+    for (const auto& v : mesh.hexahedra) write(kHexahedron, v);
+  };
+  write_elements(path, mesh, groups, 3, "mesh of hexahedra", mesh.hexahedra.size(), each, kQuad, mesh.quads,
+                 [&](int q) { return sides_at_quad(mesh, sides, q).size() == 1; });
 }
 
 }  // namespace
