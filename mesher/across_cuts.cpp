@@ -100,6 +100,7 @@ PreparedProblem with_other_cuts(const PreparedProblem& prepared, const std::vect
   problem.name = prepared.settings.name;
   problem.where = prepared.settings.where;
   problem.max_elements = prepared.settings.max_elements;
+  problem.criteria = prepared.settings.criteria;
   PreparedProblem again = prepare_given_surface(problem, std::move(given), start.mesh, prepared.size.field);
   again.given_worst = prepared.given_worst;
   again.size.asked = prepared.size.asked;

@@ -142,6 +142,11 @@ bool is_treated(const Finishing& f) {
   return is_surface(f) && !f.prepared.surface->metric &&
          recombination_options(f.prepared.settings.options).treatment == Treatment::kPaper;
 }
+/// If a sheet was given. Straight limits say nothing of curved elements, and words that end with a matching
+/// are the paper's.
+bool has_criteria(const Finishing& f) {
+  return is_treated(f) && !f.prepared.settings.criteria.empty() && !is_curved(f) && !f.state.of_quads.empty();
+}
 /// A mesh that is not sound is made anew, see refine_unsound(): until then this takes time for nothing.
 bool is_worth_other_cuts(const Finishing& f) {
   return !(f.prepared.surface && f.prepared.surface->metric) &&
@@ -167,19 +172,21 @@ std::vector<char> without_lifting(const Finishing& f) {
 
 bool lift(Finishing& on) {
   const std::vector<char> left_out = without_lifting(on);
-  const Options& options = on.prepared.settings.options;
-  // Straight limits say nothing of curved elements. Words that end with a matching are the paper's. A mesh
-  // that is given is mended where that is asked for.
-  const bool stays = is_curved(on) || on.state.of_quads.empty() ||
-                     (on.prepared.is_given_surface() && repair_options(options).keep_given &&
-                      on.prepared.settings.criteria.empty());
   const LiftingSummary lifted =
-      lift_bad_quads({on.prepared, options, on.state.patches, left_out, on.state.nodes},
-                     stays ? nullptr : &asked_size(on.prepared));
+      lift_bad_quads({on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes});
   if (lifted.stopped > 0) on.result.warnings.push_back(stopped_early(on.prepared, "lifting", lifted.stopped));
   on.result.lifting_cost = lifted.cost;
   add_summary(on.result.log, lifted);
-  return lifted.moved + lifted.rings + lifted.mended + lifted.edited > 0;
+  return lifted.moved + lifted.rings + lifted.mended > 0;
+}
+
+bool repair_failing(Finishing& on) {
+  const std::vector<char> left_out = without_lifting(on);
+  const FailingRepairSummary repaired = repair_failing_quads(
+      {on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes},
+      asked_size(on.prepared));
+  add_summary(on.result.log, repaired);
+  return repaired.moved + repaired.edited > 0;
 }
 
 bool part_corners(Finishing& on) {
@@ -272,6 +279,7 @@ const std::vector<FinishStep>& finish_steps() {
   static const std::vector<FinishStep> all = {
       {"part_twins", "parting", &R::part_twins, FinishAt::kEveryStage, is_surface, part},
       {"lift_bad_quads", "lifting", &R::lift_bad_quads, FinishAt::kPatches, is_treated, lift},
+      {"failing_quads", "repairing", &R::failing_quads, FinishAt::kPatches, has_criteria, repair_failing},
       {"flat_corners", "flat corners", &R::flat_corners, FinishAt::kMesh, is_curved, part_corners},
       {"across_cuts", "other cuts", &R::across_cuts, FinishAt::kMeasured, is_worth_other_cuts,
        run_across_cuts},
@@ -284,14 +292,17 @@ const std::vector<FinishStep>& finish_steps() {
 
 void run_finish_steps(FinishAt at, Finishing& on) {
   const RepairOptions options = repair_options(on.prepared.settings.options);
-  if (at == FinishAt::kPatches && options.lift_bad_quads && is_treated(on)) {
+  const auto runs = [&](const FinishStep& step) {
+    return step.at == at && (step.option == nullptr || options.*step.option) && step.applies(on);
+  };
+  if (at == FinishAt::kPatches && std::ranges::any_of(finish_steps(), runs)) {
     const Stopwatch watch;
     const std::vector<char> left_out = without_lifting(on);
     place_inside({on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes});
     on.result.log.add_time("projection", watch.time());
   }
   for (const FinishStep& step : finish_steps())
-    if (step.at == at && (step.option == nullptr || options.*step.option) && step.applies(on)) run(step, on);
+    if (runs(step)) run(step, on);
 }
 
 MeshWorth worth_of(const MeshResult& measured) {
@@ -324,9 +335,12 @@ const OptionTable<RepairOptions>& repair_table() {
                 .help = "of surfaces: whether edges and quads that two faces have in common are parted"},
                &RepairOptions::part_twins)
           .add({.name = "lift_bad_quads",
-                .help = "of surfaces: whether quads that are bad in space are lifted there, and those "
-                        "that fail mended"},
+                .help = "of surfaces: whether quads that are bad in space are lifted there"},
                &RepairOptions::lift_bad_quads)
+          .add(
+              {.name = "failing_quads",
+               .help = "of surfaces with criteria: whether quads that fail the limits of batch are repaired"},
+              &RepairOptions::failing_quads)
           .add({.name = "flat_corners",
                 .help = "of curved elements: whether quads with flat corners get a ring of quads"},
                &RepairOptions::flat_corners)

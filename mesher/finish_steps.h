@@ -17,6 +17,7 @@ inline constexpr long long kFarQuads = 1000;
 struct RepairOptions {
   bool part_twins = true;
   bool lift_bad_quads = true;
+  bool failing_quads = true;
   bool flat_corners = true;
   bool across_cuts = true;
   bool refine_unsound = true;
@@ -91,8 +92,9 @@ using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;
 /// places and meshes anew, as long as there get fewer such places, but no more quads than a budget allows;
 /// where that does not help, sharp edges there become features. `prepared` and `result` become those of the
 /// best mesh, with a warning and the time of all tries; if that is not sound, a warning says why there are no
-/// more, what is narrower than a tenth of the size is left out, with a warning, if the mesh is sound then,
-/// and where the problem says keep_going, faces with such places are left out if others remain.
+/// more, what is narrower than a tenth of the size is left out, with a warning, if the mesh is sound then. If
+/// it is not, another size or fewer stages are tried, with a warning. Where the problem says keep_going,
+/// faces with such places are left out if others remain.
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     MeshResult& result);
 

@@ -307,28 +307,9 @@ bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector
   return false;
 }
 
-/// By moves; where these do not do, by edits, and moves once more. Faces that are images must stay so.
-void mend_failing(const AllPatches& in, const std::vector<std::size_t>& which, const SizeField& size,
-                  LiftingSummary& summary) {
-  Budget trials(kMostMending);
-  const auto move = [&] {
-    summary.moved += move_on_tracks(in, which, [&](SurfaceTracks& tracks, std::vector<Vec3>& places) {
-      return mend_failing_on_surface(tracks, places, size, kMendingSweeps, trials);
-    });
-  };
-  move();
-  if (!in.prepared.boundary.periodic_faces.empty()) return;
-  std::vector<int> edits(which.size());
-  parallel_for(
-      which.size(), [&](std::size_t k) { edits[k] = edit_failing(in, which[k], size); },
-      [&](std::size_t k) { return static_cast<double>(in.patches[which[k]].quads.quads.size()); });
-  summary.edited = std::accumulate(edits.begin(), edits.end(), 0);
-  if (summary.edited > 0) move();
-}
-
 }  // namespace
 
-LiftingSummary lift_bad_quads(const AllPatches& in, const SizeField* size) {
+LiftingSummary lift_bad_quads(const AllPatches& in) {
   LiftingSummary summary;
   const std::vector<std::size_t> which = patches_of_quads(in);
   place_inside(in);
@@ -360,10 +341,31 @@ LiftingSummary lift_bad_quads(const AllPatches& in, const SizeField* size) {
     bad = std::move(left);
   }
   while (mend_one(in, badness_of, which, bad, trials, cost, summary)) continue;
-  if (size != nullptr && total(bad) < kUnsound) mend_failing(in, which, *size, summary);
   summary.cost = kMostCost - cost.left();
   if (cost.is_spent() && !bad.empty())
     summary.stopped = in.prepared.boundary.regions[in.prepared.patches[bad[0].patch].region].tag;
+  return summary;
+}
+
+FailingRepairSummary repair_failing_quads(const AllPatches& in, const SizeField& size) {
+  FailingRepairSummary summary;
+  const std::vector<std::size_t> which = patches_of_quads(in);
+  place_inside(in);
+  if (total(all_bad_quads(in, Badness(in.prepared.surface->model.fine), which)) >= kUnsound) return summary;
+  Budget trials(kMostMending);
+  const auto move = [&] {
+    summary.moved += move_on_tracks(in, which, [&](SurfaceTracks& tracks, std::vector<Vec3>& places) {
+      return mend_failing_on_surface(tracks, places, size, kMendingSweeps, trials);
+    });
+  };
+  move();
+  if (!in.prepared.boundary.periodic_faces.empty()) return summary;  // faces that are images stay so
+  std::vector<int> edits(which.size());
+  parallel_for(
+      which.size(), [&](std::size_t k) { edits[k] = edit_failing(in, which[k], size); },
+      [&](std::size_t k) { return static_cast<double>(in.patches[which[k]].quads.quads.size()); });
+  summary.edited = std::accumulate(edits.begin(), edits.end(), 0);
+  if (summary.edited > 0) move();
   return summary;
 }
 

@@ -211,9 +211,8 @@ void judge_by_criteria(const PreparedProblem& prepared, bool is_others, MeshResu
 }
 
 double failing_part(const PreparedProblem& prepared, const Mesh& mesh) {
-  const Criteria& asked = prepared.settings.criteria;
-  const Criteria& criteria =
-      asked.empty() ? *std::ranges::find(criteria_presets(), "batch", &Criteria::name) : asked;
+  const Criteria& criteria = prepared.settings.criteria;
+  if (criteria.empty()) return 0;
   const ElementSides sides = sides_of(prepared, mesh);
   const FailingElements failing(
       {mesh, sides, &asked_size(prepared), &prepared, quads_on_purpose(prepared, mesh)}, criteria, false);

@@ -38,7 +38,7 @@ BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, 
 /// where that is strict, what is beyond. `is_others`: another program made the mesh, from the same model.
 void judge_by_criteria(const PreparedProblem& prepared, bool is_others, MeshResult& result);
 
-/// The part of the quads that is beyond the problem's criteria, or beyond "batch" where it has none.
+/// The part of the quads that is beyond the problem's criteria; 0 if it has none.
 double failing_part(const PreparedProblem& prepared, const Mesh& mesh);
 
 }  // namespace delquad

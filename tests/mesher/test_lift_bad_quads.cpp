@@ -71,19 +71,22 @@ SurfaceModel roof(double skew, double slope) {
   });
 }
 
+Criteria batch() { return *std::ranges::find(criteria_presets(), "batch", &Criteria::name); }
+
 // O does not know of warpage, and where faces bend sharply no slope leads to what is flatter.
-TEST(LiftBadQuads, WhatFailsIsMended) {
+TEST(RepairFailingQuads, MovesLeaveFewer) {
   double before = 0, after = 0;
   for (const double skew : {0.1, 0.2, 0.3, 0.4})
     for (const double h : {0.1, 0.13, 0.17}) {
       SCOPED_TRACE(testing::Message() << skew << ' ' << h);
       MeshProblem c;
       c.name = c.where = "roof";
-      const auto run = [&](bool lifts) {
-        c.options.set("repair.lift_bad_quads", lifts);
+      c.criteria = batch();
+      const auto run = [&](bool repairs) {
+        c.options.set("repair.failing_quads", repairs);
         const PreparedProblem prepared = surfaces::prepare_surface(c, roof(skew, 0.7), make_constant_size(h));
         const MeshResult result = run_word(prepared, parse_word("DBCO"));
-        (lifts ? after : before) += failing_part(prepared, result.mesh);
+        (repairs ? after : before) += failing_part(prepared, result.mesh);
         return std::pair(result.metrics.values.at("eta_mean"), result.metrics.values.at("eta_worst"));
       };
       const auto [mean, worst] = run(false);
@@ -93,6 +96,20 @@ TEST(LiftBadQuads, WhatFailsIsMended) {
     }
   EXPECT_GT(before, 0.1);
   EXPECT_LT(after, before / 2);
+}
+
+TEST(RepairFailingQuads, NothingIsDoneWithoutCriteria) {
+  for (const bool has_criteria : {false, true}) {
+    MeshProblem c;
+    c.name = c.where = "roof";
+    if (has_criteria) c.criteria = batch();
+    const PreparedProblem prepared = surfaces::prepare_surface(c, roof(0.3, 0.7), make_constant_size(0.13));
+    const MeshResult result = run_word(prepared, parse_word("DBCO"));
+    const Summaries& done = result.log.summaries;
+    EXPECT_TRUE(done.has("lift_bad_quads"));
+    EXPECT_EQ(done.has("failing_quads") && done.number("failing_quads", "moved") > 0, has_criteria);
+    EXPECT_EQ(result.criteria.has_value(), has_criteria);
+  }
 }
 
 /// Corners of the boundary with one quad, and sides inside between two of its points: other faces may have
@@ -116,7 +133,7 @@ SurfaceModel spike() {
 }
 
 // Where moves do not do: words without C and O leave much that fails.
-TEST(LiftBadQuads, WhatFailsIsEdited) {
+TEST(RepairFailingQuads, EditsLeaveFewer) {
   const Word word = parse_word("DB");
   double before = 0, after = 0;
   int edits = 0;
@@ -124,6 +141,7 @@ TEST(LiftBadQuads, WhatFailsIsEdited) {
     SCOPED_TRACE(h);
     MeshProblem c;
     c.name = c.where = "spike";
+    c.criteria = batch();
     const std::shared_ptr<const SizeField> size = make_constant_size(h);
     const PreparedProblem prepared = surfaces::prepare_surface(c, spike(), size);
     MeshingState state = begin_meshing(prepared);
@@ -149,7 +167,7 @@ TEST(LiftBadQuads, WhatFailsIsEdited) {
   EXPECT_LT(after, 0.8 * before);
 }
 
-TEST(LiftBadQuads, WhatIsGivenIsMendedWhereThatIsAsked) {
+TEST(RepairFailingQuads, OfAGivenMeshToo) {
   double before = 0, after = 0;
   for (const double h : {0.13, 0.17, 0.19, 0.23}) {
     MeshProblem c;
@@ -160,15 +178,16 @@ TEST(LiftBadQuads, WhatIsGivenIsMendedWhereThatIsAsked) {
     given.name = given.where = "given";
     given.model = GivenMesh{run_word(surfaces::prepare_surface(c, spike(), size), parse_word("DB")).mesh};
     given.size.field = size;
-    const auto failing = [&] {
+    given.criteria = batch();
+    const auto failing = [&](bool repairs) {
+      given.options.set("repair.failing_quads", repairs);
       const PreparedProblem prepared = prepare_problem(given);
       const MeshResult result = run_word(prepared, parse_word("CO", WordStart::kGivenMesh));
       EXPECT_TRUE(result.soundness.sound());
       return failing_part(prepared, result.mesh);
     };
-    before += failing();
-    given.criteria = *std::ranges::find(criteria_presets(), "batch", &Criteria::name);
-    after += failing();
+    before += failing(false);
+    after += failing(true);
   }
   EXPECT_GT(before, 0.01);
   EXPECT_LT(after, 0.8 * before);

@@ -37,7 +37,7 @@ struct Types {};
 /// The summaries of all steps.
 using AllSummaries = Types<FrontalSummary, AdaptationSummary, RecombineSummary, SmoothingSummary,
                            TreatmentSummary, CleanupSummary, RegularitySummary, LayoutSummary,
-                           OptimisationSummary, PartingSummary, LiftingSummary>;
+                           OptimisationSummary, PartingSummary, LiftingSummary, FailingRepairSummary>;
 
 template <class Visit, class... All>
 void for_each_summary(Types<All...>, Visit&& visit) {
@@ -153,7 +153,8 @@ MeshProblem case_of(const char* name) {
 }
 
 TEST(StageRecords, HaveEveryCounterOfEveryStep) {
-  const MeshProblem c = case_of("lens");
+  MeshProblem c = case_of("lens");
+  c.criteria = *std::ranges::find(criteria_presets(), "batch", &Criteria::name);
   const PreparedProblem prepared = testing_support::prepare_surface(
       c, make_surface_model(testing_support::lens(64, 12, 0.45)), make_constant_size(0.3));
   MeshResult result;
