@@ -123,7 +123,7 @@ bool AcrossView::faces(const Side& side, double t, Vec2 direction, const Side& o
   const FlatPatch& map = maps_[side.patch];
   const Vec2 e = flat_point(map, other.curve->to) - flat_point(map, other.curve->from);
   const double cosine = cross(direction, e) / norm(e);
-  if (cosine < kFacing) return false;
+  if (!(cosine >= kFacing)) return false;  // it has none if the side has no length
   if (side.loop != other.loop || cosine > kParallel) return true;
   const double path = std::abs(side.path + t * side.length - other.path - along * other.length);
   return std::min(path, loop_length_[side.patch][side.loop] - path) > kCornerPath * distance;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <ranges>
 #include <unordered_map>
 
@@ -96,6 +97,9 @@ SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const Size
       table.entries.push_back({static_cast<double>(i) + t, table.total() + step * length * sum / 2});
     }
   }
+  // A curve without length is divided evenly.
+  if (!(table.total() > 0 && std::isfinite(table.total())))
+    table.entries = {{0, 0}, {table.entries.back().s, std::numeric_limits<double>::min()}};
   return table;
 }
 

@@ -37,11 +37,7 @@ class Facing {
         places_(equal_places(counts)) {
     sees_.resize(places_.size());
     for (size_t c = 0; c < places_.size(); ++c) sees_[c].resize(places_[c].size());
-    // A curve of one point has no edges, and one along a degenerate side has no finite integral.
-    for (size_t c = 0; c < places_.size(); ++c) {
-      const double integral = integrals_[c].total();
-      live_.push_back(counts[c] > 0 && integral > 0 && std::isfinite(integral));
-    }
+    for (const int count : counts) live_.push_back(count > 0);  // a curve of one point has no edges
   }
 
   CurvePlaces run() {

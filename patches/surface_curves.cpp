@@ -14,6 +14,7 @@
 
 #include "base/activity.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "fields/fields.h"
 #include "fields/surface/surface_size.h"
@@ -260,6 +261,26 @@ void demand_edges_of_loops(const std::vector<CurveChain>& chains, const std::vec
   }
 }
 
+/// Throws FaceError if all points of a curve lie at one place: edges there would have no length.
+void refuse_without_length(const Mesh& fine, const SurfaceCurves& curves) {
+  constexpr double kRounding = 1e-14;  // of the diagonal
+  const double least = kRounding * diagonal(fine);
+  for (std::size_t p = 0; p < curves.maps.size(); ++p)
+    for (const auto& loop : curves.outlines[p])
+      for (const CurveSide& side : loop) {
+        const CurveChain& chain = curves.chains[side.chain];
+        const Vec3& at = fine.points[chain.points[0]];
+        const auto is_there = [&](int v) { return norm(fine.points[v] - at) <= least; };
+        if (!side.begins(chain) || !std::ranges::all_of(chain.points, is_there)) continue;
+        throw FaceError(
+            curves.maps[p].face,
+            fmt::format(
+                "{}: its curve {} has no length: all of it lies at {}. The face touches itself there, or "
+                "the model is damaged: change the model, or leave the face out (--keep-going)",
+                face_name(fine, curves.maps[p]), fine.curves[chain.curve].tag, show_point(at)));
+      }
+}
+
 }  // namespace
 
 SizeOnLine size_on_lines(const SurfaceSize& size) {
@@ -295,6 +316,7 @@ SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, cons
   const LineIndex lines(curves.chains);
   for (const FlatPatch& map : curves.maps)
     curves.outlines.push_back(lines.outline(map, curves.chains, face_name(fine, map)));
+  refuse_without_length(fine, curves);
   curves.corners = face_corners(fine, curves.chains, curves.maps, curves.outlines);
   curves.tube_sizes = tube_sizes(fine, curves.chains, curves.maps, curves.outlines, size);
   return curves;
