@@ -9,9 +9,11 @@
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "base/text.h"
 #include "features/layers/add_layers.h"
 #include "geometry/mesh/check_invariants.h"
+#include "geometry/mesh/keep_elements.h"
 #include "metrics/shape.h"
 
 namespace delquad {
@@ -170,12 +172,47 @@ int check_planar(const PreparedProblem& prepared, const Mesh& mesh, std::span<co
   return wrong.count;
 }
 
-void check_surface(const Mesh& mesh, const SurfaceReport& report, Soundness& result) {
+/// How many more fans of elements there are than vertices: a surface may touch itself in points. `mesh`
+/// hardly ever has any.
+int pinches(const Mesh& mesh) {
+  std::vector<std::array<int, 2>> corners;  // vertex and element, sorted
+  for_each_element(mesh, [&](int element, const auto& v) {
+    for (const int i : v) corners.push_back({i, element});
+  });
+  sort_unique(corners);
+  int vertices = 0;
+  for (std::size_t k = 0; k < corners.size(); ++k) vertices += k == 0 || corners[k][0] != corners[k - 1][0];
+  DisjointSets fans(corners.size());
+  int n_fans = static_cast<int>(corners.size());
+  const auto index = [&](int v, int element) {
+    return static_cast<int>(std::ranges::lower_bound(corners, std::array{v, element}) - corners.begin());
+  };
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
+    for (const HalfEdge& side : edge.subspan(1))
+      for (const int v : {side.lo, side.hi})
+        n_fans -= fans.join(index(v, edge[0].element), index(v, side.element));
+  });
+  return n_fans - vertices;
+}
+
+/// The same of the faces of a model that the mesh has.
+int pinches_of_model(Mesh fine, const Mesh& mesh) {
+  std::vector<char> has(fine.regions.size(), 0);
+  for (const auto* regions : {&mesh.triangle_region, &mesh.quad_region})
+    for (const int region : *regions) has[region] = 1;
+  keep_triangles(fine, [&](std::size_t t) { return has[fine.triangle_region[t]] != 0; });
+  return pinches(fine);
+}
+
+void check_surface(const Mesh& fine, const Mesh& mesh, const SurfaceReport& report, Soundness& result) {
   add_reason(mesh, report.turned_elements, "1 element faces away from the model",
              "elements face away from the model", result);
   add_reason(mesh, report.nonconforming_edges, "1 edge is in more or fewer elements than the model asks for",
              "edges are in more or fewer elements than the model asks for", result);
-  compare_euler(report.mesh.euler_characteristic, report.model.euler_characteristic, result);
+  // Cones that touch in their tips need no node there.
+  if (const int euler = report.mesh.euler_characteristic; euler != report.model.euler_characteristic)
+    compare_euler(euler + pinches(mesh), report.model.euler_characteristic + pinches_of_model(fine, mesh),
+                  result);
   if (report.model.watertight() && !report.mesh.watertight())
     result.reasons.push_back(fmt::format("it has {} open edges, the model none", report.mesh.free_edges));
   const std::string lost = fmt::format("places of the model are lost, up to {:.3g} sizes from the mesh",
@@ -238,7 +275,7 @@ Soundness check_soundness(const PreparedProblem& prepared, const Mesh& mesh, con
   int wrong_edges = 0;
   if (!prepared.surface) wrong_edges = check_planar(prepared, mesh, sides, result);
   if (report != nullptr) {
-    check_surface(mesh, *report, result);
+    check_surface(prepared.surface->whole().fine, mesh, *report, result);
     wrong_edges = report->nonconforming_edges.count;
   }
   // Most of these are about the same edges.
