@@ -88,13 +88,13 @@ bool run_across_cuts(Finishing& on);
 /// prepare_problem() of the same problem.
 using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;
 
-/// Where the mesh of a surface is not sound, the size is too large for what is there: halves it around these
-/// places and meshes anew, as long as there get fewer such places, but no more quads than a budget allows;
-/// where that does not help, sharp edges there become features. `prepared` and `result` become those of the
-/// best mesh, with a warning and the time of all tries; if that is not sound, a warning says why there are no
-/// more, what is narrower than a tenth of the size is left out, with a warning, if the mesh is sound then. If
-/// it is not, another size or fewer stages are tried, with a warning. Where the problem says keep_going,
-/// faces with such places are left out if others remain.
+/// If the mesh of a surface is not sound, the size is too large for what is there. Halves it around these
+/// places and meshes anew, as long as there get fewer such places, within a budget of quads. If that does not
+/// help, sharp edges there become features. `prepared` and `result` become the best mesh, with a warning and
+/// the time of all tries. If it is not sound, a warning says why there are no more tries. Then what is
+/// narrower than a tenth of the size is left out. Last, another size or fewer stages are tried. Each is taken
+/// if the mesh is sound, with a warning. If the problem says keep_going, faces with such places are left out
+/// if others remain.
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     MeshResult& result);
 

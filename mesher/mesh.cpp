@@ -73,6 +73,7 @@ void make_sound(const Word& word, Prepared& prepared, MeshResult& result) {
   const auto problem = std::make_shared<const MeshProblem>(prepared.problem());
   PreparedProblem best = prepared.inside();
   const auto anew = [&](const Refinement& r) {
+    if (r.size_part != 1) return prepare_problem(with_scaled_sizes(*problem, r.size_part), r);
     if (r.ignore_below == 0) return prepare_problem(*problem, r);
     MeshProblem other = *problem;
     other.surface.ignore_below = r.ignore_below;

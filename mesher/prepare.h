@@ -20,6 +20,7 @@ struct Refinement {
   /// NarrowOptions::kept.
   bool keep_features = false;
   double ignore_below = 0;  ///< of surfaces, in place of that of the problem, names stay; 0: as that has it
+  double size_part = 1;     ///< all sizes become this part of what they are
   std::shared_ptr<const SurfaceModel> cad = {};  ///< PreparedSurface::cad of before; null: it is read
 };
 

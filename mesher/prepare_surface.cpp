@@ -8,8 +8,10 @@
 #include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
 #include "base/activity.h"
+#include "base/box.h"
 #include "base/located.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "features/crosses/made_crosses.h"
 #include "features/crosses/size_aware.h"
 #include "features/curves/compose_size.h"
@@ -59,10 +61,17 @@ class Failures {
 };
 
 void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Failures& failures) {
-  if (flattening.failed.empty()) return;
-  std::string tags;
-  for (const int face : flattening.failed) tags += fmt::format(" {}", model.fine.regions[face].tag);
-  for (const int face : flattening.failed) failures.add(face, "these faces could not be flattened:" + tags);
+  const Mesh& fine = model.fine;
+  for (const int face : flattening.failed) {
+    Box<Vec3> box;
+    for (std::size_t t = 0; t < fine.triangles.size(); ++t)
+      if (fine.triangle_region[t] == face)
+        for (const int v : fine.triangles[t]) box.add(fine.points[v]);
+    failures.add(face,
+                 fmt::format("face {} could not be flattened, not even in pieces: look between {} and {} "
+                             "for triangles without area, or for a fold",
+                             fine.regions[face].tag, show_point(box.low), show_point(box.high)));
+  }
 }
 
 /// Steps of agreement where a problem is meshed anew, as its mesh was not sound: fewer irregular vertices are

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -205,6 +206,66 @@ void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& 
   }
 }
 
+/// A last try, which may be sound by chance: other sizes, as a part of all sizes, or the stages alone that
+/// make quads.
+struct LastTry {
+  double size_part;
+  bool makes_quads_only;
+};
+constexpr std::array kLastTries = {LastTry{0.8, false}, LastTry{1, true}, LastTry{0.5, false}};
+
+/// The stages of a word up to its first quads.
+Word until_quads(const Word& word) {
+  Word first{"", {}, PatchForm::kQuads};
+  for (const Stage* stage : word.stages) {
+    first.text += stage->letter;
+    first.stages.push_back(stage);
+    if (stage->to == PatchForm::kQuads) break;
+  }
+  return first;
+}
+
+/// Takes the first of the last tries that makes the mesh sound.
+void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& quads,
+                   PreparedProblem& prepared, MeshResult& result) {
+  if (!repair_options(prepared.settings.options).refine_unsound || !prepared.surface ||
+      prepared.surface->given || prepared.surface->model.before)
+    return;
+  const double once = static_cast<double>(result.mesh.quads.size());
+  const Word first = until_quads(word);
+  for (const auto& [part, makes_quads_only] : kLastTries) {
+    if (makes_quads_only && first.text == word.text) continue;
+    if (once / (part * part) > static_cast<double>(quads.left())) continue;
+    try {
+      Refinement refinement = as_read(prepared);
+      refinement.size_part = part;
+      PreparedProblem other = prepare_anew(refinement);
+      MeshResult run = run_word(other, makes_quads_only ? first : word);
+      quads.spend(quads_of(other, run));
+      add_times(other.times, result.log);
+      add_times(run.log.times, result.log);
+      result.seconds += run.seconds;
+      if (!run.soundness.sound()) continue;
+      run.warnings.emplace_back(fmt::format(
+          "{}: the mesh is made {}, as it would not be sound: {}; --set repair.refine_unsound=false does not "
+          "try this",
+          prepared.settings.name,
+          makes_quads_only ? fmt::format("by the stages {} alone", first.text)
+                           : fmt::format("with all sizes times {:g}", part),
+          result.soundness.text()));
+      run.log.summaries.add(kRefining, {{"size_part", part}});
+      note_worth(kRefining, worth_of(result), worth_of(run), run.log.summaries);
+      run.log.times = std::move(result.log.times);
+      run.seconds = result.seconds;
+      std::swap(prepared, other);
+      result = std::move(run);
+      return;
+    } catch (const InputError&) {
+      // Too many elements, or a boundary that cannot be.
+    }
+  }
+}
+
 /// Meshes without the faces where the mesh is not sound, while that leaves some.
 void leave_out_unsound(const Word& word, PreparedProblem& prepared, MeshResult& result) {
   if (!prepared.settings.keep_going || !prepared.surface || prepared.surface->mirrored ||
@@ -269,6 +330,7 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
   make_finer(within_patches, word, finer, prepared, result);
   if (!result.soundness.sound() && once < most / 3)
     leave_out_small(within_patches, word, without_small, prepared, result);
+  if (!result.soundness.sound()) take_last_try(within_patches, word, without_small, prepared, result);
   if (!result.soundness.sound()) leave_out_unsound(word, prepared, result);
 }
 
