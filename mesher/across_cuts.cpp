@@ -183,7 +183,7 @@ bool are_cuts_in_the_way(const PreparedProblem& prepared, const Stages& of_quads
   return prepared.surface->given ? !of_quads.empty() : std::ranges::any_of(of_quads, &Stage::fills_cavities);
 }
 
-bool run_across_cuts(Finishing& on) {
+void run_across_cuts(Finishing& on) {
   const PreparedProblem& prepared = on.prepared;
   const std::vector<char> regions = regions_across_cuts(prepared);
   const auto irregular = [&] { return static_cast<long long>(on.result.metrics.values.at("n_irregular")); };
@@ -204,7 +204,6 @@ bool run_across_cuts(Finishing& on) {
                                               {"taken", static_cast<long long>(is_taken)},
                                               {"irregular_before", before},
                                               {"irregular_after", irregular()}});
-  return is_taken;
 }
 
 namespace {

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <bit>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -14,15 +13,11 @@
 #include "algorithms/treatment/treatment.h"
 #include "base/activity.h"
 #include "base/option_table.h"
-#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "features/curved/curved_mesh.h"
 #include "features/given/given_worst.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/judgement/poor_quads.h"
-#include "metrics/judgement/soundness.h"
-#include "metrics/shape.h"
-#include "metrics/size_efficiency.h"
 
 namespace delquad {
 namespace {
@@ -68,11 +63,10 @@ void tell_price(Finishing& on, const MeshResult& before) {
         "{}: given quads that were inverted, folded or flat are sound now, at a price: {}", on.label, price));
 }
 
-/// Where the mesh that the stages made of given quads is worse than these, see is_worse(), and criteria that
-/// were given do not tell otherwise, it becomes what
-/// fewer of the stages make, if that is not, or else the given mesh. A warning says so. Returns whether it is
-/// another.
-bool keep_better(Finishing& on) {
+/// Replaces the mesh that the stages made of given quads if it is worse than these, see is_worse(). If
+/// criteria were given and fewer quads fail by them, it stays. Takes the mesh of fewer stages if it is not
+/// worse, else the given mesh. A warning says so.
+void keep_better(Finishing& on) {
   MeshResult& result = on.result;
   MeshResult given;
   given.mesh = assemble(on.prepared, on.prepared.boundary.points, on.state.given, on.left_out);
@@ -85,7 +79,7 @@ bool keep_better(Finishing& on) {
     return is_worse(run, before) &&
            !(aims && run.soundness.sound() && failing_part(on.prepared, run.mesh) < failing);
   };
-  if (!is_harmful(result)) return false;
+  if (!is_harmful(result)) return;
   const std::string worse = text_of_worst(result), was = text_of_worst(before);
   const auto tell = [&](const std::string& what) {
     result.warnings.push_back(
@@ -120,17 +114,15 @@ bool keep_better(Finishing& on) {
       if (!is_good(run)) continue;
       tell(fmt::format("{} alone ({})", word, text_of_worst(run)));
       take_mesh(std::move(run), result);
-      return true;
+      return;
     }
   if (is_good(given)) {
     tell("the given mesh is kept");
     take_mesh(std::move(given), result);
-    return true;
+    return;
   }
   if (best) take_mesh(std::move(*best), result);
-  if (!result.soundness.sound()) return best.has_value();
-  tell_price(on, before);
-  return best.has_value();
+  if (result.soundness.sound()) tell_price(on, before);
 }
 
 bool is_surface(const Finishing& f) { return f.prepared.surface != nullptr; }
@@ -154,12 +146,11 @@ bool is_worth_other_cuts(const Finishing& f) {
          (f.result.soundness.sound() || f.prepared.surface->given);
 }
 
-bool part(Finishing& on) {
+void part(Finishing& on) {
   const std::vector<char> left_out = without_edits(on.prepared, on.state);
   const PartingSummary parted =
       part_twins({on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes});
   add_summary(on.result.log, parted);
-  return parted.chords + parted.rings + parted.corners > 0;
 }
 
 /// By patch.
@@ -170,106 +161,44 @@ std::vector<char> without_lifting(const Finishing& f) {
   return left_out;
 }
 
-bool lift(Finishing& on) {
+void lift(Finishing& on) {
   const std::vector<char> left_out = without_lifting(on);
   const LiftingSummary lifted =
       lift_bad_quads({on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes});
   if (lifted.stopped > 0) on.result.warnings.push_back(stopped_early(on.prepared, "lifting", lifted.stopped));
   on.result.lifting_cost = lifted.cost;
   add_summary(on.result.log, lifted);
-  return lifted.moved + lifted.rings + lifted.mended > 0;
 }
 
-bool repair_failing(Finishing& on) {
+void repair_failing(Finishing& on) {
   const std::vector<char> left_out = without_lifting(on);
-  const FailingRepairSummary repaired = repair_failing_quads(
-      {on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes},
-      asked_size(on.prepared));
-  add_summary(on.result.log, repaired);
-  return repaired.moved + repaired.edited > 0;
+  add_summary(on.result.log, repair_failing_quads({on.prepared, on.prepared.settings.options,
+                                                   on.state.patches, left_out, on.state.nodes},
+                                                  asked_size(on.prepared)));
 }
 
-bool part_corners(Finishing& on) {
+void part_corners(Finishing& on) {
   const int rings = part_flat_corners(on.prepared, on.state.nodes, on.result.mesh);
   on.result.log.summaries.add("flat_corners", {{"rings", static_cast<long long>(rings)}});
-  return rings > 0;
 }
 
-bool curve(Finishing& on) {
+void curve(Finishing& on) {
   MeshResult& result = on.result;
   CurvingSummary summary;
   const bool moved =
       curve_mesh(on.prepared, on.state.nodes, result.mesh, result.soundness, result.warnings, summary);
   add_summary(result.log, summary);
-  if (!moved) return false;
-  measure_straight_form(on.prepared, on.left_out, on.result);
-  return true;
+  if (moved) measure_straight_form(on.prepared, on.left_out, on.result);
 }
-
-MeshWorth worth_of_mesh(const PreparedProblem& prepared, const Mesh& mesh) {
-  const auto values = evaluate_shapes(mesh, sorted_half_edges(mesh)).values;
-  return {values.at("eta_mean"), values.at("eta_worst"), values.at("n_irregular"),
-          static_cast<double>(check_elements(prepared, mesh).places.size())};
-}
-
-/// A mesh as a step finds it, as far as that step changes it.
-class Snapshot {
- public:
-  Snapshot(FinishAt at, const Finishing& f) : at_(at) {
-    if (at == FinishAt::kMeasured) measured_ = worth_of(f.result);
-    if (at == FinishAt::kMesh) mesh_ = f.result.mesh;
-    if (at != FinishAt::kEveryStage && at != FinishAt::kPatches) return;
-    patches_ = f.state.patches;
-    nodes_ = f.state.nodes.points;
-  }
-  MeshWorth worth(const Finishing& f) const {
-    if (at_ == FinishAt::kMeasured) return measured_;
-    return worth_of_mesh(f.prepared, at_ == FinishAt::kMesh ? mesh_ : joined(f));
-  }
-
- private:
-  /// Points inside of patches that have no places yet lie on the fine triangulation.
-  Mesh joined(const Finishing& f) const {
-    std::vector<PatchMesh> patches = patches_;
-    const PreparedSurface& surface = *f.prepared.surface;
-    parallel_for(
-        patches.size(),
-        [&](std::size_t i) {
-          const std::vector<Vec2>& points = patches[i].quads.points;
-          if (!patches[i].inside.empty()) return;
-          int hint = -1;
-          for (std::size_t v = f.prepared.patches[i].boundary.points.size(); v < points.size(); ++v)
-            patches[i].inside.push_back(
-                fine_place(surface.domain.patches[i], surface.model.fine, points[v], hint));
-        },
-        [&](std::size_t i) { return static_cast<double>(patches[i].quads.points.size()); });
-    return assemble(f.prepared, nodes_, patches, f.left_out);
-  }
-
-  FinishAt at_;
-  MeshWorth measured_ = {};
-  Mesh mesh_;
-  std::vector<PatchMesh> patches_;
-  std::vector<Vec3> nodes_;
-};
 
 void run(const FinishStep& step, Finishing& on) {
   const DoingStage doing(step.time);
-  // Of triangles there is no worth yet.
-  const bool is_of_quads =
-      step.at != FinishAt::kEveryStage || std::ranges::none_of(on.state.patches, [](const PatchMesh& patch) {
-        return patch.form == PatchForm::kTriangles;
-      });
-  std::optional<Snapshot> before;
-  if (is_of_quads) before.emplace(step.at, on);
   const Stopwatch watch;
-  const bool changed = step.run(on);
+  step.run(on);
   const TimeSpent time = watch.time();
   if (step.at == FinishAt::kMeasured) on.result.seconds += watch.seconds();
   on.result.log.add_time(step.time, time);
   note_seconds(step.name, time.work, on.result.log.summaries);
-  if (changed && before)
-    note_worth(step.name, before->worth(on), Snapshot(step.at, on).worth(on), on.result.log.summaries);
 }
 
 }  // namespace
@@ -305,25 +234,8 @@ void run_finish_steps(FinishAt at, Finishing& on) {
     if (runs(step)) run(step, on);
 }
 
-MeshWorth worth_of(const MeshResult& measured) {
-  const auto& values = measured.metrics.values;
-  return {values.at("eta_mean"), values.at("eta_worst"), values.at("n_irregular"),
-          static_cast<double>(measured.soundness.places.size())};
-}
-
 void note_seconds(const char* step, double seconds, Summaries& summaries) {
   for (const char* of : {step, "finish"}) summaries.add(of, {{"seconds", seconds}});
-}
-
-void note_worth(const char* step, const MeshWorth& before, const MeshWorth& after, Summaries& summaries) {
-  const auto add = [&](const char* key, double MeshWorth::*value) {
-    summaries.add(step, {{key, std::vector<std::vector<double>>{{before.*value, after.*value}}}});
-    summaries.add("finish", {{key, after.*value - before.*value}});
-  };
-  add("eta_mean", &MeshWorth::eta_mean);
-  add("eta_worst", &MeshWorth::eta_worst);
-  add("irregular", &MeshWorth::irregular);
-  add("failing", &MeshWorth::failing);
 }
 
 namespace {

@@ -54,27 +54,17 @@ struct FinishStep {
   bool RepairOptions::*option;  ///< false switches it off, and it alone; null: elements of order 1 do
   FinishAt at;
   bool (*applies)(const Finishing& to);
-  bool (*run)(Finishing& on);  ///< returns whether anything changed; null: see FinishAt::kProblem
+  void (*run)(Finishing& on);  ///< null: see FinishAt::kProblem
 };
 
 /// All of them, in the order in which they run.
 const std::vector<FinishStep>& finish_steps();
 
-/// Runs the steps of one place. The log gets the time of each, and the worth of the mesh before and after
-/// where a step changed it.
+/// Runs the steps of one place. The log gets the time of each.
 void run_finish_steps(FinishAt at, Finishing& on);
 
-/// What finish steps are about.
-struct MeshWorth {
-  double eta_mean, eta_worst;
-  double irregular;  ///< vertices
-  double failing;    ///< places where the mesh is not sound, the first hundred for each reason
-};
-MeshWorth worth_of(const MeshResult& measured);
-/// The seconds of a step, and what it was worth where it changed the mesh. The sums over all steps are those
-/// of "finish".
+/// Notes the seconds of a step, and adds them to "finish".
 void note_seconds(const char* step, double seconds, Summaries& summaries);
-void note_worth(const char* step, const MeshWorth& before, const MeshWorth& after, Summaries& summaries);
 
 /// Whether faces were cut for a word with such stages, which begin from quads, so that it sees too little:
 /// those that fill cavities, none across a cut. Of a given mesh nodes on cuts can move along these only,
@@ -82,8 +72,8 @@ void note_worth(const char* step, const MeshWorth& before, const MeshWorth& afte
 bool are_cuts_in_the_way(const PreparedProblem& prepared, const std::vector<const Stage*>& of_quads);
 
 /// Runs the stages that begin from quads once more with other cuts, in faces that have cuts. The mesh that
-/// they made is replaced where that is better; it has no lines on cuts then. Returns whether it was.
-bool run_across_cuts(Finishing& on);
+/// they made is replaced where that is better; it has no lines on cuts then.
+void run_across_cuts(Finishing& on);
 
 /// prepare_problem() of the same problem.
 using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;

@@ -120,8 +120,6 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& quads
   Refinement refinement = as_read(prepared);
   add_spots(prepared, result.soundness, refinement.spots);
   if (refinement.spots.empty()) return;
-  const MeshWorth before = worth_of(result);
-  bool is_other = false;
   StageLog lost;  // the times of all meshes but the best
   double seconds = result.seconds;
   long long rounds = 0, idle = 0;  // in all, and since the best
@@ -145,7 +143,6 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& quads
           run.soundness.sound() || (unsound_places(run) > 0 && unsound_places(run) < unsound_places(result));
       idle = is_better ? 0 : idle + 1;
       if (is_better) {
-        is_other = true;
         run.log.summaries.add(kRefining,
                               {{"rounds", rounds}, {"spots", static_cast<long long>(spots.size())}});
         run.warnings.push_back(warning_of(finer, spots));
@@ -164,7 +161,6 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& quads
   double lost_seconds = 0;
   for (const auto& [step, time] : lost.times) lost_seconds += time.work;
   note_seconds(kRefining, lost_seconds, result.log.summaries);
-  if (is_other) note_worth(kRefining, before, worth_of(result), result.log.summaries);
   if (!result.soundness.sound()) result.warnings.push_back(warning_of_end(result, prepared, rounds, why));
 }
 
@@ -194,7 +190,6 @@ void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& 
           "sound: {}; --set repair.ignore_small=false keeps it",
           prepared.settings.name, kSmall * least, result.soundness.text()));
       run.log.summaries.add(kRefining, {{"ignored_below", kSmall * least}});
-      note_worth(kRefining, worth_of(result), worth_of(run), run.log.summaries);
       std::swap(prepared, other);
       std::swap(result, run);
     }
@@ -254,7 +249,6 @@ void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& qu
                            : fmt::format("with all sizes times {:g}", part),
           result.soundness.text()));
       run.log.summaries.add(kRefining, {{"size_part", part}});
-      note_worth(kRefining, worth_of(result), worth_of(run), run.log.summaries);
       run.log.times = std::move(result.log.times);
       run.seconds = result.seconds;
       std::swap(prepared, other);

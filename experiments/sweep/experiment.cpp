@@ -75,6 +75,9 @@ std::vector<std::string> read_columns(const TomlTable& table, std::vector<std::s
   for (const StepTime& time : step_times_of_tables()) known.push_back(time.key);
   std::vector<std::string> columns = table.texts("columns");
   for (const std::string& key : columns) {
+    if (key == "finish_eta")
+      refuse("{}: there is no column '{}' any longer: compare eta_mean of variants without finish steps",
+             table.where("columns"), key);
     check_known(table, "columns", key, known);
     if (std::ranges::count(columns, key) > 1)
       throw InputError(table.where("columns") + ": '" + key + "' twice among the columns");

@@ -81,10 +81,6 @@ const std::vector<Derived>& derived() {
        [](const Json& r) { return at(r, "/cross_field/row_ends"); }},
       {{kFinishSeconds, "finish s", "s", kNeither, kNoNumber, "what finish steps took, of all threads", 2},
        [](const Json& r) { return at(r, "/finish/seconds"); }},
-      {{"finish_eta", "finish eta", "", kNeither, kNoNumber, "by how much finish steps raised eta_mean", 4},
-       [](const Json& r) {
-         return r.contains("finish") ? number(r["finish"].value("eta_mean", Json(0))) : kNoNumber;
-       }},
       {{"deviation", "deviation, sizes", "delta", kNeither, kNoNumber, "largest distance of mesh and surface",
         3},
        [](const Json& r) {

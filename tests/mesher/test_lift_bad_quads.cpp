@@ -193,31 +193,15 @@ TEST(RepairFailingQuads, OfAGivenMeshToo) {
   EXPECT_LT(after, 0.8 * before);
 }
 
-TEST(LiftBadQuads, SaysWhatItWasWorth) {
-  using Pairs = std::vector<std::vector<double>>;
+TEST(LiftBadQuads, SaysWhatItTook) {
   MeshProblem c;
   c.name = c.where = "ball";
   const PreparedProblem prepared = surfaces::prepare_surface(c, rough_ball(0, 0.2), make_constant_size(0.4));
-  const MeshResult run = run_word(prepared, parse_word("DB"));
-  const Summaries& done = run.log.summaries;
-  ASSERT_GT(done.number("lift_bad_quads", "moved"), 0);
-  const auto& lifted = done.get<Pairs>("lift_bad_quads", "eta_mean");
-  ASSERT_EQ(lifted.size(), 1u);
-  // Nothing comes after it.
-  EXPECT_EQ(lifted[0][1], run.metrics.values.at("eta_mean"));
-  EXPECT_EQ(done.get<Pairs>("lift_bad_quads", "eta_worst")[0][1], run.metrics.values.at("eta_worst"));
-  EXPECT_EQ(done.get<Pairs>("lift_bad_quads", "irregular")[0][1], run.metrics.values.at("n_irregular"));
-  EXPECT_GT(done.get<Pairs>("lift_bad_quads", "eta_worst")[0][1],
-            done.get<Pairs>("lift_bad_quads", "eta_worst")[0][0]);
-  double gain = 0, seconds = 0;
-  for (const FinishStep& step : finish_steps()) {
-    const SummaryStep* of_step = done.find(step.name);
-    if (of_step == nullptr) continue;
-    seconds += done.number(step.name, "seconds");
-    if (of_step->find("eta_mean") == nullptr) continue;
-    for (const auto& pair : done.get<Pairs>(step.name, "eta_mean")) gain += pair[1] - pair[0];
-  }
-  EXPECT_NEAR(done.number("finish", "eta_mean"), gain, 1e-12);
+  const Summaries done = run_word(prepared, parse_word("DB")).log.summaries;
+  EXPECT_GT(done.number("lift_bad_quads", "moved"), 0);
+  double seconds = 0;
+  for (const FinishStep& step : finish_steps())
+    if (done.has(step.name)) seconds += done.number(step.name, "seconds");
   EXPECT_NEAR(done.number("finish", "seconds"), seconds, 1e-9);
 }
 
