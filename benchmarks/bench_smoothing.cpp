@@ -11,7 +11,7 @@
 #include "smoothing/cvt/smooth_points.h"
 
 // Energy and gradient of Lp-CVT smoothing, with the repair of the triangulation, and CGAL's spatially sorted
-// Delaunay triangulation of the same points; whole runs; L-BFGS and Lloyd's iteration to the same energy.
+// Delaunay triangulation of the same points; whole runs.
 
 namespace delquad::benchmarks {
 namespace {
@@ -73,35 +73,7 @@ void solve(benchmark::State& state) {
   const Seeds seeds(static_cast<double>(state.range(0)));
   const RunScope run({.threads = static_cast<int>(state.range(1))});
   SmoothingSummary summary;
-  for (auto _ : state)
-    smooth_points(seeds.mesh, seeds.square.cross, seeds.square.size, *make_lbfgs_minimiser(), {}, &summary);
-  report(state, summary);
-}
-
-/// Up to the energy where Lloyd's iteration stands after 60 steps: one step at a time is allowed until it is
-/// reached.
-void to_energy_of_lloyd(benchmark::State& state, bool lloyd) {
-  const Seeds seeds(static_cast<double>(state.range(0)));
-  const RunScope one_thread({.threads = 1});
-  constexpr int kSteps = 60;
-  SmoothingOptions options;
-  options.outer_iterations = 1;
-  options.inner.function_tolerance = 0;
-  options.inner.iterations = kSteps;
-  SmoothingSummary summary;
-  const auto run = [&](const CellMinimiser& minimiser) {
-    smooth_points(seeds.mesh, seeds.square.cross, seeds.square.size, minimiser, options, &summary);
-  };
-  run(*make_lloyd_minimiser());
-  if (!lloyd) {
-    const double goal = summary.final_energy;
-    options.inner.iterations = 0;
-    do {
-      ++options.inner.iterations;
-      run(*make_lbfgs_minimiser());
-    } while (summary.final_energy > goal && options.inner.iterations < kSteps);
-  }
-  for (auto _ : state) run(lloyd ? *make_lloyd_minimiser() : *make_lbfgs_minimiser());
+  for (auto _ : state) smooth_points(seeds.mesh, seeds.square.cross, seeds.square.size, {}, &summary);
   report(state, summary);
 }
 
@@ -117,8 +89,6 @@ BENCHMARK(evaluate)
     ->UseRealTime();
 BENCHMARK(triangulation_alone)->Apply(sizes);
 BENCHMARK(solve)->ArgsProduct({{1000, 10000, 50000}, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(to_energy_of_lloyd, lloyd, true)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(to_energy_of_lloyd, lbfgs, false)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace delquad::benchmarks

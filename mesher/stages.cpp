@@ -67,12 +67,9 @@ void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement
 
 void smooth_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const Stopwatch watch;
-  const CvtOptions options = cvt_options(in.options);
-  const auto minimiser =
-      options.method == SmoothingMethod::kLpCvt ? make_lbfgs_minimiser() : make_lloyd_minimiser();
   SmoothingSummary summary;
   patch.triangles =
-      smooth_points(patch.triangles, in.cross, in.size, *minimiser, options.smoothing, &summary);
+      smooth_points(patch.triangles, in.cross, in.size, smoothing_options(in.options), &summary);
   add_summary(log, summary);
   log.add_time("smoothing", watch.time());
 }

@@ -192,6 +192,9 @@ OptionValue read_value(const TomlTable& table, const OptionKey& key) {
 }
 
 void read_options(const TomlTable& table, const OptionGroup& group, Options& options) {
+  if (group.name == "smoothing" && table.has("method"))
+    refuse("{}: there is no 'smoothing.method' any longer: L takes the exact gradient, so remove the key",
+           table.where("method"));
   for (const OptionKey& key : group.keys)
     if (table.has(key.name))
       located(table.where(key.name),

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -86,24 +85,12 @@ struct MinimiserOutcome {
   double gradient_norm = 0;  ///< the largest derivative by a seed at the end, in newton_scale()
 };
 
-/// A way to lower the energy of a problem whose frames are held.
-class CellMinimiser {
- public:
-  virtual ~CellMinimiser() = default;
-  /// Leaves the problem evaluated at the best seeds found. Appends to `samples` each evaluation made; the
-  /// first is at the seeds as they are, and admissible.
-  virtual MinimiserOutcome minimise(CvtProblem& problem, const MinimiserOptions& options,
-                                    std::vector<EnergySample>& samples) const = 0;
-};
-
-/// L-BFGS with a line search for the strong Wolfe conditions, by Ceres. A place that is refused shortens
-/// the step.
-std::unique_ptr<CellMinimiser> make_lbfgs_minimiser();
-
-/// Lloyd's iteration: every seed goes to the place in its own cell where the cell's energy is least. It
-/// knows nothing of how the neighbours' cells change, which for p > 2 is part of the gradient: the energy
-/// may rise.
-std::unique_ptr<CellMinimiser> make_lloyd_minimiser();
+/// Lowers the energy of a problem whose frames are held, by L-BFGS with a line search for the strong Wolfe
+/// conditions (Ceres). A place that is refused shortens the step. Leaves the problem evaluated at the best
+/// seeds found. Appends to `samples` each evaluation made. The first is at the seeds as they are, and
+/// admissible.
+MinimiserOutcome minimise_cells(CvtProblem& problem, const MinimiserOptions& options,
+                                std::vector<EnergySample>& samples);
 
 /// The largest derivative of F by a seed's position over lengths(), in newton_scale().
 double scaled_gradient_norm(const CvtProblem& problem);

@@ -96,4 +96,11 @@ double CvtProblem::newton_scale() const {
   return squares_ / (2.0 * p_ * (p_ + 1));
 }
 
+double scaled_gradient_norm(const CvtProblem& problem) {
+  double largest = 0;
+  const auto g = problem.gradient();
+  for (std::size_t i = 0; i < g.size(); ++i) largest = std::max(largest, problem.lengths()[i] * norm(g[i]));
+  return largest * problem.newton_scale();
+}
+
 }  // namespace delquad

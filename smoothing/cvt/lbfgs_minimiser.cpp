@@ -86,45 +86,40 @@ class MarkAccepted final : public ceres::IterationCallback {
   const ScaledEnergy& energy_;
 };
 
-class LbfgsMinimiser final : public CellMinimiser {
- public:
-  MinimiserOutcome minimise(CvtProblem& problem, const MinimiserOptions& options,
-                            std::vector<EnergySample>& samples) const override {
-    std::vector<double> parameters(2 * static_cast<std::size_t>(problem.n_free()), 0.0);
-    auto* energy = new ScaledEnergy(problem, samples);  // the problem's from here on
-    const ceres::GradientProblem gradient_problem(energy);
-    MarkAccepted mark(samples, *energy);
-    ceres::GradientProblemSolver::Options solver;
-    solver.line_search_direction_type = ceres::LBFGS;
-    solver.line_search_type = ceres::WOLFE;
-    solver.max_lbfgs_rank = 10;  // steps that the approximate Hessian remembers
-    solver.use_approximate_eigenvalue_bfgs_scaling = true;
-    solver.max_num_iterations = options.iterations;
-    solver.function_tolerance = options.function_tolerance;
-    solver.gradient_tolerance = options.gradient_tolerance;
-    solver.parameter_tolerance = 0;  // ways from the start: no length to compare with
-    solver.logging_type = ceres::SILENT;
-    solver.callbacks.push_back(&mark);
-    ceres::GradientProblemSolver::Summary summary;
-    const std::size_t first = samples.size();
-    ceres::Solve(solver, gradient_problem, parameters.data(), &summary);
-    check_cancelled();
-    samples[first].accepted = true;  // not marked where the search converges at once
-
-    problem.evaluate(energy->seeds(parameters.data()));
-    MinimiserOutcome outcome;
-    outcome.termination = summary.termination_type == ceres::CONVERGENCE ? MinimiserTermination::kConverged
-                          : summary.termination_type == ceres::NO_CONVERGENCE
-                              ? MinimiserTermination::kIterations
-                              : MinimiserTermination::kStuck;
-    outcome.iterations = static_cast<int>(summary.iterations.size()) - 1;
-    outcome.gradient_norm = scaled_gradient_norm(problem);
-    return outcome;
-  }
-};
-
 }  // namespace
 
-std::unique_ptr<CellMinimiser> make_lbfgs_minimiser() { return std::make_unique<LbfgsMinimiser>(); }
+MinimiserOutcome minimise_cells(CvtProblem& problem, const MinimiserOptions& options,
+                                std::vector<EnergySample>& samples) {
+  std::vector<double> parameters(2 * static_cast<std::size_t>(problem.n_free()), 0.0);
+  auto* energy = new ScaledEnergy(problem, samples);  // the problem's from here on
+  const ceres::GradientProblem gradient_problem(energy);
+  MarkAccepted mark(samples, *energy);
+  ceres::GradientProblemSolver::Options solver;
+  solver.line_search_direction_type = ceres::LBFGS;
+  solver.line_search_type = ceres::WOLFE;
+  solver.max_lbfgs_rank = 10;  // steps that the approximate Hessian remembers
+  solver.use_approximate_eigenvalue_bfgs_scaling = true;
+  solver.max_num_iterations = options.iterations;
+  solver.function_tolerance = options.function_tolerance;
+  solver.gradient_tolerance = options.gradient_tolerance;
+  solver.parameter_tolerance = 0;  // ways from the start: no length to compare with
+  solver.logging_type = ceres::SILENT;
+  solver.callbacks.push_back(&mark);
+  ceres::GradientProblemSolver::Summary summary;
+  const std::size_t first = samples.size();
+  ceres::Solve(solver, gradient_problem, parameters.data(), &summary);
+  check_cancelled();
+  samples[first].accepted = true;  // not marked where the search converges at once
+
+  problem.evaluate(energy->seeds(parameters.data()));
+  MinimiserOutcome outcome;
+  outcome.termination = summary.termination_type == ceres::CONVERGENCE ? MinimiserTermination::kConverged
+                        : summary.termination_type == ceres::NO_CONVERGENCE
+                            ? MinimiserTermination::kIterations
+                            : MinimiserTermination::kStuck;
+  outcome.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  outcome.gradient_norm = scaled_gradient_norm(problem);
+  return outcome;
+}
 
 }  // namespace delquad

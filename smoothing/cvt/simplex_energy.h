@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cassert>
 #include <cstddef>
 
 #include "delquad/mesh.h"
@@ -67,18 +66,6 @@ SimplexEnergy simplex_energy(Vec2 first, Vec2 second) {
   const BothAxes by_d = sum * BothAxes{-s[1], s[0]} + factor * d * by_dd;
   const BothAxes by_first = by_s - by_d, by_second = by_s + by_d;
   return {twice_j * sum, {by_first[0], by_first[1]}, {by_second[0], by_second[1]}};
-}
-
-/// Integral of x^m over the triangle (0, first, second), negative when it is clockwise; m >= 0.
-inline double simplex_moment(int m, Vec2 first, Vec2 second) {
-  assert(m >= 0);
-  // Horner: the sum over k of x1^k x2^(m-k).
-  double sum = 1, power = 1;
-  for (int k = 1; k <= m; ++k) {
-    power *= first.x;
-    sum = sum * second.x + power;
-  }
-  return cross(first, second) / ((m + 1) * (m + 2)) * sum;
 }
 
 }  // namespace delquad

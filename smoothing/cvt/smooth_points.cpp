@@ -24,7 +24,7 @@ SmoothingTermination of_minimiser(MinimiserTermination termination) {
 
 /// Takes the frames anew and minimises, up to outer_iterations times.
 void smooth(CvtProblem& problem, const CrossField& cross, const ParametricSize& size,
-            const CellMinimiser& minimiser, const SmoothingOptions& options, SmoothingSummary& s) {
+            const SmoothingOptions& options, SmoothingSummary& s) {
   problem.hold_frames(cross, size);
   const std::optional<double> first = problem.evaluate(problem.seeds());
   s.evaluations = 1;
@@ -43,7 +43,7 @@ void smooth(CvtProblem& problem, const CrossField& cross, const ParametricSize& 
   for (int outer = 0; outer < options.outer_iterations; ++outer) {
     if (outer > 0) problem.hold_frames(cross, size);
     const std::size_t n_samples = s.samples.size();
-    const MinimiserOutcome outcome = minimiser.minimise(problem, options.inner, s.samples);
+    const MinimiserOutcome outcome = minimise_cells(problem, options.inner, s.samples);
     double last = 0;
     for (std::size_t i = n_samples; i < s.samples.size(); ++i) {
       s.samples[i].frames = outer;
@@ -108,15 +108,14 @@ void check_options(const SmoothingOptions& options) {
 }
 
 TriPatch smooth_points(const TriPatch& patch, const CrossField& cross, const ParametricSize& size,
-                       const CellMinimiser& minimiser, const SmoothingOptions& options,
-                       SmoothingSummary* summary) {
+                       const SmoothingOptions& options, SmoothingSummary* summary) {
   const Stopwatch watch;
   check_options(options);
   const std::vector<int> order = spatial_order(patch);
   CvtProblem problem(MovingDelaunay(reordered(patch, order)), options.p);
   SmoothingSummary s;
   s.cells = problem.delaunay().n_points();
-  smooth(problem, cross, size, minimiser, options, s);
+  smooth(problem, cross, size, options, s);
   s.flips = problem.delaunay().flips();
   s.rebuilds = problem.delaunay().rebuilds();
   s.seconds = watch.seconds();
@@ -131,33 +130,27 @@ namespace {
 
 constexpr double kMostRounds = 1e6;
 
-const OptionTable<CvtOptions>& table() {
+const OptionTable<SmoothingOptions>& table() {
   static const auto all =
-      OptionTable<CvtOptions>("smoothing", "options of L")
-          .choice({.name = "method", .help = "what makes the energy smaller"}, &CvtOptions::method,
-                  std::vector<std::pair<std::string, SmoothingMethod>>{{"lpcvt", SmoothingMethod::kLpCvt},
-                                                                       {"lloyd", SmoothingMethod::kLloyd}})
-          .add(
-              {.name = "p", .help = "norm", .allowed = {2, 4, 6, 8, 10, 12, 14, 16}},
-              [](auto& o) -> auto& { return o.smoothing.p; })
-          .add(
-              {.name = "outer_iterations",
-               .help = "how often size and directions are taken anew",
-               .least = 0,
-               .most = kMostRounds},
-              [](auto& o) -> auto& { return o.smoothing.outer_iterations; })
+      OptionTable<SmoothingOptions>("smoothing", "options of L")
+          .add({.name = "p", .help = "norm", .allowed = {2, 4, 6, 8, 10, 12, 14, 16}}, &SmoothingOptions::p)
+          .add({.name = "outer_iterations",
+                .help = "how often size and directions are taken anew",
+                .least = 0,
+                .most = kMostRounds},
+               &SmoothingOptions::outer_iterations)
           .add(
               {.name = "inner_iterations", .help = "steps for each", .least = 0, .most = kMostRounds},
-              [](auto& o) -> auto& { return o.smoothing.inner.iterations; })
+              [](auto& o) -> auto& { return o.inner.iterations; })
           .add(
               {.name = "function_tolerance", .help = "relative", .least = 0},
-              [](auto& o) -> auto& { return o.smoothing.inner.function_tolerance; });
+              [](auto& o) -> auto& { return o.inner.function_tolerance; });
   return all;
 }
 
 }  // namespace
 
 OptionGroup smoothing_group() { return table().group(); }
-CvtOptions cvt_options(const Options& options) { return table().read(options); }
+SmoothingOptions smoothing_options(const Options& options) { return table().read(options); }
 
 }  // namespace delquad

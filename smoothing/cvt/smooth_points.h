@@ -72,18 +72,9 @@ struct Counters<SmoothingSummary> {
 /// cross field, as far as the number of points allows [section 7]. Boundary points stay. The result is the
 /// constrained Delaunay triangulation of the moved points: the same points, in their order.
 TriPatch smooth_points(const TriPatch& patch, const CrossField& cross, const ParametricSize& size,
-                       const CellMinimiser& minimiser, const SmoothingOptions& options = {},
-                       SmoothingSummary* summary = nullptr);
-
-enum class SmoothingMethod { kLpCvt, kLloyd };
-
-/// What smoothing can be told.
-struct CvtOptions {
-  SmoothingMethod method = SmoothingMethod::kLpCvt;
-  SmoothingOptions smoothing;
-};
+                       const SmoothingOptions& options = {}, SmoothingSummary* summary = nullptr);
 
 OptionGroup smoothing_group();
-CvtOptions cvt_options(const Options& options);
+SmoothingOptions smoothing_options(const Options& options);
 
 }  // namespace delquad

@@ -25,12 +25,12 @@ TEST(OptionValues, AreThoseOfTheStructsUntilTheyAreSet) {
   EXPECT_TRUE(options.flag("repair.part_twins"));
   EXPECT_EQ(options.find("insertion.rejection"), nullptr);
   options.set("insertion.rejection", 0.5)
-      .set("smoothing.method", "lloyd")
+      .set("recombination.solver", "lemon")
       .set("smoothing.outer_iterations", 3);
   EXPECT_EQ(insertion_options(options).rejection, 0.5);
-  EXPECT_EQ(cvt_options(options).method, SmoothingMethod::kLloyd);
-  EXPECT_EQ(cvt_options(options).smoothing.outer_iterations, 3);
-  options.reset("insertion.rejection").reset("smoothing.method").reset("smoothing.outer_iterations");
+  EXPECT_EQ(recombination_options(options).solver, "lemon");
+  EXPECT_EQ(smoothing_options(options).outer_iterations, 3);
+  options.reset("insertion.rejection").reset("recombination.solver").reset("smoothing.outer_iterations");
   EXPECT_EQ(options, Options{});
 }
 
@@ -83,8 +83,7 @@ TEST(OptionValues, MistakesAreNamed) {
     expect_input_error([&] { set("optimisation.size", odd); },
                        {"'optimisation.size'", "a number, at least 0"});
   expect_input_error([&] { set("smoothing.p", 5); }, {"'smoothing.p' is 5", "14 or 16"});
-  expect_input_error([&] { set("smoothing.method", "newton"); }, {"is \"newton\"", "\"lpcvt\" or \"lloyd\""});
-  expect_input_error([&] { set("smoothing.method", 1); }, {"'smoothing.method' is 1"});
+  expect_input_error([&] { set("recombination.solver", 1); }, {"'recombination.solver' is 1"});
   expect_input_error([&] { set("repair.part_twins", 1); }, {"true or false"});
   expect_input_error([&] { set("recombination.solver", "lemmon"); }, {"is \"lemmon\"", "\"lemon\""});
   expect_input_error([] { Options{}.number("smoothing.p"); },

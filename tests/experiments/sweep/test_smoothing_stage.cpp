@@ -37,24 +37,20 @@ class SmoothingStage : public testing::Test {
 };
 
 TEST_F(SmoothingStage, OptionsAreRead) {
-  EXPECT_EQ(cvt_options(read("{}").options).smoothing.p, 6);
-  EXPECT_EQ(cvt_options(read("{}").options).method, SmoothingMethod::kLpCvt);
-  const CvtOptions o =
-      cvt_options(read("{ method = \"lloyd\", p = 8, outer_iterations = 2, inner_iterations = 7, "
-                       "function_tolerance = 1e-3 }")
-                      .options);
-  EXPECT_EQ(o.method, SmoothingMethod::kLloyd);
-  EXPECT_EQ(o.smoothing.p, 8);
-  EXPECT_EQ(o.smoothing.outer_iterations, 2);
-  EXPECT_EQ(o.smoothing.inner.iterations, 7);
-  EXPECT_EQ(o.smoothing.inner.function_tolerance, 1e-3);
+  EXPECT_EQ(smoothing_options(read("{}").options).p, 6);
+  const SmoothingOptions o = smoothing_options(
+      read("{ p = 8, outer_iterations = 2, inner_iterations = 7, function_tolerance = 1e-3 }").options);
+  EXPECT_EQ(o.p, 8);
+  EXPECT_EQ(o.outer_iterations, 2);
+  EXPECT_EQ(o.inner.iterations, 7);
+  EXPECT_EQ(o.inner.function_tolerance, 1e-3);
 }
 
 TEST_F(SmoothingStage, MistakesAreNamed) {
   expect_input_error([&] { read("{ p = 5 }"); }, {"c.toml:3", "'smoothing.p' is 5", "2, 4, 6"});
   expect_input_error([&] { read("{ p = 18 }"); }, {"c.toml:3", "14 or 16"});
-  expect_input_error([&] { read("{ method = \"newton\" }"); },
-                     {"c.toml:3", "\"newton\"", "\"lpcvt\" or \"lloyd\""});
+  expect_input_error([&] { read("{ method = \"lloyd\" }"); },
+                     {"c.toml:3", "no 'smoothing.method' any longer", "exact gradient"});
   expect_input_error([&] { read("{ inner_iterations = -1 }"); },
                      {"c.toml:3", "'smoothing.inner_iterations' is -1"});
   expect_input_error([&] { read("{ function_tolerance = -1 }"); }, {"'smoothing.function_tolerance' is -1"});
@@ -80,12 +76,6 @@ TEST_F(SmoothingStage, RecordsAndDrawsItsConvergence) {
   EXPECT_TRUE(fl["seconds"].contains("smoothing"));
   EXPECT_TRUE(fs::exists(folder_ / "out" / "disk" / "DLB" / "convergence.svg"));
   EXPECT_FALSE(fs::exists(folder_ / "out" / "disk" / "F" / "convergence.svg"));
-}
-
-TEST_F(SmoothingStage, LloydRuns) {
-  run("{ method = \"lloyd\" }", "[\"FLB\"]");
-  EXPECT_EQ(record("FLB")["problem"]["options"]["smoothing"]["method"], "lloyd");
-  EXPECT_LT(record("FLB")["smoothing"]["final_energy"], record("FLB")["smoothing"]["first_energy"]);
 }
 
 }  // namespace

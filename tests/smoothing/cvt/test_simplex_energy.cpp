@@ -66,14 +66,5 @@ TEST(SimplexEnergies, ChangeSignWithOrientation) {
   EXPECT_DOUBLE_EQ(simplex_energy<6>(a, b).value, -simplex_energy<6>(b, a).value);
 }
 
-TEST(SimplexMoments, AgreeWithQuadrature) {
-  for (const auto& [a, b] : kTriangles)
-    for (int m = 0; m <= 16; ++m) {
-      const double expected = quadrature(a, b, [m](Vec2 u) { return std::pow(u.x, m); });
-      const double size = quadrature(a, b, [m](Vec2 u) { return std::pow(std::abs(u.x), m); });
-      EXPECT_NEAR(simplex_moment(m, a, b), expected, 1e-12 * std::abs(size)) << m;
-    }
-}
-
 }  // namespace
 }  // namespace delquad

@@ -13,7 +13,6 @@
 #include "fields/fields.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "patches/surface_domain.h"
-#include "smoothing/cvt/cell_walk.h"
 #include "tests/smoothing/seeds.h"
 #include "tests/support/analytic_fields.h"
 #include "tests/support/expect_input_error.h"
@@ -34,11 +33,9 @@ struct Smoothed {
 };
 
 Smoothed smooth(const PatchBoundary& boundary, const std::vector<Vec2>& seeds, const CrossField& cross,
-                const ParametricSize& size, const SmoothingOptions& options = {},
-                const CellMinimiser& minimiser = *make_lbfgs_minimiser()) {
+                const ParametricSize& size, const SmoothingOptions& options = {}) {
   Smoothed result;
-  result.patch =
-      smooth_points(constrained_delaunay(boundary, seeds), cross, size, minimiser, options, &result.summary);
+  result.patch = smooth_points(constrained_delaunay(boundary, seeds), cross, size, options, &result.summary);
   return result;
 }
 
@@ -147,14 +144,12 @@ TEST(Smoothing, LatticeStaysWhereItIs) {
   std::vector<Vec2> seeds;
   for (int j = 1; j < n; ++j)
     for (int i = 1; i < n; ++i) seeds.push_back({double(i) / n, double(j) / n});
-  for (const auto& minimiser : {make_lbfgs_minimiser(), make_lloyd_minimiser()}) {
-    const Smoothed result =
-        smooth(shapes::rectangle(1, 1, n, n), seeds, FunctionCross(0), FunctionSize(1.0 / n), {}, *minimiser);
-    EXPECT_EQ(result.summary.termination, SmoothingTermination::kConverged);
-    EXPECT_NEAR(result.summary.first_energy, 1, 1e-12);
-    const std::vector<Vec2> found = inner_points(result.patch);
-    for (std::size_t i = 0; i < seeds.size(); ++i) EXPECT_LE(norm(found[i] - seeds[i]), 1e-12);
-  }
+  const Smoothed result =
+      smooth(shapes::rectangle(1, 1, n, n), seeds, FunctionCross(0), FunctionSize(1.0 / n));
+  EXPECT_EQ(result.summary.termination, SmoothingTermination::kConverged);
+  EXPECT_NEAR(result.summary.first_energy, 1, 1e-12);
+  const std::vector<Vec2> found = inner_points(result.patch);
+  for (std::size_t i = 0; i < seeds.size(); ++i) EXPECT_LE(norm(found[i] - seeds[i]), 1e-12);
 }
 
 TEST(Smoothing, SizesFollowTheSizeField) {
@@ -248,48 +243,6 @@ TEST(Smoothing, IsTheSameBytesOnAnyNumberOfThreads) {
   for (const TriPatch& other : results) {
     EXPECT_EQ(other.points, results[0].points);
     EXPECT_EQ(other.triangles, results[0].triangles);
-  }
-}
-
-TEST(Smoothing, LloydEndsHigherThanTheExactGradient) {
-  const PatchBoundary boundary = shapes::annulus(0.4, 1, 48, 120);
-  const FunctionCross cross([](Vec2 x) { return std::atan2(x.y, x.x); });
-  const FunctionSize size(0.05);
-  const std::vector<Vec2> seeds = inner_points(frontal(boundary, cross, size));
-  const Smoothed exact = smooth(boundary, seeds, cross, size);
-  const Smoothed lloyd = smooth(boundary, seeds, cross, size, {}, *make_lloyd_minimiser());
-  expect_sound(lloyd.patch, boundary, exact.patch.points.size());
-  EXPECT_EQ(lloyd.summary.refused, 0);
-  EXPECT_LT(lloyd.summary.final_energy, lloyd.summary.first_energy);
-  EXPECT_LT(exact.summary.final_energy, lloyd.summary.final_energy);
-}
-
-TEST(Smoothing, LloydForTwoIsTheCentroid) {
-  const PatchBoundary boundary = shapes::random_polygon_with_holes(5, 0.2);
-  const std::vector<Vec2> seeds = random_seeds(boundary, 5, 100, 0.05);
-  SmoothingOptions options;
-  options.p = 2;
-  options.outer_iterations = 1;
-  options.inner.iterations = 1;
-  const Smoothed one =
-      smooth(boundary, seeds, FunctionCross(0.3), FunctionSize(0.2), options, *make_lloyd_minimiser());
-  // Of the energy at fixed cells, a seed's derivative is 2 weight area (seed - centroid).
-  const MovingDelaunay d(constrained_delaunay(boundary, seeds));
-  BoundedVoronoi cells;
-  ASSERT_TRUE(cells.build(d));
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    const int seed = d.n_boundary() + static_cast<int>(i);
-    double area = 0;
-    Vec2 moment;
-    const auto add = [&](Vec2 a, Vec2 b) {
-      const double part = delquad::cross(a - seeds[i], b - seeds[i]) / 2;
-      area += part;
-      moment += (part / 3) * (seeds[i] + a + b);
-    };
-    walk_cell(d, cells, seed, [&](const CellEnd& a, const CellEnd& b) { add(a.at, b.at); });
-    for (const auto& piece : cells.pieces())
-      if (piece.seed == seed) add(cells.clips()[piece.from].at, cells.clips()[piece.to].at);
-    EXPECT_LE(norm(inner_points(one.patch)[i] - (1 / area) * moment), 1e-12) << i;
   }
 }
 
@@ -398,13 +351,11 @@ TEST(BadSmoothing, SingularityOnASeedIsDefined) {
 
 TEST(BadSmoothing, WithoutFreePointsNothingMoves) {
   const PatchBoundary boundary = shapes::rectangle(1, 1, 2, 2);
-  for (const auto& minimiser : {make_lbfgs_minimiser(), make_lloyd_minimiser()}) {
-    const Smoothed result = smooth(boundary, {}, FunctionCross(0), FunctionSize(0.5), {}, *minimiser);
-    expect_sound(result.patch, boundary, 8);
-    EXPECT_EQ(result.summary.termination, SmoothingTermination::kConverged);
-    EXPECT_EQ(result.summary.iterations, 0);
-    EXPECT_GT(result.summary.first_energy, 0);
-  }
+  const Smoothed result = smooth(boundary, {}, FunctionCross(0), FunctionSize(0.5));
+  expect_sound(result.patch, boundary, 8);
+  EXPECT_EQ(result.summary.termination, SmoothingTermination::kConverged);
+  EXPECT_EQ(result.summary.iterations, 0);
+  EXPECT_GT(result.summary.first_energy, 0);
 }
 
 TEST(BadSmoothing, SliversAndSharpCornersStayInside) {
