@@ -58,8 +58,26 @@ Uninterrupted::~Uninterrupted() {
   if (--sections == 0 && pending != 0) leave(pending);
 }
 
+void StageTimes::begin(const std::string& stage, double at) {
+  seconds_[stage_] += at - since_;
+  stage_ = stage;
+  since_ = at;
+}
+
+std::string StageTimes::longest(double at) {
+  begin(stage_, at);
+  const auto& [stage, most] =
+      *std::ranges::max_element(seconds_, {}, [](const auto& one) { return one.second; });
+  return stage.empty() || stage == stage_ ? "" : fmt::format("; {} took longest: {:.1f} s", stage, most);
+}
+
 struct TimeLimit::Watch {
   std::mutex mutex;
+  StageTimes stages;
+  const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
   std::condition_variable over;
   bool is_over = false;
   std::thread thread;
@@ -73,15 +91,20 @@ TimeLimit::TimeLimit(double seconds) : watch_(std::make_unique<Watch>()) {
   watch_->thread = std::thread([watch = watch_.get(), end, seconds] {
     std::unique_lock lock(watch->mutex);
     if (watch->over.wait_until(lock, end, [&] { return watch->is_over; })) return;
-    const std::string at = program_activities().text();
+    const std::string at = program_activities().text() + watch->stages.longest(watch->seconds());
     if (!abandon_files()) return;
     fmt::print(stderr, "{}error: not done after {:g} s (--time-limit): {}\n",
                errors_have_a_terminal() ? "\r\x1b[2K" : "", seconds, at);
     _exit(kTimeIsUp);
   });
+  program_activities().on_stage = [watch = watch_.get()](const char* stage) {
+    const std::lock_guard lock(watch->mutex);
+    watch->stages.begin(stage, watch->seconds());
+  };
 }
 
 TimeLimit::~TimeLimit() {
+  program_activities().on_stage = nullptr;
   {
     const std::lock_guard lock(watch_->mutex);
     watch_->is_over = true;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 
 #include "base/activity.h"
 
@@ -24,9 +26,23 @@ class Uninterrupted {
   Uninterrupted& operator=(const Uninterrupted&) = delete;
 };
 
-/// Ends the program with kTimeIsUp when it lives for so long, whatever its threads are at then: one message
-/// tells what (see activity.h), and files that are being written are removed. Once the first file stands at
-/// its place, what is left is done instead: it takes no time.
+/// Adds up the seconds of stages, each until the next one begins.
+class StageTimes {
+ public:
+  /// `at`: seconds on any clock, ascending.
+  void begin(const std::string& stage, double at);
+  /// "; boundary took longest: 4.2 s"; empty if the stage of the moment did.
+  std::string longest(double at);
+
+ private:
+  std::map<std::string, double> seconds_;
+  std::string stage_;
+  double since_ = 0;
+};
+
+/// Ends the program with kTimeIsUp when it lives for so long, whatever its threads are at then. One message
+/// tells the activity (see activity.h) and the stage that took longest. Files that are being written are
+/// removed. Once the first file stands at its place, the rest is done instead: it takes no time.
 class TimeLimit {
  public:
   /// Seconds, > 0.

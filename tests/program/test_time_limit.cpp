@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "experiments/console/interrupt.h"
 #include "tests/program/program.h"
 
 namespace delquad::testing_support {
@@ -33,6 +34,19 @@ TEST(TimeLimit, EndsTheRunWithTheStageAndItsFace) {
   EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
+}
+
+TEST(StageTimes, NameTheLongestStageUnlessItIsTheLast) {
+  StageTimes times;
+  EXPECT_EQ(times.longest(9), "") << "no stage has begun";
+  times.begin("boundary", 10);
+  times.begin("lifting", 50);
+  EXPECT_EQ(times.longest(58), "; boundary took longest: 40.0 s");
+  times.begin("boundary", 60);
+  EXPECT_EQ(times.longest(61), "");
+  times.begin("lifting", 62);
+  EXPECT_EQ(times.longest(94), "; boundary took longest: 42.0 s");
+  EXPECT_EQ(times.longest(95), "");
 }
 
 TEST(TimeLimit, IsNotFeltByWhatIsDone) {
