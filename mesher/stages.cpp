@@ -284,14 +284,14 @@ OptimisationSummary optimise(const AllPatches& in, std::vector<Vec>& points,
 
 OptimisationSummary optimise_surface(const AllPatches& in) {
   const PreparedSurface& surface = *in.prepared.surface;
+  parallel_for(in.patches.size(), [&](std::size_t i) {
+    if (!in.left_out[i]) in.patches[i].inside = places_inside(in.prepared, i, in.patches[i], in.nodes.points);
+  });
   std::vector<SurfaceTracks::Patch> patches;
-  for (std::size_t i = 0; i < in.patches.size(); ++i) {
-    if (in.left_out[i]) continue;
-    PatchMesh& patch = in.patches[i];
-    patch.inside = places_inside(in.prepared, i, patch, in.nodes.points);
-    patches.push_back(
-        {&surface.domain.patches[i], in.prepared.patches[i].cross.get(), &patch.quads, &patch.inside});
-  }
+  for (std::size_t i = 0; i < in.patches.size(); ++i)
+    if (PatchMesh& patch = in.patches[i]; !in.left_out[i])
+      patches.push_back(
+          {&surface.domain.patches[i], in.prepared.patches[i].cross.get(), &patch.quads, &patch.inside});
   SurfaceTracks tracks(surface.model, *surface.size, surface.domain, in.nodes, std::move(patches));
   std::vector<Vec3> points = tracks.points();
   const auto summary = optimise<Vec3>(in, points, tracks.quads(), tracks);
