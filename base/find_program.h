@@ -5,7 +5,7 @@
 
 namespace delquad {
 
-/// A program of ours that reads files by a library.
+/// A program of ours that reads files for us.
 struct HelperProgram {
   std::string name;      ///< "delquad-cad"
   std::string reads;     ///< "CAD files"

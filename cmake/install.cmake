@@ -8,6 +8,10 @@ set_target_properties(delquad_bench PROPERTIES EXPORT_NAME bench)
 file(RELATIVE_PATH lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
 set_target_properties(delquad PROPERTIES INSTALL_RPATH $ORIGIN/${lib_from_bin})
 
+# The script that draws figures, which a researcher may change.
+configure_file(experiments/figures.py ${CMAKE_BINARY_DIR}/delquad-figures COPYONLY)
+install(PROGRAMS experiments/figures.py DESTINATION ${CMAKE_INSTALL_LIBEXECDIR} RENAME delquad-figures)
+
 get_property(loaded GLOBAL PROPERTY DELQUAD_LOADED)
 install(TARGETS delquad)
 install(TARGETS ${loaded} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})

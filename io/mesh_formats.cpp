@@ -20,11 +20,8 @@ namespace delquad {
 
 namespace {
 
-/// A plane mesh is seen from above, one in space from a corner.
 void write_picture(const std::filesystem::path& path, const Mesh& mesh) {
-  const bool planar = std::all_of(mesh.points.begin(), mesh.points.end(),
-                                  [&](const Vec3& p) { return p.z == mesh.points[0].z; });
-  (planar ? draw_mesh : draw_surface)(path, mesh, path.stem().string());
+  draw_mesh(path, mesh, path.stem().string());
 }
 
 void make_utf8(Entity& entity) {

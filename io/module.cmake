@@ -1,20 +1,6 @@
 find_package(Boost REQUIRED)
 find_package(PkgConfig REQUIRED)
 
-# The font of figures, as bytes inside the program.
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS io/font/dejavu_sans.ttf)
-file(READ io/font/dejavu_sans.ttf font HEX)
-string(REGEX REPLACE "(..)" "0x\\1," font "${font}")
-file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/sans_font.cpp @ONLY CONTENT [[
-#include <span>
-namespace delquad {
-extern const std::span<const unsigned char> kSansFont;
-constexpr unsigned char kBytes[] = {@font@};
-const std::span<const unsigned char> kSansFont = kBytes;
-}  // namespace delquad
-]])
-target_sources(delquad_io PRIVATE ${PROJECT_BINARY_DIR}/sans_font.cpp)
-
 # Formats by libraries of other projects, if these are installed: DELQUAD_HAS_<FORMAT>, and a library of ours for each, which is loaded
 # when needed. Each sees its own headers alone: Debian builds MED with the HDF5 of Open MPI, whose headers differ from the serial ones.
 # The symbols of both have versions.

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 
-#include "geometry/mesh/element_nodes.h"
-#include "geometry/mesh/half_edges.h"
 #include "io/mesh_io.h"
 #include "io/xml.h"
 
@@ -107,19 +106,6 @@ void Picture::add(const Path& path, std::string_view fill, std::string_view stro
   fmt::format_to(std::back_inserter(body_),
                  "<path fill=\"{}\" stroke=\"{}\" stroke-width=\"{:.3g}\" d=\"{}\"/>\n", fill, stroke,
                  100 * stroke_width, path.data());
-}
-
-void Picture::add_outline(const Mesh& mesh, double stroke_width) {
-  Path path;
-  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
-    if (edge.size() == 1 && mesh.order == 1)
-      path.segment(spot(mesh.points[edge[0].lo]), spot(mesh.points[edge[0].hi]));
-  });
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    const std::vector<Vec3> line = outline_of_line(mesh, l);
-    for (std::size_t k = 0; k + 1 < line.size(); ++k) path.segment(spot(line[k]), spot(line[k + 1]));
-  }
-  add(path, "none", "#000", stroke_width);
 }
 
 void Picture::add_marks(const std::vector<Mark>& marks) {

@@ -67,8 +67,6 @@ class Picture {
 
   /// Widths in pixels; "none" draws no fill or no stroke.
   void add(const Path& path, std::string_view fill, std::string_view stroke, double stroke_width);
-  /// Free edges of the mesh and its lines.
-  void add_outline(const Mesh& mesh, double stroke_width);
   void add_marks(const std::vector<Mark>& marks);
   /// Marks, and lines that join pairs of them.
   void add_marks(const std::vector<Mark>& marks, const std::vector<std::array<Vec2, 2>>& pairs);

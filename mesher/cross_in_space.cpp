@@ -3,6 +3,10 @@
 #include <cmath>
 #include <memory>
 
+#include "base/parallel.h"
+#include "delquad/mesher.h"
+#include "features/metric/metric_surface.h"
+#include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/nearest_triangle.h"
 
 namespace delquad {
@@ -75,6 +79,41 @@ CrossInSpace on_surface(const PreparedProblem& prepared) {
 CrossInSpace cross_in_space(const PreparedProblem& prepared) {
   if (prepared.surface) return prepared.surface->metric ? nullptr : on_surface(prepared);
   return prepared.metric_plane || !prepared.plane.background ? nullptr : in_plane(prepared);
+}
+
+WantedAt wanted_at(const Prepared& prepared, const Mesh& mesh) {
+  const std::size_t n = mesh.points.size();
+  WantedAt wanted{std::vector<double>(n), std::vector<std::array<Vec3, 2>>(n)};
+  const MetricAt metric = metric_of(prepared.inside());
+  const CrossInSpace cross = cross_in_space(prepared.inside());
+  std::vector<int> region(n, 0);
+  const int n_triangles = static_cast<int>(mesh.triangles.size());
+  for_each_element(mesh, [&](int e, const auto& v) {
+    for (const int i : v)
+      region[i] = e < n_triangles ? mesh.triangle_region[e] : mesh.quad_region[e - n_triangles];
+  });
+  parallel_ranges(n, [&](std::size_t begin, std::size_t end) {
+    int in_size = -1, in_field = -1;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3& x = mesh.points[i];
+      auto& [first, second] = wanted.edges[i];
+      if (metric) {
+        const TangentMetric m = metric(region[i], x, in_field);
+        const MetricAxes axes = axes_of(m.m);
+        const double c = std::cos(axes.theta), s = std::sin(axes.theta);
+        first = axes.h1 * m.in_space({c, s});
+        second = axes.h2 * m.in_space({-s, c});
+        wanted.size[i] = std::sqrt(axes.h1 * axes.h2);
+        continue;
+      }
+      const double size = wanted.size[i] = prepared->size.field->at(x, in_size);
+      if (const auto ways = cross ? cross(x, size, in_field) : std::nullopt) {
+        first = size / norm((*ways)[0]) * (*ways)[0];
+        second = size / norm((*ways)[1]) * (*ways)[1];
+      }
+    }
+  });
+  return wanted;
 }
 
 }  // namespace delquad

@@ -258,18 +258,6 @@ std::optional<NodalMetric> followed_metric(const Prepared& prepared) {
   return result;
 }
 
-std::optional<Cross> Prepared::cross_at(Vec2 u, int& hint) const {
-  const BackgroundMesh& background = *made_->plane.background;
-  const auto [t, b] = background.locate(u, hint);  // of the place that is nearest
-  const TriPatch& tri = background.triangles();
-  const auto& v = tri.triangles[t];
-  const Vec2 nearest = b[0] * tri.points[v[0]] + b[1] * tri.points[v[1]] + b[2] * tri.points[v[2]];
-  constexpr double kRounding = 1e-9;
-  if (norm(nearest - u) > kRounding * (norm(u) + norm(tri.points[v[1]] - tri.points[v[0]]))) return {};
-  int anywhere = -1;
-  return made_->patches[background.triangle_patch()[t]].cross->at(u, anywhere);
-}
-
 MeshMetrics Prepared::metrics(const Mesh& made, const std::string& word) const {
   MeshMetrics metrics = metrics_of(*made_, made, sorted_half_edges(made));
   measure_from_outside(*made_, made, word, metrics);

@@ -19,6 +19,7 @@
 #include "experiments/console/interrupt.h"
 #include "experiments/console/progress.h"
 #include "experiments/sweep/record.h"
+#include "experiments/sweep/wanted_fields.h"
 #include "io/cases/case_file.h"
 #include "io/cases/read_problem.h"
 #include "io/entity_names.h"
@@ -202,6 +203,11 @@ void name_failing(const CriteriaReport& report, Mesh& mesh) {
   }
 }
 
+void check_fields_file(const std::filesystem::path& file) {
+  if (kind_of_file(file) != ".vtu") refuse("--fields: {}: expected a .vtu file", file.string());
+  check_output(file);
+}
+
 int mesh_command(const MeshArguments& arguments) {
   const Stopwatch command;
   const RunScope run({.threads = arguments.threads});
@@ -224,9 +230,11 @@ int mesh_command(const MeshArguments& arguments) {
        {"the file of sizes", size_file && size_file->path != arguments.model ? size_file->path : ""},
        {"-o", arguments.output},
        {"--json", arguments.json},
+       {"--fields", arguments.fields},
        {"--view", arguments.view ? page_of(arguments.output) : ""}});
   check_output(arguments.output);
   if (!arguments.json.empty()) check_output(arguments.json);
+  if (!arguments.fields.empty()) check_fields_file(arguments.fields);
 
   Progress progress(2 + static_cast<int>(word.stages.size()));
   const auto told = [&](const std::string& head) {
@@ -248,6 +256,7 @@ int mesh_command(const MeshArguments& arguments) {
     (arguments.serendipity ? write_serendipity : write_mesh)(
         arguments.output, with_sets ? *with_sets : result.mesh, arguments.msh);
     result.log.add_time("write", writing.time());
+    if (!arguments.fields.empty()) write_wanted(arguments.fields, result.mesh, result.prepared);
     if (!arguments.json.empty()) write_text_file(arguments.json, run_record(c, word, result));
   }
   progress.finish();

@@ -134,6 +134,8 @@ void add_mesh_output(CLI::App& mesh, MeshArguments& arguments) {
   mesh.add_flag("--serendipity", arguments.serendipity,
                 "write quads of order 2 with 8 nodes, without a middle one, in .msh and .vtu, too");
   mesh.add_option("--json", arguments.json, "write a record to this file");
+  mesh.add_option("--fields", arguments.fields,
+                  "write the wanted sizes and directions at the nodes to this file (.vtu)");
   mesh.add_flag("--view", arguments.view,
                 "show the mesh in a browser, too, by a page beside it, as 'delquad view' does");
   add_max_elements(mesh, arguments.max_elements);

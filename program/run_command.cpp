@@ -14,6 +14,7 @@
 #include "base/located.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "experiments/sweep/draw_figures.h"
 #include "program/options.h"
 #include "program/print.h"
 
@@ -140,6 +141,17 @@ Outcome run_all(const RunArguments& arguments, const std::vector<Experiment>& ex
   return all;
 }
 
+/// Draws all experiments at once, since Python takes a second to start.
+void draw_all(const std::vector<std::filesystem::path>& folders, Outcome& outcome) {
+  try {
+    const std::string why = draw_figures(folders);
+    if (!why.empty() && verbosity() != Verbosity::kQuiet) fmt::print(stderr, "{}\n", why);
+  } catch (const InputError& error) {
+    ++outcome.bad_inputs;
+    outcome.failures[error.what()];
+  }
+}
+
 int run_command(const RunArguments& arguments) {
   const RunScope run({.threads = threads_of(arguments)});
   const std::vector<Experiment> experiments = read_experiments(arguments);
@@ -151,8 +163,11 @@ int run_command(const RunArguments& arguments) {
     return kDone;
   }
   if (arguments.folder.empty()) throw InputError("--output is required: only --dry-run goes without");
-  const Outcome outcome =
+  Outcome outcome =
       experiments.size() == 1 ? run_and_print(arguments, experiments[0]) : run_all(arguments, experiments);
+  std::vector<std::filesystem::path> folders;
+  for (const Experiment& experiment : experiments) folders.push_back(folder_of(arguments, experiment));
+  draw_all(folders, outcome);
   return exit_code(outcome, arguments.allow_triangles);
 }
 
@@ -229,7 +244,7 @@ void add_run(CLI::App& app, Commands& commands) {
   add_sweep(*run, arguments);
   static const std::map<std::string, bool> pictures = {{"none", false}, {"svg", true}};
   run->add_option("--pictures", arguments.options.pictures,
-                  "of fields and meshes: 'svg' (the default) or 'none'")
+                  "'svg' (the default): a picture of each mesh, and its fields as .vtu; or 'none'")
       ->transform(CLI::CheckedTransformer(pictures).description("none or svg"));
   CLI::Option* dry =
       run->add_flag("--dry-run", arguments.dry_run,

@@ -73,10 +73,10 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 void remove_cell(const fs::path& folder) {
   const std::vector<fs::path> recorded = recorded_files(folder);
   for (const char* name :
-       {kRecord,      "mesh.msh",   "mesh.vtu",    "picture.svg", "convergence.svg", "peer.log",
-        "input.geo",  "input.msh",  "input.obj",   "input.inp",   "input.mesh",      "size.pos",
-        "size.sol",   "size.mesh",  "size.points", "model.step",  "model.msh",       "output.msh",
-        "output.obj", "output.off", "output.stl"}) {
+       {kRecord,      "mesh.msh",   "mesh.vtu",   "fields.vtu",  "picture.svg", "convergence.svg",
+        "peer.log",   "input.geo",  "input.msh",  "input.obj",   "input.inp",   "input.mesh",
+        "size.pos",   "size.sol",   "size.mesh",  "size.points", "model.step",  "model.msh",
+        "output.msh", "output.obj", "output.off", "output.stl"}) {
     std::error_code nothing_there;
     fs::remove(folder / name, nothing_there);
   }

@@ -151,7 +151,6 @@ class Sweep {
       const std::size_t i = next_++;
       auto work = std::make_shared<VariantWork>();
       work->c = experiment_.read_variant(i / experiment_.n_variants(), i % experiment_.n_variants());
-      work->folder = folder_;
       work->progress = &progress_;
       work->allow_unsound = options_.allow_unsound;
       work->pictures = options_.pictures;

@@ -22,7 +22,7 @@ struct SweepOptions {
   Shard shard = {};
   bool force = false;          ///< run cells again that are done
   bool allow_unsound = false;  ///< meshes that are not sound are results, marked as such
-  bool pictures = true;        ///< of fields and meshes, as SVG
+  bool pictures = true;        ///< of meshes, as SVG, and fields.vtu
   PlaceInQueue place = {};
 };
 
@@ -31,9 +31,9 @@ struct SweepOptions {
 /// in common. Cells are left out whose result is there already, made by the same program from the same model
 /// and options; those that failed are tried again.
 ///
-/// Writes DIR/study.json, DIR/<case>/<pipeline>/{mesh.msh, mesh.vtu, picture.svg, record.json},
-/// DIR/<case>/{cross.svg, size.svg} and the tables (see tables.h); with a matrix, <case> has the values that
-/// vary in its name. What the experiment was read from is copied, see keep_experiment(). A cell's files
+/// Writes DIR/study.json, the tables (see tables.h) and
+/// DIR/<case>/<pipeline>/{mesh.msh, mesh.vtu, picture.svg, fields.vtu, record.json}. With a matrix, <case>
+/// has the values that vary in its name. The experiment is copied, see keep_experiment(). A cell's files
 /// appear together, its record last. A run that is killed at any moment leaves the cells that are done, and
 /// none half done. The table names files that cannot be written.
 ///

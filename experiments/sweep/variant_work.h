@@ -68,7 +68,6 @@ bool is_done(const Cell& cell);
 /// process has its own.
 struct VariantWork {
   Case c;
-  std::filesystem::path folder;  ///< of the experiment
   std::vector<Cell> cells;
   SweepProgress* progress;
   bool allow_unsound;
@@ -85,10 +84,6 @@ struct VariantWork {
   /// Leaves a record of why there is no mesh, and what a peer read and printed; nothing where the cell was
   /// interrupted: it is to be made yet.
   void give_up(const Cell& cell, const std::string& status, const ProcessFailure& why) const;
-
- private:
-  void draw(const std::filesystem::path& folder_of_cell, const std::string& label,
-            const MeshResult& result) const;
 };
 
 }  // namespace delquad

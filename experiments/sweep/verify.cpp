@@ -19,6 +19,7 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "experiments/sweep/cells.h"
+#include "experiments/sweep/draw_figures.h"
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/experiment_copy.h"
 #include "experiments/sweep/folders.h"
@@ -338,8 +339,29 @@ Lines check_variant(const Variant& variant, const fs::path& data) {
   return wrong;
 }
 
+/// Figures that the tables in `scratch` do not make. Files of others stay empty there.
+Lines check_figures(const fs::path& folder, const fs::path& scratch, std::string& undrawn) {
+  std::set<std::string> names;
+  if (fs::is_directory(folder / kFigures))
+    for (const auto& file : fs::directory_iterator(folder / kFigures))
+      names.insert(file.path().filename().string());
+  if (names.empty()) return {};
+  fs::create_directory(scratch / kFigures);
+  for (const std::string& name : names) write_text_file(scratch / kFigures / name, "");
+  undrawn = draw_figures({scratch});
+  if (!undrawn.empty()) return {};
+  Lines wrong;
+  for (const std::string& name : names) {
+    const fs::path file = folder / kFigures / name, expected = scratch / kFigures / name;
+    const std::string bytes = fs::exists(expected) ? file_bytes(expected) : "";
+    if (!fs::exists(expected) || (!bytes.empty() && bytes != file_bytes(file)))
+      wrong.push_back(file.string() + ": is not what these records make with this version of matplotlib");
+  }
+  return wrong;
+}
+
 /// Tables and figures that the records do not make.
-Lines check_tables(const fs::path& folder, const Outcome& outcome) {
+Lines check_tables(const fs::path& folder, const Outcome& outcome, std::string& undrawn) {
   const TemporaryFolder scratch;
   write_tables(scratch.path(), outcome);
   std::set<fs::path> names;
@@ -355,11 +377,12 @@ Lines check_tables(const fs::path& folder, const Outcome& outcome) {
     else if (fs::exists(file) && (!fs::exists(expected) || file_bytes(expected) != file_bytes(file)))
       wrong.push_back(file.string() + ": is not what these records make");
   }
+  std::ranges::move(check_figures(folder, scratch.path(), undrawn), std::back_inserter(wrong));
   return wrong;
 }
 
 /// What concerns no single cell.
-Lines check_study(const fs::path& folder) {
+Lines check_study(const fs::path& folder, std::string& undrawn) {
   Lines wrong;
   if (!is_sealed(file_bytes(folder / "study.json")))
     wrong.push_back((folder / "study.json").string() + ": was changed: its digest is not that of its text");
@@ -369,7 +392,7 @@ Lines check_study(const fs::path& folder) {
     if (const std::size_t there = results.records.size(); there < results.study.cells)
       wrong.push_back(fmt::format("{}: {} of {} cells have no result", folder.string(),
                                   results.study.cells - there, results.study.cells));
-    std::ranges::move(check_tables(folder, make_tables(results)), std::back_inserter(wrong));
+    std::ranges::move(check_tables(folder, make_tables(results), undrawn), std::back_inserter(wrong));
   } catch (const InputError& error) {
     wrong.emplace_back(error.what());
   }
@@ -397,7 +420,7 @@ Verification verify_results(const fs::path& folder, const fs::path& data) {
   for (const fs::path& file : record_files(folder)) cells.push_back({file, {}, false});
   if (cells.empty()) throw InputError(folder.string() + ": holds no record.json of an experiment");
   result.cells = cells.size();
-  Lines of_study = check_study(folder);
+  Lines of_study = check_study(folder, result.undrawn);
   check_all(
       cells.size(), [&](std::size_t i) { return check_record(cells[i]); }, result.findings);
   std::vector<Variant> variants;

@@ -12,6 +12,7 @@ namespace delquad {
 struct Verification {
   std::size_t cells = 0, measured = 0;  ///< records there are; meshes whose measures were taken again
   std::vector<std::string> findings;    ///< what is not as it was written, a line each with the file
+  std::string undrawn;                  ///< why figures are not checked; empty: they are, or there are none
 };
 
 /// What is not as it was written in a cell, by its record.json: the record by the digest that it carries, and

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -234,8 +235,6 @@ class Prepared {
   MapReport maps() const;
   /// The triangles that carry the fields of a planar domain; null on surfaces.
   const TriPatch* background() const;
-  /// The cross of a planar domain at a place; nothing outside. `hint`: as in SizeField::at.
-  std::optional<Cross> cross_at(Vec2 u, int& hint) const;
   /// Rows of quads that have to end along the fields of all patches so that sizes are as wanted, in the mean.
   /// Takes about as long as D unless the fields are size-aware.
   double row_ends() const;
@@ -251,6 +250,14 @@ class Prepared {
   std::shared_ptr<const MeshProblem> problem_;
   std::shared_ptr<const PreparedProblem> made_;
 };
+
+/// The edges that a problem asks for at the points of a mesh of it.
+struct WantedAt {
+  std::vector<double> size;  ///< the edge length; of a metric the root of both lengths' product
+  /// Along the cross, or the axes of the metric: as long as edges are wanted there. 0 where no field is.
+  std::vector<std::array<Vec3, 2>> edges;
+};
+WantedAt wanted_at(const Prepared& prepared, const Mesh& mesh);
 
 /// A metric by its values.
 struct NodalMetric {

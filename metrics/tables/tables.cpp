@@ -55,8 +55,6 @@ class Tabulation {
     outcome_.pairs = pairs_table(study_.title, inference_);
     outcome_.hypotheses = hypotheses_table(study_.title, inference_);
     outcome_.summary = summarise(study_, records_, inference_);
-    outcome_.figures = make_figures(records_);
-    std::ranges::move(figures_of_effects(inference_), std::back_inserter(outcome_.figures));
     print();
     say_late(is_planned() ? outcome_.hypotheses : outcome_.pairs);
     say_late(outcome_.summary);
@@ -363,7 +361,6 @@ std::vector<std::string> write_tables(const fs::path& folder, const Outcome& out
     } catch (const InputError& error) {
       errors.push_back(error.what());
     }
-  for (const std::string& error : write_figures(folder, outcome.figures)) errors.push_back(error);
   return errors;
 }
 

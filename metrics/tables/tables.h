@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "metrics/tables/figures.h"
 #include "metrics/tables/result_records.h"
 #include "metrics/tables/study_file.h"
 #include "metrics/tables/table.h"
 
 namespace delquad {
+
+/// Folder of the figures in a folder of results: see draw_figures().
+inline constexpr const char* kFigures = "figures";
 
 /// What came of the cells of an experiment.
 struct Outcome {
@@ -23,7 +25,6 @@ struct Outcome {
   /// By name, with their texts: every run with what its columns mean, tables as they are printed with the
   /// works that their captions cite.
   std::map<std::string, std::string> files = {};
-  std::vector<Figure> figures;                         ///< of several pipelines over several cases
   long long leftover_triangles = 0;                    ///< in cells whose pipeline makes quads only
   int bad_inputs = 0, unsound = 0, others_failed = 0;  ///< cells that failed, and may not
   long long metrics_failed = 0;  ///< cells with a mesh, in which a measure by command failed
@@ -50,7 +51,7 @@ StudyResults read_results(const std::filesystem::path& folder);
 Outcome make_tables(const StudyResults& results);
 /// Throws InputError as read_results() does.
 Outcome make_tables(const std::filesystem::path& folder);
-/// Writes the tables that have rows, the files and the figures; returns the errors. The first table comes in
+/// Writes the tables that have rows and the files; returns the errors. The first table comes in
 /// every format, others as Markdown and CSV: tables.tex has them for print. Removes files of earlier runs
 /// that this one has not.
 std::vector<std::string> write_tables(const std::filesystem::path& folder, const Outcome& outcome);

@@ -18,7 +18,7 @@ endforeach()
 file(GLOB_RECURSE whole RELATIVE ${WORK}/prefix ${WORK}/prefix/*)
 list(SORT parts)
 list(SORT whole)
-if(NOT parts STREQUAL whole OR NOT EXISTS ${WORK}/components/program/bin/delquad OR NOT EXISTS ${WORK}/components/library/include/delquad/mesh.h)
+if(NOT parts STREQUAL whole OR NOT EXISTS ${WORK}/components/program/bin/delquad OR NOT EXISTS ${WORK}/components/program/libexec/delquad-figures OR NOT EXISTS ${WORK}/components/library/include/delquad/mesh.h)
   message(FATAL_ERROR "components: ${parts}\ninstalled: ${whole}")
 endif()
 # Nothing of the examples takes time, so that they need not be optimized.

@@ -40,7 +40,7 @@ size_t polygons(const std::string& svg) {
 
 std::string drawn(const Mesh& mesh) {
   const TemporaryFolder folder;
-  draw_surface(folder / "a.svg", mesh, "<box>");
+  draw_mesh(folder / "a.svg", mesh, "<box>");
   return read_text(folder / "a.svg");
 }
 

@@ -113,46 +113,6 @@ TEST(DrawMesh, StaysSmallForManyElements) {
   EXPECT_EQ(read_text(folder / "a.svg").find("#222"), std::string::npos) << "edges are not drawn";
 }
 
-TEST(DrawCrosses, HasTwoStrokesACross) {
-  const TemporaryFolder folder;
-  const Mesh square = testing_support::grid_outline(1, 1, 1, 1);
-  draw_crosses(folder / "a.svg", square, {{{0.5, 0.5}, 0, 0.2}, {{0.25, 0.5}, 0.3, 0.2}}, {{{0.5, 0.5}, -1}},
-               "");
-  const std::string text = read_text(folder / "a.svg");
-  EXPECT_EQ(count(path_data(text), "m"), 2u * 2 + 4 + 2) << "crosses, outline, the dot and its halo";
-  EXPECT_NE(text.find("index -1/4"), std::string::npos);
-}
-
-TEST(DrawCrosses, MarksShrinkWithTheirNumber) {
-  const TemporaryFolder folder;
-  const Mesh square = testing_support::grid_outline(1, 1, 1, 1);
-  std::vector<SingularityMark> marks(50, {{0.5, 0.5}, 1});
-  draw_crosses(folder / "few.svg", square, {}, marks, "");
-  marks.resize(5000, {{0.5, 0.5}, 1});
-  draw_crosses(folder / "many.svg", square, {}, marks, "");
-  EXPECT_NE(read_text(folder / "few.svg").find("stroke-width=\"900\""), std::string::npos);
-  EXPECT_EQ(read_text(folder / "many.svg").find("stroke-width=\"900\""), std::string::npos);
-}
-
-TEST(DrawScalar, CutsTrianglesAlongBands) {
-  const TemporaryFolder folder;
-  const Mesh mesh = triangle_grid(1, 1);
-  draw_scalar(folder / "one.svg", mesh, std::vector<double>(4, 2.5), "");
-  const std::string one = read_text(folder / "one.svg");
-  EXPECT_EQ(count(path_data(one), "z"), 2u) << "a constant needs no cuts";
-  EXPECT_NE(one.find(">2.5<"), std::string::npos);
-
-  draw_scalar(folder / "many.svg", mesh, {0.001, 1, 0.001, 1}, "");
-  const std::string many = read_text(folder / "many.svg");
-  EXPECT_EQ(count(path_data(many), "z"), 2u * 40) << "every band crosses both triangles";
-  for (const char* label : {">0.001<", ">0.1<", ">1<"})
-    EXPECT_NE(many.find(label), std::string::npos) << label;
-
-  draw_scalar(folder / "zero.svg", mesh, {0, 1, 0, 1}, "");
-  EXPECT_NE(read_text(folder / "zero.svg").find(">0.25<"), std::string::npos)
-      << "linear where a value is not positive";
-}
-
 TEST(Pictures, AreTheSameBytesTwice) {
   const TemporaryFolder folder;
   for (const char* name : {"a.svg", "b.svg"}) draw_mesh(folder / name, quad_grid(9, 9, 1, 3), "title");

@@ -363,8 +363,10 @@ TEST(OwnFields, ACrossMakerServesEveryPatch) {
   const Prepared prepared = prepare(problem);
   EXPECT_EQ(calls, 1);
   EXPECT_TRUE(prepared->crosses.singularities.empty());
-  int hint = -1;
-  EXPECT_NEAR(prepared.cross_at({0.1, 0.2}, hint)->angle(), 0.3, 1e-12);
+  Mesh somewhere;
+  somewhere.points = {{0.1, 0.2, 0}};
+  const Vec3 edge = wanted_at(prepared, somewhere).edges[0][0];
+  EXPECT_NEAR(std::atan2(edge.y, edge.x), 0.3, 1e-12);
 }
 
 TEST(OwnMetrics, MistakesOfProgrammersAreNamed) {

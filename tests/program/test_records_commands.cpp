@@ -75,7 +75,7 @@ TEST_F(RecordsCommands, PicturesAreSvgOrNone) {
   const std::string none = (folder_ / "none").string();
   EXPECT_EQ(delquad({"run", file_, "-o", none, "--pictures", "none"}).exit_code, 0);
   EXPECT_FALSE(fs::exists(none + "/square/DB/picture.svg"));
-  EXPECT_FALSE(fs::exists(none + "/square/cross.svg"));
+  EXPECT_FALSE(fs::exists(none + "/square/DB/fields.vtu"));
   EXPECT_TRUE(fs::exists(none + "/square/DB/mesh.vtu"));
   EXPECT_TRUE(fs::exists(out() + "/square/DB/picture.svg"));
   EXPECT_EQ(delquad({"run", file_, "-o", none, "--pictures", "jpg"}).exit_code, 2);

@@ -42,10 +42,10 @@ TEST(RunCommand, WritesCellsTablesAndPictures) {
   std::vector<std::string> files = all_files(folder / "results");
   EXPECT_EQ(std::erase_if(files, [](const std::string& name) { return name.starts_with("experiment/"); }), 3);
   EXPECT_EQ(files,
-            (std::vector<std::string>{".lock", "runs.csv", "runs_columns.csv", "square/D/mesh.msh",
-                                      "square/D/mesh.vtu", "square/D/picture.svg", "square/D/record.json",
-                                      "square/DB/mesh.msh", "square/DB/mesh.vtu", "square/DB/picture.svg",
-                                      "square/DB/record.json", "square/cross.svg", "square/size.svg",
+            (std::vector<std::string>{".lock", "runs.csv", "runs_columns.csv", "square/D/fields.vtu",
+                                      "square/D/mesh.msh", "square/D/mesh.vtu", "square/D/picture.svg",
+                                      "square/D/record.json", "square/DB/fields.vtu", "square/DB/mesh.msh",
+                                      "square/DB/mesh.vtu", "square/DB/picture.svg", "square/DB/record.json",
                                       "study.json", "table.csv", "table.json", "table.md", "table.tex"}));
   const std::string table = read_text(folder / "results" / "table.md");
   EXPECT_TRUE(contains(result.out, table));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "experiments/sweep/draw_figures.h"
 #include "experiments/sweep/experiment_copy.h"
 #include "experiments/sweep/merge.h"
 #include "experiments/sweep/run_experiment.h"
@@ -213,12 +214,9 @@ TEST_F(Records, VerifyFindsWhatWasChanged) {
   write_text(out() / "table.csv", text);
   expect_finding({"table.csv: is not what these records make"});
   restore();
-  const auto variants = [&](const char* folder) { return cell().parent_path() / folder; };
-  for (const fs::path& picture : {variants("size.svg"), variants("cross.svg")}) {
-    write_text(picture, read_text(picture) + " ");
-    ASSERT_GE(findings().size(), 1u) << picture;
-    EXPECT_NE(findings()[0].find(picture.filename().string() + ": holds "), std::string::npos)
-        << findings()[0];
+  for (const char* name : {"picture.svg", "fields.vtu"}) {
+    write_text(cell() / name, read_text(cell() / name) + " ");
+    expect_finding({name, ": holds "});
     restore();
   }
   text = read_text(out() / "study.json");
@@ -246,14 +244,24 @@ TEST_F(Records, VerifySeesFiguresBibliographyAndSwappedFolders) {
   for (const std::string n : {"1", "2", "3"})
     text += "[[case]]\nname = \"r" + n + "\"\nsize = 0.4\nloop = { rectangle = [[0, 0], [1, " + n + "]] }\n";
   run(text);
+  const bool has_figures = draw_figures({out()}).empty();
   ASSERT_TRUE(findings().empty()) << findings()[0];
-  for (const char* name : {"figures/profile_tau.svg", "figures/profile_tau.csv", "references.bib",
-                           "tables.tex", "summary.md", "pairs.csv"}) {
+  EXPECT_EQ(verify_results(out(), folder_ / "data").undrawn, "");
+  std::vector<const char*> names = {"references.bib", "tables.tex", "summary.md", "pairs.csv"};
+  if (has_figures) names.insert(names.end(), {"figures/profile_tau.svg", "figures/effects_tau.pdf"});
+  for (const char* name : names) {
     const std::string before = read_text(out() / name);
     write_text(out() / name, before + " ");
     EXPECT_EQ(findings().size(), 1u) << name;
     expect_finding({std::string(name).c_str(), "is not what these records make"});
     write_text(out() / name, before);
+  }
+  if (has_figures) {
+    write_text(out() / "figures/mine.svg", "of mine");
+    EXPECT_TRUE(findings().empty()) << "files of others are theirs";
+    fs::copy_file(out() / "figures/effects_tau.svg", out() / "figures/effects_other.svg");
+    expect_finding({"effects_other.svg", "is not what these records make"});
+    fs::remove(out() / "figures/effects_other.svg");
   }
   const auto swap = [&](const fs::path& a, const fs::path& b) {
     fs::rename(a, out() / "aside");
@@ -373,15 +381,11 @@ TEST_F(Records, DamageIsToldPlainly) {
 }
 
 TEST_F(Records, PicturesCanBeLeftOut) {
-  run(kSizes);
-  EXPECT_LT(fs::file_size(out() / "square@seed=1,size=0.25/size.svg"), 2000u)
-      << "a size that is the same everywhere";
-  EXPECT_NE(read_text(out() / "square@seed=1,size=0.25/size.svg").find("size 0.25 everywhere"),
-            std::string::npos);
-  fs::remove_all(out());
   run(kSizes, {.pictures = false});
-  for (const auto& entry : fs::recursive_directory_iterator(out()))
+  for (const auto& entry : fs::recursive_directory_iterator(out())) {
     EXPECT_NE(entry.path().extension(), ".svg") << entry.path();
+    EXPECT_NE(entry.path().filename(), "fields.vtu") << entry.path();
+  }
   EXPECT_TRUE(findings().empty()) << findings()[0];
   EXPECT_EQ(state(kSizes).find("to do"), std::string::npos);
 }

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
 
 #include "base/box.h"
 #include "geometry/mesh/element_nodes.h"
@@ -11,8 +15,36 @@
 #include "io/picture.h"
 #include "io/svg.h"
 #include "metrics/metrics.h"
+#include "metrics/regularity.h"
 
 namespace delquad {
+
+IrregularVertices irregular_vertices(const Mesh& mesh, int regular, const std::vector<double>& element_size) {
+  std::vector<int> valence(mesh.points.size(), 0);
+  std::vector<double> size(mesh.points.size(), 0);
+  for_each_element(mesh, [&](int element, const auto& v) {
+    for (const int i : v) {
+      ++valence[i];
+      size[i] += element_size[element];
+    }
+  });
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::vector<int> shown = valence;
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 2) shown[edge[0].lo] = shown[edge[0].hi] = regular;
+  });
+  IrregularVertices irregular;
+  if (mesh.triangles.empty())
+    for (const IrregularPair& pair : pair_irregular(mesh, sides).pairs) {
+      irregular.pairs.push_back({pair.few, pair.many});
+      if (shown[pair.few] == regular) shown[pair.few] = regular - 1;
+      if (shown[pair.many] == regular) shown[pair.many] = regular + 1;
+    }
+  for (int i = 0; i < static_cast<int>(valence.size()); ++i)
+    if (shown[i] != regular && valence[i] != 0)
+      irregular.vertices.push_back({i, shown[i], size[i] / valence[i]});
+  return irregular;
+}
 
 namespace {
 
@@ -182,8 +214,8 @@ std::string face_colour(int region) {
   return kPale[static_cast<size_t>(region) % kPale.size()];
 }
 
-/// Fill of each element: eta of quads, a colour a region for triangles.
-std::vector<std::string> fills(const Mesh& projected) {
+/// Fill of each element: eta of quads, a color a region for triangles; in space with light on it.
+std::vector<std::string> fills(const Mesh& projected, bool is_lit) {
   constexpr int kShades = 32;
   const std::vector<double> eta = quad_etas(projected);
   const size_t n_triangles = projected.triangles.size();
@@ -197,7 +229,7 @@ std::vector<std::string> fills(const Mesh& projected) {
       const int step = std::min(static_cast<int>(eta[e - n_triangles] * kShades), kShades - 1);
       base = svg::colour((step + 0.5) / kShades);
     }
-    fill.push_back(shaded(base, brightness(area_vector(projected.points, v))));
+    fill.push_back(is_lit ? shaded(base, brightness(area_vector(projected.points, v))) : base);
   });
   return fill;
 }
@@ -209,13 +241,30 @@ std::vector<Vec3> outline_of(const Mesh& mesh, int element) {
   return {mesh.points[a], mesh.points[b], mesh.points[c]};
 }
 
+/// Elements of about one size have one width of their edges: its step, by the element's size in pixels.
+int step_of_width(double pixels) {
+  constexpr int kLeast = -8, kMost = 8;  // steps of sqrt 2 of the pixel size that get a width of their own
+  return pixels > 0 ? std::clamp(static_cast<int>(std::lround(2 * std::log2(pixels))), kLeast, kMost)
+                    : kLeast;
+}
+
+void add_elements(Picture& picture, const Path& elements, const std::string& fill, int step,
+                  bool with_edges) {
+  constexpr double kEdgeWidth = 0.06;  // of the element's size
+  constexpr double kSeamWidth = 0.3;   // pixels; hides the seams between elements drawn without edges
+  picture.add(elements, fill, with_edges ? "#222" : fill,
+              with_edges ? kEdgeWidth * std::exp2(0.5 * step) : kSeamWidth);
+}
+
 /// Elements that are seen: first those that others cover in part, far ones first; the rest cover each other
 /// nowhere and need no order.
 class ElementLayers {
  public:
-  ElementLayers(const Mesh& mesh, const Raster& raster, const Picture& picture) : fill_(fills(mesh)) {
+  /// `raster`: null in a plane, where all is seen.
+  ElementLayers(const Mesh& mesh, const Raster* raster, const Picture& picture)
+      : fill_(fills(mesh, raster != nullptr)) {
     for_each_element(mesh, [&](int element, const auto& v) {
-      const auto visibility = raster.of(v);
+      const auto visibility = raster != nullptr ? raster->of(v) : Raster::Visibility::kWholly;
       if (visibility == Raster::Visibility::kHidden) return;
       const int step = step_of_width(pixel_size(mesh, v, picture));
       std::vector<svg::Spot> corners;
@@ -269,12 +318,12 @@ std::vector<Vec3> side_of(const Mesh& mesh, const HalfEdge& edge) {
 }
 
 /// Curves of the model and free edges, where they are seen.
-Path seen_lines(const Mesh& mesh, const Raster& raster, const Picture& picture) {
+Path seen_lines(const Mesh& mesh, const Raster* raster, const Picture& picture) {
   Path path;
   const auto add = [&](std::span<const Vec3> line) {
     const size_t pieces = line.size() - 1;
     // Elements are hidden by the chords of others.
-    if (!raster.sees_point(0.5 * (line[0] + line[pieces]))) return;
+    if (raster != nullptr && !raster->sees_point(0.5 * (line[0] + line[pieces]))) return;
     for (size_t k = 0; k < pieces; ++k) path.segment(picture.spot(line[k]), picture.spot(line[k + 1]));
   };
   for (size_t l = 0; l < mesh.lines.size(); ++l) add(outline_of_line(mesh, l));
@@ -284,23 +333,56 @@ Path seen_lines(const Mesh& mesh, const Raster& raster, const Picture& picture) 
   return path;
 }
 
+/// Adds dots on irregular vertices that are seen, and lines that join pairs of them, with their legend.
+/// pixels: the size of each element.
+void add_irregular(Picture& picture, const Mesh& mesh, int regular, const std::vector<double>& pixels,
+                   const std::function<bool(const Vec3&)>& is_seen) {
+  constexpr double kRadius = 0.2, kLeast = 0.5, kMost = 5;  // of the mean size of the elements around; pixels
+  std::vector<svg::Mark> marks;
+  const IrregularVertices irregular = irregular_vertices(mesh, regular, pixels);
+  for (const auto& [vertex, valence, mean_size] : irregular.vertices) {
+    if (!is_seen(mesh.points[vertex])) continue;
+    const int index = std::abs(regular - valence) == 1 ? regular - valence : 0;
+    marks.push_back({{mesh.points[vertex].x, mesh.points[vertex].y},
+                     index,
+                     std::clamp(kRadius * mean_size, kLeast, kMost)});
+  }
+  std::vector<std::array<Vec2, 2>> pairs;
+  for (const auto& [few, many] : irregular.pairs)
+    if (is_seen(mesh.points[few]) && is_seen(mesh.points[many]))
+      pairs.push_back(
+          {Vec2{mesh.points[few].x, mesh.points[few].y}, Vec2{mesh.points[many].x, mesh.points[many].y}});
+  picture.add_marks(marks, pairs);
+  if (!mesh.quads.empty())
+    picture.add_colour_bar("eta",
+                           {{0, "0"}, {0.2, "0.2"}, {0.4, "0.4"}, {0.6, "0.6"}, {0.8, "0.8"}, {1, "1"}});
+  if (!marks.empty())
+    picture.add_mark_legend({{1, "valence " + std::to_string(regular - 1)},
+                             {-1, "valence " + std::to_string(regular + 1)},
+                             {0, "other valence"}});
+}
+
 }  // namespace
 
-void draw_surface(const std::filesystem::path& path, const Mesh& mesh, const std::string& title) {
-  const Mesh projected = best_view(mesh);
+void draw_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::string& title) {
+  const bool is_flat =
+      std::ranges::all_of(mesh.points, [&](const Vec3& p) { return p.z == mesh.points[0].z; });
+  const Mesh projected = is_flat ? mesh : best_view(mesh);
   Picture picture(projected.points, title);
   constexpr double kSamplesAPixel = 2;
-  const Raster raster(projected, kSamplesAPixel * picture.scale());
-  ElementLayers(projected, raster, picture)
+  std::optional<Raster> raster;
+  if (!is_flat) raster.emplace(projected, kSamplesAPixel * picture.scale());
+  const Raster* seen = raster ? &*raster : nullptr;
+  ElementLayers(projected, seen, picture)
       .draw(picture, mesh.quads.size() + mesh.triangles.size() <= kMostOutlined);
   constexpr double kLineWidth = 1.1;
-  picture.add(seen_lines(projected, raster, picture), "none", "#000", kLineWidth);
-  if (!mesh.quads.empty()) {
+  picture.add(seen_lines(projected, seen, picture), "none", "#000", kLineWidth);
+  if (is_flat || !mesh.quads.empty()) {
     std::vector<double> pixels;
     for_each_element(projected,
                      [&](int, const auto& v) { pixels.push_back(pixel_size(projected, v, picture)); });
-    constexpr int kRegular = 4;
-    add_irregular(picture, projected, kRegular, pixels, [&](const Vec3& p) { return raster.sees_point(p); });
+    add_irregular(picture, projected, mesh.quads.empty() ? 6 : 4, pixels,
+                  [&](const Vec3& p) { return seen == nullptr || seen->sees_point(p); });
   }
   picture.write(path);
 }

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace delquad {
+
+/// Draws the figures of folders of results from their tables, as SVG and PDF in DIR/figures, by
+/// experiments/figures.py with matplotlib. Removes figures of earlier runs that there are no longer. Returns
+/// why none is drawn; empty: all are. Throws InputError when the script fails otherwise.
+std::string draw_figures(const std::vector<std::filesystem::path>& folders);
+
+}  // namespace delquad
