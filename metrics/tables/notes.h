@@ -7,12 +7,12 @@
 
 namespace delquad {
 
-/// What tables say of peers that were calibrated: for each of them on each case, by how much the size was
-/// changed and how close the number of quads came; where some runs missed it, how many and the worst.
+/// A note for each calibrated peer on each case: by how much its size was changed, and whether it has the
+/// number of quads. Where some meshes miss it, the note has their number and the worst.
 std::vector<std::string> calibration_notes(const std::vector<CellRecord>& records);
 
-/// To which word's number of quads which peers were brought, and how many more or fewer the words have that
-/// were not, where that is more than peers may miss. Nothing where no peer was calibrated.
+/// For each word that peers were brought to: these peers, and by how many percent other words have more quads
+/// or fewer. Words as near as peers have to be are left out. Nothing where no peer was calibrated.
 std::vector<std::string> quad_count_notes(const std::vector<CellRecord>& records);
 
 /// For each word that leaves triangles among its quads: on how many of its cases and on which (five at most

@@ -69,12 +69,11 @@ const std::vector<TableFormat>& table_formats();
 /// half-width are shown with two significant digits of it; where that leaves the range of the column, the
 /// ends of what the range leaves of the interval stand in its place.
 std::string to_markdown(const Table& table);
-/// Booktabs, at 8 points: columns that do not fit beside each other on an A4 page stand below each other, and
-/// the notes below them. More than 40 rows go over pages, by longtable.
+/// A longtable with booktabs, at 8 points, between paragraphs: a line above each group has its name. Columns
+/// that do not fit beside each other on an A4 page stand below each other, and the notes below them.
 std::string to_tex(const Table& table);
-/// As floats over all columns of a page, with caption and label, in the least width that classes have: a line
-/// above each group in place of a column, and more floats where the groups fill more than a page. `caption`:
-/// behind the title, in LaTeX.
+/// The same as floats over all columns of a page, with caption and label, and more floats where the groups
+/// fill more than a page. `caption`: behind the title, in LaTeX.
 std::string to_tex_floats(const Table& table, const std::string& label, const std::string& caption);
 /// For each column: value, published value, difference.
 std::string to_csv(const Table& table);

@@ -8,21 +8,20 @@
 
 #include "metrics/tables/table.h"
 
-// Tables for LaTeX. They are set at 8 points, and columns that do not fit beside each other stand below each
-// other, over the same rows.
+// Tables for LaTeX, at 8 points. A line above each group has its name. Columns that do not fit beside each
+// other stand below each other, over the same rows.
 
 namespace delquad {
 namespace {
 
-constexpr double kPageWidth = 345;    ///< points: \textwidth of LaTeX's classes on A4 at 10 points
-constexpr double kColumnSpace = 6;    ///< points: twice \tabcolsep as set below
-constexpr double kMostOfNames = 100;  ///< points that one of the names' columns takes; longer ones are broken
+constexpr double kPageWidth = 345;         ///< points: \textwidth of LaTeX's classes on A4 at 10 points
+constexpr double kColumnSpace = 6;         ///< points: twice \tabcolsep as set below
+constexpr double kMostOfNames = 100;       ///< points that the names' column takes; longer ones are broken
+constexpr double kLeastOfTexts = 70;       ///< points that a column of broken texts takes
 constexpr std::size_t kLongestPiece = 12;  ///< characters of a name without a place to break it
-constexpr std::size_t kLongestWord = 30;   ///< characters of a note without one
-constexpr std::size_t kFullPage = 32;     ///< lines of groups, after which the next one has a page of its own
-constexpr std::size_t kMostRows = 40;     ///< that fit on a page, with head and notes
-constexpr double kLeastOfTexts = 70;      ///< points that a column of broken values takes
-constexpr std::size_t kLongestText = 16;  ///< characters of a word in it
+constexpr std::size_t kLongestText = 16;   ///< characters of a word in a text without one
+constexpr std::size_t kLongestWord = 30;   ///< characters of a word in a note without one
+constexpr std::size_t kFullPage = 32;  ///< lines of groups, after which the next one has a page of its own
 
 /// The next character of UTF-8 and its bytes; U+FFFD for what is none.
 std::pair<char32_t, std::size_t> decode(std::string_view text) {
@@ -116,55 +115,43 @@ std::string breakable(const std::string& text, std::size_t longest) {
   return result;
 }
 
-/// The columns of one tabular beside the names.
-struct Block {
-  std::size_t first, last;
-};
-
 class TexTable {
  public:
-  /// `in_one_piece`: all columns stand beside each other. Then, and where groups have long names, these stand
-  /// above their rows, in place of a column.
-  explicit TexTable(const Table& table, bool in_one_piece = false)
-      : title_(table.title),
-        plain_(render(table, {"", "", " +- ", [](const std::string& text) { return text; }})),
-        rendered_(render(table, kTex)),
-        in_one_piece_(in_one_piece),
-        in_groups_(in_one_piece) {
-    for (const std::size_t k : {0, 1}) {
-      const double width = widest([&](const auto& line) { return line.names[k]; });
-      if (k == 0) in_groups_ |= width > kMostOfNames;
-      if (k == 0 && in_groups_) continue;
-      names_[k] = std::min(width, kMostOfNames);
-      broken_[k] = width > kMostOfNames;
-    }
-    for (const TableColumn& column : shown_columns(table))
-      are_texts_.push_back(std::ranges::none_of(
-          table.rows, [&](const TableRow& row) { return row.values.contains(column.key); }));
-    const double failed = widest([](const auto& line) { return line.missing; });
-    for (std::size_t k = 0; k < are_texts_.size(); ++k)
-      values_.push_back(std::max(failed, widest([&](const auto& line) { return line.values[k]; })) +
+  explicit TexTable(const Table& table)
+      : plain_(render(table, {"", "", " +- ", [](const std::string& text) { return text; }})),
+        rendered_(render(table, kTex)) {
+    name_ = widest([](const auto& line) { return line.names[1]; });
+    is_name_broken_ = name_ > kMostOfNames;
+    name_ = std::min(name_, kMostOfNames);
+    const std::vector<TableColumn> columns = shown_columns(table);
+    const double missing = widest([](const auto& line) { return line.missing; });
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      widths_.push_back(std::max(missing, widest([&](const auto& line) { return line.values[k]; })) +
                         kColumnSpace);
-    // What is too wide is broken: alone, or the widest of a table that is to stay in one piece.
-    paragraphs_.assign(values_.size(), 0);
-    const double excess = std::accumulate(values_.begin(), values_.end(), -room());
-    for (std::size_t k = 0; k < values_.size(); ++k) {
-      const bool is_widest = in_one_piece_ && values_[k] == *std::ranges::max_element(values_);
-      const double most = std::max(is_widest ? std::min(values_[k] - excess, room()) : room(), kLeastOfTexts);
-      if (values_[k] > most) paragraphs_[k] = values_[k] = most;
+    const double excess = std::accumulate(widths_.begin(), widths_.end(), -room());
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const bool is_text = std::ranges::none_of(
+          table.rows, [&](const TableRow& row) { return row.values.contains(columns[k].key); });
+      const double most = is_text ? std::max(widths_[k] - std::max(excess, 0.0), kLeastOfTexts) : room();
+      are_broken_.push_back(widths_[k] > most);
+      widths_[k] = std::min(widths_[k], most);
     }
   }
 
-  std::string text() const {
-    return fmt::format("% {}\n% Set at 8 points; to be input between paragraphs{}.\n", in_one_line(title_),
-                       is_long() ? ", not in a float, with booktabs and longtable"
-                                 : " or in a float, with booktabs") +
-           body();
-  }
-
-  std::string body() const {
+  /// As many columns beside each other as fit, at least one: `tabular` below `tabular`, or `longtable`.
+  std::string body(const std::string& environment) const {
     std::string text = "\\begingroup\\fontsize{8}{9.5}\\selectfont\\setlength{\\tabcolsep}{3pt}%\n";
-    for (const Block& block : blocks()) text += tabular(block) + "\\par\\medskip\n";
+    std::size_t first = 0;
+    double used = 0;
+    for (std::size_t k = 0; k < widths_.size(); ++k) {
+      if (k > first && used + widths_[k] > room() + 0.01) {
+        text += tabular(environment, first, k);
+        first = k;
+        used = 0;
+      }
+      used += widths_[k];
+    }
+    text += tabular(environment, first, widths_.size());
     if (!plain_.notes.empty()) text += "{\\raggedright\n";
     for (const std::string& note : plain_.notes)
       text += fmt::format("\\noindent {}\\par\n",
@@ -182,88 +169,67 @@ class TexTable {
     return width;
   }
 
-  /// Points for columns beside those of names.
-  double room() const { return kPageWidth - names_[0] - names_[1] - 2 * kColumnSpace; }
+  /// Points for columns beside the names.
+  double room() const { return kPageWidth - name_ - kColumnSpace; }
 
-  /// As many columns beside each other as fit, at least one.
-  std::vector<Block> blocks() const {
-    std::vector<Block> result = {{0, 0}};
-    double used = 0;
-    for (std::size_t k = 0; k < values_.size(); ++k) {
-      if (used + values_[k] > room() + 0.01 && result.back().last > result.back().first) {
-        result.push_back({k, k});
-        used = 0;
-      }
-      used += values_[k];
-      result.back().last = k + 1;
-    }
-    return result;
-  }
-
-  std::string name(std::size_t k, const std::string& text) const {
-    return broken_[k] ? "\\raggedright " + breakable(text, 0) : tex_escaped(text);
-  }
-
-  /// A name above its rows; one that is wider than the page is broken.
-  static std::string group_line(const std::string& group) {
-    if (width_of(group) <= kPageWidth) return "\\emph{" + tex_escaped(group) + "}";
-    return fmt::format("\\parbox[t]{{{}pt}}{{\\raggedright\\emph{{{}}}}}", kPageWidth, breakable(group, 0));
-  }
-
-  std::string line(const RenderedTable::Line& plain, const RenderedTable::Line& line,
-                   const Block& block) const {
-    std::string text = (in_groups_ ? "" : name(0, plain.names[0]) + " & ") + name(1, plain.names[1]);
+  std::string line(const RenderedTable::Line& plain, const RenderedTable::Line& line, std::size_t first,
+                   std::size_t last) const {
+    const std::string& name = plain.names[1];
+    std::string text = is_name_broken_ ? "\\raggedright " + breakable(name, 0) : tex_escaped(name);
     bool said = line.missing.empty();
-    for (std::size_t k = block.first; k < block.last; ++k) {
-      std::string value = line.values[k];
-      if (!said && value.empty()) {
+    for (std::size_t k = first; k < last; ++k) {
+      std::string value =
+          are_broken_[k] ? "\\raggedright " + breakable(plain.values[k], kLongestText) : line.values[k];
+      if (!said && line.values[k].empty()) {
         value = line.missing;
         said = true;
-      } else if (are_texts_[k] && paragraphs_[k] > 0) {
-        value = breakable(plain.values[k], kLongestText);
       }
-      if (paragraphs_[k] > 0)
-        value = (are_texts_[k] ? "\\raggedright" : "\\raggedleft") + ("\\let\\\\\\tabularnewline " + value);
       text += " & " + value;
     }
-    return text + " \\\\\n";
+    return text + " \\tabularnewline\n";
   }
 
-  bool is_long() const { return !in_one_piece_ && rendered_.lines.size() > kMostRows; }
+  /// The group's name above its rows; one that is wider than the page is broken.
+  static std::string group_line(const std::string& group, std::size_t columns) {
+    return fmt::format("\\multicolumn{{{}}}{{@{{}}l@{{}}}}{{{}}} \\tabularnewline\n", columns,
+                       width_of(group) <= kPageWidth
+                           ? "\\emph{" + tex_escaped(group) + "}"
+                           : fmt::format("\\parbox[t]{{{}pt}}{{\\raggedright\\emph{{{}}}}}", kPageWidth,
+                                         breakable(group, 0)));
+  }
 
-  /// One that is long runs over pages, with its head on each of them.
-  std::string tabular(const Block& block) const {
-    std::string text = is_long() ? "\\begin{longtable}[l]{@{}" : "\\noindent\\begin{tabular}{@{}";
-    for (std::size_t k = in_groups_ ? 1 : 0; k < 2; ++k)
-      text += broken_[k] ? fmt::format("p{{{:.0f}pt}}", kMostOfNames) : "l";
-    for (std::size_t k = block.first; k < block.last; ++k)
-      text += paragraphs_[k] > 0 ? fmt::format("p{{{:.0f}pt}}", paragraphs_[k] - kColumnSpace) : "r";
-    text += "@{}}\n\\toprule\n" + line(plain_.head, rendered_.head, block) + "\\midrule\n";
-    if (is_long()) text += "\\endhead\n\\bottomrule\n\\endfoot\n";
+  std::string tabular(const std::string& environment, std::size_t first, std::size_t last) const {
+    const bool is_long = environment == "longtable";
+    std::string text = fmt::format("\\{}begin{{{}}}{}{{@{{}}", is_long ? "" : "noindent\\", environment,
+                                   is_long ? "[l]" : "");
+    text += is_name_broken_ ? fmt::format("p{{{:.0f}pt}}", kMostOfNames) : "l";
+    for (std::size_t k = first; k < last; ++k)
+      text += are_broken_[k] ? fmt::format("p{{{:.0f}pt}}", widths_[k] - kColumnSpace) : "r";
+    text += "@{}}\n\\toprule\n" + line(plain_.head, rendered_.head, first, last) + "\\midrule\n";
+    if (is_long) text += "\\endhead\n\\bottomrule\n\\endfoot\n";
     for (std::size_t i = 0; i < plain_.lines.size(); ++i) {
       const std::string& group = plain_.lines[i].names[0];
-      if (in_groups_ && (i == 0 || group != plain_.lines[i - 1].names[0]))
-        text +=
-            fmt::format("{}\\multicolumn{{{}}}{{@{{}}l@{{}}}}{{{}}} \\\\\n", i == 0 ? "" : "\\addlinespace\n",
-                        1 + block.last - block.first, group_line(group));
-      text += line(plain_.lines[i], rendered_.lines[i], block);
+      if (i == 0 || group != plain_.lines[i - 1].names[0])
+        text += (i == 0 ? "" : "\\addlinespace\n") + group_line(group, 1 + last - first);
+      text += line(plain_.lines[i], rendered_.lines[i], first, last);
     }
-    return text + (is_long() ? "\\end{longtable}" : "\\bottomrule\n\\end{tabular}");
+    return text + (is_long ? "" : "\\bottomrule\n") + "\\end{" + environment + "}\\par\\medskip\n";
   }
 
-  std::string title_;
   RenderedTable plain_, rendered_;
-  bool in_one_piece_, in_groups_;
-  double names_[2] = {0, 0};  ///< widths
-  bool broken_[2] = {false, false};
-  std::vector<char> are_texts_;     ///< of columns
-  std::vector<double> values_;      ///< widths, with the space between columns
-  std::vector<double> paragraphs_;  ///< the same of values that are broken; 0: they are not
+  double name_ = 0;  ///< width
+  bool is_name_broken_ = false;
+  std::vector<double> widths_;    ///< of columns, with the space between them
+  std::vector<char> are_broken_;  ///< columns whose texts go over lines
 };
 
 }  // namespace
 
-std::string to_tex(const Table& table) { return TexTable(table).text(); }
+std::string to_tex(const Table& table) {
+  return fmt::format(
+      "% {}\n% Set at 8 points; to be input between paragraphs, with booktabs and longtable.\n{}",
+      in_one_line(table.title), TexTable(table).body("longtable"));
+}
 
 std::string to_tex_floats(const Table& table, const std::string& label, const std::string& caption) {
   std::string text;
@@ -278,7 +244,7 @@ std::string to_tex_floats(const Table& table, const std::string& label, const st
     if (is_last) page.notes = table.notes;
     const std::string begin = "\\begin{table*}[tbp]\n\\caption{" + in_one_line(tex_escaped(table.title));
     text += text.empty() ? begin + ". " + caption + "}\\label{" + label + "}\n" : begin + ", continued.}\n";
-    text += "\\smallskip\n" + TexTable(page, true).body() + "\\end{table*}\n";
+    text += "\\smallskip\n" + TexTable(page).body("tabular") + "\\end{table*}\n";
     page.rows.clear();
     lines = 0;
   }

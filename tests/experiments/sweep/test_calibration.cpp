@@ -122,7 +122,8 @@ TEST(CalibrationNotes, SayHowCloseTheNumberCame) {
           "plate other: size times 1.08 to 1.1, so that it has DB's number of quads within 1 %"}));
   EXPECT_EQ(
       calibration_notes({calibrated({"DB", 1, 100, 104, 8})}),
-      (std::vector<std::string>{"plate other: size times 1, and yet 4 % more quads than DB after 8 runs"}));
+      (std::vector<std::string>{
+          "plate other: size times 1, and yet 1 of 1 meshes miss DB's number of quads, by +4 % at most"}));
   EXPECT_EQ(calibration_notes({calibrated({"DB", 1, 0, 0, 1})}),
             (std::vector<std::string>{"plate other: size as given, for DB has no mesh to compare with"}));
 }
@@ -133,12 +134,10 @@ TEST(CalibrationNotes, SayInHowManySeedsItWasMissed) {
       calibrated({"DB", 1, 10000, 10000, 1}, "1"), calibrated({"DB", 1, 10000, 9497, 8}, "2"),
       calibrated({"DB", 1, 10000, 10050, 1}, "3"), calibrated({"DB", 1.1, 10000, 10200, 8}, "4")};
   EXPECT_EQ(calibration_notes(cells),
-            (std::vector<std::string>{"plate other: size times 1 to 1.1 for DB's number of quads; 1 % missed "
-                                      "in 2 of 4 seeds, by 5.03 % at most (seed 2, fewer quads)"}));
-  for (CellRecord& cell : cells) cell.variant.insert(cell.variant.begin(), {"size", "0.1"});
-  EXPECT_NE(calibration_notes(cells)[0].find("in 2 of 4 runs, by 5.03 % at most (size=0.1, seed=2, fewer"),
-            std::string::npos)
-      << calibration_notes(cells)[0];
+            (std::vector<std::string>{"plate other: size times 1 to 1.1, and yet 2 of 4 meshes miss DB's "
+                                      "number of quads, by -5.03 % at most"}));
+  cells[1].calibration->ended_by = "it crashed";
+  EXPECT_TRUE(calibration_notes(cells)[0].ends_with("-5.03 % at most: it crashed"));
 }
 
 /// Records of a word on cases, with these numbers of quads.
@@ -166,10 +165,8 @@ TEST(QuadCountNotes, SayHowMuchTheOtherWordsDiffer) {
     records[i].calibration = CalibrationRecord{"DBCO", 1, 100, 101, 2};
   EXPECT_EQ(quad_count_notes(records),
             (std::vector<std::string>{
-                "Calibrated, by their sizes, to DBCO's number of quads: peer",
-                "FB has 3 % to 17 % more quads than DBCO, to which the others were brought",
-                "few has 2 % to 5 % fewer quads than DBCO, to which the others were brought",
-                "both has from 2 % fewer to 10 % more quads than DBCO, to which the others were brought"}));
+                "Calibrated, by their sizes, to DBCO's number of quads: peer. Not calibrated, beside it: "
+                "FB +3 to +17 %, few -5 to -2 %, both -2 to +10 %"}));
 }
 
 }  // namespace
