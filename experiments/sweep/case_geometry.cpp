@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "base/text.h"
 #include "delquad/error.h"
@@ -32,6 +33,31 @@ class Samples3D {
         points_.push_back({s * p + s * q + (1 - 2 * s) * r, weight});
     }
     dimension_ = 2;
+  }
+
+  /// A segment that may be a chord of a curve.
+  void add_chord(const Vec3& a, const Vec3& b) {
+    if (a == b) return;
+    for (const auto& [from, to] : {std::pair(a, b), {b, a}}) ends_[{from.x, from.y, from.z}].push_back(to);
+  }
+
+  /// Two elements of this mean size meet at an angle. If the angle is small, they are taken for chords of a
+  /// curve or surface, which is longer or larger than they are.
+  void add_turn(double size, double angle) {
+    constexpr double kSmooth = 0.55;  // circles of twelve chords turn by 0.52
+    if (angle < kSmooth) missing_ += size * angle * angle / 24;
+  }
+
+  /// The part of the size that is missing if the elements are chords.
+  double chord_error() {
+    for (const auto& [point, others] : ends_) {
+      if (others.size() != 2) continue;
+      const Vec3 at{point[0], point[1], point[2]}, in = at - others[0], out = others[1] - at;
+      add_turn((norm(in) + norm(out)) / 2, std::atan2(norm(cross(in, out)), dot(in, out)));
+    }
+    double total = 0;
+    for (const auto& [at, weight] : points_) total += weight;
+    return total > 0 ? missing_ / total : 0;
   }
 
   /// Its dimension and size, and invariants of its moments up to the fifth, in radii of gyration.
@@ -95,6 +121,8 @@ class Samples3D {
     double weight;
   };
   std::vector<Point> points_;
+  std::map<std::array<double, 3>, std::vector<Vec3>> ends_;  ///< of chords, by point the others
+  double missing_ = 0;
   int dimension_ = 1;
 };
 
@@ -102,15 +130,21 @@ void add(const PlanarModel& model, Samples3D& samples) {
   constexpr int kAll = 20'000, kFewest = 16, kMost = 2000;  // of a circle: lengths to 1e-6
   const int of_curve = std::clamp(kAll / std::max(1, static_cast<int>(model.curves.size())), kFewest, kMost);
   for (const ModelCurve& curve : model.curves) {
+    const auto point = [&](double t) {
+      const Vec2 p = curve.shape->point(t);
+      return Vec3{p.x, p.y, 0};
+    };
     std::vector<double> at = curve.shape->fixed_parameters();
+    at.insert(at.begin(), 0);
+    at.push_back(1);
+    for (std::size_t k = 0; k + 1 < at.size(); ++k) {
+      const Vec3 a = point(at[k]), b = point(at[k + 1]), middle = point((at[k] + at[k + 1]) / 2);
+      constexpr double kStraight = 1e-9;
+      if (norm(middle - 0.5 * (a + b)) <= kStraight * norm(b - a)) samples.add_chord(a, b);
+    }
     for (int k = 0; k <= of_curve; ++k) at.push_back(static_cast<double>(k) / of_curve);
     std::ranges::sort(at);
-    Vec2 before = curve.shape->point(at[0]);
-    for (const double t : at) {
-      const Vec2 here = curve.shape->point(t);
-      samples.add_segment({before.x, before.y, 0}, {here.x, here.y, 0});
-      before = here;
-    }
+    for (std::size_t k = 0; k + 1 < at.size(); ++k) samples.add_segment(point(at[k]), point(at[k + 1]));
   }
 }
 
@@ -118,18 +152,33 @@ void add(const PlanarModel& model, Samples3D& samples) {
 void add(const Mesh& mesh, Samples3D& samples) {
   const auto& p = mesh.points;
   const bool is_flat = std::ranges::all_of(p, [&](const Vec3& x) { return x.z == p[0].z; });
+  const auto add_line = [&](int a, int b) {
+    samples.add_segment(p[a], p[b]);
+    samples.add_chord(p[a], p[b]);
+  };
   if (mesh.triangles.empty() && mesh.quads.empty())
-    for (const auto& line : mesh.lines) samples.add_segment(p[line[0]], p[line[1]]);
+    for (const auto& line : mesh.lines) add_line(line[0], line[1]);
   else if (is_flat)
     for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
-      if (edge.size() == 1) samples.add_segment(p[edge[0].lo], p[edge[0].hi]);
+      if (edge.size() == 1) add_line(edge[0].lo, edge[0].hi);
     });
   else {
-    for (const auto& v : mesh.triangles) samples.add_triangle(p[v[0]], p[v[1]], p[v[2]]);
+    std::vector<Vec3> areas;
+    for (const auto& v : mesh.triangles) {
+      samples.add_triangle(p[v[0]], p[v[1]], p[v[2]]);
+      areas.push_back(0.5 * cross(p[v[1]] - p[v[0]], p[v[2]] - p[v[0]]));
+    }
     for (const auto& v : mesh.quads) {
       samples.add_triangle(p[v[0]], p[v[1]], p[v[2]]);
       samples.add_triangle(p[v[2]], p[v[3]], p[v[0]]);
+      areas.push_back(0.5 * cross(p[v[2]] - p[v[0]], p[v[3]] - p[v[1]]));
     }
+    for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
+      if (edge.size() != 2) return;
+      const Vec3& a = areas[edge[0].element];
+      const Vec3 b = (edge[0].forward == edge[1].forward ? -1.0 : 1.0) * areas[edge[1].element];
+      samples.add_turn((norm(a) + norm(b)) / 2, std::atan2(norm(cross(a, b)), dot(a, b)));
+    });
   }
 }
 
@@ -160,6 +209,7 @@ CaseGeometry geometry_of(const Case& c) {
       if (const auto* given = std::get_if<GivenMesh>(&problem.model)) add(given->mesh, samples);
       if (const auto* cad = std::get_if<CadModel>(&problem.model)) geometry.digest = digest_of_cad(cad->file);
       geometry.shape = samples.invariants();
+      geometry.chord_error = samples.chord_error();
     } catch (const InputError&) {  // as its cells will say
     }
   return geometry;

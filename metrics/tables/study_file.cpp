@@ -62,8 +62,10 @@ Json to_json(const StudyFile& study) {
                {"plan", study.plan},        {"geometry", Json::object()},
                {"published", Json::array()}};
   for (const auto& [name, geometry] : study.geometry)
-    json["geometry"][name] = {
-        {"domain", geometry.domain}, {"digest", geometry.digest}, {"shape", geometry.shape}};
+    json["geometry"][name] = {{"domain", geometry.domain},
+                              {"digest", geometry.digest},
+                              {"shape", geometry.shape},
+                              {"chord_error", geometry.chord_error}};
   if (!study.columns.empty()) json["columns"] = study.columns;
   if (!study.pairs.empty()) json["pairs"] = study.pairs;
   for (const Hypothesis& h : study.hypotheses)
@@ -88,7 +90,7 @@ StudyFile from_json(const Json& json) {
   study.plan = json.value("plan", "");
   const Json geometry = json.value("geometry", Json::object());
   for (const auto& [name, of] : geometry.items())
-    study.geometry[name] = {of.at("domain"), of.at("digest"), of.at("shape")};
+    study.geometry[name] = {of.at("domain"), of.at("digest"), of.at("shape"), of.value("chord_error", 0.0)};
   json.at("cells").get_to(study.cells);
   json.at("step_times").get_to(study.step_times);
   study.columns = json.value("columns", study.columns);
@@ -150,10 +152,12 @@ bool have_same_plan(const StudyFile& a, const StudyFile& b) {
 namespace {
 
 bool are_same(const CaseGeometry& a, const CaseGeometry& b) {
-  constexpr double kSame = 1e-5;
+  // Moments differ by up to three times the part that chords cut off.
+  constexpr double kSame = 1e-5, kOfChords = 3;
+  const double tolerance = kSame + kOfChords * (a.chord_error + b.chord_error);
   if (!a.digest.empty() && a.digest == b.digest) return true;
-  return !a.shape.empty() && std::ranges::equal(a.shape, b.shape, [](double x, double y) {
-    return std::abs(x - y) <= kSame * (1 + std::abs(x));
+  return !a.shape.empty() && std::ranges::equal(a.shape, b.shape, [&](double x, double y) {
+    return std::abs(x - y) <= tolerance * (1 + std::abs(x));
   });
 }
 

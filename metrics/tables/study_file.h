@@ -56,11 +56,12 @@ struct TablePlan {
   std::vector<MayFail> may_fail;
 };
 
-/// Geometries are the same if their digests are equal or their shapes agree.
+/// Geometries are the same if their digests are equal, or if their shapes agree as far as chords let them.
 struct CaseGeometry {
   std::string domain;         ///< what the case says; empty: the geometry tells
   std::string digest;         ///< of the model's file, without what is no geometry; empty: there is none
   std::vector<double> shape;  ///< moments; empty: not known
+  double chord_error = 0;     ///< part of its length or area that chords of curves may have cut off
 };
 
 /// What a folder of results says of its experiment, besides the records of its cells: study.json.

@@ -151,6 +151,11 @@ TEST_F(Planned, PlansThatWereChangedAfterwardsSaySo) {
   EXPECT_TRUE(note_after(
       text("tau", "[[case]]\nname = \"b\"\nsize = 0.5\nloop = { rectangle = [[0, 0], [1, 2]] }\n")))
       << "a case more";
+  fs::remove_all(out);
+  EXPECT_FALSE(note_after(text("tau")));
+  std::string seeded = text("tau");
+  EXPECT_TRUE(note_after(seeded.replace(seeded.find("size = 0.5"), 0, "seed = 2\n"))) << "another seed";
+  EXPECT_NE(read_text(out / "hypotheses.md").find("exploratory"), std::string::npos);
 }
 
 /// Whatever a case says belongs to the plan: seeds, sizes and models could be tried until something is

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -517,6 +521,44 @@ TEST_F(Records, TellWhichCasesAreOneGeometry) {
                                                          {"disc", "disc"},
                                                          {"square", "disc"}}));
   EXPECT_NE(read_text(out() / "table.md").find("turned is the domain plate"), std::string::npos);
+}
+
+/// An ellipse of chords, with a hole.
+std::string polygons(int sides, double radius_of_hole) {
+  std::string loops;
+  for (const auto& [a, b, n] :
+       {std::array{2.0, 1.0, double(sides)}, {radius_of_hole, radius_of_hole, sides / 2.0}}) {
+    loops += loops.empty() ? "{ polygon = [" : ", { polygon = [";
+    for (int k = 0; k < n; ++k)
+      loops += fmt::format("{}[{}, {}]", k > 0 ? ", " : "", a * std::cos(2 * M_PI * k / n),
+                           b * std::sin(2 * M_PI * k / n));
+    loops += "] }";
+  }
+  return "loop = [" + loops + "]\n";
+}
+
+/// Outlines of one curve by chords of several sizes are one domain. Outlines of another curve are another
+/// domain. Corners of polygons do not count as chords.
+TEST_F(Records, OutlinesOfOneCurveAreOneGeometry) {
+  std::string text = "pipelines = [\"DB\"]\nquads = 20\n";
+  const auto add = [&](const std::string& name, const std::string& lines) {
+    text += "[[case]]\nname = \"" + name + "\"\n" + lines;
+  };
+  for (const int sides : {40, 80, 160, 400}) add("of_" + std::to_string(sides), polygons(sides, 0.4));
+  for (const int sides : {40, 80}) add("other_" + std::to_string(sides), polygons(sides, 0.45));
+  add("l_1", "loop = { polygon = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]] }\n");
+  add("l_2", "loop = { polygon = [[0, 0], [2, 0], [2, 1], [1, 1.001], [1, 2], [0, 2]] }\n");
+  for (const int n : {24, 48}) {
+    write_mesh(folder_ / fmt::format("can_{}.obj", n), testing_support::can(n, n / 8));
+    add(fmt::format("can_{}", n), fmt::format("model = \"can_{}.obj\"\n", n));
+  }
+  const StudyFile study = describe(Experiment::read(write(text)));
+  const std::map<std::string, std::string> domains = domains_of(study);
+  std::map<std::string, std::string> expected = {{"l_1", "l_1"}, {"l_2", "l_2"}};
+  for (const char* n : {"40", "80", "160", "400"}) expected[std::string("of_") + n] = "of_40";
+  for (const char* n : {"40", "80"}) expected[std::string("other_") + n] = "other_40";
+  for (const char* n : {"24", "48"}) expected[std::string("can_") + n] = "can_24";
+  EXPECT_EQ(domains, expected);
 }
 
 }  // namespace
