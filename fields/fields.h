@@ -91,7 +91,5 @@ double size_by_curvature(double base, double k, double per_turn, double min);
 
 /// Whether curvature is asked for overall or by name.
 bool follows_curvature(const SizeSpec& size);
-/// Throws InputError for limits of sizes that contradict each other.
-void check_size_limits(const SizeSpec& size);
 
 }  // namespace delquad

@@ -138,15 +138,6 @@ bool follows_curvature(const SizeSpec& size) {
          std::ranges::any_of(size.named, [](const NamedSize& n) { return n.curvature > 0; });
 }
 
-void check_size_limits(const SizeSpec& size) {
-  if (size.min > 0 && !follows_curvature(size))
-    throw InputError(size.where +
-                     ": a least size is for sizes that follow curvature: expected 'curvature' too");
-  if (size.min > 0 && size.max > 0 && size.min > size.max)
-    throw InputError(
-        fmt::format("{}: the least size {} is larger than the largest, {}", size.where, size.min, size.max));
-}
-
 namespace {
 
 /// log delta, linear on the background's triangles.

@@ -9,79 +9,17 @@
 #include <variant>
 #include <vector>
 
-#include "base/length_unit.h"
-#include "base/located.h"
 #include "features/curves/compose_size.h"
 #include "features/curves/surface_input.h"
-#include "features/divisions/divisions.h"
 #include "features/given/given_surface.h"
-#include "features/washers/hole_rows.h"
 #include "fields/fields.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/surface/triangulated_model.h"
+#include "io/cases/check_described.h"
 #include "io/cases/problem_record.h"
 
 namespace delquad {
 namespace {
-
-/// Refuses a number that is neither 0, for "none", nor finite and positive.
-void check_length(double value, const std::string& what, const std::string& where) {
-  if (!(value >= 0) || !std::isfinite(value))
-    throw InputError(fmt::format("{}: {} {}: expected a finite number above 0, or 0 for none", where, what,
-                                 std::isnan(value) ? "NaN" : fmt::format("{}", value)));
-}
-
-void check(const NamedSize& n) {
-  check_length(n.size, "the size of '" + n.name + "'", n.where);
-  check_length(n.reach, "the reach of '" + n.name + "'", n.where);
-  if (!(n.growth > 0) || !std::isfinite(n.growth))
-    throw InputError(fmt::format("{}: sizes grow away from '{}' by {}: expected a finite number above 0",
-                                 n.where, n.name, n.growth));
-  check_length(n.curvature, "the curvature of '" + n.name + "'", n.where);
-  if (n.curvature > 0 && n.curvature < kLeastPerTurn)
-    throw InputError(
-        fmt::format("{}: the curvature of '{}' is {}: expected at least {} elements per full turn", n.where,
-                    n.name, n.curvature, kLeastPerTurn));
-  if (!(n.size > 0) && !(n.curvature > 0))
-    throw InputError(fmt::format("{}: '{}' has neither a size nor a curvature", n.where, n.name));
-}
-
-void check_size(const SizeSpec& size) {
-  if ((size.field != nullptr) + (size.function != nullptr) + size.from_boundary > 1)
-    throw InputError(size.where + ": a size is a field, a function or the boundary's: expected one of them");
-  for (const NamedSize& named : size.named) check(named);
-  check_length(size.gradation, "gradation", size.where);
-  check_length(size.curvature, "curvature", size.where);
-  if (size.curvature > 0 && size.curvature < kLeastPerTurn)
-    throw InputError(fmt::format("{}: curvature {}: expected at least {} elements per full turn", size.where,
-                                 size.curvature, kLeastPerTurn));
-  check_length(size.min, "the least size", size.where);
-  check_length(size.max, "the largest size", size.where);
-  check_size_limits(size);
-}
-
-void check_surface(const SurfaceSpec& surface, const std::string& where) {
-  check_length(surface.ignore_below, "the length below which faces and curves are ignored", where);
-  if (surface.simplify && !(*surface.simplify >= 0 && std::isfinite(*surface.simplify)))
-    throw InputError(
-        fmt::format("{}: simplify {}: expected a number of sizes, at least 0", where, *surface.simplify));
-  check_length(surface.fill_holes, "the diameter of holes that are closed", where);
-  check_length(surface.merge_curves, "the length of curves that are merged", where);
-  if (surface.feature_angle) checked_feature_angle(*surface.feature_angle, where);
-  if (surface.weld_tolerance) checked_weld_tolerance(*surface.weld_tolerance, where);
-  if (!surface.unit.empty()) located(where, [&] { length_unit(surface.unit); });
-  if (surface.compounds == Compounds::kGroups) {
-    if (surface.groups.empty()) throw InputError(where + ": compounds by groups need a group of faces");
-    for (const auto& group : surface.groups)
-      if (group.size() < 2) throw InputError(where + ": a compound has two faces or more");
-  }
-  if (!surface.mirror) return;
-  const MirrorPlane& mirror = *surface.mirror;
-  if (!std::isfinite(norm(mirror.point))) throw InputError(where + ": the mirror's point is not finite");
-  if (!(norm(mirror.normal) > 0) || !std::isfinite(norm(mirror.normal)))
-    throw InputError(where + ": the normal of the mirror's plane has no finite length");
-  checked_weld_tolerance(mirror.tolerance, where, "the mirror's tolerance");
-}
 
 void check(const PlanarModel& model, const std::string& where) {
   if (model.loops.empty()) throw InputError(where + ": the model has no loops: nothing bounds a domain");
@@ -210,9 +148,20 @@ void check_symmetry_alone(const MeshProblem& problem) {
                                  problem.symmetry.where, problem.periodic[0].where));
 }
 
+/// Refuses ranges that share more than an end. `Spec`: WasherSpec or FilletRows.
+template <class Spec>
+void check_overlaps(const std::vector<Spec>& specs, const char* what) {
+  for (const Spec& s : specs)
+    for (const Spec* other = specs.data(); other != &s; ++other)
+      if (s.least < other->most && other->least < s.most)
+        throw InputError(fmt::format("{}: {} from {} to {} overlap those from {} to {} ({})", s.where, what,
+                                     s.least, s.most, other->least, other->most, other->where));
+}
+
 /// Washers and rows across fillets are not mirrored, and have no images on other sides.
 void check_washers(const MeshProblem& problem) {
-  check_washers(problem.washers, problem.fillet_rows);
+  check_overlaps(problem.washers, "diameters");
+  check_overlaps(problem.fillet_rows, "radii");
   const bool is_planar = std::holds_alternative<PlanarModel>(problem.model);
   const bool is_kept =
       std::holds_alternative<LineModel>(problem.model) || std::holds_alternative<GivenMesh>(problem.model);
@@ -250,30 +199,18 @@ void check_kind(const MeshProblem& problem) {
 }  // namespace
 
 void check_problem(const MeshProblem& problem) {
-  if (problem.seed < 0)
-    throw InputError(fmt::format("{}: seed {}: expected 0 or above", problem.where, problem.seed));
-  if (problem.max_elements < 1)
-    throw InputError(
-        fmt::format("{}: at most {} elements: expected 1 or above", problem.where, problem.max_elements));
-  if (problem.order < 1 || problem.order > kMostOrder)
-    throw InputError(
-        fmt::format("{}: elements of order {}: expected 1 to {}", problem.where, problem.order, kMostOrder));
+  check_described(problem, problem.where);
   std::visit([&](const auto& model) { check(model, problem.where); }, problem.model);
-  for (const LayerSpec& layer : problem.layers) layer_heights(layer);
   const bool is_planar =
       std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
   if (!problem.layers.empty() && !is_planar)
     throw InputError(problem.layers[0].where + ": layers are for planar domains, and this is a surface");
-  check_size(problem.size);
   const bool is_flat = is_planar || std::holds_alternative<GivenMesh>(problem.model);
   for (const SymmetryPlane& plane : problem.symmetry.planes)
-    if (!((is_flat ? std::hypot(plane.normal.x, plane.normal.y) : norm(plane.normal)) > 0) ||
-        !std::isfinite(norm(plane.normal) + norm(plane.point)))
-      throw InputError(fmt::format("{}: the normal of a plane of symmetry has no finite length{}",
-                                   problem.symmetry.where, is_flat ? " in the plane" : ""));
-  for (const CurveDivision& division : problem.divisions) check_division(division);
+    if (is_flat && !(std::hypot(plane.normal.x, plane.normal.y) > 0))
+      throw InputError(problem.symmetry.where +
+                       ": the normal of a plane of symmetry has no length in the plane");
   check(problem.cross, problem.metric.asks());
-  check_surface(problem.surface, problem.surface.where.empty() ? problem.where : problem.surface.where);
   check_washers(problem);
   check_kind(problem);
 }

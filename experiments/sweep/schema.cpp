@@ -33,30 +33,6 @@ const std::string kCalibrate = one_of({"quads", "none"});
 const std::vector<std::string> kModels = {"name",    "loop", "pattern", "curve", "embed",
                                           "example", "mesh", "model",   "data",  "compare"};
 
-Json table_schema(const TomlKeys& keys);
-
-Json value_schema(const TomlKey& key) {
-  Json choices = Json::array();
-  if (!key.type.empty()) choices.push_back(Json::parse(key.type));
-  if (key.table != nullptr) {
-    choices.push_back(table_schema(key.table()));
-    if (key.many) choices.push_back({{"type", "array"}, {"items", choices.back()}});
-  }
-  return choices.size() == 1 ? choices[0] : Json{{"anyOf", choices}};
-}
-
-Json table_schema(const TomlKeys& keys) {
-  Json json = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
-  Json required = Json::array();
-  for (const TomlKey& key : keys) {
-    Json& property = json["properties"][key.name] = {{"description", key.about}};
-    property.update(value_schema(key));
-    if (key.required) required.push_back(key.name);
-  }
-  if (!required.empty()) json["required"] = required;
-  return json;
-}
-
 Json list_of(const Json& items) { return {{"type", "array"}, {"minItems", 1}, {"items", items}}; }
 
 /// The same keys, with lists of values in place of values.
@@ -65,7 +41,7 @@ Json matrix_schema(const TomlKeys& keys) {
   for (const TomlKey& key : keys) {
     if (std::ranges::find(kModels, key.name) != kModels.end()) continue;
     Json choices = Json::array();
-    choices.push_back(list_of(value_schema(key)));
+    choices.push_back(list_of(schema_of(key)));
     if (key.table != nullptr && !key.many) choices.push_back(matrix_schema(key.table()));
     json["properties"][key.name] = choices.size() == 1 ? choices[0] : Json{{"anyOf", choices}};
   }
@@ -174,7 +150,7 @@ TomlKeys experiment_keys() {
 
 std::string experiment_schema() {
   Json json = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Delquad experiment"}};
-  json.update(table_schema(experiment_keys()));
+  json.update(schema_of(experiment_keys()));
   json["properties"]["matrix"] = whole_matrix_schema();
   json["anyOf"] = {{{"required", {"case"}}}, {{"required", {"cases_of"}}}, {{"required", {"linf_delaunay"}}}};
   return json.dump(2) + "\n";

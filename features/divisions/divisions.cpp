@@ -248,13 +248,4 @@ std::vector<std::vector<double>> division_places(const CurveDivision& division,
   return places;
 }
 
-void check_division(const CurveDivision& d) {
-  if (d.edges < 1)
-    throw InputError(fmt::format("{}: {} edges for '{}': expected at least 1", d.where, d.edges, d.name));
-  for (const auto& [value, what] : {std::pair(d.progression, "progression"), std::pair(d.bump, "bump")})
-    if (!(value > 0) || !std::isfinite(value))
-      throw InputError(fmt::format("{}: the {} of '{}' is {}: expected a finite number above 0", d.where,
-                                   what, d.name, value));
-}
-
 }  // namespace delquad

@@ -11,9 +11,6 @@
 
 namespace delquad {
 
-/// Refuses numbers out of range.
-void check_division(const CurveDivision& division);
-
 /// Gives the curves of each division their nodes. Throws InputError for names that no curve has, for too few
 /// edges, and for curves that are divided twice.
 void divide_pieces(const PlanarModel& model, const std::vector<CurveDivision>& divisions,

@@ -24,8 +24,8 @@ constexpr double kRound = 0.06;
 constexpr double kInRange = 1e-3;
 /// Rows are at least so high, of what is asked for; and what is free beside them so wide, of the last edges.
 constexpr double kLeastHeight = 0.6, kLeastFree = 0.5;
-/// Edges around, where the size asks for less; and edges of a closed boundary of quads.
-constexpr int kFewestEdges = 6, kFewestAsked = 4;
+/// Edges around, where the size asks for less.
+constexpr int kFewestEdges = 6;
 constexpr double kMostEdges = 1e5;  // that are tried
 /// Lengths of edges, in sizes: quads beside them have others that are a fifth shorter or longer.
 constexpr double kShortest = 1.2 * kAskedShort, kLongest = kAskedLong / 1.2;
@@ -91,21 +91,6 @@ int edges_for(const WasherSpec& washer, double length, double size) {
   int n = std::max(kFewestEdges, 2 * static_cast<int>(length / size / 2));
   while (miss(n) > 0 && std::abs(miss(n + 2)) < miss(n)) n += 2;
   return n;
-}
-
-/// Refuses what is no range, and two that share more than an end. `Spec`: WasherSpec or FilletRows.
-template <class Spec>
-void check_ranges(const std::vector<Spec>& specs, const char* what) {
-  for (const Spec& s : specs) {
-    if (!(s.least >= 0) || !(s.most > 0) || !(s.most >= s.least) || !std::isfinite(s.most))
-      throw InputError(fmt::format("{}: {} from {} to {}: expected two lengths, the lesser first", s.where,
-                                   what, s.least, s.most));
-    if (s.rows < 1) throw InputError(fmt::format("{}: {} rows: expected at least 1", s.where, s.rows));
-    for (const Spec* other = specs.data(); other != &s; ++other)
-      if (s.least < other->most && other->least < s.most)
-        throw InputError(fmt::format("{}: {} from {} to {} overlap those from {} to {} ({})", s.where, what,
-                                     s.least, s.most, other->least, other->most, other->where));
-  }
 }
 
 }  // namespace
@@ -243,19 +228,6 @@ std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSp
                       fmt::format("{} {} of {:.3g}{}, not {} of {:.3g}: {}", label, counted(rows, "row"),
                                   high, others, washer.rows, height(wanted, washer.rows), why)});
   return HoleRows{rows, high, is_given ? hole.given : share_edges(hole.parts, edges)};
-}
-
-void check_washers(const std::vector<WasherSpec>& washers, const std::vector<FilletRows>& fillets) {
-  check_ranges(washers, "diameters");
-  check_ranges(fillets, "radii");
-  for (const WasherSpec& w : washers) {
-    if (w.edges != 0 && (w.edges < kFewestAsked || w.edges % 2 != 0))
-      throw InputError(fmt::format("{}: {} edges around holes: expected an even number, {} at least", w.where,
-                                   w.edges, kFewestAsked));
-    if (!(w.width >= 0) || !std::isfinite(w.width))
-      throw InputError(fmt::format(
-          "{}: rows of width {}: expected a length above 0, or 0 for that of the edges", w.where, w.width));
-  }
 }
 
 }  // namespace delquad

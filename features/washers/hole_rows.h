@@ -64,7 +64,4 @@ std::vector<int> share_edges(const std::vector<double>& parts, int edges);
 std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSpec& washer, double size,
                                     const HoleRoom& room, std::vector<Warning>& warnings);
 
-/// Refuses numbers out of range, odd numbers of edges, and ranges that overlap.
-void check_washers(const std::vector<WasherSpec>& washers, const std::vector<FilletRows>& fillets);
-
 }  // namespace delquad

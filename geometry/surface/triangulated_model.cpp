@@ -24,9 +24,6 @@ namespace delquad {
 
 namespace {
 
-constexpr double kAnyAngle = 180;       // degrees
-constexpr double kMostTolerance = 0.1;  // of the diagonal: more would weld the model to itself
-
 /// Unit normals; that of a sliver is its neighbour's across its longest side.
 std::vector<Vec3> steady_normals(const Mesh& mesh, const std::vector<int>& twin) {
   constexpr double kSliver = 1e-6;  // of the diagonal: some units in the last place of single precision
@@ -328,18 +325,6 @@ KeptModel make_kept_model(Mesh triangles, const std::vector<int>& element,
     model.embedded.push_back({curve, fine.triangle_region[side / 3]});
   }
   return kept;
-}
-
-double checked_feature_angle(double degrees, const std::string& where) {
-  if (degrees > 0 && degrees <= kAnyAngle) return degrees;
-  throw InputError(fmt::format("{}: feature angle {}: expected above 0 and at most {} degrees", where,
-                               degrees, kAnyAngle));
-}
-
-double checked_weld_tolerance(double part, const std::string& where, const std::string& what) {
-  if (part >= 0 && part <= kMostTolerance) return part;
-  throw InputError(fmt::format("{}: {} {}: expected a part of the model's diagonal, from 0 to {}", where,
-                               what, part, kMostTolerance));
 }
 
 }  // namespace delquad

@@ -53,11 +53,4 @@ struct KeptModel {
 KeptModel make_kept_model(Mesh triangles, const std::vector<int>& element,
                           const TriangulatedOptions& options = {});
 
-/// The value, when it is above 0 and at most 180. Throws InputError that begins with `where`, as the next
-/// one.
-double checked_feature_angle(double degrees, const std::string& where);
-/// The value, when it is from 0 to 0.1. `what` is how messages call it.
-double checked_weld_tolerance(double part, const std::string& where,
-                              const std::string& what = "weld tolerance");
-
 }  // namespace delquad

@@ -4,18 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 #include <variant>
 
-#include "base/length_unit.h"
 #include "base/located.h"
 #include "delquad/error.h"
 #include "delquad/mesher.h"
-#include "fields/fields.h"
 #include "geometry/cad/example_models.h"
-#include "geometry/surface/compound.h"
 #include "geometry/surface/triangulated_model.h"
 #include "io/cases/case_keys.h"
 #include "io/cases/model_file.h"
@@ -80,23 +75,6 @@ Criteria read_criteria_key(const TomlTable& table) {
 
 }  // namespace
 
-namespace {
-
-std::string expected_number(const Rule& rule) {
-  if (rule.above && !rule.most) return fmt::format("a number above {}", *rule.above);
-  if (rule.above) return fmt::format("above {} and at most {}", *rule.above, *rule.most);
-  if (rule.least && rule.most) return fmt::format("{} to {}", *rule.least, *rule.most);
-  return rule.least ? fmt::format("at least {}", *rule.least) : fmt::format("at most {}", *rule.most);
-}
-
-void check_limits(const TomlTable& table, const std::string& key, const Rule& rule, double value) {
-  const bool is_inside = value >= rule.least.value_or(value) && value <= rule.most.value_or(value) &&
-                         (!rule.above || value > *rule.above);
-  if (!is_inside) refuse("{}: '{}' is {}: expected {}", table.where(key), key, value, expected_number(rule));
-}
-
-}  // namespace
-
 std::string limited_type(const std::string& type, const Rule& rule) {
   std::string text = fmt::format(R"({{"type": {})", type);
   const auto add = [&](const char* name, const std::optional<double>& limit) {
@@ -110,16 +88,12 @@ std::string limited_type(const std::string& type, const Rule& rule) {
 
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, std::string& value) {
   value = rule.form == Form::kFormula ? table.expression(key) : table.text(key);
-  if (rule.words == nullptr) return;
-  const std::vector<std::string> words = words_of(rule.words);
-  if (std::ranges::find(words, value) == words.end())
-    refuse("{}: {} '{}': expected {}{}", table.where(key), key, value, fmt::join(words, ", "),
-           suggestion(value, words));
+  check_value(value, rule, {table.where(key), key});
 }
 
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, bool& value) {
   if (rule.words == nullptr) {
-    value = table.flag(key, value);
+    value = table.get<bool>(key);
     return;
   }
   std::string word;
@@ -127,59 +101,29 @@ void read_value(const TomlTable& table, const std::string& key, const Rule& rule
   value = word != words_of(rule.words)[0];
 }
 
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, long long& value) {
-  value = table.integer(key);
-  check_limits(table, key, rule, static_cast<double>(value));
-}
-
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, int& value) {
-  long long whole = 0;
-  read_value(table, key, rule, whole);
-  value = static_cast<int>(whole);
-}
-
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, double& value) {
-  if (rule.form == Form::kLeast || rule.form == Form::kMost) {
-    const std::vector<double> ends = table.numbers(key);
-    if (ends.size() != 2)
-      refuse("{}: '{}' has {} numbers: expected the least and the most", table.where(key), key, ends.size());
-    value = ends[rule.form == Form::kLeast ? 0 : 1];
-    return;
-  }
-  value = rule.above == 0 && !rule.most ? table.positive_number(key) : table.number(key);
-  check_limits(table, key, rule, value);
+  const bool is_first = rule.form == Form::kLeast;
+  value = is_first || rule.form == Form::kMost ? table.get<std::array<double, 2>>(key)[is_first ? 0 : 1]
+                                               : table.number(key);
+  check_value(value, rule, {table.where(key), key});
   if (rule.form == Form::kDegrees) value *= std::numbers::pi / 180;
 }
 
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, Vec3& value) {
-  if (rule.form != Form::kVector) {
-    value = table.space_point(key);
-    return;
+  if (rule.form == Form::kVector) {
+    const auto [x, y, z] = table.get<std::array<double, 3>>(key);
+    value = {x, y, z};
+  } else {
+    value = table.get<Vec3>(key);
   }
-  const std::vector<double> v = table.numbers(key);
-  if (v.size() != 3) refuse("{}: '{}' must be three numbers [x, y, z]", table.where(key), key);
-  value = {v[0], v[1], v[2]};
-}
-
-void read_value(const TomlTable& table, const std::string& key, const Rule&, std::array<Vec3, 2>& value) {
-  const std::vector<Vec3> corners = table.space_points(key);
-  if (corners.size() != 2) throw InputError(table.where(key) + ": expected two opposite corners");
-  value = {corners[0], corners[1]};
-}
-
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, std::vector<int>& value) {
-  value.clear();
-  for (const double n : table.numbers(key)) {
-    if (n != std::floor(n)) refuse("{}: {}: expected whole numbers", table.where(key), n);
-    check_limits(table, key, rule, n);
-    value.push_back(static_cast<int>(n));
-  }
+  check_value(value, rule, {table.where(key), key});
 }
 
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
                 std::vector<std::string>& value) {
   value = rule.form == Form::kTexts && table.kind(key) == TomlKind::kText ? std::vector{table.text(key)}
                                                                           : table.texts(key);
+  check_value(value, rule, {table.where(key), key});
 }
 
 namespace {
@@ -294,38 +238,21 @@ void read_model_keys(const TomlTable& table, Case& target) {
 
 void finish_reading(const TomlTable& table, SizeSource& source) {
   if (!table.has("to")) source.b = source.a;
-  if (source.radius_far <= source.radius_near)
-    throw InputError(table.where("radius_far") + ": 'radius_far' must be larger than 'radius_near'");
 }
-
-void finish_reading(const TomlTable& table, NamedSize& named) {
-  if (!table.has("size") && !table.has("curvature"))
-    throw InputError(table.where() + ": '" + named.name + "' gets no size: expected 'size' or 'curvature'");
-}
-
-void finish_reading(const TomlTable&, SizeSpec& size) { check_size_limits(size); }
 
 void finish_reading(const TomlTable& table, MetricSpec& metric) {
-  const int kinds = table.has("tensor") + table.has("sizes") + table.has("solution") + table.has("file") +
-                    table.has("chord");
-  if (kinds > 1 || (kinds == 0 && !table.is_of_options()))
-    throw InputError(metric.where + ": expected one of 'tensor', 'sizes', 'solution', 'file' and 'chord'");
-  if (metric.limits.max > 0 && metric.limits.min > metric.limits.max)
-    throw InputError(table.where("min") + ": 'min' is larger than 'max'");
+  if (!metric.asks() && !table.is_of_options())
+    refuse("{}: expected one of 'tensor', 'sizes', 'solution', 'file' and 'chord'", metric.where);
 }
 
 void finish_reading(const TomlTable& table, PeriodicPair& pair) {
   if (!table.has("translate") && !table.has("rotate"))
-    throw InputError(table.where() + ": how '" + pair.from + "' moves to '" + pair.to +
-                     "' is missing: expected 'translate' or 'rotate'");
-}
-
-void finish_reading(const TomlTable& table, SymmetryPlane& plane) {
-  if (norm(plane.normal) == 0) throw InputError(table.where("normal") + ": the normal has no length");
+    refuse("{}: how '{}' moves to '{}' is missing: expected 'translate' or 'rotate'", table.where(),
+           pair.from, pair.to);
 }
 
 void finish_reading(const TomlTable& table, GridCorners& grid) {
-  for (const auto& corner : table.texts_and_points("corners")) {
+  for (const auto& corner : table.get<std::vector<std::variant<std::string, Vec3>>>("corners")) {
     if (const auto* name = std::get_if<std::string>(&corner))
       grid.corners.push_back({*name, {}});
     else
@@ -333,21 +260,13 @@ void finish_reading(const TomlTable& table, GridCorners& grid) {
   }
 }
 
-void finish_reading(const TomlTable&, LayerSpec& layer) { layer_heights(layer); }
-
-void finish_reading(const TomlTable& table, MirrorPlane& plane) {
-  if (!(norm(plane.normal) > 0))
-    throw InputError(table.where("normal") + ": the normal of the mirror's plane has no length");
-}
-
 void finish_reading(const TomlTable& table, SurfaceSpec& surface) {
   if (table.kind("compound") == TomlKind::kText) {
     surface.compounds = parse_compounds(table.text("compound"), table.where("compound"));
   } else if (table.has("compound")) {
     surface.compounds = Compounds::kGroups;
-    surface.groups = table.integer_lists("compound");
-    for (const auto& group : surface.groups)
-      if (group.size() < 2) throw InputError(table.where("compound") + ": a compound has two faces or more");
+    surface.groups = table.get<std::vector<std::vector<int>>>("compound");
+    check_together(surface, table.where("compound"));
   }
   if (const auto mirror = table.optional_table("mirror"); mirror && !mirror->has("tolerance"))
     surface.mirror->tolerance = surface.weld_tolerance.value_or(TriangulatedOptions{}.weld_tolerance);

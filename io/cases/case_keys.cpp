@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "delquad/mesher.h"
 #include "io/cases/read_described.h"
+#include "io/cases/shapes.h"
 
 namespace delquad {
 
@@ -32,7 +34,7 @@ namespace {
 
 using namespace toml_types;
 
-const std::string kPoint = R"({"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2})";
+const std::string& kPoint = kRange;
 const std::string kWords = R"({"type": "object", "additionalProperties": {"type": "string"}})";
 
 std::string points_or_file() {
@@ -48,7 +50,7 @@ TomlKeys closed_shapes() {
   return {
       {"rectangle", "two opposite corners", two_points()},
       {"polygon", "corners, in either direction", points(3, kPoint)},
-      {"circle", "a circle", "", circle_keys},
+      {"circle", "a circle", "", keys_of<CircleShape>},
       {"boundary", "name of its curves, or one for each; not with 'curves', which have names", kTextOrTexts},
       {"region", "name of what is inside", kText},
       {"hole", "whether it must be a hole", kFlag}};
@@ -67,38 +69,15 @@ std::string type_of(const OptionKey& key) {
   return limited_type(types[key.value.index()], {.least = key.least, .above = key.above, .most = key.most});
 }
 
-}  // namespace
-
-TomlKeys circle_keys() {
-  return {{"centre", "[x, y]", kPoint, nullptr, false, true},
-          {"radius", "a length", kPositive, nullptr, false, true}};
-}
-
-TomlKeys arc_keys() {
-  return {{"centre", "[x, y]", kPoint, nullptr, false, true},
-          {"radius", "a length", kPositive, nullptr, false, true},
-          {"from", "degrees", kNumber, nullptr, false, true},
-          {"to", "degrees; counterclockwise where it is more", kNumber, nullptr, false, true}};
-}
-
-TomlKeys expression_keys() {
-  return {{"x", "formula in t", kExpression, nullptr, false, true},
-          {"y", "formula in t", kExpression, nullptr, false, true},
-          {"from", "first t", kNumber, nullptr, false, true},
-          {"to", "last t", kNumber, nullptr, false, true}};
-}
-
-namespace {
-
 /// Those that begin, then the shapes.
 TomlKeys with_shapes(TomlKeys keys) {
   for (const TomlKey& shape :
        TomlKeys{{"segment", "two points", two_points()},
                 {"polyline", "points, each of which gets a node, or a file of them", points_or_file()},
                 {"spline", "points that a smooth curve goes through, or a file", points_or_file()},
-                {"arc", "a part of a circle", "", arc_keys},
-                {"circle", "a circle", "", circle_keys},
-                {"expression", "formulas", "", expression_keys}})
+                {"arc", "a part of a circle", "", keys_of<ArcShape>},
+                {"circle", "a circle", "", keys_of<CircleShape>},
+                {"expression", "formulas", "", keys_of<ExpressionShape>}})
     keys.push_back(shape);
   return keys;
 }
@@ -190,6 +169,29 @@ TomlKeys case_keys() {
   }
   keys.push_back({kCompare, "published row beside each pipeline", kWords});
   return keys;
+}
+
+nlohmann::ordered_json schema_of(const TomlKey& key) {
+  nlohmann::ordered_json choices = nlohmann::ordered_json::array();
+  if (!key.type.empty()) choices.push_back(nlohmann::ordered_json::parse(key.type));
+  if (key.table != nullptr) {
+    choices.push_back(schema_of(key.table()));
+    if (key.many) choices.push_back({{"type", "array"}, {"items", choices.back()}});
+  }
+  return choices.size() == 1 ? choices[0] : nlohmann::ordered_json{{"anyOf", choices}};
+}
+
+nlohmann::ordered_json schema_of(const TomlKeys& keys) {
+  nlohmann::ordered_json json = {
+      {"type", "object"}, {"additionalProperties", false}, {"properties", nlohmann::ordered_json::object()}};
+  nlohmann::ordered_json required = nlohmann::ordered_json::array();
+  for (const TomlKey& key : keys) {
+    nlohmann::ordered_json& property = json["properties"][key.name] = {{"description", key.about}};
+    property.update(schema_of(key));
+    if (key.required) required.push_back(key.name);
+  }
+  if (!required.empty()) json["required"] = required;
+  return json;
 }
 
 std::string option_table_text() {

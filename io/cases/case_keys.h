@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -16,13 +17,14 @@ TomlKeys curve_keys();
 TomlKeys embed_keys();
 TomlKeys loop_keys();
 TomlKeys pattern_keys();
-TomlKeys circle_keys();
-TomlKeys arc_keys();
-TomlKeys expression_keys();
 TomlKeys criteria_keys();
 TomlKeys named_criteria_keys();
 /// The options of a group.
 TomlKeys keys_of(const OptionGroup& group);
+
+/// JSON Schema of the value of a key, and of a table with these keys.
+nlohmann::ordered_json schema_of(const TomlKey& key);
+nlohmann::ordered_json schema_of(const TomlKeys& keys);
 
 /// Types of values, as JSON Schema.
 namespace toml_types {

@@ -29,10 +29,12 @@ enum class Form {
 /// The rules for the value of a field.
 struct Rule {
   Form form = Form::kPlain;
-  std::optional<double> least = {}, above = {}, most = {};  ///< limits of numbers
+  std::optional<double> least = {}, above = {}, most = {};  ///< limits of numbers, and of lengths of vectors
   bool required = false;                                    ///< its table is refused without it
   const char* words = nullptr;  ///< "a|b": texts that it may be; of enumerations and flags one for each value
   const char* type = nullptr;   ///< of kOwn: JSON Schema of the value, unless it is a table
+  const char* option = nullptr;   ///< option of the program that sets it
+  const char* keyword = nullptr;  ///< keyword of Python that sets it, where that is not the key
   const char* no_result =
       nullptr;  ///< the reason why it determines no result: then it is in no digest and record
 };
@@ -97,24 +99,31 @@ consteval std::size_t count_members() {
     return sizeof...(Values);
 }
 
-/// Calls visit(FieldInfo, member) for each field, in the order of the description.
-template <class T, class Visit>
-void for_each_field(T& object, Visit&& visit) {
+/// Calls visit(FieldInfo, member, the same member of the others...) for each field, in the order of the
+/// description.
+template <class Visit, class T, class... Same>
+void visit_fields(Visit&& visit, T& object, Same&... others) {
   using Struct = std::remove_const_t<T>;
   static_assert(std::tuple_size_v<decltype(kFields<Struct>)> == count_members<Struct>(),
                 "the description lacks a member of the struct, or has one twice");
   std::apply(
       [&](const auto&... one) {
         const auto visit_one = [&](const auto& field) {
-          auto& member = object.*(field.member);
-          if constexpr (Described<std::remove_cvref_t<decltype(member)>>) {
-            if (*field.key == '\0') return for_each_field(member, visit);
+          const auto member = field.member;
+          if constexpr (Described<std::remove_cvref_t<decltype(object.*member)>>) {
+            if (*field.key == '\0') return visit_fields(visit, object.*member, others.*member...);
           }
-          visit(static_cast<const FieldInfo&>(field), member);
+          visit(static_cast<const FieldInfo&>(field), object.*member, others.*member...);
         };
         (visit_one(one), ...);
       },
       kFields<Struct>);
+}
+
+/// Calls visit(FieldInfo, member) for each field.
+template <class T, class Visit>
+void for_each_field(T& object, Visit&& visit) {
+  visit_fields(visit, object);
 }
 
 }  // namespace delquad

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <numbers>
 
 #include "base/located.h"
 #include "delquad/model.h"
-#include "io/cases/case_keys.h"
+#include "io/cases/read_described.h"
+#include "io/cases/shapes.h"
 #include "io/mesh_io.h"
 
 namespace delquad {
@@ -22,7 +22,12 @@ constexpr long long kMostPatternLoops = 1'000'000;
 /// One curve of a loop's shape, wherever the loop is put.
 using PlacedCurve = std::function<std::shared_ptr<const Curve>(Vec2 offset)>;
 
-double radians(double degrees) { return degrees * (std::numbers::pi / 180); }
+template <Described Shape>
+Shape shape_of(const TomlTable& table, const std::string& key) {
+  Shape shape{};
+  read_described(table.table(key), shape);
+  return shape;
+}
 
 std::string only_key(const TomlTable& table, const std::vector<std::string>& choices) {
   std::string list, found;
@@ -48,14 +53,10 @@ std::vector<PlacedCurve> polygon(const std::vector<Vec2>& corners) {
 
 std::vector<PlacedCurve> read_closed_shape(const TomlTable& table, const std::string& key) {
   if (key == "circle") {
-    const TomlTable circle = table.table(key);
-    circle.require_known(circle_keys());
-    const Vec2 centre = circle.point("centre");
-    const double radius = circle.positive_number("radius");
-    circle.finish(circle_keys());
+    const auto [centre, radius] = shape_of<CircleShape>(table, key);
     return {[centre, radius](Vec2 offset) { return make_circle(centre + offset, radius); }};
   }
-  const std::vector<Vec2> points = table.points(key);
+  const std::vector<Vec2> points = table.get<std::vector<Vec2>>(key);
   if (key == "polygon") {
     if (points.size() < 3) throw InputError(table.where(key) + ": a polygon has at least three corners");
     return polygon(points);
@@ -125,7 +126,7 @@ class ModelReader {
     const bool is_crack = table.flag("crack", false);
     if (table.has("point")) {
       if (is_crack) throw InputError(table.where("crack") + ": a point is no crack: expected a curve");
-      model_.points.push_back({table.point("point"), name, table.where()});
+      model_.points.push_back({table.get<Vec2>("point"), name, table.where()});
     } else {
       const auto shape = located(table.where(), [&] { return read_shape(table); });
       model_.curves.push_back({shape, name, table.where(), is_crack});
@@ -158,7 +159,7 @@ class ModelReader {
     const auto names = read_boundary_names(table, shape.size());
     const Inside inside = read_inside(table);
     const std::vector<double> count = table.numbers("count");
-    const Vec2 step = table.point("step");
+    const Vec2 step = table.get<Vec2>("step");
     table.finish(pattern_keys());
     const auto whole = [](double n) { return n >= 1 && n <= kMostPatternLoops && n == std::floor(n); };
     if (count.size() != 2 || !whole(count[0]) || !whole(count[1]) || count[0] * count[1] > kMostPatternLoops)
@@ -186,27 +187,22 @@ class ModelReader {
       const std::vector<Vec2> points =
           is_file ? located(table.where(key),
                             [&] { return read_points(table.file().parent_path() / table.text(key)); })
-                  : table.points(key);
+                  : table.get<std::vector<Vec2>>(key);
       if (key == "polyline") return make_polyline(points);
       if (key == "spline") return make_spline(points);
       if (points.size() != 2) throw InputError("'segment' must be two points");
       return make_segment(points[0], points[1]);
     }
-    const TomlTable shape = table.table(key);
-    const TomlKeys& keys = key == "arc" ? arc_keys() : key == "circle" ? circle_keys() : expression_keys();
-    shape.require_known(keys);
-    std::shared_ptr<const Curve> curve;
     if (key == "arc") {
-      curve = make_arc(shape.point("centre"), shape.positive_number("radius"), radians(shape.number("from")),
-                       radians(shape.number("to")));
-    } else if (key == "circle") {
-      curve = make_circle(shape.point("centre"), shape.positive_number("radius"));
-    } else {
-      curve = make_expression_curve(shape.expression("x"), shape.expression("y"), shape.number("from"),
-                                    shape.number("to"));
+      const auto arc = shape_of<ArcShape>(table, key);
+      return make_arc(arc.circle.centre, arc.circle.radius, arc.from, arc.to);
     }
-    shape.finish(keys);
-    return curve;
+    if (key == "circle") {
+      const auto circle = shape_of<CircleShape>(table, key);
+      return make_circle(circle.centre, circle.radius);
+    }
+    const auto curve = shape_of<ExpressionShape>(table, key);
+    return make_expression_curve(curve.x, curve.y, curve.from, curve.to);
   }
 
   void add_loop_of_curves(const TomlTable& table, const Inside& inside) {
@@ -261,8 +257,8 @@ std::vector<EmbeddedLine> read_embedded_lines(const TomlTable& table) {
     EmbeddedLine line{{}, group_name(embedded, "name", embedded.text("name", "")), embedded.where()};
     const std::string key = only_key(embedded, {"polyline", "point"});
     if (key == "point")
-      line.points = {embedded.space_point(key)};
-    else if (line.points = embedded.space_points(key); line.points.size() < 2)
+      line.points = {embedded.get<Vec3>(key)};
+    else if (line.points = embedded.get<std::vector<Vec3>>(key); line.points.size() < 2)
       throw InputError(embedded.where(key) + ": a polyline has two points or more");
     embedded.finish(embed_keys());
     lines.push_back(std::move(line));

@@ -70,7 +70,7 @@ inline constexpr auto kFields<MirrorPlane> = std::tuple(
     field("point", &MirrorPlane::point, "point of the plane, [x, y, z]",
           {.form = Form::kVector, .required = true}),
     field("normal", &MirrorPlane::normal, "normal of the plane, [x, y, z]",
-          {.form = Form::kVector, .required = true}),
+          {.form = Form::kVector, .above = 0, .required = true}),
     field("tolerance", &MirrorPlane::tolerance,
           "distance of shared edges from the plane, in diagonals of the model", {.least = 0, .most = 0.1}),
     field("join", &MirrorPlane::join, "whether faces run on through the plane"));
@@ -95,24 +95,35 @@ inline constexpr auto kFields<SurfaceSpec> = std::tuple(
           {.form = Form::kOwn,
            .words = "none|tangent|all|groups",
            .type = R"({"anyOf": [{"enum": ["all", "tangent"]}, {"type": "array", "items":
-               {"type": "array", "items": {"type": "integer"}, "minItems": 2}}]})"}),
+               {"type": "array", "items": {"type": "integer"}, "minItems": 2}}]})",
+           .option = "--compound",
+           .keyword = "compounds"}),
     inner("groups", &SurfaceSpec::groups),
     field("merge_curves", &SurfaceSpec::merge_curves, "length below which curves become one with a neighbor",
           {.above = 0}),
     field("ignore_below", &SurfaceSpec::ignore_below,
-          "length: narrower faces become part of neighbors, shorter curves points", {.above = 0}),
-    field("idealize", &SurfaceSpec::idealize, "whether ignore_below is min_length of the criteria"),
-    field("keep", &SurfaceSpec::keep, "names of faces and curves that are not left out"),
-    field("fill_holes", &SurfaceSpec::fill_holes, "diameter up to which holes are closed", {.above = 0}),
-    field("simplify", &SurfaceSpec::simplify, "sizes within which polylines lose points", {.least = 0}),
+          "length: narrower faces become part of neighbors, shorter curves points",
+          {.above = 0, .option = "--ignore-below"}),
+    field("idealize", &SurfaceSpec::idealize, "whether ignore_below is min_length of the criteria",
+          {.option = "--idealize"}),
+    field("keep", &SurfaceSpec::keep, "names of faces and curves that are not left out",
+          {.option = "--keep"}),
+    field("fill_holes", &SurfaceSpec::fill_holes, "diameter up to which holes are closed",
+          {.above = 0, .option = "--fill-holes"}),
+    field("simplify", &SurfaceSpec::simplify, "sizes within which polylines lose points",
+          {.least = 0, .option = "--simplify"}),
     field("feature_angle", &SurfaceSpec::feature_angle, "degrees by which triangles turn at a curve",
-          {.above = 0, .most = 180}),
+          {.above = 0, .most = 180, .option = "--feature-angle"}),
     field("weld_tolerance", &SurfaceSpec::weld_tolerance,
-          "distance of open edges that are joined, in diagonals of the model", {.least = 0, .most = 0.1}),
+          "distance of open edges that are joined, in diagonals of the model",
+          {.least = 0, .most = 0.1, .option = "--weld", .keyword = "weld"}),
     field("mirror", &SurfaceSpec::mirror, "plane of symmetry of a model that is one half"),
-    field("glue", &SurfaceSpec::glue, "whether bodies of CAD share the faces at which they touch"),
-    field("unit", &SurfaceSpec::unit, "unit of lengths", {.words = "um|mm|cm|m|km|in|ft"}),
-    inner("embed", &SurfaceSpec::embed), field("name", &SurfaceSpec::names, "names of faces and curves"),
+    field("glue", &SurfaceSpec::glue, "whether bodies of CAD share the faces at which they touch",
+          {.option = "--glue"}),
+    field("unit", &SurfaceSpec::unit, "unit of lengths",
+          {.words = "um|mm|cm|m|km|in|ft", .option = "--unit"}),
+    inner("embed", &SurfaceSpec::embed),
+    field("name", &SurfaceSpec::names, "names of faces and curves", {.keyword = "names"}),
     place(&SurfaceSpec::where));
 
 // --- sizes and directions
@@ -135,18 +146,21 @@ inline constexpr auto kFields<NamedSize> = std::tuple(
     field("curvature", &NamedSize::curvature, "elements per full turn", {.least = kLeastPerTurn}),
     place(&NamedSize::where));
 template <>
-inline constexpr auto kFields<SizeSpec> =
-    std::tuple(field("base", &SizeSpec::text, "number, formula, file or \"boundary\"",
-                     {.form = Form::kFormula, .above = 0}),
-               ignored(&SizeSpec::folder, "the content of the file counts"), inner("field", &SizeSpec::field),
-               inner("function", &SizeSpec::function), inner("from_boundary", &SizeSpec::from_boundary),
-               field("source", &SizeSpec::sources, "points and segments with sizes"),
-               field("on", &SizeSpec::named, "sizes of parts by name"),
-               field("gradation", &SizeSpec::gradation, "most that sizes grow per length", {.above = 0}),
-               field("curvature", &SizeSpec::curvature, "elements per full turn of curves and faces",
-                     {.least = kLeastPerTurn}),
-               field("min", &SizeSpec::min, "least size by curvature", {.above = 0}),
-               field("max", &SizeSpec::max, "largest size", {.above = 0}), place(&SizeSpec::where));
+inline constexpr auto kFields<SizeSpec> = std::tuple(
+    field("base", &SizeSpec::text, "number, formula, file or \"boundary\"",
+          {.form = Form::kFormula, .above = 0, .option = "--size", .keyword = "size"}),
+    ignored(&SizeSpec::folder, "the content of the file counts"), inner("field", &SizeSpec::field),
+    inner("function", &SizeSpec::function), inner("from_boundary", &SizeSpec::from_boundary),
+    field("source", &SizeSpec::sources, "points and segments with sizes", {.keyword = "sources"}),
+    field("on", &SizeSpec::named, "sizes of parts by name", {.option = "--size-on", .keyword = "size_on"}),
+    field("gradation", &SizeSpec::gradation, "most that sizes grow per length",
+          {.above = 0, .option = "--gradation"}),
+    field("curvature", &SizeSpec::curvature, "elements per full turn of curves and faces",
+          {.least = kLeastPerTurn, .option = "--curvature"}),
+    field("min", &SizeSpec::min, "least size by curvature",
+          {.above = 0, .option = "--size-min", .keyword = "min_size"}),
+    field("max", &SizeSpec::max, "largest size", {.above = 0, .option = "--size-max", .keyword = "max_size"}),
+    place(&SizeSpec::where));
 template <>
 inline constexpr auto kFields<MetricLimits> =
     std::tuple(field("min", &MetricLimits::min, "least length", {.above = 0}),
@@ -195,9 +209,9 @@ inline constexpr auto kFields<PeriodicPair> =
                field("to", &PeriodicPair::to, "name of their images", {.required = true}),
                field("", &PeriodicPair::motion), place(&PeriodicPair::where));
 template <>
-inline constexpr auto kFields<SymmetryPlane> =
-    std::tuple(field("point", &SymmetryPlane::point, "point of the plane", {.required = true}),
-               field("normal", &SymmetryPlane::normal, "normal of the plane", {.required = true}));
+inline constexpr auto kFields<SymmetryPlane> = std::tuple(
+    field("point", &SymmetryPlane::point, "point of the plane", {.required = true}),
+    field("normal", &SymmetryPlane::normal, "normal of the plane", {.above = 0, .required = true}));
 template <>
 inline constexpr auto kFields<SymmetrySpec> = std::tuple(inner("planes", &SymmetrySpec::planes),
                                                          inner("automatic", &SymmetrySpec::automatic),
@@ -236,8 +250,8 @@ inline constexpr auto kFields<LayerSpec> = std::tuple(
 template <>
 inline constexpr auto kFields<WasherSpec> = std::tuple(
     field("diameter", &WasherSpec::least, "diameters of the holes, [least, most]",
-          {.form = Form::kLeast, .required = true}),
-    field("diameter", &WasherSpec::most, "", {.form = Form::kMost}),
+          {.form = Form::kLeast, .least = 0, .required = true}),
+    field("diameter", &WasherSpec::most, "", {.form = Form::kMost, .above = 0, .required = true}),
     field("rows", &WasherSpec::rows, "rows of quads; default 1", {.least = 1, .most = 1000}),
     field("edges", &WasherSpec::edges, "edges around, even; default: by the size",
           {.least = 4, .most = 100'000'000}),
@@ -246,8 +260,8 @@ inline constexpr auto kFields<WasherSpec> = std::tuple(
 template <>
 inline constexpr auto kFields<FilletRows> =
     std::tuple(field("radius", &FilletRows::least, "radii of the fillets, [least, most]",
-                     {.form = Form::kLeast, .required = true}),
-               field("radius", &FilletRows::most, "", {.form = Form::kMost}),
+                     {.form = Form::kLeast, .least = 0, .required = true}),
+               field("radius", &FilletRows::most, "", {.form = Form::kMost, .above = 0, .required = true}),
                field("rows", &FilletRows::rows, "rows of quads; default 1", {.least = 1, .most = 1000}),
                place(&FilletRows::where));
 
@@ -262,7 +276,7 @@ inline constexpr auto kFields<CriterionLimit> = std::tuple(inner("criterion", &C
 template <>
 inline constexpr auto kFields<Material> = std::tuple(
     field("young", &Material::young, "Young's modulus", {.above = 0, .required = true}),
-    field("poisson", &Material::poisson, "Poisson's ratio", {.least = 0, .most = 1, .required = true}),
+    field("poisson", &Material::poisson, "Poisson's ratio", {.least = 0, .most = 0.5, .required = true}),
     field("density", &Material::density, "mass per volume", {.above = 0, .required = true}));
 template <>
 inline constexpr auto kFields<Criteria> = std::tuple(
@@ -281,31 +295,35 @@ inline constexpr auto kFields<MeshProblem> = std::tuple(
     ignored(&MeshProblem::name, "it is a word of messages"), place(&MeshProblem::where),
     field("model", &MeshProblem::model, "", {.form = Form::kNone, .words = kModelKinds}),
     field("surface", &MeshProblem::surface, "how the faces of a surface are made"),
-    field("layer", &MeshProblem::layers, "thin quads along curves"),
+    field("layer", &MeshProblem::layers, "thin quads along curves", {.keyword = "layers"}),
     field("size", &MeshProblem::size, "wanted edge length",
           {.form = Form::kOwn, .type = R"({"type": ["number", "string"], "exclusiveMinimum": 0})"}),
     field("metric", &MeshProblem::metric, "lengths by direction, in place of a size"),
     field("cross", &MeshProblem::cross, "wanted directions: boundary, size-aware, gradient or an angle",
-          {.form = Form::kOwn, .type = R"({"type": ["number", "string"]})"}),
+          {.form = Form::kOwn, .type = R"({"type": ["number", "string"]})", .option = "--cross"}),
     field("divide", &MeshProblem::divisions, "numbers of edges of curves"),
     field("periodic", &MeshProblem::periodic, "curves and faces that get the nodes of others"),
     field("symmetry", &MeshProblem::symmetry, "planes of symmetry, or \"auto\"",
           {.form = Form::kOwn, .type = R"({"enum": ["auto"]})"}),
-    field("washers", &MeshProblem::washers, "rows of quads around holes"),
-    field("fillet_rows", &MeshProblem::fillet_rows, "rows of quads across fillets"),
+    field("washers", &MeshProblem::washers, "rows of quads around holes", {.option = "--washers"}),
+    field("fillet_rows", &MeshProblem::fillet_rows, "rows of quads across fillets",
+          {.option = "--fillet-rows"}),
     field("mapped", &MeshProblem::mapped, "regions or faces that become grids, or \"auto\"",
           {.form = Form::kOwn,
-           .type = R"({"type": ["string", "array"], "items": {"type": ["string", "object"]}})"}),
+           .type = R"({"type": ["string", "array"], "items": {"type": ["string", "object"]}})",
+           .option = "--mapped"}),
     field("seed", &MeshProblem::seed, "above 0: the domain is changed a little at random", {.least = 0}),
     inner("options", &MeshProblem::options),
     field("criteria", &MeshProblem::criteria, "limits of elements: a preset, a file or a table",
-          {.form = Form::kOwn, .type = R"({"type": "string"})"}),
-    field("refine", &MeshProblem::refine, "factor by which all sizes are divided", {.above = 0}),
-    field("quads", &MeshProblem::quads, "number of quads, about, by other sizes", {.least = 1}),
+          {.form = Form::kOwn, .type = R"({"type": "string"})", .option = "--criteria"}),
+    field("refine", &MeshProblem::refine, "factor by which all sizes are divided",
+          {.above = 0, .option = "--refine"}),
+    field("quads", &MeshProblem::quads, "number of quads, about, by other sizes",
+          {.least = 1, .option = "--quads"}),
     field("order", &MeshProblem::order, "order of the elements: curved above 1",
-          {.least = 1, .most = kMostOrder}),
-    inner("max_elements", &MeshProblem::max_elements), inner("keep_going", &MeshProblem::keep_going),
-    inner("allow_unsound", &MeshProblem::allow_unsound));
+          {.least = 1, .most = kMostOrder, .option = "--order"}),
+    field("max_elements", &MeshProblem::max_elements, "", {.form = Form::kNone, .least = 1}),
+    inner("keep_going", &MeshProblem::keep_going), inner("allow_unsound", &MeshProblem::allow_unsound));
 
 template <>
 inline constexpr auto kFields<AdaptSpec> = std::tuple(

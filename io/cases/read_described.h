@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/cases/case_keys.h"
-#include "io/cases/problem_fields.h"
+#include "io/cases/check_described.h"
 #include "io/cases/toml_reader.h"
 
 // Tables of files by the descriptions of structs: their keys, and reading them.
@@ -24,15 +24,6 @@ template <Described T>
 TomlKeys keys_of();
 
 namespace described {
-
-template <class T>
-inline constexpr bool kIsList = false;
-template <class T>
-inline constexpr bool kIsList<std::vector<T>> = true;
-template <class T>
-inline constexpr bool kIsOptional = false;
-template <class T>
-inline constexpr bool kIsOptional<std::optional<T>> = true;
 
 /// Fills in what the value may be. Types that no file has are left out.
 template <class T>
@@ -52,6 +43,8 @@ void add_type(const T*, const Rule& rule, TomlKey& key) {
     key.type = rule.words != nullptr         ? one_of(words_of(rule.words))
                : rule.form == Form::kFormula ? limited_type(R"(["number", "string"])", rule)
                                              : kText;
+  else if constexpr (std::is_same_v<T, Vec2>)
+    key.type = kRange;
   else if constexpr (std::is_same_v<T, Vec3>)
     key.type = rule.form == Form::kVector ? kVector : kSpacePoint;
   else if constexpr (std::is_same_v<T, std::array<Vec3, 2>>)
@@ -77,25 +70,23 @@ TomlKeys keys_of() {
   for_each_field(none, [&](const FieldInfo& info, const auto& member) {
     const Form form = info.rule.form;
     if (form == Form::kNone || form == Form::kMost) return;
-    TomlKey& key =
-        keys.emplace_back(TomlKey{.name = info.key, .about = info.help, .required = info.rule.required});
+    TomlKey& key = keys.emplace_back(TomlKey{.name = info.key,
+                                             .about = info.help,
+                                             .required = info.rule.required,
+                                             .option = info.rule.option,
+                                             .keyword = info.rule.keyword});
     described::add_type(&member, info.rule, key);
   });
   return keys;
 }
 
-/// Completes and checks a struct that was read from a table. Throws InputError with file and line.
+/// Completes a struct that was read from a table. Throws InputError with file and line.
 template <class T>
 void finish_reading(const TomlTable&, T&) {}
 void finish_reading(const TomlTable& table, SizeSource& source);
-void finish_reading(const TomlTable& table, NamedSize& named);
-void finish_reading(const TomlTable& table, SizeSpec& size);
 void finish_reading(const TomlTable& table, MetricSpec& metric);
 void finish_reading(const TomlTable& table, PeriodicPair& pair);
-void finish_reading(const TomlTable& table, SymmetryPlane& plane);
 void finish_reading(const TomlTable& table, GridCorners& grid);
-void finish_reading(const TomlTable& table, LayerSpec& layer);
-void finish_reading(const TomlTable& table, MirrorPlane& plane);
 void finish_reading(const TomlTable& table, SurfaceSpec& surface);
 
 /// Reads the keys that the table has; what it lacks stays as it is. Throws InputError with file and line.
@@ -103,14 +94,17 @@ template <Described T>
 void read_described(const TomlTable& table, T& value);
 
 /// Reads one value. Throws InputError with file and line for other types, and beyond the limits.
+template <class T>
+requires(std::is_integral_v<T> || std::is_same_v<T, Vec2> || std::is_same_v<T, std::array<Vec3, 2>> ||
+         std::is_same_v<T, std::vector<int>>) void read_value(const TomlTable& table, const std::string& key,
+                                                              const Rule& rule, T& value) {
+  value = table.get<T>(key);
+  check_value(value, rule, {table.where(key), key});
+}
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, bool& value);
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, int& value);
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, long long& value);
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, double& value);
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, std::string& value);
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, Vec3& value);
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, std::array<Vec3, 2>& value);
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, std::vector<int>& value);
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
                 std::vector<std::string>& value);
 template <class T>
@@ -156,6 +150,7 @@ void read_described(const TomlTable& table, T& value) {
     if (is_new) value.folder = table.file().parent_path();
   read_fields(table, value);
   finish_reading(table, value);
+  check_described(value, table.where());
   table.finish(keys_of<T>());
 }
 

@@ -38,13 +38,9 @@ const std::set<std::string> kCadFiles = {".step", ".stp", ".iges", ".igs", ".bre
 const std::set<std::string> kTriangleFiles = {".stl", ".obj", ".off", ".ply", ".3mf"};
 
 constexpr const char* kFromBoundary = "boundary";
-constexpr const char* kFromGradient = "gradient";
-constexpr const char* kFromMetric = "metric";
-constexpr const char* kSizeAware = "size-aware";
-constexpr std::pair<CrossKind, const char*> kCrosses[] = {{CrossKind::kBoundary, kFromBoundary},
-                                                          {CrossKind::kSizeAware, kSizeAware},
-                                                          {CrossKind::kMetric, kFromMetric},
-                                                          {CrossKind::kGradient, kFromGradient}};
+
+/// How people write kinds of crosses, from kBoundary to kGradient.
+const std::vector<std::string> kCrosses = {kFromBoundary, "size-aware", "metric", "gradient"};
 
 const std::vector<std::string> kPlane = {"x", "y"};
 
@@ -191,9 +187,8 @@ void read_metric(const Model& model, MetricSpec& metric) {
 
 void read_cross(CrossSpec& cross, const Options& options) {
   if (cross.text.empty() || cross.kind) return;
-  const auto* word = std::ranges::find(kCrosses, cross.text, &std::pair<CrossKind, const char*>::second);
-  if (word != std::end(kCrosses)) {
-    cross.kind = word->first;
+  if (const auto word = std::ranges::find(kCrosses, cross.text); word != kCrosses.end()) {
+    cross.kind = static_cast<CrossKind>(word - kCrosses.begin());
     return;
   }
   if (const auto* fill = added_crosses().find(cross.text)) {
@@ -204,8 +199,7 @@ void read_cross(CrossSpec& cross, const Options& options) {
   cross.kind = CrossKind::kField;
   cross.field = located(cross.where, [&] {
     return std::make_shared<Located<CrossField, Vec2, Cross>>(
-        formula_or_word(cross.text,
-                        known_words({kFromBoundary, kFromGradient, kSizeAware, kFromMetric}, added_crosses()),
+        formula_or_word(cross.text, known_words(kCrosses, added_crosses()),
                         [&] { return make_expression_cross(cross.text); }),
         cross.where);
   });
@@ -248,9 +242,8 @@ std::string surface_files() {
 
 std::string text_of(const CrossSpec& cross) {
   if (!cross.text.empty()) return cross.text;
-  const auto* word = std::ranges::find(kCrosses, cross.kind.value_or(CrossKind::kBoundary),
-                                       &std::pair<CrossKind, const char*>::first);
-  return word != std::end(kCrosses) ? word->second : "angle";
+  const auto kind = static_cast<std::size_t>(cross.kind.value_or(CrossKind::kBoundary));
+  return kind < kCrosses.size() ? kCrosses[kind] : "angle";
 }
 
 MeshProblem read_files(MeshProblem problem) {

@@ -1,12 +1,13 @@
 #include "io/cases/toml_reader.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -16,15 +17,27 @@
 #include "delquad/error.h"
 
 namespace delquad {
-/// What stands in for the values at dotted keys, seen from the table that they were chosen for.
+/// Values that replace the values at dotted keys, seen from the table that they were chosen for. Later ones
+/// count more.
 struct TomlChoices {
   struct Value {
+    std::string key;
     const toml::node* node;
     std::string path;  // of the table that it stands in, for messages
   };
   std::vector<TomlTable> tables = {};  // keep the nodes alive
-  std::map<std::string, Value> values = {};
+  std::vector<Value> values = {};
   toml::table empty = {};  // for tables that hold nothing but choices
+
+  /// The value at a dotted path, or else one below it; null: none.
+  const Value* find(const std::string& path) const {
+    const Value* found = nullptr;
+    for (const Value& value : values) {
+      if (value.key == path) found = &value;
+      if ((found == nullptr || found->key != path) && value.key.starts_with(path + ".")) found = &value;
+    }
+    return found;
+  }
 };
 
 namespace {
@@ -50,53 +63,46 @@ void collect_leaves(const toml::table& table, const std::string& prefix, std::ve
 struct TomlTable::Data {
   std::shared_ptr<const toml::table> root;  // keeps `table` alive
   const toml::table* table;
-  std::filesystem::path file;
-  std::string path;  // of the table inside the file, for messages; empty at the top
-  std::set<std::string> asked;
-  std::shared_ptr<const TomlChoices> choices;  // null: none
-  std::string below;  // dotted path from the table with choices, with its dot at the end
+  std::filesystem::path file = {};
+  std::string path = {};  // of the table inside the file, for messages; empty at the top
+  std::set<std::string> asked = {};
+  std::shared_ptr<const TomlChoices> choices = nullptr;  // null: none
+  std::string below = {};  // dotted path from the table with choices, with its dot at the end
   std::shared_ptr<const std::vector<std::string>> options = nullptr;  // by line, in place of a file
 
   std::string place(unsigned line) const {
     return options ? options->at(line - 1) : file.string() + ":" + std::to_string(line);
   }
   std::string place(const toml::node& node) const { return place(node.source().begin.line); }
+  const TomlChoices::Value* chosen(const std::string& key) const {
+    return choices ? choices->find(below + key) : nullptr;
+  }
   /// As the file has it: what was chosen stands in another table.
   std::string name(const std::string& key) const {
-    return is_chosen(below + key) ? choices->values.lower_bound(below + key)->second.path + "." + below + key
-                                  : own_name(key);
+    const auto* choice = chosen(key);
+    return choice ? choice->path + "." + below + key : own_name(key);
   }
   std::string own_name(const std::string& key) const { return path.empty() ? key : path + "." + key; }
-  /// Whether the value at a dotted path from the table with choices was chosen, or one below it.
-  bool is_chosen(const std::string& path_to) const {
-    if (!choices) return false;
-    const auto inside = choices->values.lower_bound(path_to + ".");
-    return choices->values.contains(path_to) ||
-           (inside != choices->values.end() && inside->first.starts_with(path_to + "."));
-  }
 
   const toml::node* find(const std::string& key) {
     asked.insert(key);
     const toml::node* node = table->get(key);
-    if (!choices) return node;
-    const std::string path_to = below + key;
-    if (const auto chosen = choices->values.find(path_to); chosen != choices->values.end())
-      return chosen->second.node;
-    const auto inside = choices->values.lower_bound(path_to + ".");
-    if (inside == choices->values.end() || !inside->first.starts_with(path_to + ".")) return node;
+    const auto* choice = chosen(key);
+    if (!choice) return node;
+    if (choice->key == below + key) return choice->node;
     if (node && !node->is_table())
-      throw InputError(place(*inside->second.node) + ": '" + inside->first + "' is varied, but '" + path_to +
-                       "' is no table at " + place(*node));
+      refuse("{}: '{}' is varied, but '{}' is no table at {}", place(*choice->node), choice->key, below + key,
+             place(*node));
     return node ? node : &choices->empty;
   }
   /// Own keys and chosen ones.
   std::set<std::string> keys() const {
     std::set<std::string> names;
     for (const auto& [key, node] : *table) names.emplace(key.str());
-    if (!choices) return names;
-    for (auto at = choices->values.lower_bound(below);
-         at != choices->values.end() && at->first.starts_with(below); ++at)
-      names.insert(at->first.substr(below.size(), at->first.find('.', below.size()) - below.size()));
+    if (choices)
+      for (const auto& value : choices->values)
+        if (value.key.starts_with(below))
+          names.insert(value.key.substr(below.size(), value.key.find('.', below.size()) - below.size()));
     return names;
   }
   [[noreturn]] void expected(const toml::node& node, const std::string& key, const std::string& what) const {
@@ -109,35 +115,9 @@ struct TomlTable::Data {
   }
   unsigned line() const { return std::max(1u, static_cast<unsigned>(table->source().begin.line)); }
 
-  double number(const toml::node& node, const std::string& key, const std::string& what) const {
-    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value)) expected(node, key, what);
-    return *value;
-  }
-  Vec2 point(const toml::node& node, const std::string& key, const std::string& what) const {
-    const toml::array* pair = node.as_array();
-    if (!pair || pair->size() != 2) expected(node, key, what);
-    return {number(*pair->get(0), key, what), number(*pair->get(1), key, what)};
-  }
-  Vec3 space_point(const toml::node& node, const std::string& key, const std::string& what) const {
-    const toml::array* x = node.as_array();
-    if (!x || x->size() < 2 || x->size() > 3) expected(node, key, what);
-    const auto at = [&](std::size_t i) { return number(*x->get(i), key, what); };
-    return {at(0), at(1), x->size() == 3 ? at(2) : 0};
-  }
-  const toml::array& array(const toml::node& node, const std::string& key, const std::string& what) const {
-    if (!node.is_array()) expected(node, key, what);
-    return *node.as_array();
-  }
-  /// The nodes of a list, each as `read` makes it.
-  template <class T, class Read>
-  std::vector<T> list(const std::string& key, const char* what, Read read) {
-    std::vector<T> result;
-    for (const toml::node& node : array(need(key, what), key, what)) result.push_back(read(node));
-    return result;
-  }
   std::shared_ptr<Data> child(const toml::table& inner, const std::string& inner_path) const {
-    return std::make_shared<Data>(Data{root, &inner, file, inner_path, {}, nullptr, "", options});
+    return std::make_shared<Data>(
+        Data{.root = root, .table = &inner, .file = file, .path = inner_path, .options = options});
   }
 };
 
@@ -150,7 +130,7 @@ TomlTable TomlTable::read(const std::filesystem::path& file) {
   try {
     auto root = std::make_shared<const toml::table>(toml::parse(stream, file.string()));
     const toml::table* top = root.get();
-    return TomlTable(std::make_shared<Data>(Data{std::move(root), top, file, "", {}, nullptr, ""}));
+    return TomlTable(std::make_shared<Data>(Data{std::move(root), top, file}));
   } catch (const toml::parse_error& error) {
     refuse("{}:{}: not TOML: {}", file.string(), error.source().begin.line, error.description());
   }
@@ -169,7 +149,7 @@ TomlTable TomlTable::of_options(const std::vector<std::pair<std::string, std::st
     auto root = std::make_shared<const toml::table>(toml::parse(text));
     const toml::table* top = root.get();
     return TomlTable(
-        std::make_shared<Data>(Data{std::move(root), top, "", "", {}, nullptr, "", std::move(names)}));
+        std::make_shared<Data>(Data{.root = std::move(root), .table = top, .options = std::move(names)}));
   } catch (const toml::parse_error& error) {
     const std::string& name = names->at(error.source().begin.line - 1);
     if (error.description().find("cannot redefine") != std::string_view::npos)
@@ -202,114 +182,116 @@ std::vector<std::string> TomlTable::keys() const {
   return {names.begin(), names.end()};
 }
 
-double TomlTable::number(const std::string& key) const {
-  constexpr const char* kWhat = "a finite number";
-  return data_->number(data_->need(key, kWhat), key, kWhat);
+namespace {
+
+// These take the value of a node, and return the node that is none; null: all are right.
+
+template <class T>
+const toml::node* take(const toml::node& node, T& value) {
+  const auto given = node.value_exact<T>();
+  value = given.value_or(T());
+  return given ? nullptr : &node;
 }
-double TomlTable::number(const std::string& key, double absent) const {
-  return has(key) ? number(key) : absent;
+const toml::node* take(const toml::node& node, double& value) {
+  value = node.is_number() ? *node.value<double>() : NAN;
+  return std::isfinite(value) ? nullptr : &node;
+}
+const toml::node* take(const toml::node& node, long long& value) {
+  std::int64_t whole = 0;
+  const toml::node* wrong = take(node, whole);
+  value = whole;
+  return wrong;
+}
+const toml::node* take(const toml::node& node, int& value) {
+  long long whole = 0;
+  if (take(node, whole) != nullptr || !std::in_range<int>(whole)) return &node;
+  value = static_cast<int>(whole);
+  return nullptr;
+}
+const toml::node* take(const toml::node& node, Vec2& p);
+const toml::node* take(const toml::node& node, Vec3& p);
+const toml::node* take(const toml::node& node, std::variant<std::string, Vec3>& value);
+template <class T>
+const toml::node* take(const toml::node& node, std::vector<T>& values) {
+  if (!node.is_array()) return &node;
+  for (const toml::node& one : *node.as_array())
+    if (const toml::node* wrong = take(one, values.emplace_back())) return wrong;
+  return nullptr;
+}
+template <class T, std::size_t N>
+const toml::node* take(const toml::node& node, std::array<T, N>& values) {
+  std::vector<T> list;
+  if (const toml::node* wrong = take(node, list)) return wrong;
+  if (list.size() != N) return &node;
+  std::ranges::copy(list, values.begin());
+  return nullptr;
+}
+const toml::node* take(const toml::node& node, Vec2& p) {
+  std::array<double, 2> x;
+  const toml::node* wrong = take(node, x);
+  p = {x[0], x[1]};
+  return wrong;
+}
+const toml::node* take(const toml::node& node, Vec3& p) {
+  std::vector<double> x;
+  if (const toml::node* wrong = take(node, x)) return wrong;
+  if (x.size() < 2 || x.size() > 3) return &node;
+  p = {x[0], x[1], x.size() == 3 ? x[2] : 0};
+  return nullptr;
+}
+const toml::node* take(const toml::node& node, std::variant<std::string, Vec3>& value) {
+  if (node.is_string()) return take(node, value.emplace<std::string>());
+  return take(node, value.emplace<Vec3>());
+}
+
+// What is expected of each type.
+const char* expected_of(bool) { return "true or false"; }
+const char* expected_of(int) { return "an integer"; }
+const char* expected_of(long long) { return "an integer"; }
+const char* expected_of(double) { return "a finite number"; }
+const char* expected_of(const std::string&) { return "a text in quotes"; }
+const char* expected_of(Vec2) { return "a point [x, y]"; }
+const char* expected_of(Vec3) { return "a point [x, y] or [x, y, z]"; }
+const char* expected_of(const std::array<double, 2>&) { return "two numbers [least, most]"; }
+const char* expected_of(const std::array<double, 3>&) { return "three numbers [x, y, z]"; }
+const char* expected_of(const std::array<Vec3, 2>&) { return "two opposite corners [[x, y, z], [x, y, z]]"; }
+const char* expected_of(const std::vector<int>&) { return "a list of integers"; }
+const char* expected_of(const std::vector<double>&) { return "a list of finite numbers"; }
+const char* expected_of(const std::vector<std::string>&) { return "a list of texts in quotes"; }
+const char* expected_of(const std::vector<Vec2>&) { return "a list of points [[x, y], ...]"; }
+const char* expected_of(const std::vector<Vec3>&) { return "a list of points [[x, y, z], ...]"; }
+const char* expected_of(const std::vector<std::vector<int>>&) {
+  return "a list of lists of integers [[1, 2], ...]";
+}
+const char* expected_of(const std::vector<std::variant<std::string, Vec3>>&) {
+  return "a list of texts in quotes or points [x, y, z]";
+}
+
+}  // namespace
+
+void TomlTable::read(const std::string& key, const TomlTarget& target) const {
+  std::visit(
+      [&](auto* value) {
+        const char* expected = expected_of(*value);
+        if (const toml::node* wrong = take(data_->need(key, expected), *value))
+          data_->expected(*wrong, key, expected);
+      },
+      target);
 }
 
 double TomlTable::positive_number(const std::string& key) const {
-  constexpr const char* kWhat = "a number > 0";
-  const toml::node& node = data_->need(key, kWhat);
-  const double value = data_->number(node, key, kWhat);
-  if (value <= 0) data_->expected(node, key, kWhat);
+  const double value = number(key);
+  if (value <= 0) data_->expected(data_->need(key, ""), key, "a number > 0");
   return value;
 }
 
-long long TomlTable::integer(const std::string& key) const {
-  constexpr const char* kWhat = "an integer";
-  const toml::node& node = data_->need(key, kWhat);
-  const std::optional<std::int64_t> value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
-  if (!value) data_->expected(node, key, kWhat);
-  return *value;
-}
-long long TomlTable::integer(const std::string& key, long long absent) const {
-  return has(key) ? integer(key) : absent;
-}
-
-bool TomlTable::flag(const std::string& key, bool absent) const {
-  const toml::node* node = data_->find(key);
-  if (!node) return absent;
-  if (!node->is_boolean()) data_->expected(*node, key, "true or false");
-  return *node->value<bool>();
-}
-
-std::string TomlTable::text(const std::string& key) const {
-  constexpr const char* kWhat = "a text in quotes";
-  const toml::node& node = data_->need(key, kWhat);
-  if (!node.is_string()) data_->expected(node, key, kWhat);
-  return *node.value<std::string>();
-}
-std::string TomlTable::text(const std::string& key, const std::string& absent) const {
-  return has(key) ? text(key) : absent;
-}
-
 std::string TomlTable::expression(const std::string& key) const {
-  constexpr const char* kWhat = "a finite number or an expression in quotes";
-  const toml::node& node = data_->need(key, kWhat);
-  if (node.is_string()) return *node.value<std::string>();
-  return number_text(data_->number(node, key, kWhat));
-}
-
-Vec2 TomlTable::point(const std::string& key) const {
-  constexpr const char* kWhat = "a point [x, y]";
-  return data_->point(data_->need(key, kWhat), key, kWhat);
-}
-
-Vec3 TomlTable::space_point(const std::string& key) const {
-  constexpr const char* kWhat = "a point [x, y] or [x, y, z]";
-  return data_->space_point(data_->need(key, kWhat), key, kWhat);
-}
-
-std::vector<Vec3> TomlTable::space_points(const std::string& key) const {
-  constexpr const char* kWhat = "a list of points [[x, y, z], ...]";
-  return data_->list<Vec3>(key, kWhat,
-                           [&](const toml::node& node) { return data_->space_point(node, key, kWhat); });
-}
-
-std::vector<Vec2> TomlTable::points(const std::string& key) const {
-  constexpr const char* kWhat = "a list of points [[x, y], ...]";
-  return data_->list<Vec2>(key, kWhat,
-                           [&](const toml::node& node) { return data_->point(node, key, kWhat); });
-}
-
-std::vector<double> TomlTable::numbers(const std::string& key) const {
-  constexpr const char* kWhat = "a list of finite numbers";
-  return data_->list<double>(key, kWhat,
-                             [&](const toml::node& node) { return data_->number(node, key, kWhat); });
-}
-
-std::vector<std::vector<int>> TomlTable::integer_lists(const std::string& key) const {
-  const std::string what = "a list of lists of integers [[1, 2], ...]";
-  std::vector<std::vector<int>> result;
-  for (const toml::node& list : data_->array(data_->need(key, what), key, what)) {
-    result.emplace_back();
-    for (const toml::node& node : data_->array(list, key, what)) {
-      const auto value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
-      if (!value || !std::in_range<int>(*value)) data_->expected(node, key, what);
-      result.back().push_back(static_cast<int>(*value));
-    }
-  }
-  return result;
-}
-
-std::vector<std::string> TomlTable::texts(const std::string& key) const {
-  constexpr const char* kWhat = "a list of texts in quotes";
-  return data_->list<std::string>(key, kWhat, [&](const toml::node& node) {
-    if (!node.is_string()) data_->expected(node, key, kWhat);
-    return *node.value<std::string>();
-  });
-}
-
-std::vector<std::variant<std::string, Vec3>> TomlTable::texts_and_points(const std::string& key) const {
-  constexpr const char* kWhat = "a list of texts in quotes or points [x, y, z]";
-  using Entry = std::variant<std::string, Vec3>;
-  return data_->list<Entry>(key, kWhat, [&](const toml::node& node) -> Entry {
-    if (node.is_string()) return *node.value<std::string>();
-    return data_->space_point(node, key, kWhat);
-  });
+  if (kind(key) == TomlKind::kText) return text(key);
+  constexpr const char* kExpected = "a finite number or an expression in quotes";
+  const toml::node& node = data_->need(key, kExpected);
+  double value = 0;
+  if (take(node, value) != nullptr) data_->expected(node, key, kExpected);
+  return number_text(value);
 }
 
 TomlTable TomlTable::table(const std::string& key) const {
@@ -327,34 +309,29 @@ std::optional<TomlTable> TomlTable::optional_table(const std::string& key) const
 }
 
 std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
-  const toml::node* node = data_->find(key);
-  if (!node) return {};
-  if (node->is_table()) return {table(key)};
-  const std::string what = "a table or a list of tables";
-  std::vector<TomlTable> result;
-  for (const toml::node& item : data_->array(*node, key, what)) {
-    if (!item.is_table()) data_->expected(item, key, what);
-    result.push_back(TomlTable(data_->child(*item.as_table(), data_->own_name(key))));
-  }
-  return result;
+  return texts_and_tables(key, false).second;
 }
 
 std::pair<std::vector<std::string>, std::vector<TomlTable>> TomlTable::texts_and_tables(
-    const std::string& key) const {
+    const std::string& key, bool may_be_texts) const {
   const toml::node* node = data_->find(key);
   if (!node) return {};
-  if (node->is_string()) return {{text(key)}, {}};
-  if (node->is_table()) return {{}, {table(key)}};
-  const std::string what = "a text in quotes, a table, or a list of these";
+  const char* what =
+      may_be_texts ? "a text in quotes, a table, or a list of these" : "a table or a list of tables";
   std::pair<std::vector<std::string>, std::vector<TomlTable>> result;
-  for (const toml::node& item : data_->array(*node, key, what)) {
-    if (item.is_string())
+  const auto add = [&](const toml::node& item) {
+    if (may_be_texts && item.is_string())
       result.first.push_back(*item.value<std::string>());
-    else if (item.is_table())
-      result.second.push_back(TomlTable(data_->child(*item.as_table(), data_->own_name(key))));
-    else
+    else if (!item.is_table())
       data_->expected(item, key, what);
-  }
+    else
+      result.second.push_back(
+          &item == node ? table(key) : TomlTable(data_->child(*item.as_table(), data_->own_name(key))));
+  };
+  if (!node->is_array())
+    add(*node);
+  else
+    for (const toml::node& item : *node->as_array()) add(item);
   return result;
 }
 
@@ -417,7 +394,8 @@ TomlTable TomlTable::with_choice(const TomlTable& lists, const std::vector<std::
   }
   choices->tables.push_back(lists);
   for (std::size_t k = 0; k < leaves.size(); ++k)
-    choices->values[leaves[k]] = {&element(*lists.data_->table, leaves[k], choice[k]), lists.data_->path};
+    choices->values.push_back(
+        {leaves[k], &element(*lists.data_->table, leaves[k], choice[k]), lists.data_->path});
   auto data = std::make_shared<Data>(*data_);
   data->asked.clear();
   data->choices = std::move(choices);
@@ -428,15 +406,11 @@ void TomlTable::require_among(const std::vector<std::string>& known) const {
   for (const std::string& name : data_->keys()) {
     if (std::ranges::find(known, name) != known.end()) continue;
     const auto key = data_->table->find(name);
-    const std::string place =
-        key != data_->table->end()
-            ? data_->place(key->first.source().begin.line)
-            : data_->place(*data_->choices->values.lower_bound(data_->below + name)->second.node);
-    std::string message = place + ": unknown key '" + data_->name(name) + "'";
-    if (const std::string near = suggestion(name, known); !near.empty()) throw InputError(message + near);
-    message += "; known here:";
-    for (const std::string& other : known) message += " " + other;
-    throw InputError(message);
+    const std::string place = key != data_->table->end() ? data_->place(key->first.source().begin.line)
+                                                         : data_->place(*data_->chosen(name)->node);
+    const std::string near = suggestion(name, known);
+    refuse("{}: unknown key '{}'{}", place, data_->name(name),
+           near.empty() ? fmt::format("; known here: {}", fmt::join(known, " ")) : near);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -24,11 +25,20 @@ struct TomlKey {
   std::function<std::vector<TomlKey>()> table = nullptr;  ///< the keys of the table that the value may be
   bool many = false;                                      ///< such a table, or a list of them
   bool required = false;
+  const char* option = nullptr;   ///< option of the program that sets it
+  const char* keyword = nullptr;  ///< keyword of Python, where that is not the name
 };
 
 using TomlKeys = std::vector<TomlKey>;
 
 enum class TomlKind { kNone, kNumber, kText, kFlag, kArray, kTable };
+
+/// The place that a value is read into.
+using TomlTarget =
+    std::variant<bool*, int*, long long*, double*, std::string*, Vec2*, Vec3*, std::array<double, 2>*,
+                 std::array<double, 3>*, std::array<Vec3, 2>*, std::vector<int>*, std::vector<double>*,
+                 std::vector<std::string>*, std::vector<Vec2>*, std::vector<Vec3>*,
+                 std::vector<std::vector<int>>*, std::vector<std::variant<std::string, Vec3>>*>;
 
 /// A checked view of one table of a TOML file. Every getter throws InputError "file:line: ..." which names
 /// the key and says what was expected; copies share the record of the keys that were asked for, against which
@@ -55,37 +65,38 @@ class TomlTable {
   /// The keys present, in alphabetical order.
   std::vector<std::string> keys() const;
 
-  /// Finite; integers are numbers too.
-  double number(const std::string& key) const;
-  double number(const std::string& key, double absent) const;
+  /// A value of one of the types of TomlTarget. Numbers are finite, and integers are numbers, too. Vec2 is
+  /// [x, y]; Vec3 is [x, y, z], or [x, y] with z = 0.
+  template <class T>
+  T get(const std::string& key) const {
+    T value{};
+    read(key, &value);
+    return value;
+  }
+  /// `absent`: where the table has no such key.
+  template <class T>
+  T get(const std::string& key, const T& absent) const {
+    return has(key) ? get<T>(key) : absent;
+  }
+  double number(const std::string& key) const { return get<double>(key); }
+  double number(const std::string& key, double absent) const { return get(key, absent); }
   double positive_number(const std::string& key) const;
-  long long integer(const std::string& key) const;
-  long long integer(const std::string& key, long long absent) const;
-  bool flag(const std::string& key, bool absent) const;
-  std::string text(const std::string& key) const;
-  std::string text(const std::string& key, const std::string& absent) const;
+  long long integer(const std::string& key) const { return get<long long>(key); }
+  long long integer(const std::string& key, long long absent) const { return get(key, absent); }
+  bool flag(const std::string& key, bool absent) const { return get(key, absent); }
+  std::string text(const std::string& key) const { return get<std::string>(key); }
+  std::string text(const std::string& key, const std::string& absent) const { return get(key, absent); }
+  std::vector<double> numbers(const std::string& key) const { return get<std::vector<double>>(key); }
+  std::vector<std::string> texts(const std::string& key) const { return get<std::vector<std::string>>(key); }
   /// A text, or a number as it would be written in an expression.
   std::string expression(const std::string& key) const;
-  /// [x, y]
-  Vec2 point(const std::string& key) const;
-  /// [x, y, z], or [x, y] with z = 0
-  Vec3 space_point(const std::string& key) const;
-  /// [[x, y], ...]
-  std::vector<Vec2> points(const std::string& key) const;
-  /// [[x, y, z], ...]; z = 0 where it is left out
-  std::vector<Vec3> space_points(const std::string& key) const;
-  std::vector<double> numbers(const std::string& key) const;
-  /// [[n, ...], ...], of the range of int.
-  std::vector<std::vector<int>> integer_lists(const std::string& key) const;
-  std::vector<std::string> texts(const std::string& key) const;
-  /// A list of texts and points [x, y] or [x, y, z].
-  std::vector<std::variant<std::string, Vec3>> texts_and_points(const std::string& key) const;
   TomlTable table(const std::string& key) const;
   std::optional<TomlTable> optional_table(const std::string& key) const;
   /// An array of tables, or one table; none when absent.
   std::vector<TomlTable> tables(const std::string& key) const;
   /// The same where texts may stand among the tables.
-  std::pair<std::vector<std::string>, std::vector<TomlTable>> texts_and_tables(const std::string& key) const;
+  std::pair<std::vector<std::string>, std::vector<TomlTable>> texts_and_tables(
+      const std::string& key, bool may_be_texts = true) const;
 
   /// Dotted keys ("insertion.h_max") of everything below that is no table, in alphabetical order.
   std::vector<std::string> leaves() const;
@@ -111,6 +122,7 @@ class TomlTable {
   void finish(const TomlKeys& keys) const;
 
  private:
+  void read(const std::string& key, const TomlTarget& target) const;
   void require_among(const std::vector<std::string>& known) const;
 
   struct Data;

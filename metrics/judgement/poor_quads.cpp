@@ -24,8 +24,12 @@ namespace {
 const OptionTable<LimitOptions>& limit_table() {
   static const auto all =
       OptionTable<LimitOptions>("limits", "beyond which an element is an error")
-          .add({.name = "min_angle", .help = "degrees", .least = 0, .most = 90}, &LimitOptions::min_angle)
-          .add({.name = "max_aspect", .help = "longest over shortest side", .least = 1, .absent = "any"},
+          .add({.name = "min_angle", .help = "degrees: a smaller angle is an error", .least = 0, .most = 90},
+               &LimitOptions::min_angle)
+          .add({.name = "max_aspect",
+                .help = "longest over shortest side: more is an error",
+                .least = 1,
+                .absent = "any"},
                &LimitOptions::max_aspect);
   return all;
 }

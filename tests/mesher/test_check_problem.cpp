@@ -73,9 +73,9 @@ TEST(CheckProblem, RefusesSizesThatMakeNoSense) {
                 .find("expected one of them"),
             std::string::npos);
   EXPECT_EQ(complaint(square_problem(), [](MeshProblem& p) { p.size.gradation = NAN; }),
-            "size: gradation NaN: expected a finite number above 0, or 0 for none");
+            "size: 'gradation' is nan: expected a number above 0, or 0 for none");
   EXPECT_EQ(complaint(surface(), [](MeshProblem& p) { p.size.curvature = 1; }),
-            "size: curvature 1: expected at least 3 elements per full turn");
+            "size: 'curvature' is 1: expected at least 3, or 0 for none");
   EXPECT_NE(complaint(surface(), [](MeshProblem& p) { p.size.min = 0.1; }).find("expected 'curvature' too"),
             std::string::npos);
   EXPECT_NE(complaint(surface(),
@@ -98,17 +98,17 @@ TEST(CheckProblem, RefusesCrossesAndSurfacesThatMakeNoSense) {
           .find("another kind asked for"),
       std::string::npos);
   EXPECT_EQ(complaint(surface(), [](MeshProblem& p) { p.surface.feature_angle = 181; }),
-            "model: feature angle 181: expected above 0 and at most 180 degrees");
-  EXPECT_NE(
-      complaint(surface(), [](MeshProblem& p) { p.surface.weld_tolerance = NAN; }).find("weld tolerance"),
-      std::string::npos);
-  EXPECT_NE(
-      complaint(surface(), [](MeshProblem& p) { p.surface.mirror = MirrorPlane{}; }).find("mirror's plane"),
-      std::string::npos);
-  EXPECT_NE(
-      complaint(square_problem(), [](MeshProblem& p) { p.max_elements = 0; }).find("at most 0 elements"),
-      std::string::npos);
-  EXPECT_NE(complaint(square_problem(), [](MeshProblem& p) { p.seed = -1; }).find("seed -1"),
+            "model: 'surface.feature_angle' is 181: expected above 0 and at most 180");
+  EXPECT_NE(complaint(surface(), [](MeshProblem& p) { p.surface.weld_tolerance = NAN; })
+                .find("'surface.weld_tolerance' is nan"),
+            std::string::npos);
+  EXPECT_NE(complaint(surface(), [](MeshProblem& p) { p.surface.mirror = MirrorPlane{}; })
+                .find("'surface.mirror.normal' has no length"),
+            std::string::npos);
+  EXPECT_NE(complaint(square_problem(), [](MeshProblem& p) { p.max_elements = 0; })
+                .find("'max_elements' is 0: expected at least 1"),
+            std::string::npos);
+  EXPECT_NE(complaint(square_problem(), [](MeshProblem& p) { p.seed = -1; }).find("'seed' is -1"),
             std::string::npos);
 }
 

@@ -49,7 +49,7 @@ const BadModel kModels[] = {
      {"model.toml:2", "unknown key 'loop.rectangel'", "'rectangle'"}},
     {"wrong_type",
      "[[loop]]\ncircle = { centre = [0, 0], radius = \"1\" }",
-     {"model.toml:2", "radius", "number > 0"}},
+     {"model.toml:2", "radius", "finite number"}},
     {"nan_coordinate", "[[loop]]\npolygon = [[0, 0], [1, nan], [1, 1]]", {"model.toml:2", "points"}},
     {"two_shapes",
      "[[loop]]\ncircle = { centre = [0, 0], radius = 1 }\nrectangle = [[0, 0], [1, 1]]",

@@ -70,7 +70,7 @@ TEST(SurfaceOptions, NonsenseIsRefused) {
   for (const char* part : {"-1e-3", "0.2", "nan"}) refused("roof.off", {"--weld", part}, "--weld: '");
   refused("roof.off", {"--weld", "wide"}, "--weld");
   for (const char* length : {"0", "-1", "nan", "inf"})
-    refused("roof.off", {"--ignore-below", length}, "must be a number > 0");
+    refused("roof.off", {"--ignore-below", length}, "--ignore-below: '");
   refused("roof.off", {"--ignore-below", "3"}, "expected a length far below the diagonal");
   refused("square.toml", {"--glue"}, "--glue: the model is planar: glue is for surfaces\n");
   refused("square.toml", {"--compound", "all"}, "--compound: the model is planar");

@@ -196,11 +196,11 @@ TEST(Washers, AreRefusedWithOneMessage) {
     expect_input_error([&] { mesh(problem_of(plate({{20, 20, 4}}), 4, washers), "DB"); }, parts);
   };
   refuse({{6, 10, 1, 13}}, {"washers", "13 edges", "an even number"});
-  refuse({{6, 10, 0}}, {"0 rows", "at least 1"});
-  refuse({{6, 10, -2}}, {"-2 rows"});
+  refuse({{6, 10, 0}}, {"'rows' is 0", "1 to 1000"});
+  refuse({{6, 10, -2}}, {"'rows' is -2"});
   refuse({{10, 6}}, {"diameters from 10 to 6"});
   refuse({{6, 10}, {8, 12}}, {"diameters from 8 to 12 overlap those from 6 to 10"});
-  refuse({{6, 10, 1, 8, -1}}, {"width -1"});
+  refuse({{6, 10, 1, 8, -1}}, {"'width' is -1"});
   MeshProblem fillets = problem_of(plate({{20, 20, 4}}), 4, {});
   fillets.fillet_rows = {{1, 2, 2}};
   expect_input_error([&] { mesh(fillets, "DB"); }, {"fillet_rows", "CAD"});

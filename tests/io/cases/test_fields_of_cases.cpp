@@ -47,7 +47,7 @@ TEST_F(Cases, Layers) {
   const auto refused = [&](const std::string& layer, std::initializer_list<const char*> parts) {
     expect_input_error([&] { read(sides + "layer = { " + layer + " }"); }, parts);
   };
-  refused("on = 's', first = 0, number = 3", {"c.toml:3", "'layer.first'"});
+  refused("on = 's', first = 0, number = 3", {"c.toml:3", "'first' is 0"});
   refused("on = 's', first = 0.1, number = 0", {"c.toml:3", "'number' is 0"});
   refused("on = 's', first = 0.1", {"c.toml:3", "none of 'number' and 'thickness'"});
   refused("on = 's', first = 0.1, number = 2, heigth = 1", {"c.toml:3", "'layer.heigth'"});

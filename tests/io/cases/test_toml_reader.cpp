@@ -25,8 +25,8 @@ TEST_F(TomlReader, GivesTypedValues) {
   EXPECT_EQ(table.number("absent", 7), 7);
   EXPECT_EQ(table.text("t"), "text");
   EXPECT_TRUE(table.flag("f", false));
-  EXPECT_EQ(table.point("p"), (Vec2{1, 2.5}));
-  EXPECT_EQ(table.points("ps"), (std::vector<Vec2>{{0, 1}, {2, 3}}));
+  EXPECT_EQ(table.get<Vec2>("p"), (Vec2{1, 2.5}));
+  EXPECT_EQ(table.get<std::vector<Vec2>>("ps"), (std::vector<Vec2>{{0, 1}, {2, 3}}));
   EXPECT_EQ(table.texts("l"), (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(table.table("sub").number("y"), 1);
   EXPECT_FALSE(table.optional_table("absent"));
@@ -43,8 +43,8 @@ TEST_F(TomlReader, MistakesNameFileLineKeyAndWhatWasExpected) {
   const TomlTable table = read("n = 3.5\nt = 4\np = [1]\nps = [[0, 1], 2]\nx = inf\nl = [1]\n[s]\ny = -1\n");
   expect_input_error([&] { table.integer("n"); }, {"in.toml:1", "'n'", "integer"});
   expect_input_error([&] { table.text("t"); }, {"in.toml:2", "'t'", "text"});
-  expect_input_error([&] { table.point("p"); }, {"in.toml:3", "'p'", "[x, y]"});
-  expect_input_error([&] { table.points("ps"); }, {"in.toml:4", "'ps'", "[[x, y], ...]"});
+  expect_input_error([&] { table.get<Vec2>("p"); }, {"in.toml:3", "'p'", "[x, y]"});
+  expect_input_error([&] { table.get<std::vector<Vec2>>("ps"); }, {"in.toml:4", "'ps'", "[[x, y], ...]"});
   expect_input_error([&] { table.number("x"); }, {"in.toml:5", "'x'", "finite"});
   expect_input_error([&] { table.texts("l"); }, {"in.toml:6", "'l'", "texts"});
   expect_input_error([&] { table.table("n"); }, {"in.toml:1", "table"});
