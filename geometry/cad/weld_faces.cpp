@@ -38,7 +38,7 @@ class Welder {
     add_triangles(welded.mesh);
     number_points(welded.mesh);
     welded.inside = part_twin_sides(welded.mesh, numbered_boundaries());
-    sides_ = sorted_half_edges(welded.mesh);
+    for (const HalfEdge& side : sorted_half_edges(welded.mesh)) sides_.push_back({side.lo, side.hi});
     for (int e = 0; e < edges_.Extent(); ++e) add_curve(e, welded);
     find_corners(welded);
     welded.bad_faces = std::move(bad_faces_);
@@ -202,11 +202,10 @@ class Welder {
     }
     if (chain.size() < 2) return;
     Mesh& mesh = welded.mesh;
-    // Edges that lie on each other in one face have it on neither side; other faces may have sides there.
+    // Edges that lie on each other in one face have it on neither side.
     const auto bounds_something = [&](std::size_t k) {
-      return std::ranges::any_of(sides_of_edge(sides_, chain[k], chain[k + 1]), [&](const HalfEdge& side) {
-        return use.is_shared || mesh.triangle_region[side.element] == use.first_face;
-      });
+      const auto [a, b] = std::minmax(chain[k], chain[k + 1]);
+      return std::ranges::binary_search(sides_, std::array{a, b});
     };
     bool is_curve = false;
     for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
@@ -247,8 +246,8 @@ class Welder {
   DisjointSets sets_;
   std::vector<std::vector<int>> node_of_;  ///< of each point of each face
   std::vector<int> bad_faces_;
-  std::vector<HalfEdge> sides_;  ///< of triangles between points, sorted
-  std::vector<int> number_;      ///< point of the mesh of each node; -1: none
+  std::vector<std::array<int, 2>> sides_;  ///< of triangles between points, sorted
+  std::vector<int> number_;                ///< point of the mesh of each node; -1: none
 };
 
 }  // namespace
