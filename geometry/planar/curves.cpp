@@ -1,7 +1,6 @@
 #include "delquad/model.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -110,7 +109,7 @@ std::vector<Vec2> second_derivatives(std::span<const double> t, std::span<const 
 
 class Spline final : public DefinedCurve {
  public:
-  Spline(std::vector<Vec2> points, double corner) : points_(std::move(points)), t_{0} {
+  Spline(std::vector<Vec2> points, double corner) : points_(std::move(points)), t_{0}, corner_(corner) {
     const std::size_t n = points_.size() - 1;
     const bool is_closed = points_[0] == points_[n];
     const auto turns = [&](std::size_t i) {  // at point i, which has neighbours on both sides
@@ -149,7 +148,7 @@ class Spline final : public DefinedCurve {
 
   std::vector<double> fixed_parameters() const override { return fixed_; }
   std::string definition() const override {
-    return fmt::format("spline{} corners {:a}", exact_text(points_), fmt::join(fixed_, " "));
+    return fmt::format("spline{} corner {:a}", exact_text(points_), corner_);
   }
 
  private:
@@ -157,6 +156,7 @@ class Spline final : public DefinedCurve {
   std::vector<double> t_;                    ///< at each, by the length of chords
   std::vector<std::array<Vec2, 2>> second_;  ///< derivatives at the ends of each chord
   std::vector<double> fixed_;
+  double corner_;
 };
 
 class Arc final : public DefinedCurve {

@@ -248,6 +248,8 @@ TEST(ProblemRecord, CurvesCountByTheirDefinition) {
   const std::vector<Vec2> points = {{0, 0}, {1, 1}, {2, 0}};
   EXPECT_NE(record(make_spline(points, 2)), record(make_spline(points, 0.5))) << "with a corner";
   EXPECT_NE(record(make_spline(points)), record(make_polyline(points)));
+  const std::vector<Vec2> drop = {{0, 0}, {2, -0.5}, {3, 0}, {2, 0.5}, {0, 0}};
+  EXPECT_NE(record(make_spline(drop, 2.4)), record(make_spline(drop, 3.1))) << "with a corner at its end";
 }
 
 TEST(ProblemRecord, GivenKeysAreThoseThatDifferFromDefaults) {
