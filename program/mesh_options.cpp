@@ -4,10 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <span>
+#include <set>
 
 #include "base/located.h"
 #include "base/text.h"
@@ -20,51 +21,32 @@
 namespace delquad {
 namespace {
 
-/// An option that stands for a key of model files.
-struct KeyOption {
-  const char *option, *key;
-};
+/// Keys by their dotted names.
+using KeysByName = std::vector<std::pair<std::string, TomlKey>>;
 
-constexpr KeyOption kSurfaceKeys[] = {{"--compound", "surface.compound"},
-                                      {"--feature-angle", "surface.feature_angle"},
-                                      {"--weld", "surface.weld_tolerance"},
-                                      {"--ignore-below", "surface.ignore_below"},
-                                      {"--idealize", "surface.idealize"},
-                                      {"--keep", "surface.keep"},
-                                      {"--fill-holes", "surface.fill_holes"},
-                                      {"--simplify", "surface.simplify"},
-                                      {"--glue", "surface.glue"},
-                                      {"--unit", "surface.unit"}};
-constexpr KeyOption kMeshKeys[] = {{"--curvature", "size.curvature"},
-                                   {"--size-min", "size.min"},
-                                   {"--mapped", "mapped"},
-                                   {"--refine", "refine"},
-                                   {"--quads", "quads"},
-                                   {"--gap-rows", "curves.gap_rows"}};
-/// Also of meshes that are improved.
-constexpr KeyOption kCommonKeys[] = {{"--size", "size.base"},
-                                     {"--size-max", "size.max"},
-                                     {"--gradation", "size.gradation"},
-                                     {"--cross", "cross"},
-                                     {"--order", "order"},
-                                     {"--min-angle", "limits.min_angle"},
-                                     {"--max-aspect", "limits.max_aspect"},
-                                     {"--criteria", "criteria"}};
-constexpr KeyOption kFeatureAngle[] = {{"--feature-angle", "surface.feature_angle"}};
-
-/// Finds a dotted key; nothing: there is none.
-std::optional<TomlKey> find_key(const std::string& dotted) {
-  TomlKeys keys = case_keys();
-  for (std::size_t from = 0;;) {
-    const std::size_t dot = std::min(dotted.find('.', from), dotted.size());
-    const auto at = std::ranges::find(keys, dotted.substr(from, dot - from), &TomlKey::name);
-    if (at == keys.end()) return std::nullopt;
-    if (dot == dotted.size()) return *at;
-    if (at->table == nullptr) return std::nullopt;
-    keys = TomlKeys(at->table());
-    from = dot + 1;
+void collect(const TomlKeys& keys, const std::string& prefix, KeysByName& all) {
+  for (const TomlKey& key : keys) {
+    all.emplace_back(prefix + key.name, key);
+    if (key.table != nullptr) collect(key.table(), prefix + key.name + ".", all);
   }
 }
+
+/// All keys of model files.
+KeysByName all_keys() {
+  KeysByName all;
+  collect(case_keys(), "", all);
+  for (auto& [name, key] : all) {  // options of stages have no description
+    if (name == "curves.gap_rows") key.option = "--gap-rows";
+    if (name == "limits.min_angle") key.option = "--min-angle";
+    if (name == "limits.max_aspect") key.option = "--max-aspect";
+  }
+  return all;
+}
+
+/// Keys with options for meshes that are improved, too.
+const std::set<std::string> kOfImprove = {
+    "size.base",        "size.max",          "size.gradation",        "cross",   "order",
+    "limits.min_angle", "limits.max_aspect", "surface.feature_angle", "criteria"};
 
 bool may_be(const TomlKey& key, const char* type) {
   return key.type.find('"' + std::string(type) + '"') != std::string::npos;
@@ -75,35 +57,80 @@ std::string in_quotes(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// As TOML writes it: numbers and true, false, lists and tables as they are, all else in quotes.
-std::string toml_text(const std::string& value, const std::optional<TomlKey>& key) {
-  const bool is_text = key && !may_be(*key, "number") && !may_be(*key, "integer") &&
+/// How a table is written on the command line: "NAME=SIZE[:REACH[:GROWTH]]", "LEAST-MOST[:ROWS]".
+std::string form_of(const TomlKeys& keys) {
+  std::string form, end;
+  for (const TomlKey& key : keys) {
+    std::string name = key.type == toml_types::kRange ? "LEAST-MOST" : key.name;
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::toupper(c); });
+    const bool is_first = &key == &keys[0], is_named = keys[0].type == toml_types::kText;
+    form += is_first ? name : is_named && &key == &keys[1] ? "=" + name : "[:" + name;
+    if (!is_first && !(is_named && &key == &keys[1])) end += "]";
+  }
+  return form + end;
+}
+
+std::string toml_text(const std::string& value, const TomlKey* key);
+
+/// A table of its values in the order of the keys.
+std::string table_text(const std::string& text, const TomlKeys& keys) {
+  const bool is_named = keys[0].type == toml_types::kText;
+  std::string table;
+  std::size_t at = 0;
+  for (const TomlKey& key : keys) {
+    if (at > text.size()) break;
+    const std::size_t end =
+        &key == &keys[0] && is_named ? text.rfind('=') : std::min(text.find(':', at), text.size());
+    if (end == text.npos) break;
+    table += fmt::format("{} {} = {}", table.empty() ? "{" : ",", key.name,
+                         toml_text(text.substr(at, end - at), &key));
+    at = end + 1;
+  }
+  if (at <= text.size() || (is_named && text.starts_with('=')))
+    refuse("'{}': expected {}", text, form_of(keys));
+  return table + " }";
+}
+
+/// As TOML writes it: numbers and true, false, lists and tables as they are, all else in quotes. `key`: null
+/// for keys that are not known.
+std::string toml_text(const std::string& value, const TomlKey* key) {
+  const bool is_toml = value == "true" || value == "false" || value.starts_with('[') ||
+                       value.starts_with('{') || value.starts_with('"') || value.starts_with('\'');
+  if (key != nullptr && key->type.empty() && key->many && !is_toml) return table_text(value, key->table());
+  if (const std::size_t to = value.find('-', 1);
+      to != value.npos && key != nullptr && key->type == toml_types::kRange) {
+    const auto least = as_number(value.substr(0, to)), most = as_number(value.substr(to + 1));
+    if (least && most) return fmt::format("[{}, {}]", *least, *most);
+  }
+  const bool is_text = key != nullptr && !may_be(*key, "number") && !may_be(*key, "integer") &&
                        !may_be(*key, "boolean") && (may_be(*key, "string") || may_be(*key, "enum"));
   if (const auto number = as_number(value);
       number && std::isfinite(*number) && (!is_text || may_be(*key, "enum"))) {
     const bool is_whole = *number == std::floor(*number) && std::abs(*number) < 1e15;
     return is_whole ? fmt::format("{}", static_cast<long long>(*number)) : fmt::format("{}", *number);
   }
-  const bool is_toml = value == "true" || value == "false" || value.starts_with('[') ||
-                       value.starts_with('{') || value.starts_with('"') || value.starts_with('\'');
   return is_toml && !(is_text && key->many) ? value : in_quotes(value);
 }
 
-void add_keys(CLI::App& command, KeyArguments& arguments, std::span<const KeyOption> options) {
-  for (const auto& [option, dotted] : options) {
-    const TomlKey key = find_key(dotted).value();
-    const std::string help = fmt::format("set {}: {}", dotted, key.about);
-    const auto given = [&given = arguments.given, option, dotted](const std::vector<std::string>& values) {
-      given.push_back({option, dotted, values});
+/// Adds the options of keys that are wanted by their dotted names.
+template <class IsWanted>
+void add_keys(CLI::App& command, KeyArguments& arguments, const IsWanted& is_wanted) {
+  for (const auto& [name, key] : all_keys()) {
+    if (key.option == nullptr || !is_wanted(name)) continue;
+    const bool is_list = may_be(key, "array") || key.many;
+    const auto given = [&given = arguments.given, option = key.option,
+                        name = name](const std::vector<std::string>& values) {
+      given.push_back({option, name, values});
     };
+    const std::string help =
+        fmt::format("{}set {}: {}{}", key.many && key.type.empty() ? form_of(key.table()) + ": " : "", name,
+                    key.about, is_list ? "; may be repeated" : "");
     if (may_be(key, "boolean"))
       command.add_flag_callback(
-          option, [given] { given({"true"}); }, help);
+          key.option, [given] { given({"true"}); }, help);
     else
-      command
-          .add_option_function<std::vector<std::string>>(
-              option, given, help + (may_be(key, "array") ? "; may be repeated" : ""))
-          ->expected(1, may_be(key, "array") ? CLI::detail::expected_max_vector_size : 1)
+      command.add_option_function<std::vector<std::string>>(key.option, given, help)
+          ->expected(1, is_list ? CLI::detail::expected_max_vector_size : 1)
           ->allow_extra_args(false);
   }
 }
@@ -150,35 +177,6 @@ void add_mesh_output(CLI::App& mesh, MeshArguments& arguments) {
                 "put elements beyond the criteria in sets 'failing', 'failing_min_length', ... of the mesh");
 }
 
-/// "NAME=SIZE" as a table.
-std::string size_table(const std::string& text) {
-  const std::size_t at = text.rfind('=');
-  if (at == std::string::npos || at == 0)
-    refuse("--size-on '{}': expected NAME=SIZE, such as inlet=0.5", text);
-  return fmt::format("{{ name = {}, size = {} }}", in_quotes(text.substr(0, at)),
-                     toml_text(text.substr(at + 1), {}));
-}
-
-/// "LEAST-MOST:ROWS", and of washers perhaps ":EDGES:WIDTH", as a table.
-std::string rows_table(const std::string& text, const char* option, const char* range,
-                       std::size_t most_parts) {
-  std::vector<std::string> parts;
-  for (std::size_t at = 0; at <= text.size(); ++at) {
-    const std::size_t end = std::min(text.find_first_of(parts.empty() ? "-" : ":", at), text.size());
-    parts.push_back(toml_text(text.substr(at, end - at), {}));
-    at = end;
-  }
-  const bool are_numbers =
-      std::ranges::none_of(parts, [](const std::string& part) { return part.starts_with('"'); });
-  if (parts.size() < 3 || parts.size() > most_parts || !are_numbers)
-    refuse("{} '{}': expected LEAST-MOST:ROWS{}", option, text,
-           most_parts > 3 ? ", perhaps with :EDGES and :WIDTH, such as 5-12:2:16" : ", such as 2-5:3");
-  std::string table = fmt::format("{{ {} = [{}, {}], rows = {}", range, parts[0], parts[1], parts[2]);
-  if (parts.size() > 3) table += ", edges = " + parts[3];
-  if (parts.size() > 4) table += ", width = " + parts[4];
-  return table + " }";
-}
-
 void set_criteria(const MeshArguments& arguments, Criteria& criteria) {
   criteria.strict |= arguments.strict;
   // Elsewhere an element is in one set, and would leave that of its region.
@@ -193,24 +191,29 @@ void set_criteria(const MeshArguments& arguments, Criteria& criteria) {
 }  // namespace
 
 void add_surface(CLI::App& command, KeyArguments& arguments) {
-  add_keys(command, arguments, kSurfaceKeys);
+  add_keys(command, arguments, [](const std::string& key) { return key.starts_with("surface."); });
   command.add_flag("--keep-going", arguments.keep_going,
                    "leave out what cannot be read or meshed, name it, do the rest and exit with 4");
 }
 
 void set_keys(const KeyArguments& arguments, Case& c) {
   c.keep_going = arguments.keep_going;
+  const KeysByName keys = all_keys();
   std::vector<std::pair<std::string, std::string>> lines;
-  for (const auto& [option, dotted, values] : arguments.given) {
-    const auto key = find_key(dotted);
+  for (const auto& [option, name, values] : arguments.given) {
+    const auto at = std::ranges::find(keys, name, &KeysByName::value_type::first);
+    const TomlKey* key = at == keys.end() ? nullptr : &at->second;
     std::vector<std::string> texts;
-    for (const std::string& value : values) texts.push_back(toml_text(value, key));
+    for (const std::string& value : values)
+      texts.push_back(located(option, [&] { return toml_text(value, key); }));
     const bool is_list =
-        key &&
-        (values.size() > 1 || (key->type.starts_with(R"({"type": "array")") && !values[0].starts_with('[')));
-    lines.emplace_back(option, fmt::format("{} = {}{}{}", dotted, is_list ? "[" : "", fmt::join(texts, ", "),
+        values.size() > 1 ||
+        (key != nullptr && key->type.starts_with(R"({"type": "array")") && !values[0].starts_with('['));
+    lines.emplace_back(option, fmt::format("{} = {}{}{}", name, is_list ? "[" : "", fmt::join(texts, ", "),
                                            is_list ? "]" : ""));
-    if (dotted == "size.base" || dotted == "size") c.size = {.where = {}};
+    if (name == "size.base" || name == "size") c.size = {.where = {}};
+    if (name == "washers") c.washers.clear();
+    if (name == "fillet_rows") c.fillet_rows.clear();
   }
   const TomlTable table = TomlTable::of_options(lines);
   table.require_known(case_keys());
@@ -238,18 +241,7 @@ CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
                    ".obj, .off, .ply, .3mf) or CAD "
                    "(.step, .stp, .iges, .igs, .brep)")
       ->required();
-  add_keys(*mesh, arguments, kCommonKeys);
-  add_keys(*mesh, arguments, kMeshKeys);
-  const auto add_many = [&](const char* option, std::vector<std::string>& values, const char* help) {
-    mesh->add_option(option, values, help)->allow_extra_args(false);
-  };
-  add_many("--size-on", arguments.size_on,
-           "NAME=SIZE: set at most this size on and in what has the name; may be repeated");
-  add_many(
-      "--washers", arguments.washers,
-      "LEAST-MOST:ROWS[:EDGES[:WIDTH]]: put rows of quads around holes of these diameters; may be repeated");
-  add_many("--fillet-rows", arguments.fillet_rows,
-           "LEAST-MOST:ROWS: put rows of quads across fillets of these radii; may be repeated");
+  add_keys(*mesh, arguments, [](const std::string& key) { return !key.starts_with("surface."); });
   mesh->add_option("--metric", arguments.metric,
                    "set lengths by direction, in place of a size: FILE or FILE:FIELD with tensors at the "
                    "points of its mesh (MSH, "
@@ -279,13 +271,12 @@ CLI::App* add_improve_options(CLI::App& app, MeshArguments& arguments) {
       ->add_option("mesh", arguments.model,
                    "triangles, quads or both (.msh, .vtu, .inp, .mesh, .obj, .off, .stl, .ply, .3mf)")
       ->required();
-  add_keys(*improve, arguments, kCommonKeys);
+  add_keys(*improve, arguments, [](const std::string& key) { return kOfImprove.contains(key); });
   improve->add_option(
       "--pipeline", arguments.pipeline,
       "run these stages: L, then B, G or T, of triangles; C, Q, R and O of quads; default: CO, or "
       "BCO of triangles alone");
   add_set(*improve, arguments);
-  add_keys(*improve, arguments, kFeatureAngle);
   add_mesh_output(*improve, arguments);
   return improve;
 }
@@ -312,21 +303,6 @@ void set_problem(const MeshArguments& arguments, Case& c) {
     all.given.push_back(
         {"--metric", has_keys ? "metric" : "metric.file", {has_keys ? "{" + text + "}" : text}});
   }
-  const auto add_tables = [&](const char* option, const char* key, const std::vector<std::string>& texts,
-                              const auto& table_of) {
-    std::vector<std::string> tables;
-    for (const std::string& text : texts) tables.push_back(table_of(text));
-    if (!texts.empty())
-      all.given.push_back(
-          {fmt::format("{} {}", option, texts[0]), key, {fmt::format("[{}]", fmt::join(tables, ", "))}});
-  };
-  if (!arguments.washers.empty()) c.washers.clear();
-  if (!arguments.fillet_rows.empty()) c.fillet_rows.clear();
-  add_tables("--size-on", "size.on", arguments.size_on, size_table);
-  add_tables("--washers", "washers", arguments.washers,
-             [](const std::string& text) { return rows_table(text, "--washers", "diameter", 5); });
-  add_tables("--fillet-rows", "fillet_rows", arguments.fillet_rows,
-             [](const std::string& text) { return rows_table(text, "--fillet-rows", "radius", 3); });
   set_keys(all, c);
   if (!arguments.metric.empty() && !c.metric.asks())
     throw InputError("--metric: expected a file of tensors, or 'chord' among the keys");

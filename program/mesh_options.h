@@ -29,12 +29,10 @@ void set_keys(const KeyArguments& arguments, Case& c);
 struct MeshArguments : KeyArguments {
   bool improve = false;  ///< the model is a mesh that words begin from
   std::filesystem::path model, output, json;
-  std::filesystem::path fields;                   ///< to write; empty: none
-  std::string metric;                             ///< empty: as the model says
-  bool serendipity = false;                       ///< quads of order 2 have 8 nodes
-  bool keep_numbers = false;                      ///< of nodes, as stages made them
-  std::vector<std::string> washers, fillet_rows;  ///< "LEAST-MOST:ROWS..."
-  std::vector<std::string> size_on;               ///< "NAME=SIZE"
+  std::filesystem::path fields;  ///< to write; empty: none
+  std::string metric;            ///< empty: as the model says
+  bool serendipity = false;      ///< quads of order 2 have 8 nodes
+  bool keep_numbers = false;     ///< of nodes, as stages made them
   std::string quality = kDefaultQuality;
   std::optional<std::string> pipeline;  ///< else the word of that quality
   long long max_elements = 50'000'000;

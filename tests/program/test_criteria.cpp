@@ -125,12 +125,13 @@ TEST(Washers, AreToldOnTheCommandLine) {
   EXPECT_EQ(good.exit_code, 0) << good.err;
   EXPECT_TRUE(contains(good.out, "32 quads on 16 edges")) << good.out;
   for (const auto& [text, part] :
-       {std::pair("5-7", "expected LEAST-MOST:ROWS, perhaps with :EDGES and :WIDTH"),
+       {std::pair("5-7:2:16:3:1", "expected LEAST-MOST[:ROWS[:EDGES[:WIDTH]]]"),
         {"5-7:2:15", "15 edges around holes: expected an even number"},
         {"5-7:0", "'rows' is 0: expected 1 to 1000"},
         {"5-7:-1", "'rows' is -1: expected 1 to 1000"},
-        {"5-7:1.5", "--washers 5-7:1.5: 'washers.rows' must be an integer"},
-        {"5-x:2", "expected LEAST-MOST:ROWS"},
+        {"5-7:1.5", "--washers: 'washers.rows' must be an integer"},
+        {"5", "--washers: 'washers.diameter' must be two numbers [least, most]"},
+        {"5-x:2", "--washers: 'washers.diameter' must be two numbers [least, most]"},
         {"7-5:2", "diameters from 7 to 5"}}) {
     const ProgramResult bad = run(text);
     EXPECT_EQ(bad.exit_code, 2) << text;

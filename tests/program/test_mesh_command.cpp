@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "io/cases/read_described.h"
 #include "io/mesh_io.h"
 #include "metrics/metrics.h"
 #include "tests/program/program.h"
@@ -287,6 +288,19 @@ TEST(MeshCommand, ExceededLimitsAreInTheRecord) {
   const auto at = record.find(beyond);  // among the reasons, and the warnings
   ASSERT_NE(at, std::string::npos) << record;
   EXPECT_NE(record.find(beyond, at + 1), std::string::npos) << record;
+}
+
+TEST(MeshCommand, HelpHasTheOptionsOfAllDescriptions) {
+  const std::string help = delquad({"mesh", "--help"}).out;
+  int options = 0;
+  for (const TomlKeys& keys : {keys_of<MeshProblem>(), keys_of<SizeSpec>(), keys_of<SurfaceSpec>()})
+    for (const TomlKey& key : keys) {
+      if (key.option == nullptr) continue;
+      ++options;
+      EXPECT_TRUE(contains(help, std::string("  ") + key.option)) << key.option;
+      EXPECT_TRUE(contains(help, ": " + key.about)) << key.option;
+    }
+  EXPECT_GT(options, 20);
 }
 
 TEST(MeshCommand, HelpHasTheExitCodes) {
