@@ -229,6 +229,19 @@ void Experiment::read_metric(const TomlTable& table) {
   metrics.push_back(std::move(command));
 }
 
+namespace {
+
+/// A program with a slash counts from the folder of the file; others may be installed or not.
+void check_program(const TomlTable& table, const char* key, const std::vector<std::string>& command) {
+  const std::filesystem::path program = command[0];
+  if (program.is_absolute() || command[0].find('/') == std::string::npos) return;
+  const std::filesystem::path file = table.file().parent_path() / program;
+  if (!std::filesystem::is_regular_file(file))
+    refuse("{}: '{}': there is no program '{}'", table.where(key), key, file.string());
+}
+
+}  // namespace
+
 void Experiment::read_peer(const TomlTable& table) {
   Peer peer;
   peer.name = table.text("name");
@@ -250,6 +263,8 @@ void Experiment::read_peer(const TomlTable& table) {
   peer.command = read_command(table, "command");
   check_placeholders(table, peer.command, peer_placeholders(), {{"{input}", "{case}"}, {"{output}"}});
   peer.version = read_command(table, "version");
+  check_program(table, "command", peer.command);
+  check_program(table, "version", peer.version);
   read_format("input", {"geo", "msh", "obj", "inp", "mesh"}, peer.input);
   read_format("output", {"msh", "obj", "off", "stl"}, peer.output);
   if (table.has("exit_codes")) peer.exit_codes = read_counts(table, "exit_codes", 0, 255);

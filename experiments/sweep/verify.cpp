@@ -315,11 +315,12 @@ std::map<std::string, Variant> by_variant(const std::vector<VerifiedCell>& cells
   return variants;
 }
 
-/// Nothing where the model is not at hand.
+/// Nothing where the model is not at hand, and in a loop, whose sizes come from meshes that are gone.
 std::optional<Prepared> prepare_variant(const VerifiedCell& cell, const fs::path& data) {
   try {
     const Experiment experiment = recorded_experiment(cell.record, results_of(cell.file), data);
-    return prepare(recorded_case(cell.record, experiment, data));
+    const Case c = recorded_case(cell.record, experiment, data);
+    return c.adapt ? std::nullopt : std::optional(prepare(c));
   } catch (const InputError&) {
     return std::nullopt;
   }

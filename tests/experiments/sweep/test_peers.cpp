@@ -330,6 +330,11 @@ TEST_F(Peers, BadEntriesAreNamed) {
                                              "{output}\", \"${y}\", \"{ 1 }\"]\n" +
                                              kPeerSquare));
   expect(name + version + "command = []\n", {"command", "empty"});
+  expect(name + version + "command = [\"./nothere.sh\", \"{input}\", \"{output}\"]\n",
+         {"peers.toml:5: 'command': there is no program '", "nothere.sh'"});
+  EXPECT_NO_THROW(experiment(
+      "[\"DB\"]",
+      "[[peer]]\n" + name + version + "command = [\"nothere\", \"{input}\", \"{output}\"]\n" + kPeerSquare));
   expect(name + "command = [\"x\", \"{input}\", \"{output}\"]\n", {"version"});
   const std::string command = version + "command = [\"x\", \"{input}\", \"{output}\"]\n";
   expect("name = \"Gmsh\"\n" + command, {"Gmsh", "small letter"});
