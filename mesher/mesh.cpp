@@ -8,6 +8,7 @@
 #include "base/context.h"
 #include "base/nearest_name.h"
 #include "base/stopwatch.h"
+#include "delquad/domain.h"
 #include "delquad/mesher.h"
 #include "features/crosses/size_aware.h"
 #include "features/metric/metric_plane.h"
@@ -256,6 +257,17 @@ std::optional<NodalMetric> followed_metric(const Prepared& prepared) {
   const double scale = scale_of(prepared.inside());
   for (Tensor2& m : result.at) m = times(1 / (scale * scale), m);
   return result;
+}
+
+std::vector<DomainCurve> domain_curves(const Prepared& prepared) {
+  std::vector<DomainCurve> curves;
+  for (const DomainPiece& piece : prepared.inside().plane.pieces) {
+    curves.push_back({piece.shape, piece.from, piece.to, {piece.ends[0]}});
+    std::vector<int>& nodes = curves.back().nodes;
+    nodes.insert(nodes.end(), piece.nodes.begin(), piece.nodes.end());
+    nodes.push_back(piece.ends[1]);
+  }
+  return curves;
 }
 
 MeshMetrics Prepared::metrics(const Mesh& made, const std::string& word) const {

@@ -172,6 +172,7 @@ class PlanarSteps final : public ModelSteps {
     p.boundary = std::move(domain_.boundary);
     p.plane.curve_places = std::move(domain_.places);
     p.plane.outlines = std::move(domain_.outlines);
+    if (!p.metric_plane) p.plane.pieces = std::move(domain_.pieces);
     p.plane.curve_shapes =
         p.metric_plane ? true_curves(*p.metric_plane, std::move(shapes)) : std::move(domain_.curve_shapes);
   }

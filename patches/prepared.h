@@ -74,6 +74,7 @@ struct PreparedPlane {
   /// Of each curve those of the model that lie there; empty where the lines are kept.
   std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes;
   std::vector<CurvePlace> curve_places;              ///< of the curves' nodes; empty where the lines are kept
+  std::vector<DomainPiece> pieces;                   ///< of its curves; empty in the plane of a metric, too
   std::vector<PatchBoundary> outlines;               ///< see PlanarDomain
   std::shared_ptr<const BackgroundMesh> background;  ///< of all patches; null on surfaces
 };

@@ -40,16 +40,12 @@ std::string program_digest() {
   return added_parts_text().empty() ? program : digest(program + added_parts_text());
 }
 
-/// Asked until it tells; empty where the peer does not, and `why` says for what reason.
+/// Empty where the peer does not tell, and `why` says for what reason.
 std::string version_of(const Peer& peer, std::string& why) {
-  static std::map<std::pair<fs::path, std::vector<std::string>>, std::string> known;
-  const std::pair asked{peer.folder, peer.version};
-  if (const auto at = known.find(asked); at != known.end()) return at->second;
   try {
-    return known[asked] = peer_version(peer);
+    return peer_version(peer);
   } catch (const Error& error) {
     why = error.what();
-    known.erase(asked);
     return "";
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "base/calibration.h"
 #include "base/located.h"
 #include "base/system.h"
+#include "delquad/domain.h"
 #include "experiments/sweep/adapt_loop.h"
 #include "experiments/sweep/folders.h"
 #include "experiments/sweep/process_tree.h"
@@ -190,11 +192,12 @@ void check_planar(const Peer& peer, const Prepared& prepared, Mesh& mesh) {
     for (const auto& [a, b] : prepared.patch(i).edges)
       area += 0.5 * cross(boundary.points[node[a]], boundary.points[node[b]]).z;
   }
-  const double tolerance = peer.keeps_boundary ? 1e-6 : 0.02;  // chords of another boundary
+  const bool keeps = peer.keeps_boundary && !(peer.input == kGmshScript && !domain_curves(prepared).empty());
+  const double tolerance = keeps ? 1e-6 : 0.02;  // chords of another boundary
   const double covered = area_in_plane(mesh) / area;
   if (!(std::abs(covered - 1) <= tolerance))
     refuse<PeerError>("its mesh covers {:.6g} % of the domain's area", 100 * covered);
-  if (const int missing = peer.keeps_boundary ? missing_edges(boundary, mesh) : 0; missing > 0)
+  if (const int missing = keeps ? missing_edges(boundary, mesh) : 0; missing > 0)
     refuse<PeerError>("{} of {} boundary edges are not in its mesh", missing, boundary.lines.size());
 }
 
@@ -215,6 +218,15 @@ double told_size(const PeerTask& task) {
   if (task.peer.size_field.empty() || followed_metric(task.prepared))
     throw NotApplicable("'" + task.peer.name + "' is told one number for the size, which varies here");
   return std::ranges::max(sample_sizes(task).delta);
+}
+
+/// A case is not applicable if the program is not there to tell its version.
+std::string told_version(const Peer& peer) {
+  try {
+    return peer_version(peer);
+  } catch (const PeerError& error) {
+    throw NotApplicable(error.what());
+  }
 }
 
 /// What a program made of a task.
@@ -372,6 +384,8 @@ std::vector<std::string> peer_command(const PeerTask& task, const fs::path& inpu
     word = replace_all(word, "{input}", input.string());
     word = replace_all(word, "{output}", output);
     word = replace_all(word, "{seed}", std::to_string(task.c.seed));
+    if (word.find("{version}") != std::string::npos)
+      word = replace_all(word, "{version}", told_version(peer));
     if (word.find("{data}") != std::string::npos)
       word = replace_all(word, "{data}", fs::absolute(task.c.data_folder).lexically_normal().string());
   }
@@ -385,19 +399,22 @@ std::vector<std::string> command_of_case(const Peer& peer, const std::string& na
 }
 
 const std::vector<std::string>& peer_placeholders() {
-  static const std::vector<std::string> all = {"{input}", "{output}", "{size}", "{size_field}",
-                                               "{quads}", "{seed}",   "{case}", "{data}"};
+  static const std::vector<std::string> all = {"{input}", "{output}", "{size}", "{size_field}", "{quads}",
+                                               "{seed}",  "{case}",   "{data}", "{version}"};
   return all;
 }
 
 std::string peer_version(const Peer& peer) {
+  static std::map<std::pair<fs::path, std::vector<std::string>>, std::string> known;
+  std::string& version = known[{peer.folder, peer.version}];
+  if (!version.empty()) return version;
   const TemporaryFolder scratch;
   const fs::path log = scratch.path() / "version";
   const auto words = located_command(peer, peer.version);
   check_run(words[0], run_program(words, scratch.path(), log, kVersionSeconds), {0}, log);
   std::ifstream in(log);
   for (std::string line; std::getline(in, line);)
-    if (line.find_first_not_of(" \t\r") != std::string::npos) return line;
+    if (line.find_first_not_of(" \t\r") != std::string::npos) return version = line;
   refuse<PeerError>("{}: prints no version", fmt::join(words, " "));
 }
 

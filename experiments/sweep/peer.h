@@ -27,7 +27,7 @@ const std::vector<std::string>& size_field_formats();
 /// Another mesher: a program that is run in place of a pipeline, and whose mesh is measured as ours are.
 struct Peer {
   std::string name;  ///< in place of a pipeline's word
-  /// Program and arguments; {input}, {output}, {size}, {size_field}, {quads} and {seed} stand for these. A
+  /// Program and arguments; {input}, {output} and the others of peer_placeholders() stand for these. A
   /// program with a slash in it counts from `folder`; words that name files there stand for them.
   std::vector<std::string> command;
   std::vector<std::string> version;  ///< program and arguments that print its version
@@ -61,8 +61,8 @@ class PeerError : public Error {
 /// What stands for something in the words of its command.
 const std::vector<std::string>& peer_placeholders();
 
-/// What the peer says of its version, in one line. Throws PeerError, and InputError where there is no room
-/// for what it prints.
+/// The peer's own word on its version, in one line: it is asked once. Throws PeerError, and InputError where
+/// there is no room for what it prints.
 std::string peer_version(const Peer& peer);
 
 /// What a peer is told of a case.
@@ -81,13 +81,13 @@ struct ReferenceCell {
   std::string key;
 };
 
-/// Lets the peer mesh a case. Planar cases: with the same boundary edges. Surfaces: with the model. Sizes: a
-/// number, or what they are at the nodes of F. Where the peer is calibrated its size is changed, and with it
-/// the boundary that it gets, until it has the reference's number of quads; see calibrate_scale(). Works in
-/// the folder `scratch`, made anew, where peer.log has what it printed. `label` names the case and the peer
-/// in warnings. Throws NotApplicable, PeerError, and JobFailed where the word that it is calibrated to fails:
-/// then it is not run. A mesh whose elements are not sound, see Prepared::measure(), is a result that says
-/// so.
+/// Lets the peer mesh a case. Planar cases: Gmsh by the curves, others with the same boundary edges.
+/// Surfaces: with the model. Sizes: a number, or what they are at the nodes of F. If the peer is calibrated,
+/// its size and the boundary that it gets change until it has the reference's number of quads. See
+/// calibrate_scale(). Works in the folder `scratch`, made anew, where peer.log has what it
+/// printed. `label` names the case and the peer in warnings. Throws NotApplicable, PeerError, and JobFailed
+/// where the word that it is calibrated to fails: then it is not run. A mesh whose elements are not sound,
+/// see Prepared::measure(), is a result that says so.
 MeshResult run_peer(const Peer& peer, const Case& c, const Prepared& prepared, const std::string& label,
                     const std::filesystem::path& scratch, const ReferenceCell& reference = {});
 /// The mesh of a cell, by the word or, unless it is null, by the peer; in a loop where the case asks for it,

@@ -2,11 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <numbers>
 
 #include "base/located.h"
 #include "base/text.h"
+#include "delquad/domain.h"
+#include "experiments/sweep/domain_brep.h"
 #include "experiments/sweep/peer.h"
 #include "geometry/cad/example_models.h"
 #include "geometry/mesh/check_mesh.h"
@@ -21,61 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSizeView = "size.pos";
+constexpr const char *kDomain = "domain.brep", *kSizeView = "size.pos";
 
-/// The edges of a patch as loops of points, the outermost first.
-std::vector<std::vector<int>> loops_of(const PatchBoundary& boundary) {
-  std::vector<int> next(boundary.points.size(), -1);
-  for (const auto& [a, b] : boundary.edges) next[a] = b;
-  std::vector<std::pair<double, std::vector<int>>> loops;  // twice the area
-  for (int first = 0; first < static_cast<int>(next.size()); ++first) {
-    double area = 0;
-    std::vector<int> loop;
-    for (int at = first; next[at] >= 0;) {
-      loop.push_back(at);
-      const int to = std::exchange(next[at], -1);
-      area += cross(boundary.points[at], boundary.points[to]);
-      at = to;
-    }
-    if (!loop.empty()) loops.emplace_back(area, std::move(loop));
-  }
-  std::ranges::stable_sort(loops, std::greater(), [](const auto& loop) { return loop.first; });
-  std::vector<std::vector<int>> result;
-  for (auto& [area, loop] : loops) result.push_back(std::move(loop));
-  return result;
-}
-
-/// Every edge of the boundary is a straight curve with one element.
-void write_boundary(TextWriter& out, const Prepared& prepared) {
-  const Mesh boundary = boundary_of(prepared);
-  for (std::size_t i = 0; i < boundary.points.size(); ++i) {
-    const Vec3& p = boundary.points[i];
-    out << "Point(" << i + 1 << ") = {" << p.x << ", " << p.y << ", " << p.z << "};\n";
-  }
-  std::map<std::array<int, 2>, int> curve_of;
-  for (const auto& [a, b] : boundary.lines) {
-    const int curve = static_cast<int>(curve_of.size()) + 1;
-    curve_of[{std::min(a, b), std::max(a, b)}] = curve;
-    out << "Line(" << curve << ") = {" << std::min(a, b) + 1 << ", " << std::max(a, b) + 1 << "};\n";
-  }
-  out << "Transfinite Curve {1:" << curve_of.size() << "} = 2;\n";
-  int n_loops = 0, n_surfaces = 0;
-  for (std::size_t i = 0; i < prepared.n_patches(); ++i) {
-    const PatchBoundary& patch = prepared.patch(i);
-    std::string surface;
-    for (const std::vector<int>& loop : loops_of(patch)) {
-      out << "Curve Loop(" << ++n_loops << ") = {";
-      for (std::size_t k = 0; k < loop.size(); ++k) {
-        const int a = patch.point_node[loop[k]];
-        const int b = patch.point_node[loop[(k + 1) % loop.size()]];
-        const int curve = curve_of.at({std::min(a, b), std::max(a, b)});
-        out << (k == 0 ? "" : ", ") << (a < b ? curve : -curve);
-      }
-      out << "};\n";
-      surface += fmt::format("{}{}", surface.empty() ? "" : ", ", n_loops);
-    }
-    out << "Plane Surface(" << ++n_surfaces << ") = {" << surface << "};\n";
-  }
+/// The curves of a domain; where it has lines alone, each of them is to be one element.
+void write_domain(TextWriter& out, const Prepared& prepared, const fs::path& folder) {
+  write_domain_brep(folder / kDomain, prepared);
+  out << "Merge \"" << kDomain << "\";\n";
+  if (domain_curves(prepared).empty()) out << "Transfinite Curve {:} = 2;\n";
 }
 
 /// The file of a surface, unpacked, or the example as a STEP file.
@@ -145,7 +98,7 @@ void write_script(const PeerTask& task, const fs::path& script) {
       prepared.is_surface() ? read_by_gmsh(surface_file(task, folder), folder) : fs::path();
   if (!size) write_size_field(sample_sizes(task), "pos", folder);
   write_text_file(script, [&](TextWriter& out) {
-    prepared.is_surface() ? write_surface(out, task.c, model) : write_boundary(out, prepared);
+    prepared.is_surface() ? write_surface(out, task.c, model) : write_domain(out, prepared, folder);
     if (size)
       out << "Mesh.MeshSizeMin = " << task.scale * *size << ";\nMesh.MeshSizeMax = " << task.scale * *size
           << ";\n";

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -84,6 +85,13 @@ void SweepProgress::draw() {
 
 namespace {
 
+/// Processor time that this program took until its libraries were loaded: as a peer's start counts, so does
+/// ours.
+const TimeSpent kStart = [] {
+  const double seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  return TimeSpent{seconds, seconds, seconds, seconds};
+}();
+
 /// eta of every cell in the order of VTU files (lines, triangles, quads); 0 where it has no meaning.
 std::vector<double> cell_etas(const Mesh& mesh) {
   std::vector<double> etas(mesh.lines.size() + mesh.triangles.size(), 0.0);
@@ -160,12 +168,13 @@ void VariantWork::finish(const Cell& cell) {
     move_files(scratch, at);
     const Stopwatch writing;
     write_mesh(at / "mesh.msh", result.mesh);
+    result.log.add_time("write", writing.time());
+    if (peer == nullptr) result.log.add_time("start", kStart);
     write_vtu(at / "mesh.vtu", result.mesh, {{"eta", cell_etas(result.mesh)}});
     if (pictures) {
       draw_mesh(at / "picture.svg", result.mesh, label);
       write_wanted(at / "fields.vtu", result.mesh, result.prepared);
     }
-    result.log.add_time("write", writing.time());
     CellIdentity identity = cell.identity;
     identity.files = marks_of(at);
     write_text_file(at / "record.json", run_record(c, *cell.word, result, &identity));

@@ -99,6 +99,8 @@ void rotate(const Rotation& rotation, PlanarDomain& domain) {
     for (auto& shape : shapes) shape = std::make_shared<RotatedCurve>(std::move(shape), rotation);
   for (CurvePlace& place : domain.places)
     if (place.curve) place.curve = std::make_shared<RotatedCurve>(std::move(place.curve), rotation);
+  for (DomainPiece& piece : domain.pieces)
+    piece.shape = std::make_shared<RotatedCurve>(std::move(piece.shape), rotation);
 }
 
 std::shared_ptr<const SizeField> rotated(std::shared_ptr<const SizeField> size, const Rotation& rotation) {

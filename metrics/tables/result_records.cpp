@@ -26,8 +26,12 @@ namespace fs = std::filesystem;
 using namespace nlohmann::literals;
 using Json = nlohmann::ordered_json;
 
-void add_step_times(const Json& seconds, std::map<std::string, double>& values) {
-  double total = seconds.value("peer", 0.0);
+/// Processor time; of steps in other processes, such as reading CAD, time on the clock.
+void add_step_times(const Json& record, std::map<std::string, double>& values) {
+  Json seconds = record.at("seconds");
+  seconds.update(record.value("cpu_seconds", Json::object()));
+  double total = 0;
+  for (const char* step : {"start", "write", "peer"}) total += seconds.value(step, 0.0);
   for (const StepTime& time : step_times_of_tables()) {
     if (*time.step == 0) values[time.key] = total;
     const auto at = seconds.find(time.step);
@@ -123,7 +127,7 @@ CellRecord parse(const Json& json) {
   record.metric_failed = json.contains("metrics_status");
   record.values["seconds"] = number(json.at("meshing_seconds"));
   for (const auto& [column, of_record] : derived()) record.values[column.key] = of_record(json);
-  if (json.contains("seconds")) add_step_times(json.at("seconds"), record.values);
+  if (json.contains("seconds")) add_step_times(json, record.values);
   if (json.contains("warnings")) json.at("warnings").get_to(record.warnings);
   if (json.contains("unsound")) json.at("unsound").get_to(record.unsound);
   if (json.contains(kCalibrationStep)) record.calibration = parse_calibration(json.at(kCalibrationStep));

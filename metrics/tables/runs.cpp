@@ -50,8 +50,8 @@ class RunColumns {
     add({"seconds", "s", "s", kLower, HUGE_VAL, "from insertion to projection, by the clock; not of peers"});
     for (const StepTime& time : step_times_of_tables())
       add({time.key, time.title, "s", kLower, HUGE_VAL,
-           *time.step == 0 ? "from the model to the mesh, of all threads"
-                           : fmt::format("the step '{}', of all threads", time.step)});
+           *time.step == 0 ? "processor time from the start of the program to the written mesh"
+                           : fmt::format("processor time of the step '{}'", time.step)});
   }
 
   RunsCsv csv(const std::vector<CellRecord>& records) const {

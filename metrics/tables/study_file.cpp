@@ -141,7 +141,7 @@ const std::vector<StepTime>& step_times_of_tables() {
                                               {"seconds_parting", "parting s", "parting"},
                                               {"seconds_lifting", "lifting s", "lifting"},
                                               {"seconds_projection", "projection s", "projection"},
-                                              {"seconds_total", "total s", ""}};
+                                              {"seconds_total", "total CPU s", ""}};
   return times;
 }
 

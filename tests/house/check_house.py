@@ -8,7 +8,7 @@ import re
 import sys
 
 MOST_LINES = 60  # of a function
-MOST_PUBLIC_HEADERS = 11
+MOST_PUBLIC_HEADERS = 12
 LAST_OF_LIBRARY = "adapt"
 # Below and in the last room of the library: no formats of text, no streams, no process of its own.
 NOT_IN_LIBRARY = [

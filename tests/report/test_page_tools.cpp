@@ -410,7 +410,7 @@ TEST_F(PageToolsPrograms, PrintsTablesWhole) {
     browse(browser_, folder_, "p.html", {"--print-to-pdf=" + pdf.string(), "--virtual-time-budget=60000"});
     const std::string text = text_of_pdf(pdf);
     for (const char* title :
-         {"vertices", "eta worst", "eta mean", "tau", "% quads", "insertion s", "total s"})
+         {"vertices", "eta worst", "eta mean", "tau", "% quads", "insertion s", "total CPU s"})
       EXPECT_NE(text.find(title), std::string::npos) << paper << ": " << title << "\n" << header;
   }
 }

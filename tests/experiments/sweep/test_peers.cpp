@@ -8,8 +8,11 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <thread>
 
+#include "delquad/mesher.h"
+#include "experiments/sweep/domain_brep.h"
 #include "experiments/sweep/run_experiment.h"
 #include "experiments/sweep/run_program.h"
 #include "experiments/sweep/verify.h"
@@ -345,8 +348,38 @@ TEST_F(Peers, BadEntriesAreNamed) {
                      {"'x'", "twice"});
 }
 
-/// Gmsh itself: keeps the boundary, its size is ours, number or field, and it gets triangulations whose file
-/// it may not read.
+/// A ring and a disc with a hole by a spline. An arc and a point lie inside.
+TEST_F(Peers, CurvesAreTheModels) {
+  const auto file =
+      write_text(folder_ / "ring.toml",
+                 "[[loop]]\ncircle = { centre = [0, 0], radius = 1 }\n"
+                 "[[loop]]\ncircle = { centre = [0, 0], radius = 0.5 }\nregion = \"disc\"\n"
+                 "[[curve]]\nname = \"blob\"\nspline = [[0.2, 0], [0.14, 0.14], [0, 0.2], [-0.14, 0.14], "
+                 "[-0.2, 0], [-0.14, -0.14], [0, -0.2], [0.14, -0.14], [0.2, 0]]\n"
+                 "[[loop]]\ncurves = [\"blob\"]\nhole = true\n"
+                 "[[embed]]\narc = { centre = [0, 0], radius = 0.75, from = 0, to = 60 }\n"
+                 "[[embed]]\npoint = [0, -0.75]\n");
+  MeshProblem problem = read_model_file(file);
+  problem.size.text = "0.1";
+  problem.seed = 3;
+  const Prepared prepared = prepare(problem);
+  write_domain_brep(folder_ / "ring.brep", prepared);
+  MeshProblem as_cad;
+  as_cad.model = CadModel{folder_ / "ring.brep"};
+  const ModelReport report = model_info(as_cad, 0.01).report;
+  ASSERT_EQ(report.faces.size(), 2u);
+  EXPECT_NEAR(report.area, std::numbers::pi - 0.125, 5e-3) << "without the hole";
+  ASSERT_EQ(report.curves.size(), 3u);
+  for (const double length : {1.25, std::numbers::pi, 2 * std::numbers::pi})
+    EXPECT_TRUE(std::ranges::any_of(report.curves, [&](const CurveReport& curve) {
+      return std::abs(curve.length / length - 1) < 2e-3;
+    })) << length;
+  const std::string text = read_text(folder_ / "ring.brep");
+  EXPECT_NE(text.find("\n7 0 0 3 "), std::string::npos) << "the spline is cubic";
+}
+
+/// Gmsh itself: its size is ours, number or field, and it divides the curves of a model. It also gets
+/// triangulations whose file it may not read.
 using PeersPrograms = Peers;
 TEST_F(PeersPrograms, GmshMeshesWhatWeMesh) {
   if (std::system("gmsh --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "gmsh is not installed";
@@ -359,6 +392,9 @@ TEST_F(PeersPrograms, GmshMeshesWhatWeMesh) {
       "0.2 }\n"
       "region = \"disc\"\n"
       "[[case]]\nname = \"turned\"\nseed = 3\nsize = 0.1\nloop = { rectangle = [[0, 0], [2, 1]] }\n"
+      "[[case]]\nname = \"inside\"\nsize = 0.1\nembed = [{ arc = { centre = [0, 0], radius = 0.75, from = 0, "
+      "to = 60 } }, "
+      "{ point = [0, -0.75] }]\nloop = { circle = { centre = [0, 0], radius = 1 } }\n"
       "[[case]]\nname = \"lens\"\nsize = 0.1\nmodel = \"lens.obj\"\n";
   write_mesh(folder_ / "lens.obj", testing_support::lens(64, 12, 0.45));
   run_experiment(experiment("[\"DB\", \"gmsh\"]", text), out());
@@ -367,7 +403,17 @@ TEST_F(PeersPrograms, GmshMeshesWhatWeMesh) {
     EXPECT_EQ(record.reason, "") << record.group << " " << record.pipeline;
     quads[record.name + record.pipeline] = record.values.at("n_elements");
   }
-  for (const char* name : {"graded", "turned", "lens"})
+  const Mesh made = read_mesh(fs::path(out()) / "inside" / "gmsh" / "mesh.msh");
+  const auto nodes_at = [&](double radius) {
+    return std::ranges::count_if(made.points,
+                                 [&](const Vec3& p) { return std::abs(norm(p) - radius) < 1e-8; });
+  };
+  EXPECT_GT(nodes_at(1), 50);
+  EXPECT_GT(nodes_at(0.75), 8);
+  EXPECT_TRUE(std::ranges::any_of(made.points, [](const Vec3& p) {
+    return norm(p - Vec3{0, -0.75, 0}) < 1e-8;
+  }));
+  for (const char* name : {"graded", "turned", "inside", "lens"})
     EXPECT_NEAR(quads.at(std::string(name) + "gmsh") / quads.at(std::string(name) + "DB"), 1.1, 0.3) << name;
 }
 

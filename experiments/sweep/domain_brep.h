@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "delquad/mesher.h"
+
+namespace delquad {
+
+/// Writes the regions of a planar domain as a BREP file. Each domain_curves() is one edge: a line, a circle's
+/// arc, or cubics within 1e-9 of its extent. Curves and points inside of a region stand in its face.
+void write_domain_brep(const std::filesystem::path& file, const Prepared& prepared);
+
+}  // namespace delquad
