@@ -179,6 +179,11 @@ int missing_edges(const Mesh& boundary, const Mesh& mesh) {
   return missing;
 }
 
+/// Whether its planar meshes must have our boundary edges: Gmsh divides curves itself.
+bool has_given_edges(const Peer& peer, const Prepared& prepared) {
+  return peer.keeps_boundary && (peer.input != kGmshScript || domain_curves(prepared).empty());
+}
+
 void check_planar(const Peer& peer, const Prepared& prepared, Mesh& mesh) {
   for (Vec3& p : mesh.points) p.z = prepared->boundary.points[0].z;
   if (area_in_plane(mesh) < 0) {
@@ -192,7 +197,7 @@ void check_planar(const Peer& peer, const Prepared& prepared, Mesh& mesh) {
     for (const auto& [a, b] : prepared.patch(i).edges)
       area += 0.5 * cross(boundary.points[node[a]], boundary.points[node[b]]).z;
   }
-  const bool keeps = peer.keeps_boundary && !(peer.input == kGmshScript && !domain_curves(prepared).empty());
+  const bool keeps = has_given_edges(peer, prepared);
   const double tolerance = keeps ? 1e-6 : 0.02;  // chords of another boundary
   const double covered = area_in_plane(mesh) / area;
   if (!(std::abs(covered - 1) <= tolerance))
@@ -428,7 +433,7 @@ void check_peer_mesh(const Peer& peer, const Prepared& prepared, Mesh& mesh) {
   if (!violations.empty())
     refuse<PeerError>("its mesh is not sound ({} violations): {}", violations.size(), violations[0]);
   prepared.is_surface() ? check_surface(prepared, mesh) : check_planar(peer, prepared, mesh);
-  if (prepared.is_surface() || !peer.keeps_boundary) check_place(prepared, mesh);
+  if (prepared.is_surface() || !has_given_edges(peer, prepared)) check_place(prepared, mesh);
 }
 
 MeshResult run_peer(const Peer& peer, const Case& c, const Prepared& prepared, const std::string& label,
