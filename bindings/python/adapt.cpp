@@ -85,18 +85,13 @@ py::tuple adapted(const Mesh& mesh, const std::vector<std::pair<std::string, py:
     context.cancel = std::move(stop);
     made = adapt(mesh, given, spec, model == nullptr ? nullptr : &model->problem, context);
   });
-  auto result = std::make_shared<Result>();
-  result->rest = std::move(made.result);
-  result->expected_quads = result->rest.prepared->size.expected_quads;
-  result->rest.prepared = {};
-  static_cast<Mesh&>(*result) = std::move(result->rest.mesh);
   py::dict errors;
   using namespace py::literals;
   for (std::size_t f = 0; f < given.size(); ++f)
     errors[py::str(given[f].name)] =
         py::dict("now"_a = made.errors[f].now, "gradient"_a = made.errors[f].gradient,
                  "expected"_a = made.errors[f].after);
-  return py::make_tuple(result, errors);
+  return py::make_tuple(as_result(std::move(made.result)), errors);
 }
 
 }  // namespace

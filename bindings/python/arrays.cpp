@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
+#include <utility>
 
 #include "base/located.h"
 #include "delquad/error.h"
@@ -37,16 +38,14 @@ InputError bad_shape(const std::string& what, const char* expected, const py::ar
       fmt::format("{}: expected {}, got an array of shape {}", what, expected, shape_of(array)));
 }
 
-template <class V>
-void require_finite(const std::vector<V>& points, const std::string& what) {
+void require_finite(const std::vector<Vec2>& points, const std::string& what) {
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
       refuse("{}: point {} is ({}, {}): finite coordinates were expected", what, i, points[i].x, points[i].y);
 }
 
 int checked_int(std::int64_t value, const std::string& what) {
-  if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
-    refuse("{}: {} is out of range", what, value);
+  if (!std::in_range<int>(value)) refuse("{}: {} is out of range", what, value);
   return static_cast<int>(value);
 }
 
@@ -65,40 +64,38 @@ std::vector<double> read_vector(const py::handle& object, std::size_t n, const s
   return numbers;
 }
 
+/// Calls `make` for each row of numbers; a row has as many as one of `columns`.
+template <class Row>
+std::vector<Row> read_rows(const py::handle& object, const std::string& what, const char* expected,
+                           const std::set<py::ssize_t>& columns, Row (*make)(const double*, py::ssize_t)) {
+  const Doubles array(as_array(object, what, expected));
+  if (array.ndim() == 1 && array.size() == 0) return {};
+  if (array.ndim() != 2 || !columns.contains(array.shape(1))) throw bad_shape(what, expected, array);
+  std::vector<Row> rows;
+  for (py::ssize_t i = 0; i < array.shape(0); ++i) rows.push_back(make(array.data(i, 0), array.shape(1)));
+  return rows;
+}
+
 }  // namespace
 
 std::vector<Vec3> read_points(const py::handle& object, const std::string& what) {
-  constexpr const char* kExpected = "numbers of shape (n, 2) or (n, 3)";
-  const Doubles array(as_array(object, what, kExpected));
-  if (array.ndim() == 1 && array.size() == 0) return {};
-  if (array.ndim() != 2 || (array.shape(1) != 2 && array.shape(1) != 3))
-    throw bad_shape(what, kExpected, array);
-  const auto a = array.unchecked<2>();
-  std::vector<Vec3> points;
-  for (py::ssize_t i = 0; i < a.shape(0); ++i)
-    points.push_back({a(i, 0), a(i, 1), a.shape(1) == 3 ? a(i, 2) : 0});
-  return points;
+  return read_rows<Vec3>(object, what, "numbers of shape (n, 2) or (n, 3)", {2, 3},
+                         [](const double* x, py::ssize_t n) {
+                           return Vec3{x[0], x[1], n == 3 ? x[2] : 0};
+                         });
 }
 
 std::vector<Tensor3> read_tensors(const py::handle& object, const std::string& what) {
-  constexpr const char* kExpected = "numbers of shape (n, 6)";
-  const Doubles array(as_array(object, what, kExpected));
-  if (array.ndim() != 2 || array.shape(1) != 6) throw bad_shape(what, kExpected, array);
-  const auto a = array.unchecked<2>();
-  std::vector<Tensor3> tensors;
-  for (py::ssize_t i = 0; i < a.shape(0); ++i)
-    tensors.push_back({a(i, 0), a(i, 1), a(i, 2), a(i, 3), a(i, 4), a(i, 5)});
-  return tensors;
+  return read_rows<Tensor3>(object, what, "numbers of shape (n, 6)", {6}, [](const double* m, py::ssize_t) {
+    return Tensor3{m[0], m[1], m[2], m[3], m[4], m[5]};
+  });
 }
 
 std::vector<Vec2> read_plane_points(const py::handle& object, const std::string& what) {
-  constexpr const char* kExpected = "numbers of shape (n, 2)";
-  const Doubles array(as_array(object, what, kExpected));
-  if (array.ndim() == 1 && array.size() == 0) return {};
-  if (array.ndim() != 2 || array.shape(1) != 2) throw bad_shape(what, kExpected, array);
-  const auto a = array.unchecked<2>();
-  std::vector<Vec2> points;
-  for (py::ssize_t i = 0; i < a.shape(0); ++i) points.push_back({a(i, 0), a(i, 1)});
+  const auto points =
+      read_rows<Vec2>(object, what, "numbers of shape (n, 2)", {2}, [](const double* x, py::ssize_t) {
+        return Vec2{x[0], x[1]};
+      });
   require_finite(points, what);
   return points;
 }

@@ -1,6 +1,9 @@
 #include <pybind11/stl.h>
 
+#include <array>
+#include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 
 #include "base/located.h"
 #include "base/text.h"
@@ -9,6 +12,7 @@
 #include "geometry/mesh/check_mesh.h"
 #include "io/cases/case_file.h"
 #include "io/cases/case_keys.h"
+#include "io/cases/read_described.h"
 #include "io/mesh_formats.h"
 
 namespace delquad::python {
@@ -165,7 +169,31 @@ void set_keys(const KeyLines& lines, Case& c) {
   table.finish();
 }
 
+/// (keyword, key of model files, its JSON Schema) of all that a problem is told by keys.
+std::vector<std::array<std::string, 3>> keywords() {
+  std::vector<std::array<std::string, 3>> all;
+  std::set<std::string> of_problems;
+  for (const TomlKey& key : keys_of<MeshProblem>()) of_problems.insert(key.name);
+  const auto add = [&](const TomlKeys& keys, const std::string& prefix, const auto& is_keyword) {
+    const auto properties = schema_of(keys)["properties"];
+    for (const TomlKey& key : keys)
+      if (is_keyword(key.name))
+        all.push_back({key.keyword != nullptr ? key.keyword : key.name, prefix + key.name,
+                       properties[key.name].dump()});
+  };
+  const auto any = [](const std::string&) { return true; };
+  const TomlKeys keys = case_keys();
+  for (const TomlKey& key : keys)
+    if (key.name == "size" || key.name == "surface" || key.name == "limits")
+      add(key.table(), key.name + ".", any);
+  add(keys, "", [&](const std::string& name) {
+    return of_problems.contains(name) && name != "size" && name != "surface";
+  });
+  return all;
+}
+
 void define_criteria(py::module_& m) {
+  m.def("keywords", &keywords);
   py::class_<Criteria>(m, "Criteria", "Limits that elements are judged by.")
       .def(py::init([](const KeyLines& lines) {
         Case c;
@@ -232,74 +260,57 @@ struct Problem : ModelHandle {
   explicit Problem(const ModelHandle& model) : ModelHandle(model) {}
   Callbacks callbacks{py::none(), py::none(), py::none(), py::none()};
 
-  /// What the model's file says of its size does not count any more.
-  SizeSpec& new_size() { return problem.size = {}; }
-  CrossSpec& new_cross(CrossKind kind) {
-    problem.cross = {};
-    problem.cross.kind = kind;
-    return problem.cross;
+  /// Drops the field that the model's file has.
+  void clear(const std::string& field) {
+    if (field == "size") problem.size = {};
+    if (field == "cross") problem.cross = {};
+    if (field == "metric") problem.metric = {};
+  }
+  void set_function(const std::string& field, py::object function) {
+    clear(field);
+    if (field == "cross") problem.cross.kind = CrossKind::kField;
+    (field == "size"    ? callbacks.size
+     : field == "cross" ? callbacks.cross
+                        : callbacks.metric) = std::move(function);
+  }
+  /// Values at the points of the mesh.
+  void set_nodal(const std::string& field, const Mesh& mesh, const py::object& values) {
+    clear(field);
+    located(field, [&] {
+      if (field == "size") {
+        problem.size.field = make_nodal_size(mesh, read_numbers(values, "values"));
+      } else if (field == "cross") {
+        problem.cross.kind = CrossKind::kField;
+        problem.cross.field = make_nodal_cross(mesh, read_numbers(values, "values"));
+      } else if (const auto array = py::array::ensure(values);
+                 array && array.ndim() == 2 && array.shape(1) == 6) {
+        problem.metric.in_space = make_nodal_space_metric(mesh, read_tensors(values, "the values"));
+      } else {
+        std::vector<Tensor2> metric;
+        for (const Vec3& m : read_points(values, "the values")) metric.push_back({m.x, m.y, m.z});
+        problem.metric.function = make_nodal_metric(mesh, std::move(metric));
+      }
+    });
   }
 };
-
-void define_fields(py::class_<Problem>& c) {
-  c.def("clear",
-        [](Problem& p, const std::string& what) {
-          if (what == "size") p.new_size();
-          if (what == "cross") p.problem.cross = {};
-        })
-      .def("size_function",
-           [](Problem& p, py::object function) {
-             p.new_size();
-             p.callbacks.size = std::move(function);
-           })
-      .def("size_nodal",
-           [](Problem& p, const Mesh& mesh, const py::object& values) {
-             p.new_size().field =
-                 located("size", [&] { return make_nodal_size(mesh, read_numbers(values, "values")); });
-           })
-      .def("cross_function",
-           [](Problem& p, py::object function) {
-             p.new_cross(CrossKind::kField);
-             p.callbacks.cross = std::move(function);
-           })
-      .def("cross_nodal",
-           [](Problem& p, const Mesh& mesh, const py::object& values) {
-             p.new_cross(CrossKind::kField).field =
-                 located("cross", [&] { return make_nodal_cross(mesh, read_numbers(values, "values")); });
-           })
-      .def("metric_function",
-           [](Problem& p, py::object function) { p.callbacks.metric = std::move(function); })
-      .def("metric_nodal",
-           [](Problem& p, const Mesh& mesh, const py::object& values) {
-             if (const auto array = py::array::ensure(values);
-                 array && array.ndim() == 2 && array.shape(1) == 6) {
-               p.problem.metric.in_space = located("metric", [&] {
-                 return make_nodal_space_metric(mesh, read_tensors(values, "metric: the values"));
-               });
-               return;
-             }
-             std::vector<Tensor2> metric;
-             for (const Vec3& m : read_points(values, "metric: the values"))
-               metric.push_back({m.x, m.y, m.z});
-             p.problem.metric.function =
-                 located("metric", [&] { return make_nodal_metric(mesh, std::move(metric)); });
-           })
-      .def("embed", [](Problem& p, const py::object& points, const std::string& name) {
-        p.problem.surface.embed.push_back({read_points(points, "embed: points"), name, "embed"});
-      });
-}
 
 void define_problem(py::module_& m) {
   py::class_<Problem> c(m, "Problem", "A model with all that is asked of its mesh.");
   c.def(py::init<const ModelHandle&>());
-  define_fields(c);
-  c.def("set",
-        [](Problem& p, const KeyLines& lines) {
-          Case keys;
-          static_cast<MeshProblem&>(keys) = p.problem;
-          set_keys(lines, keys);
-          p.problem = std::move(keys);
-        })
+  c.def("clear", &Problem::clear)
+      .def("set_function", &Problem::set_function)
+      .def("set_nodal", &Problem::set_nodal)
+      .def("embed",
+           [](Problem& p, const py::object& points, const std::string& name) {
+             p.problem.surface.embed.push_back({read_points(points, "embed: points"), name, "embed"});
+           })
+      .def("set",
+           [](Problem& p, const KeyLines& lines) {
+             Case keys;
+             static_cast<MeshProblem&>(keys) = p.problem;
+             set_keys(lines, keys);
+             p.problem = std::move(keys);
+           })
       .def("name", [](Problem& p, const std::string& name) { p.problem.name = name; })
       .def("max_elements", [](Problem& p, long long n) { p.problem.max_elements = n; })
       .def("keep_going", [](Problem& p, bool yes) { p.problem.keep_going = yes; })

@@ -106,7 +106,30 @@ std::function<void(std::span<const V>, std::span<double>)> as_function(const py:
   };
 }
 
+/// The same of a metric: `read` makes vectors or tensors of what it returns, `make` a tensor of one of them.
+template <class Point, class Tensor, class Read, class Make>
+auto as_metric(const py::object& function, CallingThread& python, Read read, Make make) {
+  return [&function, &python, read, make](std::span<const Point> points, std::span<Tensor> metric) {
+    if (points.empty()) return;
+    python.call([&] {
+      const auto made = read(function(points_for_python(points)), "what the metric function returned");
+      if (made.size() != metric.size())
+        refuse("what the metric function returned: {} tensors for {} points", made.size(), metric.size());
+      std::ranges::transform(made, metric.begin(), make);
+    });
+  };
+}
+
 }  // namespace
+
+std::shared_ptr<Result> as_result(MeshResult made) {
+  auto result = std::make_shared<Result>();
+  result->rest = std::move(made);
+  result->expected_quads = result->rest.prepared->size.expected_quads;
+  result->rest.prepared = {};
+  static_cast<Mesh&>(*result) = std::move(result->rest.mesh);
+  return result;
+}
 
 std::shared_ptr<Result> mesh(MeshProblem problem, const Callbacks& callbacks, const std::string& word,
                              int threads, double time_limit) {
@@ -118,28 +141,16 @@ std::shared_ptr<Result> mesh(MeshProblem problem, const Callbacks& callbacks, co
   const bool is_planar = std::holds_alternative<PlanarModel>(problem.model) ||
                          std::holds_alternative<LineModel>(problem.model) ||
                          std::holds_alternative<GivenMesh>(problem.model);
-  if (!callbacks.metric.is_none() && !is_planar)
-    problem.metric.in_space = [&](std::span<const Vec3> points, std::span<Tensor3> metric) {
-      if (points.empty()) return;
-      python.call([&] {
-        const std::vector<Tensor3> made =
-            read_tensors(callbacks.metric(points_for_python(points)), "what the metric function returned");
-        if (made.size() != metric.size())
-          refuse("what the metric function returned: {} tensors for {} points", made.size(), metric.size());
-        std::ranges::copy(made, metric.begin());
-      });
-    };
   if (!callbacks.metric.is_none() && is_planar)
-    problem.metric.function = [&](std::span<const Vec2> points, std::span<Tensor2> metric) {
-      if (points.empty()) return;
-      python.call([&] {
-        const std::vector<Vec3> made =
-            read_points(callbacks.metric(points_for_python(points)), "what the metric function returned");
-        if (made.size() != metric.size())
-          refuse("what the metric function returned: {} tensors for {} points", made.size(), metric.size());
-        for (std::size_t i = 0; i < made.size(); ++i) metric[i] = {made[i].x, made[i].y, made[i].z};
-      });
-    };
+    problem.metric.function = as_metric<Vec2, Tensor2>(
+        callbacks.metric, python, [](const auto&... given) { return read_points(given...); },
+        [](const Vec3& m) {
+          return Tensor2{m.x, m.y, m.z};
+        });
+  else if (!callbacks.metric.is_none())
+    problem.metric.in_space = as_metric<Vec3, Tensor3>(
+        callbacks.metric, python, [](const auto&... given) { return read_tensors(given...); },
+        [](const Tensor3& m) { return m; });
   Context context;
   context.threads = threads;
   context.time_limit = time_limit;
@@ -147,13 +158,10 @@ std::shared_ptr<Result> mesh(MeshProblem problem, const Callbacks& callbacks, co
     context.progress = [&](const ProgressReport& report) {
       python.call([&] { callbacks.progress(report.stage, report.part); });
     };
-  auto result = std::make_shared<Result>();
+  std::shared_ptr<Result> result;
   python.run([&](std::stop_token cancel) {
     context.cancel = std::move(cancel);
-    result->rest = delquad::mesh(std::move(problem), word, context);
-    result->expected_quads = result->rest.prepared->size.expected_quads;
-    result->rest.prepared = {};
-    static_cast<Mesh&>(*result) = std::move(result->rest.mesh);
+    result = as_result(delquad::mesh(std::move(problem), word, context));
   });
   return result;
 }

@@ -78,6 +78,8 @@ struct Result : Mesh {
   double expected_quads = 0;
 };
 
+std::shared_ptr<Result> as_result(MeshResult result);
+
 /// Meshes a problem, with the GIL released.
 std::shared_ptr<Result> mesh(MeshProblem problem, const Callbacks& callbacks, const std::string& word,
                              int threads, double time_limit);

@@ -4,8 +4,12 @@
 Usage: make_keys.py DELQUAD > docs/keys.md
 """
 import json
+import pathlib
 import subprocess
 import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "bindings/python/delquad"))
+from _keywords import words  # noqa: E402
 
 HEAD = """# Keys
 
@@ -55,38 +59,6 @@ def tables_of(schema):
             yield kind
 
 
-def number(kind, name):
-    least, most = kind.get("minimum"), kind.get("maximum")
-    if least is not None and most is not None:
-        return f"{name} from {least} to {most}"
-    if "exclusiveMinimum" in kind:
-        above = f"{name} above {kind['exclusiveMinimum']}"
-        return above if most is None else f"{above}, at most {most}"
-    return name if least is None else f"{name}, at least {least}"
-
-
-def value(schema):
-    """What may stand behind a key, in words."""
-    if "anyOf" in schema:
-        return " or ".join(dict.fromkeys(value(kind) for kind in schema["anyOf"])).replace("a table or a list: a table", "one or more tables")
-    if "enum" in schema:
-        return ", ".join(f"`{json.dumps(word)}`" for word in schema["enum"])
-    kinds = schema.get("type", [])
-    said = []
-    for kind in [kinds] if isinstance(kinds, str) else kinds:
-        if kind in ("number", "integer"):
-            said.append(number(schema, "a number" if kind == "number" else "a whole number"))
-        elif kind == "array":
-            least, most = schema.get("minItems"), schema.get("maxItems")
-            if most and schema["items"].get("type") == "number":
-                said.append(f"{most} numbers" if least == most else f"{least} or {most} numbers")
-            else:
-                said.append("a list: " + value(schema["items"]))
-        else:
-            said.append({"string": "a text", "boolean": "true or false", "object": "a table"}[kind])
-    return " or ".join(said)
-
-
 def rows(head, table, seen, explained=None):
     """The keys of a table, then the tables that they hold, each once."""
     yield f"\n{head}\n\n| key | value | |\n|---|---|---|\n"
@@ -95,7 +67,7 @@ def rows(head, table, seen, explained=None):
         about = schema.get("description", "")
         if key in (explained or {}):
             about += f" ([more]({explained[key]}))"
-        yield f"| {shown} | {value(schema)} | {about} |\n"
+        yield f"| {shown} | {words(schema)} | {about} |\n"
     for key, schema in table["properties"].items():
         for inner in [] if key in ("matrix", "variant", "case") else tables_of(schema):
             if json.dumps(inner) in seen:

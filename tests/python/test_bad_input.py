@@ -106,6 +106,13 @@ def test_surfaces():
     says(delquad.InputError, "surface takes its crosses", model, 0.2, cross=lambda x: x[:, 0])
 
 
+def test_keywords():
+    says(TypeError, "no keyword 'gradaton'; did you mean 'gradation'", square(), 0.1, gradaton=0.2)
+    says(TypeError, "sources: 7 values: expected at most 6, of at, to, near", square(), 0.1, sources=[(0,) * 7])
+    says(delquad.InputError, "layers: unknown key 'layer.frist'; did you mean 'first'", square(), 0.1, layers={"on": "a", "frist": 1})
+    says(delquad.InputError, "size_on: 'size.on' must be a table or a list of tables", square(), 0.1, size_on=0.1)
+
+
 @pytest.mark.parametrize("size", [[], None.__class__, object(), (1, 2), {}])
 def test_sizes_of_no_use(size):
     if callable(size):

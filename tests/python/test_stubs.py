@@ -2,12 +2,14 @@
 
 import ast
 import inspect
+import json
 import pathlib
 import re
 
 import pytest
 
 import delquad
+from delquad import _keywords, _mesh
 from shapes import needed
 
 STUBS = pathlib.Path(delquad.__file__).with_suffix(".pyi")
@@ -86,6 +88,42 @@ def test_gmsh():
     told = ast.parse(pathlib.Path(delquad.gmsh.__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
     (stub,) = [node for node in told.body if isinstance(node, ast.FunctionDef)]
     assert parameters(stub) == actual_parameters(delquad.gmsh.mesh)
+
+
+PLAIN = {"number": "float", "integer": "int", "string": "str", "boolean": "bool", "object": "Mapping[str, Any]"}
+
+
+def type_of(schema):
+    """The type of a keyword in the stubs."""
+    types = []
+    for kind in _keywords.kinds_of(schema):
+        items = kind.get("items", {}).get("type")
+        if "enum" in kind:
+            types.append("Literal[" + ", ".join(map(json.dumps, kind["enum"])) + "]")
+        elif kind["type"] == "array":
+            types += ["str", "Sequence[str]"] if items == "string" else ["Iterable[Any]"]
+        else:
+            types.append(PLAIN[kind["type"]])
+    if types == ["Mapping[str, Any]"]:
+        types.append("tuple[Any, ...]")
+    return " | ".join(dict.fromkeys([*types, "None"]))
+
+
+# These may be functions, values at points or paths, too.
+OTHERS = ("size", "metric", "cross", "criteria")
+
+
+def test_keywords_have_the_types_of_their_descriptions():
+    told = {argument.arg: ast.unparse(argument.annotation) for argument in FUNCTIONS["mesh"].args.kwonlyargs}
+    described = {key: type_of(schema) for key, (_, schema) in _mesh._KEYS.items() if key not in OTHERS}
+    wanted = {key: ast.unparse(ast.parse(type, mode="eval")) for key, type in described.items()}
+    assert {key: told.get(key) for key in wanted} == wanted, "\n".join(f"    {key}: {type} = None," for key, type in described.items())
+
+
+@pytest.mark.parametrize("keyword", sorted(_mesh._KEYS))
+def test_help_tells_what_a_keyword_is_and_its_range(keyword):
+    _, schema = _mesh._KEYS[keyword]
+    assert f"{keyword}: {schema['description']} ({_keywords.words(schema)}" in " ".join(delquad.mesh.__doc__.split())
 
 
 @pytest.mark.parametrize("name", ["mesh", "extrude", "adapt"])
