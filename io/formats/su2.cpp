@@ -51,18 +51,18 @@ void write_elements(const std::filesystem::path& path, const M& mesh, std::vecto
   });
 }
 
-constexpr int kLine = 3, kTriangle = 5, kQuad = 9, kHexahedron = 12;
+constexpr int kVtkLine = 3, kVtkTriangle = 5, kVtkQuad = 9, kVtkHexahedron = 12;
 
 void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
   if (!is_planar(mesh))
     refuse("{}: SU2 computes in planar meshes or in volumes: this is a surface in space", path.string());
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   const auto each = [&](const auto& write) {
-    for (const auto& v : mesh.triangles) write(kTriangle, v);
-    for (const auto& v : mesh.quads) write(kQuad, v);
+    for (const auto& v : mesh.triangles) write(kVtkTriangle, v);
+    for (const auto& v : mesh.quads) write(kVtkQuad, v);
   };
   write_elements(path, mesh, mesh_groups(mesh, {plain_label}), 2, "quad mesh",
-                 mesh.triangles.size() + mesh.quads.size(), each, kLine, mesh.lines,
+                 mesh.triangles.size() + mesh.quads.size(), each, kVtkLine, mesh.lines,
                  [&](int l) { return sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).size() == 1; });
 }
 
@@ -71,10 +71,10 @@ void write_hex_su2(const std::filesystem::path& path, const HexMesh& mesh, const
   std::erase_if(groups, [](const MeshGroup& group) { return group.dim != 2; });
   const std::vector<HexSide> sides = sorted_hex_sides(mesh);
   const auto each = [&](const auto& write) {
-    for (const auto& v : mesh.hexahedra) write(kHexahedron, v);
+    for (const auto& v : mesh.hexahedra) write(kVtkHexahedron, v);
   };
-  write_elements(path, mesh, groups, 3, "mesh of hexahedra", mesh.hexahedra.size(), each, kQuad, mesh.quads,
-                 [&](int q) { return sides_at_quad(mesh, sides, q).size() == 1; });
+  write_elements(path, mesh, groups, 3, "mesh of hexahedra", mesh.hexahedra.size(), each, kVtkQuad,
+                 mesh.quads, [&](int q) { return sides_at_quad(mesh, sides, q).size() == 1; });
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST(MeshCommand, SizesAreDividedAndFoundByNumber) {
            {{"--quads", "100"}, "refine"},
            {{"--quads", "100", "--size", "0.1"}, "--size and --quads"},
            {{"--quads", "0"}, "--quads: 'quads' is 0: expected at least 1"},
-           {{"--refine", "-1"}, "> 0"}}) {
+           {{"--refine", "-1"}, "expected a number above 0"}}) {
     std::vector<std::string> command = {"mesh", model, "-o", folder / "no.msh"};
     command.insert(command.end(), given.begin(), given.end());
     const ProgramResult result = delquad(command);

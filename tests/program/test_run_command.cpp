@@ -105,7 +105,7 @@ TEST(RunCommand, CellThatCannotBeWrittenFailsAlone) {
   EXPECT_TRUE(contains(table, "large F failed: ")) << table;
   EXPECT_TRUE(contains(table, "large/F/mesh.msh: cannot be written")) << table;
   EXPECT_EQ(all_files(folder / "results/large/F"), std::vector<std::string>{"record.json"});
-  EXPECT_EQ(all_files(folder / "results/small/DB").size(), 4u);
+  EXPECT_EQ(all_files(folder / "results/small/DB").size(), 5u);
   for (const std::string& name : all_files(folder / "results")) EXPECT_FALSE(contains(name, ".tmp")) << name;
 }
 
@@ -117,7 +117,8 @@ TEST(RunCommand, FilesOfOthersInACellStay) {
   write_text(folder / "results/a/D/notes.txt", "mine");
   for (int k = 0; k < 2; ++k) ASSERT_EQ(delquad({"run", file, "-o", folder / "results"}).exit_code, 0);
   EXPECT_EQ(all_files(folder / "results/a/D"),
-            (std::vector<std::string>{"mesh.msh", "mesh.vtu", "notes.txt", "picture.svg", "record.json"}));
+            (std::vector<std::string>{"fields.vtu", "mesh.msh", "mesh.vtu", "notes.txt", "picture.svg",
+                                      "record.json"}));
 }
 
 TEST(RunCommand, MistakesOfTheFileAreFoundBeforeAnyWork) {
@@ -168,7 +169,7 @@ TEST(RunCommand, InterruptKeepsFinishedCellsWhole) {
   EXPECT_EQ(result.exit_code, 130);
   EXPECT_TRUE(fs::exists(first));
   EXPECT_FALSE(fs::exists(folder / "results/d/DB/record.json"));
-  const std::vector<std::string> whole = {"mesh.msh", "mesh.vtu", "picture.svg", "record.json"};
+  const std::vector<std::string> whole = {"fields.vtu", "mesh.msh", "mesh.vtu", "picture.svg", "record.json"};
   std::size_t cells = 0;
   for (const std::string& name : all_files(folder / "results")) {
     const fs::path path = folder / "results" / name;

@@ -23,7 +23,7 @@ def test_washers_around_holes():
     for radius in (0.5, 0.8, 1.1):
         assert np.count_nonzero(np.isclose(distance, radius, atol=0.01)) == 12
     for bad in ({"diameter": 1}, {"rows": 2}):
-        with pytest.raises(delquad.InputError, match="washers: 'washers.diameter' .*a list of finite numbers"):
+        with pytest.raises(delquad.InputError, match=r"washers: 'washers.diameter' .*two numbers \[least, most\]"):
             delquad.mesh(plate, size=0.5, washers=[bad])
 
 

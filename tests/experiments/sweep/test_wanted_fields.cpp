@@ -11,7 +11,7 @@
 namespace delquad {
 namespace {
 
-PlanarModel square() {
+PlanarModel unit_square() {
   PlanarModel model;
   model.curves.emplace_back().shape = make_polyline({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}});
   model.loops.emplace_back().curves = {0};
@@ -37,7 +37,7 @@ MeshWithFields fields_of(const MeshProblem& problem) {
 
 TEST(WantedFields, ArePointDataOfPlanes) {
   MeshProblem problem;
-  problem.model = square();
+  problem.model = unit_square();
   problem.size.text = "0.1 + 0.1 * x";
   problem.cross.text = "pi / 6";
   const auto [mesh, fields] = fields_of(problem);
@@ -72,7 +72,7 @@ TEST(WantedFields, ArePointDataOfSurfaces) {
 /// A metric asks for other lengths along its two axes.
 TEST(WantedFields, HaveTheAxesOfAMetric) {
   MeshProblem problem;
-  problem.model = square();
+  problem.model = unit_square();
   problem.metric.sizes = {"0.05", "0.2"};
   const auto [mesh, fields] = fields_of(problem);
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
