@@ -136,7 +136,8 @@ OptionValue read_value(const TomlTable& table, const OptionKey& key) {
 }
 
 void read_options(const TomlTable& table, const OptionGroup& group, Options& options) {
-  if (group.name == "smoothing" && table.has("method"))
+  const std::vector<std::string> present = table.keys();
+  if (group.name == "smoothing" && std::ranges::find(present, "method") != present.end())
     refuse("{}: there is no 'smoothing.method' any longer: L takes the exact gradient, so remove the key",
            table.where("method"));
   for (const OptionKey& key : group.keys)

@@ -263,7 +263,11 @@ void check_case(const Case& c) {
   MeshProblem fields;
   fields.size = c.size;
   fields.cross = c.cross;
-  fields.metric = c.metric;
+  // The model is not read here, and the content of some files alone tells whether they are a surface.
+  const auto* model = std::get_if<ModelFile>(&c.model);
+  if (model && is_surface_file(model->path)) fields.model = TriangleModel{};
+  if (!model) fields.model = c.model;
+  if (!model || is_surface_file(model->path)) fields.metric = c.metric;
   read_files(fields);
 }
 

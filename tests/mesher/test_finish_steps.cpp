@@ -11,8 +11,9 @@
 namespace delquad {
 namespace {
 
-PreparedProblem prepared_lens(const Options& options) {
+PreparedProblem prepared_lens(const Options& options, const Criteria& criteria = {}) {
   MeshProblem problem;
+  problem.criteria = criteria;
   problem.name = problem.where = "lens";
   problem.options = options;
   return testing_support::prepare_surface(problem, make_surface_model(testing_support::lens(64, 12, 0.45)),
@@ -51,8 +52,10 @@ TEST(BetterMesh, FailingQuadsCountBeforeRegularityAndShapes) {
   ASSERT_NE(at, after.mesh.quads.end());
   Vec3& x = after.mesh.points.back();
   x = x + 0.8 * (after.mesh.points[(*at)[1]] - x);
-  EXPECT_FALSE(is_more_regular(prepared, after, before));
-  EXPECT_FALSE(is_better(prepared, after, before));
+  EXPECT_TRUE(is_better(prepared, after, before)) << "without criteria no quad fails";
+  const PreparedProblem judged = prepared_lens({}, read_criteria("batch"));
+  EXPECT_FALSE(is_more_regular(judged, after, before));
+  EXPECT_FALSE(is_better(judged, after, before));
 }
 
 }  // namespace

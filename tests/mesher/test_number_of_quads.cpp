@@ -131,7 +131,7 @@ TEST(Refine, RefusesWhatItCannotDo) {
   }
   problem.refine = 2;
   problem.divisions = {{.name = "hole", .edges = 0, .where = "hole"}};
-  expect_input_error([&] { prepare(problem); }, {"0 edges"});
+  expect_input_error([&] { prepare(problem); }, {"'edges' of 'hole' is 0"});
   problem.divisions.clear();
   problem.quads = 100;
   expect_input_error([&] { prepare(problem); }, {"plate", "refine", "quads", "one of both"});

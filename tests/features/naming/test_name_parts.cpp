@@ -83,7 +83,7 @@ TEST(NamedParts, RefuseWhatDoesNotFit) {
   refuses({.name = "a"}, {"nothing says what 'a' is"});
   refuses({.name = "a", .curves = true, .normal = Vec3{0, 0, 1}}, {"curves have no normals"});
   refuses({.name = "a", .normal = Vec3{0, 0, 0}}, {"no length"});
-  refuses({.name = "", .numbers = {1}}, {"without a name"});
+  refuses({.name = "", .numbers = {1}}, {"m.toml:4", "'as' is empty"});
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ TEST_F(ModelFiles, MistakesAreLocated) {
   expect_input_error([&] { read("[[loop]]\n" + circle + "\nhole = true\nregion = \"r\""); },
                      {"m.toml:3", "exclude"});
   expect_input_error([&] { read("[[loop]]\ncircle = { centre = [0, 0], radius = -1 }"); },
-                     {"m.toml:2", "> 0"});
+                     {"m.toml:2", "'radius' is -1: expected a number above 0"});
   expect_input_error([&] { read("[[loop]]\ncircle = { center = [0, 0], radius = 1 }"); },
                      {"m.toml:2", "unknown key 'loop.circle.center'", "'centre'"});
   const std::string arc = "arc = { center = [0, 0], radius = 1, from = 0, to = 90 }";
