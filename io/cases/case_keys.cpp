@@ -144,8 +144,10 @@ TomlKeys case_keys() {
   TomlKeys keys = {{"loop", "closed loops", "", loop_keys, true},
                    {"pattern", "a loop repeated on a grid", "", pattern_keys, true},
                    {"curve", "curves that loops are made of", "", curve_keys, true},
-                   {"embed", "curves and points inside of regions, polylines and points on surfaces", "",
-                    embed_keys, true},
+                   {"embed",
+                    "curves and points inside of regions, polylines and points on surfaces; at the top of an "
+                    "experiment on surfaces alone",
+                    "", embed_keys, true},
                    {"example", "a surface that the program makes itself", kText},
                    {"mesh", "an MSH file; with 'start' of any format", kText},
                    {"start", "words may begin from the elements of that mesh", kFlag},
