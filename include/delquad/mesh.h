@@ -133,8 +133,9 @@ void reduce_bandwidth(Mesh& mesh);
 /// What a reader did to the file's content that its user should know, one sentence each.
 using ReadNotes = std::vector<std::string>;
 
-/// Reads by extension: .msh, .vtu, .obj, .inp, .mesh, .mfem, .bdf, .off, .stl, .ply, .3mf, packed, too
-/// (.gz). Throws InputError with file and line, or byte; for any other extension, naming those known.
+/// Reads a file by its extension: .msh, .vtu, .obj, .inp, .mesh, .mfem, .bdf, .off, .stl, .ply or .3mf. The
+/// file may be packed (.gz). Throws InputError with file and line or byte. For any other extension the message
+/// names the known ones.
 Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 
 /// Which line elements an MSH file has. deal.II refuses all that lie inside the mesh.

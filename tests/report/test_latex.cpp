@@ -48,7 +48,7 @@ class StudyPrograms : public testing::Test {
 
 TEST_F(StudyPrograms, IsAPaperWithProvenClaims) {
   if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
-  if (!fs::exists(results() / "figures/profile_eta.pdf"))
+  if (std::system("/usr/bin/python3 -c 'import matplotlib' 2>/dev/null") != 0)
     GTEST_SKIP() << "python3-matplotlib is not installed";
   EXPECT_EQ(compile(folder_->path(), "paper.tex"), "");
   const std::string tables = read_text(results() / "tables.tex");
