@@ -134,8 +134,8 @@ void reduce_bandwidth(Mesh& mesh);
 using ReadNotes = std::vector<std::string>;
 
 /// Reads a file by its extension: .msh, .vtu, .obj, .inp, .mesh, .mfem, .bdf, .off, .stl, .ply or .3mf. The
-/// file may be packed (.gz). Throws InputError with file and line or byte. For any other extension the message
-/// names the known ones.
+/// file may be packed (.gz). Throws InputError with file and line or byte. For any other extension the
+/// message names the known ones.
 Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 
 /// Which line elements an MSH file has. deal.II refuses all that lie inside the mesh.
