@@ -39,6 +39,8 @@ constexpr std::size_t kLongestInpName = 60;
 constexpr std::ptrdiff_t kLongestInpNumber = 20;
 /// On one line of a set or an element, which may have no more.
 constexpr std::size_t kInpNumbersPerLine = 16;
+/// Names of the sets of all elements and of all nodes.
+constexpr const char *kAllElements = "Eall", *kAllNodes = "Nall";
 
 /// In at most 20 characters: CalculiX cuts off what follows, perhaps within the exponent. "0" below
 /// `negligible`.
@@ -61,14 +63,15 @@ void write_inp_head(TextWriter& out, const char* title, const std::string& unit,
         << label << '\n';
 }
 
-/// Those for which `is_written(i)` holds.
+/// Writes the nodes for which `is_written(i)` holds, as members of `set`.
 template <class IsWritten>
-void write_inp_nodes(TextWriter& out, const std::vector<Vec3>& points, IsWritten is_written) {
+void write_inp_nodes(TextWriter& out, const std::vector<Vec3>& points, const std::string& set,
+                     IsWritten is_written) {
   // Of the model's diagonal: some hundred steps of a double there, what rotations and projections leave of
   // zeros.
   constexpr double kNegligible = 1e-13;
   const double negligible = kNegligible * diagonal(points);
-  out << "*NODE\n";
+  out << "*NODE, NSET=" << set << '\n';
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_written(i)) continue;
     out << i + 1;
@@ -106,8 +109,8 @@ void write_inp_sets(TextWriter& out, const char* keyword, Sets& sets) {
 }
 
 /// What a label is the name of.
-enum HexNameKind { kHexCurve = 1, kHexFace, kHexVolume };
-constexpr const char* kHexKinds[] = {"", "curve", "face", "volume"};
+enum HexNameKind { kHexSet, kHexCurve, kHexFace, kHexVolume };
+constexpr const char* kHexKinds[] = {"set", "curve", "face", "volume"};
 
 UniqueLabels make_hex_labels(const HexMesh& mesh) {
   std::vector<UniqueLabels::Key> keys;
@@ -118,6 +121,7 @@ UniqueLabels make_hex_labels(const HexMesh& mesh) {
   add(mesh.volumes, kHexVolume);
   add(mesh.faces, kHexFace);
   add(mesh.curves, kHexCurve);
+  for (const char* all : {kAllElements, kAllNodes}) keys.emplace_back(kHexSet, all);
   return UniqueLabels(keys, {plain_label, true, kLongestInpName});
 }
 
@@ -138,8 +142,8 @@ class HexInpWriter {
     write_inp_head(out_, "Mesh of hexahedra", mesh_.unit, labels_, kHexKinds);
     std::vector<Vec3> points = mesh_.points;
     for (const auto& [a, b] : edges_) points.push_back(0.5 * (mesh_.points[a] + mesh_.points[b]));
-    write_inp_nodes(out_, points, [](std::size_t) { return true; });
-    out_ << "*ELEMENT, TYPE=" << element_ << '\n';
+    write_inp_nodes(out_, points, labels_.of({kHexSet, kAllNodes}), [](std::size_t) { return true; });
+    out_ << "*ELEMENT, TYPE=" << element_ << ", ELSET=" << labels_.of({kHexSet, kAllElements}) << '\n';
     for (std::size_t i = 0; i < mesh_.hexahedra.size(); ++i)
       write_inp_element(out_, i + 1, nodes_of(mesh_.hexahedra[i]));
     collect();
@@ -224,7 +228,7 @@ void write_hex_inp(const std::filesystem::path& path, const HexMesh& mesh, const
 }
 
 /// What a label is the name of.
-enum Kind { kPointTag, kCurveTag, kRegionTag, kPointName, kCurveName, kRegionName, kPairs };
+enum Kind { kPointTag, kCurveTag, kRegionTag, kPointName, kCurveName, kRegionName, kSet };
 constexpr const char* kInpKinds[] = {"", "", "", "point", "curve", "region", "set"};
 
 std::vector<UniqueLabels::Key> keys_of(const std::vector<Entity>& entities, int dim) {
@@ -254,7 +258,8 @@ UniqueLabels make_labels(const Mesh& mesh) {
   for (const auto& [kind, count] :
        {std::pair{kCurvePair, mesh.periodic.size()}, std::pair{kFacePair, mesh.periodic_faces.size()}})
     for (size_t i = 0; i < count; ++i)
-      for (const std::string& name : pair_names(kind, i)) keys.emplace_back(kPairs, name);
+      for (const std::string& name : pair_names(kind, i)) keys.emplace_back(kSet, name);
+  for (const char* all : {kAllElements, kAllNodes}) keys.emplace_back(kSet, all);
   return UniqueLabels(keys, {plain_label, true, kLongestInpName});
 }
 
@@ -296,16 +301,14 @@ class InpWriter {
     std::vector<char> inside(mesh_.points.size(), 0);
     for (size_t q = 0; q < mesh_.quads.size() && mesh_.order == 2; ++q)
       inside[nodes_of_quad(mesh_, q)[4]] = 1;
-    write_inp_nodes(out_, mesh_.points, [&](size_t i) { return !inside[i]; });
+    write_inp_nodes(out_, mesh_.points, labels_.of({kSet, kAllNodes}), [&](size_t i) { return !inside[i]; });
   }
 
   template <class NodesOf>
   void write_elements(const char* type, size_t count, int& n, const NodesOf& nodes_of) {
     if (count == 0) return;
-    out_ << "*ELEMENT, TYPE=" << type << '\n';
-    for (size_t i = 0; i < count; ++i) {
-      write_inp_element(out_, static_cast<size_t>(++n), nodes_of(i));
-    }
+    out_ << "*ELEMENT, TYPE=" << type << ", ELSET=" << labels_.of({kSet, kAllElements}) << '\n';
+    for (size_t i = 0; i < count; ++i) write_inp_element(out_, static_cast<size_t>(++n), nodes_of(i));
   }
 
   /// Corners and middles of sides; the node inside has no place in elements of Abaqus.
@@ -383,7 +386,7 @@ class InpWriter {
     for (size_t i = 0; i < pairs.size(); ++i)
       for (const auto& nodes : pairs[i].nodes)
         for (const int side : {0, 1})
-          add(node_sets_, labels_.of({kPairs, pair_names(kind, i)[side]}), {nodes[side] + 1});
+          add(node_sets_, labels_.of({kSet, pair_names(kind, i)[side]}), {nodes[side] + 1});
   }
 
   /// Which node is the image of which: sets have no order in both programs (CalculiX knows no UNSORTED), and
@@ -392,7 +395,7 @@ class InpWriter {
   void write_pairs(const char* kind, const std::vector<Pair>& pairs) {
     for (size_t i = 0; i < pairs.size(); ++i)
       for (const auto& nodes : pairs[i].nodes)
-        out_ << "** " << labels_.of({kPairs, pair_names(kind, i)[0]}) << ": " << nodes[0] + 1 << ", "
+        out_ << "** " << labels_.of({kSet, pair_names(kind, i)[0]}) << ": " << nodes[0] + 1 << ", "
              << nodes[1] + 1 << '\n';
   }
 
@@ -414,11 +417,13 @@ class InpWriter {
   std::map<std::string, std::set<std::string>> sides_of_;
 };
 
-/// Abaqus input, as CalculiX takes it, too: numbers of at most 20 characters, shells S4 and S3, or CPS4 and
-/// CPS3 when all z are equal and elements turn left. Every region is an ELSET and an NSET, every curve an
-/// NSET and a SURFACE, by its tag ("region_3", "curve_5") and by each of its names, as far as Abaqus takes
-/// them (letters, digits, underscores); comments have the table. Of plane elements a curve's surface has the
-/// sides, of shells the nodes, and the sides are ELSETs for edge loads ("_curve_5_E2").
+/// Writes Abaqus input that CalculiX takes, too: numbers of at most 20 characters, shells S4 and S3. Elements
+/// are CPS4 and CPS3 if all z are equal and they turn left. All elements are in "Eall", all nodes in "Nall".
+/// Every region is an ELSET and an NSET, every curve an NSET and a SURFACE. They go by tag ("region_3",
+/// "curve_5") and by each name, in letters, digits and underscores; comments have the table. A curve's
+/// surface has the sides of plane elements, and the nodes of shells. Sides of shells are ELSETs for edge
+/// loads
+/// ("_curve_5_E2").
 void write_inp(const std::filesystem::path& path, const Mesh& mesh) {
   require_numbers(path, "Abaqus", mesh, 999'999'999);
   write_text_file(path, [&](TextWriter& out) { InpWriter(out, mesh).write(); });

@@ -204,11 +204,12 @@ class InpReader {
     }
   }
 
-  /// A set named by a leading underscore is a part of something else.
+  /// A set named by a leading underscore is a part of something else, and "Eall" names the whole.
   void make_mesh() {
     for (auto& [name, members] : sets_) {
       if (name.empty() || name[0] == '_') continue;
       sort_unique(members);
+      if (name == "Eall" && members.size() == elements_.size()) continue;
       for (const int e : members) elements_[e].sets.push_back(name);
     }
     std::map<std::pair<int, std::vector<std::string>>, int> index;

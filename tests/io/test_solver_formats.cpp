@@ -32,12 +32,12 @@ Mesh bent() {
 
 const char* const kGridInp = R"(*HEADING
 Quad mesh by Delquad
-*NODE
+*NODE, NSET=Nall
 1, 0, 0, 0
 2, 0.5, 0, 0
 3, 0, 2, 0
 4, 0.5, 2, 0
-*ELEMENT, TYPE=CPS4
+*ELEMENT, TYPE=CPS4, ELSET=Eall
 1, 1, 2, 4, 3
 *ELSET, ELSET=inside
 1
@@ -107,11 +107,11 @@ TEST(AbaqusInp, NamesBecomeLabels) {
   const TemporaryFolder folder;
   write_mesh(folder / "a.inp", bent());
   const std::string text = read_text(folder / "a.inp");
-  for (const char* line :
-       {"TYPE=S3\n1, ", "TYPE=S4\n3, ", "ELSET=Blech\n3, 4\n", "ELSET=all_parts\n1, 2, 3, 4\n",
-        "ELSET=blech_2\n1, 2\n", "NSET=SET_3_c__t__s\n", "NSET=curve_3\n", "ELSET=region_7\n1, 2\n",
-        "** region \"blech\" is blech_2\n", "** curve \"3 côtés\" is SET_3_c__t__s\n",
-        "*SURFACE, NAME=SET_3_c__t__s, TYPE=NODE\n1\n2\n3\n4\n", "ELSET=_curve_1_E1\n"})
+  for (const char* line : {"TYPE=S3, ELSET=Eall\n1, ", "TYPE=S4, ELSET=Eall\n3, ", "ELSET=Blech\n3, 4\n",
+                           "ELSET=all_parts\n1, 2, 3, 4\n", "ELSET=blech_2\n1, 2\n", "NSET=SET_3_c__t__s\n",
+                           "NSET=curve_3\n", "ELSET=region_7\n1, 2\n", "** region \"blech\" is blech_2\n",
+                           "** curve \"3 côtés\" is SET_3_c__t__s\n",
+                           "*SURFACE, NAME=SET_3_c__t__s, TYPE=NODE\n1\n2\n3\n4\n", "ELSET=_curve_1_E1\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
 }
 
@@ -136,12 +136,22 @@ TEST(AbaqusInp, NumbersComeBack) {
   }
 }
 
+TEST(AbaqusInp, SetsOfEverythingGiveWayToNames) {
+  const TemporaryFolder folder;
+  Mesh mesh = quad_grid(2, 2);
+  mesh.regions[0].names = {"EALL"};
+  write_mesh(folder / "a.inp", mesh);
+  const std::string text = read_text(folder / "a.inp");
+  for (const char* line : {"TYPE=CPS4, ELSET=Eall_2\n", "*NODE, NSET=Nall\n", "** set \"Eall\" is Eall_2\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+}
+
 TEST(AbaqusInp, AFaceThatLooksDownIsAShell) {
   const TemporaryFolder folder;
   Mesh mesh = quad_grid(2, 2);
   for (auto& quad : mesh.quads) std::swap(quad[1], quad[3]);
   write_mesh(folder / "a.inp", mesh);
-  EXPECT_NE(read_text(folder / "a.inp").find("TYPE=S4\n"), std::string::npos);
+  EXPECT_NE(read_text(folder / "a.inp").find("TYPE=S4,"), std::string::npos);
 }
 
 TEST(AbaqusInp, NumbersFitCalculix) {
@@ -184,7 +194,7 @@ if sys.argv[2].endswith('.mesh'):
         assert a.tolist() == b.tolist(), (kind, a, b)
 else:
     sizes = {k: sum(len(x) for x in v) for k, v in other.cell_sets.items()}
-    wanted = {'Blech': 2, 'all_parts': 4, 'blech_2': 2, 'region_1': 2, 'region_7': 2}
+    wanted = {'Blech': 2, 'all_parts': 4, 'blech_2': 2, 'region_1': 2, 'region_7': 2, 'Eall': 4}
     assert {k: n for k, n in sizes.items() if k[0] != '_'} == wanted, sizes
     sizes = {k: len(v) for k, v in other.point_sets.items()}
     assert sizes['SET_3_c__t__s'] == 4 and sizes['curve_3'] == 4 and sizes['east'] == 2, sizes
