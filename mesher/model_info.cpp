@@ -61,8 +61,11 @@ SurfaceModel load(const MeshProblem& problem) {
   if (const auto* lines = std::get_if<LineModel>(&problem.model))
     return as_model(make_named_domain(lines->mesh, lines->surfaces, lines->source), lines->source);
   if (const auto* given = std::get_if<GivenMesh>(&problem.model)) {
-    if (!is_in_space(given->mesh)) return as_model(make_given_domain(*given).domain, given->source);
-    return make_given_surface(*given, problem.surface.feature_angle.value_or(kGivenFeatureAngle)).model;
+    const double angle = problem.surface.feature_angle.value_or(kGivenFeatureAngle);
+    SurfaceModel model = is_in_space(given->mesh) ? make_given_surface(*given, angle).model
+                                                  : as_model(make_given_domain(*given).domain, given->source);
+    model.warnings.insert(model.warnings.begin(), given->notes.begin(), given->notes.end());
+    return model;
   }
   return make_surface(problem);
 }

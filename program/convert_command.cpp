@@ -3,6 +3,8 @@
 
 #include "delquad/error.h"
 #include "experiments/console/progress.h"
+#include "geometry/mesh/check_mesh.h"
+#include "geometry/mesh/weld.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "program/commands.h"
@@ -14,6 +16,7 @@ namespace {
 
 struct ConvertArguments {
   std::filesystem::path mesh, output;
+  double weld = 0;  ///< part of the diagonal
   MshOptions msh;
 };
 
@@ -44,14 +47,18 @@ int convert_command(const ConvertArguments& arguments) {
   ReadNotes notes;
   std::vector<std::string> lost;
   auto [mesh, fields] = read_whole(arguments.mesh, notes, lost);
-  if (!fields.empty() && !holds_fields(arguments.output)) {
+  if (!fields.empty() && (!holds_fields(arguments.output) || arguments.weld > 0)) {
     std::vector<std::string> names;
     for (const MeshField& field : fields) names.push_back(field.name);
-    lost.push_back(
-        fmt::format("fields, which are written to .msh and .vtu alone: {}", fmt::join(names, ", ")));
+    lost.push_back(fmt::format("fields, which are written to .msh and .vtu alone, and not with --weld: {}",
+                               fmt::join(names, ", ")));
     fields.clear();
     mesh = read_mesh(arguments.mesh);  // without points that carry fields alone
   }
+  if (arguments.weld > 0) require_straight(mesh, arguments.mesh.string());
+  std::string joined =
+      arguments.weld > 0 ? weld_open_edges(mesh, arguments.weld * diagonal(mesh)) : tell_unjoined(mesh);
+  if (!joined.empty()) notes.push_back(std::move(joined));
   for (const std::string& what : lost_in_file(arguments.output, mesh)) lost.push_back(what);
   for (const std::string& name : renamed_in_file(arguments.output, mesh))
     lost.push_back("a name as it was: " + name);
@@ -78,6 +85,8 @@ void add_convert(CLI::App& app, Commands& commands) {
                   convert_command, true);
   convert->add_option("mesh", arguments.mesh, "mesh file to read ('delquad formats' lists all)")->required();
   convert->add_option("output", arguments.output, "mesh file to write")->required();
+  convert->add_option("--weld", arguments.weld, "join ends of open edges within this part of the diagonal")
+      ->check(CLI::Range(0.0, 0.1));
   add_msh(*convert, arguments.msh);
 }
 

@@ -44,9 +44,16 @@ KeysByName all_keys() {
 }
 
 /// Keys with options for meshes that are improved, too.
-const std::set<std::string> kOfImprove = {
-    "size.base",        "size.max",          "size.gradation",        "cross",   "order",
-    "limits.min_angle", "limits.max_aspect", "surface.feature_angle", "criteria"};
+const std::set<std::string> kOfImprove = {"size.base",
+                                          "size.max",
+                                          "size.gradation",
+                                          "cross",
+                                          "order",
+                                          "limits.min_angle",
+                                          "limits.max_aspect",
+                                          "surface.feature_angle",
+                                          "surface.weld_tolerance",
+                                          "criteria"};
 
 bool may_be(const TomlKey& key, const char* type) {
   return key.type.find('"' + std::string(type) + '"') != std::string::npos;

@@ -9,6 +9,7 @@
 #include "experiments/sweep/record.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/outline.h"
+#include "geometry/mesh/weld.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
 #include "metrics/flow_links.h"
@@ -98,6 +99,7 @@ int metrics_command(const MetricsArguments& arguments) {
   criteria.strict |= arguments.strict;
   ReadNotes notes;
   const Mesh mesh = read_mesh(arguments.mesh, &notes);
+  if (std::string torn = tell_unjoined(mesh); !torn.empty()) notes.push_back(std::move(torn));
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
   if (mesh.triangles.empty() && mesh.quads.empty())
     throw InputError(arguments.mesh.string() + ": holds no triangles and no quads to measure");

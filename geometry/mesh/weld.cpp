@@ -1,12 +1,18 @@
 #include "geometry/mesh/weld.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "base/sort_unique.h"
+#include "base/text.h"
+#include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/keep_elements.h"
 
 namespace delquad {
 
@@ -76,6 +82,44 @@ void rename_points(Mesh& mesh, const PointNames& names) {
   rename(mesh.lines);
   rename(mesh.triangles);
   rename(mesh.quads);
+  renumber_nodes(mesh, names);
+}
+
+namespace {
+
+/// How many points go by another name: "2 points at open edges", and where the first one is.
+std::array<std::string, 2> renamed_in(const Mesh& mesh, const PointNames& names) {
+  int count = 0;
+  Vec3 first;
+  for (size_t i = 0; i < names.size(); ++i)
+    if (names[i] != static_cast<int>(i) && count++ == 0) first = mesh.points[i];
+  if (count == 0) return {};
+  return {counted(count, "point") + " at open edges", show_point(first)};
+}
+
+}  // namespace
+
+std::string weld_open_edges(Mesh& mesh, double tolerance) {
+  const PointNames names = names_at_open_edges(mesh, tolerance);
+  const auto [count, place] = renamed_in(mesh, names);
+  if (count.empty()) return {};
+  rename_points(mesh, names);
+  std::set<std::pair<int, int>> seen;
+  keep_lines(mesh,
+             [&](size_t l) { return seen.insert(std::minmax(mesh.lines[l][0], mesh.lines[l][1])).second; });
+  drop_unused_points(mesh);
+  return fmt::format("welded {} to others (the first at {})", count, place);
+}
+
+std::string tell_unjoined(const Mesh& mesh) {
+  constexpr double kCoincident = 1e-6;  // of the diagonal
+  const auto [count, place] = renamed_in(mesh, names_at_open_edges(mesh, kCoincident * diagonal(mesh)));
+  if (count.empty()) return {};
+  return fmt::format(
+      "{} coincide with others within {:g} of the diagonal and are not joined (the first at {}): a crack, or "
+      "a "
+      "torn mesh; --weld {:g} joins them",
+      count, kCoincident, place, kCoincident);
 }
 
 }  // namespace delquad

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "delquad/mesh.h"
@@ -15,8 +16,16 @@ PointNames names_of_equal_points(const Mesh& mesh);
 /// (a length) that keep their own name; all other points keep theirs.
 PointNames names_at_open_edges(const Mesh& mesh, double tolerance);
 
-/// Elements name their vertices anew. They may end with a repeated vertex or on each other, and points
-/// unused.
+/// Elements, named points and periodic nodes name their points anew. Elements may end with a repeated vertex
+/// or on each other, and points unused. The mesh has order 1.
 void rename_points(Mesh& mesh, const PointNames& names);
+
+/// Joins the ends of open edges that are within `tolerance` (a length) of others, and keeps one of two lines
+/// that meet. Returns "welded 2 points at open edges ..." with the first place; empty: there were none.
+std::string weld_open_edges(Mesh& mesh, double tolerance);
+
+/// Says how many ends of open edges coincide with others within 1e-6 of the diagonal, and where the first one
+/// is: at cracks, and where a mesh is torn. Empty: there are none.
+std::string tell_unjoined(const Mesh& mesh);
 
 }  // namespace delquad

@@ -155,20 +155,6 @@ void split_vertices(Mesh& mesh, std::vector<Warning>& warnings) {
   }
 }
 
-void close_gaps(Mesh& mesh, double tolerance, std::vector<Warning>& warnings) {
-  const PointNames names = names_at_open_edges(mesh, tolerance);
-  int welded = 0;
-  Vec3 first;
-  for (int i = 0; i < static_cast<int>(names.size()); ++i) {
-    if (names[i] != i && welded++ == 0) first = mesh.points[i];
-  }
-  if (welded == 0) return;
-  rename_points(mesh, names);
-  drop_unused_points(mesh);
-  warnings.push_back(fmt::format("welded {} at open edges to others (the first at {})",
-                                 counted(welded, "point"), show_point(first)));
-}
-
 void check_contents(const Mesh& mesh, const std::string& source) {
   if (!mesh.quads.empty()) {
     throw InputError(fmt::format("{}: {}: expected a surface made of triangles", source,
@@ -202,7 +188,8 @@ namespace {
 
 Mesh repaired(Mesh mesh, double weld_tolerance, const std::string& source, std::vector<Warning>& warnings) {
   check_contents(mesh, source);
-  close_gaps(mesh, weld_tolerance, warnings);
+  if (std::string welded = weld_open_edges(mesh, weld_tolerance); !welded.empty())
+    warnings.push_back(std::move(welded));
   take_out_twins(mesh, warnings);
   leave_out_flat(mesh, source, warnings);
   if (mesh.triangles.empty()) throw InputError(source + ": no triangle has an area");

@@ -23,6 +23,7 @@
 #include "fields/added_fields.h"
 #include "fields/fields.h"
 #include "geometry/mesh/outline.h"
+#include "geometry/mesh/weld.h"
 #include "geometry/planar/defined_curve.h"
 #include "geometry/planar/model_chain.h"
 #include "geometry/planar/planar_model.h"
@@ -214,19 +215,22 @@ Model read_msh_model(const std::filesystem::path& path) {
 }
 
 /// With the coordinate system of outlines, where that is known.
-Model read_model(const ModelFile& file, bool keep_going, std::string& crs) {
+Model read_model(const ModelFile& file, const MeshProblem& problem, std::string& crs) {
   const DoingStage stage("reading");
   const std::string kind = kind_of_file(file.path);
   if (file.given) {
     GivenMesh given{{}, file.path.string()};
     given.mesh = read_mesh(file.path, &given.notes);
+    if (std::string torn = tell_unjoined(given.mesh); !torn.empty() && !problem.surface.weld_tolerance)
+      given.notes.push_back(std::move(torn));
     return given;
   }
   if (const auto outlines = outline_file_of(file.path)) return read_outlines(*outlines, crs);
   if (kCadFiles.count(kind) > 0) return CadModel{file.path};
   if (kTriangleFiles.count(kind) == 0) return read_msh_model(file.path);
   TriangleModel triangles{{}, file.path.string()};
-  triangles.mesh = read_mesh(file.path, &triangles.notes, keep_going ? Strays::kKept : Strays::kRefused);
+  triangles.mesh =
+      read_mesh(file.path, &triangles.notes, problem.keep_going ? Strays::kKept : Strays::kRefused);
   return triangles;
 }
 
@@ -249,7 +253,13 @@ std::string text_of(const CrossSpec& cross) {
 MeshProblem read_files(MeshProblem problem) {
   std::string crs;
   if (const auto* file = std::get_if<ModelFile>(&problem.model))
-    problem.model = located(problem.where, [&] { return read_model(*file, problem.keep_going, crs); });
+    problem.model = located(problem.where, [&] { return read_model(*file, problem, crs); });
+  if (auto* given = std::get_if<GivenMesh>(&problem.model); given && problem.surface.weld_tolerance) {
+    const double tolerance = *problem.surface.weld_tolerance * diagonal(given->mesh);
+    if (std::string welded = weld_open_edges(given->mesh, tolerance); !welded.empty())
+      given->notes.push_back(std::move(welded));
+    problem.surface.weld_tolerance.reset();  // it is done
+  }
   if (problem.size.where.empty()) problem.size.where = problem.where;
   read_size(problem.size, problem.options, crs);
   read_metric(problem.model, problem.metric);

@@ -100,5 +100,32 @@ TEST(ImproveCommand, MeshesInSpace) {
             0);
 }
 
+TEST(ImproveCommand, TornMeshesAreToldAndWelded) {
+  const TemporaryFolder folder;
+  Mesh mesh = bad_shell();
+  for (std::size_t q = 32; q < 64; ++q)  // the upper half gets nodes of its own along the middle
+    for (int& v : mesh.quads[q])
+      if (v < 45) v += 45;
+  for (int v = 36; v < 45; ++v) mesh.points.push_back(mesh.points[v] + Vec3{0, 1e-7, 0});
+  write_mesh(folder / "torn.msh", mesh);
+  const std::string told = "9 points at open edges coincide with others";
+  const auto torn = delquad({"improve", folder / "torn.msh", "-o", folder / "out.msh"});
+  EXPECT_TRUE(contains(torn.err, told)) << torn.err;
+  EXPECT_TRUE(contains(delquad({"metrics", folder / "torn.msh"}).err, told));
+  EXPECT_TRUE(contains(delquad({"convert", folder / "torn.msh", folder / "c.msh"}).err, told));
+  EXPECT_EQ(read_mesh(folder / "c.msh").points.size(), 90u);
+  const auto model = write_text(folder / "m.toml", "mesh = \"torn.msh\"\nstart = true\n");
+  EXPECT_TRUE(contains(delquad({"info", model}).out, told));
+  for (const char* command : {"improve", "convert"}) {
+    std::vector<std::string> arguments = {command, folder / "torn.msh", "--weld", "1e-6"};
+    if (command[0] == 'i') arguments.push_back("-o");
+    arguments.push_back(folder / "joined.msh");
+    const auto joined = delquad(arguments);
+    EXPECT_EQ(joined.exit_code, 0);
+    EXPECT_TRUE(contains(joined.err, "welded 9 points")) << joined.err;
+    EXPECT_EQ(read_mesh(folder / "joined.msh").points.size(), 81u);
+  }
+}
+
 }  // namespace
 }  // namespace delquad::testing_support
