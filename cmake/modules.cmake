@@ -140,7 +140,7 @@ delquad_module(adapt COLD LINKS base geometry/mesh fields mesher PRIVATE Eigen3:
 if(DELQUAD_PROGRAMS)
   delquad_shared(delquad_bench delquad_bench)
   target_link_libraries(delquad_bench PUBLIC delquad_library)
-  delquad_module(metrics/tables COLD LINKS base metrics metrics/solve io PRIVATE Boost::headers nlohmann_json::nlohmann_json)
+  delquad_module(metrics/tables COLD LINKS base metrics metrics/solve io io/cases PRIVATE Boost::headers nlohmann_json::nlohmann_json)
   delquad_module(experiments/console COLD LINKS base io)
   delquad_module(experiments/sweep COLD LINKS base geometry/mesh geometry/cad adapt metrics metrics/surface metrics/solve metrics/judgement
                  metrics/tables algorithms/insertion io io/cases mesher experiments/console PRIVATE nlohmann_json::nlohmann_json)

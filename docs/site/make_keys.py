@@ -17,7 +17,7 @@ Made by `docs/site/make_keys.py` from `delquad schema`; a test checks that it is
 """
 OF_A_MODEL = """## Of a model, or of a case
 
-All of them also stand at the top of an experiment, for every case. Model files have no `name`, `data`, `domain`, `solution` and `adapt`. [Options](#options-of-the-stages) are below."""
+All of them also stand at the top of an experiment, for every case. Model files have no `name`, `data`, `domain`, `solution`, `adapt` and `compare`. [Options](#options-of-the-stages) are below."""
 OF_AN_EXPERIMENT = """## Of an experiment
 
 `[matrix]` has keys of a model, each with a list of values, `[[variant]]` a name and keys of a model."""

@@ -31,15 +31,9 @@ Case without_seed(const Case& c) {
 
 }  // namespace
 
-void read_adapt_keys(const TomlTable& table, Case& target) {
-  if (table.has("solution")) {
-    target.solution = table.text("solution");
-    located(table.where("solution"), [&] { solution_of(target); });
-  }
-  if (!table.has("adapt")) return;
-  AdaptLoop loop = target.adapt.value_or(AdaptLoop());
-  read_described(table.table("adapt"), loop);
-  target.adapt = loop;
+void read_study_keys(const TomlTable& table, Case& target) {
+  read_fields(table, static_cast<CaseOfStudy&>(target));
+  located(table.where("solution"), [&] { solution_of(target); });
 }
 
 void check_adapt(const Case& c) {

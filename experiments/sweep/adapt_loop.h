@@ -10,8 +10,8 @@
 
 namespace delquad {
 
-/// Reads `solution` and `adapt` of a case. Throws InputError with file and line.
-void read_adapt_keys(const TomlTable& table, Case& target);
+/// Reads the keys of CaseOfStudy. Throws InputError with file and line.
+void read_study_keys(const TomlTable& table, Case& target);
 /// They do not go with everything: throws InputError with file and line.
 void check_adapt(const Case& c);
 

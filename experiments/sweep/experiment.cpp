@@ -22,8 +22,6 @@
 namespace delquad {
 namespace {
 
-const std::vector<std::string> kDefaultWords = {"F", "D", "FB", "DB"};
-
 /// What one of the keys is, up to a dot: commands may give several values.
 bool is_known(const std::string& metric, const std::vector<std::string>& known) {
   return std::ranges::find(known, metric) != known.end() ||
@@ -34,18 +32,6 @@ void check_known(const TomlTable& table, const std::string& key, const std::stri
                  const std::vector<std::string>& known) {
   if (is_known(metric, known)) return;
   throw InputError(table.where(key) + ": unknown metric '" + metric + "'" + suggestion(metric, known));
-}
-
-/// Names of solvers, each once.
-std::vector<std::string> read_solvers(const TomlTable& table) {
-  if (!table.has("solver")) return {};
-  const std::vector<std::string> solvers = table.texts("solver");
-  for (const std::string& name : solvers) {
-    located(table.where("solver"), [&] { metrics_of_solver(name); });
-    if (std::ranges::count(solvers, name) > 1)
-      throw InputError(table.where("solver") + ": '" + name + "' twice among the solvers");
-  }
-  return solvers;
 }
 
 /// Keys that experiments had once, and what stands in for them.
@@ -67,23 +53,18 @@ const GoneKeys kGoneOfHypotheses = {
     {"secondary", "all hypotheses are one family: leave the others out, and pairs.* explores them"},
     {"two_sided", "every hypothesis is tested two-sided: remove the key"}};
 
-/// Keys of columns: measures and times.
-std::vector<std::string> read_columns(const TomlTable& table, std::vector<std::string> known) {
-  if (!table.has("columns")) return {};
+/// Columns are measures and times.
+void check_columns(const TomlTable& table, const std::vector<std::string>& columns,
+                   std::vector<std::string> known) {
   for (const char* key : {kRuns, "seconds"}) known.push_back(key);
   for (const Metric& one : columns_of_records()) known.push_back(one.key);
   for (const StepTime& time : step_times_of_tables()) known.push_back(time.key);
-  std::vector<std::string> columns = table.texts("columns");
   for (const std::string& key : columns) {
     if (key == "finish_eta")
       refuse("{}: there is no column '{}' any longer: compare eta_mean of variants without finish steps",
              table.where("columns"), key);
     check_known(table, "columns", key, known);
-    if (std::ranges::count(columns, key) > 1)
-      throw InputError(table.where("columns") + ": '" + key + "' twice among the columns");
   }
-  if (columns.empty()) refuse("{}: 'columns' is empty: expected keys of measures", table.where("columns"));
-  return columns;
 }
 
 std::vector<PublishedRow> read_published(const std::filesystem::path& file,
@@ -103,12 +84,6 @@ std::vector<PublishedRow> read_published(const std::filesystem::path& file,
   }
   top.finish();
   return rows;
-}
-
-LinfStudy read_linf_study(const TomlTable& table) {
-  LinfStudy study{read_counts(table, "points", 3, 1e7), read_counts(table, "seeds", 0, 1e9)};
-  table.finish(linf_study_keys());
-  return study;
 }
 
 /// Those of another experiment first.
@@ -242,8 +217,7 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
   c.where = table.where();
   c.folder = c.name;
   read_case_keys(table, c);
-  read_adapt_keys(table, c);
-  c.domain = table.text("domain", "");
+  read_study_keys(table, c);
   check_comparisons(table, c);
   table.finish(experiment_case_keys());
   if (!has_model(c))
@@ -308,29 +282,26 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   if (table.has("start") ||
       std::ranges::any_of(experiment.cases_, [](const auto& c) { return c.has("start"); }))
     experiment.word_start_ = WordStart::kGivenMesh;
-  experiment.title = table.text("title", file.stem().string());
-  const std::vector<std::string> words = table.has("pipelines") ? table.texts("pipelines") : kDefaultWords;
-  experiment.read_peers(table, words);
-  experiment.words = located(table.where("pipelines"), [&] { return experiment.find_pipelines(words); });
-  experiment.solvers = read_solvers(table);
-  for (const TomlTable& metric : table.tables("metric")) experiment.read_metric(metric);
+  experiment.title = file.stem().string();
+  read_fields(table, static_cast<TablePlan&>(experiment));
+  read_fields(table, static_cast<ExperimentKeys&>(experiment));
+  experiment.settle_calibration(table);
+  experiment.words =
+      located(table.where("pipelines"), [&] { return experiment.find_pipelines(experiment.pipelines); });
+  experiment.check_metrics(table);
   const std::vector<std::string> metrics = experiment.keys_of_metrics();
-  if (table.has("reference")) {
-    experiment.reference = file.parent_path() / table.text("reference");
-    experiment.published = read_published(experiment.reference, metrics);
-  }
-  experiment.step_times = table.flag("step_times", false);
-  experiment.columns = read_columns(table, metrics);
-  if (const auto study = table.optional_table("linf_delaunay")) experiment.linf = read_linf_study(*study);
+  if (!experiment.reference.empty()) experiment.published = read_published(experiment.reference, metrics);
+  check_columns(table, experiment.columns, metrics);
   experiment.read_variants(table.tables("variant"));
   if (const auto matrix = table.optional_table("matrix")) experiment.read_matrix(*matrix);
-  experiment.read_plan(table);
+  experiment.hypothesis_tables_ = table.tables("hypotheses");
+  experiment.check_plan(table);
 
   experiment.defaults_.where = file.string();
   experiment.defaults_.data_folder = data;
   read_case_keys(table, experiment.defaults_);
-  read_adapt_keys(table, experiment.defaults_);
-  table.finish(experiment_keys());
+  read_study_keys(table, experiment.defaults_);
+  table.finish();
   if (experiment.cases_.empty() && !experiment.linf)
     refuse("{}: no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'", file.string());
   if (!experiment.cases_.empty() && experiment.linf)

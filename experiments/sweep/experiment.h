@@ -9,19 +9,12 @@
 #include <vector>
 
 #include "delquad/extend.h"
-#include "experiments/sweep/metric_command.h"
-#include "experiments/sweep/peer.h"
+#include "experiments/sweep/experiment_fields.h"
 #include "io/cases/case.h"
 #include "io/cases/toml_reader.h"
 #include "metrics/tables/study_file.h"
 
 namespace delquad {
-
-/// Point sets on which the two Delaunay kernels are compared instead of meshing.
-struct LinfStudy {
-  std::vector<int> points;  ///< how many
-  std::vector<int> seeds;
-};
 
 /// An option that an experiment varies.
 struct Axis {
@@ -34,22 +27,13 @@ struct Axis {
 ///
 /// Each case comes in as many variants as the [matrix] has combinations (one without a matrix). Variants are
 /// read when they are asked for: a sweep may have many.
-class Experiment : public TablePlan {
+class Experiment : public TablePlan, public ExperimentKeys {
  public:
   std::filesystem::path file;
-  std::vector<Word> words;  ///< and peers, as words without stages
-  std::vector<Peer> peers;
-  std::vector<std::filesystem::path> peer_files;  ///< that further peers were read from
-  bool calibrate = false;                         ///< peers are compared at our number of quads
-  std::string calibrate_to;                       ///< the word whose number that is; empty: there is none
-  std::string calibrate_where;                    ///< file and line that ask for it; empty: nothing does
-  std::vector<MetricCommand> metrics;
-  std::vector<std::string> solvers;  ///< that measure every mesh, by name
-  double minutes = 0;                ///< of a run with two jobs; 0: not known
+  std::vector<Word> words;      ///< and peers, as words without stages
+  std::string calibrate_where;  ///< file and line that ask for a calibration; empty: nothing does
   std::vector<Axis> axes;
-  std::optional<LinfStudy> linf;                        ///< then there are no cases
   long long max_elements = MeshProblem{}.max_elements;  ///< of every case
-  std::filesystem::path reference;                      ///< file of the published rows; empty: none
 
   /// Throws InputError with file and line where a calibration is asked for that is none of any peer. To be
   /// called when all peers are there.
@@ -87,12 +71,12 @@ class Experiment : public TablePlan {
   friend StudyFile describe(const Experiment& experiment);
   void read_matrix(const TomlTable& matrix);
   void read_variants(const std::vector<TomlTable>& tables);
-  void read_peer(const TomlTable& table);
-  void read_peers(const TomlTable& table, const std::vector<std::string>& pipelines);
-  void read_metric(const TomlTable& table);
-  void read_plan(const TomlTable& table);
-  void read_hypothesis(const TomlTable& table);
-  void read_may_fail(const TomlTable& table);
+  void settle_calibration(const TomlTable& table);
+  void add_peers(const std::vector<TomlTable>& tables, std::vector<Peer> added);
+  void check_metrics(const TomlTable& table) const;
+  void check_plan(const TomlTable& table) const;
+  void check_hypothesis(const TomlTable& table, const Hypothesis& h) const;
+  void check_may_fail(const TomlTable& table, const MayFail& cells) const;
   std::vector<Metric> known_metrics() const;
   std::vector<std::string> keys_of_metrics() const;
   Word find_pipeline(const std::string& text) const;

@@ -49,30 +49,6 @@ bool is_program_text(const std::string& word) {
 
 }  // namespace
 
-std::vector<int> read_counts(const TomlTable& table, const std::string& key, double least, double most) {
-  std::vector<int> counts;
-  for (const double n : table.numbers(key)) {
-    if (n != std::floor(n) || n < least || n > most)
-      refuse("{}: '{}' must hold integers from {} to {}", table.where(key), key, static_cast<int>(least),
-             static_cast<int>(most));
-    counts.push_back(static_cast<int>(n));
-  }
-  if (counts.empty()) throw InputError(table.where(key) + ": '" + key + "' is empty");
-  return counts;
-}
-
-std::vector<std::string> read_command(const TomlTable& table, const char* key) {
-  std::vector<std::string> command = table.texts(key);
-  if (!command.empty() && !command[0].empty()) return command;
-  refuse("{}: '{}' is empty: expected a program and its arguments", table.where(key), key);
-}
-
-int read_count(const TomlTable& table, const char* key, int least, int most, int absent) {
-  const long long count = table.integer(key, absent);
-  if (!table.has(key) || (count >= least && count <= most)) return static_cast<int>(count);
-  refuse("{}: '{}' is {}: expected {} to {}", table.where(key), key, count, least, most);
-}
-
 void check_placeholders(const TomlTable& table, const std::vector<std::string>& command,
                         const std::vector<std::string>& known,
                         const std::vector<std::vector<std::string>>& needed) {
@@ -123,21 +99,6 @@ void check_folder_name(const TomlTable& table, const std::string& name,
 
 namespace {
 
-Better read_better(const TomlTable& table) {
-  const std::string text = table.text("better", "neither");
-  if (text == "higher") return Better::kHigher;
-  if (text == "lower") return Better::kLower;
-  if (text == "neither") return Better::kNeither;
-  refuse("{}: 'better' is '{}': expected \"higher\", \"lower\" or \"neither\"", table.where("better"), text);
-}
-
-/// Whether `calibrate` asks for as many quads as ours.
-bool read_calibrate(const TomlTable& table, bool absent) {
-  const std::string text = table.text("calibrate", absent ? "quads" : "none");
-  if (text == "quads" || text == "none") return text == "quads";
-  refuse("{}: 'calibrate' is '{}': expected \"quads\" or \"none\"", table.where("calibrate"), text);
-}
-
 bool makes_quads(const std::string& text) {
   try {
     return parse_word(text).result == PatchForm::kQuads;
@@ -151,31 +112,18 @@ void check_reference_word(const std::string& text) {
   if (!makes_quads(text)) throw InputError("'calibrate_to' is '" + text + "', which makes no quads");
 }
 
-HandOver read_hand_over(const TomlTable& table, const char* key, HandOver plain, const char* name_of_plain) {
-  const std::string text = table.text(key, name_of_plain);
-  if (text == name_of_plain) return plain;
-  if (text == "triangles") return HandOver::kTriangles;
-  if (text == "none") return HandOver::kNothing;
-  refuse("{}: '{}' is '{}': expected \"{}\", \"triangles\" or \"none\"", table.where(key), key, text,
-         name_of_plain);
+void check_command(const TomlTable& table, const char* key, const std::vector<std::string>& command) {
+  if (command[0].empty())
+    refuse("{}: '{}' is empty: expected a program and its arguments", table.where(key), key);
 }
 
-/// What a peer is given of planar domains, surfaces and sizes.
-void read_domains(const TomlTable& table, Peer& peer) {
-  peer.planar = read_hand_over(table, "planar", HandOver::kModel, "boundary");
-  peer.surfaces = read_hand_over(table, "surfaces", HandOver::kModel, "file");
-  for (const auto& [key, given] : {std::pair("planar", peer.planar), std::pair("surfaces", peer.surfaces)})
-    if (given == HandOver::kTriangles && peer.input == kGmshScript)
-      refuse("{}: '{}' is \"triangles\", which 'input = \"geo\"' cannot hold", table.where(key), key);
-  peer.size_field = table.text("size_field", "");
-  const std::vector<std::string>& known = size_field_formats();
-  if (table.has("size_field") && std::ranges::find(known, peer.size_field) == known.end())
-    refuse("{}: 'size_field' is '{}': expected one of {}", table.where("size_field"), peer.size_field,
-           fmt::join(known, ", "));
-  if (has_placeholder(peer.command, "{size_field}") == peer.size_field.empty())
-    refuse("{}: {{size_field}} in 'command' and the key 'size_field' need each other",
-           table.where("command"));
-  peer.metrics = table.flag("metrics", peer.metrics);
+/// A program with a slash counts from the folder of the file; others may be installed or not.
+void check_program(const TomlTable& table, const char* key, const std::vector<std::string>& command) {
+  const std::filesystem::path program = command[0];
+  if (program.is_absolute() || command[0].find('/') == std::string::npos) return;
+  const std::filesystem::path file = table.file().parent_path() / program;
+  if (!std::filesystem::is_regular_file(file))
+    refuse("{}: '{}': there is no program '{}'", table.where(key), key, file.string());
 }
 
 }  // namespace
@@ -196,91 +144,92 @@ std::vector<std::string> Experiment::keys_of_metrics() const {
   return keys;
 }
 
-void Experiment::read_metric(const TomlTable& table) {
-  MetricCommand command;
+void finish_reading(const TomlTable& table, MetricCommand& command) {
   Metric& metric = command.metric;
-  metric.key = table.text("name");
-  command.folder = file.parent_path();
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
-  if (metric.key.empty() || metric.key.size() > 60 ||
-      std::isalpha(static_cast<unsigned char>(metric.key[0])) == 0 || !std::ranges::all_of(metric.key, plain))
+  if (metric.key.size() > 60 || std::isalpha(static_cast<unsigned char>(metric.key[0])) == 0 ||
+      !std::ranges::all_of(metric.key, plain))
     throw InputError(table.where("name") + ": '" + metric.key +
                      "': the name of a metric is a letter, then letters, digits, '_' and '-'");
-  std::vector<std::string> taken = keys_of_metrics();
-  for (const StepTime& time : step_times_of_tables()) taken.push_back(time.key);
-  taken.emplace_back("seconds");
-  for (const Metric& one : columns_of_records()) taken.push_back(one.key);
-  if (std::ranges::find(taken, metric.key) != taken.end())
-    throw InputError(table.where("name") + ": there is a metric '" + metric.key + "' already");
-  command.command = read_command(table, "command");
+  check_command(table, "command", command.command);
   check_placeholders(table, command.command, metric_placeholders(), {{"{mesh}", "{folder}"}});
-  if (table.has("files")) command.files = table.texts("files");
   for (const std::string& name : command.files)
     if (!std::filesystem::is_regular_file(command.folder / name))
       throw InputError(table.where("files") + ": no file '" + (command.folder / name).string() + "'");
-  metric.title = table.text("title", metric.key);
-  metric.unit = table.text("unit", "");
-  metric.better = read_better(table);
-  metric.worst = std::numeric_limits<double>::quiet_NaN();
+  if (metric.title.empty()) metric.title = metric.key;
   metric.source = fmt::format("{}", fmt::join(command.command, " "));
-  metric.digits = read_count(table, "digits", 0, kMostDigits, metric.digits);
-  command.timeout = static_cast<unsigned>(read_count(table, "timeout", 1, kMostSeconds, 0));
-  table.finish(metric_keys());
-  metrics.push_back(std::move(command));
 }
 
-namespace {
-
-/// A program with a slash counts from the folder of the file; others may be installed or not.
-void check_program(const TomlTable& table, const char* key, const std::vector<std::string>& command) {
-  const std::filesystem::path program = command[0];
-  if (program.is_absolute() || command[0].find('/') == std::string::npos) return;
-  const std::filesystem::path file = table.file().parent_path() / program;
-  if (!std::filesystem::is_regular_file(file))
-    refuse("{}: '{}': there is no program '{}'", table.where(key), key, file.string());
-}
-
-}  // namespace
-
-void Experiment::read_peer(const TomlTable& table) {
-  Peer peer;
-  peer.name = table.text("name");
+void finish_reading(const TomlTable& table, Peer& peer) {
   peer.file = table.file();
-  peer.folder = table.file().parent_path();
   check_folder_name(table, peer.name, {});
   if (!std::islower(static_cast<unsigned char>(peer.name[0])))
     throw InputError(table.where("name") + ": '" + peer.name +
                      "': the name of a peer begins with a small letter, unlike words of stages");
-  if (std::ranges::find(peers, peer.name, &Peer::name) != peers.end())
-    throw InputError(table.where("name") + ": a second peer '" + peer.name + "'");
-  const auto read_format = [&](const char* key, const std::vector<std::string>& known,
-                               std::string& extension) {
-    const std::string format = table.text(key, extension.substr(1));
-    if (std::ranges::find(known, format) == known.end())
-      refuse("{}: '{}' is '{}': expected one of {}", table.where(key), key, format, fmt::join(known, ", "));
-    extension = "." + format;
-  };
-  peer.command = read_command(table, "command");
+  check_command(table, "command", peer.command);
+  check_command(table, "version", peer.version);
   check_placeholders(table, peer.command, peer_placeholders(), {{"{input}", "{case}"}, {"{output}"}});
-  peer.version = read_command(table, "version");
   check_program(table, "command", peer.command);
   check_program(table, "version", peer.version);
-  read_format("input", {"geo", "msh", "obj", "inp", "mesh"}, peer.input);
-  read_format("output", {"msh", "obj", "off", "stl"}, peer.output);
-  if (table.has("exit_codes")) peer.exit_codes = read_counts(table, "exit_codes", 0, 255);
-  peer.keeps_boundary = table.flag("keeps_boundary", peer.keeps_boundary);
-  read_domains(table, peer);
-  const std::string word = table.text("calibrate_to", calibrate_to);
-  if (table.has("calibrate_to")) located(table.where("calibrate_to"), [&] { check_reference_word(word); });
-  if (read_calibrate(table, calibrate)) {
-    if (word.empty())
+  for (const auto& [key, given] : {std::pair("planar", peer.planar), std::pair("surfaces", peer.surfaces)})
+    if (given == HandOver::kTriangles && peer.input == kGmshScript)
+      refuse("{}: '{}' is \"triangles\", which 'input = \"geo\"' cannot hold", table.where(key), key);
+  if (has_placeholder(peer.command, "{size_field}") == peer.size_field.empty())
+    refuse("{}: {{size_field}} in 'command' and the key 'size_field' need each other",
+           table.where("command"));
+}
+
+void Experiment::check_metrics(const TomlTable& table) const {
+  std::vector<std::string> taken = keys_of_metrics();
+  taken.resize(taken.size() - metrics.size());
+  taken.emplace_back("seconds");
+  for (const StepTime& time : step_times_of_tables()) taken.push_back(time.key);
+  for (const Metric& one : columns_of_records()) taken.push_back(one.key);
+  for (const TomlTable& one : table.tables("metric")) {
+    const std::string name = one.text("name");
+    if (std::ranges::find(taken, name) != taken.end())
+      throw InputError(one.where("name") + ": there is a metric '" + name + "' already");
+    taken.push_back(name);
+  }
+}
+
+/// Takes the peers of the file and of the files that it names.
+void Experiment::settle_calibration(const TomlTable& table) {
+  // By the file's own list: which of it is run must not change what peers are compared at.
+  const auto first =
+      std::ranges::find_if(pipelines, [](const std::string& name) { return makes_quads(name); });
+  if (!calibrate_to.empty())
+    located(table.where("calibrate_to"), [&] { check_reference_word(calibrate_to); });
+  else if (first != pipelines.end())
+    calibrate_to = *first;
+  else if (calibrate)
+    throw InputError(table.where("calibrate") +
+                     ": 'pipelines' has no word that makes quads: expected 'calibrate_to = \"DBCO\"'");
+  if (calibrate || table.has("calibrate_to"))
+    calibrate_where = table.where(calibrate ? "calibrate" : "calibrate_to");
+  add_peers(table.tables("peer"), std::exchange(peers, {}));
+  for (const std::filesystem::path& name : std::exchange(peer_files, {}))
+    located(table.where("peer_files"), [&] { add_peer_file(name); });
+}
+
+void Experiment::add_peers(const std::vector<TomlTable>& tables, std::vector<Peer> added) {
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    Peer& peer = added[i];
+    const TomlTable& table = tables[i];
+    if (std::ranges::find(peers, peer.name, &Peer::name) != peers.end())
+      throw InputError(table.where("name") + ": a second peer '" + peer.name + "'");
+    if (!peer.calibrate_to.empty())
+      located(table.where("calibrate_to"), [&] { check_reference_word(peer.calibrate_to); });
+    else
+      peer.calibrate_to = calibrate_to;
+    if (!peer.calibrate) peer.calibrate = calibrate;
+    if (!*peer.calibrate) peer.calibrate_to.clear();
+    if (*peer.calibrate && peer.calibrate_to.empty())
       throw InputError(table.where("calibrate") +
                        ": 'calibrate' needs a word of ours: 'pipelines' has none " +
                        "that makes quads: expected 'calibrate_to = \"DBCO\"'");
-    peer.calibrate_to = word;
+    peers.push_back(std::move(peer));
   }
-  table.finish(peer_keys());
-  peers.push_back(std::move(peer));
 }
 
 const Axis& find_axis(const std::vector<Axis>& axes, const std::string& title, const TomlTable& table,
@@ -295,44 +244,32 @@ const Axis& find_axis(const std::vector<Axis>& axes, const std::string& title, c
          suggestion_or_all(title, titles));
 }
 
-void Experiment::read_plan(const TomlTable& table) {
-  if (table.has("pairs")) pairs = table.texts("pairs");
+void Experiment::check_plan(const TomlTable& table) const {
   for (const std::string& axis : pairs) find_axis(axes, axis, table, "pairs");
-  hypothesis_tables_ = table.tables("hypotheses");
-  if (linf && !hypothesis_tables_.empty())
-    throw InputError(table.where("hypotheses") + ": 'linf_delaunay' has no hypotheses");
-  for (const TomlTable& hypothesis : hypothesis_tables_) read_hypothesis(hypothesis);
-  for (const TomlTable& cells : table.tables("may_fail")) read_may_fail(cells);
-  if (table.has("minutes")) minutes = table.positive_number("minutes");
+  for (const char* key : {"hypotheses", "may_fail"})
+    if (linf && table.has(key)) refuse("{}: 'linf_delaunay' has no '{}'", table.where(key), key);
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) check_hypothesis(hypothesis_tables_[i], hypotheses[i]);
+  const std::vector<TomlTable> tables = table.tables("may_fail");
+  for (std::size_t i = 0; i < may_fail.size(); ++i) check_may_fail(tables[i], may_fail[i]);
 }
 
 /// Before pipelines are chosen that the file does not name.
-void Experiment::read_may_fail(const TomlTable& table) {
-  if (linf) throw InputError(table.where() + ": 'linf_delaunay' has no cells that may fail");
-  std::vector<std::string> names, variants, pipelines;
+void Experiment::check_may_fail(const TomlTable& table, const MayFail& cells) const {
+  std::vector<std::string> names, variants, known;
   for (const TomlTable& one : cases_) names.push_back(one.text("name"));
   for (const TomlTable& variant : variants_) variants.push_back(variant.text("name"));
-  for (const Word& word : words) pipelines.push_back(word.text);
-  MayFail cells;
-  for (const auto& [key, known, text] : {std::tuple("case", &names, &cells.name),
-                                         {"variant", &variants, &cells.variant},
-                                         {"pipeline", &pipelines, &cells.pipeline}}) {
-    if (!table.has(key)) continue;
-    *text = table.text(key);
-    if (std::ranges::find(*known, *text) == known->end())
-      throw InputError(table.where(key) + ": the experiment has no " + key + " '" + *text + "'" +
-                       suggestion(*text, *known));
-  }
-  if (table.keys().empty())
+  for (const Word& word : words) known.push_back(word.text);
+  for (const auto& [key, text, all] : {std::tuple("case", cells.name, &names),
+                                       {"variant", cells.variant, &variants},
+                                       {"pipeline", cells.pipeline, &known}})
+    if (!text.empty() && std::ranges::find(*all, text) == all->end())
+      throw InputError(table.where(key) + ": the experiment has no " + key + " '" + text + "'" +
+                       suggestion(text, *all));
+  if (cells == MayFail())
     refuse("{}: which cells may fail? expected 'case', 'variant' or 'pipeline'", table.where());
-  table.finish(may_fail_keys());
-  may_fail.push_back(std::move(cells));
 }
 
-void Experiment::read_hypothesis(const TomlTable& table) {
-  Hypothesis h{table.text("along", ""), table.expression("better"), table.expression("than"),
-               table.texts("measures")};
-  table.finish(hypothesis_keys());
+void Experiment::check_hypothesis(const TomlTable& table, const Hypothesis& h) const {
   if (h.better == h.than) refuse("{}: '{}' is compared with itself", table.where("than"), h.than);
   if (!h.along.empty()) {
     const std::vector<std::string>& values = find_axis(axes, h.along, table, "along").values;
@@ -341,21 +278,17 @@ void Experiment::read_hypothesis(const TomlTable& table) {
         refuse("{}: '{}' is no value of '{}'{}", table.where(key), value, h.along,
                suggestion_or_all(value, values));
   }
-  if (h.measures.empty())
-    refuse("{}: 'measures' is empty: expected keys of measures", table.where("measures"));
   const std::vector<Metric> known = known_metrics();
   for (const std::string& key : h.measures) {
     const auto refuse_measure = [&](const std::string& why) {
       refuse("{}: the hypothesis has the measure '{}': {}", table.where("measures"), key, why);
     };
-    if (std::ranges::count(h.measures, key) > 1) refuse_measure("it stands there twice");
     if (key.starts_with("seconds"))
       refuse_measure("a time of one run is no sample: expected another measure; runs.csv has the times");
     const auto at = std::ranges::find(known, key.substr(0, key.find('.')), &Metric::key);
     if (at == known.end()) refuse_measure("there is none of that key" + suggestion(key, keys_of_metrics()));
     if (at->better == Better::kNeither) refuse_measure("neither more nor less of it is better");
   }
-  hypotheses.push_back(std::move(h));
 }
 
 void Experiment::check_hypotheses() const {
@@ -407,34 +340,14 @@ void Experiment::check_calibration() const {
 
 std::vector<std::string> Experiment::add_peer_file(const std::filesystem::path& path) {
   const TomlTable table = TomlTable::read(path);
+  PeerFile file_of_peers;
+  if (table.keys().empty()) throw InputError(path.string() + ": no peers: expected [[peer]] tables");
+  read_described(table, file_of_peers);
   std::vector<std::string> names;
-  for (const TomlTable& peer : table.tables("peer")) {
-    read_peer(peer);
-    names.push_back(peers.back().name);
-  }
-  table.finish(peer_file_keys());
-  if (names.empty()) throw InputError(path.string() + ": no peers: expected [[peer]] tables");
+  for (const Peer& peer : file_of_peers.peers) names.push_back(peer.name);
+  add_peers(table.tables("peer"), std::move(file_of_peers.peers));
   peer_files.push_back(path);
   return names;
-}
-
-void Experiment::read_peers(const TomlTable& table, const std::vector<std::string>& pipelines) {
-  calibrate = read_calibrate(table, false);
-  // By the file's own list: which of it is run must not change what peers are compared at.
-  const auto first =
-      std::ranges::find_if(pipelines, [](const std::string& name) { return makes_quads(name); });
-  calibrate_to = table.text("calibrate_to", first == pipelines.end() ? "" : *first);
-  if (table.has("calibrate_to"))
-    located(table.where("calibrate_to"), [&] { check_reference_word(calibrate_to); });
-  else if (calibrate && calibrate_to.empty())
-    throw InputError(table.where("calibrate") +
-                     ": 'pipelines' has no word that makes quads: expected 'calibrate_to = \"DBCO\"'");
-  if (calibrate || table.has("calibrate_to"))
-    calibrate_where = table.where(calibrate ? "calibrate" : "calibrate_to");
-  for (const TomlTable& peer : table.tables("peer")) read_peer(peer);
-  if (!table.has("peer_files")) return;
-  for (const std::string& name : table.texts("peer_files"))
-    located(table.where("peer_files"), [&] { add_peer_file(file.parent_path() / name); });
 }
 
 }  // namespace delquad

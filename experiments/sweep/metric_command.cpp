@@ -129,7 +129,8 @@ MetricOutcome run_metric(const MetricCommand& metric, const Case& c, const std::
   const std::string name = "metric-" + metric.metric.key;
   const fs::path out = at / (name + ".out"), err = at / (name + ".err");
   try {
-    const ProgramRun run = run_program(fill_in(metric, c, pipeline, at), at, out, metric.timeout, err);
+    const ProgramRun run =
+        run_program(fill_in(metric, c, pipeline, at), at, out, static_cast<unsigned>(metric.timeout), err);
     const std::string printed = read_start(out);
     if (std::string failure = how_it_failed(metric, run, read_start(err)); !failure.empty())
       return failed(std::move(failure));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,13 +13,13 @@ namespace delquad {
 
 /// A measure that another program takes of each mesh of an experiment.
 struct MetricCommand {
-  Metric metric;
+  Metric metric = {"", "", "", Better::kNeither, std::numeric_limits<double>::quiet_NaN(), ""};
   /// Program and arguments; {mesh}, {folder}, {case}, {pipeline}, {size} and {seed} stand for these. Words
   /// that name files beside the experiment stand for them, wherever it is run; so does the program if it has
   /// a slash.
   std::vector<std::string> command;
   std::vector<std::string> files = {};  ///< beside the experiment, which determine the value, too
-  unsigned timeout = 0;                 ///< seconds; 0: no limit but the cell's
+  int timeout = 0;                      ///< seconds; 0: no limit but the cell's
   std::filesystem::path folder = {};    ///< of the experiment
 };
 

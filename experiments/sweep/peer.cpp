@@ -258,7 +258,7 @@ PeerRun run_once(const PeerTask& task, const fs::path& folder) {
   const fs::path log = folder / "peer.log", input = write_peer_input(task, folder);
   const fs::path field =
       peer.size_field.empty() ? fs::path() : write_size_field(sample_sizes(task), peer.size_field, folder);
-  const std::string output = "output" + peer.output;
+  const std::string output = "output." + peer.output;
   const auto words = peer_command(task, input, output, field);
   const DoingStage meshing("the peer");
   PeerRun result;

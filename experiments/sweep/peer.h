@@ -20,9 +20,7 @@ enum class HandOver {
 };
 
 /// Gmsh's language, for every case.
-inline constexpr const char* kGmshScript = ".geo";
-/// Formats of size fields: "pos", "sol", "points"; docs/experiments.md has what they are.
-const std::vector<std::string>& size_field_formats();
+inline constexpr const char* kGmshScript = "geo";
 
 /// Another mesher: a program that is run in place of a pipeline, and whose mesh is measured as ours are.
 struct Peer {
@@ -31,17 +29,20 @@ struct Peer {
   /// program with a slash in it counts from `folder`; words that name files there stand for them.
   std::vector<std::string> command;
   std::vector<std::string> version;  ///< program and arguments that print its version
-  /// Extension of what it reads: ".geo" is Gmsh's language, for every case; with others it gets the lines of
-  /// a planar domain in that format, and the file of a surface as it is.
-  std::string input = ".geo";
-  std::string output = ".msh";        ///< extension of what it writes
+  /// Format that it reads. "geo" is Gmsh's language, for every case. With another format it gets the lines of
+  /// a planar domain, and the file of a surface as it is.
+  std::string input = kGmshScript;
+  std::string output = "msh";         ///< format that it writes
   std::vector<int> exit_codes = {0};  ///< with which it ends when its mesh is worth a look
   /// Its planar meshes have just the boundary edges that they were given; else they are made to cover the
   /// same area.
   bool keeps_boundary = true;
   HandOver planar = HandOver::kModel, surfaces = HandOver::kModel;
-  std::string size_field = {};    ///< format of the file that {size_field} stands for; empty: none
-  bool metrics = false;           ///< it knows metrics, whose tensors that file has then
+  /// Format of the file that {size_field} stands for: "pos", "sol" or "points", which docs/experiments.md
+  /// describes; empty: none.
+  std::string size_field = {};
+  bool metrics = false;                ///< it knows metrics, whose tensors that file has then
+  std::optional<bool> calibrate = {};  ///< absent in its file: as the experiment says
   std::string calibrate_to = {};  ///< word whose number of quads it shall have; empty: the size is as given
   std::filesystem::path file = {}, folder = {};  ///< that it was read from
 };
@@ -113,9 +114,8 @@ struct SampledSize {
 /// What the peer is told.
 SampledSize sample_sizes(const PeerTask& task);
 
-/// Writes size.FORMAT, one of size_field_formats(), and returns the file: "pos", a view of Gmsh; "sol",
-/// values for Medit's size.mesh beside it; "points", lines "x y z delta". Of metrics: 3 x 3 numbers, or m11,
-/// m12 and m22.
+/// Writes size.FORMAT and returns the file. "pos" is a view of Gmsh, "sol" has values for Medit's size.mesh
+/// beside it, "points" has lines "x y z delta". Metrics are 3 x 3 numbers, or m11, m12 and m22.
 std::filesystem::path write_size_field(const SampledSize& size, const std::string& format,
                                        const std::filesystem::path& folder);
 

@@ -191,7 +191,7 @@ fs::path write_peer_input(const PeerTask& task, const fs::path& folder) {
   if (on_surface && given == HandOver::kModel && peer.input != kGmshScript) return surface_file(task, folder);
   if (!task.c.layers.empty())
     throw NotApplicable("layers along curves are made by this program's meshes alone");
-  const fs::path file = folder / ("input" + peer.input);
+  const fs::path file = folder / ("input." + peer.input);
   if (peer.input == kGmshScript)
     write_script(task, file);
   else
@@ -215,11 +215,6 @@ SampledSize sample_sizes(const PeerTask& task) {
   for (const Vec3& p : size.mesh.points)
     size.delta.push_back(task.field_scale * task.prepared->size.field->at(p, hint));
   return size;
-}
-
-const std::vector<std::string>& size_field_formats() {
-  static const std::vector<std::string> formats = {"pos", "sol", "points"};
-  return formats;
 }
 
 fs::path write_size_field(const SampledSize& size, const std::string& format, const fs::path& folder) {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "experiments/sweep/adapt_loop.h"
-#include "experiments/sweep/peer.h"
+#include "experiments/sweep/experiment_fields.h"
 #include "io/cases/case_keys.h"
 #include "io/cases/read_described.h"
 
@@ -14,21 +13,7 @@ namespace {
 using namespace toml_types;
 using Json = nlohmann::ordered_json;
 
-const std::string kCommand = R"({"type": "array", "items": {"type": "string"}, "minItems": 1})";
-const std::string kExitCodes =
-    R"({"type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 255}, "minItems": 1})";
-const std::string kPoints =
-    R"({"type": "array", "items": {"type": "integer", "minimum": 3, "maximum": 10000000}, "minItems": 1})";
-const std::string kSeeds =
-    R"({"type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 1000000000}, "minItems": 1})";
-const std::string kColumnList =
-    R"({"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": true})";
 const std::string kFolderName = R"({"type": "string", "pattern": "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}$"})";
-const std::string kPeerName = R"({"type": "string", "pattern": "^[a-z][A-Za-z0-9_.-]{0,99}$"})";
-const std::string kMetricName = R"({"type": "string", "pattern": "^[A-Za-z][A-Za-z0-9_-]{0,59}$"})";
-const std::string kSolvers =
-    R"({"type": "array", "items": {"enum": ["poisson", "elasticity"]}, "uniqueItems": true})";
-const std::string kCalibrate = one_of({"quads", "none"});
 /// What a model is made of, which does not vary.
 const std::vector<std::string> kModels = {"name",    "loop", "pattern", "curve", "embed",
                                           "example", "mesh", "model",   "data",  "compare"};
@@ -57,54 +42,6 @@ Json whole_matrix_schema() {
 
 }  // namespace
 
-TomlKeys peer_keys() {
-  return {{"name", "in pipelines and tables", kPeerName, nullptr, false, true},
-          {"command", "program and arguments, with {input} and {output}", kCommand, nullptr, false, true},
-          {"version", "program and arguments that print the version", kCommand, nullptr, false, true},
-          {"input", "what it reads", one_of({"geo", "msh", "obj", "inp", "mesh"})},
-          {"output", "what it writes", one_of({"msh", "obj", "off", "stl"})},
-          {"exit_codes", "with which its mesh is worth a look", kExitCodes},
-          {"keeps_boundary", "whether it has the boundary's edges", kFlag},
-          {"planar", "what it gets of planar domains", one_of({"boundary", "triangles", "none"})},
-          {"surfaces", "what it gets of surfaces", one_of({"file", "triangles", "none"})},
-          {"size_field", "format of the file that {size_field} stands for", one_of(size_field_formats())},
-          {"metrics", "whether it knows metrics, and finds their tensors in that file", kFlag},
-          {"calibrate", "whether its size is changed until it has our number of quads", kCalibrate},
-          {"calibrate_to", "the word whose number that is", kText}};
-}
-
-TomlKeys peer_file_keys() { return {{"peer", "other meshers", "", peer_keys, true, true}}; }
-
-TomlKeys metric_keys() {
-  return {{"name", "in tables and records", kMetricName, nullptr, false, true},
-          {"command", "program and arguments, with {mesh}", kCommand, nullptr, false, true},
-          {"files", "that its value depends on, too", kTexts},
-          {"title", "in tables; else the name", kText},
-          {"unit", "for people", kText},
-          {"better", "which values are", one_of({"higher", "lower", "neither"})},
-          {"digits", "after the decimal point, in tables", between("integer", 0, kMostDigits)},
-          {"timeout", "seconds that it may take", between("integer", 1, kMostSeconds)}};
-}
-
-TomlKeys hypothesis_keys() {
-  return {{"better", "what is expected to be better: a pipeline, or a value of 'along'", kExpression, nullptr,
-           false, true},
-          {"than", "what it is expected to be better than", kExpression, nullptr, false, true},
-          {"along", "what varies, by its title; else pipelines are compared", kText},
-          {"measures", "keys of measures, each of them a test", kColumnList, nullptr, false, true}};
-}
-
-TomlKeys may_fail_keys() {
-  return {{"case", "its name; else any", kText},
-          {"variant", "its name; else any", kText},
-          {"pipeline", "one of those that are run; else any", kText}};
-}
-
-TomlKeys linf_study_keys() {
-  return {{"points", "how many", kPoints, nullptr, false, true},
-          {"seeds", "of the points", kSeeds, nullptr, false, true}};
-}
-
 TomlKeys experiment_case_keys() {
   TomlKeys keys = case_keys();
   keys.insert(keys.begin(), {"name", "of its folder", kFolderName, nullptr, false, true});
@@ -120,31 +57,20 @@ TomlKeys variant_keys() {
 }
 
 TomlKeys experiment_keys() {
-  TomlKeys keys = {{"title", "of the tables", kText},
-                   {"pipelines", "words of stages and names of peers", kTexts},
-                   {"peer", "other meshers", "", peer_keys, true},
-                   {"peer_files", "files with further peers", kTexts},
-                   {"calibrate", "whether peers are compared at our number of quads", kCalibrate},
-                   {"calibrate_to", "the word whose number that is", kText},
-                   {"metric", "measures that other programs take", "", metric_keys, true},
-                   {"solver", "finite elements that measure every mesh", kSolvers},
-                   {"pairs", "what varies, by titles: compared as pipelines are", kColumnList},
-                   {"hypotheses", "claims that are fixed before the run", "", hypothesis_keys, true},
-                   {"may_fail", "cells that may fail", "", may_fail_keys, true},
-                   {"minutes", "of a run on two cores, as measured: for the time left", kPositive},
-                   {"reference", "a file of published rows", kText},
-                   {"step_times", "whether tables have a column for each step's time", kFlag},
-                   {"columns", "of tables in Markdown and LaTeX, by key", kColumnList},
-                   {"linf_delaunay", "in place of cases: point sets", "", linf_study_keys},
-                   // Its keys are those of cases, see whole_matrix_schema().
-                   {"matrix", "what varies", R"({"type": "object"})"},
-                   {"variant", "keys of cases that vary together", "", variant_keys, true},
-                   {"case", "what is meshed", "", experiment_case_keys, true},
-                   {"cases_of", "another experiment whose cases come before these", kText}};
-  for (TomlKey& key : keys_of<CaseOfStudy>())  // a domain belongs to one case
-    if (key.name != "domain") keys.push_back(std::move(key));
-  for (TomlKey& key : case_keys())  // here 'metric' is a measure
-    if (key.name != "metric") keys.push_back(std::move(key));
+  TomlKeys keys = keys_of<TablePlan>();
+  const auto add = [&](TomlKeys more, const char* but) {
+    for (TomlKey& key : more)
+      if (key.name != but) keys.push_back(std::move(key));
+  };
+  add(keys_of<ExperimentKeys>(), "");
+  // A matrix has the keys of cases, see whole_matrix_schema().
+  add({{"matrix", "what varies", R"({"type": "object"})"},
+       {"variant", "keys of cases that vary together", "", variant_keys, true},
+       {"case", "what is meshed", "", experiment_case_keys, true},
+       {"cases_of", "another experiment whose cases come before these", kText}},
+      "");
+  add(keys_of<CaseOfStudy>(), "domain");  // it belongs to one case
+  add(case_keys(), "metric");             // here it is a measure
   return keys;
 }
 

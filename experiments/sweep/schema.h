@@ -14,28 +14,10 @@ TomlKeys experiment_keys();
 TomlKeys experiment_case_keys();
 /// Of a [[variant]].
 TomlKeys variant_keys();
-TomlKeys peer_keys();
-TomlKeys peer_file_keys();
-TomlKeys metric_keys();
-TomlKeys hypothesis_keys();
-TomlKeys may_fail_keys();
-TomlKeys linf_study_keys();
-
-/// Limits of what a metric by command may ask for: digits, and seconds (a week).
-inline constexpr int kMostDigits = 12, kMostSeconds = 604'800;
 
 /// The JSON Schema (draft 2020-12) of experiment files, made from the keys that they are read against. Ends
 /// with a newline.
 std::string experiment_schema();
-
-/// Integers, at least one, each from `least` to `most`. Throws InputError with file and line.
-std::vector<int> read_counts(const TomlTable& table, const std::string& key, double least, double most);
-
-/// A program and its arguments. Throws InputError with file and line when there is no program.
-std::vector<std::string> read_command(const TomlTable& table, const char* key);
-
-/// A whole number from `least` to `most`; throws InputError with file and line for another.
-int read_count(const TomlTable& table, const char* key, int least, int most, int absent);
 
 /// What stands in braces in the words of `command`: throws InputError with file and line for what is none of
 /// `known`, and where all of one of the groups of `needed` are missing. Words that are text of a program may

@@ -86,19 +86,26 @@ std::string limited_type(const std::string& type, const Rule& rule) {
   return text + "}";
 }
 
+std::string list_type(const std::string& item, const Rule& rule) {
+  return fmt::format(R"({{"type": "array", "items": {}{}{}}})", item,
+                     rule.required ? R"(, "minItems": 1)" : "",
+                     rule.unique ? R"(, "uniqueItems": true)" : "");
+}
+
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, std::string& value) {
   value = rule.form == Form::kFormula ? table.expression(key) : table.text(key);
   check_value(value, rule, {table.where(key), key});
 }
 
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, bool& value) {
-  if (rule.words == nullptr) {
-    value = table.get<bool>(key);
-    return;
-  }
-  std::string word;
-  read_value(table, key, rule, word);
-  value = word != words_of(rule.words)[0];
+  value = rule.words == nullptr ? table.get<bool>(key) : read_word(table, key, rule) != 0;
+}
+
+std::size_t read_word(const TomlTable& table, const std::string& key, const Rule& rule) {
+  const std::string word = table.text(key);
+  check_text(word, {.required = true, .words = rule.words}, {table.where(key), key});
+  const std::vector<std::string> words = words_of(rule.words);
+  return static_cast<std::size_t>(std::ranges::find(words, word) - words.begin());
 }
 
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, double& value) {
@@ -123,7 +130,24 @@ void read_value(const TomlTable& table, const std::string& key, const Rule& rule
                 std::vector<std::string>& value) {
   value = rule.form == Form::kTexts && table.kind(key) == TomlKind::kText ? std::vector{table.text(key)}
                                                                           : table.texts(key);
-  check_value(value, rule, {table.where(key), key});
+  const ValueName name = {table.where(key), key};
+  if (rule.least && value.empty()) refuse_empty(name);
+  check_value(value, rule, name);
+}
+
+void read_value(const TomlTable& table, const std::string& key, const Rule&,
+                std::map<std::string, std::string>& value) {
+  const TomlTable texts = table.table(key);
+  for (const std::string& word : texts.keys()) value[word] = texts.text(word);
+}
+
+void read_value(const TomlTable& table, const std::string& key, const Rule&, std::filesystem::path& value) {
+  value = table.file().parent_path() / table.text(key);
+}
+
+void read_value(const TomlTable& table, const std::string& key, const Rule&,
+                std::vector<std::filesystem::path>& value) {
+  for (const std::string& text : table.texts(key)) value.push_back(table.file().parent_path() / text);
 }
 
 namespace {
@@ -316,8 +340,6 @@ void read_case_keys(const TomlTable& table, Case& target) {
   if (table.has("criteria")) target.criteria = read_criteria_key(table);
   for (const OptionGroup& group : option_groups())
     if (const auto given = table.optional_table(group.name)) read_options(*given, group, target.options);
-  if (const auto compare = table.optional_table("compare"))
-    for (const std::string& word : compare->keys()) target.compare[word] = compare->text(word);
 }
 
 MeshProblem read_model_file(const std::filesystem::path& file) { return read_files(read_model_case(file)); }

@@ -35,7 +35,6 @@ namespace {
 using namespace toml_types;
 
 const std::string& kPoint = kRange;
-const std::string kWords = R"({"type": "object", "additionalProperties": {"type": "string"}})";
 
 std::string points_or_file() {
   return fmt::format(R"({{"anyOf": [{}, {{"type": "string"}}]}})", points(2, kPoint));
@@ -55,8 +54,6 @@ TomlKeys closed_shapes() {
       {"region", "name of what is inside", kText},
       {"hole", "whether it must be a hole", kFlag}};
 }
-
-constexpr const char* kCompare = "compare";
 
 /// The type of an option's value, as JSON Schema.
 std::string type_of(const OptionKey& key) {
@@ -165,11 +162,10 @@ TomlKeys case_keys() {
     keys.push_back(std::move(key));
   }
   for (const OptionGroup& group : option_groups()) {
-    if (std::ranges::find(keys, group.name, &TomlKey::name) != keys.end() || group.name == kCompare)
+    if (std::ranges::find(keys, group.name, &TomlKey::name) != keys.end())
       throw std::logic_error("options '" + group.name + "': a key of cases has that name");
     keys.push_back({group.name, group.help, "", [group] { return keys_of(group); }});
   }
-  keys.push_back({kCompare, "published row beside each pipeline", kWords});
   return keys;
 }
 

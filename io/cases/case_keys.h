@@ -35,7 +35,7 @@ inline const std::string kPositive = R"({"type": "number", "exclusiveMinimum": 0
 inline const std::string kExpression = R"({"type": ["number", "string"]})";
 inline const std::string kTexts = R"({"type": "array", "items": {"type": "string"}})";
 inline const std::string kTextOrTexts = R"({"type": ["string", "array"], "items": {"type": "string"}})";
-inline const std::string kIntegers = R"({"type": "array", "items": {"type": "integer"}})";
+inline const std::string kWords = R"({"type": "object", "additionalProperties": {"type": "string"}})";
 inline const std::string kRange =
     R"({"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2})";
 inline const std::string kSpacePoint =

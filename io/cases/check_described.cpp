@@ -61,7 +61,13 @@ void check_vector(const Vec3& vector, const Rule& rule, const ValueName& name) {
     refuse("{} has no length: expected a vector of another length than 0", name.text());
 }
 
-void refuse_empty(const ValueName& name) { refuse("{} is empty: expected names", name.text()); }
+void check_unique(const std::vector<std::string>& texts, const ValueName& name) {
+  for (const std::string& text : texts)
+    if (std::ranges::count(texts, text) > 1)
+      refuse("{} has '{}' twice: expected each text once", name.text(), text);
+}
+
+void refuse_empty(const ValueName& name) { refuse("{} is empty: expected a value", name.text()); }
 
 void check_together(const SizeSource& source, const std::string& where) {
   if (source.radius_far <= source.radius_near)

@@ -21,6 +21,7 @@ struct ValueName {
 void check_number(double value, const Rule& rule, const ValueName& name, std::optional<double> none);
 void check_text(const std::string& text, const Rule& rule, const ValueName& name);
 void check_vector(const Vec3& vector, const Rule& rule, const ValueName& name);
+void check_unique(const std::vector<std::string>& texts, const ValueName& name);
 [[noreturn]] void refuse_empty(const ValueName& name);
 
 /// These throw InputError for fields that contradict each other.
@@ -65,6 +66,8 @@ void check_value(const T& value, const Rule& rule, const ValueName& name, const 
   } else if constexpr (kIsList<T>) {
     if (rule.required && rule.form != Form::kOwn && value.empty()) refuse_empty(name);
     for (const auto& one : value) check_value(one, rule, name);
+    if constexpr (std::is_same_v<T, std::vector<std::string>>)
+      if (rule.unique) check_unique(value, name);
   }
 }
 

@@ -29,10 +29,12 @@ enum class Form {
 /// The rules for the value of a field.
 struct Rule {
   Form form = Form::kPlain;
-  std::optional<double> least = {}, above = {}, most = {};  ///< limits of numbers, and of lengths of vectors
-  bool required = false;                                    ///< its table is refused without it
+  /// Limits of numbers, and of lengths of vectors; `least` of lists of texts: how many there are at least.
+  std::optional<double> least = {}, above = {}, most = {};
+  bool required = false;        ///< its table is refused without it
+  bool unique = false;          ///< a list of texts, each of which stands there once
   const char* words = nullptr;  ///< "a|b": texts that it may be; of enumerations and flags one for each value
-  const char* type = nullptr;   ///< of kOwn: JSON Schema of the value, unless it is a table
+  const char* type = nullptr;   ///< of kOwn and texts: JSON Schema of the value, unless it is a table
   const char* option = nullptr;   ///< option of the program that sets it
   const char* keyword = nullptr;  ///< keyword of Python that sets it, where that is not the key
   const char* no_result =

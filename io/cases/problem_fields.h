@@ -82,8 +82,7 @@ template <>
 inline constexpr auto kFields<NamedPart> = std::tuple(
     field("as", &NamedPart::name, "name that the parts get", {.required = true}),
     field("of", &NamedPart::curves, "kind of the parts", {.words = "faces|curves"}),
-    field("number", &NamedPart::numbers, "numbers that 'delquad info' lists",
-          {.least = 1, .most = 2147483647}),
+    field("number", &NamedPart::numbers, "numbers that 'delquad info' lists", {.least = 1}),
     field("like", &NamedPart::like, "one of their names: * is any text, ? a letter"),
     field("box", &NamedPart::box, "two opposite corners of a box that holds them whole"),
     field("normal", &NamedPart::normal, "normal everywhere, within 5 degrees", {.form = Form::kVector}),
@@ -354,6 +353,7 @@ inline constexpr auto kFields<CaseOfStudy> =
                field("solution", &CaseOfStudy::solution,
                      "formula in x and y that Poisson's equation has as its solution"),
                field("adapt", &CaseOfStudy::adapt, "meshes that follow the solution"),
-               ignored(&CaseOfStudy::compare, "it names published rows to show beside results"));
+               field("compare", &CaseOfStudy::compare, "published row beside each pipeline",
+                     {.no_result = "it names rows to show beside results"}));
 
 }  // namespace delquad

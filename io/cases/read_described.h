@@ -1,6 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <filesystem>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -18,6 +21,8 @@ namespace delquad {
 
 /// JSON Schema of a number within the limits of the rule; `type`: "number", "integer" or a list of types.
 std::string limited_type(const std::string& type, const Rule& rule);
+/// The same of a list of such values.
+std::string list_type(const std::string& item, const Rule& rule);
 
 /// The keys of a table that the struct is read from.
 template <Described T>
@@ -33,7 +38,7 @@ void add_type(const T*, const Rule& rule, TomlKey& key) {
     key.type = rule.type != nullptr ? rule.type : "";
   else if constexpr (Described<T>)
     key.table = keys_of<T>;
-  else if constexpr (std::is_same_v<T, bool>)
+  else if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T>)
     key.type = rule.words != nullptr ? one_of(words_of(rule.words)) : kFlag;
   else if constexpr (std::is_integral_v<T>)
     key.type = limited_type(R"("integer")", rule);
@@ -42,7 +47,14 @@ void add_type(const T*, const Rule& rule, TomlKey& key) {
   else if constexpr (std::is_same_v<T, std::string>)
     key.type = rule.words != nullptr         ? one_of(words_of(rule.words))
                : rule.form == Form::kFormula ? limited_type(R"(["number", "string"])", rule)
+               : rule.type != nullptr        ? rule.type
                                              : kText;
+  else if constexpr (std::is_same_v<T, std::filesystem::path>)
+    key.type = kText;
+  else if constexpr (std::is_same_v<T, std::vector<std::filesystem::path>>)
+    key.type = kTexts;
+  else if constexpr (std::is_same_v<T, std::map<std::string, std::string>>)
+    key.type = kWords;
   else if constexpr (std::is_same_v<T, Vec2>)
     key.type = kRange;
   else if constexpr (std::is_same_v<T, Vec3>)
@@ -50,9 +62,12 @@ void add_type(const T*, const Rule& rule, TomlKey& key) {
   else if constexpr (std::is_same_v<T, std::array<Vec3, 2>>)
     key.type = points(2, kVector);
   else if constexpr (std::is_same_v<T, std::vector<std::string>>)
-    key.type = rule.form == Form::kTexts ? kTextOrTexts : kTexts;
+    key.type = rule.form == Form::kTexts
+                   ? kTextOrTexts
+                   : list_type(rule.words != nullptr ? one_of(words_of(rule.words)) : kText,
+                               {.required = rule.required || rule.least, .unique = rule.unique});
   else if constexpr (std::is_same_v<T, std::vector<int>>)
-    key.type = kIntegers;
+    key.type = list_type(limited_type(R"("integer")", rule), rule);
   else if constexpr (kIsOptional<T>)
     add_type(static_cast<const typename T::value_type*>(nullptr), rule, key);
   else if constexpr (kIsList<T>) {
@@ -101,16 +116,31 @@ requires(std::is_integral_v<T> || std::is_same_v<T, Vec2> || std::is_same_v<T, s
   value = table.get<T>(key);
   check_value(value, rule, {table.where(key), key});
 }
+/// The number of the text among Rule::words.
+std::size_t read_word(const TomlTable& table, const std::string& key, const Rule& rule);
+template <class T>
+requires std::is_enum_v<T>
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule, T& value) {
+  value = static_cast<T>(read_word(table, key, rule));
+}
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, bool& value);
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, double& value);
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, std::string& value);
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, Vec3& value);
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
                 std::vector<std::string>& value);
+/// Texts that take the place of some of those before.
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
+                std::map<std::string, std::string>& value);
+/// Files count from the folder of the table's file.
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
+                std::filesystem::path& value);
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
+                std::vector<std::filesystem::path>& value);
 template <class T>
 requires(!std::is_enum_v<T>) void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
                                              std::optional<T>& value) {
-  T one{};
+  T one = value.value_or(T{});
   if constexpr (Described<T>)
     read_described(table.table(key), one);
   else

@@ -194,7 +194,7 @@ TEST_F(CalibratedPeers, KeysAreChecked) {
       [&] {
         experiment("pipelines = [\"DB\", \"grid\"]\ncalibrate = \"vertices\"\n" + entry + kCalibratedSquare);
       },
-      {"vertices", "\"quads\""});
+      {"'calibrate' is 'vertices': expected none, quads"});
   expect_input_error(
       [&] {
         experiment("pipelines = [\"DB\", \"grid\"]\ncalibrate = \"quads\"\ncalibrate_to = \"D\"\n" + entry +

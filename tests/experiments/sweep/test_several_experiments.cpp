@@ -85,7 +85,7 @@ TEST_F(SeveralExperiments, DeclarationsOfNothingAreRefused) {
         Experiment::read(write(
             "e.toml", "may_fail = [{ pipeline = \"DB\" }]\n[linf_delaunay]\npoints = [9]\nseeds = [1]\n"));
       },
-      {"e.toml:2: ", "no cells that may fail"});
+      {"e.toml:2: ", "'linf_delaunay' has no 'may_fail'"});
 }
 
 /// As `make paper` runs them, with a page of all.

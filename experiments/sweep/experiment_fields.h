@@ -1,0 +1,108 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "experiments/sweep/metric_command.h"
+#include "experiments/sweep/peer.h"
+#include "io/cases/read_described.h"
+#include "metrics/tables/study_fields.h"
+
+// What an experiment consists of beside its cases and its tables, and the descriptions of it.
+
+namespace delquad {
+
+/// Point sets on which the two Delaunay kernels are compared instead of meshing.
+struct LinfStudy {
+  std::vector<int> points;  ///< how many
+  std::vector<int> seeds;
+};
+
+/// A file of peers.
+struct PeerFile {
+  std::vector<Peer> peers;
+};
+
+struct ExperimentKeys {
+  std::vector<std::string> pipelines = {"F", "D", "FB", "DB"};
+  std::vector<Peer> peers;
+  std::vector<std::filesystem::path> peer_files;  ///< that further peers were read from
+  bool calibrate = false;                         ///< peers are compared at our number of quads
+  std::string calibrate_to;                       ///< the word whose number that is; empty: there is none
+  std::vector<MetricCommand> metrics;
+  std::vector<std::string> solvers;  ///< that measure every mesh, by name
+  double minutes = 0;                ///< of a run with two jobs; 0: not known
+  std::filesystem::path reference;   ///< file of the published rows; empty: none
+  std::optional<LinfStudy> linf;     ///< then there are no cases
+};
+
+template <>
+inline constexpr auto kFields<Peer> = std::tuple(
+    field("name", &Peer::name, "name in pipelines and tables",
+          {.required = true, .type = R"({"type": "string", "pattern": "^[a-z][A-Za-z0-9_.-]{0,99}$"})"}),
+    field("command", &Peer::command, "program and arguments, with {input} and {output}",
+          {.least = 1, .required = true}),
+    field("version", &Peer::version, "program and arguments that print the version",
+          {.least = 1, .required = true}),
+    field("input", &Peer::input, "format that it reads", {.words = "geo|msh|obj|inp|mesh"}),
+    field("output", &Peer::output, "format that it writes", {.words = "msh|obj|off|stl"}),
+    field("exit_codes", &Peer::exit_codes, "exit codes with which its mesh is worth a look",
+          {.least = 0, .most = 255}),
+    field("keeps_boundary", &Peer::keeps_boundary, "whether it has the boundary's edges"),
+    field("planar", &Peer::planar, "what it gets of planar domains", {.words = "boundary|triangles|none"}),
+    field("surfaces", &Peer::surfaces, "what it gets of surfaces", {.words = "file|triangles|none"}),
+    field("size_field", &Peer::size_field, "format of the file that {size_field} stands for",
+          {.words = "pos|sol|points"}),
+    field("metrics", &Peer::metrics, "whether it knows metrics, and finds their tensors in that file"),
+    field("calibrate", &Peer::calibrate, "whether its size is changed until it has our number of quads",
+          {.words = "none|quads"}),
+    field("calibrate_to", &Peer::calibrate_to, "pipeline whose number of quads that is"),
+    ignored(&Peer::file, "it is the place of the peer"),
+    ignored(&Peer::folder, "the contents of its files count"));
+template <>
+inline constexpr auto kFields<PeerFile> = std::tuple(field("peer", &PeerFile::peers, "other meshers",
+                                                           {.required = true}));
+template <>
+inline constexpr auto kFields<MetricCommand> =
+    std::tuple(field("", &MetricCommand::metric),
+               field("command", &MetricCommand::command, "program and arguments, with {mesh}",
+                     {.least = 1, .required = true}),
+               field("files", &MetricCommand::files, "files that its value depends on, too"),
+               field("timeout", &MetricCommand::timeout, "seconds that it may take",
+                     {.least = 1, .most = 604'800}),  // a week
+               ignored(&MetricCommand::folder, "the contents of its files count"));
+template <>
+inline constexpr auto kFields<LinfStudy> =
+    std::tuple(field("points", &LinfStudy::points, "numbers of points",
+                     {.least = 3, .most = 10'000'000, .required = true}),
+               field("seeds", &LinfStudy::seeds, "seeds of the points",
+                     {.least = 0, .most = 1'000'000'000, .required = true}));
+template <>
+inline constexpr auto kFields<ExperimentKeys> = std::tuple(
+    field("pipelines", &ExperimentKeys::pipelines, "words of stages and names of peers",
+          {.no_result = "the plan has the pipelines that are run"}),
+    field("peer", &ExperimentKeys::peers, "other meshers"),
+    field("peer_files", &ExperimentKeys::peer_files, "files with further peers",
+          {.no_result = "the peers in them count"}),
+    field("calibrate", &ExperimentKeys::calibrate, "whether peers are compared at our number of quads",
+          {.words = "none|quads", .no_result = "the peers have it"}),
+    field("calibrate_to", &ExperimentKeys::calibrate_to, "pipeline whose number of quads that is",
+          {.no_result = "the peers have it"}),
+    field("metric", &ExperimentKeys::metrics, "measures that other programs take"),
+    field("solver", &ExperimentKeys::solvers, "finite elements that measure every mesh",
+          {.unique = true, .words = "poisson|elasticity"}),
+    field("minutes", &ExperimentKeys::minutes,
+          "minutes of a run on two cores, as measured: for the time left",
+          {.above = 0, .no_result = "it is for people"}),
+    field("reference", &ExperimentKeys::reference, "file of published rows",
+          {.no_result = "published rows stand beside results"}),
+    field("linf_delaunay", &ExperimentKeys::linf, "point sets, in place of cases"));
+
+/// These check what descriptions cannot say, and complete what was read.
+void finish_reading(const TomlTable& table, Peer& peer);
+void finish_reading(const TomlTable& table, MetricCommand& metric);
+
+}  // namespace delquad
