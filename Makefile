@@ -105,7 +105,7 @@ suite: build
 	$(DELQUAD) run $(wildcard experiments/suite/*.toml) -o $(RESULTS)/suite/run -j 2 --timeout 300 \
 	  $(foreach peers,$(SUITE_PEERS),--peer $(peers)) > $(RESULTS)/suite/run.log ||:
 	/usr/bin/python3 experiments/suite/ranking.py $(RESULTS)/suite
-	$(DELQUAD) report $(RESULTS)/suite -o $(RESULTS)/suite/report.html
+	$(DELQUAD) report $(RESULTS)/suite/run -o $(RESULTS)/suite/report.html
 	@echo "$(RESULTS)/suite/ranking has the table; $(RESULTS)/suite/report.html shows the meshes."
 
 # Debian packages, an archive and a Python wheel for other machines, in build/packages: docs/packages.md.

@@ -11,9 +11,9 @@
 namespace delquad::testing_support {
 namespace {
 
-/// Takes some seconds, nearly all of them in smoothing.
-const std::vector<std::string> kLong = {"--size",        "0.004*(1+x)", "--pipeline",
-                                        "DLLLLLLLLLLLL", "--threads",   "1"};
+/// Takes more than three seconds on any machine, nearly all of them in smoothing.
+const std::vector<std::string> kLong = {"--size",        "0.0025*(1+x)", "--pipeline",
+                                        "DLLLLLLLLLLLL", "--threads",    "1"};
 
 std::vector<std::string> mesh_words(const TemporaryFolder& folder, const std::vector<std::string>& more) {
   std::vector<std::string> words = {"mesh",   write_text(folder / "model.toml", kSquare),
