@@ -11,6 +11,7 @@
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 
 #include "base/disjoint_sets.h"
@@ -202,10 +203,11 @@ class Welder {
     }
     if (chain.size() < 2) return;
     Mesh& mesh = welded.mesh;
-    // Edges that lie on each other in one face have it on neither side.
+    // Edges that lie on each other in one face have it on neither side. Where edges of several faces do, such
+    // as the common side of two holes, the first has the lines.
     const auto bounds_something = [&](std::size_t k) {
       const auto [a, b] = std::minmax(chain[k], chain[k + 1]);
-      return std::ranges::binary_search(sides_, std::array{a, b});
+      return std::ranges::binary_search(sides_, std::array{a, b}) && on_curves_.insert({a, b}).second;
     };
     bool is_curve = false;
     for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
@@ -246,8 +248,9 @@ class Welder {
   DisjointSets sets_;
   std::vector<std::vector<int>> node_of_;  ///< of each point of each face
   std::vector<int> bad_faces_;
-  std::vector<std::array<int, 2>> sides_;  ///< of triangles between points, sorted
-  std::vector<int> number_;                ///< point of the mesh of each node; -1: none
+  std::vector<std::array<int, 2>> sides_;   ///< of triangles between points, sorted
+  std::vector<int> number_;                 ///< point of the mesh of each node; -1: none
+  std::set<std::array<int, 2>> on_curves_;  ///< the sides that are lines of curves
 };
 
 }  // namespace

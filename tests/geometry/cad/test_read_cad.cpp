@@ -29,6 +29,7 @@
 #include <gp_Pln.hxx>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "base/context.h"
 #include "geometry/cad/cad_reader.h"
@@ -310,6 +311,24 @@ TEST(ReadCad, NamesCurvesWhereThreeFacesMeet) {
   const SurfaceModel model = read_cad(write_brep(folder / "a.brep", sewing.SewedShape()));
   EXPECT_EQ(count(model.fine).crowded_sides, 1);
   EXPECT_TRUE(mentions(model, "more than two faces meet on curves: 1 ("));
+}
+
+TEST(ReadCad, GivesTheCommonSideOfHolesToOneCurve) {
+  const TemporaryFolder folder;
+  BRepBuilderAPI_MakeFace plate(polygon({{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}}));
+  for (const double x : {1, 2}) {
+    BRepBuilderAPI_MakePolygon hole;
+    for (const gp_Pnt& p : {gp_Pnt(x, 1, 0), gp_Pnt(x, 2, 0), gp_Pnt(x + 1, 2, 0), gp_Pnt(x + 1, 1, 0)})
+      hole.Add(p);
+    hole.Close();
+    plate.Add(hole.Wire());
+  }
+  const TopoDS_Shape wall = polygon({{2, 1, 0}, {2, 2, 0}, {2, 2, -1}, {2, 1, -1}});
+  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", compound({plate.Face(), wall})));
+  std::set<std::pair<int, int>> lines;
+  for (const auto& [a, b] : model.fine.lines)
+    EXPECT_TRUE(lines.insert(std::minmax(a, b)).second) << a << " " << b;
+  EXPECT_NEAR(count(model.fine).area, 11, 1e-9);
 }
 
 TEST(ReadCad, KeepsATinyHole) {
