@@ -299,6 +299,19 @@ TEST(TriangleRepair, FlatTrianglesLeaveNoGap) {
   EXPECT_TRUE(has_warning(model, "left out 3 triangles without area"));
 }
 
+TEST(TriangleRepair, NeedlesOfSinglePrecisionThatHangOnAnEdge) {
+  Mesh mesh = without_regions(box(1));
+  const auto [a, b, c] = mesh.triangles[0];
+  const int m = static_cast<int>(mesh.points.size());
+  mesh.points.push_back(0.5 * (mesh.points[a] + mesh.points[b]) + Vec3{1e-8, 1e-8, 1e-8});
+  mesh.triangles.insert(mesh.triangles.end(), 3, {a, b, m});
+  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  const SurfaceModel model = triangulated(mesh);
+  expect_counts(model, 6, 12, 8);
+  EXPECT_NEAR(volume(model.fine), 1, 1e-7);
+  EXPECT_TRUE(has_warning(model, "left out 1 triangle without area"));
+}
+
 TEST(TriangleRepair, AFlatTriangleOnAGivenCurveCutsItsLine) {
   Mesh mesh = triangle_grid(1, 1);
   mesh.points.push_back({0.5, 0, 0});
