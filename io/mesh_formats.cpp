@@ -24,8 +24,13 @@ void write_picture(const std::filesystem::path& path, const Mesh& mesh) {
   draw_mesh(path, mesh, path.stem().string());
 }
 
-void make_utf8(Entity& entity) {
-  for (std::string& name : entity.names) name = as_utf8(name);
+Mesh with_utf8(Mesh mesh) {
+  const auto convert = [](Entity& entity) {
+    for (std::string& name : entity.names) name = as_utf8(name);
+  };
+  for (auto* entities : {&mesh.curves, &mesh.regions}) std::ranges::for_each(*entities, convert);
+  for (NamedPoint& point : mesh.named_points) convert(point.entity);
+  return mesh;
 }
 
 /// kind_of_file() looks behind .gz, but nothing is written packed.
@@ -119,11 +124,27 @@ Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes, Strays stray
   const MeshFormat* format = find_format(kind_of_file(path));
   if (format == nullptr || format->read == nullptr)
     unknown(path, extensions_of([](const MeshFormat& f) { return f.read != nullptr; }));
-  Mesh mesh = format->read(path, notes, strays);
-  for (auto* entities : {&mesh.curves, &mesh.regions})
-    for (Entity& entity : *entities) make_utf8(entity);
-  for (NamedPoint& point : mesh.named_points) make_utf8(point.entity);
-  return mesh;
+  return with_utf8(format->read(path, notes, strays));
+}
+
+Mesh read_given_mesh(const std::filesystem::path& path, ReadNotes* notes) {
+  const MeshFormat* format = find_format(kind_of_file(path));
+  if (format == nullptr || format->read_given == nullptr) return read_mesh(path, notes);
+  return with_utf8(format->read_given(path));
+}
+
+bool keeps_file(const std::filesystem::path& source, const std::filesystem::path& path) {
+  const MeshFormat* format = find_format(kind_of_file(source));
+  return format != nullptr && format->rewrite != nullptr && format == find_format(kind_to_write(path));
+}
+
+void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh) {
+  find_format(kind_to_write(path))->rewrite(source, path, mesh);
+}
+
+std::set<std::string> others_in_file(const std::filesystem::path& path) {
+  const MeshFormat* format = find_format(kind_of_file(path));
+  return format == nullptr || format->others == nullptr ? std::set<std::string>() : format->others(path);
 }
 
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options, int order) {

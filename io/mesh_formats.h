@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,11 @@ struct MeshFormat {
   const UniqueLabels::Rules* labels = nullptr;
   std::vector<std::string> (*renamed)(const Mesh&) = nullptr;
   unsigned names = kAllNames;  ///< NameKinds
+  /// Reads and writes files that are kept, see read_given_mesh() and rewrite_mesh(); null: they are not.
+  Mesh (*read_given)(const std::filesystem::path&) = nullptr;
+  void (*rewrite)(const std::filesystem::path& source, const std::filesystem::path&, const Mesh&) = nullptr;
+  /// See others_in_file(); null: there is nothing.
+  std::set<std::string> (*others)(const std::filesystem::path&) = nullptr;
 };
 
 /// Readers that note nothing.
@@ -62,6 +68,16 @@ bool can_write(const MeshFormat& format);
 
 /// In the order of the documentation.
 const std::vector<MeshFormat>& mesh_formats();
+
+/// Reads a mesh to improve it: with the regions and points that rewrite_mesh() needs, if it keeps such files.
+Mesh read_given_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
+/// Whether what else `source` holds stays in `path`: both are Abaqus or CalculiX files.
+bool keeps_file(const std::filesystem::path& source, const std::filesystem::path& path);
+/// Writes the source again with a mesh that read_given_mesh() read from it, or stages made of that. All else
+/// stays: types, numbers, sets, sections, loads. Throws InputError if a line names something that is gone.
+void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh);
+/// Keywords of a file that are no part of a mesh, such as "*MATERIAL".
+std::set<std::string> others_in_file(const std::filesystem::path& path);
 
 /// The highest order of elements that write_mesh() writes there. Throws as check_mesh_format().
 int most_order_of(const std::filesystem::path& path);

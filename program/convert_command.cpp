@@ -46,7 +46,9 @@ int convert_command(const ConvertArguments& arguments) {
   check_output(arguments.output);
   ReadNotes notes;
   std::vector<std::string> lost;
-  auto [mesh, fields] = read_whole(arguments.mesh, notes, lost);
+  const bool is_kept = keeps_file(arguments.mesh, arguments.output);
+  auto [mesh, fields] =
+      is_kept ? MeshWithFields{read_given_mesh(arguments.mesh), {}} : read_whole(arguments.mesh, notes, lost);
   if (!fields.empty() && (!holds_fields(arguments.output) || arguments.weld > 0)) {
     std::vector<std::string> names;
     for (const MeshField& field : fields) names.push_back(field.name);
@@ -59,11 +61,17 @@ int convert_command(const ConvertArguments& arguments) {
   std::string joined =
       arguments.weld > 0 ? weld_open_edges(mesh, arguments.weld * diagonal(mesh)) : tell_unjoined(mesh);
   if (!joined.empty()) notes.push_back(std::move(joined));
-  for (const std::string& what : lost_in_file(arguments.output, mesh)) lost.push_back(what);
-  for (const std::string& name : renamed_in_file(arguments.output, mesh))
-    lost.push_back("a name as it was: " + name);
+  if (!is_kept) {
+    for (const std::string& what : lost_in_file(arguments.output, mesh)) lost.push_back(what);
+    for (const std::string& name : renamed_in_file(arguments.output, mesh))
+      lost.push_back("a name as it was: " + name);
+    if (const auto others = others_in_file(arguments.mesh); !others.empty())
+      lost.push_back(fmt::format("what is no mesh: {}", fmt::join(others, ", ")));
+  }
   if (mesh.order > most_order_of(arguments.output)) mesh = straightened(std::move(mesh));
-  if (fields.empty())
+  if (is_kept)
+    rewrite_mesh(arguments.mesh, arguments.output, mesh);
+  else if (fields.empty())
     write_mesh(arguments.output, mesh, arguments.msh);
   else
     write_fields(arguments.output, mesh, fields, arguments.msh);

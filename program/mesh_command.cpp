@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -23,6 +24,7 @@
 #include "io/cases/case_file.h"
 #include "io/cases/read_problem.h"
 #include "io/entity_names.h"
+#include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "program/commands.h"
 #include "program/mesh_options.h"
@@ -61,12 +63,32 @@ MeshResult mesh_or_tell(const MeshArguments& arguments, const Prepared& prepared
   }
 }
 
-void warn_of_renamed(const std::filesystem::path& output, MeshResult& result, Progress& progress) {
-  const auto renamed = renamed_in_file(output, result.mesh);
-  if (renamed.empty()) return;
-  result.warnings.push_back(
-      fmt::format("{} cannot hold all names as they are: {}", output.string(), fmt::join(renamed, "; ")));
-  progress.warn({result.warnings.back()});
+/// Gives the nodes of a kept file's sets, which stay, the names that other formats have for them.
+void name_points_as_given(const Mesh& given, Mesh& mesh) {
+  std::map<std::array<double, 3>, int> index;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    index[{mesh.points[i].x, mesh.points[i].y, mesh.points[i].z}] = static_cast<int>(i);
+  mesh.named_points.clear();
+  for (const auto& [point, entity] : given.named_points)
+    if (const Vec3& p = given.points[point]; index.contains({p.x, p.y, p.z}))
+      mesh.named_points.push_back({index[{p.x, p.y, p.z}], entity});
+}
+
+/// Returns whether the given file is kept. Else tells which names change, and what of this file gets lost.
+bool keeps_given(const MeshArguments& arguments, const std::optional<Mesh>& given, MeshResult& result,
+                 Progress& progress) {
+  if (given && keeps_file(arguments.model, arguments.output)) return true;
+  if (given && keeps_file(arguments.model, arguments.model)) name_points_as_given(*given, result.mesh);
+  const std::string output = arguments.output.string();
+  std::vector<Warning> lost;
+  if (const auto renamed = renamed_in_file(arguments.output, result.mesh); !renamed.empty())
+    lost.push_back(fmt::format("{} cannot hold all names as they are: {}", output, fmt::join(renamed, "; ")));
+  if (const auto others = given ? others_in_file(arguments.model) : std::set<std::string>(); !others.empty())
+    lost.push_back(
+        fmt::format("{} loses what {} holds: {}", output, arguments.model.string(), fmt::join(others, ", ")));
+  result.warnings.insert(result.warnings.end(), lost.begin(), lost.end());
+  progress.warn(lost);
+  return false;
 }
 
 /// Quads beyond the criteria.
@@ -245,7 +267,7 @@ int mesh_command(const MeshArguments& arguments) {
   const Prepared prepared = prepare(c, told(c.name));
   progress.warn(prepared->warnings);
   MeshResult result = mesh_or_tell(arguments, prepared, word, told(c.name + " " + word.text), progress);
-  warn_of_renamed(arguments.output, result, progress);
+  const bool is_kept = keeps_given(arguments, given, result, progress);
   {
     const DoingStage writing_files("writing");
     const Uninterrupted whole;
@@ -253,8 +275,10 @@ int mesh_command(const MeshArguments& arguments) {
     std::optional<Mesh> with_sets;
     if (arguments.failing_sets) name_failing(*result.criteria, with_sets.emplace(result.mesh));
     const Stopwatch writing;
-    (arguments.serendipity ? write_serendipity : write_mesh)(
-        arguments.output, with_sets ? *with_sets : result.mesh, arguments.msh);
+    const Mesh& last = with_sets ? *with_sets : result.mesh;
+    const auto write = arguments.serendipity ? write_serendipity : write_mesh;
+    is_kept ? rewrite_mesh(arguments.model, arguments.output, last)
+            : write(arguments.output, last, arguments.msh);
     result.log.add_time("write", writing.time());
     if (!arguments.fields.empty()) write_wanted(arguments.fields, result.mesh, result.prepared);
     if (!arguments.json.empty()) write_text_file(arguments.json, run_record(c, word, result));

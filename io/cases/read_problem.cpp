@@ -30,6 +30,7 @@
 #include "io/cases/expression.h"
 #include "io/formats/msh.h"
 #include "io/gdal/gdal_files.h"
+#include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 
 namespace delquad {
@@ -220,7 +221,7 @@ Model read_model(const ModelFile& file, const MeshProblem& problem, std::string&
   const std::string kind = kind_of_file(file.path);
   if (file.given) {
     GivenMesh given{{}, file.path.string()};
-    given.mesh = read_mesh(file.path, &given.notes);
+    given.mesh = read_given_mesh(file.path, &given.notes);
     if (std::string torn = tell_unjoined(given.mesh); !torn.empty() && !problem.surface.weld_tolerance)
       given.notes.push_back(std::move(torn));
     return given;

@@ -16,6 +16,7 @@
 #include "geometry/mesh/element_nodes.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/entity_names.h"
+#include "io/formats/inp_deck.h"
 #include "io/formats/readers.h"
 #include "io/hex_sides.h"
 #include "io/mesh_formats.h"
@@ -30,28 +31,26 @@ const std::vector<std::string>& inp_hexahedra() {
   return all;
 }
 
-namespace {
-
-// What Abaqus input files have in common, whatever elements they hold.
-
-/// The longest name that Abaqus takes is 80; what is left is for numbers, and for names of sides.
-constexpr std::size_t kLongestInpName = 60;
-constexpr std::ptrdiff_t kLongestInpNumber = 20;
-/// On one line of a set or an element, which may have no more.
-constexpr std::size_t kInpNumbersPerLine = 16;
-/// Names of the sets of all elements and of all nodes.
-constexpr const char *kAllElements = "Eall", *kAllNodes = "Nall";
-
-/// In at most 20 characters: CalculiX cuts off what follows, perhaps within the exponent. "0" below
-/// `negligible`.
 std::string inp_number(double x, double negligible) {
   if (std::abs(x) < negligible) return "0";
+  constexpr std::ptrdiff_t kLongestInpNumber = 20;
   char digits[32];
   char* end = std::to_chars(digits, digits + sizeof digits, x).ptr;
   for (int n = 17; end - digits > kLongestInpNumber; --n)
     end = std::to_chars(digits, digits + sizeof digits, x, std::chars_format::general, n).ptr;
   return {digits, end};
 }
+
+namespace {
+
+// What Abaqus input files have in common, whatever elements they hold.
+
+/// The longest name that Abaqus takes is 80; what is left is for numbers, and for names of sides.
+constexpr std::size_t kLongestInpName = 60;
+/// On one line of a set or an element, which may have no more.
+constexpr std::size_t kInpNumbersPerLine = 16;
+/// Names of the sets of all elements and of all nodes.
+constexpr const char *kAllElements = "Eall", *kAllNodes = "Nall";
 
 /// `kinds`: what keys of labels are the names of.
 void write_inp_head(TextWriter& out, const char* title, const std::string& unit, const UniqueLabels& labels,
@@ -434,12 +433,22 @@ void write_inp(const std::filesystem::path& path, const Mesh& mesh) {
 MeshFormat inp_format() {
   return {.extensions = {".inp"},
           .description = "Abaqus, CalculiX",
-          .read = read_by<read_inp>,
+          .read =
+              [](const std::filesystem::path& path, ReadNotes* notes, Strays) {
+                InpDeck deck = read_inp_deck(path, false);
+                for (const std::string& other : deck.others)
+                  if (notes != nullptr && other.starts_with("*ELEMENT"))
+                    notes->push_back(other + " is not read");
+                return std::move(deck.mesh);
+              },
           .write = write_by<write_inp>,
           .most_order = 2,
           .write_hexahedra = write_hex_inp,
           .eight_nodes = EightNodes::kAlways,
-          .names = kAllNames | kFurtherNames};
+          .names = kAllNames | kFurtherNames,
+          .read_given = [](const std::filesystem::path& path) { return read_inp_deck(path, true).mesh; },
+          .rewrite = rewrite_inp,
+          .others = [](const std::filesystem::path& path) { return read_inp_deck(path, false).others; }};
 }
 
 }  // namespace delquad

@@ -1,16 +1,21 @@
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "base/located.h"
 #include "base/sort_unique.h"
 #include "base/text.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
 #include "io/entity_names.h"
 #include "io/face_reader.h"
+#include "io/formats/inp_deck.h"
 #include "io/formats/readers.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
@@ -30,14 +35,9 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   return fields;
 }
 
-/// A keyword line: "*ELSET, ELSET=name, GENERATE".
-struct Keyword {
-  std::string name;                               ///< in capitals, without the star
-  std::map<std::string, std::string> parameters;  ///< by name in capitals; empty: a flag
-};
-
-Keyword keyword_of(std::string_view line) {
-  Keyword keyword;
+/// The keyword of a card and its parameters.
+InpDeck::Card card_of(std::string_view line) {
+  InpDeck::Card keyword;
   const auto fields = fields_of(line.substr(1));
   if (fields.empty()) return keyword;
   keyword.name = upper(fields[0]);
@@ -69,60 +69,153 @@ int nodes_of_type(const std::string& type) {
   return 0;
 }
 
-/// A side "S2" or "E2" of elements, by their number or set.
-struct InpSurface {
-  std::string name, elements, side;
-  int line;
-};
+/// Keywords between bars. Data of the first ones has no numbers of nodes and elements. Data of the second
+/// ones is read. The last ones make nodes, elements or coordinates.
+constexpr std::string_view
+    kNoNumbers =
+        "|AMPLITUDE|BEAM SECTION|BUCKLE|CONDUCTIVITY|CONTROLS|DAMPING|DENSITY|DYNAMIC|EL FILE|EL PRINT|"
+        "ELASTIC|ELEMENT OUTPUT|EXPANSION|FREQUENCY|FRICTION|HEADING|HEAT TRANSFER|MATERIAL|"
+        "MEMBRANE SECTION|NODE FILE|NODE OUTPUT|NODE PRINT|OUTPUT|PLASTIC|SHELL GENERAL SECTION|"
+        "SHELL SECTION|SOLID SECTION|SPECIFIC HEAT|STATIC|STEP|SURFACE BEHAVIOR|SURFACE INTERACTION|VISCO|",
+    kRead = "|HEADING|NODE|ELEMENT|NSET|ELSET|SURFACE|",
+    kRefused = "|ELCOPY|ELGEN|INCLUDE|NCOPY|NFILL|NGEN|NMAP|SYSTEM|";
 
-struct InpElement {
-  std::vector<int> nodes;  ///< indices
-  int line;                ///< of the file
-  std::vector<std::string> sets;
-};
+bool begins_name(char c) { return std::isalpha(static_cast<unsigned char>(c)); }
 
 class InpReader {
  public:
-  explicit InpReader(const std::filesystem::path& path) : in_(path) { refuse_other_kinds(in_, "INP"); }
+  InpReader(const std::filesystem::path& path, bool as_deck) : in_(path), as_deck_(as_deck) {
+    refuse_other_kinds(in_, "INP");
+    deck_.source = path.string();
+  }
 
-  Mesh read() {
+  InpDeck read() {
     while (!in_.at_end()) {
       const std::string_view line = trimmed(in_.rest_of_line());
+      const size_t place = place_of(line);
       if (line.starts_with("**")) continue;
-      if (line.starts_with("*"))
-        begin(keyword_of(line));
-      else
-        data(fields_of(line));
+      if (line.starts_with("*")) {
+        begin(whole_keyword(line), place);
+      } else {
+        data(line, place);
+        deck_.cards.back().end = line_end();
+      }
     }
     if (!pending_.empty()) in_.fail("the file ends within an element: is it whole?");
-    if (elements_.empty()) in_.fail("the file holds no *ELEMENT of two, three, four or eight nodes");
+    if (deck_.elements.empty() && unread_line_ > 0) fail_type(unread_line_);
+    if (deck_.elements.empty()) in_.fail("the file holds no *ELEMENT of two, three, four or eight nodes");
+    add_sides_of_shells();
+    name_elements();
+    if (as_deck_) part_elements(deck_);
     make_mesh();
+    as_deck_ ? name_points(deck_) : add_node_sets();
+    deck_.text = in_.text();
     drop_unused_points(mesh_);
-    return std::move(mesh_);
+    return std::move(deck_);
   }
 
  private:
-  void begin(Keyword keyword) {
-    if (!pending_.empty()) in_.fail("an element ends without its last nodes");
-    if (keyword.name == "INCLUDE") in_.fail("*INCLUDE: expected a file that holds the whole mesh");
-    keyword_ = std::move(keyword);
-    if (keyword_.name != "ELEMENT") return;
-    const std::string type = upper(keyword_.parameters["TYPE"]);
-    n_nodes_ = nodes_of_type(type);
-    if (n_nodes_ == 0)
-      in_.fail(
-          "element type {}: expected lines or triangles of first order or quads, such as S4, "
-          "CPS4, S3, S8R",
-          TextScanner::printable(type));
+  using Card = InpDeck::Card;
+  using Element = InpDeck::Element;
+
+  /// Where the line begins that a text of it is from.
+  size_t place_of(std::string_view line) const {
+    return in_.text().rfind('\n', static_cast<size_t>(line.data() - in_.text().data())) + 1;
+  }
+  /// Behind the line that was read last.
+  size_t line_end() const {
+    const size_t at = in_.text().size() - in_.bytes_left();
+    return std::min(in_.text().find('\n', at), in_.text().size() - 1) + 1;
   }
 
-  void data(const std::vector<std::string_view>& fields) {
-    const auto parameter = [&](const char* name) { return keyword_.parameters[name]; };
-    if (keyword_.name == "NODE") node(fields);
-    if (keyword_.name == "ELEMENT") element(fields, parameter("ELSET"));
-    if (keyword_.name == "ELSET") members(fields, parameter("ELSET"));
-    if (keyword_.name == "SURFACE" && upper(parameter("TYPE")) != "NODE" && fields.size() == 2)
-      surfaces_.push_back({parameter("NAME"), std::string(fields[0]), std::string(fields[1]), in_.line()});
+  /// With the lines that it goes on in, which begin with a letter.
+  std::string whole_keyword(std::string_view line) {
+    std::string whole(line);
+    while (whole.ends_with(',') && !in_.at_end() &&
+           begins_name(in_.text()[in_.text().size() - in_.bytes_left()]))
+      whole += trimmed(in_.rest_of_line());
+    return whole;
+  }
+
+  [[noreturn]] void fail_type(int line) const {
+    in_.fail_at(line,
+                "element type {}: expected lines or triangles of first order or quads, such as S4, "
+                "CPS4, S3, S8R",
+                TextScanner::printable(unread_type_));
+  }
+
+  void begin(const std::string& line, size_t place) {
+    if (!pending_.empty()) in_.fail("an element ends without its last nodes");
+    Card& card = deck_.cards.emplace_back(card_of(line));
+    card.line = in_.line();
+    card.begin = place;
+    card.data = card.end = line_end();
+    goes_on_ = false;
+    if (card.is_among(kRefused) || (card.name == "NODE" && card.parameters.contains("SYSTEM")) ||
+        (card.is_among(kRead) && card.parameters.contains("INPUT")))
+      in_.fail("*{}: expected a file that holds the whole mesh, with Cartesian coordinates of all nodes",
+               card.name);
+    if (!card.is_among(kRead)) {
+      deck_.others.insert('*' + card.name);
+      for (const auto& [key, value] : card.parameters) other({value});  // REF NODE=17
+    }
+    const std::string nset = card.parameter("NSET"), elset = card.parameter("ELSET"),
+                      type = upper(card.parameter("TYPE"));
+    const bool of_nodes = card.name == "NODE" || card.name == "NSET";
+    std::vector<int>& set = of_nodes ? deck_.node_sets[nset] : deck_.element_sets[elset];
+    set_ = (of_nodes ? nset : elset).empty() ? nullptr : &set;
+    if (card.name == "NSET" && !elset.empty()) {
+      for (const int e : deck_.element_sets[elset])
+        set.insert(set.end(), deck_.elements[e].nodes.begin(), deck_.elements[e].nodes.end());
+      sort_unique(set);
+    }
+    if (card.name != "ELEMENT") return;
+    n_nodes_ = nodes_of_type(type);
+    if (n_nodes_ > 0) return;
+    deck_.others.insert("*ELEMENT, TYPE=" + type);
+    if (unread_line_ == 0) unread_line_ = in_.line(), unread_type_ = type;
+  }
+
+  void data(std::string_view line, size_t place) {
+    const Card& card = deck_.cards.back();
+    const auto fields = fields_of(line);
+    const bool is_side = card.name == "SURFACE" && upper(card.parameter("TYPE")) != "NODE" && !fields.empty();
+    if (card.name == "NODE") {
+      node(fields, place);
+    } else if (card.name == "ELEMENT" && n_nodes_ > 0) {
+      element(fields, place);
+    } else if (card.name == "ELSET") {
+      members(fields, deck_.element_sets, deck_.element_of);
+    } else if (card.name == "NSET") {
+      members(fields, deck_.node_sets, deck_.node_of);
+    } else if (is_side) {
+      deck_.sides.push_back({card.parameter("NAME"), std::string(fields[0]),
+                             std::string(fields.size() > 1 ? fields[1] : ""), in_.line(),
+                             static_cast<int>(deck_.cards.size()) - 1});
+    } else {
+      other(fields);
+    }
+    goes_on_ = line.ends_with(',');
+  }
+
+  /// Keeps what may name nodes and elements.
+  void other(const std::vector<std::string_view>& fields) {
+    const Card& card = deck_.cards.back();
+    for (size_t k = 0; k < fields.size() && !card.is_among(kNoNumbers); ++k) {
+      const std::string_view text = fields[k];
+      InpDeck::Word word{std::string(text),
+                         std::string(k + 1 < fields.size() ? fields[k + 1] : ""),
+                         in_.line(),
+                         static_cast<int>(deck_.cards.size()) - 1,
+                         0,
+                         k == 0};
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), word.number);
+      if (error != std::errc() || end != text.data() + text.size()) word.number = 0;
+      if (card.name == "ELEMENT" && k == 0 && !goes_on_)
+        deck_.unread.insert(word.number);
+      else if (as_deck_ && !text.empty() && (word.number > 0 || begins_name(text[0]) || text[0] == '_'))
+        deck_.words.push_back(std::move(word));
+    }
   }
 
   long long integer(std::string_view text, const char* what) const {
@@ -143,84 +236,109 @@ class InpReader {
     return value;
   }
 
-  void node(const std::vector<std::string_view>& fields) {
+  void node(const std::vector<std::string_view>& fields, size_t place) {
     if (fields.empty()) return;
     const long long number = integer(fields[0], "a node's number");
     const auto x = [&](size_t k) { return fields.size() > k ? real(fields[k]) : 0; };
-    if (!node_of_.emplace(number, static_cast<int>(mesh_.points.size())).second)
+    const int index = static_cast<int>(deck_.nodes.size());
+    if (!deck_.node_of.emplace(number, index).second)
       in_.fail("node {} is there twice; files of several parts cannot be read", number);
-    mesh_.points.push_back({x(1), x(2), x(3)});
+    deck_.nodes.push_back({number, {x(1), x(2), x(3)}, place});
+    mesh_.points.push_back(deck_.nodes.back().at);
+    if (set_ != nullptr) set_->push_back(index);
   }
 
-  void element(const std::vector<std::string_view>& fields, const std::string& set) {
+  void element(const std::vector<std::string_view>& fields, size_t place) {
+    if (pending_.empty()) begin_of_element_ = place;
     for (const std::string_view field : fields) pending_.push_back(integer(field, "a node's number"));
     if (pending_.size() < static_cast<size_t>(n_nodes_) + 1) return;
     if (pending_.size() > static_cast<size_t>(n_nodes_) + 1)
       in_.fail("an element of {} nodes has {}", n_nodes_, pending_.size() - 1);
-    InpElement e{{}, in_.line(), {}};
+    Element e{pending_[0],       {},        in_.line(), static_cast<int>(deck_.cards.size()) - 1,
+              begin_of_element_, line_end()};
     for (size_t k = 1; k < pending_.size(); ++k) {
-      const auto found = node_of_.find(pending_[k]);
-      if (found == node_of_.end()) in_.fail("there is no node {} yet", pending_[k]);
+      const auto found = deck_.node_of.find(pending_[k]);
+      if (found == deck_.node_of.end()) in_.fail("there is no node {} yet", pending_[k]);
       e.nodes.push_back(found->second);
     }
-    if (!element_of_.emplace(pending_[0], static_cast<int>(elements_.size())).second)
+    const int index = static_cast<int>(deck_.elements.size());
+    if (!deck_.element_of.emplace(pending_[0], index).second)
       in_.fail("element {} is there twice; files of several parts cannot be read", pending_[0]);
-    if (!set.empty()) sets_[set].push_back(static_cast<int>(elements_.size()));
-    elements_.push_back(std::move(e));
+    if (set_ != nullptr) set_->push_back(index);
+    deck_.elements.push_back(std::move(e));
     pending_.clear();
   }
 
-  /// Element numbers, or names of other sets. Elements that are not there are of a kind that is not read.
-  void members(const std::vector<std::string_view>& fields, const std::string& set) {
-    std::vector<int>& all = sets_[set];
+  /// Numbers, or names of other sets. Elements of types that are not read count for no set.
+  void members(const std::vector<std::string_view>& fields, InpSets& sets,
+               const std::map<long long, int>& index_of) {
+    Card& card = deck_.cards.back();
+    const bool of_elements = &sets == &deck_.element_sets;
+    const char* const what = of_elements ? "an element's number" : "a node's number";
+    std::vector<int>& all = sets[card.parameter(card.name)];
     const auto add = [&](long long number) {
-      const auto found = element_of_.find(number);
-      if (found == element_of_.end()) in_.fail("there is no element {} yet", number);
-      all.push_back(found->second);
+      if (as_deck_) card.numbers.push_back(number);
+      if (const auto found = index_of.find(number); found != index_of.end())
+        all.push_back(found->second);
+      else if (of_elements && !deck_.unread.contains(number))
+        in_.fail("there is no element {} yet", number);
     };
-    if (keyword_.parameters.contains("GENERATE")) {
-      if (fields.size() < 2) in_.fail("expected the first and the last element");
-      const long long first = integer(fields[0], "an element's number"),
-                      last = integer(fields[1], "an element's number"),
+    const bool generates = card.parameters.contains("GENERATE");
+    if (generates && fields.size() < 2) in_.fail("expected the first and the last {}", what);
+    if (generates) {
+      const long long last = integer(fields[1], what),
                       step = fields.size() > 2 ? integer(fields[2], "a step") : 1;
-      if (last < first) return;
-      for (long long number = first;; number += step) {
-        add(number);
-        if (number > last - step) return;
+      for (long long number = integer(fields[0], what); number <= last; number += step) {
+        const auto next = index_of.lower_bound(number);  // sets of nodes may have gaps
+        if (!of_elements && next == index_of.end()) break;
+        if (!of_elements) number += (next->first - number) / step * step;
+        if (of_elements || index_of.contains(number)) add(number);
+        if (number > last - step) break;
       }
-      return;
     }
-    for (const std::string_view field : fields) {
+    for (std::size_t k = 0; k < fields.size() && !generates; ++k) {
+      const std::string_view field = fields[k];
       if (!field.empty() && field[0] >= '0' && field[0] <= '9') {
-        add(integer(field, "an element's number"));
-      } else if (const auto other = sets_.find(std::string(field)); other != sets_.end()) {
-        const std::vector<int> copy = other->second;
-        all.insert(all.end(), copy.begin(), copy.end());
-        if (all.size() > elements_.size())
-          sort_unique(all);  // sets that hold themselves would double each time
-      } else {
-        in_.fail("there is no element set {} yet", TextScanner::printable(field));
+        add(integer(field, what));
+        continue;
       }
+      card.names.emplace_back(field);
+      const auto other = sets.find(std::string(field));
+      if (other == sets.end() && of_elements)
+        in_.fail("there is no element set {} yet", TextScanner::printable(field));
+      if (other == sets.end()) continue;
+      const std::vector<int> copy = other->second;
+      all.insert(all.end(), copy.begin(), copy.end());
     }
+    // Sets that hold themselves, or what they generate, would double each time.
+    if (all.size() > index_of.size()) sort_unique(all);
+    if (card.numbers.size() > index_of.size() + deck_.unread.size()) sort_unique(card.numbers);
   }
 
   /// A set named by a leading underscore is a part of something else, and "Eall" names the whole.
+  void name_elements() {
+    for (InpSets* sets : {&deck_.element_sets, &deck_.node_sets})
+      for (auto& [name, members] : *sets) sort_unique(members);
+    for (const auto& [name, members] : deck_.element_sets)
+      for (const int e : members)
+        if (!name.empty() && name[0] != '_' && (name != "Eall" || members.size() != deck_.elements.size()))
+          deck_.elements[e].sets.push_back(name);
+    for (Element& e : deck_.elements) std::ranges::sort(e.sets);
+  }
+
   void make_mesh() {
-    for (auto& [name, members] : sets_) {
-      if (name.empty() || name[0] == '_') continue;
-      sort_unique(members);
-      if (name == "Eall" && members.size() == elements_.size()) continue;
-      for (const int e : members) elements_[e].sets.push_back(name);
-    }
     std::map<std::pair<int, std::vector<std::string>>, int> index;
-    for (const InpElement& e : elements_) {
+    for (Element& e : deck_.elements) {
       const int dim = e.nodes.size() == 2 ? 1 : 2;
       std::vector<Entity>& entities = dim == 1 ? mesh_.curves : mesh_.regions;
       const auto [it, is_new] = index.emplace(std::pair{dim, e.sets}, static_cast<int>(entities.size()));
       if (is_new) entities.push_back({it->second + 1, e.sets});
-      add(e, it->second);
+      std::erase_if(entities.back().names,
+                    [](const std::string& name) { return name[0] == '_' || name[0] == '#'; });
+      e.region = it->second;
+      const std::string wrong = add_element(mesh_, static_cast<int>(e.corners()), e.nodes, e.region);
+      if (!wrong.empty()) in_.fail_at(e.line, "{}", wrong);
     }
-    add_sides_of_shells();
     add_surfaces();
     take_numbers(mesh_.curves, 1);
     take_numbers(mesh_.regions, 2);
@@ -229,13 +347,14 @@ class InpReader {
   /// Of shells our writer has the sides along curves in sets "_NAME_E2", and no surfaces of them.
   void add_sides_of_shells() {
     const auto is_used = [&](const std::string& set) {
-      return std::ranges::find(surfaces_, set, &InpSurface::elements) != surfaces_.end();
+      return std::ranges::find(deck_.sides, set, &InpDeck::Side::elements) != deck_.sides.end();
     };
-    for (const auto& [set, members] : sets_) {
+    for (const auto& [set, members] : deck_.element_sets) {
       const size_t n = set.size();
       if (n > 4 && set[0] == '_' && set[n - 3] == '_' && set[n - 2] == 'E' && !members.empty() &&
           !is_used(set))
-        surfaces_.push_back({set.substr(1, n - 4), set, set.substr(n - 2), elements_[members[0]].line});
+        deck_.sides.push_back(
+            {set.substr(1, n - 4), set, set.substr(n - 2), deck_.elements[members[0]].line, -1});
     }
   }
 
@@ -264,31 +383,22 @@ class InpReader {
       if (!known.contains(static_cast<int>(i))) entities[i].tag = ++next;
   }
 
-  void add(const InpElement& e, int entity) {
-    const auto& v = e.nodes;
-    const bool is_triangle = v.size() == 4 && v[2] == v[3];  // some programs write them so
-    const int corners = is_triangle ? 3 : static_cast<int>(std::min<size_t>(v.size(), 4));
-    const std::string wrong = add_element(mesh_, corners, v, entity);
-    if (!wrong.empty()) in_.fail_at(e.line, "{}", wrong);
-  }
-
   /// Sides "S2" or "E2" of elements become lines; those on several surfaces are lines of a curve of all their
   /// names. Surfaces of whole elements are no curves.
   void add_surfaces() {
     std::map<std::vector<int>, std::vector<std::string>> names_of;  // by the nodes of a line, its ends first
-    for (const InpSurface& s : surfaces_) {
-      const bool is_side = s.side.size() == 2 && (s.side[0] == 'S' || s.side[0] == 'E') && s.side[1] >= '1' &&
-                           s.side[1] <= '4';
-      if (!is_side) continue;
-      for (const int e : elements_named(s)) {
-        const std::vector<int>& v = elements_[e].nodes;
-        const size_t k = static_cast<size_t>(s.side[1] - '1'), n = std::min<size_t>(v.size(), 4);
-        if (k >= n || n < 3) in_.fail_at(s.line, "an element has no side {}", s.side);
+    for (const InpDeck::Side& s : deck_.sides) {
+      for (const int e : deck_.elements_of(s)) {
+        const int side = deck_.side_of(deck_.elements[e], s.label);
+        if (side < 0) continue;
+        const std::vector<int>& v = deck_.elements[e].nodes;
+        const size_t k = static_cast<size_t>(side), n = deck_.elements[e].corners();
+        if (k >= n || n < 3) in_.fail_at(s.line, "an element has no side {}", s.label);
         std::vector<int> nodes = {v[k], v[(k + 1) % n]};
         if (v.size() == 8) nodes.push_back(v[4 + k]);
         if (names_of.contains({nodes[1], nodes[0]})) nodes = {nodes[1], nodes[0]};  // of a neighbour
         std::vector<std::string>& names = names_of[nodes];
-        if (std::find(names.begin(), names.end(), s.name) == names.end()) names.push_back(s.name);
+        if (std::find(names.begin(), names.end(), s.surface) == names.end()) names.push_back(s.surface);
       }
     }
     std::map<std::vector<std::string>, int> index;
@@ -299,31 +409,37 @@ class InpReader {
     }
   }
 
-  std::vector<int> elements_named(const InpSurface& surface) const {
-    const auto set = sets_.find(surface.elements);
-    if (set != sets_.end()) return set->second;
-    long long number = 0;
-    const std::string& text = surface.elements;
-    std::from_chars(text.data(), text.data() + text.size(), number);
-    const auto element = element_of_.find(number);
-    if (element == element_of_.end())
-      in_.fail_at(surface.line, "there is no element or set {}", TextScanner::printable(text));
-    return {element->second};
+  /// Nodes of a set are named points, unless it is one of a region or a curve.
+  void add_node_sets() {
+    std::set<std::string, LessBlindToCase> known = {""};
+    for (const auto* entities : {&mesh_.curves, &mesh_.regions})
+      for (const Entity& entity : *entities) known.insert(entity.names.begin(), entity.names.end());
+    const InpSets filled = deck_.filled_regions();
+    NamedPoints points;
+    for (const auto& [name, nodes] : deck_.node_sets)
+      if (!known.contains(name) && !filled.contains(name) && name[0] != '_' && !name.starts_with("curve_"))
+        for (const int v : nodes) points.add(mesh_, v, name);
   }
 
   TextScanner in_;
-  Mesh mesh_;
-  Keyword keyword_;
-  int n_nodes_ = 0;
-  std::vector<long long> pending_;  ///< of an element that goes on in the next line
-  std::map<long long, int> node_of_, element_of_;
-  std::vector<InpElement> elements_;
-  std::map<std::string, std::vector<int>> sets_;
-  std::vector<InpSurface> surfaces_;
+  const bool as_deck_;
+  InpDeck deck_;
+  Mesh& mesh_ = deck_.mesh;
+  int n_nodes_ = 0;                  ///< of the elements of a card; 0: they are not read
+  std::vector<int>* set_ = nullptr;  ///< of a card with nodes or elements; null: they are in none
+  std::vector<long long> pending_;   ///< of an element that goes on in the next line
+  size_t begin_of_element_ = 0;
+  bool goes_on_ = false;  ///< a line of data that is not read, in the next one
+  int unread_line_ = 0;   ///< of the first type that is not read
+  std::string unread_type_;
 };
 
 }  // namespace
 
-Mesh read_inp(const std::filesystem::path& path) { return InpReader(path).read(); }
+Mesh read_inp(const std::filesystem::path& path) { return InpReader(path, false).read().mesh; }
+
+InpDeck read_inp_deck(const std::filesystem::path& path, bool as_deck) {
+  return InpReader(path, as_deck).read();
+}
 
 }  // namespace delquad

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -61,6 +62,8 @@ class NastranReader {
     make_mesh();
     return std::move(mesh_);
   }
+  /// Names of cards that read() left out.
+  const std::set<std::string>& others() const { return others_; }
 
  private:
   void take_line(std::string_view line) {
@@ -141,6 +144,7 @@ class NastranReader {
     } else if (card_.name == "GRDSET" && !field(1).empty() && field(1) != "0") {
       in_.fail_at(card_.line, "GRDSET with a coordinate system: expected nodes in the basic one (0)");
     } else {
+      if (card_.name != "GRDSET") others_.insert(card_.name);
       for (const char* other : {"CTRIA6", "CTETRA", "CHEXA", "CPENTA", "CPYRAM"})
         if (card_.name == other)
           in_.fail_at(card_.line, "{}: expected a mesh of lines, CTRIA3, CQUAD4 and CQUAD8", other);
@@ -239,6 +243,7 @@ class NastranReader {
   std::vector<PointName> point_names_;
   std::vector<NastranElement> elements_;
   std::unordered_map<long long, int> node_of_;
+  std::set<std::string> others_;
 };
 
 constexpr std::size_t kSmallField = 8, kLargeField = 16, kMostNastran = 99'999'999;
@@ -375,7 +380,12 @@ MeshFormat nastran_format() {
           .write = write_by<write_nastran>,
           .most_order = 2,
           .write_hexahedra = write_hex_nastran,
-          .eight_nodes = EightNodes::kAlways};
+          .eight_nodes = EightNodes::kAlways,
+          .others = [](const std::filesystem::path& path) {
+            NastranReader reader(path);
+            reader.read();
+            return reader.others();
+          }};
 }
 
 }  // namespace delquad

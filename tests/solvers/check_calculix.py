@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """CalculiX computes with the meshes in INP files: check_calculix.py DELQUAD PROBLEM [WRITER]. Exit code 77: no ccx.
 
-PROBLEM: patch, shell_patch, strip, shell, periodic, materials or joints, whose models WRITER writes.
+PROBLEM: patch, shell_patch, strip, shell, periodic, materials, kept_deck or joints, whose models WRITER writes.
 
 CalculiX prints seven digits of each number. What is zero in the exact solution is printed with its size, so that it can be
 checked to rounding: forces on nodes inside of a patch to 1e-10 of those on its boundary. All else is checked to seven digits.
@@ -413,7 +413,45 @@ def joints(delquad, folder, writer):
     return good and worst[0] > 0
 
 
-PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic, materials, joints)}
+def plate_deck(path, move):
+    """A clamped plate of 10 x 4 by another program, with numbers of its own; inner nodes are off a grid by `move` of its cells."""
+    columns, rows, nodes, elements = 20, 8, [], []
+    number = lambda i, j: 101 + 3 * (j * (columns + 1) + i)  # noqa: E731
+    for j in range(rows + 1):
+        for i in range(columns + 1):
+            off = move if 0 < i < columns and 0 < j < rows else 0
+            nodes.append(f"{number(i, j)}, {(i + off * math.sin(7 * i + 3 * j)) / 2:.9g}, {(j + off * math.cos(5 * i - 4 * j)) / 2:.9g}, 0.")
+            if i < columns and j < rows:
+                elements.append(f"{1001 + j * columns + i}, {number(i, j)}, {number(i + 1, j)}, {number(i + 1, j + 1)}, {number(i, j + 1)}")
+    deck = ["*NODE, NSET=ALL", *nodes, "*ELEMENT, TYPE=S4, ELSET=PLATE", *elements, "*NSET, NSET=CLAMP, GENERATE",
+            f"{number(0, 0)}, {number(0, rows)}, {3 * (columns + 1)}", "*NSET, NSET=TIP, GENERATE",
+            f"{number(columns, 0)}, {number(columns, rows)}, {3 * (columns + 1)}", "*MATERIAL, NAME=STEEL", "*ELASTIC", f"{YOUNG}, {POISSON}",
+            "*SHELL SECTION, ELSET=PLATE, MATERIAL=STEEL", "0.2", "*BOUNDARY", "CLAMP, 1, 6"]
+    for load in (["*CLOAD", "TIP, 3, -0.1"], ["*CLOAD, OP=NEW", "*DLOAD", "PLATE, P, 0.01"]):
+        deck += ["*STEP", "*STATIC", *load, "*NODE PRINT, NSET=CLAMP, TOTALS=ONLY", "RF", "*NODE PRINT, NSET=TIP", "U", "*END STEP"]
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join([*deck, ""]))
+
+
+def kept_deck(delquad, folder):
+    """`improve` changes the mesh in a deck, and no load: the reactions stay, and the tip sinks as far as on a grid. Moved nodes make
+    CalculiX's S4 stiffer, so that the given deck sinks less."""
+    found = {}
+    for name, move in (("grid", 0), ("moved", 0.25)):
+        plate_deck(os.path.join(folder, f"{name}.inp"), move)
+    subprocess.run([delquad, "-q", "improve", os.path.join(folder, "moved.inp"), "-o", os.path.join(folder, "better.inp")], check=True)
+    for name in ("grid", "moved", "better"):
+        run_ccx(folder, name)
+        with open(os.path.join(folder, f"{name}.dat"), encoding="utf-8") as file:
+            rows = [[float(word) for word in line.split()] for line in file if re.match(r" +-?[0-9]", line)]
+        tips = [row[3] for row in rows if len(row) == 4]
+        found[name] = [row[2] for row in rows if len(row) == 3] + [sum(tips[:9]) / 9, sum(tips[9:]) / 9]
+        print(f"{name}: reactions {found[name][:2]}, tip {found[name][2:]}")
+    off = {name: [abs(a / b - 1) for a, b in zip(values, found["grid"])] for name, values in found.items()}
+    return max(off["better"][:2]) < 1e-3 and max(off["better"][2:]) < 0.02 < min(off["moved"][2:]) < 0.1
+
+
+PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic, materials, kept_deck, joints)}
 
 
 def main():

@@ -1,0 +1,303 @@
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "io/mesh_io.h"
+#include "tests/program/program.h"
+
+namespace delquad::testing_support {
+namespace {
+
+/// A deck as an independent reader finds it: it knows nodes, elements of four nodes, sets and other lines.
+struct ReadDeck {
+  std::map<int, std::array<double, 3>> nodes;
+  std::map<int, std::vector<int>> elements;
+  std::map<int, std::string> types;
+  std::map<std::string, std::set<int>> nsets, elsets;
+  std::vector<std::string> surface_rows, others;
+};
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields;
+  std::stringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) {
+    field.erase(0, field.find_first_not_of(" \r"));
+    if (!field.empty()) fields.push_back(field.substr(0, field.find_last_not_of(" \r") + 1));
+  }
+  return fields;
+}
+
+ReadDeck read_deck(const std::filesystem::path& path) {
+  ReadDeck deck;
+  std::map<std::string, std::string> parameters;
+  std::string keyword;
+  std::stringstream lines(read_text(path));
+  for (std::string line; std::getline(lines, line);) {
+    const std::vector<std::string> fields = split(line);
+    if (line[0] == '*' && line[1] != '*') {
+      keyword = fields[0];
+      parameters.clear();
+      for (const std::string& field : fields)
+        parameters[field.substr(0, field.find('='))] =
+            field.find('=') == std::string::npos ? "" : field.substr(field.find('=') + 1);
+    }
+    const bool is_data = line[0] != '*';
+    const auto members = [&](std::set<int>& set, const std::map<std::string, std::set<int>>& sets) {
+      if (parameters.contains("GENERATE"))
+        for (int i = std::stoi(fields[0]); i <= std::stoi(fields[1]); i += std::stoi(fields[2]))
+          set.insert(i);
+      else
+        for (const std::string& field : fields)
+          if (sets.contains(field))
+            set.insert(sets.at(field).begin(), sets.at(field).end());
+          else
+            set.insert(std::stoi(field));
+    };
+    if (is_data && keyword == "*NODE") {
+      deck.nodes[std::stoi(fields[0])] = {std::stod(fields[1]), std::stod(fields[2]), std::stod(fields[3])};
+      if (parameters.contains("NSET")) deck.nsets[parameters["NSET"]].insert(std::stoi(fields[0]));
+    } else if (is_data && keyword == "*ELEMENT") {
+      const int number = std::stoi(fields[0]);
+      EXPECT_FALSE(deck.elements.contains(number)) << number;
+      for (std::size_t k = 1; k < fields.size(); ++k) deck.elements[number].push_back(std::stoi(fields[k]));
+      deck.types[number] = parameters["TYPE"];
+      deck.elsets[parameters["ELSET"]].insert(number);
+    } else if (is_data && keyword == "*NSET") {
+      members(deck.nsets[parameters["NSET"]], deck.nsets);
+    } else if (is_data && keyword == "*ELSET") {
+      members(deck.elsets[parameters["ELSET"]], deck.elsets);
+    } else if (is_data && keyword == "*SURFACE") {
+      deck.surface_rows.push_back(line);
+    } else if (keyword != "*NODE" && keyword != "*ELEMENT" && keyword != "*NSET" && keyword != "*ELSET") {
+      deck.others.push_back(line);
+    }
+  }
+  return deck;
+}
+
+constexpr int kColumns = 12, kRows = 8;
+int node_number(int i, int j) { return 101 + 3 * (j * (kColumns + 1) + i); }
+
+/// A plate of 12 x 8 units with moved nodes. The right third looks down, and `bend` rolls all up.
+std::string plate(const std::string& type, double bend, const std::string& more) {
+  std::string text = "*HEADING\nby hand\n*NODE, NSET=EVERY\n";
+  for (int j = 0; j <= kRows; ++j)
+    for (int i = 0; i <= kColumns; ++i) {
+      const bool inside = i > 0 && i < kColumns && j > 0 && j < kRows;
+      const double x = i + (inside ? 0.3 * std::sin(7.0 * i + 3.0 * j) : 0),
+                   y = j + (inside ? 0.3 * std::cos(5.0 * i - 4.0 * j) : 0);
+      const double at[] = {bend > 0 ? std::sin(bend * x) / bend : x, y,
+                           bend > 0 ? std::cos(bend * x) / bend : 0};
+      text += std::to_string(node_number(i, j));
+      for (const double c : at) text += ", " + std::to_string(c);
+      text += '\n';
+    }
+  text += "*NODE\n9000, 6, 4, 20\n*ELEMENT, TYPE=" + type + ", ELSET=PLATE\n";
+  for (int j = 0, e = 0; j < kRows; ++j)
+    for (int i = 0; i < kColumns; ++i) {
+      int v[] = {node_number(i, j), node_number(i + 1, j), node_number(i + 1, j + 1), node_number(i, j + 1)};
+      if (bend > 0 && 3 * i >= 2 * kColumns) std::swap(v[1], v[3]);
+      text += std::to_string(1001 + e++);
+      for (const int n : v) text += ", " + std::to_string(n);
+      text += '\n';
+    }
+  return text + more;
+}
+
+/// Sets, elements and loads that hang on nodes and elements in all ways.
+std::string hangers() {
+  const auto node = [](int i, int j) { return std::to_string(node_number(i, j)); };
+  return "** of the left half\n*ELSET, ELSET=LEFT, GENERATE\n1001, 1006, 1\n1013, 1018, 1\n"
+         "*ELSET, ELSET=SOME\nLEFT\n1096\n"
+         "*ELEMENT, TYPE=SPRINGA, ELSET=SPRING\n2000, 9000, " +
+         node(3, 3) +
+         "\n"
+         "*ELEMENT, TYPE=B31, ELSET=BEAM\n2001, " +
+         node(9, 2) + ", " + node(9, 3) +
+         "\n"
+         "*NSET, NSET=CLAMP, GENERATE\n" +
+         node(0, 0) + ", " + node(0, kRows) +
+         ", 39\n"
+         "*NSET, NSET=SENSOR\n" +
+         node(5, 5) +
+         ",\n"
+         "*NSET, NSET=LOADED\n" +
+         node(7, 4) + "\n" + node(8, 4) +
+         "\n"
+         "*ELSET, ELSET=_RIM_E3\n1096\n1095\n*SURFACE, NAME=RIM, TYPE=ELEMENT\n_RIM_E3, E3\n"
+         "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*SHELL SECTION, ELSET=PLATE, MATERIAL=STEEL\n0.5\n"
+         "*EQUATION\n2\n" +
+         node(4, 6) + ", 3, 1., " + node(6, 6) +
+         ", 3, -1.\n"
+         "*STEP\n*STATIC\n*BOUNDARY\nCLAMP, 1, 6\n" +
+         node(10, 4) +
+         ", 2, 2, 0.1\n*CLOAD\nLOADED, 3, -1.\n"
+         "*DLOAD\nPLATE, P, 0.01\n1054, P, 0.5\n*NODE PRINT, NSET=EVERY\nU\n*END STEP\n";
+}
+
+/// Twice the area of an element, as a vector.
+std::array<double, 3> area_of(const ReadDeck& deck, const std::vector<int>& v) {
+  std::array<double, 3> a{}, b{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    a[k] = deck.nodes.at(v[2])[k] - deck.nodes.at(v[0])[k];
+    b[k] = deck.nodes.at(v[3])[k] - deck.nodes.at(v[1])[k];
+  }
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The sum of the areas of a set as seen along x and z, with their signs.
+std::array<double, 2> area_of(const ReadDeck& deck, const std::string& set) {
+  std::array<double, 2> sum{};
+  for (const int e : deck.elsets.at(set)) {
+    const auto area = area_of(deck, deck.elements.at(e));
+    sum[0] += area[0] / 2;
+    sum[1] += area[2] / 2;
+  }
+  return sum;
+}
+
+/// The ends of the sides of the only surface, as their elements run.
+std::set<std::pair<int, int>> sides_of_rim(const ReadDeck& deck) {
+  std::set<std::pair<int, int>> sides;
+  for (const std::string& row : deck.surface_rows) {
+    const std::vector<std::string> fields = split(row);
+    const std::size_t k = static_cast<std::size_t>(fields[1][1] - '1');
+    const std::set<int> elements =
+        deck.elsets.contains(fields[0]) ? deck.elsets.at(fields[0]) : std::set<int>{std::stoi(fields[0])};
+    for (const int e : elements) sides.emplace(deck.elements.at(e)[k], deck.elements.at(e)[(k + 1) % 4]);
+  }
+  return sides;
+}
+
+TEST(KeptDecks, ConvertingKeepsEveryByte) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.inp", plate("S4R", 0.1, hangers()));
+  ASSERT_EQ(delquad({"convert", folder / "a.inp", folder / "b.inp"}).err, "");
+  EXPECT_EQ(read_text(folder / "b.inp"), read_text(folder / "a.inp"));
+}
+
+TEST(KeptDecks, ImprovingKeepsAllButTheMesh) {
+  for (const double bend : {0.0, 0.1}) {
+    const TemporaryFolder folder;
+    write_text(folder / "a.inp", plate("S4", bend, hangers()));
+    const auto result = delquad({"improve", folder / "a.inp", "-o", folder / "b.inp"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const ReadDeck before = read_deck(folder / "a.inp"), after = read_deck(folder / "b.inp");
+    EXPECT_EQ(after.others, before.others);
+    for (const char* set : {"CLAMP", "SENSOR", "LOADED"})
+      EXPECT_EQ(after.nsets.at(set), before.nsets.at(set)) << set;
+    // Numbers that stay have their place, and others lie above.
+    int moved = 0;
+    std::set<int> used;
+    for (const auto& [number, v] : after.elements) {
+      used.insert(v.begin(), v.end());
+      moved += !before.elements.contains(number);
+      if (before.elements.contains(number)) EXPECT_EQ(v, before.elements.at(number));
+      EXPECT_TRUE(before.elements.contains(number) || number > 2001) << number;
+      EXPECT_EQ(after.types.at(number), number == 2000 ? "SPRINGA" : number == 2001 ? "B31" : "S4");
+    }
+    EXPECT_GT(moved, 50);
+    for (const auto& [number, at] : after.nodes) {
+      EXPECT_TRUE(used.contains(number)) << number;
+      EXPECT_EQ(after.nsets.at("EVERY").contains(number), number != 9000) << number;
+      if (before.nodes.contains(number)) EXPECT_EQ(at, before.nodes.at(number));
+      EXPECT_TRUE(before.nodes.contains(number) || number > 9000) << number;
+    }
+    for (const int v :
+         {node_number(3, 3), node_number(9, 2), node_number(5, 5), node_number(4, 6), node_number(10, 4)})
+      EXPECT_TRUE(used.contains(v)) << v;
+    EXPECT_EQ(after.elements.at(1054), before.elements.at(1054));
+    for (const char* set : {"PLATE", "LEFT", "SOME"})
+      for (const int k : {0, 1}) EXPECT_NEAR(area_of(after, set)[k], area_of(before, set)[k], 0.02) << set;
+    EXPECT_EQ(sides_of_rim(after), sides_of_rim(before));
+    EXPECT_EQ(sides_of_rim(after).size(), 2u);
+  }
+}
+
+TEST(KeptDecks, SetsOfSidesOfOurFilesFollow) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.inp", plate("S4", 0.1, ""));
+  ASSERT_EQ(delquad({"convert", folder / "a.inp", folder / "a.msh"}).exit_code, 0);
+  Mesh mesh = read_mesh(folder / "a.msh");
+  mesh.curves = {{1, {"rim"}}};
+  for (int i = 0; i < kColumns; ++i) mesh.lines.push_back({i, i + 1}), mesh.line_curve.push_back(0);
+  write_mesh(folder / "b.inp", mesh);
+  ASSERT_EQ(delquad({"improve", folder / "b.inp", "-o", folder / "c.inp"}).exit_code, 0);
+  const ReadDeck before = read_deck(folder / "b.inp"), after = read_deck(folder / "c.inp");
+  const auto ends_of = [](const ReadDeck& deck) {
+    std::set<std::set<int>> ends;
+    for (const auto& [name, elements] : deck.elsets)
+      for (const int e : elements)
+        if (name.starts_with("_rim_E"))
+          ends.insert({deck.elements.at(e)[name[6] - '1'], deck.elements.at(e)[(name[6] - '0') % 4]});
+    return ends;
+  };
+  EXPECT_EQ(ends_of(before).size(), 12u);
+  EXPECT_EQ(ends_of(after), ends_of(before));
+  EXPECT_NE(after.elsets, before.elsets);
+  EXPECT_EQ(after.nsets.at("rim"), before.nsets.at("rim"));
+}
+
+TEST(KeptDecks, TrianglesBecomeQuadsOfTheirType) {
+  const TemporaryFolder folder;
+  std::string text = plate("CPS3", 0, "*SOLID SECTION, ELSET=PLATE, MATERIAL=M\n1.\n");
+  std::stringstream lines(text);
+  text.clear();
+  for (std::string line; std::getline(lines, line);) {
+    const auto v = split(line);
+    if (v.size() == 5 && v[0].size() == 4 && v[0] > "1000" && v[0] != "9000")
+      text += v[0] + ", " + v[1] + ", " + v[2] + ", " + v[3] + "\n1" + v[0] + ", " + v[1] + ", " + v[3] +
+              ", " + v[4] + '\n';
+    else
+      text += line + '\n';
+  }
+  write_text(folder / "a.inp", text);
+  ASSERT_EQ(delquad({"improve", folder / "a.inp", "-o", folder / "b.inp"}).exit_code, 0);
+  const ReadDeck after = read_deck(folder / "b.inp");
+  EXPECT_EQ(after.elsets.at("PLATE").size(), 96u);
+  for (const auto& [number, type] : after.types) EXPECT_EQ(type, "CPS4");
+}
+
+TEST(KeptDecks, ALoadOnAllNodesIsNotSpread) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.inp", plate("S4", 0, "*STEP\n*STATIC\n*CLOAD\nEVERY, 3, -1.\n*END STEP\n"));
+  ASSERT_EQ(delquad({"improve", folder / "a.inp", "-o", folder / "b.inp"}).exit_code, 0);
+  EXPECT_EQ(read_deck(folder / "b.inp").nsets, read_deck(folder / "a.inp").nsets);
+}
+
+TEST(KeptDecks, OtherFormatsGetSetsAndTellTheRest) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.inp", plate("S4", 0, hangers()));
+  for (const char* command : {"convert", "improve"}) {
+    std::vector<std::string> arguments = {command, folder / "a.inp", folder / "b.msh"};
+    if (command[0] == 'i') arguments.insert(arguments.begin() + 2, "-o");
+    const auto result = delquad(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    for (const char* part : {"*MATERIAL", "*ELEMENT, TYPE=SPRINGA", "*CLOAD"})
+      EXPECT_TRUE(contains(result.err, part)) << result.err;
+    const std::string text = read_text(folder / "b.msh");
+    for (const char* name : {"\"SOME\"", "\"RIM\""}) EXPECT_TRUE(contains(text, name)) << command << name;
+    std::map<std::string, int> points;
+    for (const NamedPoint& named : read_mesh(folder / "b.msh").named_points)
+      for (const std::string& name : named.entity.names) ++points[name];
+    EXPECT_EQ(points, (std::map<std::string, int>{{"CLAMP", kRows + 1}, {"LOADED", 2}, {"SENSOR", 1}}))
+        << command;
+  }
+  EXPECT_TRUE(
+      contains(delquad({"metrics", folder / "a.inp"}).err, "note: *ELEMENT, TYPE=SPRINGA is not read"));
+}
+
+TEST(KeptDecks, RefusesWhatMakesNodesOfItsOwn) {
+  const TemporaryFolder folder;
+  for (const char* card : {"*INCLUDE, INPUT=more.inp\n", "*NGEN\n1, 5\n", "*SYSTEM\n0, 0, 1\n"}) {
+    write_text(folder / "a.inp", std::string("*HEADING\nx\n") + card);
+    const auto result = delquad({"improve", folder / "a.inp", "-o", folder / "b.inp"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(contains(result.err, "a.inp:3: *")) << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace delquad::testing_support
