@@ -8,8 +8,10 @@
 #include <Interface_EntityIterator.hxx>
 #include <Interface_Graph.hxx>
 #include <Interface_InterfaceModel.hxx>
+#include <StepRepr_RepresentationItem.hxx>
 #include <StepShape_ConnectedFaceSet.hxx>
 #include <StepShape_FaceSurface.hxx>
+#include <StepShape_ShapeRepresentation.hxx>
 #include <StepShape_SolidModel.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
@@ -70,6 +72,13 @@ class LossFinder {
         model_(reader.WS()->Model()),
         process_(reader.WS()->TransferReader()->TransientProcess()) {}
 
+  std::vector<std::string> find_unreadable_parts() {
+    for (const auto& [i, why] : find_unreadable())
+      if (!model_->Value(i)->IsKind(STANDARD_TYPE(StepShape_ConnectedFaceSet)))
+        add(lost_.damaged, model_->Value(i), why);
+    return std::move(lost_.damaged);
+  }
+
   LostShapes find() {
     for (const auto& [i, why] : find_unreadable()) add(lost_.damaged, model_->Value(i), why);
     for (int i = 1; i <= model_->NbEntities(); ++i) {
@@ -92,19 +101,24 @@ class LossFinder {
     return std::move(lost_);
   }
 
-  /// Entities with errors of which faces are made, by their index in the model.
+ private:
+  /// Returns the complaints about entities that shapes are made of, by their index in the model.
   std::map<int, std::string> find_unreadable() {
     const Interface_Graph graph(model_);
     std::vector<char> met(model_->NbEntities() + 1, 0);
     std::vector<Transient> open;
     const auto meet = [&](const Transient& entity) {
-      const int number = model_->Number(entity);
+      const int number = entity.IsNull() ? 0 : model_->Number(entity);
       if (number == 0 || met[number]) return;
       met[number] = 1;
       open.push_back(entity);
     };
-    for (int i = 1; i <= model_->NbEntities(); ++i)
-      if (is_surface_or_body(model_->Value(i))) meet(model_->Value(i));
+    for (int i = 1; i <= model_->NbEntities(); ++i) {
+      const Transient entity = model_->Value(i);
+      if (is_surface_or_body(entity)) meet(entity);
+      const auto shapes = Handle(StepShape_ShapeRepresentation)::DownCast(entity);
+      for (int k = 1; !shapes.IsNull() && k <= shapes->NbItems(); ++k) meet(shapes->ItemsValue(k));
+    }
     while (!open.empty()) {
       const Transient entity = open.back();
       open.pop_back();
@@ -121,7 +135,6 @@ class LossFinder {
     return found;
   }
 
- private:
   bool has_face(const Transient& entity) const {
     const TopoDS_Shape shape = TransferBRep::ShapeResult(process_, entity);
     return !shape.IsNull() && TopExp_Explorer(shape, TopAbs_FACE).More();
@@ -150,14 +163,8 @@ class LossFinder {
 
 LostShapes lost_shapes(XSControl_Reader& reader) { return LossFinder(reader).find(); }
 
-std::map<int, std::string> unreadable_entities(XSControl_Reader& reader) {
-  std::map<int, std::string> by_number;
-  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
-  for (const auto& [i, why] : LossFinder(reader).find_unreadable())
-    // Else it is what it refers to that cannot be read.
-    if (why.find("Entity") == std::string::npos)
-      by_number.emplace(std::atoi(model->StringLabel(model->Value(i))->ToCString() + 1), why);
-  return by_number;
+std::vector<std::string> unreadable_parts(XSControl_Reader& reader) {
+  return LossFinder(reader).find_unreadable_parts();
 }
 
 std::vector<std::string> lost_in_brep(const std::string& text, int n_faces) {

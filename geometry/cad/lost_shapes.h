@@ -1,7 +1,6 @@
 #pragma once
 
 #include <XSControl_Reader.hxx>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -18,9 +17,9 @@ struct LostShapes {
 /// (Direction): ..."; in IGES numbers of the directory, "D23"), and faces that became none.
 LostShapes lost_shapes(XSControl_Reader& reader);
 
-/// Of a reader that has loaded a STEP file: entities of which faces are made and whose numbers or texts
-/// cannot be read, with the reason.
-std::map<int, std::string> unreadable_entities(XSControl_Reader& reader);
+/// Returns the parts of a loaded file that faces need and that cannot be read, each with its number and the
+/// reason. Shells of which faces are missing are not among them.
+std::vector<std::string> unreadable_parts(XSControl_Reader& reader);
 
 /// Of a BREP file's text ("line 12: '3..5' is no number"), of which `n_faces` faces were read.
 std::vector<std::string> lost_in_brep(const std::string& text, int n_faces);

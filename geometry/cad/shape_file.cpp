@@ -9,6 +9,7 @@
 #include <IGESData_ColorEntity.hxx>
 #include <IGESData_IGESEntity.hxx>
 #include <IGESGraph_Color.hxx>
+#include <Interface_Check.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
@@ -31,7 +32,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
-#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -45,7 +45,7 @@
 #include "delquad/mesh.h"
 #include "geometry/cad/cad_shape.h"
 #include "geometry/cad/lost_shapes.h"
-#include "geometry/cad/step_text.h"
+#include "geometry/cad/step_names.h"
 #include "geometry/cad/text_encoding.h"
 
 namespace delquad::cad {
@@ -146,34 +146,41 @@ std::string beginning(const std::filesystem::path& path) {
 /// Of what is listed in messages.
 constexpr std::size_t kMostNamed = 5;
 
-/// Throws InputError unless the rest is wanted, and there is one; then the shape's list has what is missing.
+/// "2 parts of the STEP file cannot be read: ...".
+std::string unread(const std::string& kind, const std::vector<std::string>& lost,
+                   const std::string& why = "") {
+  return fmt::format("{} of the {} file cannot be read: {}{}", counted(std::ssize(lost), "part"), kind,
+                     first_of(lost, kMostNamed), why);
+}
+
+/// Throws InputError unless the rest is wanted, and there is one; then the shape's list has the lost parts.
 void lose(const std::string& text, bool keep_going, bool is_rest, CadShape& cad) {
   if (!is_rest) throw InputError(text + ": no face is left");
   if (!keep_going) throw InputError(text + ": expected a whole model (--keep-going meshes the rest)");
   cad.missing.push_back(text);
 }
 
-void lose(const std::string& kind, const std::vector<std::string>& lost, bool keep_going, bool is_rest,
-          CadShape& cad) {
-  if (lost.empty()) return;
-  lose(fmt::format("{} of the {} file cannot be read: {}", counted(std::ssize(lost), "part"), kind,
-                   first_of(lost, kMostNamed)),
-       keep_going, is_rest, cad);
+/// " (Unresolved Reference, Ent.Id.#15 Param.n0 2 (Id.#16))": the parser's first complaint, or nothing.
+std::string first_failure(const XSControl_Reader& reader) {
+  const Handle(Interface_Check) check = reader.WS()->Model()->GlobalCheck();
+  return check->HasFailed() ? fmt::format(" ({})", check->CFail(1)) : "";
 }
 
-/// What STEP and IGES have in common. `cad`: what is known already.
+/// Reads STEP and IGES alike.
 template <class Reader>
-CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& options, CadShape cad,
+CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& options,
                   const std::function<IFSelect_ReturnStatus(Reader&)>& load) {
   const Handle(FirstComplaint) complaint = listen();
   const LengthUnit& wanted = length_unit(options.unit.empty() ? "mm" : options.unit);
   Interface_Static::SetCVal("xstep.cascade.unit", wanted.kernel);
   if (load(reader) != IFSelect_RetDone)
     throw InputError("not a readable " + kind + " file" + complaint->why());
+  CadShape cad;
   const int roots = reader.NbRootsForTransfer();
   const int transferred = reader.TransferRoots();
   const LostShapes lost = lost_shapes(reader);
-  lose(kind, lost.damaged, options.keep_going, reader.NbShapes() > 0, cad);
+  if (!lost.damaged.empty())
+    lose(unread(kind, lost.damaged, first_failure(reader)), options.keep_going, reader.NbShapes() > 0, cad);
   if (reader.NbShapes() == 0) throw InputError("the " + kind + " file holds no shape" + complaint->why());
   if (lost.damaged.empty() && transferred < roots)
     cad.warnings.push_back(fmt::format("{} of {} entries of the {} file are no faces and cannot be read{}",
@@ -189,53 +196,22 @@ CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& opt
   return cad;
 }
 
-/// Without parts that are missing, or refused with them: the kernel loses all of a solid with an edge, or
-/// crashes.
-std::string rest_to_read(const std::string& bytes, const std::map<int, std::string>& unreadable,
-                         bool keep_going, CadShape& cad) {
-  const StepRest rest = rest_of_step(bytes, unreadable);
-  if (rest.lost.empty()) return bytes;
-  if (rest.is_whole) {
-    cad.warnings.push_back("curves of edges on surfaces are missing, and made anew: " +
-                           first_of(rest.lost, kMostNamed));
-    return rest.text;
-  }
-  std::string text =
-      rest.ends_early ? "the STEP file is damaged: " + rest.lost[0]
-                      : fmt::format("{} of the STEP file cannot be read: {}",
-                                    counted(std::ssize(rest.lost), "part"), first_of(rest.lost, kMostNamed));
-  if (!rest.faces.empty()) {
-    std::vector<std::string> faces;
-    for (const int f : rest.faces) faces.push_back(fmt::format("#{}", f));
-    text += fmt::format("; without it {} cannot be made: {}", counted(std::ssize(faces), "face"),
-                        first_of(faces, kMostNamed));
-  }
-  cad.missing.clear();
-  lose(text, keep_going, !rest.text.empty(), cad);
-  return rest.text;
-}
-
 CadShape read_step(const CadOptions& options, const std::string& bytes) {
-  // Each byte a character: what they mean is found out from all names.
-  const auto load = [](STEPControl_Reader& reader, const std::string& text) {
-    Interface_Static::SetIVal("read.step.codepage", Resource_FormatType_iso8859_1);
-    std::istringstream in(text);
-    return reader.ReadStream("bytes", in);
-  };
-  CadShape known;
-  std::string text = rest_to_read(bytes, {}, options.keep_going, known);
-  if (options.keep_going) {
-    const Handle(FirstComplaint) complaint = listen();
-    STEPControl_Reader trial;
-    if (load(trial, text) == IFSelect_RetDone)
-      if (const auto unreadable = unreadable_entities(trial); !unreadable.empty())
-        text = rest_to_read(bytes, unreadable, true, known);
-  }
   STEPControl_Reader reader;
-  CadShape cad = transfer<STEPControl_Reader>(reader, "STEP", options, std::move(known),
-                                              [&](STEPControl_Reader& r) { return load(r, text); });
+  CadShape cad = transfer<STEPControl_Reader>(reader, "STEP", options, [&bytes](STEPControl_Reader& r) {
+    // The kernel takes each byte for a character; decode_texts() finds the encoding from all names.
+    Interface_Static::SetIVal("read.step.codepage", Resource_FormatType_iso8859_1);
+    std::istringstream in(bytes);
+    const IFSelect_ReturnStatus status = r.ReadStream("bytes", in);
+    // The kernel may crash when it makes shapes of damaged parts.
+    if (status == IFSelect_RetDone)
+      if (const auto lost = unreadable_parts(r); !lost.empty())
+        throw InputError(unread("STEP", lost, first_failure(r)) +
+                         ": expected a whole file; export it again from CAD");
+    return status;
+  });
   const bool is_ascii =
-      std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+      std::ranges::all_of(bytes, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
   cad.names = step_names(reader, is_ascii, cad.warnings);
   return cad;
 }
@@ -243,7 +219,7 @@ CadShape read_step(const CadOptions& options, const std::string& bytes) {
 CadShape read_iges(const std::string& path, const CadOptions& options) {
   IGESControl_Reader reader;
   CadShape cad = transfer<IGESControl_Reader>(
-      reader, "IGES", options, {}, [&](IGESControl_Reader& r) { return r.ReadFile(path.c_str()); });
+      reader, "IGES", options, [&](IGESControl_Reader& r) { return r.ReadFile(path.c_str()); });
   cad.names = iges_names(reader, cad.warnings);
   return cad;
 }
@@ -276,7 +252,8 @@ CadShape read_brep(const std::string& bytes, const CadOptions& options) {
   TopTools_MapOfShape faces;
   for (TopExp_Explorer face(cad.shape, TopAbs_FACE); face.More(); face.Next())
     faces.Add(unplaced(face.Current()));
-  lose("BREP", lost_in_brep(bytes, faces.Extent()), options.keep_going, !faces.IsEmpty(), cad);
+  if (const auto lost = lost_in_brep(bytes, faces.Extent()); !lost.empty())
+    lose(unread("BREP", lost), options.keep_going, !faces.IsEmpty(), cad);
   return cad;
 }
 

@@ -1,4 +1,4 @@
-#include "geometry/cad/step_text.h"
+#include "geometry/cad/step_names.h"
 
 #include <fmt/format.h>
 

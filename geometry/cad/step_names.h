@@ -1,0 +1,16 @@
+#pragma once
+
+#include <STEPControl_Reader.hxx>
+#include <vector>
+
+#include "geometry/cad/cad_shape.h"
+
+namespace delquad::cad {
+
+/// Returns names and colors of the faces that `reader` has transferred, in the order of the file, and the
+/// names of its edges. Faces get the names of their shells, solids and products, too. `is_ascii`: the file
+/// has no other bytes, which the kernel would have taken for ISO 8859-1. `warnings` receives the encoding
+/// that other bytes were taken for.
+PartNames step_names(const STEPControl_Reader& reader, bool is_ascii, std::vector<Warning>& warnings);
+
+}  // namespace delquad::cad
