@@ -207,6 +207,7 @@ struct LastTry {
   double size_part;
   bool makes_quads_only;
 };
+constexpr std::size_t kMostByChance = 20;  // places that are not sound
 constexpr std::array kLastTries = {LastTry{0.8, false}, LastTry{1, true}, LastTry{0.5, false}};
 
 /// The stages of a word up to its first quads.
@@ -224,7 +225,7 @@ Word until_quads(const Word& word) {
 void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& quads,
                    PreparedProblem& prepared, MeshResult& result) {
   if (!repair_options(prepared.settings.options).refine_unsound || !prepared.surface ||
-      prepared.surface->given || prepared.surface->model.before)
+      prepared.surface->given || prepared.surface->model.before || unsound_places(result) > kMostByChance)
     return;
   const double once = static_cast<double>(result.mesh.quads.size());
   const Word first = until_quads(word);
