@@ -200,7 +200,7 @@ class InpRewriter {
     for (const NamedPoint& named : mesh_.named_points) number_[named.point] = named.entity.tag;
     long long largest = deck_.node_of.rbegin()->first;
     for (std::size_t p = 0; p < number_.size(); ++p) {
-      if (number_[p] > 0) continue;
+      if (number_[p] > 0 || mesh_.order > 1) continue;  // middles of eight nodes are in no deck
       number_[p] = ++largest;
       new_nodes_.push_back(p);
     }
@@ -483,14 +483,16 @@ class InpRewriter {
 }  // namespace
 
 void part_elements(InpDeck& deck) {
-  std::map<std::pair<std::string, std::string>, std::string> instances;
-  for (const InpDeck::Card& card : deck.cards)
-    if (const std::string name = upper(card.parameter(card.name));
-        card.name == "ELSET" || card.name == "NSET")
-      if (const auto of = card.parameter("INSTANCE");
-          instances.try_emplace({card.name, name}, of).first->second != of)
-        refuse("{}:{}: set {} is in a part and in its assembly: expected two names", deck.source, card.line,
-               name);
+  std::map<std::pair<bool, std::string>, std::string> instances;
+  for (const InpDeck::Card& card : deck.cards) {
+    const bool of_nodes = card.is_among("|NODE|NSET|");
+    const std::string name = upper(card.parameter(of_nodes ? "NSET" : "ELSET")),
+                      of = card.parameter("INSTANCE");
+    const bool has_set = !name.empty() && (of_nodes || card.is_among("|ELEMENT|ELSET|"));
+    if (has_set && instances.try_emplace({of_nodes, name}, of).first->second != of)
+      refuse("{}:{}: set {} is in a part and in its assembly: expected two names", deck.source, card.line,
+             name);
+  }
   const auto of_sides = sets_of_sides(deck);
   for (const auto& [name, members] : deck.element_sets)
     for (const int e : members)

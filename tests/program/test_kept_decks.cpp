@@ -1,11 +1,12 @@
+#include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <sstream>
 
 #include "io/mesh_io.h"
 #include "tests/program/program.h"
+#include "tests/support/curved_grid.h"
 
 namespace delquad::testing_support {
 namespace {
@@ -176,6 +177,29 @@ TEST(KeptDecks, ConvertingKeepsEveryByte) {
   write_text(folder / "a.inp", plate("S4R", 0.1, hangers()));
   ASSERT_EQ(delquad({"convert", folder / "a.inp", folder / "b.inp"}).err, "");
   EXPECT_EQ(read_text(folder / "b.inp"), read_text(folder / "a.inp"));
+  write_mesh(folder / "c.inp", curved_grid(3, 2, 2, false));  // of eight nodes
+  ASSERT_EQ(delquad({"convert", folder / "c.inp", folder / "d.inp"}).err, "");
+  EXPECT_EQ(read_text(folder / "d.inp"), read_text(folder / "c.inp"));
+}
+
+TEST(KeptDecks, SetsOfAnAssemblyStayThere) {
+  const TemporaryFolder folder;
+  const std::string part =
+      "*Part, name=P\n" +
+      plate("S4", 0, "*End Part\n*Assembly, name=A\n*Instance, name=P-1, part=P\n*End Instance\n");
+  const std::string set = "*Elset, elset=TOP,\n instance=P-1, generate\n1001, 1096, 1\n";
+  write_text(folder / "a.inp", part + set + "*End Assembly\n");
+  ASSERT_EQ(delquad({"improve", folder / "a.inp", "-o", folder / "b.inp"}).exit_code, 0);
+  const std::string text = read_text(folder / "b.inp");
+  const std::size_t of_set = text.find("*ELSET, ELSET=TOP, INSTANCE=P-1\n"), end = text.find("*End Assembly");
+  ASSERT_NE(of_set, std::string::npos) << text;
+  EXPECT_GT(of_set, text.find("*End Instance"));
+  EXPECT_EQ(split(text.substr(of_set + 32, end - of_set - 32)).size(),
+            96u - 5u);  // a comma short on five lines
+  write_text(folder / "c.inp", part + "*Elset, elset=plate, instance=P-1\n1001\n*End Assembly\n");
+  const auto refused = delquad({"improve", folder / "c.inp", "-o", folder / "d.inp"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.err, "set PLATE is in a part and in its assembly")) << refused.err;
 }
 
 TEST(KeptDecks, ImprovingKeepsAllButTheMesh) {
