@@ -234,7 +234,7 @@ bool is_worse(const MeshResult& after, const MeshResult& before) {
   bool worse = false;
   for (const char* key : {"eta_mean", "eta_worst", "d4"}) {
     const double was = value(before, key), is = value(after, key);
-    if (std::abs(is - was) <= kChange * std::abs(was)) continue;
+    if (!(std::abs(is - was) > kChange * std::abs(was))) continue;  // or not a number: no vertex lies inside
     if (is > was) return false;
     worse = true;
   }

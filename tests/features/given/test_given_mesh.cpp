@@ -115,6 +115,16 @@ TEST(GivenMeshes, AGridStaysWhatItIs) {
   }
 }
 
+TEST(GivenMeshes, TwoQuadsWithoutAVertexInsideAreNotCalledWorse) {
+  Mesh two;
+  two.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2.3, 1.2, 0}};
+  two.quads = {{0, 1, 4, 3}, {1, 2, 5, 4}};
+  two.quad_region = {0, 0};
+  two.regions = {{1, {"plate"}}};
+  const MeshResult result = improve_given(two, "CO");
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings[0].text;
+}
+
 TEST(GivenMeshes, AShakenGridIsUntangled) {
   const Mesh grid = shaken(given_grid(10), 0.09);
   const MeshMetrics before = evaluate_metrics(grid, nullptr);
