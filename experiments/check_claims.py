@@ -45,7 +45,7 @@ names = {r[x] if x == "pipeline" else f"{x}={r[x]}": (x, r[x]) for r in told for
 quads = {r["pipeline"] for r in told if float(r["n_quads"] or 0) > 0}
 with_triangles = {r["pipeline"] for r in told if float(r["n_quads"] or 0) > 0 and float(r["n_triangles"] or 0) > 0}
 triangles_alone = {r["pipeline"] for r in told if r["status"] in ("ok", "unsound")} - quads
-late = any("plan_changed" in study.read_text() for study in folder.glob("study.json"))
+late = any('"plan_changed": true' in study.read_text() for study in folder.glob("study.json"))
 what, between, *claims = ("hypothesis", " better than ", "refuted", "proven") if planned else ("pipelines", " - ", "worse", "better")
 said = {a + between + b: (a, b) for a, b in itertools.permutations(names, 2)}
 found, family = [], []

@@ -20,6 +20,7 @@
 #include "experiments/console/interrupt.h"
 #include "experiments/console/progress.h"
 #include "experiments/sweep/record.h"
+#include "experiments/sweep/recorded_cell.h"
 #include "experiments/sweep/wanted_fields.h"
 #include "io/cases/case_file.h"
 #include "io/cases/read_problem.h"
@@ -122,6 +123,20 @@ std::string word_of(const MeshArguments& arguments, const std::optional<Mesh>& g
   if (arguments.pipeline) return *arguments.pipeline;
   if (given) return given->quads.empty() ? "BCO" : "CO";
   return quality_named(arguments.quality).word;
+}
+
+/// Reads the cell of a record, and takes over its pipeline and how experiments write meshes.
+std::optional<RecordedCell> read_record(MeshArguments& arguments) {
+  if (arguments.improve || kind_of_file(arguments.model) != ".json") return std::nullopt;
+  RecordedCell cell = recorded_cell(read_record_file(arguments.model), arguments.model);
+  if (!cell.experiment.peers.empty() || cell.c.adapt)
+    refuse("{}: is the record of {}: 'delquad rerun' makes it again", arguments.model.string(),
+           cell.c.adapt ? "a loop of meshes" : "another mesher");
+  if (!arguments.pipeline) arguments.pipeline = cell.experiment.words[0].text;
+  arguments.keep_numbers |= cell.is_of_experiment;
+  if (cell.is_of_experiment && arguments.msh.curves == MeshArguments().msh.curves)
+    arguments.msh.curves = MshOptions().curves;
+  return cell;
 }
 
 Case read_case(const MeshArguments& arguments) {
@@ -230,25 +245,25 @@ void check_fields_file(const std::filesystem::path& file) {
   check_output(file);
 }
 
-int mesh_command(const MeshArguments& arguments) {
+int mesh_command(MeshArguments arguments) {
   const Stopwatch command;
   const RunScope run({.threads = arguments.threads});
   check_mesh_format(arguments.output, arguments.msh);
   std::optional<Mesh> given;
   if (arguments.improve) given = read_mesh(arguments.model);
+  const std::optional<RecordedCell> recorded = read_record(arguments);
   const std::string text = word_of(arguments, given);
   parse_word(text, WordStart::kGivenMesh);  // before anything is read
-  Case c = read_case(arguments);
+  Case c = recorded ? recorded->c : read_case(arguments);
   const Word word = parse_word(text, word_start(c.model));
   c.allow_unsound = true;  // see below
   set_problem(arguments, c);
   check_mesh_format(arguments.output, arguments.msh, c.order);
   if (arguments.serendipity) check_serendipity(arguments.output, arguments.msh, c.order);
   const auto size_file = size_file_of(c.size.text, c.size.folder);
-  const std::filesystem::path file = model_path(c);
   check_distinct(
       {{"the model", arguments.model},
-       {"the model's mesh", file == arguments.model ? "" : file},
+       {"the model's mesh", model_path(c) == arguments.model ? "" : model_path(c)},
        {"the file of sizes", size_file && size_file->path != arguments.model ? size_file->path : ""},
        {"-o", arguments.output},
        {"--json", arguments.json},

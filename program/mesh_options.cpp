@@ -244,9 +244,8 @@ void add_msh(CLI::App& command, MshOptions& msh) {
 CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
   CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar domain or a surface");
   mesh->add_option("model", arguments.model,
-                   "a model file (.toml), outlines (.geojson), lines or triangles (.msh), triangles (.stl, "
-                   ".obj, .off, .ply, .3mf) or CAD "
-                   "(.step, .stp, .iges, .igs, .brep)")
+                   "a model (.toml), outlines (.geojson), lines or triangles (.msh), triangles (.stl, .obj, "
+                   ".off, .ply, .3mf), CAD (.step, .stp, .iges, .igs, .brep), or a record (.json)")
       ->required();
   add_keys(*mesh, arguments, [](const std::string& key) { return !key.starts_with("surface."); });
   mesh->add_option("--metric", arguments.metric,

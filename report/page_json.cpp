@@ -417,7 +417,8 @@ Json closeups_json(const Mesh& mesh, std::size_t count) {
 Json cell_json(const Json& record, const std::optional<Mesh>& mesh) {
   Json json = {{"word", record.at("pipeline")}, {"status", record.at("status")}};
   if (record.contains("peer"))
-    json["peer"] = {{"version", record["peer"].at("version")}, {"command", record["peer"].at("command")}};
+    json["peer"] = {{"version", record["peer"].at("version_line")},
+                    {"command", record["peer"].at("command")}};
   if (json["status"] != "ok") {
     json["reason"] = record.at("reason");
     return json;

@@ -13,6 +13,7 @@
 #include "experiments/sweep/run_program.h"
 #include "experiments/sweep/schema.h"
 #include "io/cases/case_file.h"
+#include "io/cases/problem_record.h"
 #include "io/cases/read_problem.h"
 #include "io/digest.h"
 #include "metrics/metrics.h"
@@ -101,22 +102,6 @@ std::vector<TomlTable> read_cases(const TomlTable& table) {
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 }  // namespace
-
-std::optional<std::array<std::size_t, 2>> Experiment::find_variant(
-    const std::string& name, const std::vector<std::pair<std::string, std::string>>& values) const {
-  const auto is_it = [&](const TomlTable& table) { return table.text("name") == name; };
-  const auto at = std::ranges::find_if(cases_, is_it);
-  if (at == cases_.end() || values.size() != axes.size()) return std::nullopt;
-  std::size_t variant = 0;
-  for (const Axis& axis : axes) {
-    const auto given = std::ranges::find(values, axis.title, &std::pair<std::string, std::string>::first);
-    if (given == values.end()) return std::nullopt;
-    const auto value = std::ranges::find(axis.values, given->second);
-    if (value == axis.values.end()) return std::nullopt;
-    variant = variant * axis.values.size() + static_cast<std::size_t>(value - axis.values.begin());
-  }
-  return std::array{static_cast<std::size_t>(at - cases_.begin()), variant};
-}
 
 std::vector<std::filesystem::path> Experiment::files() const {
   namespace fs = std::filesystem;
@@ -322,46 +307,25 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   return experiment;
 }
 
-namespace {
-
-/// The text of a table, but for the keys `without`.
-std::string text_of(const TomlTable& table, const std::vector<std::string>& without) {
-  std::string text;
-  for (const std::string& leaf : table.leaves())
-    if (std::ranges::find(without, leaf.substr(0, leaf.find('.'))) == without.end())
-      text += leaf + " = " + table.element_text(leaf, TomlTable::kWhole) + "\n";
-  return text;
-}
-
-std::string sorted_text(std::vector<std::string> parts) {
-  std::ranges::sort(parts);
-  return fmt::format("{}\n", fmt::join(parts, "\n"));
-}
-
-}  // namespace
-
-std::string Experiment::plan() const {
-  std::string text = text_of(*table_, {"title", "columns", "reference", "compare", "minutes", "step_times",
-                                       "may_fail", "case", "cases_of", "hypotheses", "pipelines"});
-  text += fmt::format("{}\n", max_elements);
-  std::vector<std::string> parts;
-  for (const Word& word : words) parts.push_back(word.text);
-  text += sorted_text(std::exchange(parts, {}));
-  for (const TomlTable& hypothesis : hypothesis_tables_) parts.push_back(text_of(hypothesis, {}));
-  text += sorted_text(std::exchange(parts, {}));
-  std::set<std::filesystem::path> no_plan = {absolute(file)};
-  if (!reference.empty()) no_plan.insert(absolute(reference));
-  for (std::size_t i = 0; i < n_cases(); ++i) {
-    parts.push_back(text_of(cases_[i], {"compare"}));
-    const Case c = read_variant(i);
-    if (const auto model = model_path(c); !model.empty() && exists(model)) parts.back() += file_digest(model);
-    no_plan.insert(absolute(cases_[i].file()));
+std::string Experiment::plan(const StudyFile& study) const {
+  RecordJson plan = record_of<TablePlan>(*this);
+  plan.update(record_of<ExperimentKeys>(*this));
+  std::vector<std::string> parts;  // whose order does not count
+  const auto add = [&](const RecordJson& part) {
+    parts.push_back(part.dump(-1, ' ', false, RecordJson::error_handler_t::replace));
+  };
+  for (const RecordJson& hypothesis : plan["hypotheses"]) add(hypothesis);
+  plan.erase("hypotheses");
+  add(study.problems);
+  for (const auto& [name, geometry] : study.geometry) {
+    add({name, geometry.domain});
+    for (const Peer& peer : peers) add(command_files(peer.folder, command_of_case(peer, name)));
   }
-  text += sorted_text(std::exchange(parts, {}));
-  for (const std::filesystem::path& name : files())
-    if (std::ranges::none_of(no_plan, [&](const auto& other) { return other.lexically_normal() == name; }))
-      parts.push_back(file_digest(name));
-  return digest(text + sorted_text(parts));
+  for (const Word& word : words) add(word.text);
+  for (const MetricCommand& metric : metrics) add(metric_files(metric));
+  std::ranges::sort(parts);
+  add(plan);
+  return digest(fmt::format("{}", fmt::join(parts, "\n")));
 }
 
 StudyFile describe(const Experiment& experiment) {
@@ -370,14 +334,18 @@ StudyFile describe(const Experiment& experiment) {
   study.experiment = experiment.file.stem().string();
   for (const Word& word : experiment.words) study.pipelines.push_back(word.text);
   for (const Axis& axis : experiment.axes) study.axes.emplace_back(axis.title, axis.values);
-  study.plan = experiment.plan();
   study.cells = experiment.n_cells();
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const Case c = experiment.read_variant(i);
     study.cases.push_back(c.name);
     study.geometry[c.name] = geometry_of(c);
     if (!c.compare.empty()) study.compare[c.name] = c.compare;
+    for (std::size_t v = 0; v < experiment.n_variants(); ++v) {
+      const Case variant = experiment.read_variant(i, v);
+      study.problems[variant.folder] = {record_of(variant).digest()};
+    }
   }
+  study.plan = experiment.plan(study);
   return study;
 }
 

@@ -53,10 +53,6 @@ class Experiment : public TablePlan, public ExperimentKeys {
   std::size_t n_cases() const { return cases_.size(); }
   std::size_t n_variants() const;  ///< of each case
   std::size_t n_cells() const { return n_cases() * n_variants() * words.size(); }
-  /// Case and variant by the case's name and the values that vary, by title, in any order; nothing where the
-  /// experiment has none such.
-  std::optional<std::array<std::size_t, 2>> find_variant(
-      const std::string& name, const std::vector<std::pair<std::string, std::string>>& values) const;
   /// The experiment's file and all that it names beside it: models, published rows, files of peers and
   /// measures. Without those that cases call data and those that are not there.
   std::vector<std::filesystem::path> files() const;
@@ -82,9 +78,9 @@ class Experiment : public TablePlan, public ExperimentKeys {
   Word find_pipeline(const std::string& text) const;
   void check_comparisons(const TomlTable& table, const Case& c) const;
 
-  /// Returns the digest of all that determines the results, except the order of cases and hypotheses. It
-  /// covers the text of the experiment without words for people, and the bytes of files that it names.
-  std::string plan() const;
+  /// Returns the digest of all that determines the results, except the order of cases and hypotheses.
+  /// `study`: with problems and geometries.
+  std::string plan(const StudyFile& study) const;
 
   std::optional<TomlTable> table_;               ///< the file
   Case defaults_;                                ///< what it says for every case

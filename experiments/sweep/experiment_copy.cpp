@@ -94,13 +94,4 @@ std::vector<std::string> check_copies(const fs::path& folder) {
   return wrong;
 }
 
-std::vector<std::string> check_copy(const fs::path& folder, const fs::path& file) {
-  auto part = file.begin();
-  const bool named = std::distance(file.begin(), file.end()) >= 3 && *part == kCopies;
-  const fs::path list = named ? folder / kCopies / (std::next(part)->string() + ".json") : fs::path();
-  if (!named || !fs::is_regular_file(list))
-    return {(folder / file).string() + ": is missing: expected the copy of the experiment that run made"};
-  return check_list(list);
-}
-
 }  // namespace delquad

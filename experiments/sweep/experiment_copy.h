@@ -17,7 +17,5 @@ std::filesystem::path keep_experiment(const Experiment& experiment, const std::f
 
 /// What is wrong with the copies in a folder of results, a line each.
 std::vector<std::string> check_copies(const std::filesystem::path& folder);
-/// What is wrong with the copy that holds this file of an experiment, as keep_experiment() returns it.
-std::vector<std::string> check_copy(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 }  // namespace delquad

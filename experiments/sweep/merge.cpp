@@ -42,6 +42,7 @@ void add_study(const StudyFile& other, const fs::path& folder, StudyFile& study)
     refuse("{}: its [matrix] varies {}, not {}", folder.string(), Json(titles(other)).dump(),
            Json(titles(study)).dump());
   study.plan_changed |= other.plan_changed || !have_same_plan(other, study);
+  for (const auto& [variant, digests] : other.problems) unite(study.problems[variant], digests);
   unite(study.cases, other.cases);
   study.geometry.insert(other.geometry.begin(), other.geometry.end());
   unite(study.pipelines, other.pipelines);
@@ -92,7 +93,7 @@ using CellsToUnite = std::map<std::pair<std::string, std::string>, Candidate>;
 
 void add_cells(const StudyResults& results, CellsToUnite& cells) {
   for (const CellRecord& record : results.records) {
-    const Candidate candidate{record, damage_of_cell(record.folder / "record.json")};
+    const Candidate candidate{record, damage_of_cell(record.folder / "record.json", results.study)};
     const auto [at, is_new] = cells.try_emplace({record.group, record.pipeline}, candidate);
     if (!is_new && is_better(candidate, at->second)) at->second = candidate;
   }

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/warning.h"
 #include "delquad/error.h"
+#include "experiments/sweep/experiment_fields.h"
 #include "io/cases/problem_record.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/metric_measures.h"
@@ -99,24 +100,9 @@ void add_metrics(Json& json, const MeshMetrics& metrics) {
   }
 }
 
-const char* name_of(Better better) {
-  return better == Better::kHigher ? "higher" : better == Better::kLower ? "lower" : "neither";
-}
-
-Json metric_json(const Metric& metric) {
-  return {{"key", metric.key},
-          {"title", metric.title},
-          {"unit", metric.unit},
-          {"better", name_of(metric.better)},
-          {"digits", metric.digits}};
-}
-
 Json metric_json(const CellIdentity::IdentifiedMetric& of_cell) {
-  const MetricCommand& metric = *of_cell.metric;
-  Json json = metric_json(metric.metric);
-  json["command"] = metric.command;
-  json["timeout"] = metric.timeout;
-  json["files"] = of_cell.files;
+  Json json = record_of(*of_cell.metric);
+  json["content"] = of_cell.files;
   return json;
 }
 
@@ -125,13 +111,13 @@ Json own_metrics_json(const MeshMetrics& metrics, const CellIdentity* cell) {
   Json json = Json::array();
   for (const auto* more : {&criteria_metrics(), &metrics_by_metric()})
     for (const Metric& metric : *more)
-      if (metrics.values.contains(metric.key)) json.push_back(metric_json(metric));
-  for (const OwnMetric& own : own_metrics()) json.push_back(metric_json(*find_metric(own.key)));
+      if (metrics.values.contains(metric.key)) json.push_back(record_of(metric));
+  for (const OwnMetric& own : own_metrics()) json.push_back(record_of(*find_metric(own.key)));
   if (cell != nullptr)
     for (const auto& metric : cell->metrics) json.push_back(metric_json(metric));
   if (cell != nullptr)
     for (const std::string& solver : cell->solvers)
-      for (const Metric& metric : metrics_of_solver(solver)) json.push_back(metric_json(metric));
+      for (const Metric& metric : metrics_of_solver(solver)) json.push_back(record_of(metric));
   return json;
 }
 
@@ -304,22 +290,10 @@ std::string source_of(const Case& c) {
 }
 
 Json peer_json(const CellIdentity& cell) {
-  const Peer& peer = *cell.peer;
-  const auto name_of = [](HandOver given, const char* plain) {
-    return given == HandOver::kModel ? plain : given == HandOver::kTriangles ? "triangles" : "none";
-  };
-  return {{"version", cell.peer_version},
-          {"command", peer.command},
-          {"files", cell.peer_files},
-          {"input", peer.input},
-          {"output", peer.output},
-          {"exit_codes", peer.exit_codes},
-          {"keeps_boundary", peer.keeps_boundary},
-          {"planar", name_of(peer.planar, "boundary")},
-          {"surfaces", name_of(peer.surfaces, "file")},
-          {"size_field", peer.size_field},
-          {"metrics", peer.metrics},
-          {"calibrate_to", peer.calibrate_to}};
+  Json json = record_of(*cell.peer);
+  json["version_line"] = cell.peer_version;
+  json["content"] = cell.peer_files;
+  return json;
 }
 
 Json files_json(const CellIdentity& cell) {
@@ -357,6 +331,7 @@ Json start_record(const Case& c, const Word& word, const std::string& status, co
   if (cell == nullptr) return json;
   if (cell->peer != nullptr) json["peer"] = peer_json(*cell);
   if (cell->peer != nullptr) json["peer_file"] = cell->peer_file;
+  json["solvers"] = cell->solvers;
   json["experiment"] = cell->experiment;
   json["digests"] = {{"model", cell->model_digest}, {"program", cell->program_digest}};
   if (has_mesh) json["digests"]["mesh"] = mesh->second.digest;

@@ -23,7 +23,9 @@
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/experiment_copy.h"
 #include "experiments/sweep/folders.h"
+#include "experiments/sweep/recorded_cell.h"
 #include "geometry/mesh/half_edges.h"
+#include "io/cases/problem_record.h"
 #include "io/digest.h"
 #include "io/formats/msh.h"
 #include "io/mesh_io.h"
@@ -39,86 +41,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Files of this name in a folder and in those inside it, in the order of their paths.
-std::vector<fs::path> files_named(const fs::path& name, const fs::path& folder) {
-  std::vector<fs::path> found;
-  std::error_code error;
-  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (at->path().filename() == name && at->is_regular_file(error)) found.push_back(at->path());
-  std::ranges::sort(found);
-  return found;
-}
-
-fs::path find_model(const fs::path& file, const std::string& expected, const fs::path& data) {
-  std::string others;
-  std::error_code unknown;
-  std::vector<fs::path> places = files_named(file.filename(), data);
-  if (fs::is_regular_file(file, unknown)) places.insert(places.begin(), file);
-  for (const fs::path& place : places) {
-    const std::string found = mark_of(place).digest;
-    if (found == expected) return place;
-    others += fmt::format("; {} has the digest {}", place.string(), found);
-  }
-  refuse("{}: the model with the digest {} is neither here nor, by its name, below {} (--data){}",
-         file.string(), expected, data.string(), others);
-}
-
-/// The folder of the results that a cell's record belongs to.
-fs::path results_of(const fs::path& record_file) {
-  return fs::absolute(record_file).lexically_normal().parent_path().parent_path().parent_path();
-}
-
-/// The experiment that a record was made from, by its copy in the folder `results`. Throws InputError when it
-/// was changed or is not there.
-Experiment recorded_experiment(const Json& record, const fs::path& results, const fs::path& data) {
-  const fs::path file = record.at("experiment").get<std::string>();
-  if (const std::vector<std::string> wrong = check_copy(results, file); !wrong.empty())
-    throw InputError(wrong[0]);
-  Experiment experiment = Experiment::read(results / file, data);
-  experiment.max_elements = record.at("problem").at("max_elements");
-  return experiment;
-}
-
-/// The variant of a case that a record is of. A model that is a file is that with the digest of the record:
-/// at its place, or anywhere below `data` by its name. Throws InputError, naming file and digest, when there
-/// is none, and when the experiment has no such variant.
-Case recorded_case(const Json& record, const Experiment& experiment, const fs::path& data) {
-  const auto name = record.at("case").get<std::string>();
-  std::vector<std::pair<std::string, std::string>> variant;
-  for (const auto& [title, value] : record.at("variant").items()) variant.emplace_back(title, value);
-  const auto place = experiment.find_variant(name, variant);
-  if (!place)
-    refuse("{}: has no case '{}' with {}", experiment.file.string(), name, record.at("variant").dump());
-  Case c = experiment.read_variant((*place)[0], (*place)[1]);
-  if (auto* file = std::get_if<ModelFile>(&c.model))
-    file->path = find_model(file->path, record.at("digests").at("model"), data);
-  return c;
-}
-
-using Json = nlohmann::ordered_json;
-
 /// Parts of a record that are no values: what determines them (compared apart), and what no two runs have in
 /// common.
 const std::vector<std::string> kNoValues = {
     "digest",  "key",     "mesh_bytes",        "metrics_status", "case",      "pipeline",    "status",
     "model",   "seed",    "variant",           "peer",           "peer_file", "own_metrics", "experiment",
     "digests", "files",   "problem",           "not_repeatable", "record",    "versions",    "machine",
-    "started", "threads", "peak_memory_bytes", "warnings"};
-
-Json read_json(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file.string() + ": cannot be read");
-  try {
-    Json json = Json::parse(in);
-    located(file.string(), [&] { check_record_version(json.value("record", 1)); });
-    if (json.at("status") != "ok")
-      refuse("{}: is of a cell that was not done: {}", file.string(), json.at("reason").get<std::string>());
-    json.at("digests").at("mesh");
-    return json;
-  } catch (const Json::exception& error) {
-    throw InputError(json_problem(file, "is no record of an experiment's cell", error));
-  }
-}
+    "started", "threads", "peak_memory_bytes", "warnings",       "solvers"};
 
 bool is_time(const std::string& key) { return key.starts_with("seconds") || key.ends_with("seconds"); }
 
@@ -157,7 +86,6 @@ std::vector<std::string> compare_causes(const Json& before, const Json& now) {
   const Json &old_digests = before.at("digests"), &digests = now.at("digests");
   if (old_digests.at("model") != digests.at("model")) differences.push_back("the model");
   if (old_digests.at("program") != digests.at("program")) differences.push_back("the program's bytes");
-  if (before.at("seed") != now.at("seed")) differences.push_back("the seed");
   return differences;
 }
 
@@ -175,20 +103,10 @@ std::vector<std::string> compare_values(Json before, Json now) {
   return differences;
 }
 
-}  // namespace
-
-Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::path& data) {
-  const Json record = read_json(file);
-  const auto name = record.at("pipeline").get<std::string>();
-  Experiment experiment = recorded_experiment(record, results_of(file), data);
-  if (record.contains("peer") &&
-      std::ranges::find(experiment.peers, name, &Peer::name) == experiment.peers.end())
-    experiment.add_peer_file(experiment.file.parent_path() / record.at("peer_file").get<std::string>());
-  experiment.words = experiment.find_pipelines({name});
-  const Word& word = experiment.words[0];
-  const Case c = recorded_case(record, experiment, data);
-  CellIdentity cell = identify(experiment, c, model_digest(c), word);
-
+Rerun rerun(const Json& record, const RecordedCell& recorded) {
+  const Word& word = recorded.experiment.words[0];
+  const Case& c = recorded.c;
+  const CellIdentity cell = identify(recorded.experiment, c, model_digest(c), word);
   const TemporaryFolder scratch;
   const std::filesystem::path work = scratch.path() / "cell";
   MeshResult result = mesh_cell(c, word, cell.peer, work);
@@ -201,10 +119,21 @@ Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::pat
           compare_values(record, now)};
 }
 
+}  // namespace
+
+Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::path& data) {
+  const Json record = read_record_file(file);
+  try {
+    if (record.at("status") != "ok")
+      refuse("{}: is of a cell that was not done: {}", file.string(), record.at("reason").get<std::string>());
+    return rerun(record, recorded_cell(record, file, data));
+  } catch (const Json::exception& error) {
+    throw InputError(json_problem(file, "is no record of an experiment's cell", error));
+  }
+}
+
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using Lines = std::vector<std::string>;
 
 /// Sums over the elements in the order of the file, not in that of the mesher; relative.
@@ -228,21 +157,21 @@ Lines check_files(VerifiedCell& cell) {
   return wrong;
 }
 
-/// Whether a record lies in the folder of another cell.
-Lines check_place(const VerifiedCell& cell) {
+/// Whether a record lies in the folder of another cell, or is of another problem.
+Lines check_place(const VerifiedCell& cell, const StudyFile& study) {
   const fs::path folder = fs::absolute(cell.file).lexically_normal().parent_path();
   const std::string variant = folder.parent_path().filename().string(), pipeline = folder.filename().string();
   CellAddress address{cell.record.at("case"), {}, cell.record.at("pipeline")};
   for (const auto& [title, value] : cell.record.at("variant").items())
     address.variant.emplace_back(title, value);
-  bool is_right = pipeline == address.pipeline && variant.substr(0, variant.find('@')) == address.name;
-  try {
-    const auto study = read_study(results_of(cell.file));
-    const auto at = study ? find_cell(*study, variant, pipeline) : std::nullopt;
-    is_right = is_right && (!at || at->variant == address.variant);
-  } catch (const InputError&) {  // as check_study() says
+  const auto at = find_cell(study, variant, pipeline);
+  const auto now = study.problems.find(variant);
+  const std::string problem = ProblemRecord{cell.record.at("problem"), {}}.digest();
+  if (pipeline == address.pipeline && variant.substr(0, variant.find('@')) == address.name &&
+      (!at || at->variant == address.variant)) {
+    if (now == study.problems.end() || std::ranges::count(now->second, problem) > 0) return {};
+    return {cell.file.string() + ": has another problem than the experiment has now: run it again"};
   }
-  if (is_right) return {};
   return {fmt::format("{}: is the record of {} {} {}, in the folder of another cell", cell.file.string(),
                       address.name, cell.record.at("variant").dump(), address.pipeline)};
 }
@@ -250,26 +179,30 @@ Lines check_place(const VerifiedCell& cell) {
 /// What the checks of a cell need later on: there may be many.
 Json essence(const Json& record) {
   Json json = Json::object();
-  for (const char* key :
-       {"experiment", "case", "variant", "pipeline", "peer", "problem", "digests", "metrics"})
-    json[key] = record.value(key, Json());
+  for (const char* key : {"experiment", "case", "variant", "pipeline", "model", "problem", "digests",
+                          "metrics", "peer", "peer_file"})
+    if (record.contains(key)) json[key] = record[key];
   return json;
 }
 
 /// Fills in the record.
-Lines check_record(VerifiedCell& cell) {
+Lines check_record(VerifiedCell& cell, const StudyFile& study) {
   const std::string text = file_bytes(cell.file);
   Lines wrong;
   if (!is_sealed(text))
     wrong.push_back(cell.file.string() + ": was changed: its digest is not that of its text");
   try {
     cell.record = Json::parse(text);
+    located(cell.file.string(), [&] { check_record_version(cell.record.value("record", 1)); });
     std::ranges::move(check_files(cell), std::back_inserter(wrong));
-    std::ranges::move(check_place(cell), std::back_inserter(wrong));
+    std::ranges::move(check_place(cell, study), std::back_inserter(wrong));
     cell.record = essence(cell.record);
   } catch (const Json::exception& error) {
     wrong.push_back(json_problem(cell.file, "is no record of a cell", error));
-    cell.has_mesh = false;
+    cell = {cell.file, {}, false};
+  } catch (const InputError& error) {
+    wrong.emplace_back(error.what());
+    cell = {cell.file, {}, false};
   }
   return wrong;
 }
@@ -281,8 +214,8 @@ bool is_close(double a, double b) {
 
 /// As they were measured, of a peer or of a word.
 MeshMetrics metrics_of(const Json& record, const Prepared& prepared, const Mesh& mesh) {
-  return record.at("peer").is_null() ? prepared.metrics(mesh, record.at("pipeline").get<std::string>())
-                                     : prepared.measure(mesh).metrics;
+  return record.contains("peer") ? prepared.measure(mesh).metrics
+                                 : prepared.metrics(mesh, record.at("pipeline").get<std::string>());
 }
 
 /// Measures of the mesh that are not those of the record.
@@ -310,7 +243,7 @@ std::map<std::string, Variant> by_variant(const std::vector<VerifiedCell>& cells
   for (const VerifiedCell& cell : cells)
     if (cell.has_mesh) {
       const Json& r = cell.record;
-      variants[Json::array({r.at("experiment"), r.at("case"), r.at("variant")}).dump()].push_back(&cell);
+      variants[Json::array({r.at("case"), r.at("problem")}).dump()].push_back(&cell);
     }
   return variants;
 }
@@ -318,8 +251,7 @@ std::map<std::string, Variant> by_variant(const std::vector<VerifiedCell>& cells
 /// Nothing where the model is not at hand, and in a loop, whose sizes come from meshes that are gone.
 std::optional<Prepared> prepare_variant(const VerifiedCell& cell, const fs::path& data) {
   try {
-    const Experiment experiment = recorded_experiment(cell.record, results_of(cell.file), data);
-    const Case c = recorded_case(cell.record, experiment, data);
+    const Case c = recorded_cell(cell.record, cell.file, data).c;
     return c.adapt ? std::nullopt : std::optional(prepare(c));
   } catch (const InputError&) {
     return std::nullopt;
@@ -410,9 +342,9 @@ void check_all(std::size_t n, Check check, Lines& findings) {
 
 }  // namespace
 
-Lines damage_of_cell(const fs::path& record) {
+Lines damage_of_cell(const fs::path& record, const StudyFile& study) {
   VerifiedCell cell{record, {}, false};
-  return check_record(cell);
+  return check_record(cell, study);
 }
 
 Verification verify_results(const fs::path& folder, const fs::path& data) {
@@ -422,8 +354,13 @@ Verification verify_results(const fs::path& folder, const fs::path& data) {
   if (cells.empty()) throw InputError(folder.string() + ": holds no record.json of an experiment");
   result.cells = cells.size();
   Lines of_study = check_study(folder, result.undrawn);
+  StudyFile study;
+  try {
+    study = read_study(folder).value_or(study);
+  } catch (const InputError&) {  // as check_study() says
+  }
   check_all(
-      cells.size(), [&](std::size_t i) { return check_record(cells[i]); }, result.findings);
+      cells.size(), [&](std::size_t i) { return check_record(cells[i], study); }, result.findings);
   std::vector<Variant> variants;
   for (auto& [name, variant] : by_variant(cells)) {
     result.measured += variant.size();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/cases/case.h"
+#include "metrics/tables/study_file.h"
 
 namespace delquad {
 
@@ -15,9 +16,9 @@ struct Verification {
   std::string undrawn;                  ///< why figures are not checked; empty: they are, or there are none
 };
 
-/// What is not as it was written in a cell, by its record.json: the record by the digest that it carries, and
-/// the files that it lists; a line each with the file.
-std::vector<std::string> damage_of_cell(const std::filesystem::path& record);
+/// Returns what is not as it was written in a cell, a line each with the file. It checks the record by the
+/// digest that it carries, and the files that it lists. `study` tells records of other problems.
+std::vector<std::string> damage_of_cell(const std::filesystem::path& record, const StudyFile& study);
 
 /// Checks a folder of results: records and study.json by the digests that they carry, the files of cells by
 /// sizes and digests in the records, the copies of experiments, the measures in records by taking them again

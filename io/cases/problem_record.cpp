@@ -8,7 +8,6 @@
 #include "delquad/error.h"
 #include "geometry/planar/defined_curve.h"
 #include "io/cases/outline_files.h"
-#include "io/cases/read_problem.h"
 #include "io/digest.h"
 #include "io/mesh_io.h"
 
@@ -24,14 +23,14 @@ std::vector<std::string> words_of(const char* words) {
   return all;
 }
 
-std::optional<std::filesystem::path> file_of(const SizeSpec& size) {
+std::optional<NamedFile> file_of(const SizeSpec& size) {
   const auto file = size_file_of(size.text, size.folder);
-  return file ? std::optional(file->path) : std::nullopt;
+  return file ? std::optional(NamedFile{"base", *file}) : std::nullopt;
 }
 
-std::optional<std::filesystem::path> file_of(const MetricSpec& metric) {
+std::optional<NamedFile> file_of(const MetricSpec& metric) {
   const auto file = size_file_of(metric.file, metric.folder);
-  return file ? std::optional(file->path) : std::nullopt;
+  return file ? std::optional(NamedFile{"file", *file}) : std::nullopt;
 }
 
 RecordJson Recorder::number(double value) {
@@ -52,7 +51,7 @@ RecordJson Recorder::write_other(const std::shared_ptr<const Curve>& curve, cons
 
 RecordJson Recorder::write_other(const std::string& text, const Rule& rule) {
   if (rule.form == Form::kBytes) return text.empty() ? RecordJson() : RecordJson(digest(text));
-  if (rule.form != Form::kFormula) return text;
+  if (rule.form != Form::kFormula || whole_) return text;
   if (const auto value = as_number(text)) return fmt::format("{}", *value);  // however it is spelled
   return text.empty() ? RecordJson() : RecordJson(text);
 }

@@ -15,14 +15,19 @@
 #include <vector>
 
 #include "io/cases/problem_fields.h"
+#include "io/cases/read_problem.h"
 
 namespace delquad {
 
 using RecordJson = nlohmann::ordered_json;
 
-/// The file that a size or metric is read from.
-std::optional<std::filesystem::path> file_of(const SizeSpec& size);
-std::optional<std::filesystem::path> file_of(const MetricSpec& metric);
+/// The file that a size or metric is read from, and the key whose text names it.
+struct NamedFile {
+  const char* key;
+  SizeFile file;
+};
+std::optional<NamedFile> file_of(const SizeSpec& size);
+std::optional<NamedFile> file_of(const MetricSpec& metric);
 
 /// Writes structs as their descriptions say, without fields that determine no result. Files count by content.
 class Recorder {
@@ -30,11 +35,14 @@ class Recorder {
   /// Keys of functions, fields and meshes in memory: what is made with them cannot be repeated from a record.
   std::vector<std::string> in_memory;
 
+  /// `whole`: also fields that determine no result, and texts as they are spelled.
+  explicit Recorder(bool whole = false) : whole_(whole) {}
+
   template <Described T>
   RecordJson object(const T& value) {
     RecordJson json = RecordJson::object();
     for_each_field(value, [&](const FieldInfo& info, const auto& member) {
-      if (info.rule.no_result != nullptr) return;
+      if (info.rule.no_result != nullptr && !whole_) return;
       const std::size_t outer = path_.size();
       path_ += (path_.empty() ? "" : ".") + std::string(info.key);
       RecordJson one = write(member, info.rule);
@@ -46,7 +54,11 @@ class Recorder {
       path_.resize(outer);
     });
     if constexpr (requires { file_of(value); })
-      if (const auto file = file_of(value)) json["content"] = content(*file);
+      if (const auto named = file_of(value)) {
+        const auto& [path, part] = named->file;
+        json[named->key] = path.filename().string() + (part.empty() ? "" : ":" + part);
+        json["content"] = content(path);
+      }
     return json;
   }
 
@@ -121,6 +133,7 @@ class Recorder {
   RecordJson write_in_memory(bool is_there);
 
   std::string path_;
+  bool whole_;
 };
 
 /// A struct as its description says.

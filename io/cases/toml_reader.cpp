@@ -279,12 +279,6 @@ void TomlTable::read(const std::string& key, const TomlTarget& target) const {
       target);
 }
 
-double TomlTable::positive_number(const std::string& key) const {
-  const double value = number(key);
-  if (value <= 0) data_->expected(data_->need(key, ""), key, "a number > 0");
-  return value;
-}
-
 std::string TomlTable::expression(const std::string& key) const {
   if (kind(key) == TomlKind::kText) return text(key);
   constexpr const char* kExpected = "a finite number or an expression in quotes";

@@ -80,7 +80,6 @@ class TomlTable {
   }
   double number(const std::string& key) const { return get<double>(key); }
   double number(const std::string& key, double absent) const { return get(key, absent); }
-  double positive_number(const std::string& key) const;
   long long integer(const std::string& key) const { return get<long long>(key); }
   long long integer(const std::string& key, long long absent) const { return get(key, absent); }
   bool flag(const std::string& key, bool absent) const { return get(key, absent); }

@@ -14,9 +14,10 @@
 #include "base/located.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "io/cases/read_record.h"
 #include "io/digest.h"
 #include "io/mesh_io.h"
-#include "metrics/tables/study_file.h"
+#include "metrics/tables/study_fields.h"
 
 namespace delquad {
 
@@ -41,15 +42,8 @@ void add_step_times(const Json& record, std::map<std::string, double>& values) {
 }
 
 Metric parse_metric(const Json& json) {
-  Metric metric{json.at("key"),
-                json.at("title"),
-                json.at("unit"),
-                Better::kNeither,
-                std::numeric_limits<double>::quiet_NaN(),
-                ""};
-  const auto better = json.at("better").get<std::string>();
-  if (better != "neither") metric.better = better == "higher" ? Better::kHigher : Better::kLower;
-  json.at("digits").get_to(metric.digits);
+  Metric metric{"", "", "", Better::kNeither, std::numeric_limits<double>::quiet_NaN(), ""};
+  RecordReader().object(json, metric);
   return metric;
 }
 
@@ -274,8 +268,9 @@ std::vector<CellRecord> read_records(const fs::path& folder) {
 
 void check_record_version(int version) {
   if (version == kRecordVersion) return;
-  throw InputError(fmt::format("record of version {}: expected version {}: run the experiment again", version,
-                               kRecordVersion));
+  throw InputError(
+      fmt::format("record of version {}: expected version {}: run the experiment again, in a new folder",
+                  version, kRecordVersion));
 }
 
 bool has_mesh(const std::string& state) { return state == "done" || state == "metric failed"; }

@@ -15,7 +15,7 @@ namespace delquad {
 /// Within this part of a number of quads, two meshes count as equally fine.
 inline constexpr double kEquallyMany = 0.01;
 /// The layout of records, their entry "record".
-inline constexpr int kRecordVersion = 2;
+inline constexpr int kRecordVersion = 3;
 /// Throws InputError for another layout.
 void check_record_version(int version);
 /// What records call the changing of a size until a number of quads is reached.

@@ -57,5 +57,17 @@ inline constexpr auto kFields<TablePlan> = std::tuple(
     field("hypotheses", &TablePlan::hypotheses, "claims that are fixed before the run"),
     field("may_fail", &TablePlan::may_fail, "cells that may fail",
           {.no_result = "it says what the exit code is"}));
+template <>
+inline constexpr auto kFields<CaseGeometry> = std::tuple(inner("domain", &CaseGeometry::domain),
+                                                         inner("digest", &CaseGeometry::digest),
+                                                         inner("shape", &CaseGeometry::shape),
+                                                         inner("chord_error", &CaseGeometry::chord_error));
+template <>
+inline constexpr auto kFields<StudyCells> =
+    std::tuple(inner("experiment", &StudyCells::experiment), inner("problems", &StudyCells::problems),
+               inner("cases", &StudyCells::cases), inner("pipelines", &StudyCells::pipelines),
+               inner("axes", &StudyCells::axes), inner("geometry", &StudyCells::geometry),
+               inner("plan", &StudyCells::plan), inner("cells", &StudyCells::cells),
+               inner("compare", &StudyCells::compare), inner("plan_changed", &StudyCells::plan_changed));
 
 }  // namespace delquad

@@ -9,9 +9,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/located.h"
 #include "delquad/error.h"
+#include "io/cases/read_record.h"
 #include "io/digest.h"
 #include "io/mesh_io.h"
+#include "metrics/tables/result_records.h"
+#include "metrics/tables/study_fields.h"
 
 namespace delquad {
 
@@ -53,58 +57,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr const char* kStudyFile = "study.json";
-
-Json to_json(const StudyFile& study) {
-  Json json = {{"title", study.title},      {"experiment", study.experiment},
-               {"cases", study.cases},      {"pipelines", study.pipelines},
-               {"cells", study.cells},      {"step_times", study.step_times},
-               {"compare", study.compare},  {"axes", study.axes},
-               {"plan", study.plan},        {"geometry", Json::object()},
-               {"published", Json::array()}};
-  for (const auto& [name, geometry] : study.geometry)
-    json["geometry"][name] = {{"domain", geometry.domain},
-                              {"digest", geometry.digest},
-                              {"shape", geometry.shape},
-                              {"chord_error", geometry.chord_error}};
-  if (!study.columns.empty()) json["columns"] = study.columns;
-  if (!study.pairs.empty()) json["pairs"] = study.pairs;
-  for (const Hypothesis& h : study.hypotheses)
-    json["hypotheses"].push_back(
-        {{"better", h.better}, {"than", h.than}, {"along", h.along}, {"measures", h.measures}});
-  for (const MayFail& cells : study.may_fail)
-    json["may_fail"].push_back(
-        {{"case", cells.name}, {"variant", cells.variant}, {"pipeline", cells.pipeline}});
-  if (study.plan_changed) json["plan_changed"] = true;
-  for (const PublishedRow& row : study.published)
-    json["published"].push_back({{"name", row.name}, {"source", row.source}, {"values", row.values}});
-  return json;
-}
-
-StudyFile from_json(const Json& json) {
-  StudyFile study;
-  json.at("title").get_to(study.title);
-  json.at("experiment").get_to(study.experiment);
-  json.at("cases").get_to(study.cases);
-  json.at("pipelines").get_to(study.pipelines);
-  json.at("axes").get_to(study.axes);
-  study.plan = json.value("plan", "");
-  const Json geometry = json.value("geometry", Json::object());
-  for (const auto& [name, of] : geometry.items())
-    study.geometry[name] = {of.at("domain"), of.at("digest"), of.at("shape"), of.value("chord_error", 0.0)};
-  json.at("cells").get_to(study.cells);
-  json.at("step_times").get_to(study.step_times);
-  study.columns = json.value("columns", study.columns);
-  study.pairs = json.value("pairs", study.pairs);
-  for (const Json& h : json.value("hypotheses", Json::array()))
-    study.hypotheses.push_back({h.at("along"), h.at("better"), h.at("than"), h.at("measures")});
-  for (const Json& cells : json.value("may_fail", Json::array()))
-    study.may_fail.push_back({cells.at("case"), cells.at("variant"), cells.at("pipeline")});
-  study.plan_changed = json.value("plan_changed", false);
-  json.at("compare").get_to(study.compare);
-  for (const Json& row : json.at("published"))
-    study.published.push_back({row.at("name"), row.at("source"), row.at("values")});
-  return study;
-}
 
 /// Up to this many characters of a value make the name of a folder.
 constexpr std::size_t kLongestValue = 40;
@@ -180,14 +132,24 @@ std::map<std::string, std::string> domains_of(const StudyFile& study) {
 }
 
 void write_study(const std::filesystem::path& folder, const StudyFile& study) {
-  write_text_file(folder / kStudyFile, sealed(to_json(study).dump(2) + "\n"));
+  Recorder recorder(true);
+  Json json = {{"record", kRecordVersion}};
+  json.update(recorder.object<TablePlan>(study));
+  json.update(recorder.object<StudyCells>(study));
+  write_text_file(folder / kStudyFile, sealed(json.dump(2) + "\n"));
 }
 
 std::optional<StudyFile> read_study(const std::filesystem::path& folder) {
   std::ifstream in(folder / kStudyFile);
   if (!in) return std::nullopt;
   try {
-    return from_json(Json::parse(in));
+    const Json json = Json::parse(in);
+    located((folder / kStudyFile).string(), [&] { check_record_version(json.value("record", 1)); });
+    StudyFile study;
+    const RecordReader reader({}, true);
+    reader.object<TablePlan>(json, study);
+    reader.object<StudyCells>(json, study);
+    return study;
   } catch (const Json::exception& error) {
     throw InputError(json_problem(folder / kStudyFile, "does not describe an experiment's results", error));
   }

@@ -64,9 +64,11 @@ struct CaseGeometry {
   double chord_error = 0;     ///< part of its length or area that chords of curves may have cut off
 };
 
-/// What a folder of results says of its experiment, besides the records of its cells: study.json.
-struct StudyFile : TablePlan {
+/// The cells of an experiment.
+struct StudyCells {
   std::string experiment;  ///< name of its file, without folder and extension
+  /// Digests of problems, by the folder of the variant: one, or more after folders were merged.
+  std::map<std::string, std::vector<std::string>> problems;
   std::vector<std::string> cases, pipelines;
   /// What varies, in its order, with its values.
   std::vector<std::pair<std::string, std::vector<std::string>>> axes;
@@ -77,6 +79,9 @@ struct StudyFile : TablePlan {
   std::map<std::string, std::map<std::string, std::string>> compare;
   bool plan_changed = false;  ///< after the first record was there
 };
+
+/// The description of an experiment in its folder of results, beside the records of its cells: study.json.
+struct StudyFile : TablePlan, StudyCells {};
 /// What tables say then.
 inline constexpr const char* kNotPlanned =
     "Not planned: hypotheses, cases, models, options or pipelines were changed after the first mesh was "
@@ -93,7 +98,7 @@ std::string folder_text(const std::vector<std::string>& values, std::size_t i);
 
 /// Throws InputError when it cannot be written.
 void write_study(const std::filesystem::path& folder, const StudyFile& study);
-/// Nothing when there is none; throws InputError when it is no such file.
+/// Nothing when there is none; throws InputError when it is no such file, or of another version.
 std::optional<StudyFile> read_study(const std::filesystem::path& folder);
 
 /// Which cell of an experiment.

@@ -29,20 +29,20 @@ bool try_experiment(std::string_view bytes) {
 }
 
 const std::string kStudy =
-    R"({"title": "t", "experiment": "e", "cases": ["disc"], "pipelines": ["DB", "FB"], "cells": 4, "step_times": true,)"
+    R"({"record": 3, "title": "t", "experiment": "e", "problems": {"disc": ["p"]}, "cases": ["disc"], "pipelines": ["DB", "FB"], "cells": 4, "step_times": true,)"
     R"( "compare": {"disc": {"DB": "row"}}, "axes": [["seed", ["1", "2"]]], "published": [{"name": "row", "source": "s",)"
     R"( "values": {"n_quads": 7, "eta_mean": 0.5}}], "columns": ["n_quads"], "pairs": ["seed"], "plan": "p", "geometry":)"
-    R"( {"disc": {"domain": "", "digest": "d", "shape": [1, 2.5]}}, "hypotheses": [{"better": "DB", "than": "FB", "along":)"
-    R"( "", "measures": ["own"]}]})";
+    R"( {"disc": {"domain": "", "digest": "d", "shape": [1, 2.5], "chord_error": 0}}, "hypotheses": [{"better": "DB", "than":)"
+    R"( "FB", "along": "", "measures": ["own"]}], "may_fail": [], "plan_changed": false})";
 const std::string kRecord =
-    R"({"record": 2, "case": "disc", "pipeline": "DB", "variant": {"seed": "1"}, "status": "ok", "quads_only": true, "metrics":)"
-    R"( {"n_quads": 12, "eta_mean": 0.9, "own": null}, "own_metrics": [{"key": "own", "title": "Own", "unit": "",)"
+    R"({"record": 3, "case": "disc", "pipeline": "DB", "variant": {"seed": "1"}, "status": "ok", "quads_only": true, "metrics":)"
+    R"( {"n_quads": 12, "eta_mean": 0.9, "own": null}, "own_metrics": [{"name": "own", "title": "Own", "unit": "",)"
     R"( "better": "higher", "digits": 3}], "failed_metrics": {"own": "why"}, "meshing_seconds": 0.5, "seconds":)"
     R"( {"insertion": 0.1, "peer": 2}, "warnings": ["w"], "unsound": ["u"], "domain": {"size_adapted_to":)"
     R"( ["curvature"]}, "problem": {"size": {"base": "0.1", "source": []}}, "calibration": {"to": "DB",)"
     R"( "size_factor": 1.5, "wanted_quads": 12, "quads": 11, "runs": 3}})";
 const std::string kFailed =
-    R"({"record": 2, "case": "disc", "pipeline": "FB", "variant": {"seed": "2"}, "status": "failed", "kind": "input", "reason": "r"})";
+    R"({"record": 3, "case": "disc", "pipeline": "FB", "variant": {"seed": "2"}, "status": "failed", "kind": "input", "reason": "r"})";
 
 /// A folder of results of which one file holds the input: its records and tables.
 class Results {
@@ -117,7 +117,7 @@ seeds = [1, 2]
 std::vector<std::string> record_seeds() {
   return {
       kRecord,
-      R"({"record": 2, "case": "disc", "pipeline": "DB", "variant": {"seed": "1"}, "status": "failed", "kind": "k", "reason": "r"})"};
+      R"({"record": 3, "case": "disc", "pipeline": "DB", "variant": {"seed": "1"}, "status": "failed", "kind": "k", "reason": "r"})"};
 }
 std::vector<std::string> study_seeds() { return {kStudy}; }
 

@@ -1,9 +1,11 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "tests/program/program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
@@ -54,6 +56,53 @@ TEST_F(RecordsCommands, RerunOfAMovedFolder) {
   const ProgramResult edited = delquad({"rerun", record});
   EXPECT_EQ(edited.exit_code, 1);
   EXPECT_TRUE(contains(edited.out, "differs: value metrics eta_mean: 0.5 in the record, ")) << edited.out;
+}
+
+/// Curves of all kinds, a triangulation in STL, and CAD; and a record of 'mesh' itself.
+TEST_F(RecordsCommands, MeshOfARecordIsTheSame) {
+  const Mesh lens = testing_support::lens(64, 12, 0.45);
+  std::string stl = "solid lens\n";
+  for (const auto& triangle : lens.triangles) {
+    stl += "facet normal 0 0 0\nouter loop\n";
+    for (const int v : triangle)
+      stl += fmt::format("vertex {} {} {}\n", lens.points[v].x, lens.points[v].y, lens.points[v].z);
+    stl += "endloop\nendfacet\n";
+  }
+  write_text(folder_ / "lens.stl", stl + "endsolid lens\n");
+  std::string text =
+      "pipelines = [\"DBCO\"]\n"
+      "[[case]]\nname = \"curves\"\norder = 2\nsize = { base = \"0.1 + 0.1*x\", gradation = 0.3 }\n"
+      "loop = { curves = [\"a\", \"b\", \"c\"] }\nembed = [{ point = [1, 0.5], name = \"p\" }]\n"
+      "curve = [{ name = \"a\", spline = [[0, 0], [0.7, -0.2], [2, 0]] }, { name = \"b\", polyline = [[2, "
+      "0], [2, 1], [0, 1]] }, { name = \"c\", expression = { x = \"0.1*sin(pi*t)\", y = \"1 - t\", from = 0, "
+      "to = 1 } }]\n"
+      "[[case]]\nname = \"lens\"\nmodel = \"lens.stl\"\nsize = 0.3\nsurface = { feature_angle = 30 }\n";
+#if DELQUAD_HAS_CAD
+  ASSERT_EQ(delquad({"example", "pipe_tee", "-o", folder_ / "tee.step"}).exit_code, 0);
+  text += "[[case]]\nname = \"tee\"\nmodel = \"tee.step\"\nsize = 12\norder = 2\n";
+#endif
+  ASSERT_EQ(delquad({"run", write_text(folder_ / "all.toml", text), "-o", folder_ / "all"}).exit_code, 0);
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "all")) {
+    if (entry.path().filename() != "record.json") continue;
+    const ProgramResult again = delquad({"mesh", entry.path(), "-o", folder_ / "again.msh"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(read_text(folder_ / "again.msh"), read_text(entry.path().parent_path() / "mesh.msh"))
+        << entry.path();
+  }
+  const auto mesh = [&](const std::string& model, const char* to) {
+    return delquad({"mesh", folder_ / model, "-o", folder_ / to, "--json", folder_ / "own.json"});
+  };
+  write_text(folder_ / "square.toml", kSquare + "size = 0.2\n");
+  ASSERT_EQ(mesh("square.toml", "one.msh").exit_code, 0);
+  ASSERT_EQ(mesh("own.json", "two.msh").exit_code, 2) << "would be overwritten";
+  fs::copy(folder_ / "own.json", folder_ / "first.json");
+  ASSERT_EQ(mesh("first.json", "two.msh").exit_code, 0);
+  EXPECT_EQ(read_text(folder_ / "two.msh"), read_text(folder_ / "one.msh"));
+  std::string old = read_text(folder_ / "first.json");
+  write_text(folder_ / "first.json", old.replace(old.find("\"record\": 3"), 11, "\"record\": 2"));
+  const ProgramResult refused = mesh("first.json", "two.msh");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.err, "record of version 2: expected version 3")) << refused.err;
 }
 
 TEST_F(RecordsCommands, MergeOfShards) {

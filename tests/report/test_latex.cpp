@@ -80,7 +80,7 @@ TEST_F(StudyPrograms, ClaimsAreConfirmedByAnotherProgram) {
   };
   tamper("hypotheses.csv", ",proven,", ",refuted,");
   expect_refused("is 'refuted', by runs.csv 'proven'");
-  tamper("study.json", "{", "{\"plan_changed\": true,");
+  tamper("study.json", "\"plan_changed\": false", "\"plan_changed\": true");
   ASSERT_EQ(delquad({"tables", results()}).exit_code, 0);
   EXPECT_NE(check_claims().out.find("tests: not planned, confirmed"), std::string::npos);
   tamper("pairs.csv", ",exploratory,", ",better,");

@@ -182,6 +182,13 @@ TEST_F(Planned, NothingOfCasesCanBeTried) {
         first + "cleanup = { rounds = 1 }\n", first + "domain = \"b\"\n"})
     EXPECT_NE(plan_of(head + other + second), before) << other;
   EXPECT_NE(plan_of(with(head, "DBC\"]", "DBC\", \"FB\"]") + first + second), before) << "a pipeline more";
+  const std::string peer =
+      "[[peer]]\nname = \"x\"\ncommand = [\"x\", \"{input}\", \"{output}\"]\nversion = [\"true\"]\n";
+  const std::string with_peer = plan_of(head + peer + first + second);
+  for (const std::string keys : {"exit_codes = [1]\n", "metrics = true\n", "surfaces = \"none\"\n"})
+    EXPECT_NE(plan_of(head + peer + keys + first + second), with_peer) << keys;
+  EXPECT_NE(plan_of("solver = [\"poisson\"]\n" + head + first + second), before);
+  EXPECT_NE(plan_of(head + first + second + "[[variant]]\nname = \"v\"\norder = 2\n"), before);
   model(1.5);
   EXPECT_NE(plan_of(head + first + second), before) << "another model in the same file";
 }

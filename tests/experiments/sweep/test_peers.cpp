@@ -92,7 +92,7 @@ TEST_F(Peers, AreMeasuredAsOurs) {
   EXPECT_EQ(read_text(cell / "peer.log"), "hello\n");
   EXPECT_EQ(read_mesh(cell / "input.msh").lines.size(), 16u);
   const auto record = nlohmann::json::parse(read_text(cell / "record.json"));
-  EXPECT_EQ(record.at("peer").at("version"), "1.0");
+  EXPECT_EQ(record.at("peer").at("version_line"), "1.0");
   EXPECT_EQ(record.at("peer").at("command").size(), 3u);
   const Rerun again = rerun_record(cell / "record.json");
   EXPECT_TRUE(again.same_mesh);
@@ -129,7 +129,7 @@ TEST_F(Peers, SayWhenTheyDoNotTellTheirVersion) {
   text.replace(text.find(tells), tells.size(), "[\"sh\", \"-c\", \"echo; echo 7\"]");
   run_experiment(experiment("[\"copy\"]", text), out());
   EXPECT_TRUE(records().at("copy").warnings.empty());
-  EXPECT_NE(read_text(fs::path(out()) / "square" / "copy" / "record.json").find("\"version\": \"7\""),
+  EXPECT_NE(read_text(fs::path(out()) / "square" / "copy" / "record.json").find("\"version_line\": \"7\""),
             std::string::npos);
 }
 
@@ -137,7 +137,7 @@ TEST_F(Peers, AnotherScriptIsAnotherCell) {
   const std::string good = good_mesh(), text = peer("copy", "cp '" + good + "' $2") + kPeerSquare;
   run_experiment(experiment("[\"copy\"]", text), out());
   const auto record = nlohmann::json::parse(read_text(fs::path(out()) / "square" / "copy" / "record.json"));
-  EXPECT_TRUE(record.at("peer").at("files").contains("./copy.sh"));
+  EXPECT_TRUE(record.at("peer").at("content").contains("./copy.sh"));
   peer("copy", "cp '" + good + "' $2 # again");
   EXPECT_EQ(list_cells(experiment("[\"copy\"]", text), out()), "outdated       square copy\n");
 }

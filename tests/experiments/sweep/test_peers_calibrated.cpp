@@ -491,7 +491,7 @@ TEST_F(CalibratedPeers, AdaptersSpeakToProgramsThatAreAbsentHere) {
   std::vector<std::string> meshed;
   for (const CellRecord& cell : read_records(out())) {
     if (cell.reason.empty()) meshed.push_back(cell.name + " " + cell.pipeline);
-    EXPECT_NE(record_of(cell.name, cell.pipeline).at("peer").at("version"), "") << cell.pipeline;
+    EXPECT_NE(record_of(cell.name, cell.pipeline).at("peer").at("version_line"), "") << cell.pipeline;
   }
   std::ranges::sort(meshed);
   EXPECT_EQ(meshed,

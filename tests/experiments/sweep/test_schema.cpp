@@ -8,6 +8,7 @@
 #include "delquad/error.h"
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/schema.h"
+#include "io/cases/problem_record.h"
 #include "io/cases/read_described.h"
 #include "tests/support/run_program.h"
 
@@ -167,6 +168,37 @@ TEST_F(Schema, EveryKeySaysWhatItIs) {
   for_each_table(experiment_keys(), "the top", [](const std::string& table, const TomlKeys& keys) {
     for (const TomlKey& key : keys) EXPECT_FALSE(key.about.empty()) << key.name << " of " << table;
   });
+}
+
+/// Looks for a described key in files, the schema, documents and records.
+template <Described T>
+void expect_everywhere(const std::string& schema, const std::string& docs) {
+  const T value{};
+  const RecordJson record = Recorder(true).object(value);
+  const TomlKeys keys = keys_of<T>();
+  int described = 0;
+  for_each_field(value, [&](const FieldInfo& info, const auto&) {
+    EXPECT_TRUE(record.contains(info.key)) << info.key;
+    if (info.rule.form == Form::kNone || info.rule.form == Form::kMost) return;
+    ++described;
+    EXPECT_EQ(std::ranges::count(keys, info.key, &TomlKey::name), 1) << info.key;
+    EXPECT_NE(schema.find("\"" + std::string(info.key) + "\": {"), std::string::npos) << info.key;
+    EXPECT_NE(docs.find("`" + std::string(info.key) + "`"), std::string::npos) << info.key;
+  });
+  EXPECT_GT(described, 0);
+}
+
+template <Described... T>
+void expect_all_everywhere() {
+  const std::string docs = read_text(fs::path(DELQUAD_EXPERIMENTS) / "../docs/keys.md");
+  (expect_everywhere<T>(experiment_schema(), docs), ...);
+}
+
+TEST_F(Schema, DescribedKeysAreEverywhere) {
+  expect_all_everywhere<MeshProblem, SurfaceSpec, MirrorPlane, NamedPart, LayerSpec, SizeSpec, SizeSource,
+                        NamedSize, MetricSpec, CurveDivision, PeriodicPair, SymmetryPlane, GridCorners,
+                        WasherSpec, FilletRows, Criteria, Material, CaseOfStudy, AdaptLoop, TablePlan,
+                        ExperimentKeys, Peer, MetricCommand, Hypothesis, MayFail>();
 }
 
 /// An independent checker of schemas: Python's jsonschema. Prints "file: good" or "file: bad".

@@ -120,7 +120,7 @@ TEST_F(StaleKeys, RecordsOfOtherVersionsAreRefused) {
   write_text(out() / "a/DB/record.json", old.dump(2));
   const std::vector<CellRecord> records = read_records(out());
   ASSERT_EQ(records.size(), 1u);
-  EXPECT_NE(records[0].reason.find("record of version 1: expected version 2"), std::string::npos)
+  EXPECT_NE(records[0].reason.find("record of version 1: expected version 3"), std::string::npos)
       << records[0].reason;
 }
 

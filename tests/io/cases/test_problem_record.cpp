@@ -3,7 +3,9 @@
 #include <functional>
 #include <map>
 
-#include "io/cases/problem_record.h"
+#include "io/cases/read_record.h"
+#include "io/digest.h"
+#include "tests/support/expect_input_error.h"
 #include "tests/support/run_program.h"
 
 namespace delquad {
@@ -168,6 +170,19 @@ class Change {
   bool has_result_ = false, in_memory_ = false;
 };
 
+/// Reads the case of a record, with files in a folder.
+Case case_of(const RecordJson& record, const fs::path& folder) {
+  const RecordReader reader([&](const fs::path&, const std::string& digest) {
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (file_digest(entry.path()) == digest) return entry.path();
+    throw InputError("there is no such file");
+  });
+  Case c;
+  reader.object<MeshProblem>(record, c);
+  reader.object<CaseOfStudy>(record, c);
+  return c;
+}
+
 const std::vector<Model> kModels = {PlanarModel(), LineModel(),    TriangleModel(), GivenMesh(),
                                     CadModel(),    ExampleModel(), ModelFile()};
 
@@ -195,6 +210,10 @@ TEST(ProblemRecord, EveryFieldThatCountsIsInTheDigest) {
         EXPECT_TRUE(digests.emplace(record.digest(), change.key()).second)
             << change.key() << " and " << digests[record.digest()];
       }
+      if (change.in_memory() || std::holds_alternative<CadModel>(other.model))  // whose bytes are in memory
+        EXPECT_THROW(case_of(record.json, folder / ""), InputError) << change.key();
+      else
+        EXPECT_EQ(record_of(case_of(record.json, folder / "")).json, record.json) << change.key();
       ++parts;
       ignored += !change.has_result();
       functions += change.in_memory();
@@ -205,6 +224,28 @@ TEST(ProblemRecord, EveryFieldThatCountsIsInTheDigest) {
   EXPECT_GT(parts, 200);
   EXPECT_GT(ignored, 25);
   EXPECT_GE(functions, 12);
+}
+
+TEST(ProblemRecord, CurvesAreReadAsTheyWere) {
+  const std::vector<Vec2> drop = {{0, 0}, {2, -0.5}, {3, 0.1}, {2, 0.5}, {0, 0}};
+  std::vector<Vec2> turned = drop;
+  turned.pop_back();
+  std::ranges::rotate(turned, turned.begin() + 2);
+  turned.push_back(turned[0]);
+  for (const auto& curve :
+       {make_segment({0, 0.1}, {1, 1e-300}), make_polyline(drop), make_spline(drop), make_spline(turned, 1.8),
+        make_spline({{0, 0}, {1, 1}, {2, -0.0}}, 2), make_circle({1.0 / 3, 2}, 1e5),
+        make_arc({0, 0}, 0.1, 2, -1), make_expression_curve("cos(t) + t^2", "sin(t) > 0 ? t : 1", 0.1, 3)}) {
+    Case c;
+    c.model = PlanarModel{"m", {{curve, "wall", "m:1"}}, {}};
+    const Case read = case_of(record_of(c).json, {});
+    const auto& same = std::get<PlanarModel>(read.model).curves.at(0).shape;
+    for (int i = 0; i <= 1000; ++i) {
+      const Vec2 p = curve->point(i / 1000.0), q = same->point(i / 1000.0);
+      EXPECT_TRUE(p == q) << record_of(c).json.at("model") << " at " << i;
+    }
+    EXPECT_EQ(curve->fixed_parameters(), same->fixed_parameters());
+  }
 }
 
 /// Where a file lies, what it is called and how a number is spelled change nothing.
@@ -235,6 +276,14 @@ TEST(ProblemRecord, FilesOfSizesCountByContent) {
   EXPECT_EQ(one, digest_with("one", "size.msh:h"));
   EXPECT_NE(one, digest_with("other", "size.msh:h"));
   EXPECT_NE(one, digest_with("one", "size.msh:k"));
+  fs::create_directories(folder / "far");
+  EXPECT_EQ(one,
+            (fs::rename(folder / "size.msh", folder / "far/size.msh"), digest_with("one", "far/size.msh:h")));
+  Case c;
+  c.size = {.text = "far/size.msh: h", .folder = folder / ""};
+  const Case read = case_of(record_of(c).json, folder / "far");
+  EXPECT_EQ(read.size.folder / "size.msh", folder / "far/size.msh");
+  EXPECT_EQ(record_of(read).digest(), record_of(c).digest());
 }
 
 TEST(ProblemRecord, CurvesCountByTheirDefinition) {

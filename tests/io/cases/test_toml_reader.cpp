@@ -49,7 +49,6 @@ TEST_F(TomlReader, MistakesNameFileLineKeyAndWhatWasExpected) {
   expect_input_error([&] { table.texts("l"); }, {"in.toml:6", "'l'", "texts"});
   expect_input_error([&] { table.table("n"); }, {"in.toml:1", "table"});
   expect_input_error([&] { table.tables("l"); }, {"in.toml:6", "list of tables"});
-  expect_input_error([&] { table.table("s").positive_number("y"); }, {"in.toml:8", "'s.y'", "> 0"});
   expect_input_error([&] { table.table("s").number("z"); }, {"in.toml:7", "'s.z'", "missing"});
   expect_input_error([&] { read("a = 1\na = 2\n"); }, {"in.toml:2", "not TOML"});
   expect_input_error([&] { TomlTable::read(folder_ / "none.toml"); }, {"none.toml", "No such file"});

@@ -129,7 +129,7 @@ TEST(ReadRecords, NameWhatIsNoRecord) {
   expect_input_error([&] { read_records(folder / ""); }, {"no record.json"});
   std::filesystem::create_directories(folder / "a" / "b");
   const std::string good =
-      R"({"record": 2, "case": "a", "pipeline": "D", "status": "ok", "metrics": {"tau": null, "d4": 90}, "meshing_seconds": 2})";
+      R"({"record": 3, "case": "a", "pipeline": "D", "status": "ok", "metrics": {"tau": null, "d4": 90}, "meshing_seconds": 2})";
   write_text(folder / "a" / "record.json", good);
   const auto records = read_records(folder / "");
   ASSERT_EQ(records.size(), 1u);
