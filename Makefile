@@ -10,7 +10,7 @@ CMAKE_FLAGS ?=
 # How long `make fuzz` tries its targets, all of them together.
 SECONDS ?= 120
 
-.PHONY: doc-tables package build dev lint test test-long sanitize python data paper studies peers public public_models suite site bench fuzz
+.PHONY: doc-tables fig15 package build dev lint test test-long sanitize python data paper studies peers public public_models suite site bench fuzz
 
 # The program, the programs and libraries that it loads, and the library for C++.
 build:
@@ -51,6 +51,10 @@ test-long:
 paper: EXPERIMENTS = $(wildcard experiments/paper/*.toml)
 paper: INTO = $(RESULTS)$(if $(SMALL),/small)
 paper: FLAGS = $(if $(SMALL),--pipelines D$(,)DB)
+paper: fig15
+fig15: build
+	@cmake --build --preset $(PRESET) --target fig15 > /dev/null
+	@build/$(PRESET)/fig15 $(INTO)/fig15_linf_delaunay
 # Everything else that was measured.
 studies: EXPERIMENTS = $(wildcard experiments/studies/*.toml experiments/studies/on_suite/*.toml)
 # Ours beside other meshers; those that are not installed are told.

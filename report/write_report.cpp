@@ -35,21 +35,12 @@ struct Study {
   std::vector<fs::path> drawings;
 };
 
-/// Results without cells: a table, and drawings.
-struct TableStudy {
-  std::string name;
-  Table table;
-  std::vector<fs::path> drawings;
-};
-
 struct Contents {
   std::vector<Study> studies;
-  std::vector<TableStudy> tables;
   std::vector<std::pair<std::string, std::string>> left_out;  ///< folder and reason
 };
 
 bool has_study(const fs::path& folder) { return fs::exists(folder / "study.json"); }
-bool has_results(const fs::path& folder) { return has_study(folder) || fs::exists(folder / "table.json"); }
 
 /// Of what there is in a folder, in the order of the names.
 std::vector<fs::path> list(const fs::path& folder, const std::function<bool(const fs::path&)>& wanted) {
@@ -62,32 +53,22 @@ std::vector<fs::path> list(const fs::path& folder, const std::function<bool(cons
   return found;
 }
 
-/// The SVG files of a folder of results that a page shows as they are: for results without cells those of the
-/// folder itself, and those in `figures/`; by name.
-std::vector<fs::path> list_drawings(const fs::path& folder, bool has_cells) {
-  const auto is_drawing = [](const fs::path& path) {
-    return path.extension() == ".svg" && fs::is_regular_file(path);
-  };
-  std::vector<fs::path> files, figures;
-  if (!has_cells) files = list(folder, is_drawing);
-  if (fs::is_directory(folder / "figures")) figures = list(folder / "figures", is_drawing);
-  files.insert(files.end(), figures.begin(), figures.end());
-  return files;
+/// Returns the SVG files in `figures/` of a folder of results, by name.
+std::vector<fs::path> list_drawings(const fs::path& folder) {
+  if (!fs::is_directory(folder / "figures")) return {};
+  return list(folder / "figures",
+              [](const fs::path& path) { return path.extension() == ".svg" && fs::is_regular_file(path); });
 }
 
 void add_results(const fs::path& folder, Contents& contents) {
   const std::string name = fs::absolute(folder).lexically_normal().filename().string();
-  if (has_study(folder) || !has_results(folder)) {
-    contents.studies.push_back({name, read_results(folder), list_drawings(folder, true)});
-    return;
-  }
-  contents.tables.push_back({name, read_table(folder / "table.json"), list_drawings(folder, false)});
+  contents.studies.push_back({name, read_results(folder), list_drawings(folder)});
 }
 
 Contents read_contents(const fs::path& folder) {
-  const std::vector<fs::path> inside = list(folder, has_results);
+  const std::vector<fs::path> inside = list(folder, has_study);
   Contents contents;
-  if (has_results(folder) || inside.empty()) {
+  if (has_study(folder) || inside.empty()) {
     add_results(folder, contents);
     return contents;
   }
@@ -96,7 +77,7 @@ Contents read_contents(const fs::path& folder) {
     } catch (const InputError& reason) {
       contents.left_out.emplace_back(results.filename().string(), reason.what());
     }
-  if (contents.studies.empty() && contents.tables.empty()) throw InputError(contents.left_out[0].second);
+  if (contents.studies.empty()) throw InputError(contents.left_out[0].second);
   return contents;
 }
 
@@ -109,7 +90,6 @@ class Page {
     Json json = glossary_json();
     json["studies"] = Json::array();
     for (const Study& study : contents_.studies) json["studies"].push_back(study_json(study));
-    for (const TableStudy& study : contents_.tables) json["studies"].push_back(study_json(study));
     json["left_out"] = contents_.left_out;
     end_page(out_, std::move(json), in_space_, kReportScript);
   }
@@ -137,16 +117,6 @@ class Page {
                  {"sheets", Json::array()}};
     json["cells_left_out"] = add_sheets(study, outcome.table.columns, json["sheets"]);
     return json;
-  }
-
-  Json study_json(const TableStudy& study) {
-    return {{"name", study.name},
-            {"title", study.table.title},
-            {"tables", {table_json(study.table), Json()}},
-            {"growth", Json::array()},
-            {"samples", Json()},
-            {"drawings", drawings_json(study.drawings)},
-            {"sheets", Json::array()}};
   }
 
   /// Of each its name, and its text, or under `left_out` where it lies, when there is no room for it.

@@ -30,7 +30,6 @@ EXPLAINED = {
     **dict.fromkeys(["solution", "adapt"], "experiments.md#meshes-that-follow-a-solution"),
     **dict.fromkeys(["columns", "step_times", "reference", "data", "domain", "compare"], "experiments.md#an-experiment"),
     **dict.fromkeys(["matrix", "variant", "pairs"], "experiments.md#variants"),
-    "linf_delaunay": "experiments.md#point-sets",
     "start": "meshing.md#a-mesh-that-is-there-already",
     "order": "meshing.md#curved-elements",
     "metric": "anisotropy.md",

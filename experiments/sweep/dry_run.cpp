@@ -188,7 +188,6 @@ class TestDesign {
 std::optional<double> expected_seconds(const Experiment& experiment, const fs::path& folder) {
   if (experiment.minutes == 0) return std::nullopt;
   constexpr double kMinute = 60;
-  if (experiment.linf) return kMinute * experiment.minutes;
   const std::vector<CellRecord> cells = planned_cells(experiment, describe(experiment), folder);
   const auto left = std::ranges::count_if(
       cells, [](const CellRecord& cell) { return !cell.skipped && !needs_no_run(cell); });
@@ -200,7 +199,6 @@ std::string list_cells(const Experiment& experiment, const fs::path& folder) {
 }
 
 std::string dry_run(const Experiment& experiment, const fs::path& folder, std::optional<double> effect) {
-  if (experiment.linf) return "";  // it has no cells
   experiment.check_hypotheses();
   const std::string refusal = why_folder_is_refused(experiment, folder);
   const StudyFile study = describe(experiment);

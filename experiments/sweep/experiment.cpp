@@ -47,6 +47,7 @@ void refuse_gone(const TomlTable& table, const GoneKeys& keys) {
 
 const GoneKeys kGone = {
     {"ratio", "runs.csv has both values: divide them there"},
+    {"linf_delaunay", "'make paper' makes Figure 15 by experiments/paper/fig15_linf_delaunay.cpp"},
     {"slopes", "fit runs.csv, as experiments/studies/what_buys_error.py does"},
     {"correlate", "correlate columns of runs.csv, as experiments/studies/which_quality.py does"},
     {"repeat_times", "vary 'seed' in [matrix], and take the times from runs.csv"}};
@@ -287,10 +288,8 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   read_case_keys(table, experiment.defaults_);
   read_study_keys(table, experiment.defaults_);
   table.finish();
-  if (experiment.cases_.empty() && !experiment.linf)
+  if (experiment.cases_.empty())
     refuse("{}: no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'", file.string());
-  if (!experiment.cases_.empty() && experiment.linf)
-    throw InputError(table.where("linf_delaunay") + ": 'linf_delaunay' and cases exclude each other");
   std::vector<std::string> names;
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const std::string name = experiment.cases_[i].text("name");

@@ -15,12 +15,6 @@
 
 namespace delquad {
 
-/// Point sets on which the two Delaunay kernels are compared instead of meshing.
-struct LinfStudy {
-  std::vector<int> points;  ///< how many
-  std::vector<int> seeds;
-};
-
 /// A file of peers.
 struct PeerFile {
   std::vector<Peer> peers;
@@ -36,7 +30,6 @@ struct ExperimentKeys {
   std::vector<std::string> solvers;  ///< that measure every mesh, by name
   double minutes = 0;                ///< of a run with two jobs; 0: not known
   std::filesystem::path reference;   ///< file of the published rows; empty: none
-  std::optional<LinfStudy> linf;     ///< then there are no cases
 };
 
 template <>
@@ -75,12 +68,6 @@ inline constexpr auto kFields<MetricCommand> =
                      {.least = 1, .most = 604'800}),  // a week
                ignored(&MetricCommand::folder, "the contents of its files count"));
 template <>
-inline constexpr auto kFields<LinfStudy> =
-    std::tuple(field("points", &LinfStudy::points, "numbers of points",
-                     {.least = 3, .most = 10'000'000, .required = true}),
-               field("seeds", &LinfStudy::seeds, "seeds of the points",
-                     {.least = 0, .most = 1'000'000'000, .required = true}));
-template <>
 inline constexpr auto kFields<ExperimentKeys> = std::tuple(
     field("pipelines", &ExperimentKeys::pipelines, "words of stages and names of peers",
           {.no_result = "the plan has the pipelines that are run"}),
@@ -98,8 +85,7 @@ inline constexpr auto kFields<ExperimentKeys> = std::tuple(
           "minutes of a run on two cores, as measured: for the time left",
           {.above = 0, .no_result = "it is for people"}),
     field("reference", &ExperimentKeys::reference, "file of published rows",
-          {.no_result = "published rows stand beside results"}),
-    field("linf_delaunay", &ExperimentKeys::linf, "point sets, in place of cases"));
+          {.no_result = "published rows stand beside results"}));
 
 /// These check what descriptions cannot say, and complete what was read.
 void finish_reading(const TomlTable& table, Peer& peer);

@@ -15,6 +15,7 @@
 #include "metrics/metric_measures.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
+#include "metrics/tables/samples.h"
 #include "metrics/tables/table.h"
 #include "metrics/tables/tables.h"
 
@@ -246,8 +247,6 @@ const Axis& find_axis(const std::vector<Axis>& axes, const std::string& title, c
 
 void Experiment::check_plan(const TomlTable& table) const {
   for (const std::string& axis : pairs) find_axis(axes, axis, table, "pairs");
-  for (const char* key : {"hypotheses", "may_fail"})
-    if (linf && table.has(key)) refuse("{}: 'linf_delaunay' has no '{}'", table.where(key), key);
   for (std::size_t i = 0; i < hypotheses.size(); ++i) check_hypothesis(hypothesis_tables_[i], hypotheses[i]);
   const std::vector<TomlTable> tables = table.tables("may_fail");
   for (std::size_t i = 0; i < may_fail.size(); ++i) check_may_fail(tables[i], may_fail[i]);

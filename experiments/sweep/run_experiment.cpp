@@ -13,7 +13,6 @@
 #include "experiments/sweep/cells.h"
 #include "experiments/sweep/experiment_copy.h"
 #include "experiments/sweep/folders.h"
-#include "experiments/sweep/linf_study.h"
 #include "experiments/sweep/variant_work.h"
 #include "metrics/tables/study_file.h"
 
@@ -215,18 +214,6 @@ class Sweep {
   std::size_t next_ = 0;
 };
 
-Outcome run_study(const Experiment& experiment, const fs::path& folder) {
-  Outcome outcome;
-  Progress progress(linf_study_steps(*experiment.linf));
-  outcome.table = run_linf_study(*experiment.linf, experiment.title, folder, progress);
-  for (const TableRow& row : outcome.table.rows) {
-    if (row.failure.empty()) continue;
-    ++outcome.bad_inputs;
-    outcome.failures[row.failure].push_back(row.group + " " + row.name);
-  }
-  return outcome;
-}
-
 }  // namespace
 
 std::string why_folder_is_refused(const Experiment& experiment, const fs::path& folder) {
@@ -246,24 +233,17 @@ bool is_plan_changed(const StudyFile& study, const fs::path& folder) {
 Outcome run_experiment(const Experiment& experiment, const fs::path& folder, const SweepOptions& options) {
   prepare_folder(folder);
   const FolderLock lock(folder, options.shard.index, options.shard.count);
-  Outcome outcome;
-  if (experiment.linf) {
-    outcome = run_study(experiment, folder);
-  } else {
-    if (const std::string why = why_folder_is_refused(experiment, folder); !why.empty())
-      throw InputError(why);
-    experiment.check_hypotheses();
-    StudyFile study = describe(experiment);
-    study.plan_changed = is_plan_changed(study, folder);
-    if (study.plan_changed && !study.hypotheses.empty()) say(std::string("warning: ") + kNotPlanned);
-    const fs::path copy = keep_experiment(experiment, folder);
-    write_study(folder, study);
-    const std::size_t interrupted = Sweep(experiment, folder, copy, options).run();
-    outcome = make_tables(folder);
-    outcome.others_failed += static_cast<int>(interrupted);
-    if (interrupted > 0)
-      outcome.failures[counted(interrupted, "cell") + " ended by other programs: run again"];
-  }
+  if (const std::string why = why_folder_is_refused(experiment, folder); !why.empty()) throw InputError(why);
+  experiment.check_hypotheses();
+  StudyFile study = describe(experiment);
+  study.plan_changed = is_plan_changed(study, folder);
+  if (study.plan_changed && !study.hypotheses.empty()) say(std::string("warning: ") + kNotPlanned);
+  const fs::path copy = keep_experiment(experiment, folder);
+  write_study(folder, study);
+  const std::size_t interrupted = Sweep(experiment, folder, copy, options).run();
+  Outcome outcome = make_tables(folder);
+  outcome.others_failed += static_cast<int>(interrupted);
+  if (interrupted > 0) outcome.failures[counted(interrupted, "cell") + " ended by other programs: run again"];
   for (const std::string& error : write_tables(folder, outcome)) {
     ++outcome.bad_inputs;
     outcome.failures[error];

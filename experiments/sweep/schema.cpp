@@ -78,7 +78,7 @@ std::string experiment_schema() {
   Json json = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Delquad experiment"}};
   json.update(schema_of(experiment_keys()));
   json["properties"]["matrix"] = whole_matrix_schema();
-  json["anyOf"] = {{{"required", {"case"}}}, {{"required", {"cases_of"}}}, {{"required", {"linf_delaunay"}}}};
+  json["anyOf"] = {{{"required", {"case"}}}, {{"required", {"cases_of"}}}};
   return json.dump(2) + "\n";
 }
 

@@ -300,51 +300,6 @@ std::string to_json(const Table& table) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-namespace {
-
-void read_values(const nlohmann::ordered_json& line, TableRow& row) {
-  const auto read = [&](const char* key, std::map<std::string, double>& values) {
-    if (!line.contains(key)) return;
-    for (const auto& [column, value] : line[key].items())
-      if (!value.is_null()) values[column] = value;
-  };
-  read("values", row.values);
-  read("half_widths", row.half_widths);
-  row.unsound = line.value("unsound", "");
-  row.incomplete = line.value("incomplete", "");
-  row.bold = line.value("bold", row.bold);
-}
-
-}  // namespace
-
-Table read_table(const std::filesystem::path& file) {
-  try {
-    std::ifstream in(file);
-    const Json json = Json::parse(in);
-    Table table;
-    json.at("title").get_to(table.title);
-    table.group_title = json.at("heads").at(0);
-    table.name_title = json.at("heads").at(1);
-    json.at("notes").get_to(table.notes);
-    for (const Json& column : json.at("columns")) {
-      table.columns.push_back({column.at("key"), column.at("title"), column.at("digits")});
-      Interval& range = table.columns.back().range;
-      for (const auto& [i, end] : {std::pair(0, &range.low), std::pair(1, &range.high)})
-        if (column.contains("range") && !column["range"].at(i).is_null()) *end = column["range"].at(i);
-    }
-    for (const Json& line : json.at("rows")) {
-      TableRow row{line.at(table.group_title), line.at(table.name_title), {}, {}, "", ""};
-      if (line.at("status") != "ok")
-        (line.at("status") == "failed" ? row.failure : row.skipped) = line.at("reason");
-      read_values(line, row);
-      table.rows.push_back(std::move(row));
-    }
-    return table;
-  } catch (const Json::exception& error) {
-    throw InputError(json_problem(file, "is no table of results", error));
-  }
-}
-
 RenderedTable render(const Table& table, const TableStyle& style) {
   const std::vector<TableColumn> columns = shown_columns(table);
   RenderedTable result;

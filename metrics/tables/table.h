@@ -80,8 +80,6 @@ std::string to_csv(const Table& table);
 /// What the JSON of a table begins with: title, heads, columns; rows that are still empty; notes.
 nlohmann::ordered_json json_without_rows(const Table& table);
 std::string to_json(const Table& table);
-/// What to_json() has written. Throws InputError naming the file.
-Table read_table(const std::filesystem::path& file);
 
 /// How a format shows bold values, and texts that mean something to it.
 struct TableStyle {

@@ -107,11 +107,6 @@ loop = { circle = { centre = [0, 0], radius = 1 } }
 name = "square"
 loop = { rectangle = [[0, 0], [1, 1]] }
 size = "0.1 + x"
-)toml",
-      R"toml(title = "Kernels"
-[linf_delaunay]
-points = [10, 100]
-seeds = [1, 2]
 )toml"};
 }
 std::vector<std::string> record_seeds() {

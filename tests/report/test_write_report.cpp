@@ -135,22 +135,6 @@ TEST(Report, SameBytesTwice) {
   EXPECT_EQ(read_text(folder / "a.html"), read_text(folder / "b.html"));
 }
 
-TEST(Report, ShowsResultsThatAreATableAlone) {
-  const TemporaryFolder folder;
-  run_into(folder, "square", kSquareExperiment);
-  const ProgramResult made =
-      run_into(folder, "points", "title = \"Points\"\n[linf_delaunay]\npoints = [50]\nseeds = [1, 2]\n");
-  ASSERT_EQ(made.exit_code, 0) << made.err;
-  for (const char* results : {"results", "results/points"}) {
-    ASSERT_EQ(delquad({"report", folder / results, "-o", folder / "r.html"}).exit_code, 0);
-    const Json study = data_of(folder / "r.html")["studies"].back();
-    EXPECT_EQ(study["title"], "Points");
-    EXPECT_EQ(study["tables"][0]["rows"].size(), 4u);
-    EXPECT_EQ(study["tables"][0]["rows"][0]["values"].size(), 4u);
-    EXPECT_EQ(study["drawings"].size(), 4u);
-  }
-}
-
 TEST(Report, SeveralExperimentsOfWhichSomeAreBroken) {
   const TemporaryFolder folder;
   run_into(folder, "one", kSquareExperiment);

@@ -252,7 +252,7 @@ TEST_F(SchemaPrograms, AgreesWithThePeersOfJsonSchema) {
   expect("no_list", "[matrix]\nseed = 1\n" + square, false);
   expect("no_pairs", "pairs = []\n" + square, false);
   expect("solver_twice", "solver = [\"poisson\", \"poisson\"]\n" + square, false);
-  expect("seeds_below_0", "[linf_delaunay]\npoints = [10]\nseeds = [-1]\n", false);
+  expect("point_sets", "[linf_delaunay]\npoints = [10]\n" + square, false);
   expect("no_case", "title = \"x\"\n", false);
   expect("no_name", "[[case]]\nloop = { rectangle = [[0, 0], [1, 1]] }\n", false);
   expect("bad_shape", "[[case]]\nname = \"a\"\nloop = { rectangle = [[0, 0]] }\n", false);
