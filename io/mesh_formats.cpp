@@ -130,7 +130,7 @@ Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes, Strays stray
 Mesh read_given_mesh(const std::filesystem::path& path, ReadNotes* notes) {
   const MeshFormat* format = find_format(kind_of_file(path));
   if (format == nullptr || format->read_given == nullptr) return read_mesh(path, notes);
-  return with_utf8(format->read_given(path));
+  return with_utf8(format->read_given(path, notes));
 }
 
 bool keeps_file(const std::filesystem::path& source, const std::filesystem::path& path) {

@@ -43,7 +43,7 @@ struct MeshFormat {
   std::vector<std::string> (*renamed)(const Mesh&) = nullptr;
   unsigned names = kAllNames;  ///< NameKinds
   /// Reads and writes files that are kept, see read_given_mesh() and rewrite_mesh(); null: they are not.
-  Mesh (*read_given)(const std::filesystem::path&) = nullptr;
+  Mesh (*read_given)(const std::filesystem::path&, ReadNotes*) = nullptr;
   void (*rewrite)(const std::filesystem::path& source, const std::filesystem::path&, const Mesh&) = nullptr;
   /// See others_in_file(); null: there is nothing.
   std::set<std::string> (*others)(const std::filesystem::path&) = nullptr;

@@ -66,7 +66,7 @@ int convert_command(const ConvertArguments& arguments) {
     for (const std::string& name : renamed_in_file(arguments.output, mesh))
       lost.push_back("a name as it was: " + name);
     if (const auto others = others_in_file(arguments.mesh); !others.empty())
-      lost.push_back(fmt::format("what is no mesh: {}", fmt::join(others, ", ")));
+      lost.push_back(fmt::format("keywords: {}", fmt::join(others, ", ")));
   }
   if (mesh.order > most_order_of(arguments.output)) mesh = straightened(std::move(mesh));
   if (is_kept)

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -446,7 +448,15 @@ MeshFormat inp_format() {
           .write_hexahedra = write_hex_inp,
           .eight_nodes = EightNodes::kAlways,
           .names = kAllNames | kFurtherNames,
-          .read_given = [](const std::filesystem::path& path) { return read_inp_deck(path, true).mesh; },
+          .read_given =
+              [](const std::filesystem::path& path, ReadNotes* notes) {
+                InpDeck deck = read_inp_deck(path, true);
+                if (notes != nullptr && deck.n_named > 0)
+                  notes->push_back(
+                      fmt::format("{}: inner nodes and elements that stay, as lines or sets name them: {}",
+                                  path.string(), deck.n_named));
+                return std::move(deck.mesh);
+              },
           .rewrite = rewrite_inp,
           .others = [](const std::filesystem::path& path) { return read_inp_deck(path, false).others; }};
 }

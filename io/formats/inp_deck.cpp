@@ -117,6 +117,7 @@ void pin_elements(InpDeck& deck) {
   for (const InpDeck::Side& row : deck.sides)
     if (!deck.element_sets.contains(row.elements) && !names_side(deck, row))
       for (const int e : deck.elements_of(row)) deck.elements[e].pin = row.line;
+  for (const InpDeck::Element& e : deck.elements) deck.n_named += e.pin >= 0;
 }
 
 /// Keeps the nodes that other elements, lines and sets name.
@@ -538,7 +539,7 @@ void name_points(InpDeck& deck) {
   std::vector<char> is_told(mesh.points.size(), 0);  // not by its place alone
   for (std::size_t v = 0; v < names.size(); ++v) {
     if (used[v] && names[v] != static_cast<int>(v)) is_told[v] = is_told[names[v]] = 1;
-    if (!stays[v] && deck.nodes[v].pin >= 0) is_told[v] = 1;
+    if (used[v] && !stays[v] && deck.nodes[v].pin >= 0) is_told[v] = 1, ++deck.n_named;
   }
   for (std::size_t v = 0; v < is_told.size(); ++v) {
     if (!is_told[v] || !used[v]) continue;

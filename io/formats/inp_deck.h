@@ -84,6 +84,7 @@ struct InpDeck {
   InpSets element_sets, node_sets;
   std::vector<Side> sides;
   std::vector<Word> words;
+  int n_named = 0;               ///< inner nodes and elements that stay because a line or a set names them
   std::set<std::string> others;  ///< keywords whose lines are not read, and types of elements
   Mesh mesh;
   InpSets growing;  ///< sets of all nodes of some regions: these regions, whose new nodes they get

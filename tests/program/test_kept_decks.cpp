@@ -208,6 +208,8 @@ TEST(KeptDecks, ImprovingKeepsAllButTheMesh) {
     write_text(folder / "a.inp", plate("S4", bend, hangers()));
     const auto result = delquad({"improve", folder / "a.inp", "-o", folder / "b.inp"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(contains(result.err, "inner nodes and elements that stay, as lines or sets name them: "))
+        << result.err;
     const ReadDeck before = read_deck(folder / "a.inp"), after = read_deck(folder / "b.inp");
     EXPECT_EQ(after.others, before.others);
     for (const char* set : {"CLAMP", "SENSOR", "LOADED"})
@@ -311,6 +313,15 @@ TEST(KeptDecks, OtherFormatsGetSetsAndTellTheRest) {
   }
   EXPECT_TRUE(
       contains(delquad({"metrics", folder / "a.inp"}).err, "note: *ELEMENT, TYPE=SPRINGA is not read"));
+}
+
+TEST(KeptDecks, CardsThatABulkDataFileLosesAreTold) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.bdf",
+             "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n"
+             "CQUAD4,1,1,1,2,3,4\nPSHELL,1,1,0.1\nSPC1,1,123456,1,2\nENDDATA\n");
+  EXPECT_TRUE(contains(delquad({"convert", folder / "a.bdf", folder / "b.bdf"}).err, "PSHELL, SPC1"));
+  EXPECT_TRUE(contains(delquad({"improve", folder / "a.bdf", "-o", folder / "b.bdf"}).err, "PSHELL, SPC1"));
 }
 
 TEST(KeptDecks, RefusesWhatMakesNodesOfItsOwn) {
