@@ -18,7 +18,8 @@ namespace {
 
 using Corners = std::array<int, 3>;
 
-constexpr double kCollinear = 1e-7;  // height, or a side, by the longest side: single precision leaves it of 0
+constexpr double kCollinear =
+    1e-7;  // height, or a side, by the longest side: single precision leaves it of 0
 
 bool repeats_vertex(const Corners& v) { return v[0] == v[1] || v[1] == v[2] || v[2] == v[0]; }
 
