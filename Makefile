@@ -54,7 +54,7 @@ paper: FLAGS = $(if $(SMALL),--pipelines D$(,)DB)
 paper: fig15
 fig15: build
 	@cmake --build --preset $(PRESET) --target fig15 > /dev/null
-	@build/$(PRESET)/fig15 $(INTO)/fig15_linf_delaunay
+	@build/$(PRESET)/fig15 $(or $(INTO),$(RESULTS))/fig15_linf_delaunay
 # Everything else that was measured.
 studies: EXPERIMENTS = $(wildcard experiments/studies/*.toml experiments/studies/on_suite/*.toml)
 # Ours beside other meshers; those that are not installed are told.
