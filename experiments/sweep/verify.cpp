@@ -248,11 +248,12 @@ std::map<std::string, Variant> by_variant(const std::vector<VerifiedCell>& cells
   return variants;
 }
 
-/// Nothing where the model is not at hand, and in a loop, whose sizes come from meshes that are gone.
+/// Returns nothing if the model is not at hand. Meshes of a loop, and of a number of quads, have sizes from
+/// meshes that are gone.
 std::optional<Prepared> prepare_variant(const VerifiedCell& cell, const fs::path& data) {
   try {
     const Case c = recorded_cell(cell.record, cell.file, data).c;
-    return c.adapt ? std::nullopt : std::optional(prepare(c));
+    return c.adapt || c.quads ? std::nullopt : std::optional(prepare(c));
   } catch (const InputError&) {
     return std::nullopt;
   }

@@ -211,12 +211,12 @@ TEST_F(Records, WhatIsWellIsSaidToBe) {
   write_mesh(folder_ / "lens.msh", testing_support::lens(64, 12, 0.45));
   run("pipelines = [\"D\", \"DBCO\"]\n[[case]]\nname = \"lens\"\nmodel = \"lens.msh\"\nsize = { base = 0.5, "
       "curvature "
-      "= 24 }\n" +
+      "= 24 }\n[[case]]\nname = \"counted\"\nmodel = \"lens.msh\"\nquads = 300\n" +
       kRecordSquare + "size = \"0.1 + 0.1*x\"\n[[case]]\nname = \"bad\"\nsize = \"x - 5\"\n" +
       "loop = { circle = { centre = [0, 0], radius = 1 } }\n");
   const Verification result = verify_results(out(), folder_ / "data");
-  EXPECT_EQ(result.cells, 6u);
-  EXPECT_EQ(result.measured, 4u);
+  EXPECT_EQ(result.cells, 8u);
+  EXPECT_EQ(result.measured, 6u);
   EXPECT_TRUE(result.findings.empty()) << result.findings[0];
 }
 
