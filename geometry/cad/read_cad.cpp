@@ -97,19 +97,18 @@ std::string title_of(const Mesh& mesh, int face) {
   return face_title(mesh.regions[face].tag, mesh.regions[face].names);
 }
 
-/// "face 2, edge on face 1 (lid) at (1, 0, 2)", of so many.
+/// "face 2 touches face 1 (lid) at (1, 0, 2); face 4 is 0.1 from face 3 at ...", of so many.
 std::string list_joints(const Mesh& mesh, const std::vector<LooseJoint>& joints) {
-  constexpr std::array kHow{"face on", "edge on", "corner on", "through", "touching"};  // by kind
   std::vector<std::string> all;
-  for (const auto& [kind, faces, at] : joints)
-    all.push_back(fmt::format("{}, {} {} at {}", title_of(mesh, faces[0]),
-                              kHow[static_cast<std::size_t>(kind)], title_of(mesh, faces[1]),
-                              show_point(at)));
+  for (const auto& [faces, at, distance] : joints)
+    all.push_back(fmt::format("{} {} {} at {}", title_of(mesh, faces[0]),
+                              distance > 0 ? fmt::format("is {:.3g} from", distance) : "touches",
+                              title_of(mesh, faces[1]), show_point(at)));
   return first_of(all, kMostPlaces, "; ");
 }
 
 /// Warns of what nearly touches: its mesh would come apart there.
-void tell_near(SurfaceModel& model, std::vector<NearContact> contacts, double diagonal,
+void tell_near(SurfaceModel& model, std::vector<LooseJoint> contacts, double diagonal,
                const std::function<double(const Vec3&)>& size) {
   constexpr double kPartOfSize = 0.1, kPartOfDiagonal = 1.0 / 50;
   std::vector<std::vector<Vec3>> corners(model.fine.regions.size());
@@ -118,33 +117,28 @@ void tell_near(SurfaceModel& model, std::vector<NearContact> contacts, double di
       corners[model.fine.triangle_region[t]].push_back(model.fine.points[v]);
   const auto length_of = [&](int face) { return norm(Box<Vec3>::around(corners[face]).size()); };
   // What is small may stand as far from others as it is long.
-  std::erase_if(contacts, [&](const NearContact& c) {
+  std::erase_if(contacts, [&](const LooseJoint& c) {
     const double shorter = std::min(length_of(c.faces[0]), length_of(c.faces[1]));
-    return c.distance <= kTouching * diagonal || c.distance > kPartOfSize * shorter ||
+    return c.distance > kPartOfSize * shorter ||
            c.distance > kPartOfSize * (size ? size(c.at) : kPartOfDiagonal * diagonal);
   });
   if (contacts.empty()) return;
-  std::vector<std::string> all;
-  double widest = 0;
-  for (const auto& [faces, at, distance] : contacts) {
-    widest = std::max(widest, distance);
-    all.push_back(fmt::format("{} is {:.3g} from {} at {}", title_of(model.fine, faces[0]), distance,
-                              title_of(model.fine, faces[1]), show_point(at)));
-  }
+  const double widest = std::ranges::max(contacts, {}, &LooseJoint::distance).distance;
   const double digit = std::pow(10, std::floor(std::log10(widest / diagonal)));
   model.warnings.push_back(fmt::format(
       "faces nearly touch at {} and stay apart: {}: move them together in CAD, or try --glue --weld {:.0e} "
       "(surface.glue, weld_tolerance: a part of the diagonal)",
-      counted(std::ssize(contacts), "place"), first_of(all, kMostPlaces, "; "),
+      counted(std::ssize(contacts), "place"), list_joints(model.fine, contacts),
       (std::floor(widest / diagonal / digit) + 1) * digit));
 }
 
 /// Bodies that only coincide get meshes of their own there: told, or refused where they should be glued.
-void check_joints(SurfaceModel& model, const std::vector<std::vector<int>>& shells, double deflection,
-                  double diagonal, const CadOptions& options) {
-  const std::vector<LooseJoint> joints = loose_joints(model, shells, deflection, kTouching * diagonal);
-  tell_near(model, near_contacts(model, shells, joints, deflection, kNear * diagonal), diagonal,
-            options.size);
+void check_joints(SurfaceModel& model, const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
+                  const CadOptions& options) {
+  const auto [joints, near] =
+      loose_joints(model, faces, faces_of(shells_of_solids(cad.shape), faces),
+                   {options.deflection * cad.diagonal, kTouching * cad.diagonal, kNear * cad.diagonal});
+  tell_near(model, near, cad.diagonal, options.size);
   if (joints.empty()) return;
   const std::string list = list_joints(model.fine, joints);
   if (options.glue)
@@ -246,8 +240,7 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   for (const auto& [point, face] : welded.inside)
     model.fine.points[point] = model.projector->to_face(face, model.fine.points[point]);
   if (!model.embedded.empty()) part_single_lines(model);
-  check_joints(model, faces_of(shells_of_solids(cad.shape), faces), options.deflection * cad.diagonal,
-               cad.diagonal, options);
+  check_joints(model, cad, faces, options);
   refuse_joints_at_points(model.fine, faces);
   return model;
 }
