@@ -111,7 +111,7 @@ delquad_module(features/symmetry COLD LINKS base geometry/mesh geometry/planar g
 delquad_module(features/periodic COLD LINKS base geometry/mesh geometry/planar geometry/surface patches features/sizes)
 delquad_module(features/grids LINKS base base/matching geometry/mesh geometry/planar patches smoothing/relocation smoothing/optimisation
                metrics)
-delquad_module(features/washers COLD LINKS base geometry/mesh geometry/planar geometry/surface)
+delquad_module(features/washers COLD LINKS base geometry/mesh geometry/planar geometry/surface fields)
 delquad_module(features/layers COLD LINKS base geometry/mesh geometry/planar patches features/sizes features/grids)
 delquad_module(features/scaling COLD LINKS base geometry/mesh fields patches features/layers)
 delquad_module(features/thin COLD LINKS base geometry/mesh geometry/planar patches features/sizes)

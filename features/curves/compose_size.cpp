@@ -104,6 +104,11 @@ WantedSize surface_size(const MeshProblem& problem, const SurfaceModel& model,
     wanted.face_per_turn = most_of_faces(std::move(wanted.face_per_turn), *cut);
     wanted.curve_per_turn = most_of_curves(wanted.curve_per_turn, *cut);
   }
+  // Numbers of edges count more than curvature, which of imprinted curves is noise.
+  wanted.curve_per_turn.resize(model.fine.curves.size(), 0);
+  for (const CurveDivision& division : divisions)
+    for (const int c : entities_named(model.fine.curves, "curve", division.name))
+      wanted.curve_per_turn[c] = WantedSize::kNoTurns;
   wanted.min = spec.min;
   if (!(spec.gradation > 0)) wanted.gradation = kCurvatureGradation;
   return wanted;

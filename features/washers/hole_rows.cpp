@@ -11,6 +11,7 @@
 #include "base/segment.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "fields/fields.h"
 #include "geometry/mesh/quad_corners.h"
 
 namespace delquad {
@@ -150,6 +151,25 @@ const WasherSpec* washer_of(const std::vector<WasherSpec>& washers, const Hole& 
     return hole.diameter >= (1 - kInRange) * w.least && hole.diameter <= (1 + kInRange) * w.most;
   });
   return at == washers.end() ? nullptr : &*at;
+}
+
+double rim_size(const Hole& hole, const WasherSpec& washer, const SizeSpec& spec, double size,
+                std::vector<Warning>& warnings) {
+  const double length = hole.length(),
+               finer = size_by_curvature(size, kTurn / length, spec.curvature, spec.min);
+  const int edges = washer.edges > 0 ? washer.edges : edges_for(washer, length, size),
+            more = 2 * static_cast<int>(std::ceil(length / finer / 2 - kInRange));
+  if (!(finer < size) || more <= edges) return size;
+  const bool are_given = washer.edges > 0;
+  warnings.push_back(
+      {are_given ? "holes with fewer edges than curvature asks" : "holes with more edges by curvature",
+       double(more) / edges,
+       fmt::format("{}: the hole of diameter {:.4g} at {} gets {} edges, not {}: {}", washer.where,
+                   hole.diameter, show_point(hole.middle()), are_given ? edges : more,
+                   are_given ? more : edges,
+                   are_given ? "edges that are given count more than curvature"
+                             : "curvature asks for more than the size")});
+  return are_given ? size : std::sqrt(length * outer_length(washer, length, more, washer.rows)) / more;
 }
 
 bool edge_fits(double length, double size) { return length >= kShortest * size && length <= kLongest * size; }

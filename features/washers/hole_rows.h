@@ -9,6 +9,7 @@
 
 #include "base/box_tree.h"
 #include "base/warning.h"
+#include "delquad/fields.h"
 #include "delquad/model.h"
 
 namespace delquad {
@@ -53,6 +54,10 @@ struct HoleRows {
 };
 /// The range that a hole falls into; null: none.
 const WasherSpec* washer_of(const std::vector<WasherSpec>& washers, const Hole& hole);
+/// The size at the rim of a hole: `size`, or less if curvature asks for more edges. Edges that are given
+/// stay. A warning tells which of them gives way.
+double rim_size(const Hole& hole, const WasherSpec& washer, const SizeSpec& spec, double size,
+                std::vector<Warning>& warnings);
 /// Whether edges are about as long as the size: neither shorter nor longer than a sheet allows.
 bool edge_fits(double length, double size);
 /// Edges of parts with these lengths; opposite parts of equal lengths get equal numbers.

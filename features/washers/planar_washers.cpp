@@ -110,8 +110,8 @@ MeshProblem with_planar_washers(MeshProblem problem, const PointSize& size, std:
   for (std::size_t l = 0; l < holes.size(); ++l) {
     if (of_hole[l] == nullptr) continue;
     for (const int c : sampled[l].curves) holes[l].given.push_back(divided.contains(c) ? divided[c] : 0);
-    const auto rows =
-        rows_around(holes[l], static_cast<int>(l), *of_hole[l], size(holes[l].outline[0]), room, warnings);
+    const double there = rim_size(holes[l], *of_hole[l], problem.size, size(holes[l].outline[0]), warnings);
+    const auto rows = rows_around(holes[l], static_cast<int>(l), *of_hole[l], there, room, warnings);
     if (!rows) continue;
     // Heights of layers are those of their quads, between nodes that turn.
     const double turned =

@@ -250,7 +250,7 @@ void SurfaceWashers::plan(const PointSize& size) {
         hole.given.push_back(edges_.contains(c) ? edges_[c] : 0);
         hole.is_rim |= n_faces[c] > 1;
       }
-      const double there = size(hole.outline[0]);
+      const double there = rim_size(hole, washer, problem_.size, size(hole.outline[0]), model_.warnings);
       auto rows = rows_around(hole, static_cast<int>(h), washer, there, room, model_.warnings);
       if (!rows) continue;
       for (std::size_t i = 0; i < hole.curves.size(); ++i) {

@@ -178,7 +178,7 @@ bool varies(const Mesh& fine, const SizeField& base) {
 }  // namespace
 
 double WantedSize::of(const std::vector<double>& own, int entity) const {
-  const bool has_own = static_cast<std::size_t>(entity) < own.size() && own[entity] > 0;
+  const bool has_own = static_cast<std::size_t>(entity) < own.size() && own[entity] != 0;
   return has_own ? own[entity] : per_turn;
 }
 

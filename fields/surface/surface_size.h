@@ -31,7 +31,8 @@ struct WantedSize {
   /// Elements per full turn: delta = 2 pi r / per_turn with the smallest radius of curvature r of the face,
   /// and of the curve on curves; > 0 where there is `curvature`.
   double per_turn = 0;
-  /// In place of it, of each face and curve; empty: none; 0 in them: as `per_turn`.
+  /// In place of it, of each face and curve; empty: none; 0 in them: as `per_turn`; kNoTurns: no curvature.
+  static constexpr double kNoTurns = -1;
   std::vector<double> face_per_turn = {}, curve_per_turn = {};
   double min = 0;  ///< least size that curvature asks for; 0: a twentieth of the base
   /// The most |grad delta| along the surface; 0: no limit, and then no curvature either, whose sizes jump

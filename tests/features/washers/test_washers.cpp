@@ -185,6 +185,23 @@ TEST(Washers, KeepNumbersOfEdgesThatAreGiven) {
   for (const double y : {18.0, 42.0}) EXPECT_EQ(rows_around(made, {25, y, 0}, 5, 8, 1, 18), 1);
 }
 
+TEST(Washers, FollowCurvatureUnlessTheirEdgesAreGiven) {
+  MeshProblem problem = problem_of(ExampleModel{"sheet"}, 4, {{9, 11}});
+  problem.size.curvature = 16;
+  const MeshResult r = mesh(problem, "DBQO");
+  for (const double y : {18.0, 42.0}) EXPECT_GT(rows_around(r.mesh, {25, y, 0}, 5, 6.96, 1, 16), 0);
+  EXPECT_EQ(warned(r, "edges, not 10: curvature asks for more than the size"), 4);
+  EXPECT_LT(r.mesh.quads.size(), 900u);
+  EXPECT_GT(r.metrics.values.at("eta_mean"), 0.9);
+  problem.washers = {{9, 11, 1, 12, 3}};
+  const MeshResult given = mesh(problem, "DB");
+  for (const double y : {18.0, 42.0}) EXPECT_EQ(rows_around(given.mesh, {25, y, 0}, 5, 8, 1, 12), 1);
+  EXPECT_EQ(warned(given, "gets 12 edges, not 16: edges that are given count more than curvature"), 4);
+  MeshProblem planar = problem_of(plate({{20, 20, 4}}), 4, {{6, 10}});
+  planar.size.curvature = 16;
+  EXPECT_EQ(rows_around(mesh(planar, "DB").mesh, {20, 20, 0}, 4, 4 + std::numbers::pi / 2, 1, 16), 1);
+}
+
 TEST(Washers, AreRefinedWithTheirEdges) {
   MeshProblem problem = problem_of(plate({{20, 20, 4}}), 4, {{6, 10, 1, 12, 3}});
   problem.refine = 2;
