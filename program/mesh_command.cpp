@@ -64,6 +64,26 @@ MeshResult mesh_or_tell(const MeshArguments& arguments, const Prepared& prepared
   }
 }
 
+/// Tells before a large mesh is begun what it costs.
+void warn_of_cost(const MeshProblem& problem, double quads, const Word& word, Progress& progress) {
+  constexpr double kManyQuads = 2e6;
+  if (!(quads > kManyQuads)) return;
+  // The bracket and the plate of docs/measurements.md, with half a million quads, need these.
+  const std::map<char, double> microseconds = {{'C', 55}, {'R', 70}, {'L', 200}};
+  constexpr double kOther = 11, kBytes = 700, kMoreBytes = 600, kMinute = 60e6, kGigabyte = 1e9;
+  double time = 0, bytes = kBytes;
+  for (const Stage* stage : word.stages) {
+    const auto slow = microseconds.find(stage->letter);
+    time += slow == microseconds.end() ? kOther : slow->second;
+    if (slow != microseconds.end()) bytes = kBytes + kMoreBytes;
+  }
+  progress.warn(
+      {fmt::format("{}: about {:.2g} million quads are expected: some {:.1f} GB of memory and {} of "
+                   "processor time; --max-elements refuses more quads than it says",
+                   problem.name, quads / 1e6, quads * bytes / kGigabyte,
+                   counted(std::lround(std::ceil(quads * time / kMinute)), "minute"))});
+}
+
 /// Gives the nodes of a kept file's sets, which stay, the names that other formats have for them.
 void name_points_as_given(const Mesh& given, Mesh& mesh) {
   std::map<std::array<double, 3>, int> index;
@@ -204,6 +224,7 @@ void print_after(const std::string& file, const MeshResult& result, double secon
     fmt::print("  symmetry: plane through {}, normal {}\n", show_point(at), show_point(n));
   if (!all && result.surface) print_surface_summary(*result.surface);
   print_names(result.mesh);
+  if (!result.mesh.unit.empty()) fmt::print("  lengths: in {}\n", result.mesh.unit);
   if (all) print_seconds(result.log.times);
   if (all && result.surface) print_surface_report(result.prepared, *result.surface);
   if (result.criteria) print_criteria(*result.criteria, result.mesh);
@@ -281,6 +302,7 @@ int mesh_command(MeshArguments arguments) {
   };
   const Prepared prepared = prepare(c, told(c.name));
   progress.warn(prepared->warnings);
+  warn_of_cost(prepared.problem(), prepared->size.expected_quads, word, progress);
   MeshResult result = mesh_or_tell(arguments, prepared, word, told(c.name + " " + word.text), progress);
   const bool is_kept = keeps_given(arguments, given, result, progress);
   {

@@ -1,13 +1,17 @@
 #include "geometry/cad/shape_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <IGESControl_Reader.hxx>
+#include <IGESData_BasicEditor.hxx>
 #include <IGESData_ColorEntity.hxx>
+#include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESEntity.hxx>
+#include <IGESData_IGESModel.hxx>
 #include <IGESGraph_Color.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_InterfaceModel.hxx>
@@ -17,6 +21,7 @@
 #include <Message_Printer.hxx>
 #include <Resource_FormatType.hxx>
 #include <STEPControl_Reader.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_AsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
@@ -166,6 +171,37 @@ std::string first_failure(const XSControl_Reader& reader) {
   return check->HasFailed() ? fmt::format(" ({})", check->CFail(1)) : "";
 }
 
+/// Names of the units of lengths, in capitals.
+std::vector<std::string> units_of_file(STEPControl_Reader& reader) {
+  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
+  reader.FileUnits(lengths, angles, solid_angles);
+  std::vector<std::string> units;
+  for (TCollection_AsciiString& length : lengths) {
+    length.UpperCase();
+    units.emplace_back(length.ToCString());
+  }
+  return units;
+}
+std::vector<std::string> units_of_file(IGESControl_Reader& reader) {
+  constexpr int kByName = 3;
+  const IGESData_GlobalSection& global =
+      Handle(IGESData_IGESModel)::DownCast(reader.WS()->Model())->GlobalSection();
+  const Handle(TCollection_HAsciiString) name = global.UnitName();
+  if (global.UnitFlag() == kByName && !name.IsNull()) return {upper(name->ToCString())};
+  return {IGESData_BasicEditor::UnitFlagName(global.UnitFlag())};
+}
+
+void warn_of_unit(const std::vector<std::string>& in_file, const LengthUnit& wanted, CadShape& cad) {
+  const bool is_same = std::ranges::all_of(in_file, [&](const std::string& unit) {
+    return unit == wanted.kernel || unit == upper(wanted.name) || unit == wanted.long_name;
+  });
+  if (!is_same)
+    cad.warnings.push_back(
+        fmt::format("the file's lengths are in {}: the model, --size and the mesh are in {} "
+                    "(--unit chooses another unit)",
+                    fmt::join(in_file, " and "), wanted.name));
+}
+
 /// Reads STEP and IGES alike.
 template <class Reader>
 CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& options,
@@ -193,6 +229,7 @@ CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& opt
                                        lost.unused.size(), kind, first_of(lost.unused, kMostNamed)));
   cad.shape = reader.OneShape();
   cad.unit = wanted.name;
+  warn_of_unit(units_of_file(reader), wanted, cad);
   return cad;
 }
 

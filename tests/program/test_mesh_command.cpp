@@ -38,6 +38,19 @@ TEST(MeshCommand, SquareIsExactAndKeepsItsNames) {
     EXPECT_TRUE(contains(record, key)) << key;
 }
 
+TEST(MeshCommand, TellsWhatALargeMeshCostsBeforeItBegins) {
+  const TemporaryFolder folder;
+  const auto model = write_text(folder / "model.toml", kSquare);
+  const auto mesh = [&](const std::string& size) {
+    return delquad({"mesh", model, "-o", folder / "out.msh", "--size", size, "--time-limit", "5"});
+  };
+  const std::string told = mesh("0.0007").err;
+  EXPECT_TRUE(contains(told, "about 2 million quads are expected: some 1.4 GB of memory and 2 minutes"))
+      << told;
+  EXPECT_TRUE(contains(told, "--max-elements")) << told;
+  EXPECT_EQ(mesh("0.02").err, "");
+}
+
 TEST(MeshCommand, SizesAreDividedAndFoundByNumber) {
   const TemporaryFolder folder;
   const auto model = write_text(folder / "model.toml", kSquare + "size = 0.1\nrefine = 2\n");

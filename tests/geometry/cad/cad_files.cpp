@@ -28,7 +28,7 @@ std::filesystem::path write_step(const std::filesystem::path& path, const TopoDS
 
 std::filesystem::path write_iges(const std::filesystem::path& path, const TopoDS_Shape& shape) {
   IGESControl_Controller::Init();
-  IGESControl_Writer writer("IN", 1);  // faces, edges and solids as they are
+  IGESControl_Writer writer("MM", 1);  // faces, edges and solids as they are
   if (!writer.AddShape(shape) || !writer.Write(path.c_str()))
     throw std::runtime_error("cannot write " + path.string());
   return path;

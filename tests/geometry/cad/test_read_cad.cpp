@@ -141,7 +141,12 @@ TEST(ReadCad, ConvertsTheUnitsOfStepToMillimetres) {
   ASSERT_NE(text.find(millimetre), std::string::npos);
   for (std::size_t at; (at = text.find(millimetre)) != std::string::npos;)
     text.replace(at, millimetre.size(), "SI_UNIT(.CENTI.,.METRE.)");
-  EXPECT_NEAR(count(read_cad(write_text(folder / "b.step", text)).fine).area, 5200, 1e-9);
+  const SurfaceModel model = read_cad(write_text(folder / "b.step", text));
+  EXPECT_NEAR(count(model.fine).area, 5200, 1e-9);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(
+      model.warnings[0].text.find("lengths are in CENTIMETRE: the model, --size and the mesh are in mm"),
+      std::string::npos);
 }
 
 TEST(ReadCad, HasLengthsInTheUnitThatIsAskedFor) {
@@ -151,6 +156,7 @@ TEST(ReadCad, HasLengthsInTheUnitThatIsAskedFor) {
     CadOptions options;
     const SurfaceModel plain = read_cad(path, options);
     EXPECT_EQ(plain.fine.unit, "mm");
+    EXPECT_EQ(texts(plain.warnings), std::vector<std::string>{});
     options.unit = "cm";
     const SurfaceModel model = read_cad(path, options);
     EXPECT_EQ(model.fine.unit, "cm");
