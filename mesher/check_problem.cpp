@@ -107,7 +107,7 @@ void refuse_surface_options(const MeshProblem& problem, bool angle_may_be, const
   std::set<std::string> allowed = {"keep", "groups"};
   if (angle_may_be) allowed.insert("feature_angle");
   if (std::holds_alternative<PlanarModel>(problem.model))
-    allowed.insert({"ignore_below", "idealize", "simplify", "fill_holes"});
+    allowed.insert({"ignore_below", "idealize", "simplify", "fill_holes", "weld_tolerance"});
   std::vector<std::string> given = given_keys(s);
   std::erase_if(given, [&](const std::string& key) { return allowed.contains(key); });
   if (!given.empty())

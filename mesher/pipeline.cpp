@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -22,8 +23,11 @@
 #include "features/washers/planar_washers.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/nearest_triangle.h"
+#include "geometry/planar/join_outlines.h"
 #include "geometry/planar/leave_out_small.h"
+#include "geometry/planar/model_chain.h"
 #include "geometry/planar/simplify_outlines.h"
+#include "geometry/planar/snap_outlines.h"
 #include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
@@ -88,11 +92,20 @@ PointSize size_of(const MeshProblem& problem) {
 /// Of outlines of data, in sizes.
 constexpr double kSimplify = 0.1;
 
-bool is_to_be_simplified(const MeshProblem& problem) {
+/// Whether what is done to outlines of data, or is asked for, is to be done to this model.
+bool is_asked(const MeshProblem& problem, const std::optional<double>& asked) {
   const auto* model = std::get_if<PlanarModel>(&problem.model);
   if (model == nullptr || problem.metric.plane) return false;
-  return problem.surface.simplify ? *problem.surface.simplify > 0
-                                  : std::ranges::any_of(model->curves, &ModelCurve::is_data);
+  return asked ? *asked > 0 : std::ranges::any_of(model->curves, &ModelCurve::is_data);
+}
+
+MeshProblem snapped(MeshProblem problem, std::vector<Warning>& told) {
+  constexpr int kChords = 64;
+  auto& model = std::get<PlanarModel>(problem.model);
+  const auto asked = std::exchange(problem.surface.weld_tolerance, 0);
+  model = snap_outlines(std::move(model), asked.value_or(kHair) * norm(box_of(model, kChords).size()),
+                        asked.has_value(), told);
+  return problem;
 }
 
 MeshProblem simplified(MeshProblem problem, std::vector<Warning>& told) {
@@ -174,11 +187,15 @@ PreparedProblem prepare_problem(const MeshProblem& problem, const Refinement& re
   check_problem(problem);
   check_criteria(problem.criteria);
   const SurfaceSpec& s = problem.surface;
-  const bool has_small = s.ignore_below > 0 || s.idealize || s.fill_holes > 0;
-  if (const auto* model = std::get_if<PlanarModel>(&problem.model);
-      model != nullptr && (has_small || is_to_be_simplified(problem) || !problem.washers.empty())) {
+  const bool has_small = s.ignore_below > 0 || s.idealize || s.fill_holes > 0,
+             is_to_be_snapped = is_asked(problem, s.weld_tolerance),
+             is_to_be_simplified = is_asked(problem, s.simplify);
+  if (std::holds_alternative<PlanarModel>(problem.model) &&
+      (has_small || is_to_be_snapped || is_to_be_simplified || !problem.washers.empty())) {
     std::vector<Warning> told;
-    MeshProblem other = is_to_be_simplified(problem) ? simplified(problem, told) : problem;
+    MeshProblem other = is_to_be_snapped ? snapped(problem, told) : problem;
+    if (is_to_be_simplified) other = simplified(std::move(other), told);
+    for (ModelCurve& curve : std::get<PlanarModel>(other.model).curves) curve.is_data = false;
     if (has_small) other = without_small_outlines(std::move(other), told);
     if (!problem.washers.empty()) other = with_planar_washers(std::move(other), size_of(problem), told);
     PreparedProblem prepared = prepare_problem(other, refinement);

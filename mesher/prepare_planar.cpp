@@ -133,8 +133,10 @@ void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatc
 
 PlanarDomain planar_domain(const MeshProblem& problem, const Refinement& refinement,
                            std::vector<QuadPatch>& given, PreparedProblem& p) {
-  if (const auto* model = std::get_if<PlanarModel>(&problem.model))
+  if (const auto* model = std::get_if<PlanarModel>(&problem.model)) {
+    p.warnings.insert(p.warnings.end(), model->notes.begin(), model->notes.end());
     return mesh_by_size(problem, *model, refinement.spots, p);
+  }
   const auto* start = std::get_if<GivenMesh>(&problem.model);
   if (start == nullptr) return prepare_lines(problem, std::get<LineModel>(problem.model), p);
   return prepare_given(problem, *start, p, given);

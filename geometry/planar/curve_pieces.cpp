@@ -97,9 +97,12 @@ void check_angles(const PlanarModel& model, const ModelChain& chain, const std::
       const double turn = next->angle - e->angle + (next == first ? 2 * std::numbers::pi : 0);
       if (next == e || turn >= kLeast || !apart(*e->piece, *next->piece)) continue;
       const Vec2 at = chain.nodes[e->node];
-      throw InputError(fmt::format("{}{} and {} touch at ({:.4g}, {:.4g}), without an angle between them",
-                                   message_prefix(model), curve_label(model, e->piece->curves[0]),
-                                   curve_label(model, next->piece->curves[0]), at.x, at.y));
+      throw InputError(
+          fmt::format("{}{} and {} touch at ({:.4g}, {:.4g}), without an angle between them: move "
+                      "them apart, or join polylines that are nearer than PART of the diagonal "
+                      "by --weld PART",
+                      message_prefix(model), curve_label(model, e->piece->curves[0]),
+                      curve_label(model, next->piece->curves[0]), at.x, at.y));
     }
     first = last;
   }

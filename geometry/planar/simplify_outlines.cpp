@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "base/segment.h"
-#include "geometry/planar/model_chain.h"
+#include "geometry/planar/snap_outlines.h"
 
 namespace delquad {
 namespace {
@@ -48,23 +48,6 @@ struct RelativeDistance {
     return most;
   }
 };
-
-/// Its corners and ends, if it is straight between them.
-std::optional<std::vector<Vec2>> polyline_of(const Curve& curve) {
-  std::vector<double> t = curve.fixed_parameters();
-  t.insert(t.begin(), 0);
-  t.push_back(1);
-  std::vector<Vec2> points{curve.point(0)};
-  for (std::size_t i = 1; i < t.size(); ++i) {
-    const Vec2 a = points.back(), b = curve.point(t[i]);
-    for (const double s : {0.21, 0.5, 0.83}) {
-      const Vec2 x = curve.point(t[i - 1] + s * (t[i] - t[i - 1])) - a;
-      if (std::abs(cross(x, b - a)) > kJoinTolerance * dot(b - a, b - a)) return std::nullopt;
-    }
-    points.push_back(b);
-  }
-  return points;
-}
 
 class OutlineSimplifier {
  public:

@@ -144,6 +144,7 @@ struct PlanarModel {
   std::vector<ModelCurve> curves;
   std::vector<ModelLoop> loops;
   std::vector<ModelPoint> points = {};  ///< in regions or on curves
+  std::vector<std::string> notes = {};  ///< of its reader, for warnings
 };
 
 /// A domain bounded by polygons, each a loop of at least three corners without the first repeated. Loops

@@ -1,29 +1,25 @@
 #include "io/cases/dxf_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <numbers>
-#include <numeric>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/box.h"
-#include "base/disjoint_sets.h"
 #include "base/located.h"
 #include "base/text.h"
+#include "geometry/planar/join_outlines.h"
 #include "io/text_scanner.h"
 
 namespace delquad {
 namespace {
-
-/// Of the drawing's diagonal: ends that are nearer are one.
-constexpr double kGap = 1e-5;
 
 /// A non-uniform rational B-spline, by de Boor's algorithm.
 std::shared_ptr<const Curve> make_nurbs(std::size_t degree, std::vector<double> knots,
@@ -56,23 +52,51 @@ std::shared_ptr<const Curve> make_nurbs(std::size_t degree, std::vector<double> 
       first, last);
 }
 
-/// A curve with other ends, near its own.
-class MovedEnds final : public Curve {
- public:
-  MovedEnds(std::shared_ptr<const Curve> base, Vec2 from, Vec2 to)
-      : base_(std::move(base)),
-        from_(from),
-        to_(to),
-        d0_(from - base_->point(0)),
-        d1_(to - base_->point(1)) {}
-  Vec2 point(double t) const override {
-    return t <= 0 ? from_ : t >= 1 ? to_ : base_->point(t) + (1 - t) * d0_ + t * d1_;
+/// Where a block stands: turned, scaled, then moved.
+struct Placement {
+  Vec2 x{1, 0}, y{0, 1}, at{};
+  double z_scale = 1, z_at = 0;
+  Vec2 turned(Vec2 p) const { return p.x * x + p.y * y; }
+  Vec2 operator()(Vec2 p) const { return at + turned(p); }
+  Vec3 operator()(const Vec3& p) const {
+    const Vec2 q = (*this)(Vec2{p.x, p.y});
+    return {q.x, q.y, z_at + z_scale * p.z};
   }
+  /// First `inner`, then this.
+  Placement after(const Placement& inner) const {
+    return {turned(inner.x), turned(inner.y), (*this)(inner.at), z_scale * inner.z_scale,
+            z_at + z_scale * inner.z_at};
+  }
+};
+
+class CurveOfBlock final : public Curve {
+ public:
+  CurveOfBlock(std::shared_ptr<const Curve> base, const Placement& place)
+      : base_(std::move(base)), place_(place) {}
+  Vec2 point(double t) const override { return place_(base_->point(t)); }
   std::vector<double> fixed_parameters() const override { return base_->fixed_parameters(); }
 
  private:
   std::shared_ptr<const Curve> base_;
-  Vec2 from_, to_, d0_, d1_;
+  Placement place_;
+};
+
+/// The drawing, or a block of it.
+struct Block {
+  struct Insert {
+    std::string block, layer, where;
+    Placement place;
+  };
+  struct Face {
+    std::array<Vec3, 4> corners;
+    std::string layer;
+  };
+  Vec2 base = {};
+  std::vector<ModelCurve> curves = {};
+  std::vector<ModelPoint> points = {};
+  std::vector<Face> faces = {};
+  std::vector<Insert> inserts = {};
+  std::string why_not = {};  ///< why it cannot be read; empty: it can
 };
 
 class DxfReader {
@@ -80,16 +104,35 @@ class DxfReader {
   explicit DxfReader(const std::filesystem::path& path) : in_(path) {
     model_.source = path.string();
     if (in_.text().starts_with("AutoCAD Binary DXF")) in_.fail("binary DXF: expected it as text");
-    bool in_entities = false;
+    bool has_entities = false;
     for (next(); value_ != "EOF"; next()) {
-      if (code_ == 2) in_entities = value_ == "ENTITIES";
-      while (code_ == 0 && in_entities && value_ != "ENDSEC") entity();
+      if (code_ == 2) has_entities = value_ == "ENTITIES" || value_ == "BLOCKS";
+      while (code_ == 0 && has_entities && value_ != "ENDSEC") entity();
+      if (value_ == "ENDSEC") has_entities = false;
       if (value_ == "EOF") break;
     }
-    if (!model_.curves.empty()) join_ends();
-    if (model_.loops.empty()) refuse("{}: no curves close up to an outline", model_.source);
+    put(drawing_, {}, "", 0);
   }
-  PlanarModel model() { return std::move(model_); }
+
+  Model model() {
+    if (!faces_.empty()) return surface();
+    const std::string loose = join_outlines(model_);
+    std::vector<std::string> others;
+    for (const auto& [kind, n] : left_out_) others.push_back(fmt::format("{} {}", n, kind));
+    const std::string left_out =
+        others.empty() ? ""
+                       : fmt::format("{} are left out: expected lines, arcs, polylines and splines",
+                                     fmt::join(others, ", "));
+    if (model_.loops.empty())
+      refuse("{}: no curves close up to an outline{}{}", model_.source,
+             left_out.empty() ? "" : "; " + left_out,
+             loose.empty() ? "" : "; " + loose + ": expected ends that meet");
+    if (!left_out.empty()) model_.notes.push_back(model_.source + ": " + left_out);
+    if (const int n = leave_out_outside(model_); n > 0)
+      model_.notes.push_back(fmt::format("{}: {} outside of all outlines left out", model_.source,
+                                         counted(n, "curve or point")));
+    return std::move(model_);
+  }
 
  private:
   struct Corner {
@@ -110,10 +153,61 @@ class DxfReader {
     return *value;
   }
 
+  /// Puts what a block holds, and the blocks in it, into the model.
+  void put(const Block& block, const Placement& place, const std::string& layer, int depth) {
+    constexpr int kMostDepth = 16;
+    constexpr std::size_t kMostParts = 1'000'000;
+    if (!block.why_not.empty()) refuse("{}", block.why_not);
+    n_parts_ += 1 + block.curves.size() + block.points.size() + block.faces.size();
+    if (depth > kMostDepth || n_parts_ > kMostParts)
+      refuse("{}: blocks stand in each other more than {} deep, or hold more than {} parts", model_.source,
+             kMostDepth, kMostParts);
+    const auto layer_of = [&](const std::string& own) { return own.empty() ? layer : own; };
+    for (const ModelCurve& curve : block.curves)
+      model_.curves.push_back({depth == 0 ? curve.shape : std::make_shared<CurveOfBlock>(curve.shape, place),
+                               layer_of(curve.name), curve.where});
+    for (const ModelPoint& p : block.points)
+      model_.points.push_back({place(p.at), layer_of(p.name), p.where});
+    for (const Block::Face& face : block.faces) {
+      faces_.push_back({face.corners, layer_of(face.layer)});
+      for (Vec3& corner : faces_.back().corners) corner = place(corner);
+    }
+    for (const Block::Insert& insert : block.inserts) {
+      const auto inner = blocks_.find(insert.block);
+      if (inner == blocks_.end()) refuse("{}: there is no block '{}'", insert.where, insert.block);
+      put(inner->second, place.after(insert.place).after({{1, 0}, {0, 1}, Vec2{} - inner->second.base}),
+          layer_of(insert.layer), depth + 1);
+    }
+  }
+
+  /// The faces, with a region for each layer.
+  TriangleModel surface() const {
+    TriangleModel surface{{}, model_.source};
+    Mesh& mesh = surface.mesh;
+    std::map<std::string, int> region_of;
+    for (const auto& [corners, layer] : faces_) {
+      const auto [at, is_new] = region_of.try_emplace(layer, static_cast<int>(mesh.regions.size()));
+      if (is_new) mesh.regions.push_back({at->second + 1, {}});
+      if (is_new && !layer.empty()) mesh.regions.back().names.push_back(layer);
+      const bool is_triangle = corners[3] == corners[2];
+      const int v = static_cast<int>(mesh.points.size());
+      mesh.points.insert(mesh.points.end(), corners.begin(), corners.end() - is_triangle);
+      if (is_triangle)
+        mesh.triangles.push_back({v, v + 1, v + 2}), mesh.triangle_region.push_back(at->second);
+      else
+        mesh.quads.push_back({v, v + 1, v + 2, v + 3}), mesh.quad_region.push_back(at->second);
+    }
+    if (!model_.curves.empty())
+      surface.notes.push_back(
+          fmt::format("{} beside 3D faces are left out", counted(std::ssize(model_.curves), "curve")));
+    return surface;
+  }
+
   /// One entity, up to what follows it.
   void entity() {
     const std::string kind = value_, where = in_.place(static_cast<std::size_t>(in_.line()) - 1);
-    layer_.clear(), values_.clear(), corners_.clear(), fit_.clear(), knots_.clear(), weights_.clear();
+    layer_.clear(), name_.clear(), values_.clear(), corners_.clear(), fit_.clear(), knots_.clear(),
+        weights_.clear();
     groups(kind);
     if (kind == "POLYLINE") {
       const auto of_line = values_;
@@ -121,13 +215,26 @@ class DxfReader {
       values_ = of_line;
     }
     where_ = where + ": " + kind;
-    located(where_, [&] { add(kind); });
+    if (kind == "BLOCK") {
+      into_ = &(blocks_[name_] = {point(10)});
+    } else if (kind == "ENDBLK") {
+      into_ = &drawing_;
+    } else if (into_ == &drawing_) {
+      located(where_, [&] { add(kind); });
+    } else {
+      try {
+        located(where_, [&] { add(kind); });
+      } catch (const InputError& error) {  // nobody may need the block
+        into_->why_not = error.what();
+      }
+    }
   }
 
   /// The groups behind one of code 0, up to the next.
   void groups(const std::string& kind) {
     const bool is_polyline = kind == "LWPOLYLINE", is_spline = kind == "SPLINE";
     for (next(); code_ != 0; next()) {
+      if (code_ == 2) name_ = value_;
       if (code_ == 8) layer_ = value_ == "0" ? "" : value_;
       if (code_ < 10 || (code_ > 79 && code_ != 230)) continue;
       const double value = number();
@@ -176,10 +283,32 @@ class DxfReader {
       else
         push(make_spline(fit_));
     } else if (kind == "POINT") {
-      model_.points.push_back({point(10), layer_, where_});
+      into_->points.push_back({point(10), layer_, where_});
+    } else if (kind == "3DFACE") {
+      Block::Face& face = into_->faces.emplace_back(Block::Face{{}, layer_});
+      for (int k = 0; k < 4; ++k) face.corners[k] = {value(10 + k), value(20 + k), value(30 + k)};
     } else if (kind == "INSERT") {
-      refuse("a block: explode it before");
+      add_inserts(side);
+    } else if (kind != "VERTEX" && kind != "SEQEND" && kind != "ATTRIB") {
+      ++left_out_[kind];
     }
+  }
+
+  /// Rows and columns of a block.
+  void add_inserts(double side) {
+    constexpr double kMost = 1e6;
+    const double turn = value(50) * std::numbers::pi / 180, columns = std::max(1., value(70)),
+                 rows = std::max(1., value(71));
+    if (const double n = columns * rows + static_cast<double>(into_->inserts.size()); n > kMost)
+      refuse("{:g} copies of blocks: expected at most {:g}", n, kMost);
+    const Placement mirror{{side, 0}, {0, 1}, {}},
+        turned{{std::cos(turn), std::sin(turn)}, {-std::sin(turn), std::cos(turn)}, point(10), 1, value(30)};
+    for (int column = 0; column < static_cast<int>(columns); ++column)
+      for (int row = 0; row < static_cast<int>(rows); ++row) {
+        const Placement scaled{
+            {value(41, 1), 0}, {0, value(42, 1)}, {column * value(44), row * value(45)}, value(43, 1)};
+        into_->inserts.push_back({name_, layer_, where_, mirror.after(turned).after(scaled)});
+      }
   }
 
   /// Straight parts, and an arc for each bulge.
@@ -209,70 +338,19 @@ class DxfReader {
   }
 
   void push(std::shared_ptr<const Curve> shape) {
-    model_.curves.push_back({std::move(shape), layer_, where_});
-  }
-
-  /// Curves that hang together are a loop where each end of theirs meets another; those that end alone, and
-  /// what then does, stand in regions.
-  void join_ends() {
-    std::vector<ModelCurve>& curves = model_.curves;
-    std::vector<Vec2> ends;
-    for (const ModelCurve& curve : curves)
-      for (const double t : {0., 1.}) ends.push_back(curve.shape->point(t));
-    const Vec2 extent = Box<Vec2>::around(std::span<const Vec2>(ends)).size();
-    const double gap = kGap * norm(extent);
-    std::vector<std::size_t> order(ends.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, {}, [&](std::size_t e) { return std::pair{ends[e].x, e}; });
-    DisjointSets nodes(ends.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-      for (std::size_t j = i + 1; j < order.size() && ends[order[j]].x - ends[order[i]].x <= gap; ++j)
-        if (norm(ends[order[j]] - ends[order[i]]) <= gap)
-          nodes.join(static_cast<int>(order[i]), static_cast<int>(order[j]));
-    const std::vector<int> node = nodes.roots();
-    std::vector<std::vector<int>> at_node(ends.size());
-    for (std::size_t e = 0; e < ends.size(); ++e) at_node[node[e]].push_back(static_cast<int>(e / 2));
-    std::vector<bool> open(curves.size(), false);
-    std::vector<int> lone;
-    for (std::size_t v = 0; v < at_node.size(); ++v)
-      if (at_node[v].size() == 1) lone.push_back(static_cast<int>(v));
-    while (!lone.empty()) {
-      const int v = lone.back();
-      lone.pop_back();
-      if (at_node[v].size() != 1) continue;
-      const int c = at_node[v][0];
-      open[c] = true;
-      for (const int e : {2 * c, 2 * c + 1}) {
-        std::erase(at_node[node[e]], c);
-        if (at_node[node[e]].size() == 1) lone.push_back(node[e]);
-      }
-    }
-    DisjointSets together(curves.size());
-    for (std::size_t v = 0; v < at_node.size(); ++v) {
-      for (const int c : at_node[v]) together.join(at_node[v][0], c);
-      if (at_node[v].size() % 2 == 1)
-        refuse("{}: {} curves meet at {}, of which one is on {}: expected outlines that are apart",
-               model_.source, at_node[v].size(), show_point(ends[v]), curves[at_node[v][0]].where);
-    }
-    std::vector<int> loop_of(curves.size(), -1);
-    for (std::size_t c = 0; c < curves.size(); ++c) {
-      const Vec2 from = ends[node[2 * c]], to = ends[node[2 * c + 1]];
-      if (from != ends[2 * c] || to != ends[2 * c + 1])
-        curves[c].shape = std::make_shared<MovedEnds>(curves[c].shape, from, to);
-      if (open[c]) continue;
-      int& loop = loop_of[together.root(static_cast<int>(c))];
-      if (loop < 0) {
-        loop = static_cast<int>(model_.loops.size());
-        model_.loops.push_back({{}, "", curves[c].where});
-      }
-      model_.loops[loop].curves.push_back(static_cast<int>(c));
-    }
+    into_->curves.push_back({std::move(shape), layer_, where_});
   }
 
   TextScanner in_;
   PlanarModel model_;
+  std::vector<Block::Face> faces_;  ///< of the model
+  Block drawing_;
+  std::map<std::string, Block> blocks_;
+  Block* into_ = &drawing_;  ///< what the next entities belong to
+  std::size_t n_parts_ = 0;
+  std::map<std::string, int> left_out_;  ///< entities by kind
   int code_ = -1;
-  std::string value_, layer_, where_;
+  std::string value_, layer_, name_, where_;
   std::map<int, double> values_;  ///< by group code; of several the last
   std::vector<Corner> corners_;
   std::vector<Vec2> fit_;
@@ -281,6 +359,6 @@ class DxfReader {
 
 }  // namespace
 
-PlanarModel read_dxf(const std::filesystem::path& path) { return DxfReader(path).model(); }
+Model read_dxf(const std::filesystem::path& path) { return DxfReader(path).model(); }
 
 }  // namespace delquad

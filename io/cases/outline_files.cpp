@@ -12,9 +12,12 @@
 #include <utility>
 
 #include "base/located.h"
+#include "base/nearest_name.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "geometry/planar/join_outlines.h"
 #include "io/cases/dxf_file.h"
+#include "io/entity_names.h"
 #include "io/gdal/gdal_files.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
@@ -40,8 +43,11 @@ class GeoJsonReader {
     }
     model_.source = path_;
     try {
-      read(root, path_, "");
-      if (model_.loops.empty()) refuse("{}: there are no polygons", path_);
+      read(root, path_, {});
+      if (model_.loops.empty())
+        if (const std::string loose = join_outlines(model_); model_.loops.empty())
+          refuse("{}: there are no polygons, and no lines join to one{}", path_,
+                 loose.empty() ? "" : ": " + loose + ": expected ends that meet");
       check_unit(root, file);
     } catch (const Json::exception& error) {
       refuse("{}: {}", where_, error.what());
@@ -52,7 +58,18 @@ class GeoJsonReader {
   const std::string& crs() const { return crs_; }
 
  private:
-  void read(const Json& object, const std::string& where, const std::string& name, int depth = 0) {
+  /// The properties of a feature.
+  struct Feature {
+    std::string name;
+    std::string suffix = {};  ///< of names of its curves: "_open", "_weir"
+    bool is_barrier = false;
+    std::string curve(const std::string& part) const {
+      const std::string all = (name.empty() ? "" : name + part) + suffix;
+      return name.empty() && !suffix.empty() ? all.substr(1) : all;
+    }
+  };
+
+  void read(const Json& object, const std::string& where, const Feature& feature, int depth = 0) {
     where_ = where;
     constexpr int kMostDepth = 3;  // a collection of features, of geometries in collections
     if (depth > kMostDepth) refuse("{}: collections that stand in each other", where);
@@ -60,43 +77,71 @@ class GeoJsonReader {
     const std::string type = object.at("type");
     int n = 0;
     if (type == "FeatureCollection") {
-      for (const Json& feature : object.at("features"))
-        read(feature, fmt::format("{}: feature {}", where, ++n), "", depth + 1);
+      for (const Json& one : object.at("features"))
+        read(one, fmt::format("{}: feature {}", where, ++n), {}, depth + 1);
     } else if (type == "GeometryCollection") {
-      for (const Json& geometry : object.at("geometries")) read(geometry, where, name, depth + 1);
+      for (const Json& geometry : object.at("geometries")) read(geometry, where, feature, depth + 1);
     } else if (type == "Feature") {
-      const std::string of_feature = name_of(object);
+      const Feature own = feature_of(object, where);
       if (!object.at("geometry").is_null())
-        read(object["geometry"], of_feature.empty() ? where : where + " ('" + of_feature + "')", of_feature,
-             depth + 1);
+        read(object["geometry"], own.name.empty() ? where : where + " ('" + own.name + "')", own, depth + 1);
     } else if (type == "Polygon") {
-      add_polygon(object.at("coordinates"), where, name);
+      add_polygon(object.at("coordinates"), where, feature);
     } else if (type == "MultiPolygon") {
       for (const Json& polygon : object.at("coordinates"))
-        add_polygon(polygon, fmt::format("{}, polygon {}", where, ++n), name);
+        add_polygon(polygon, fmt::format("{}, polygon {}", where, ++n), feature);
     } else if (type == "LineString") {
-      add_curve(object.at("coordinates"), where, name);
+      add_line(object.at("coordinates"), where, feature);
     } else if (type == "MultiLineString") {
       for (const Json& line : object.at("coordinates"))
-        add_curve(line, fmt::format("{}, line {}", where, ++n), name);
+        add_line(line, fmt::format("{}, line {}", where, ++n), feature);
     } else if (type == "MultiPoint") {
       for (const Json& at : object.at("coordinates"))
-        model_.points.push_back({point(at, where), name, where});
+        model_.points.push_back({point(at, where), feature.name, where});
     } else if (type == "Point") {
-      model_.points.push_back({point(object.at("coordinates"), where), name, where});
+      model_.points.push_back({point(object.at("coordinates"), where), feature.name, where});
     } else {
       refuse("{}: the type '{}' is not known: expected polygons, lines and points", where, type);
     }
   }
 
-  static std::string name_of(const Json& feature) {
-    if (const auto properties = feature.find("properties");
-        properties != feature.end() && properties->is_object())
-      for (const char* key : {"NAME", "ID"})
-        for (const auto& [property, name] : properties->items())
-          if (upper(property) == key && !name.is_null())
-            return name.is_string() ? name.get<std::string>() : name.dump();
-    return "";
+  Feature feature_of(const Json& object, const std::string& where) {
+    static const std::vector<std::string> kKnown = {"barrier", "crack", "boundary", "weir"};
+    Feature feature;
+    const auto properties = object.find("properties");
+    if (properties == object.end() || !properties->is_object()) return feature;
+    for (const char* key : {"NAME", "ID"})
+      for (const auto& [property, name] : properties->items())
+        if (feature.name.empty() && upper(property) == key && !name.is_null())
+          feature.name = name.is_string() ? name.get<std::string>() : name.dump();
+    for (const auto& [property, value] : properties->items()) {
+      const bool is_flag = value.is_boolean();
+      if (property == "barrier" || property == "crack") {
+        if (is_flag) feature.is_barrier |= value.get<bool>();
+        if (!is_flag) note(where, property, value, ": expected true or false");
+      } else if (property == "weir") {
+        if (is_flag || value.is_number())
+          feature.suffix += is_flag ? value.get<bool>() ? "_weir" : "" : "_weir_" + value.dump();
+        else
+          note(where, property, value, ": expected true, or the height of its crest");
+      } else if (property == "boundary") {
+        if (value == "open" && !name_says(feature.name, "open")) feature.suffix += "_open";
+        if (value == "land" && name_says(feature.name, "open"))
+          note(where, property, value, ", but the name says open: rename it");
+        if (value != "open" && value != "land") note(where, property, value, ": expected open or land");
+      } else if (const std::string near = suggestion(property, kKnown); !near.empty()) {
+        note(where, property, value, near);
+      }
+    }
+    return feature;
+  }
+
+  /// Once for each value of a property.
+  void note(const std::string& where, const std::string& property, const Json& value,
+            const std::string& why) {
+    if (const std::string text = fmt::format("the property '{}' is {}{}", property, value.dump(), why);
+        noted_.insert(text).second)
+      model_.notes.push_back(where + ": " + text);
   }
 
   Vec2 point(const Json& xy, const std::string& where) {
@@ -117,15 +162,21 @@ class GeoJsonReader {
     return static_cast<int>(model_.curves.size()) - 1;
   }
 
-  void add_polygon(const Json& rings, const std::string& where, const std::string& name) {
+  void add_line(const Json& line, const std::string& where, const Feature& feature) {
+    const std::string name = feature.curve("");
+    const int curve = add_curve(line, where, name.empty() && feature.is_barrier ? "barrier" : name);
+    model_.curves[curve].is_crack = feature.is_barrier;
+  }
+
+  void add_polygon(const Json& rings, const std::string& where, const Feature& feature) {
     int n = 0;
     for (const Json& ring : rings) {
       const std::string place = rings.size() == 1 ? where : fmt::format("{}, ring {}", where, n + 1);
       if (ring.size() < 4 || ring.front() != ring.back())
         refuse("{}: a ring has four points or more, and the last is the first", place);
       const std::string part = n == 0 ? "_outline" : fmt::format("_hole_{}", n);
-      const int curve = add_curve(ring, place, name.empty() ? "" : name + part);
-      model_.loops.push_back({{curve}, n == 0 ? name : "", place, n > 0});
+      const int curve = add_curve(ring, place, feature.curve(part));
+      model_.loops.push_back({{curve}, n == 0 ? feature.name : "", place, n > 0});
       ++n;
     }
   }
@@ -145,6 +196,7 @@ class GeoJsonReader {
 
   std::string path_, where_, crs_;
   PlanarModel model_;
+  std::set<std::string> noted_;
   bool are_degrees_ = true;
 };
 
@@ -154,7 +206,7 @@ PlanarModel read_geojson(const std::filesystem::path& path) {
   return GeoJsonReader(path, {std::string(read_whole_file(path))}).model();
 }
 
-PlanarModel read_outlines(const OutlineFile& file, std::string& crs) {
+Model read_outlines(const OutlineFile& file, std::string& crs) {
   const std::string kind = kind_of_file(file.path);
   const bool as_it_is = file.layer.empty() && file.project.empty();
   if (kind == kDxf && !as_it_is)

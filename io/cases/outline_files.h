@@ -9,10 +9,16 @@
 
 namespace delquad {
 
-/// The polygons of a GeoJSON file [RFC 7946]: each ring is a curve of data, inner ones are holes. The name of
-/// a feature, of its properties "name", "NAME" or "id", is that of its region, and rings have it with
-/// "_outline", "_hole_1" and so on behind it. Lines and points stand in the regions. Throws InputError, with
-/// the feature and ring, for what is no such file, and for longitudes and latitudes: those are no lengths.
+/// Reads a GeoJSON file [RFC 7946]. Each ring of a polygon is a curve of data, inner ones are holes. Without
+/// polygons the lines that join at their ends are outlines (join_outlines()); else lines and points stand in
+/// the regions. A feature has its name from its properties "name", "NAME" or "id". Its region has this name,
+/// and its rings have "_outline", "_hole_1" and so on behind it.
+///
+/// The property "barrier" or "crack" (true) makes the mesh come apart along a line. "boundary" ("open" or
+/// "land") and "weir" (true, or the height of the crest) put "_open", "_weir" or "_weir_2.5" behind names of
+/// curves. Notes tell of other values, and of properties whose names are nearly these.
+///
+/// Throws InputError, with the feature and ring, for what is no such file, and for longitudes and latitudes.
 /// Such are all coordinates within 180 and 90, unless the file has a "crs" of another name.
 PlanarModel read_geojson(const std::filesystem::path& path);
 
@@ -27,9 +33,10 @@ std::optional<OutlineFile> outline_file_of(const std::filesystem::path& text);
 /// These endings.
 std::string outline_files();
 
-/// What read_geojson() makes of GeoJSON and of all that GDAL reads, and its coordinate system (see
-/// read_raster()). Throws InputError in builds without GDAL for all but GeoJSON as it is.
-PlanarModel read_outlines(const OutlineFile& file, std::string& crs);
+/// Returns what read_geojson() makes of GeoJSON and of all that GDAL reads, or read_dxf() of a drawing, and
+/// its coordinate system (see read_raster()). Throws InputError in builds without GDAL for all but GeoJSON as
+/// it is.
+Model read_outlines(const OutlineFile& file, std::string& crs);
 
 /// Points, one a line: x and y, with comments behind '#'. Of an airfoil the first line may be its name, and
 /// two counts may follow, of points on the upper side and the lower, both from the nose.

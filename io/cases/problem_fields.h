@@ -35,10 +35,10 @@ inline constexpr auto kFields<ModelPoint> = std::tuple(inner("at", &ModelPoint::
                                                        inner("name", &ModelPoint::name),
                                                        place(&ModelPoint::where));
 template <>
-inline constexpr auto kFields<PlanarModel> = std::tuple(place(&PlanarModel::source),
-                                                        inner("curve", &PlanarModel::curves),
-                                                        inner("loop", &PlanarModel::loops),
-                                                        inner("point", &PlanarModel::points));
+inline constexpr auto kFields<PlanarModel> =
+    std::tuple(place(&PlanarModel::source), inner("curve", &PlanarModel::curves),
+               inner("loop", &PlanarModel::loops), inner("point", &PlanarModel::points),
+               ignored(&PlanarModel::notes, "its reader makes the same warnings again"));
 template <>
 inline constexpr auto kFields<LineModel> = std::tuple(inner("mesh", &LineModel::mesh),
                                                       inner("surfaces", &LineModel::surfaces),

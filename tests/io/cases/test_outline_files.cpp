@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "delquad/mesher.h"
+#include "geometry/mesh/half_edges.h"
 #include "io/cases/case_file.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -45,6 +47,90 @@ TEST_F(OutlineFiles, PolygonsWithHolesLinesAndPoints) {
   EXPECT_EQ(model.points[0].at, (Vec2{900, 300}));
 }
 
+TEST_F(OutlineFiles, LinesThatJoinAtTheirEndsArePolygons) {
+  const auto line = [](const std::string& name, const std::string& coordinates) {
+    return R"({"type": "Feature", "properties": {"name": ")" + name +
+           R"("}, "geometry": {"type": "LineString", "coordinates": )" + coordinates + "}}";
+  };
+  const std::string bay = line("sea", "[[0, 0], [900, 0]]") + "," +
+                          line("east", "[[900, 900], [900, 0.001]]") + "," +
+                          line("shore", "[[900, 900], [400, 700], [0, 900], [0, 0]]");
+  const PlanarModel model =
+      read(bay + "," + line("isle", "[[200, 200], [400, 200], [300, 400], [200, 200]]"));
+  ASSERT_EQ(model.loops.size(), 2u);
+  EXPECT_EQ(model.loops[0].curves, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(model.loops[1].curves, std::vector<int>{3});
+  MeshProblem problem;
+  problem.model = model;
+  problem.size.field = make_constant_size(80);
+  const Mesh made = mesh(problem, "DB").mesh;
+  EXPECT_EQ(made.regions.size(), 1u);
+  EXPECT_EQ(made.curves[0].names, std::vector<std::string>{"sea"});
+  expect_input_error(
+      [&] { read(line("sea", "[[0, 0], [900, 0]]") + "," + line("east", "[[900, 9], [0, 9]]")); },
+      {"no lines join to one", "curve 'sea'", "ends at (0, 0)", "curve 'east'", "9 from there"});
+}
+
+TEST_F(OutlineFiles, PropertiesSayBarriersAndBoundaries) {
+  const auto line = [](const std::string& properties, const std::string& coordinates) {
+    return R"({"type": "Feature", "properties": {)" + properties +
+           R"(}, "geometry": {"type": "LineString", "coordinates": )" + coordinates + "}}";
+  };
+  const PlanarModel model =
+      read(line(R"("name": "sea", "boundary": "open", "barier": true)", "[[0, 0], [900, 0]]") + "," +
+           line(R"("boundary": "open")", "[[900, 0], [900, 900]]") + "," +
+           line(R"("name": "land", "barrier": "fence")", "[[900, 900], [0, 900], [0, 0]]") + "," +
+           line(R"("name": "dam", "barrier": true, "weir": 2.5)", "[[300, 300], [600, 300]]") + "," +
+           line(R"("crack": true, "boundary": "administrative")", "[[300, 600], [600, 600]]"));
+  std::vector<std::string> names;
+  for (const ModelCurve& curve : model.curves) names.push_back(curve.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"sea_open", "open", "land", "dam_weir_2.5", "barrier"}));
+  EXPECT_EQ(model.loops.size(), 1u);
+  EXPECT_EQ(model.loops[0].curves, (std::vector<int>{0, 1, 2}));
+  EXPECT_TRUE(model.curves[3].is_crack && model.curves[4].is_crack && !model.curves[2].is_crack);
+  ASSERT_EQ(model.notes.size(), 3u);
+  for (const auto& [note, part] :
+       {std::pair(0, "feature 1: the property 'barier' is true; did you mean 'barrier'?"),
+        {1, "feature 3: the property 'barrier' is \"fence\": expected true or false"},
+        {2, "'boundary' is \"administrative\": expected open or land"}})
+    EXPECT_NE(model.notes[static_cast<std::size_t>(note)].find(part), std::string::npos) << model.notes[0];
+}
+
+TEST_F(OutlineFiles, OutlinesThatNearlyTouchAreJoined) {
+  const auto polygon = [](const std::string& name, const std::string& ring) {
+    return R"({"type": "Feature", "properties": {"name": ")" + name +
+           R"("}, "geometry": {"type": "Polygon", "coordinates": [)" + ring + "]}}";
+  };
+  // They overlap and gape by up to 0.08 of 10000.
+  MeshProblem problem;
+  problem.model = read(
+      polygon("west", "[[0, 0], [5000, 0], [5030, 2000], [5050, 3000], [5000, 6000], [0, 6000], [0, 0]]") +
+      "," +
+      polygon("east",
+              "[[5000.05, 0], [10000, 0], [10000, 6000], [5000, 6000.08], [5024.95, 4500.06], [5049.94, "
+              "3000.03], [5029.97, 2000.02], [5015.02, 1000], [5000.05, 0]]"));
+  problem.size.field = make_constant_size(400);
+  const MeshResult made = mesh(problem, "DBO");
+  EXPECT_TRUE(made.soundness.sound());
+  EXPECT_EQ(made.mesh.regions.size(), 2u);
+  EXPECT_EQ(made.surface, std::nullopt);
+  EXPECT_NE(made.warnings[0].text.find("outlines that nearly touch were joined"), std::string::npos);
+  double area = 0;
+  for (const auto& quad : made.mesh.quads)
+    area += 0.5 * norm(cross(made.mesh.points[quad[2]] - made.mesh.points[quad[0]],
+                             made.mesh.points[quad[3]] - made.mesh.points[quad[1]]));
+  EXPECT_NEAR(area, 6e7, 1e4);
+  const auto sides = sorted_half_edges(made.mesh);
+  std::size_t outside = 0;
+  for_each_edge(sides, [&](std::span<const HalfEdge> at) {
+    const Vec3 middle = 0.5 * (made.mesh.points[at[0].lo] + made.mesh.points[at[0].hi]);
+    outside += at.size() == 1 && middle.x > 1000 && middle.x < 9000 && middle.y > 500 && middle.y < 5500;
+  });
+  EXPECT_EQ(outside, 0u);
+  problem.surface.weld_tolerance = 0;
+  expect_input_error([&] { mesh(problem, "DB"); }, {});
+}
+
 TEST_F(OutlineFiles, MessagesNameFeatureAndRing) {
   expect_input_error([&] { read(feature("Polygon", "[[[0, 0], [1, 0], [1, 1], [0, 0]]]")); }, {"degrees"});
   expect_input_error([&] { read(feature("Polygon", "[[[0, 0], [500, 0], [1, 1], [0, 1]]]")); },
@@ -78,7 +164,10 @@ TEST_F(OutlineFiles, AirfoilsInBothOrders) {
 class DxfFiles : public OutlineFiles {
  protected:
   PlanarModel read(const std::string& groups) {
-    std::string text = "0\nSECTION\n2\nENTITIES\n" + groups + " 0 ENDSEC 0 EOF";
+    return std::get<PlanarModel>(read_model("0\nSECTION\n2\nENTITIES\n" + groups));
+  }
+  Model read_model(const std::string& sections) {
+    std::string text = sections + " 0 ENDSEC 0 EOF";
     std::ranges::replace(text, ' ', '\n');
     std::string crs;
     return read_outlines({write_text(folder_ / "a.dxf", text), "", ""}, crs);
@@ -126,14 +215,71 @@ TEST_F(DxfFiles, EndsThatAreNearAreJoined) {
   EXPECT_EQ(model.loops[1].curves, (std::vector<int>{4, 5}));
 }
 
+TEST_F(DxfFiles, BlocksStandWhereTheyAreInserted) {
+  // A square of 20 from two blocks, and a row of two holes, mirrored in a block that is turned.
+  const PlanarModel model = std::get<PlanarModel>(
+      read_model("0 SECTION 2 BLOCKS 0 BLOCK 8 0 2 half 10 5 20 5 " + line(5, 25, 5, 5) +
+                 "0 LINE 8 0 10 5 20 5 11 25 21 5 " +
+                 "0 ENDBLK 8 0 0 BLOCK 8 0 2 hole 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 1 0 ENDBLK "
+                 "0 BLOCK 8 0 2 holes 10 0 20 0 0 INSERT 8 rim 2 hole 10 4 20 0 41 -1 70 2 44 4 0 ENDBLK 0 "
+                 "BLOCK 2 unused "
+                 "0 CIRCLE 40 -1 0 ENDBLK 0 ENDSEC 0 SECTION 2 ENTITIES 0 INSERT 8 foot 2 half 10 0 20 0 "
+                 "0 INSERT 8 0 2 half 10 20 20 20 50 180 0 INSERT 8 0 2 holes 10 10 20 3 50 90"));
+  ASSERT_EQ(model.loops.size(), 3u);
+  EXPECT_EQ(model.loops[0].curves, (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(model.curves[0].name, "wall");
+  EXPECT_EQ(model.curves[1].name, "foot");
+  EXPECT_NEAR(norm(model.curves[2].shape->point(0) - Vec2{20, 0}), 0, 1e-12);
+  EXPECT_EQ(model.curves[4].name, "rim");
+  for (const double t : {0., 0.3}) {
+    EXPECT_NEAR(norm(model.curves[4].shape->point(t) - Vec2{10, 7}), 1, 1e-12);
+    EXPECT_NEAR(norm(model.curves[5].shape->point(t) - Vec2{10, 11}), 1, 1e-12);
+  }
+  std::string twice = "0 SECTION 2 BLOCKS 0 BLOCK 2 b0 10 0 20 0 " + line(0, 0, 1, 0) + "0 ENDBLK ";
+  for (int k = 0; k < 40; ++k)
+    twice += "0 BLOCK 2 b" + std::to_string(k + 1) + " 0 INSERT 2 b" + std::to_string(k) + " 70 9 0 ENDBLK ";
+  expect_input_error([&] { read_model(twice + "0 ENDSEC 0 SECTION 2 ENTITIES 0 INSERT 2 b12"); },
+                     {"more than 1000000 parts"});
+  expect_input_error([&] { read_model(twice + "0 ENDSEC 0 SECTION 2 ENTITIES 0 INSERT 2 b40"); },
+                     {"16 deep"});
+  expect_input_error([&] { read("0 INSERT 8 0 2 chair 10 0 20 0"); }, {"a.dxf:", "no block 'chair'"});
+}
+
+TEST_F(DxfFiles, ThreeDimensionalFacesAreASurface) {
+  const std::string face = "0 3DFACE 8 roof 10 0 20 0 30 1 11 4 21 0 31 1 12 4 22 3 32 2 13 ";
+  const auto model = std::get<TriangleModel>(
+      read_model("0 SECTION 2 ENTITIES " + face + "0 23 3 33 2 " + face + "4 23 3 33 2"));
+  EXPECT_EQ(model.mesh.quads.size(), 1u);
+  EXPECT_EQ(model.mesh.triangles.size(), 1u);
+  EXPECT_EQ(model.mesh.points[2], (Vec3{4, 3, 2}));
+  EXPECT_EQ(model.mesh.regions[0].names, std::vector<std::string>{"roof"});
+}
+
+TEST_F(DxfFiles, TheOuterOutlineCountsWhereThreeCurvesMeet) {
+  const std::string square = line(0, 0, 5, 0) + line(5, 0, 10, 0) + line(10, 0, 10, 10) +
+                             line(10, 10, 5, 10) + line(5, 10, 0, 10) + line(0, 10, 0, 0);
+  const PlanarModel model = read(square + line(5, 0, 5, 4) + line(5, 4, 5, 10) + "0 CIRCLE 10 7 20 4 40 1");
+  ASSERT_EQ(model.loops.size(), 2u);
+  EXPECT_EQ(model.loops[0].curves, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(model.loops[1].curves, std::vector<int>{8});
+  // Two triangles with a line between them are two outlines, and nothing is around the line.
+  const PlanarModel apart = read(line(0, 0, 1, 0) + line(1, 0, 0, 1) + line(0, 1, 0, 0) + line(1, 0, 2, 0) +
+                                 line(2, 0, 3, 0) + line(3, 0, 3, 1) + line(3, 1, 2, 0));
+  ASSERT_EQ(apart.loops.size(), 2u);
+  EXPECT_EQ(apart.loops[0].curves, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(apart.loops[1].curves, (std::vector<int>{3, 4, 5}));
+  EXPECT_EQ(apart.curves.size(), 6u);
+  const PlanarModel twice = read(square + line(10, 10, 10, 0) + line(10, 0, 10, 10));
+  ASSERT_EQ(twice.loops.size(), 1u);
+  EXPECT_EQ(twice.loops[0].curves, model.loops[0].curves);
+  EXPECT_NE(apart.notes.at(0).find("1 curve or point outside of all outlines"), std::string::npos);
+}
+
 TEST_F(DxfFiles, MistakesAreLocated) {
-  const std::string triangle = line(0, 0, 1, 0) + line(1, 0, 1, 1) + line(1, 1, 0, 0);
-  expect_input_error([&] { read(triangle + "0 INSERT 8 0 2 chair 10 0 20 0"); },
-                     {"a.dxf:", "INSERT: a block"});
   expect_input_error([&] { read("0 LINE 8 0 10 zero 20 0 11 1 21 1"); }, {"a.dxf:10", "group 10 is 'zero'"});
-  expect_input_error([&] { read(triangle + line(0, 0, 2, 0) + line(2, 0, 1, 1)); },
-                     {"3 curves meet at (", "apart"});
-  expect_input_error([&] { read(line(0, 0, 1, 0)); }, {"no curves close up"});
+  expect_input_error(
+      [&] { read(line(0, 0, 1, 0) + line(2, 0, 3, 1) + "0 HATCH 8 0 0 HATCH 8 0"); },
+      {"no curves close up", "2 HATCH are left out", "LINE) ends at (", "expected ends that meet"});
   expect_input_error([&] { read("0 SPLINE 71 3 40 0 40 1 10 0 20 0 10 1 20 1"); },
                      {"SPLINE: a spline of degree 3"});
 }

@@ -69,7 +69,9 @@ class GdalFiles : public testing::Test {
     return path;
   }
 
-  PlanarModel read(const std::string& name) { return read_outlines(*outline_file_of(folder_ / name), crs_); }
+  PlanarModel read(const std::string& name) {
+    return std::get<PlanarModel>(read_outlines(*outline_file_of(folder_ / name), crs_));
+  }
 
   testing_support::TemporaryFolder folder_;
   std::string crs_;
