@@ -70,13 +70,17 @@ std::vector<CoastPiece> coast_pieces(const Mesh& mesh) {
     const auto name_at = [&](std::size_t i) -> const std::string& {
       return name_of.at({loop[i], loop[i + 1]});
     };
-    double area = 0;
+    double area = 0, length = 0;
     bool any_open = false;
     for (std::size_t i = 0; i < n; ++i) {
-      area += cross(mesh.points[loop[i]], mesh.points[loop[i + 1]]).z;
+      const Vec3 first = mesh.points[loop[0]], a = mesh.points[loop[i]], b = mesh.points[loop[i + 1]];
+      area += cross(a - first, b - first).z;
+      length += norm(b - a);
       any_open = any_open || name_says(name_at(i), "open");
     }
-    if (area < 0 && !any_open) {
+    // A barrier in the water has no area: both of its sides are there.
+    constexpr double kNoArea = 1e-9;
+    if (area <= kNoArea * length * length && !any_open) {
       loop.pop_back();
       pieces.push_back({loop, name_of.at({loop[0], loop[1]}), false, true});
       continue;

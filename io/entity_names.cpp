@@ -252,6 +252,18 @@ void require_planar(const std::filesystem::path& path, const std::string& format
     refuse("{}: {} is for planar meshes: this is a surface in space, or looks down", path.string(), format);
 }
 
+void require_terrain(const std::filesystem::path& path, const std::string& format, const Mesh& mesh) {
+  if (is_planar(mesh)) return;
+  for_each_element(mesh, [&](int e, const auto& v) {
+    double area = 0;
+    for (std::size_t k = 1; k + 1 < v.size(); ++k)
+      area += cross(mesh.points[v[k]] - mesh.points[v[0]], mesh.points[v[k + 1]] - mesh.points[v[0]]).z;
+    if (!(area > 0))
+      refuse("{}: {} is for planar meshes and heights over the plane: element {} is upright or looks down",
+             path.string(), format, e + 1);
+  });
+}
+
 void require_quads(const std::filesystem::path& path, const std::string& format, const Mesh& mesh) {
   if (!mesh.triangles.empty())
     refuse("{}: {} has quads only, and there are {} triangles", path.string(), format, mesh.triangles.size());

@@ -119,6 +119,8 @@ bool is_planar(const Mesh& mesh);
 
 /// Throws InputError where is_planar() is false.
 void require_planar(const std::filesystem::path& path, const std::string& format, const Mesh& mesh);
+/// The same but for meshes of z over the plane, such as the ground below water.
+void require_terrain(const std::filesystem::path& path, const std::string& format, const Mesh& mesh);
 /// Throws InputError where there are triangles.
 void require_quads(const std::filesystem::path& path, const std::string& format, const Mesh& mesh);
 

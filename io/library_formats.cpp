@@ -90,6 +90,7 @@ MeshFormat ugrid_format() {
   MeshFormat format{.extensions = {".nc"},
                     .description = "UGRID in netCDF: Delft3D FM, QGIS",
                     .package = "libnetcdf-dev",
+                    .has_depths = true,
                     .labels = &kUgridLabels};
 #ifdef DELQUAD_HAS_UGRID
   format.read = read_loaded<kUgrid>, format.write = write_by<write_loaded<kUgrid>>, format.package = "";

@@ -163,6 +163,13 @@ void check_mesh_format(const std::filesystem::path& path, const MshOptions& opti
     throw InputError(path.string() + ": '" + kind + "' has no binary form here: expected .msh with --binary");
 }
 
+void check_depths(const std::filesystem::path& path) {
+  const MeshFormat* format = find_format(kind_to_write(path));
+  if (format == nullptr || !format->has_depths)
+    refuse("{}: no depths are written there: expected {}", path.string(),
+           extensions_of([](const MeshFormat& f) { return f.has_depths; }));
+}
+
 void check_hex_format(const std::filesystem::path& path, const HexFileOptions& options) {
   const std::string kind = kind_to_write(path);
   const MeshFormat* format = find_format(kind);

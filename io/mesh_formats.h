@@ -38,6 +38,7 @@ struct MeshFormat {
   EightNodes eight_nodes = EightNodes::kNever;
   bool has_binary = false;
   /// As renamed_in_file(). Either, where the file itself does not tell: labels of mesh_groups(), or a
+  bool has_depths = false;  ///< z of a planar mesh may be heights of the ground
   /// function.
   const UniqueLabels::Rules* labels = nullptr;
   std::vector<std::string> (*renamed)(const Mesh&) = nullptr;

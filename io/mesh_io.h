@@ -113,6 +113,9 @@ void check_mesh_format(const std::filesystem::path& path, const MshOptions& opti
 /// InputError when write_hexahedra() knows no format for the path's extension, naming those known.
 void check_hex_format(const std::filesystem::path& path, const HexFileOptions& options);
 
+/// InputError when write_mesh() takes no depths there, naming the formats that do.
+void check_depths(const std::filesystem::path& path);
+
 /// write_mesh() with quads of eight nodes: of order 2, in formats that have them.
 void write_serendipity(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
 /// InputError where write_serendipity() would throw one.

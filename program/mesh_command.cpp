@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -266,6 +267,26 @@ void check_fields_file(const std::filesystem::path& file) {
   check_output(file);
 }
 
+/// `depth`: of water, at points; null: none is written. `is_kept`: the file of the given mesh is.
+void write_result(const MeshArguments& arguments, const Case& c, const Word& word,
+                  const std::function<double(const Vec3&)>& depth, bool is_kept, MeshResult& result) {
+  const DoingStage writing_files("writing");
+  const Uninterrupted whole;
+  if (!arguments.keep_numbers) reduce_bandwidth(result.mesh);
+  std::optional<Mesh> other;
+  if (arguments.failing_sets) name_failing(*result.criteria, other.emplace(result.mesh));
+  if (depth)
+    for (Vec3& x : other.emplace(result.mesh).points) x.z = -depth(x);
+  const Stopwatch writing;
+  const Mesh& last = other ? *other : result.mesh;
+  const auto write = arguments.serendipity ? write_serendipity : write_mesh;
+  is_kept ? rewrite_mesh(arguments.model, arguments.output, last)
+          : write(arguments.output, last, arguments.msh);
+  result.log.add_time("write", writing.time());
+  if (!arguments.fields.empty()) write_wanted(arguments.fields, result.mesh, result.prepared);
+  if (!arguments.json.empty()) write_text_file(arguments.json, run_record(c, word, result));
+}
+
 int mesh_command(MeshArguments arguments) {
   const Stopwatch command;
   const RunScope run({.threads = arguments.threads});
@@ -291,6 +312,11 @@ int mesh_command(MeshArguments arguments) {
        {"--fields", arguments.fields},
        {"--view", arguments.view ? page_of(arguments.output) : ""}});
   check_output(arguments.output);
+  std::function<double(const Vec3&)> depth;
+  if (!arguments.depth.empty()) {
+    check_depths(arguments.output);
+    depth = read_depths(arguments.depth, c.model);
+  }
   if (!arguments.json.empty()) check_output(arguments.json);
   if (!arguments.fields.empty()) check_fields_file(arguments.fields);
 
@@ -305,21 +331,7 @@ int mesh_command(MeshArguments arguments) {
   warn_of_cost(prepared.problem(), prepared->size.expected_quads, word, progress);
   MeshResult result = mesh_or_tell(arguments, prepared, word, told(c.name + " " + word.text), progress);
   const bool is_kept = keeps_given(arguments, given, result, progress);
-  {
-    const DoingStage writing_files("writing");
-    const Uninterrupted whole;
-    if (!arguments.keep_numbers) reduce_bandwidth(result.mesh);
-    std::optional<Mesh> with_sets;
-    if (arguments.failing_sets) name_failing(*result.criteria, with_sets.emplace(result.mesh));
-    const Stopwatch writing;
-    const Mesh& last = with_sets ? *with_sets : result.mesh;
-    const auto write = arguments.serendipity ? write_serendipity : write_mesh;
-    is_kept ? rewrite_mesh(arguments.model, arguments.output, last)
-            : write(arguments.output, last, arguments.msh);
-    result.log.add_time("write", writing.time());
-    if (!arguments.fields.empty()) write_wanted(arguments.fields, result.mesh, result.prepared);
-    if (!arguments.json.empty()) write_text_file(arguments.json, run_record(c, word, result));
-  }
+  write_result(arguments, c, word, depth, is_kept, result);
   progress.finish();
   if (given) print_before(arguments.model.string(), *given, result.prepared);
   print_after(arguments.output.string(), result, command.seconds());

@@ -170,6 +170,10 @@ void add_mesh_output(CLI::App& mesh, MeshArguments& arguments) {
   mesh.add_option("--json", arguments.json, "write a record to this file");
   mesh.add_option("--fields", arguments.fields,
                   "write the wanted sizes and directions at the nodes to this file (.vtu)");
+  mesh.add_option(
+      "--depth", arguments.depth,
+      "write depths at the nodes, positive downwards, of a raster FILE or \"FILE: FORMULA\" in its "
+      "value (files gr3, 14, 2dm, nc)");
   mesh.add_flag("--view", arguments.view,
                 "show the mesh in a browser, too, by a page beside it, as 'delquad view' does");
   add_max_elements(mesh, arguments.max_elements);

@@ -30,6 +30,7 @@ struct MeshArguments : KeyArguments {
   bool improve = false;  ///< the model is a mesh that words begin from
   std::filesystem::path model, output, json;
   std::filesystem::path fields;  ///< to write; empty: none
+  std::string depth;             ///< raster of depths that the mesh gets; empty: none
   std::string metric;            ///< empty: as the model says
   bool serendipity = false;      ///< quads of order 2 have 8 nodes
   bool keep_numbers = false;     ///< of nodes, as stages made them

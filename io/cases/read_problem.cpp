@@ -80,18 +80,22 @@ auto formula_or_word(const std::string& text, const std::vector<std::string>& wo
 }
 
 /// A formula of the place and the value of a raster there, which is in `crs`, where that is known.
-std::shared_ptr<const SizeField> make_raster_size(const SizeFile& file, const std::string& crs) {
-  const Expression delta(file.field.empty() ? "value" : file.field, {"x", "y", "z", "value"});
+std::function<double(const Vec3&)> raster_function(const SizeFile& file, const std::string& crs) {
+  const Expression formula(file.field.empty() ? "value" : file.field, {"x", "y", "z", "value"});
   const auto raster = std::make_shared<const Raster>(read_raster(file.path, crs));
+  return [formula, raster, path = file.path.string()](const Vec3& x) {
+    const Vec2 p{x.x, x.y};
+    if (!raster->grid.covers(p)) refuse("{}: the raster does not cover {}", path, show_point(p));
+    const double values[] = {x.x, x.y, x.z, raster->at(p)};
+    if (std::isnan(values[3])) refuse("{}: the raster has no data around {}", path, show_point(p));
+    return formula(values);
+  };
+}
+
+std::shared_ptr<const SizeField> make_raster_size(const SizeFile& file, const std::string& crs) {
   return make_function_size(
-      [delta, raster, path = file.path.string()](const Vec3& x) {
-        const Vec2 p{x.x, x.y};
-        if (!raster->grid.covers(p)) refuse("{}: the raster does not cover {}", path, show_point(p));
-        const double values[] = {x.x, x.y, x.z, raster->at(p)};
-        if (std::isnan(values[3])) refuse("{}: the raster has no data around {}", path, show_point(p));
-        return delta(values);
-      },
-      fmt::format("size field '{}' of {}", delta.shown(), file.path.string()));
+      raster_function(file, crs),
+      fmt::format("size field '{}' of {}", file.field.empty() ? "value" : file.field, file.path.string()));
 }
 
 /// A number, an expression or a file as a field, in the coordinate system `crs`, where that is known.
@@ -280,6 +284,20 @@ void check_case(const Case& c) {
   if (!model) fields.model = c.model;
   if (!model || is_surface_file(model->path)) fields.metric = c.metric;
   read_files(fields);
+}
+
+std::function<double(const Vec3&)> read_depths(const std::string& text, const Model& model) {
+  return located("--depth", [&]() -> std::function<double(const Vec3&)> {
+    const auto raster = size_file_of(text, "");
+    if (!raster || !is_raster_file(raster->path))
+      refuse("'{}' is no raster: expected FILE or \"FILE: FORMULA\" in value, such as \"dem.tif: -value\"",
+             text);
+    std::string crs;
+    const auto* file = std::get_if<ModelFile>(&model);
+    if (const auto outlines = file != nullptr ? outline_file_of(file->path) : std::nullopt)
+      read_outlines(*outlines, crs);
+    return raster_function(*raster, crs);
+  });
 }
 
 std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text) {

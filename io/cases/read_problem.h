@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,5 +39,10 @@ struct SizeFile {
 /// What "FILE" or "FILE:FIELD" means, where FILE ends as meshes or rasters do, and counts from `folder`;
 /// nothing for other texts.
 std::optional<SizeFile> size_file_of(const std::string& text, const std::filesystem::path& folder);
+
+/// Depths of water at points, positive downwards, of "FILE" or "FILE: FORMULA" in x, y, z and value. The
+/// raster is projected to the coordinate system of the outlines that `model` names. Throws InputError if the
+/// raster cannot be read; the function throws it where the raster has no data.
+std::function<double(const Vec3&)> read_depths(const std::string& text, const Model& model);
 
 }  // namespace delquad

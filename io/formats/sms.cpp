@@ -32,7 +32,7 @@ std::vector<std::pair<std::string, std::vector<int>>> node_strings(const Mesh& m
 /// of regions. A node string is one line with its name behind the last node, which is negative, as Basement
 /// and TUFLOW FV want it.
 void write_sms(const std::filesystem::path& path, const Mesh& mesh) {
-  require_planar(path, "SMS's .2dm", mesh);
+  require_terrain(path, "SMS's .2dm", mesh);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
   const std::vector<int> material = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
   const auto strings = node_strings(mesh, groups);
@@ -99,6 +99,7 @@ MeshFormat sms_format() {
           .description = "SMS: TUFLOW FV, Basement, QGIS",
           .read = read_sms,
           .write = write_by<write_sms>,
+          .has_depths = true,
           .names = kAllNames & ~kPointNames};
 }
 

@@ -121,15 +121,17 @@ void put_ugrid(NetcdfFile& file, const Mesh& mesh) {
                                     {"edge_face_connectivity", "mesh2d_edge_faces"}},
                                    std::vector{0});
   file.attribute(mesh2d, "topology_dimension", std::vector{2});
-  for (const char axis : {'x', 'y'}) {
+  for (const char axis : {'x', 'y', 'z'}) {
     std::vector<double> values;
-    for (const Vec3& p : mesh.points) values.push_back(axis == 'x' ? p.x : p.y);
-    file.variable(fmt::format("mesh2d_node_{}", axis).c_str(), {nodes},
-                  {{"standard_name", fmt::format("projection_{}_coordinate", axis)},
-                   {"units", mesh.unit.empty() ? "m" : mesh.unit},
-                   {"mesh", "mesh2d"},
-                   {"location", "node"}},
-                  std::move(values));
+    for (const Vec3& p : mesh.points) values.push_back(axis == 'x' ? p.x : axis == 'y' ? p.y : p.z);
+    if (axis == 'z' && std::ranges::all_of(values, [](double z) { return z == 0; })) continue;
+    file.variable(
+        fmt::format("mesh2d_node_{}", axis).c_str(), {nodes},
+        {{"standard_name", axis == 'z' ? "altitude" : fmt::format("projection_{}_coordinate", axis)},
+         {"units", mesh.unit.empty() ? "m" : mesh.unit},
+         {"mesh", "mesh2d"},
+         {"location", "node"}},
+        std::move(values));
   }
   const auto connectivity = [&](const char* name, const char* role, int rows, int columns,
                                 const std::vector<int>& values) {
@@ -262,7 +264,7 @@ Mesh read_ugrid(const std::filesystem::path& path, ReadNotes* notes, Strays) {
 }
 
 void write_ugrid(const std::filesystem::path& path, const Mesh& mesh) {
-  require_planar(path, "UGRID's 2D mesh", mesh);
+  require_terrain(path, "UGRID's 2D mesh", mesh);
   write_by_library(path, [&](const std::filesystem::path& temporary) {
     NetcdfFile file(path, temporary);
     put_ugrid(file, mesh);

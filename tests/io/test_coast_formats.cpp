@@ -88,6 +88,63 @@ TEST(Gr3, IsTheDocumentedFormat) {
             "2 0 = number of nodes of land boundary west\n3\n1\n");
 }
 
+/// Triangles around a barrier from (1, 1) to (3, 1), whose node (2, 1) is there twice.
+Mesh barrier(const std::string& name) {
+  Mesh mesh = triangle_grid(4, 2, 4, 2);
+  const int other = static_cast<int>(mesh.points.size());
+  mesh.points.push_back(mesh.points[7]);
+  for (auto& triangle : mesh.triangles)
+    if (mesh.points[triangle[0]].y + mesh.points[triangle[1]].y + mesh.points[triangle[2]].y > 3)
+      std::ranges::replace(triangle, 7, other);
+  for (const auto& line : {std::array{6, 7}, {7, 8}, {8, other}, {other, 6}}) {
+    mesh.lines.push_back(line);
+    mesh.line_curve.push_back(4);
+  }
+  mesh.curves.push_back({5, {name}});
+  return mesh;
+}
+
+TEST(Gr3, BarriersInTheWaterAreIslands) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.gr3", "a.14"}) {
+    write_mesh(folder / name, barrier("mole"));
+    const std::string text = read_text(folder / name);
+    EXPECT_NE(text.find("\n4 1 = number of nodes of island boundary mole\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("5 = number of land boundaries\n"), std::string::npos) << text;
+  }
+  write_mesh(folder / "a.2dm", barrier("mole"));
+  const std::string text = read_text(folder / "a.2dm");
+  EXPECT_TRUE(text.find("NS 7 16 9 8 -7 mole\n") != std::string::npos ||
+              text.find("NS 7 8 9 16 -7 mole\n") != std::string::npos)
+      << text;
+}
+
+TEST(Adcirc, WeirsArePairsOfNodes) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "a.14", barrier("dam_weir_-2.5"));
+  const std::string text = read_text(folder / "a.14");
+  EXPECT_NE(text.find("1 24 = number of pairs of nodes of weir dam_weir_-2.5\n"), std::string::npos) << text;
+  EXPECT_TRUE(text.find("\n8 16 -2.5 1 1\n") != std::string::npos ||
+              text.find("\n16 8 -2.5 1 1\n") != std::string::npos)
+      << text;
+  EXPECT_NE(text.find("18 = total number of land boundary nodes"), std::string::npos) << text;
+  write_mesh(folder / "a.gr3", barrier("dam_weir_-2.5"));
+  EXPECT_NE(read_text(folder / "a.gr3").find("island boundary dam_weir"), std::string::npos);
+}
+
+TEST(CoastFormats, HoldDepths) {
+  const TemporaryFolder folder;
+  Mesh mesh = quad_grid(1, 1);
+  mesh.points[3].z = -2.5;
+  write_mesh(folder / "a.gr3", mesh);
+  EXPECT_NE(read_text(folder / "a.gr3").find("\n3 0 1 0\n4 1 1 2.5\n"), std::string::npos);
+  write_mesh(folder / "a.2dm", mesh);
+  EXPECT_NE(read_text(folder / "a.2dm").find("\nND 4 1 1 -2.5\n"), std::string::npos);
+  if (has_netcdf()) write_mesh(folder / "a.nc", mesh);
+  EXPECT_NO_THROW(check_depths("b.nc"));
+  expect_input_error([] { check_depths("b.msh"); }, {"b.msh: no depths", ".2dm, .gr3 or .nc"});
+}
+
 TEST(Adcirc, TakesTrianglesOnly) {
   const TemporaryFolder folder;
   write_mesh(folder / "fort.14", triangle_grid(2, 2));
@@ -151,12 +208,13 @@ TEST(PlanarFormats, RefuseSurfaces) {
   const TemporaryFolder folder;
   Mesh mesh = quad_grid(1, 1);
   mesh.points[0].z = 1;
+  std::ranges::reverse(mesh.quads[0]);
   for (const char* name : {"a.2dm", "a.gr3", "a.nc", "a.ism", "a.re2", "a.specfem", "a.foam"}) {
     const auto format = std::ranges::find_if(mesh_formats(), [&](const MeshFormat& one) {
       return one.extensions[0] == std::filesystem::path(name).extension();
     });
     if (format->package.empty())
-      expect_input_error([&] { write_mesh(folder / name, mesh); }, {name, "surface in space"});
+      expect_input_error([&] { write_mesh(folder / name, mesh); }, {name, "looks down"});
   }
   EXPECT_TRUE(folder.names().empty());
 }

@@ -2,8 +2,10 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 #include "io/cases/case_file.h"
 #include "io/cases/outline_files.h"
@@ -76,6 +78,35 @@ class GdalFiles : public testing::Test {
   testing_support::TemporaryFolder folder_;
   std::string crs_;
 };
+
+TEST_F(GdalFiles, DepthsOfARasterGoIntoMeshesOfCoasts) {
+  const auto outline = write_layer("sea.gpkg", "GPKG", "sea", kUtm31, sea());
+  // Heights that fall to the east by one in a thousand: -4.5 to -15.5.
+  const auto dem =
+      write_tiff("dem.tif", kUtm31, {kX - 500, 11000, 0, kY + 1.1e4, 0, -12000}, 2, {-5, -16, -5, -16});
+  const auto write = [&](const std::string& file, const std::string& depth) {
+    return testing_support::delquad(
+        {"mesh", outline, "-o", folder_ / file, "--size", "2000", "--depth", dem.string() + depth});
+  };
+  ASSERT_EQ(write("a.gr3", ": -value").exit_code, 0);
+  std::istringstream in(testing_support::read_text(folder_ / "a.gr3"));
+  std::string title;
+  std::getline(in, title);
+  std::size_t n_elements = 0, n_nodes = 0;
+  in >> n_elements >> n_nodes;
+  ASSERT_GT(n_nodes, 20u);
+  for (std::size_t i = 0; i < n_nodes; ++i) {
+    double number = 0, x = 0, y = 0, depth = 0;
+    in >> number >> x >> y >> depth;
+    EXPECT_NEAR(depth, std::clamp(5 + (x - kX - 5000) / 1000, 5., 16.), 1e-4);
+  }
+  EXPECT_EQ(write("a.2dm", "").exit_code, 0);
+  EXPECT_TRUE(contains(write("a.msh", "").err, "no depths are written there"));
+  EXPECT_TRUE(contains(
+      testing_support::delquad({"mesh", outline, "-o", folder_ / "a.gr3", "--size", "2000", "--depth", "10"})
+          .err,
+      "'10' is no raster"));
+}
 
 TEST_F(GdalFiles, NamesSayFileLayerAndCoordinateSystem) {
   const auto whole = outline_file_of("a/b.gpkg:Inseln@EPSG:32631");
