@@ -247,6 +247,7 @@ std::vector<std::string> lost_in_file(const std::filesystem::path& path, const M
   };
   std::set<std::string> of_regions, of_points, inside, around;
   for (const Entity& region : mesh.regions) of_regions.insert(region.names.begin(), region.names.end());
+  of_regions.erase("domain");  // whose model has no name for it
   for (const NamedPoint& point : mesh.named_points)
     of_points.insert(point.entity.names.begin(), point.entity.names.end());
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
@@ -259,6 +260,8 @@ std::vector<std::string> lost_in_file(const std::filesystem::path& path, const M
   add(kBoundaryNames, "curves of the boundary", around);
   add(kInnerNames, "curves inside", inside);
   add(kPointNames, "points", of_points);
+  if ((names & kPeriodicPairs) == 0 && !(mesh.periodic.empty() && mesh.periodic_faces.empty()))
+    lost.push_back(fmt::format("which nodes are images of others, which '{}' does not hold", kind));
   if ((names & kFurtherNames) != 0) return lost;
   for (const auto& [which, of, entities, dim] : {std::tuple(kRegionNames, "regions", &mesh.regions, 2),
                                                  std::tuple(kBoundaryNames, "curves", &mesh.curves, 1)}) {
@@ -277,7 +280,12 @@ std::vector<std::string> lost_in_file(const std::filesystem::path& path, const M
 std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const Mesh& mesh) {
   const MeshFormat* format = find_format(kind_to_write(path));
   if (format == nullptr) return {};
-  if (format->labels != nullptr) return renamed_groups(mesh_groups(mesh, *format->labels));
+  if (format->labels != nullptr) {
+    std::vector<MeshGroup> groups = mesh_groups(mesh, *format->labels);
+    if ((format->names & kPointNames) == 0)
+      std::erase_if(groups, [](const MeshGroup& g) { return g.dim == 0; });
+    return renamed_groups(groups);
+  }
   return format->renamed == nullptr ? std::vector<std::string>() : format->renamed(mesh);
 }
 

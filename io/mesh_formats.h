@@ -14,14 +14,15 @@ namespace delquad {
 /// Whether a format has quads of eight nodes: kAlways ones of order 2 have no others.
 enum class EightNodes { kNever, kWhenAsked, kAlways };
 
-/// Whose names a format holds.
+/// Whose names a format holds, and whether pairs.
 enum NameKinds : unsigned {
   kRegionNames = 1,
   kInnerNames = 2,
   kBoundaryNames = 4,
   kPointNames = 8,
   kAllNames = 15,
-  kFurtherNames = 16  ///< of regions and curves that have several: all, not that of group_names() alone
+  kFurtherNames = 16,  ///< all names of regions and curves that have several, not the one of group_names()
+  kPeriodicPairs = 32  ///< which nodes are images of others
 };
 
 /// A kind of mesh file. What is written of it stands in its files in io/formats/ and in a line of
@@ -37,8 +38,8 @@ struct MeshFormat {
   void (*write_hexahedra)(const std::filesystem::path&, const HexMesh&, const HexFileOptions&) = nullptr;
   EightNodes eight_nodes = EightNodes::kNever;
   bool has_binary = false;
-  /// As renamed_in_file(). Either, where the file itself does not tell: labels of mesh_groups(), or a
   bool has_depths = false;  ///< z of a planar mesh may be heights of the ground
+  /// As renamed_in_file(). Either, where the file itself does not tell: labels of mesh_groups(), or a
   /// function.
   const UniqueLabels::Rules* labels = nullptr;
   std::vector<std::string> (*renamed)(const Mesh&) = nullptr;

@@ -447,7 +447,7 @@ MeshFormat inp_format() {
           .most_order = 2,
           .write_hexahedra = write_hex_inp,
           .eight_nodes = EightNodes::kAlways,
-          .names = kAllNames | kFurtherNames,
+          .names = kAllNames | kFurtherNames | kPeriodicPairs,
           .read_given =
               [](const std::filesystem::path& path, ReadNotes* notes) {
                 InpDeck deck = read_inp_deck(path, true);

@@ -440,7 +440,7 @@ MeshFormat msh_format() {
           .eight_nodes = EightNodes::kWhenAsked,
           .has_binary = true,
           .renamed = renamed_in_msh,
-          .names = kAllNames | kFurtherNames};
+          .names = kAllNames | kFurtherNames | kPeriodicPairs};
 }
 
 }  // namespace delquad

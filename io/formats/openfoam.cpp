@@ -1,8 +1,15 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "io/boundary_chains.h"
 #include "io/entity_names.h"
@@ -17,7 +24,64 @@ namespace {
 struct FoamPatch {
   std::string name, type;
   std::size_t first, size;
+  std::string neighbour = {};  ///< of a cyclic one
 };
+
+/// Sides of the boundary that get a patch. Both patches of a periodic pair have faces in the same order.
+struct PatchSides {
+  std::string name;
+  std::vector<BoundarySide> sides = {};
+  int image = -1;  ///< the patch of the images; -1: none
+  bool is_image = false;
+};
+
+/// Patches by group, periodic ones by pair. If a curve has several images, the first is in the pair.
+std::vector<PatchSides> sides_of_patches(const Mesh& mesh, const std::vector<MeshGroup>& groups) {
+  std::vector<BoundarySide> all = boundary_sides(mesh, groups);
+  std::map<std::array<int, 2>, BoundarySide> by_run;
+  for (const BoundarySide& side : all) by_run[side.run] = side;
+  std::ranges::stable_sort(all, {}, &BoundarySide::group);
+  std::map<std::array<int, 2>, std::pair<BoundarySide, std::size_t>> image_of;  // side and pair, by run
+  std::set<std::array<int, 2>> paired;
+  for (std::size_t p = 0; p < mesh.periodic.size(); ++p) {
+    std::map<int, int> image;
+    for (const auto& [here, there] : mesh.periodic[p].nodes) image[there] = here;
+    for (const BoundarySide& side : all) {
+      const auto [a, b] = side.run;
+      if (!image.contains(a) || !image.contains(b)) continue;
+      const auto other = by_run.find({image[b], image[a]});
+      if (other == by_run.end() || paired.contains(side.run) || paired.contains(other->first)) continue;
+      image_of[side.run] = {other->second, p};
+      paired.insert(side.run), paired.insert(other->first);
+    }
+  }
+  std::map<std::pair<int, std::string>, std::size_t> known;  // by group, and motion of the pair
+  std::vector<PatchSides> patches;
+  std::set<std::string> taken;
+  const auto patch_of = [&](const BoundarySide& side, const std::string& motion) {
+    const auto [at, is_new] = known.try_emplace({side.group, motion}, patches.size());
+    if (!is_new) return at->second;
+    const std::string label = side.group < 0 ? "defaultFaces" : groups[side.group].label;
+    std::string name = label;
+    for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}_{}", label, k);
+    patches.push_back({name});
+    return at->second;
+  };
+  for (const BoundarySide& side : all) {
+    const auto found = image_of.find(side.run);
+    if (found == image_of.end()) {
+      if (!paired.contains(side.run)) patches[patch_of(side, "")].sides.push_back(side);
+      continue;
+    }
+    const auto& [other, p] = found->second;
+    const std::string motion = fmt::format("{:.6g}", fmt::join(mesh.periodic[p].motion.matrix(), " "));
+    const std::size_t from = patch_of(side, motion), to = patch_of(other, "to " + motion);
+    patches[from].sides.push_back(side), patches[to].sides.push_back(other);
+    patches[from].image = static_cast<int>(to), patches[to].image = static_cast<int>(from);
+    patches[to].is_image = true;
+  }
+  return patches;
+}
 
 /// A mesh one cell thick: the points of the plane, then those of its copy above.
 struct FoamMesh {
@@ -25,6 +89,7 @@ struct FoamMesh {
   std::vector<std::vector<int>> faces;  ///< they look out of their owner
   std::vector<int> owner, neighbour;
   std::vector<FoamPatch> patches;
+  std::map<std::string, std::vector<int>> zones;  ///< faces on named curves inside
 
   FoamMesh(const Mesh& mesh, const std::vector<MeshGroup>& groups) {
     const int above = static_cast<int>(mesh.points.size());
@@ -41,15 +106,27 @@ struct FoamMesh {
       if (sides.size() > 1) inside.push_back({{sides[0].element, sides[1].element}, sides[0].run()});
     });
     std::ranges::sort(inside);
-    for (const auto& [cells, run] : inside) add(wall(run), cells[0]), neighbour.push_back(cells[1]);
-    std::vector<BoundarySide> sides = boundary_sides(mesh, groups);
-    std::ranges::stable_sort(sides, {}, &BoundarySide::group);
-    for (const BoundarySide& side : sides) {
-      const std::string name = side.group < 0 ? "defaultFaces" : groups[side.group].label;
-      if (patches.empty() || patches.back().name != name)
-        patches.push_back({name, name_says(name, "wall") ? "wall" : "patch", faces.size(), 0});
-      ++patches.back().size;
-      add(wall(side.run), side.element);
+    const std::map<std::array<int, 2>, int> group_of = groups_of_lines(mesh, groups);
+    for (const auto& [cells, run] : inside) {
+      const auto [lo, hi] = std::minmax(run[0], run[1]);
+      if (const auto group = group_of.find({lo, hi}); group != group_of.end())
+        zones[groups[group->second].label].push_back(static_cast<int>(faces.size()));
+      add(wall(run), cells[0]), neighbour.push_back(cells[1]);
+    }
+    const std::vector<PatchSides> sides = sides_of_patches(mesh, groups);
+    for (const PatchSides& patch : sides) {
+      const bool is_cyclic = patch.image >= 0;
+      patches.push_back({patch.name,
+                         is_cyclic                       ? "cyclic"
+                         : name_says(patch.name, "wall") ? "wall"
+                                                         : "patch",
+                         faces.size(), patch.sides.size(), is_cyclic ? sides[patch.image].name : ""});
+      for (const BoundarySide& side : patch.sides) {
+        std::vector<int> face = wall(side.run);
+        // A face and its image begin at the same node, and run round in opposite ways.
+        if (patch.is_image) std::ranges::rotate(face, face.begin() + 1);
+        add(std::move(face), side.element);
+      }
     }
     patches.push_back({"frontAndBack", "empty", faces.size(), 0});
     double area = 0;
@@ -73,13 +150,10 @@ void write_foam_list(TextWriter& out, const Items& items, const Write& write) {
   out << ")\n";
 }
 
-/// constant/polyMesh beside the file (OpenFOAM's user guide, "Mesh description"); the file is what ParaView
-/// opens.
-void write_foam(const std::filesystem::path& path, const Mesh& mesh) {
-  require_planar(path, "OpenFOAM's mesh of one cell's thickness", mesh);
-  const std::vector<MeshGroup> groups = mesh_groups(mesh, {plain_label});
-  const FoamMesh foam(mesh, groups);
-  const std::filesystem::path constant = path.parent_path() / "constant", home = constant / "polyMesh";
+/// The files of constant/polyMesh (OpenFOAM's user guide, "Mesh description"). All arguments must outlive
+/// them.
+std::vector<FileToWrite> foam_files(const std::filesystem::path& home, const Mesh& mesh,
+                                    const std::vector<MeshGroup>& groups, const FoamMesh& foam) {
   std::vector<FileToWrite> files;
   const auto add = [&](const std::string& name, const std::string& kind,
                        const std::function<void(TextWriter&)>& write) {
@@ -109,7 +183,17 @@ void write_foam(const std::filesystem::path& path, const Mesh& mesh) {
   add("boundary", "polyBoundaryMesh", [&](TextWriter& out) {
     write_foam_list(out, foam.patches, [&](const FoamPatch& patch) {
       out << patch.name << "\n{\n    type " << patch.type << ";\n    nFaces " << patch.size
-          << ";\n    startFace " << patch.first << ";\n}";
+          << ";\n    startFace " << patch.first << ';';
+      if (!patch.neighbour.empty())
+        out << "\n    neighbourPatch " << patch.neighbour << ";\n    matchTolerance 0.0001;";
+      out << "\n}";
+    });
+  });
+  add("faceZones", "regIOobject", [&](TextWriter& out) {
+    write_foam_list(out, foam.zones, [&](const auto& zone) {
+      out << zone.first << "\n{\n    type faceZone;\n    faceLabels List<label> ";
+      write_foam_list(out, zone.second, [&](int face) { out << face; });
+      out << ";\n    flipMap List<bool> " << zone.second.size() << "{0};\n}";
     });
   });
   add("cellZones", "regIOobject", [&](TextWriter& out) {
@@ -121,6 +205,16 @@ void write_foam(const std::filesystem::path& path, const Mesh& mesh) {
       out << ";\n}";
     });
   });
+  return files;
+}
+
+/// constant/polyMesh beside the file, which is the one that ParaView opens.
+void write_foam(const std::filesystem::path& path, const Mesh& mesh) {
+  require_planar(path, "OpenFOAM's mesh of one cell's thickness", mesh);
+  const std::vector<MeshGroup> groups = mesh_groups(mesh, {plain_label});
+  const FoamMesh foam(mesh, groups);
+  const std::filesystem::path constant = path.parent_path() / "constant", home = constant / "polyMesh";
+  std::vector<FileToWrite> files = foam_files(home, mesh, groups, foam);
   files.push_back({path, [](std::ostream& out) { out << "quad mesh by Delquad\n"; }});
   std::error_code ignored;  // what is missing then is told by the first file
   std::filesystem::create_directory(constant, ignored);
@@ -143,7 +237,7 @@ MeshFormat foam_format() {
           .description = "OpenFOAM: constant/polyMesh beside it, one cell thick",
           .write = write_by<write_foam>,
           .labels = &kFoamLabels,
-          .names = kRegionNames | kBoundaryNames};
+          .names = kRegionNames | kBoundaryNames | kInnerNames | kPeriodicPairs};
 }
 
 }  // namespace delquad
