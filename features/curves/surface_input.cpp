@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <span>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/length_unit.h"
 #include "base/located.h"
 #include "base/nearest_name.h"
@@ -19,6 +22,8 @@
 #include "features/symmetry/symmetry_planes.h"
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
+#include "geometry/mesh/find_crossings.h"
+#include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/split_polygon.h"
 #include "geometry/mesh/stray_points.h"
@@ -159,6 +164,32 @@ std::string leave_out_strays(Mesh& mesh) {
                      gone == 1 ? "is" : "are", why);
 }
 
+/// Warns of parts that hang together and go through each other.
+void tell_penetrating(const std::string& source, SurfaceModel& model) {
+  const Mesh& mesh = model.fine;
+  DisjointSets parts(mesh.triangles.size());
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
+    for (const HalfEdge& side : edge) parts.join(edge[0].element, side.element);
+  });
+  const std::vector<int> part = parts.roots();
+  if (std::ranges::all_of(part, [&](int p) { return p == part[0]; })) return;
+  std::map<std::pair<int, int>, Crossing> first;  // by parts
+  for (const Crossing& crossing :
+       find_crossings(mesh.points, mesh.triangles, [&](int t, int u) { return part[t] == part[u]; }))
+    first.try_emplace(std::minmax(part[crossing.first], part[crossing.second]), crossing);
+  std::vector<std::string> places;
+  const auto face = [&](int t) { return mesh.regions[mesh.triangle_region[t]].tag; };
+  for (const auto& [pair, crossing] : first)
+    places.push_back(fmt::format("face {} through face {} at {}", face(crossing.first), face(crossing.second),
+                                 show_point(crossing.at)));
+  constexpr std::size_t kMostPlaces = 20;
+  if (!places.empty())
+    model.warnings.push_back(
+        fmt::format("{}: {} of bodies touch or go through each other and share no nodes: {}: unite them "
+                    "before, or delete copies",
+                    source, counted(std::ssize(places), "pair"), first_of(places, kMostPlaces, "; ")));
+}
+
 SurfaceModel make_surface(const MeshProblem& problem, const TriangleModel& model,
                           const std::vector<FeatureBall>& kept) {
   const SurfaceSpec& spec = problem.surface;
@@ -185,6 +216,7 @@ SurfaceModel make_surface(const MeshProblem& problem, const TriangleModel& model
   const std::string unit = triangles.unit;
   if (spec.mirror) triangles = add_mirror_image(std::move(triangles), *spec.mirror, source);
   SurfaceModel surface = make_surface_model(std::move(triangles), options);
+  tell_penetrating(source, surface);
   name_parts(spec.names, surface);
   surface = make_compounds(problem, kept, std::move(surface));
   surface.warnings.insert(surface.warnings.begin(), notes.begin(), notes.end());

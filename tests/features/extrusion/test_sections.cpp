@@ -5,6 +5,7 @@
 #include "base/context.h"
 #include "base/orientation.h"
 #include "features/extrusion/layers.h"
+#include "geometry/mesh/find_crossings.h"
 #include "io/mesh_io.h"
 #include "metrics/hexahedra.h"
 #include "tests/features/extrusion/hex_checks.h"
