@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/triangle_measures.h"
+#include "geometry/mesh/turn_to_agree.h"
 #include "geometry/surface/triangle_sides.h"
 
 namespace delquad {
@@ -20,9 +21,8 @@ namespace {
 
 struct Component {
   std::vector<int> triangles;
-  bool closed = true;
   double volume = 0;  ///< that it encloses, negative when its triangles face inwards
-  Box<Vec3> box;
+  Box<Vec3> box{};
 
   bool within_box_of(const Component& other) const {
     return box.low.x > other.box.low.x && box.low.y > other.box.low.y && box.low.z > other.box.low.z &&
@@ -43,33 +43,6 @@ bool run_alike(const Mesh& mesh, int side, int twin) {
                   "sides",
                   source, show_point(mesh.points[side_start(mesh, side)]),
                   show_point(mesh.points[side_end(mesh, side)])));
-}
-
-/// Collects the component of triangle `seed`; `turn` says for each of its triangles (-1 before) whether it
-/// runs against the seed. `clash`: a side where that cannot be.
-Component collect(const Mesh& mesh, const std::vector<int>& twin, int seed, std::vector<signed char>& turn,
-                  int& clash) {
-  Component component;
-  turn[seed] = 0;
-  component.triangles = {seed};
-  for (size_t i = 0; i < component.triangles.size(); ++i) {
-    const int t = component.triangles[i];
-    for (int side = 3 * t; side < 3 * t + 3; ++side) {
-      if (twin[side] < 0) {
-        component.closed = false;
-        continue;
-      }
-      const int u = twin[side] / 3;
-      const signed char wanted = run_alike(mesh, side, twin[side]) ? 1 - turn[t] : turn[t];
-      if (turn[u] < 0) {
-        turn[u] = wanted;
-        component.triangles.push_back(u);
-      } else if (turn[u] != wanted) {
-        clash = side;
-      }
-    }
-  }
-  return component;
 }
 
 /// Radians by which the surface turns at an edge, were its triangles to agree.
@@ -135,16 +108,20 @@ void part_at_joints(const Mesh& mesh, const std::string& source, std::vector<int
                   show_point(mesh.points[side_end(mesh, first)])));
 }
 
-std::vector<Component> collect_all(const Mesh& mesh, const std::vector<int>& twin,
-                                   std::vector<signed char>& turn, int& clash) {
-  turn.assign(mesh.triangles.size(), -1);
-  std::vector<Component> components;
-  for (size_t seed = 0; seed < turn.size(); ++seed)
-    if (turn[seed] < 0) components.push_back(collect(mesh, twin, static_cast<int>(seed), turn, clash));
-  return components;
+/// Tells which triangles are to be turned over, so that neighbors agree. `edges` receives the sides that the
+/// neighbors share.
+Turned turn_neighbors(const Mesh& mesh, const std::vector<int>& twin, std::vector<int>& edges) {
+  std::vector<Neighbours> neighbors;
+  edges.clear();
+  for (int side = 0; side < static_cast<int>(twin.size()); ++side)
+    if (twin[side] > side) {
+      edges.push_back(side);
+      neighbors.push_back({side / 3, twin[side] / 3, !run_alike(mesh, side, twin[side])});
+    }
+  return turn_to_agree(mesh.triangles.size(), neighbors);
 }
 
-void measure(const Mesh& mesh, const std::vector<signed char>& turn, Component& component) {
+void measure(const Mesh& mesh, const std::vector<char>& turn, Component& component) {
   const Vec3 origin = mesh.points[mesh.triangles[component.triangles[0]][0]];
   component.box = {origin, origin};
   for (const int t : component.triangles) {
@@ -158,7 +135,7 @@ void measure(const Mesh& mesh, const std::vector<signed char>& turn, Component& 
   }
 }
 
-void turn_over(const Component& component, std::vector<signed char>& turn) {
+void turn_over(const Component& component, std::vector<char>& turn) {
   for (const int t : component.triangles) turn[t] = 1 - turn[t];
 }
 
@@ -166,28 +143,28 @@ void turn_over(const Component& component, std::vector<signed char>& turn) {
 
 void orient_triangles(Mesh& mesh, const std::string& source, std::vector<Warning>& warnings, bool may_part) {
   std::vector<int> twin = side_twins(mesh);
-  std::vector<signed char> turn;
-  int clash = -1;
-  std::vector<Component> components = collect_all(mesh, twin, turn, clash);
-  if (clash >= 0) {
-    if (!may_part) refuse_one_sided(mesh, clash, source);
+  std::vector<int> edges;
+  Turned turned = turn_neighbors(mesh, twin, edges);
+  if (turned.clash >= 0) {
+    if (!may_part) refuse_one_sided(mesh, edges[turned.clash], source);
     part_at_joints(mesh, source, twin, warnings);
-    components = collect_all(mesh, twin, turn, clash);
+    turned = turn_neighbors(mesh, twin, edges);
   }
+  std::vector<char>& turn = turned.is_turned;
+  const auto is_turned = [&](int t) { return turn[t] == 1; };
+  const auto has_open_side = [&](int t) { return std::count(&twin[3 * t], &twin[3 * t] + 3, -1) > 0; };
   std::vector<Component> closed;
   size_t largest = 0;
   int against = 0;
   Vec3 first;
-  for (Component& component : components) {
-    const auto turned = [&](int t) { return turn[t] == 1; };
-    const auto& all = component.triangles;
-    if (2 * std::count_if(all.begin(), all.end(), turned) > static_cast<long>(all.size())) {
+  for (std::vector<int>& all : turned.pieces) {
+    Component component{std::move(all)};
+    if (2 * std::ranges::count_if(component.triangles, is_turned) > std::ssize(component.triangles))
       turn_over(component, turn);
-    }
-    const auto odd = std::find_if(all.begin(), all.end(), turned);
-    if (odd != all.end() && against == 0) first = mesh.points[mesh.triangles[*odd][0]];
-    against += static_cast<int>(std::count_if(all.begin(), all.end(), turned));
-    if (!component.closed) continue;
+    const auto odd = std::ranges::find_if(component.triangles, is_turned);
+    if (odd != component.triangles.end() && against == 0) first = mesh.points[mesh.triangles[*odd][0]];
+    against += static_cast<int>(std::ranges::count_if(component.triangles, is_turned));
+    if (std::ranges::any_of(component.triangles, has_open_side)) continue;
     measure(mesh, turn, component);
     closed.push_back(std::move(component));
     if (closed.back().box_volume() > closed[largest].box_volume()) largest = closed.size() - 1;
