@@ -14,7 +14,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -58,20 +57,21 @@ class JointFinder {
   }
 
   LooseJoints find() {
+    std::vector<Pair> pairs = near_pairs();
+    // Faces that may touch come first: one such place is enough.
+    std::ranges::stable_partition(
+        pairs, [&](const Pair& pair) { return come_near(pair[0], pair[1], options_.tolerance); });
     std::map<std::array<int, 4>, std::vector<Pair>> pairs_of;  // by parts, in one part by faces
-    for (const double reach : {options_.tolerance, options_.reach})
-      for (const auto& [f, g] : near_pairs(reach)) {
-        const auto [p, q] = in_order(faces_[f].part, faces_[g].part);
-        pairs_of[p == q ? std::array{p, q, f, g} : std::array{p, q, 0, 0}].push_back({f, g});
-      }
+    for (const auto& [f, g] : pairs) {
+      const auto [p, q] = in_order(faces_[f].part, faces_[g].part);
+      pairs_of[p == q ? std::array{p, q, f, g} : std::array{p, q, 0, 0}].push_back({f, g});
+    }
     std::vector<std::vector<Pair>> groups;
-    for (auto& [key, pairs] : pairs_of) groups.push_back(std::move(pairs));
+    for (auto& [key, group] : pairs_of) groups.push_back(std::move(group));
     std::vector<std::optional<LooseJoint>> nearest(groups.size());
     parallel_for(groups.size(), [&](std::size_t i) {
-      std::set<Pair> done;
       for (const auto& [f, g] : groups[i]) {
         if (nearest[i] && nearest[i]->distance <= options_.tolerance) return;
-        if (!done.insert({f, g}).second) continue;
         const std::optional<LooseJoint> joint = joint_of(f, g);
         if (joint && (!nearest[i] || joint->distance < nearest[i]->distance - options_.tolerance))
           nearest[i] = joint;
@@ -150,26 +150,27 @@ class JointFinder {
   }
 
   /// Pairs of faces, in order, whose triangles come near and that no shell has both, or that have one rim.
-  std::vector<Pair> near_pairs(double reach) {
+  std::vector<Pair> near_pairs() {
     std::vector<Box<Vec3>> boxes;
-    reach += 2 * options_.deflection;
-    for (const Face& face : faces_) boxes.push_back(face.box.grown(reach / 2));
+    for (const Face& face : faces_) boxes.push_back(face.box.grown(options_.reach / 2 + options_.deflection));
     const BoxTree<Vec3> tree(boxes);
     std::vector<Pair> pairs;
     for (int f = 0; f < std::ssize(faces_); ++f)
       tree.overlapping(boxes[f], [&](int g) {
         if (g <= f || faces_[f].boxes.empty() || faces_[g].boxes.empty() || !boxes[f].overlaps(boxes[g]))
           return;
-        if (are_of_one_shell(f, g) ? have_one_rim(f, g) : come_near(f, g, reach)) pairs.push_back({f, g});
+        if (are_of_one_shell(f, g) ? have_one_rim(f, g) : come_near(f, g, options_.reach))
+          pairs.push_back({f, g});
       });
     std::ranges::sort(pairs);
     return pairs;
   }
 
+  /// Whether the faces may come as near as `reach`.
   bool come_near(int f, int g, double reach) {
     if (!faces_[g].tree) faces_[g].tree.emplace(faces_[g].boxes);
     return std::ranges::any_of(faces_[f].boxes, [&](const Box<Vec3>& own) {
-      const Box<Vec3> box = own.grown(reach);
+      const Box<Vec3> box = own.grown(reach + 2 * options_.deflection);
       bool is_near = false;
       if (box.overlaps(faces_[g].box))
         faces_[g].tree->overlapping(box,

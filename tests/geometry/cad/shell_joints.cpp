@@ -166,6 +166,10 @@ std::vector<TopoDS_Face> star_of_faces(int n) {
 
 std::vector<TopoDS_Face> tip_on_a_plate() { return {plate(), polygon({{4, 3, 0}, {6, 3, 3}, {2, 3, 3}})}; }
 
+std::vector<TopoDS_Face> gusset_from_a_corner() {
+  return {plate(), web({10, 0, 0}, {10, 6, 0}), polygon({{10, 0, 0}, {10, 0, 3}, {6, 4, 0}})};
+}
+
 std::vector<std::vector<TopoDS_Face>> faces_apart() {
   constexpr double kGap = 1e-3;  // far below the deflection, far above what touches
   const gp_Ax3 axis(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1));

@@ -47,6 +47,10 @@ std::vector<TopoDS_Face> star_of_faces(int n);
 /// A plate, and a face that touches it with one corner.
 std::vector<TopoDS_Face> tip_on_a_plate();
 
+/// An angle of two plates, and a gusset that hangs on one of them. It stands on the other with an edge that
+/// begins at a corner of all three.
+std::vector<TopoDS_Face> gusset_from_a_corner();
+
 /// Pairs that are nearer to each other than their triangulations are to them, or lie in one plane.
 std::vector<std::vector<TopoDS_Face>> faces_apart();
 

@@ -284,6 +284,16 @@ TEST_F(JoinedShells, ATipOnAFaceIsNamedAndRefused) {
   expect_input_error([&] { read_cad(file, {.glue = true}); }, {"cannot be glued at 1 place", "(4, 3, 0)"});
 }
 
+TEST_F(JoinedShells, EdgesFromACommonCornerAreNamed) {
+  const auto file = write_step(folder_ / "gusset.step", compound_of(gusset_from_a_corner()));
+  const SurfaceModel model = read_cad(file);
+  EXPECT_EQ(parts_of(model.fine).count(), 1);
+  const std::vector<std::string> told = loose_joints_of(model);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("at 1 place "), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find("face 3 touches face 1 at (8, 2, 0)"), std::string::npos) << told[0];
+}
+
 TEST_F(JoinedShells, NoOthersAreNamed) {
   for (const auto& faces : faces_apart()) {
     const SurfaceModel model = read_cad(write_brep(folder_ / "apart.brep", compound_of(faces)));
