@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "geometry/mesh/quad_corners.h"
+
 namespace delquad {
 
 LayoutArcs::LayoutArcs(PatchLayout layout, const PatchBoundary& boundary, std::span<const int> runs,
