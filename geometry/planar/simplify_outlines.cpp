@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/segment.h"
+#include "geometry/planar/model_chain.h"
 #include "geometry/planar/snap_outlines.h"
 
 namespace delquad {
