@@ -155,6 +155,9 @@ std::optional<RecordedCell> read_record(MeshArguments& arguments) {
   if (!cell.experiment.peers.empty() || cell.c.adapt)
     refuse("{}: is the record of {}: 'delquad rerun' makes it again", arguments.model.string(),
            cell.c.adapt ? "a loop of meshes" : "another mesher");
+  if (const auto* file = std::get_if<ModelFile>(&cell.c.model); file && kind_of_file(file->path) == ".inp")
+    refuse("{}: is the record of an improved deck: 'delquad improve {} -o FILE' keeps the deck",
+           arguments.model.string(), file->path.string());
   if (!arguments.pipeline) arguments.pipeline = cell.experiment.words[0].text;
   arguments.keep_numbers |= cell.is_of_experiment;
   if (cell.is_of_experiment && arguments.msh.curves == MeshArguments().msh.curves)

@@ -28,7 +28,9 @@ std::vector<fs::path> files_named(const fs::path& name, const fs::path& folder) 
   return found;
 }
 
-fs::path find_file(const fs::path& file, const std::string& expected, const std::vector<fs::path>& folders) {
+/// At its place, beside the record, or below the folders; the last folder is the data folder.
+fs::path find_file(const fs::path& file, const std::string& expected, const fs::path& record,
+                   const std::vector<fs::path>& folders) {
   std::string others;
   const auto is_it = [&](const fs::path& place) {
     const std::string found = mark_of(place).digest;
@@ -36,12 +38,17 @@ fs::path find_file(const fs::path& file, const std::string& expected, const std:
     return found == expected;
   };
   std::error_code unknown;
-  if (fs::is_regular_file(file, unknown) && is_it(file)) return file;
+  for (const fs::path& place : {file, record.parent_path() / file.filename()})
+    if (fs::is_regular_file(place, unknown) && is_it(place)) return place;
   for (const fs::path& folder : folders)
     for (const fs::path& place : files_named(file.filename(), folder))
       if (is_it(place)) return place;
-  refuse("{}: the file with the digest {} is neither here nor, by its name, below {} (--data){}",
-         file.string(), expected, folders.back().string(), others);
+  const fs::path& data = folders.back();
+  refuse(
+      "{}: the file with the digest {} is neither here nor, by its name, beside the record{}{}: expected it "
+      "there",
+      file.string(), expected, data.empty() ? "" : fmt::format(" or below {} (--data)", data.string()),
+      others);
 }
 
 /// Reads the peer, and the measures by other programs.
@@ -91,7 +98,7 @@ RecordedCell recorded_cell(const Json& record, const fs::path& file, const fs::p
     folders.insert(folders.begin(), results_of(file) / "experiment");
   }
   const RecordReader reader([&](const fs::path& name, const std::string& digest) {
-    return find_file(name.empty() ? fs::path(model) : name, digest, folders);
+    return find_file(name.empty() ? fs::path(model) : name, digest, file, folders);
   });
   located(file.string(), [&] {
     reader.object<MeshProblem>(record.at("problem"), c);

@@ -123,6 +123,8 @@ Rerun rerun(const Json& record, const RecordedCell& recorded) {
 
 Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::path& data) {
   const Json record = read_record_file(file);
+  if (!record.contains("experiment"))
+    refuse("{0}: is the record of one mesh: 'delquad mesh {0} -o FILE' makes it again", file.string());
   try {
     if (record.at("status") != "ok")
       refuse("{}: is of a cell that was not done: {}", file.string(), record.at("reason").get<std::string>());

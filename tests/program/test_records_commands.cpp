@@ -98,6 +98,21 @@ TEST_F(RecordsCommands, MeshOfARecordIsTheSame) {
   fs::copy(folder_ / "own.json", folder_ / "first.json");
   ASSERT_EQ(mesh("first.json", "two.msh").exit_code, 0);
   EXPECT_EQ(read_text(folder_ / "two.msh"), read_text(folder_ / "one.msh"));
+  const ProgramResult rerun = delquad({"rerun", folder_ / "first.json"});
+  EXPECT_EQ(rerun.exit_code, 2);
+  EXPECT_TRUE(contains(rerun.err, "'delquad mesh " + (folder_ / "first.json").string() + " -o FILE'"))
+      << rerun.err;
+  ASSERT_EQ(delquad({"mesh", folder_ / "lens.stl", "--size", "0.3", "-o", folder_ / "lens.msh", "--json",
+                     folder_ / "lens.json"})
+                .exit_code,
+            0);
+  fs::create_directory(folder_ / "moved");
+  for (const char* file : {"lens.stl", "lens.json"}) fs::rename(folder_ / file, folder_ / "moved" / file);
+  ASSERT_EQ(mesh("moved/lens.json", "moved.msh").exit_code, 0);
+  EXPECT_EQ(read_text(folder_ / "moved.msh"), read_text(folder_ / "lens.msh"));
+  fs::remove(folder_ / "moved/lens.stl");
+  const ProgramResult lost = mesh("moved/lens.json", "lost.msh");
+  EXPECT_TRUE(contains(lost.err, "neither here nor, by its name, beside the record: expected")) << lost.err;
   std::string old = read_text(folder_ / "first.json");
   write_text(folder_ / "first.json", old.replace(old.find("\"record\": 3"), 11, "\"record\": 2"));
   const ProgramResult refused = mesh("first.json", "two.msh");
