@@ -138,8 +138,9 @@ bool keeps_file(const std::filesystem::path& source, const std::filesystem::path
   return format != nullptr && format->rewrite != nullptr && format == find_format(kind_to_write(path));
 }
 
-void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh) {
-  find_format(kind_to_write(path))->rewrite(source, path, mesh);
+void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh,
+                  double weld) {
+  find_format(kind_to_write(path))->rewrite(source, path, mesh, weld);
 }
 
 std::set<std::string> others_in_file(const std::filesystem::path& path) {

@@ -46,7 +46,8 @@ struct MeshFormat {
   unsigned names = kAllNames;  ///< NameKinds
   /// Reads and writes files that are kept, see read_given_mesh() and rewrite_mesh(); null: they are not.
   Mesh (*read_given)(const std::filesystem::path&, ReadNotes*) = nullptr;
-  void (*rewrite)(const std::filesystem::path& source, const std::filesystem::path&, const Mesh&) = nullptr;
+  void (*rewrite)(const std::filesystem::path& source, const std::filesystem::path&, const Mesh&,
+                  double weld) = nullptr;
   /// See others_in_file(); null: there is nothing.
   std::set<std::string> (*others)(const std::filesystem::path&) = nullptr;
 };
@@ -76,8 +77,10 @@ Mesh read_given_mesh(const std::filesystem::path& path, ReadNotes* notes = nullp
 /// Whether what else `source` holds stays in `path`: both are Abaqus or CalculiX files.
 bool keeps_file(const std::filesystem::path& source, const std::filesystem::path& path);
 /// Writes the source again with a mesh that read_given_mesh() read from it, or stages made of that. All else
-/// stays: types, numbers, sets, sections, loads. Throws InputError if a line names something that is gone.
-void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh);
+/// stays: types, numbers, sets, sections, loads. `weld`: the part of the diagonal within which
+/// weld_open_edges() joined points of it. Throws InputError if a line names something that is gone.
+void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh,
+                  double weld);
 /// Keywords of a file that are no part of a mesh, such as "*MATERIAL".
 std::set<std::string> others_in_file(const std::filesystem::path& path);
 

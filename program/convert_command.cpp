@@ -70,7 +70,7 @@ int convert_command(const ConvertArguments& arguments) {
   }
   if (mesh.order > most_order_of(arguments.output)) mesh = straightened(std::move(mesh));
   if (is_kept)
-    rewrite_mesh(arguments.mesh, arguments.output, mesh);
+    rewrite_mesh(arguments.mesh, arguments.output, mesh, arguments.weld);
   else if (fields.empty())
     write_mesh(arguments.output, mesh, arguments.msh);
   else

@@ -149,6 +149,34 @@ std::string type_with(std::string type, std::size_t corners) {
   return corners == 3 ? type.substr(0, at + 1) : type;  // there is no S3R5
 }
 
+/// Joins nodes as weld_open_edges() joins their points. Refuses lines for which that has another meaning.
+void join_nodes(InpDeck& deck, double weld) {
+  const PointNames names = names_at_open_edges(deck.mesh, weld * diagonal(deck.mesh));
+  std::vector<int> node_at(names.size());
+  for (std::size_t v = 0; v < deck.nodes.size(); ++v)
+    if (const int p = deck.point_of[v]; p >= 0) node_at[p] = static_cast<int>(v);
+  for (std::size_t v = 0; v < deck.nodes.size(); ++v)
+    if (const int p = deck.point_of[v]; p >= 0 && names[p] != p) deck.nodes[v].joined = node_at[names[p]];
+  const auto check = [&](int line, int v, const std::string& why) {
+    const InpDeck::Node& node = deck.nodes[v];
+    if (node.joined >= 0)
+      refuse("{}:{}: --weld would join node {} to node {}, but {}; change this line, or leave --weld out",
+             deck.source, line, node.number, deck.nodes[node.joined].number, why);
+  };
+  for (const InpDeck::Word& word : deck.words) {
+    const InpDeck::Card& card = deck.cards[word.card];
+    const bool may_be_node = !card.is_among("|DFLUX|DLOAD|FILM|FOUNDATION|RADIATE|SURFACE|TRANSFORM|") &&
+                             (word.is_first || !(card.is_among(kMayGrow) || card.is_among("|CFLUX|CLOAD|")));
+    if (const auto v = deck.node_of.find(word.number); v != deck.node_of.end() && may_be_node)
+      check(word.line, v->second, fmt::format("this line of *{} names {}", card.name, word.number));
+    const auto set = deck.node_sets.find(without_instance(word.text));
+    if (set == deck.node_sets.end() || !card.is_among(kOfNodes) || card.is_among(kMayGrow)) continue;
+    for (const int v : set->second)
+      if (std::ranges::binary_search(set->second, deck.nodes[v].joined))
+        check(word.line, v, fmt::format("*{} counts each node of the set {}", card.name, set->first));
+  }
+}
+
 int region_of(const Mesh& mesh, int element) {
   const auto e = static_cast<std::size_t>(element), n = mesh.triangles.size();
   return e < n ? mesh.triangle_region[e] : mesh.quad_region[e - n];
@@ -169,6 +197,7 @@ class InpRewriter {
     edit_nodes();
     edit_elements();
     edit_surfaces();
+    edit_node_surfaces();
     edit_sets();
     std::ranges::stable_sort(edits_, {}, [](const Edit& e) { return std::pair(e.begin, e.end); });
     std::string result;
@@ -193,12 +222,12 @@ class InpRewriter {
     const auto place = [](const Vec3& p) { return std::array{p.x, p.y, p.z}; };
     std::map<std::array<double, 3>, long long> number_at;
     for (const InpDeck::Element& e : deck_.elements)
-      for (const int v : e.nodes) number_at[place(deck_.nodes[v].at)] = deck_.nodes[v].number;
+      for (const int v : e.nodes) number_at[place(deck_.nodes[v].at)] = kept(v).number;
     for (const Vec3& p : mesh_.points) {
       const auto at = number_at.find(place(p));
       number_.push_back(at == number_at.end() ? 0 : at->second);
     }
-    for (const NamedPoint& named : mesh_.named_points) number_[named.point] = named.entity.tag;
+    for (const NamedPoint& named : mesh_.named_points) number_[named.point] = kept_number(named.entity.tag);
     long long largest = deck_.node_of.rbegin()->first;
     for (std::size_t p = 0; p < number_.size(); ++p) {
       if (number_[p] > 0 || mesh_.order > 1) continue;  // middles of eight nodes are in no deck
@@ -207,9 +236,19 @@ class InpRewriter {
     }
   }
 
+  /// A node, or the one that takes its place.
+  const InpDeck::Node& kept(int v) const {
+    const int joined = deck_.nodes[v].joined;
+    return deck_.nodes[joined < 0 ? v : joined];
+  }
+  long long kept_number(long long number) const {
+    const auto v = deck_.node_of.find(number);
+    return v == deck_.node_of.end() ? number : kept(v->second).number;
+  }
+
   Numbers numbers_of(const InpDeck::Element& e) const {
     Numbers numbers;
-    for (const int v : e.nodes) numbers.push_back(deck_.nodes[v].number);
+    for (const int v : e.nodes) numbers.push_back(kept(v).number);
     return numbers;
   }
 
@@ -283,12 +322,14 @@ class InpRewriter {
     const auto require_free = [&](int pin, const char* what, long long number) {
       if (pin > 0) refuse("{}:{}: {} {} is named and would be gone", deck_.source, pin, what, number);
     };
+    for (const InpDeck::Node& node : deck_.nodes)
+      if (node.joined >= 0) gone_nodes_.insert(node.number);
     for (std::size_t e = 0; e < kept_.size(); ++e) {
       if (kept_[e]) continue;
       require_free(deck_.elements[e].pin, "element", deck_.elements[e].number);
       gone_elements_.insert(deck_.elements[e].number);
       for (const int v : deck_.elements[e].nodes)
-        if (const InpDeck::Node& node = deck_.nodes[v]; !used_.contains(node.number)) {
+        if (const InpDeck::Node& node = kept(v); !used_.contains(node.number)) {
           require_free(node.pin, "node", node.number);
           gone_nodes_.insert(node.number);
         }
@@ -342,13 +383,33 @@ class InpRewriter {
     }
     const std::size_t end = std::ranges::find(deck_.cards, "NODE", &InpDeck::Card::name)->end;
     replace(end, end, text);
+    std::size_t last = end;  // all nodes are there
+    for (const InpDeck::Card& card : deck_.cards)
+      if (card.name == "NODE") last = card.end;
+    for (const InpDeck::Card& card : deck_.cards) {
+      if (card.name != "NODE" || card.parameter("NSET").empty()) continue;
+      Numbers kept_nodes;
+      for (const InpDeck::Node& node : deck_.nodes)
+        if (node.joined >= 0 && node.begin >= card.data && node.begin < card.end &&
+            !gone_nodes_.contains(deck_.nodes[node.joined].number))
+          kept_nodes.push_back(deck_.nodes[node.joined].number);
+      sort_unique(kept_nodes);
+      if (!kept_nodes.empty())
+        replace(last, last, fmt::format("*NSET, NSET={}\n{}", card.parameter("NSET"), lines_of(kept_nodes)));
+    }
   }
 
   void edit_elements() {
     std::map<int, bool> has_some;
     for (std::size_t e = 0; e < kept_.size(); ++e) {
       has_some[deck_.elements[e].card] |= kept_[e] != 0;
-      if (!kept_[e]) replace(deck_.elements[e].begin, deck_.elements[e].end);
+      const InpDeck::Element& element = deck_.elements[e];
+      const bool changes =
+          std::ranges::any_of(element.nodes, [&](int v) { return deck_.nodes[v].joined >= 0; });
+      if (!kept_[e]) replace(element.begin, element.end);
+      if (kept_[e] && changes)
+        replace(element.begin, element.end,
+                fmt::format("{}, {}\n", element.number, fmt::join(numbers_of(element), ", ")));
     }
     for (const auto& [card, some] : has_some)
       if (!some) replace(deck_.cards[card].begin, deck_.cards[card].data);
@@ -398,6 +459,28 @@ class InpRewriter {
     }
   }
 
+  /// Renames joined nodes in the rows of surfaces of nodes.
+  void edit_node_surfaces() {
+    for (const InpDeck::Card& card : deck_.cards) {
+      if (card.name != "SURFACE" || upper(card.parameter("TYPE")) != "NODE") continue;
+      std::set<long long> known;
+      for (const bool is_first_pass : {true, false})
+        for (std::size_t at = card.data, next = 0; at < card.end; at = next) {
+          next = end_of_line(at);
+          const std::size_t begin = std::min(deck_.text.find_first_not_of(" \t", at), next);
+          long long number = 0;
+          const char* const end =
+              std::from_chars(deck_.text.data() + begin, deck_.text.data() + next, number).ptr;
+          const long long now = kept_number(number);
+          if (is_first_pass && now == number) known.insert(number);
+          if (is_first_pass || now == number) continue;
+          const bool is_new = known.insert(now).second;
+          replace(at, is_new ? static_cast<std::size_t>(end - deck_.text.data()) : next,
+                  is_new ? fmt::format("{}", now) : "");
+        }
+    }
+  }
+
   /// Finds the sides that stand for a row; returns whether any is of a new element.
   bool move_sides(const InpDeck::Side& row, std::map<std::string, Numbers>& by_label) const {
     bool changes = false;
@@ -405,7 +488,7 @@ class InpRewriter {
       const InpDeck::Element& e = deck_.elements[index];
       const int side = deck_.side_of(e, row.label);
       const auto number = [&](int k) {
-        return deck_.nodes[e.nodes[static_cast<std::size_t>(k) % e.corners()]].number;
+        return kept(e.nodes[static_cast<std::size_t>(k) % e.corners()]).number;
       };
       const auto at = side_at_.find({number(side), number(side + 1), e.region});
       if (at == side_at_.end())
@@ -444,9 +527,12 @@ class InpRewriter {
 
   void edit_set(const InpDeck::Card& card, const std::set<long long>& gone, const Numbers& added) {
     Numbers numbers;
-    std::ranges::copy_if(card.numbers, std::back_inserter(numbers),
-                         [&](long long i) { return !gone.contains(i); });
-    if (numbers.size() == card.numbers.size() && added.empty()) return;
+    std::set<long long> known(card.numbers.begin(), card.numbers.end());
+    for (const long long i : card.numbers) {
+      const long long number = card.name == "NSET" ? kept_number(i) : i;
+      if (!gone.contains(number) && (number == i || known.insert(number).second)) numbers.push_back(number);
+    }
+    if (numbers == card.numbers && added.empty()) return;
     numbers.insert(numbers.end(), added.begin(), added.end());
     if (numbers.empty() && card.names.empty()) return replace(card.begin, card.end);
     const bool has_keyword = card.parameters.contains("GENERATE");
@@ -547,11 +633,13 @@ void name_points(InpDeck& deck) {
     if (number > INT_MAX) refuse("{}: node {}: expected a number up to {}", deck.source, number, INT_MAX);
     mesh.named_points.push_back({static_cast<int>(v), {static_cast<int>(number), {}}});
   }
-  drop_unused_points(mesh);
+  deck.point_of = drop_unused_points(mesh);
 }
 
-void rewrite_inp(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh) {
-  const InpDeck deck = read_inp_deck(source, true);
+void rewrite_inp(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh,
+                 double weld) {
+  InpDeck deck = read_inp_deck(source, true);
+  join_nodes(deck, weld);
   write_text_file(path, std::string_view(InpRewriter(deck, mesh).text()));
 }
 

@@ -46,6 +46,7 @@ struct InpDeck {
     Vec3 at;
     std::size_t begin;  ///< of its line
     int pin = -1;       ///< the line that names it, so that it stays; 0: a set; -1: none
+    int joined = -1;    ///< the node that takes its place, by index; -1: none
   };
   /// A line, triangle or quad.
   struct Element {
@@ -87,7 +88,8 @@ struct InpDeck {
   int n_named = 0;               ///< inner nodes and elements that stay because a line or a set names them
   std::set<std::string> others;  ///< keywords whose lines are not read, and types of elements
   Mesh mesh;
-  InpSets growing;  ///< sets of all nodes of some regions: these regions, whose new nodes they get
+  std::vector<int> point_of;  ///< the mesh's point of each node of a deck to improve; -1: none
+  InpSets growing;            ///< sets of all nodes of some regions: these regions, whose new nodes they get
 
   /// The type of an element, in capitals.
   std::string type_of(const Element& element) const { return upper(cards[element.card].parameter("TYPE")); }
@@ -108,9 +110,11 @@ void part_elements(InpDeck& deck);
 void name_points(InpDeck& deck);
 
 /// Writes `source` again with a mesh that read_inp_deck() and stages made from it. Elements and nodes that
-/// are not new keep their lines, and so does all else that new ones do not change. Throws InputError if a
-/// line names a node or an element that is gone.
-void rewrite_inp(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh);
+/// are not new keep their lines, and so does all else that new ones do not change. `weld` is the part of the
+/// diagonal that weld_open_edges() had: in sets the kept nodes take the places of the joined ones. Throws
+/// InputError if a line names a node or an element that is gone.
+void rewrite_inp(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh,
+                 double weld);
 
 /// A coordinate in at most 20 characters: CalculiX cuts off what follows. "0" below `negligible`.
 std::string inp_number(double x, double negligible);

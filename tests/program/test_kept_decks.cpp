@@ -293,6 +293,65 @@ TEST(KeptDecks, ALoadOnAllNodesIsNotSpread) {
   EXPECT_EQ(read_deck(folder / "b.inp").nsets, read_deck(folder / "a.inp").nsets);
 }
 
+/// Two plates of 2 x 2 elements with node sets. Nodes 7, 8, 9 of the left one lie at 11, 12, 13 of the right.
+std::string two_plates(const std::string& more) {
+  std::string text = "*HEADING\nby hand\n", elements = "*ELEMENT, TYPE=S4, ELSET=PLATES\n";
+  for (int body = 0; body < 2; ++body) {
+    text += body == 0 ? "*NODE, NSET=NLEFT\n" : "*NODE, NSET=NRIGHT\n";
+    for (int k = 0; k < 9; ++k)
+      text += std::to_string(1 + 10 * body + k) + ", " + std::to_string(2 * body + k / 3) + ", " +
+              std::to_string(k % 3) + ", " + std::to_string(body * (k / 3)) + '\n';
+    for (int k = 0; k < 4; ++k) {
+      const int v = 1 + 10 * body + k + k / 2;
+      elements += std::to_string(1 + 10 * body + k);
+      for (const int n : {v, v + 3, v + 4, v + 1}) elements += ", " + std::to_string(n);
+      elements += '\n';
+    }
+  }
+  return text + elements + "*NSET, NSET=SEAM_R\n11, 12, 13, 12\n*NSET, NSET=MIDDLE\n8, 12\n" + more;
+}
+
+TEST(KeptDecks, WeldingKeepsThePlacesInSets) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.inp", two_plates("*ELEMENT, TYPE=B31, ELSET=BEAM\n30, 11, 19\n"
+                                          "*SURFACE, NAME=EDGE, TYPE=NODE\n 12, 0.5\n8\n13\n"
+                                          "*DLOAD\n11, P, 1.\n*CLOAD\nSEAM_R, 3, 1.\n"
+                                          "*BOUNDARY\nNRIGHT, 1, 6\nMIDDLE, 1\n"));
+  for (const char* command : {"convert", "improve"}) {
+    std::vector<std::string> arguments = {command, folder / "a.inp", "--weld", "1e-6"};
+    if (command[0] == 'i') arguments.push_back("-o");
+    arguments.push_back(folder / "b.inp");
+    const ProgramResult result = delquad(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    ReadDeck deck = read_deck(folder / "b.inp");
+    EXPECT_EQ(deck.nodes.size(), 15u);
+    EXPECT_EQ(deck.nsets["NLEFT"], (std::set{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+    EXPECT_EQ(deck.nsets["NRIGHT"], (std::set{7, 8, 9, 14, 15, 16, 17, 18, 19}));
+    EXPECT_EQ(deck.nsets["SEAM_R"], (std::set{7, 8, 9}));
+    EXPECT_EQ(deck.nsets["MIDDLE"], (std::set{8}));
+    EXPECT_EQ(deck.elements[11], (std::vector{7, 14, 15, 8}));
+    EXPECT_EQ(deck.elements[30], (std::vector{7, 19}));
+    EXPECT_EQ(deck.surface_rows.back(), "9");
+    EXPECT_EQ(deck.surface_rows.size(), 2u);
+    EXPECT_EQ(deck.others, read_deck(folder / "a.inp").others);
+  }
+}
+
+TEST(KeptDecks, WeldingTellsWhichLineForbidsIt) {
+  const TemporaryFolder folder;
+  const std::pair<std::string, const char*> lines[] = {
+      {"*EQUATION\n2\n8, 3, 1., 12, 3, -1.\n", "join node 12 to node 8, but this line of *EQUATION names 12"},
+      {"*CLOAD\nMIDDLE, 3, 1.\n", "join node 12 to node 8, but *CLOAD counts each node of the set MIDDLE"}};
+  for (const auto& [line, why] : lines) {
+    write_text(folder / "a.inp", two_plates(line));
+    EXPECT_EQ(delquad({"convert", folder / "a.inp", folder / "b.inp"}).exit_code, 0);
+    const ProgramResult result = delquad({"convert", folder / "a.inp", folder / "c.inp", "--weld", "1e-6"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(contains(result.err, why)) << result.err;
+    EXPECT_TRUE(contains(result.err, "change this line, or leave --weld out")) << result.err;
+  }
+}
+
 TEST(KeptDecks, OtherFormatsGetSetsAndTellTheRest) {
   const TemporaryFolder folder;
   write_text(folder / "a.inp", plate("S4", 0, hangers()));
