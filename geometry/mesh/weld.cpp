@@ -3,31 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <set>
 #include <tuple>
 
-#include "base/sort_unique.h"
 #include "base/text.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 
 namespace delquad {
-
-namespace {
-
-std::vector<int> ends_of_open_edges(const Mesh& mesh) {
-  std::vector<int> ends;
-  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
-    if (edge.size() == 1 && edge[0].lo != edge[0].hi) ends.insert(ends.end(), {edge[0].lo, edge[0].hi});
-  });
-  sort_unique(ends);
-  return ends;
-}
-
-}  // namespace
 
 PointNames names_of_equal_points(const Mesh& mesh) {
   const std::vector<Vec3>& points = mesh.points;
@@ -50,25 +35,40 @@ PointNames names_at_open_edges(const Mesh& mesh, double tolerance) {
   PointNames name(points.size());
   std::iota(name.begin(), name.end(), 0);
   if (!(tolerance > 0)) return name;
-  using Cell = std::array<double, 3>;
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  enum Kind : char { kUnused, kInside, kOpen };
+  std::vector<Kind> kind(points.size(), kUnused);
+  bool has_open = false;
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    const bool is_open = edge.size() == 1 && edge[0].lo != edge[0].hi;
+    has_open |= is_open;
+    for (const int v : {edge[0].lo, edge[0].hi}) kind[v] = std::max(kind[v], is_open ? kOpen : kInside);
+  });
+  if (!has_open) return name;
+  using Cell = std::array<double, 3>;  // as wide as the tolerance
   const auto cell_of = [&](const Vec3& p) {
     return Cell{std::floor(p.x / tolerance), std::floor(p.y / tolerance), std::floor(p.z / tolerance)};
   };
-  std::map<Cell, std::vector<int>> kept;  // by cells as wide as the tolerance
-  for (const int i : ends_of_open_edges(mesh)) {
+  std::vector<std::pair<Cell, int>> others;
+  for (size_t i = 0; i < points.size(); ++i)
+    if (kind[i] != kUnused) others.emplace_back(cell_of(points[i]), static_cast<int>(i));
+  std::sort(others.begin(), others.end());
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+    if (kind[i] != kOpen) continue;
     const Cell home = cell_of(points[i]);
     double nearest = tolerance;
-    for (int k = 0; k < 27; ++k) {
-      const auto cell = kept.find({home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1, home[2] + k / 9 - 1});
-      if (cell == kept.end()) continue;
-      for (const int j : cell->second) {
+    for (int k = 0; k < 9; ++k) {
+      const double x = home[0] + k % 3 - 1, y = home[1] + k / 3 - 1;
+      auto at = std::lower_bound(others.begin(), others.end(), std::pair(Cell{x, y, home[2] - 1}, 0));
+      for (; at != others.end() && at->first <= Cell{x, y, home[2] + 1}; ++at) {
+        const int j = at->second;
+        if (kind[j] == kOpen ? j >= i || name[j] != j : !sides_of_edge(sides, i, j).empty()) continue;
         const double distance = norm(points[j] - points[i]);
         if (distance > nearest || (distance == nearest && name[i] != i && name[i] < j)) continue;
         nearest = distance;
         name[i] = j;
       }
     }
-    if (name[i] == i) kept[home].push_back(i);
   }
   return name;
 }
@@ -117,8 +117,7 @@ std::string tell_unjoined(const Mesh& mesh) {
   if (count.empty()) return {};
   return fmt::format(
       "{} coincide with others within {:g} of the diagonal and are not joined (the first at {}): a crack, or "
-      "a "
-      "torn mesh; --weld {:g} joins them",
+      "a torn mesh; --weld {:g} joins them",
       count, kCoincident, place, kCoincident);
 }
 

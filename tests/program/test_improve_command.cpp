@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "geometry/mesh/half_edges.h"
 #include "io/mesh_io.h"
 #include "tests/program/program.h"
 #include "tests/support/grid_mesh.h"
@@ -125,6 +126,30 @@ TEST(ImproveCommand, TornMeshesAreToldAndWelded) {
     EXPECT_TRUE(contains(joined.err, "welded 9 points")) << joined.err;
     EXPECT_EQ(read_mesh(folder / "joined.msh").points.size(), 81u);
   }
+}
+
+TEST(ImproveCommand, WebsAreWeldedToPlates) {
+  const TemporaryFolder folder;
+  Mesh mesh = bad_shell();
+  for (int row = 0; row < 3; ++row)  // a web of 8 x 2 quads stands on the middle line
+    for (int i = 0; i < 9; ++i) mesh.points.push_back((1 + 0.2 * row) * mesh.points[36 + i]);
+  for (int q = 0; q < 16; ++q) {
+    const int v = 81 + q / 8 * 9 + q % 8;
+    mesh.quads.push_back({v, v + 1, v + 10, v + 9});
+    mesh.quad_region.push_back(0);
+  }
+  write_mesh(folder / "torn.msh", mesh);
+  const auto torn = delquad({"metrics", folder / "torn.msh"});
+  EXPECT_TRUE(contains(torn.err, "9 points at open edges coincide with others")) << torn.err;
+  const auto joined =
+      delquad({"improve", folder / "torn.msh", "--weld", "1e-6", "-o", folder / "joined.msh"});
+  ASSERT_EQ(joined.exit_code, 0) << joined.err;
+  const Mesh result = read_mesh(folder / "joined.msh");
+  EXPECT_EQ(result.points.size(), 81u + 18u);
+  int branching = 0;
+  for_each_edge(sorted_half_edges(result), [&](const auto& edge) { branching += edge.size() == 3; });
+  EXPECT_EQ(branching, 8);
+  EXPECT_FALSE(contains(delquad({"metrics", folder / "joined.msh"}).err, "coincide"));
 }
 
 }  // namespace

@@ -51,6 +51,16 @@ TEST(Weld, PointsInsideStayApart) {
   EXPECT_EQ(names_of_equal_points(mesh), (PointNames{0, 1, 2, 3, 0, 1, 2, 7}));
 }
 
+TEST(Weld, EndsOfOpenEdgesGoByPointsInside) {
+  // The tip of a triangle stands on the middle of a square.
+  Mesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 1}, {-1, 0, 1}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {0, 0, 0}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 7}, {4, 5, 7}, {5, 6, 7}, {6, 3, 7}};
+  EXPECT_EQ(names_at_open_edges(mesh, 0.1), (PointNames{7, 1, 2, 3, 4, 5, 6, 7}));
+  mesh.points[3] = {0.01, 0.01, 0};  // a side joins it to the middle
+  EXPECT_EQ(names_at_open_edges(mesh, 0.1), (PointNames{7, 1, 2, 3, 4, 5, 6, 7}));
+}
+
 TEST(Weld, ElementsAreRenamed) {
   Mesh mesh = torn_square(0);
   rename_points(mesh, names_of_equal_points(mesh));
