@@ -220,7 +220,9 @@ TEST(KeptDecks, ImprovingKeepsAllButTheMesh) {
     for (const auto& [number, v] : after.elements) {
       used.insert(v.begin(), v.end());
       moved += !before.elements.contains(number);
-      if (before.elements.contains(number)) EXPECT_EQ(v, before.elements.at(number));
+      if (before.elements.contains(number)) {
+        EXPECT_EQ(v, before.elements.at(number));
+      }
       EXPECT_TRUE(before.elements.contains(number) || number > 2001) << number;
       EXPECT_EQ(after.types.at(number), number == 2000 ? "SPRINGA" : number == 2001 ? "B31" : "S4");
     }
@@ -228,7 +230,9 @@ TEST(KeptDecks, ImprovingKeepsAllButTheMesh) {
     for (const auto& [number, at] : after.nodes) {
       EXPECT_TRUE(used.contains(number)) << number;
       EXPECT_EQ(after.nsets.at("EVERY").contains(number), number != 9000) << number;
-      if (before.nodes.contains(number)) EXPECT_EQ(at, before.nodes.at(number));
+      if (before.nodes.contains(number)) {
+        EXPECT_EQ(at, before.nodes.at(number));
+      }
       EXPECT_TRUE(before.nodes.contains(number) || number > 9000) << number;
     }
     for (const int v :
