@@ -85,7 +85,7 @@ Json read_record_file(const fs::path& file) {
   }
 }
 
-RecordedCell recorded_cell(const Json& record, const fs::path& file, const fs::path& data) {
+RecordedCell recorded_cell(const Json& record, const fs::path& file, const fs::path& data) try {
   RecordedCell cell{{}, {}, record.contains("experiment")};
   Case& c = cell.c;
   c.name = record.at("case");
@@ -111,6 +111,8 @@ RecordedCell recorded_cell(const Json& record, const fs::path& file, const fs::p
   cell.experiment.words = {cell.experiment.peers.empty() ? parse_word(pipeline, word_start(c.model))
                                                          : Word{pipeline, {}, PatchForm::kQuads}};
   return cell;
+} catch (const Json::exception& error) {
+  throw InputError(json_problem(file, "is no record of a mesh", error));
 }
 
 }  // namespace delquad

@@ -113,6 +113,10 @@ TEST_F(RecordsCommands, MeshOfARecordIsTheSame) {
   fs::remove(folder_ / "moved/lens.stl");
   const ProgramResult lost = mesh("moved/lens.json", "lost.msh");
   EXPECT_TRUE(contains(lost.err, "neither here nor, by its name, beside the record: expected")) << lost.err;
+  write_text(folder_ / "part.json", "{\"record\": 3, \"case\": \"a\"}");
+  const ProgramResult part = mesh("part.json", "part.msh");
+  EXPECT_EQ(part.exit_code, 2);
+  EXPECT_TRUE(contains(part.err, "part.json: is no record of a mesh")) << part.err;
   std::string old = read_text(folder_ / "first.json");
   write_text(folder_ / "first.json", old.replace(old.find("\"record\": 3"), 11, "\"record\": 2"));
   const ProgramResult refused = mesh("first.json", "two.msh");
