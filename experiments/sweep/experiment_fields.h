@@ -11,7 +11,7 @@
 #include "io/cases/read_described.h"
 #include "metrics/tables/study_fields.h"
 
-// What an experiment consists of beside its cases and its tables, and the descriptions of it.
+// These structs make up an experiment, beside its cases and tables. Each has its description.
 
 namespace delquad {
 
