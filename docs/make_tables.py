@@ -22,8 +22,8 @@ CLAIM = ["hypothesis", "measure", "domains", "better", "worse", "difference", "p
 TABLES = {
     "own_surfaces": ("studies/own_surfaces/table.md", SHAPE, {"pipeline": "DB"}),
     "insertion_options": ("studies/insertion_options/table.md", SHAPE, {"pipeline": "DB"}),
-    "cleanup": ("studies/cleanup/table.md", ["case", "pipeline", "quads", *QUALITY, "edge min", "aspect max"], {}),
-    "regularity": ("studies/regularity/table.md", ["case", "pipeline", "quads", "irregular", "necessary", "beyond", "eta mean", "tau"], {"case": ".*weight=1"}),
+    "cleanup": ("studies/cleanup/table.md", ["case", "pipeline", "quads", *QUALITY], {"case": "lewis|plate"}),
+    "regularity": ("studies/regularity/table.md", ["case", "pipeline", "quads", "irregular", "necessary", "beyond", "eta mean", "tau"], {"case": "(annulus|plate|bracket).*weight=1"}),
     "metric_solutions": ("studies/metric_solutions/table.md", METRIC, {"case": ".*size-aware.*", "pipeline": "DBCO"}),
     "metric_fields": ("studies/metric_fields/table.md", [*METRIC, "aligned"], {"pipeline": "DBCO"}),
     "which_quality": ("studies/which_quality/printed.md", [], {}),
