@@ -17,8 +17,8 @@ MARK = re.compile(r"<!-- table: (\w+), made by (.*?) -->\n.*?<!-- end -->", re.D
 QUALITY = ["eta worst", "eta mean", "d4", "tau"]
 SHAPE = ["case", "quads", *QUALITY, "edge min", "aspect max"]
 METRIC = ["case", "quads", "eta_M mean", "eta_M worst", "tau_M", "in range", "irregular"]
-CLAIM = ["hypothesis", "measure", "domains", "better", "worse", "difference", "p corrected"]
-# For each table: its file below RESULTS, its columns (none: all), its rows by patterns, and its number there.
+CLAIM = ["hypothesis", "measure", "better", "worse", "difference", "p corrected"]
+# For each table: its file below RESULTS, its columns (none: all), its rows by patterns, its number there, and how it is pivoted.
 TABLES = {
     "own_surfaces": ("studies/own_surfaces/table.md", SHAPE, {"pipeline": "DB"}),
     "insertion_options": ("studies/insertion_options/table.md", SHAPE, {"pipeline": "DB"}),
@@ -28,7 +28,7 @@ TABLES = {
     "metric_fields": ("studies/metric_fields/table.md", [*METRIC, "aligned"], {"pipeline": "DBCO"}),
     "which_quality": ("studies/which_quality/printed.md", ["", "eta_mean", "d4", "tau", "aspect_mean", "warp_mean"], {}),
     "which_pipeline": ("studies/which_quality/printed.md", ["", "poisson_h1", "poisson_l2", "elasticity_h1", "poisson_cg_iterations"], {}, 1),
-    "pipelines": ("studies/ablation/summary.md", ["measure", "pipeline", "domains", "mean", "won", "lost"], {}),
+    "pipelines": ("studies/ablation/summary.md", ["pipeline", *QUALITY], {}, 0, ("pipeline", "measure", "mean")),
     "hypotheses": ("studies/ablation/hypotheses.md", CLAIM, {}),
     "cross_fields": ("studies/cross_fields/hypotheses.md", [], {}),
     "peers": ("peers/peers/table.md", ["case", "pipeline", "quads", "triangles", *QUALITY, "total CPU s"], {}),
@@ -52,10 +52,19 @@ def table(columns, rows):
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def of_results(file, columns, wanted, number=0):
+def pivot(rows, key, name, value):
+    """A row for each value of `key`, with a column for each value of `name`."""
+    found = {}
+    for row in rows:
+        found.setdefault(row[key], {key: row[key]})[row[name]] = row[value]
+    return list(found.values())
+
+
+def of_results(file, columns, wanted, number=0, pivoted=None):
     """Without the rows of what was skipped."""
     rows = [row for row in rows_of(file.read_text(), number) if all(re.fullmatch(pattern, row[key]) for key, pattern in wanted.items())]
     rows = [row for row in rows if not {"skipped", "not applicable"} & set(row.values())]
+    rows = pivot(rows, *pivoted) if pivoted else rows
     return table(columns or list(rows[0]), rows)
 
 
