@@ -16,7 +16,7 @@ MARK = re.compile(r"<!-- table: (\w+), made by (.*?) -->\n.*?<!-- end -->", re.D
 
 QUALITY = ["eta worst", "eta mean", "d4", "tau"]
 SHAPE = ["case", "quads", *QUALITY]
-METRIC = ["case", "quads", "eta_M mean", "eta_M worst", "tau_M", "in range", "irregular"]
+METRIC = ["case", "quads", "eta_M mean", "eta_M worst", "tau_M", "irregular"]
 SPEED = ["model", "program", "seconds a million quads", "quads", "triangles", "eta mean", "eta worst", "irregular", "inverted"]
 CLAIM = ["hypothesis", "measure", "better", "worse", "difference", "p corrected"]
 # For each table: its file below RESULTS, its columns (none: all), its rows by patterns, its number there, and how it is pivoted.
@@ -25,8 +25,8 @@ TABLES = {
     "insertion_options": ("studies/insertion_options/table.md", SHAPE, {"pipeline": "DB", "case": "(lewis|airfoil).*"}),
     "cleanup": ("studies/cleanup/table.md", ["case", "pipeline", "quads", *QUALITY], {"case": "lewis|plate"}),
     "regularity": ("studies/regularity/table.md", ["case", "pipeline", "quads", "irregular", "necessary", "beyond", "eta mean", "tau"], {"case": "(annulus|plate|bracket).*weight=1"}),
-    "metric_solutions": ("studies/metric_solutions/table.md", METRIC, {"case": ".*size-aware.*", "pipeline": "DBCO"}),
-    "metric_fields": ("studies/metric_fields/table.md", [*METRIC, "aligned"], {"pipeline": "DBCO"}),
+    "metric_solutions": ("studies/metric_solutions/table.md", METRIC, {"case": "(shock|mmg|thin|layers), cross=size-aware.*=(1100|10000)", "pipeline": "DBCO"}),
+    "metric_fields": ("studies/metric_fields/table.md", [*METRIC, "aligned"], {"case": "(constant|wall|ring|disc).*", "pipeline": "DBCO"}),
     "which_quality": ("studies/which_quality/printed.md", ["", "eta_mean", "d4", "tau", "aspect_mean", "warp_mean"], {}),
     "which_pipeline": ("studies/which_quality/printed.md", ["", "poisson_h1", "poisson_l2", "elasticity_h1", "poisson_cg_iterations"], {}, 1),
     "pipelines": ("studies/ablation/summary.md", ["pipeline", *QUALITY], {}, 0, ("pipeline", "measure", "mean")),
