@@ -21,7 +21,6 @@ SPEED = ["model", "program", "seconds a million quads", "quads", "triangles", "e
 CLAIM = ["hypothesis", "measure", "better", "worse", "difference", "p corrected"]
 # For each table: its file below RESULTS, its columns (none: all), its rows by patterns, its number there, and how it is pivoted.
 TABLES = {
-    "own_surfaces": ("studies/own_surfaces/table.md", SHAPE, {"pipeline": "DB", "case": "bracket|hood|pipe_tee|torus|wing_body"}),
     "insertion_options": ("studies/insertion_options/table.md", SHAPE, {"pipeline": "DB", "case": "(lewis|airfoil).*"}),
     "cleanup": ("studies/cleanup/table.md", ["case", "pipeline", "quads", *QUALITY], {"case": "lewis|plate"}),
     "regularity": ("studies/regularity/table.md", ["case", "pipeline", "quads", "irregular", "necessary", "beyond", "eta mean", "tau"], {"case": "(annulus|plate|bracket).*weight=1"}),
@@ -38,7 +37,7 @@ TABLES = {
     "per_million": ("benchmarks/per_million.md", SPEED, {"quads asked for": "50000", "program": "(?!.* 4[.]8).*"}),
 }
 # The experiments in experiments/studies/ that take seconds, and need no other model: a test compares their tables.
-CHEAP = ["own_surfaces", "insertion_options", "cleanup"]
+CHEAP = ["insertion_options", "cleanup"]
 
 
 def rows_of(text, number):
