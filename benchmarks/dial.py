@@ -183,7 +183,7 @@ def main():
     if not whole:
         return
     means = {name: {key: sum(results[m][name][key] for m in whole) / len(whole) for key in MEASURES} for name in names}
-    print(f"\n{len(whole)} models: {', '.join(whole)}\n\n| | quads | irregular | eta mean | eta worst | tau | inverted | CPU s |"
+    print(f"\n{len(whole)} models: {', '.join(whole)}\n\n| setting | quads | irregular | eta mean | eta worst | tau | inverted | CPU s |"
           "\n|---" + "|---:" * len(MEASURES) + "|")
     for name in names:
         print(f"| {name} | " + " | ".join(f"{means[name][key]:.{digits}f}" for key, digits in MEASURES.items()) + " |")

@@ -26,14 +26,14 @@ TABLES = {
     "regularity": ("studies/regularity/table.md", ["case", "pipeline", "quads", "irregular", "necessary", "beyond", "eta mean", "tau"], {"case": "(annulus|plate|bracket).*weight=1"}),
     "metric_solutions": ("studies/metric_solutions/table.md", METRIC, {"case": "(shock|mmg|thin|layers), cross=size-aware.*=(1100|10000)", "pipeline": "DBCO"}),
     "metric_fields": ("studies/metric_fields/table.md", [*METRIC, "aligned"], {"case": "(constant|wall|ring|disc).*", "pipeline": "DBCO"}),
-    "which_quality": ("studies/which_quality/printed.md", ["", "eta_mean", "d4", "tau", "aspect_mean", "warp_mean"], {}),
-    "which_pipeline": ("studies/which_quality/printed.md", ["", "poisson_h1", "poisson_l2", "elasticity_h1", "poisson_cg_iterations"], {}, 1),
+    "which_quality": ("studies/which_quality/printed.md", ["error", "eta_mean", "d4", "tau", "aspect_mean", "warp_mean"], {}),
+    "which_pipeline": ("studies/which_quality/printed.md", ["pipeline", "poisson_h1", "poisson_l2", "elasticity_h1", "poisson_cg_iterations"], {}, 1),
     "pipelines": ("studies/ablation/summary.md", ["pipeline", *QUALITY], {}, 0, ("pipeline", "measure", "mean")),
     "hypotheses": ("studies/ablation/hypotheses.md", CLAIM, {}),
     "cross_fields": ("studies/cross_fields/hypotheses.md", CLAIM, {}),
     "peers": ("peers/peers/table.md", ["case", "pipeline", "quads", "triangles", *QUALITY, "total CPU s"], {}),
     "mbb": ("public/mbb/table.md", ["case", "pipeline", "quads", "triangles", "Verdict.libmesh_shape", "Verdict.shape_mean", "SJ mean"], {}),
-    "dial": ("benchmarks/dial.md", ["", "quads", "irregular", "eta mean", "eta worst", "tau", "inverted"], {}),
+    "dial": ("benchmarks/dial.md", ["setting", "quads", "irregular", "eta mean", "eta worst", "tau", "inverted"], {}),
     "per_million": ("benchmarks/per_million.md", SPEED, {"quads asked for": "50000", "program": "(?!.* 4[.]8).*"}),
 }
 # The experiments in experiments/studies/ that take seconds, and need no other model: a test compares their tables.

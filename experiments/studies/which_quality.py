@@ -58,13 +58,13 @@ def correlations(error, quality):
             yield rho
 
 
-print("| | " + " | ".join(QUALITIES) + " |\n|---|" + "---|" * len(QUALITIES))
+print("| error | " + " | ".join(QUALITIES) + " |\n|---|" + "---|" * len(QUALITIES))
 for error in ERRORS:
     found = [list(correlations(error, quality)) for quality in QUALITIES]
     print(f"| {error} | " + " | ".join(
         f"{sum(r) / len(r):.2f} ({min(r):.2f} to {max(r):.2f})" if r else "-" for r in found) + " |")
 print()
-print("| | " + " | ".join(MEASURES) + " |\n|---|" + "---|" * len(MEASURES))
+print("| pipeline | " + " | ".join(MEASURES) + " |\n|---|" + "---|" * len(MEASURES))
 for word in sorted({word for _, word in cells} - {"DB"}):
     line = []
     for key in MEASURES:
