@@ -25,7 +25,7 @@ TABLES = {
     "cleanup": ("studies/cleanup/table.md", ["case", "pipeline", "quads", *QUALITY], {"case": "lewis|plate"}),
     "regularity": ("studies/regularity/table.md", ["case", "pipeline", "quads", "irregular", "necessary", "beyond", "eta mean", "tau"], {"case": "(annulus|plate|bracket).*weight=1"}),
     "metric_solutions": ("studies/metric_solutions/table.md", METRIC, {"case": "(shock|mmg|thin|layers), cross=size-aware.*=(1100|10000)", "pipeline": "DBCO"}),
-    "metric_fields": ("studies/metric_fields/table.md", [*METRIC, "aligned"], {"case": "(constant|wall|ring|disc).*", "pipeline": "DBCO"}),
+    "metric_fields": ("studies/metric_fields/table.md", [*METRIC, "aligned"], {"case": "(constant|wall|ring).*", "pipeline": "DBCO"}),
     "which_quality": ("studies/which_quality/printed.md", ["error", "eta_mean", "d4", "tau", "aspect_mean", "warp_mean"], {}),
     "which_pipeline": ("studies/which_quality/printed.md", ["pipeline", "poisson_h1", "poisson_l2", "elasticity_h1", "poisson_cg_iterations"], {}, 1),
     "pipelines": ("studies/ablation/summary.md", ["pipeline", *QUALITY], {}, 0, ("pipeline", "measure", "mean")),
