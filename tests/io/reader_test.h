@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <string>
 
 #include "delquad/error.h"
@@ -30,6 +31,25 @@ class ReaderTest : public Test {
       EXPECT_NE(std::string(error.what()).find(file_ + ":"), std::string::npos) << error.what();
       return false;
     }
+  }
+  /// Each beginning is refused, but for those that lack less than `spare` bytes.
+  void expect_whole(const std::string& content, std::size_t spare = 1) {
+    EXPECT_TRUE(reads(content));
+    for (std::size_t n = 0; n + spare <= content.size(); ++n) EXPECT_FALSE(reads(content.substr(0, n))) << n;
+  }
+  /// With one to three bits flipped it is read or refused: more than this part of the trials is refused. Some
+  /// flips only move a point.
+  void try_flipped_bits(const std::string& content, int trials, double part) {
+    std::mt19937 random(7);
+    int refused = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      std::string changed = content;
+      for (unsigned flips = 1 + random() % 3; flips > 0; --flips)
+        changed[random() % changed.size()] ^= static_cast<char>(1u << random() % 8);
+      refused += reads(changed) ? 0 : 1;
+    }
+    EXPECT_GT(refused, part * trials);
+    EXPECT_LT(refused, trials);
   }
   /// What has been read must bear this.
   virtual void check(const Mesh& /*mesh*/) {}

@@ -31,13 +31,12 @@ const MeshField& field_of(const MeshWithFields& read, const std::string& name) {
 }
 
 TEST(AdaptCommand, ASolutionAndTheNextMesh) {
-  const TemporaryFolder folder;
+  const Workplace folder;
   const Mesh mesh = quad_grid(16, 16);
   for (const auto& [name, next] : {std::pair("a.vtu", "b.msh"), {"a.msh", "b.vtu"}}) {
     write_fields(folder / name, mesh, some_fields(mesh));
-    const ProgramResult result =
-        delquad({"adapt", (folder / name).string() + ":u", "--quads", "500", "-o", folder / next,
-                 "--goal-weight", "w", "--h-max", "0.3", "--quality", "fast"});
+    const ProgramResult result = folder.run("adapt " + std::string(name) + ":u --quads 500 -o " + next +
+                                            " --goal-weight w --h-max 0.3 --quality fast");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(contains(result.out, "u: error ")) << result.out;
     EXPECT_TRUE(contains(result.out, "estimated on the 256 elements of before; ")) << result.out;
@@ -57,42 +56,37 @@ TEST(AdaptCommand, ASolutionAndTheNextMesh) {
 }
 
 TEST(AdaptCommand, ModelsAndOtherFormats) {
-  const TemporaryFolder folder;
+  const Workplace folder;
   const Mesh mesh = quad_grid(16, 16);
   write_fields(folder / "a.vtu", mesh, some_fields(mesh));
-  const auto model = write_text(folder / "m.toml", kSquare + "size = 0.25\n");
-  const std::string u = (folder / "a.vtu").string() + ":u";
-  const ProgramResult result = delquad({"adapt", u, "--error", "0.03", "--norm", "inf", "--model", model,
-                                        "-o", folder / "b.inp", "--transfer", "bounded", "--isotropic"});
+  write_text(folder / "m.toml", kSquare + "size = 0.25\n");
+  write_text(folder / "l.toml", kSquare + "[[layer]]\non = 'left'\nfirst = 0.01\nnumber = 3\n");
+  const ProgramResult result = folder.run(
+      "adapt a.vtu:u --error 0.03 --norm inf --model m.toml -o b.inp --transfer bounded --isotropic");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(contains(result.out, "(maximum), of its gradient")) << result.out;
   const MeshWithFields beside = read_fields(folder / "b.vtu");
   EXPECT_EQ(beside.mesh.quads.size(), read_mesh(folder / "b.inp").quads.size());
   EXPECT_EQ(beside.mesh.curves[0].names[0], "bottom");
-  const auto layered =
-      write_text(folder / "l.toml", kSquare + "[[layer]]\non = \"left\"\nfirst = 0.01\nnumber = 3\n");
-  EXPECT_TRUE(
-      contains(delquad({"adapt", u, "--quads", "300", "--model", layered, "-o", folder / "c.msh"}).err,
-               "layers do not go with a metric"));
+  EXPECT_TRUE(contains(folder.run("adapt a.vtu:u --quads 300 --model l.toml -o c.msh").err,
+                       "layers do not go with a metric"));
   EXPECT_FALSE(std::filesystem::exists(folder / "c.msh"));
 }
 
 // Steps in time: the mesh is fine where any of them asks for it, and has the last one's values.
 TEST(AdaptCommand, SeveralFiles) {
-  const TemporaryFolder folder;
+  const Workplace folder;
   const Mesh mesh = quad_grid(16, 16);
   const auto step = [&](const char* name, double at) {
     std::vector<MeshField> fields = some_fields(mesh);
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
       fields[0].values[i] = std::tanh(20 * (mesh.points[i].x - at));
     write_fields(folder / name, mesh, fields);
-    return (folder / name).string() + ":u";
   };
-  const std::string first = step("a.vtu", 0.2), last = step("b.msh", 0.8);
-  const ProgramResult result =
-      delquad({"adapt", first, last, "--quads", "400", "-o", folder / "n.vtu", "--quality", "fast"});
+  step("a.vtu", 0.2), step("b.msh", 0.8);
+  const ProgramResult result = folder.run("adapt a.vtu:u b.msh:u --quads 400 -o n.vtu --quality fast");
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_TRUE(contains(result.out, first + ": error ") && contains(result.out, last + ": error "))
+  EXPECT_TRUE(contains(result.out, "a.vtu:u: error ") && contains(result.out, "b.msh:u: error "))
       << result.out;
   const MeshWithFields made = read_fields(folder / "n.vtu");
   const std::vector<double>& u = field_of(made, "u").values;
@@ -108,13 +102,12 @@ TEST(AdaptCommand, SeveralFiles) {
 
 // The elements of the next mesh have the order of those of this one.
 TEST(AdaptCommand, CurvedElements) {
-  const TemporaryFolder folder;
+  const Workplace folder;
   const Mesh mesh = curved_grid(12, 12, 2, false);
   std::vector<double> u;
   for (const Vec3& p : mesh.points) u.push_back(std::tanh(p.x + p.y - 12));
   write_fields(folder / "a.msh", mesh, {{"u", true, 1, u}});
-  const ProgramResult result = delquad({"adapt", (folder / "a.msh").string() + ":u", "--quads", "150", "-o",
-                                        folder / "b.vtu", "--quality", "fast"});
+  const ProgramResult result = folder.run("adapt a.msh:u --quads 150 -o b.vtu --quality fast");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const MeshWithFields made = read_fields(folder / "b.vtu");
   EXPECT_EQ(made.mesh.order, 2);
@@ -124,15 +117,13 @@ TEST(AdaptCommand, CurvedElements) {
 
 // Squares are a size, which goes with what a metric does not.
 TEST(AdaptCommand, SquaresKeepLayersAndPeriodicSides) {
-  const TemporaryFolder folder;
+  const Workplace folder;
   write_fields(folder / "a.vtu", quad_grid(16, 16), some_fields(quad_grid(16, 16)));
-  const auto model = write_text(folder / "m.toml",
-                                kSquare +
-                                    "periodic = [{ from = \"left\", to = \"right\", translate = [1, 0] }]\n"
-                                    "[[layer]]\non = \"bottom\"\nfirst = 0.004\nnumber = 3\n");
+  write_text(folder / "m.toml", kSquare +
+                                    "periodic = [{ from = 'left', to = 'right', translate = [1, 0] }]\n"
+                                    "[[layer]]\non = 'bottom'\nfirst = 0.004\nnumber = 3\n");
   const ProgramResult result =
-      delquad({"adapt", (folder / "a.vtu").string() + ":u", "--quads", "500", "--isotropic", "--model", model,
-               "-o", folder / "b.vtu", "--quality", "fast"});
+      folder.run("adapt a.vtu:u --quads 500 --isotropic --model m.toml -o b.vtu --quality fast");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Mesh mesh = read_mesh(folder / "b.vtu");
   EXPECT_NEAR(static_cast<double>(mesh.quads.size()), 500, 50);
@@ -148,7 +139,7 @@ TEST(AdaptCommand, SquaresKeepLayersAndPeriodicSides) {
 }
 
 TEST(AdaptCommand, WrongFields) {
-  const TemporaryFolder folder;
+  const Workplace folder;
   const Mesh mesh = quad_grid(4, 4), other = quad_grid(5, 5);
   std::vector<MeshField> fields = some_fields(mesh);
   for (const auto& [name, value] :
@@ -159,35 +150,29 @@ TEST(AdaptCommand, WrongFields) {
   write_fields(folder / "a.vtu", mesh, fields);
   write_fields(folder / "b.msh", other, some_fields(other));
   write_mesh(folder / "c.vtu", mesh);
-  const auto said = [&](std::vector<std::string> words) {
-    words.insert(words.begin(), "adapt");
-    words.insert(words.end(), {"-o", folder / "n.msh"});
-    const ProgramResult result = delquad(words);
-    EXPECT_EQ(result.exit_code, 2);
+  for (const auto& [words, message] :
+       {std::pair("u --quads 100", "expected FILE:FIELD"),
+        {"a.vtu --quads 100", "has the fields 'bad', 'flat', 'flow', 'huge', 'tiny', 'u', 'w': say which"},
+        {"a.vtu:nothing --quads 100", "has no field 'nothing'"},
+        {"a.vtu:bad --quads 100", "the field bad is nan at (0.5, 0.5)"},
+        {"a.vtu:flat --quads 100", "flat: constant or linear"},
+        {"a.vtu:huge --quads 100",
+         "the field huge has values up to 1e+300: expected between 1e-90 and 1e+90"},
+        {"a.vtu:tiny --quads 100", "the field tiny has values up to 1e-300"},
+        {"a.vtu:u --quads 0.5", "the 4 sides of the outline need 1 at least"},
+        {"a.vtu:u --quads 9 --goal-weight flow", "expected one number"},
+        {"a.vtu:u b.msh:u --quads 100", "its mesh is another one"},
+        {"c.vtu:eta --quads 100", "the field 'eta' is of elements: expected one of points"},
+        {"a.vtu:u --quads 9 -o a.inp", "is the same file as the solution"},
+        {"a.vtu:u", "expected --quads or --error"},
+        {"a.vtu:u --quads 100 --goal-weight bad", "the field of weights is nan"}}) {
+    const ProgramResult result =
+        folder.run("adapt " + std::string(words) + (contains(words, "-o") ? "" : " -o n.msh"));
+    EXPECT_EQ(result.exit_code, 2) << words;
+    EXPECT_TRUE(contains(result.err, message)) << result.err;
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "n.msh"));
-    return result.err;
-  };
-  const std::string a = folder / "a.vtu", b = folder / "b.msh", c = folder / "c.vtu";
-  EXPECT_TRUE(contains(said({"u", "--quads", "100"}), "expected FILE:FIELD"));
-  EXPECT_TRUE(contains(said({a, "--quads", "100"}),
-                       "has the fields 'bad', 'flat', 'flow', 'huge', 'tiny', 'u', 'w': say which"));
-  EXPECT_TRUE(contains(said({a + ":nothing", "--quads", "100"}), "has no field 'nothing'"));
-  EXPECT_TRUE(contains(said({a + ":bad", "--quads", "100"}), "the field bad is nan at (0.5, 0.5)"));
-  EXPECT_TRUE(contains(said({a + ":flat", "--quads", "100"}), "flat: constant or linear"));
-  EXPECT_TRUE(contains(said({a + ":huge", "--quads", "100"}),
-                       "the field huge has values up to 1e+300: expected between 1e-90 and 1e+90"));
-  EXPECT_TRUE(contains(said({a + ":tiny", "--quads", "100"}), "the field tiny has values up to 1e-300"));
-  EXPECT_TRUE(contains(said({a + ":u", "--quads", "0.5"}), "the 4 sides of the outline need 1 at least"));
-  EXPECT_TRUE(contains(said({a + ":u", "--quads", "9", "--goal-weight", "flow"}), "expected one number"));
-  EXPECT_TRUE(contains(said({a + ":u", b + ":u", "--quads", "100"}), "its mesh is another one"));
-  EXPECT_TRUE(contains(said({c + ":eta", "--quads", "100"}),
-                       "the field 'eta' is of elements: expected one of points"));
-  EXPECT_TRUE(contains(delquad({"adapt", a + ":u", "--quads", "9", "-o", folder / "a.inp"}).err,
-                       "is the same file as the solution"));
-  EXPECT_TRUE(contains(said({a + ":u"}), "expected --quads or --error"));
-  EXPECT_TRUE(
-      contains(said({a + ":u", "--quads", "100", "--goal-weight", "bad"}), "the field of weights is nan"));
+  }
 }
 
 }  // namespace

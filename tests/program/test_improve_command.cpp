@@ -18,58 +18,6 @@ Mesh bad_grid() {
   return mesh;
 }
 
-TEST(ImproveCommand, PrintsBeforeAndAfterAndKeepsNames) {
-  for (const char* name : {"a.msh", "a.vtu", "a.inp", "a.mesh", "a.obj"}) {
-    const TemporaryFolder folder;
-    write_mesh(folder / name, bad_grid());
-    const ProgramResult result =
-        delquad({"improve", folder / name, "-o", folder / "out.msh", "--json", folder / "record.json"});
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(result.err, "");
-    const std::size_t before = result.out.find("eta mean"), after = result.out.rfind("eta mean");
-    ASSERT_NE(before, after);
-    EXPECT_LT(std::stod(result.out.substr(before + 9)), 0.9) << name;
-    EXPECT_GT(std::stod(result.out.substr(after + 9)), 0.99) << name;
-    EXPECT_TRUE(contains(read_text(folder / "record.json"), "\"given\": true"));
-    const Mesh given = read_mesh(folder / name), better = read_mesh(folder / "out.msh");
-    EXPECT_EQ(better.lines.size(), given.lines.size()) << name;
-    ASSERT_EQ(better.curves.size(), given.curves.size()) << name;
-    for (std::size_t i = 0; i < given.curves.size(); ++i)
-      EXPECT_EQ(better.curves[i].names, given.curves[i].names) << name;
-  }
-}
-
-TEST(ImproveCommand, TrianglesAreMergedUnlessTheWordIsForQuads) {
-  const TemporaryFolder folder;
-  write_mesh(folder / "t.msh", triangle_grid(6, 6));
-  ASSERT_EQ(delquad({"improve", folder / "t.msh", "-o", folder / "out.msh"}).exit_code, 0);
-  EXPECT_EQ(read_mesh(folder / "out.msh").quads.size(), 36u);
-  const ProgramResult refused =
-      delquad({"improve", folder / "t.msh", "--pipeline", "CO", "-o", folder / "none.msh"});
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_TRUE(contains(refused.err, "72 triangles and no quads")) << refused.err;
-  EXPECT_FALSE(std::filesystem::exists(folder / "none.msh"));
-}
-
-TEST(ImproveCommand, ModelsAndExperimentsBeginFromMeshes) {
-  const TemporaryFolder folder;
-  write_mesh(folder / "a.vtu", bad_grid());
-  const auto model = write_text(folder / "m.toml", "mesh = \"a.vtu\"\nstart = true\n");
-  EXPECT_EQ(delquad({"mesh", model, "--pipeline", "O", "-o", folder / "out.msh"}).exit_code, 0);
-  EXPECT_EQ(delquad({"info", model}).exit_code, 0);
-  const std::string cases = "[[case]]\nname = \"a\"\nmesh = \"a.vtu\"\nstart = true\n";
-  const auto file = write_text(folder / "e.toml", "pipelines = [\"CO\", \"O\", \"DB\"]\n" + cases);
-  const ProgramResult result = delquad({"run", file, "-o", folder / "results", "--pictures", "none"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(delquad({"rerun", folder / "results/a/CO/record.json"}).exit_code, 0);
-  // Words from elements need some.
-  const auto mixed = write_text(
-      folder / "f.toml", "pipelines = [\"CO\"]\n" + cases + "[[case]]\nname = \"b\"\nsize = 0.1\n" + kSquare);
-  const ProgramResult refused = delquad({"run", mixed, "-o", folder / "none"});
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_TRUE(contains(refused.err, "'C' starts from quads")) << refused.err;
-}
-
 /// A part of a cylinder.
 Mesh bad_shell() {
   Mesh mesh = bad_grid();
@@ -78,50 +26,88 @@ Mesh bad_shell() {
   return mesh;
 }
 
-TEST(ImproveCommand, MeshesInSpace) {
-  for (const char* name : {"a.msh", "a.vtu", "a.inp", "a.mesh", "a.obj"}) {
-    const TemporaryFolder folder;
-    write_mesh(folder / name, bad_shell());
-    const ProgramResult result = delquad({"improve", folder / name, "-o", folder / "out.msh"});
+TEST(ImproveCommand, PrintsBeforeAndAfterAndKeepsNames) {
+  for (const auto& [bad, best] : {std::pair(bad_grid(), 0.99), {bad_shell(), 0.97}})
+    for (const char* name : {"a.msh", "a.vtu", "a.inp", "a.mesh", "a.obj"}) {
+      SCOPED_TRACE(name);
+      const Workplace folder;
+      write_mesh(folder / name, bad);
+      const ProgramResult result =
+          folder.run("improve " + std::string(name) + " -o out.msh --json record.json");
+      ASSERT_EQ(result.exit_code, 0) << result.err;
+      EXPECT_TRUE(best < 0.99 || result.err.empty()) << result.err;
+      const std::size_t before = result.out.find("eta mean"), after = result.out.rfind("eta mean");
+      ASSERT_NE(before, after);
+      EXPECT_LT(std::stod(result.out.substr(before + 9)), 0.9);
+      EXPECT_GT(std::stod(result.out.substr(after + 9)), best);
+      EXPECT_TRUE(contains(read_text(folder / "record.json"), "\"given\": true"));
+      const Mesh given = read_mesh(folder / name), better = read_mesh(folder / "out.msh");
+      EXPECT_EQ(better.quads.size(), 64u);
+      EXPECT_EQ(better.lines.size(), given.lines.size());
+      ASSERT_EQ(better.curves.size(), given.curves.size());
+      for (std::size_t i = 0; i < given.curves.size(); ++i)
+        EXPECT_EQ(better.curves[i].names, given.curves[i].names);
+    }
+}
+
+TEST(ImproveCommand, TrianglesAreMergedUnlessTheWordIsForQuads) {
+  const Workplace folder;
+  write_mesh(folder / "t.msh", triangle_grid(6, 6));
+  ASSERT_EQ(folder.run("improve t.msh -o out.msh").exit_code, 0);
+  EXPECT_EQ(read_mesh(folder / "out.msh").quads.size(), 36u);
+  const ProgramResult refused = folder.run("improve t.msh --pipeline CO -o none.msh");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.err, "72 triangles and no quads")) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "none.msh"));
+}
+
+TEST(ImproveCommand, ModelsAndExperimentsBeginFromMeshes) {
+  const Workplace folder;
+  write_text(folder / "m.toml", "mesh = 'a.vtu'\nstart = true\n");
+  const std::string cases = "[[case]]\nname = 'a'\nmesh = 'a.vtu'\nstart = true\n";
+  write_text(folder / "e.toml", "pipelines = ['CO', 'O', 'DB']\n" + cases);
+  write_text(folder / "shell.toml", "pipelines = ['CO', 'O']\n" + cases);
+  for (const bool in_space : {false, true}) {
+    write_mesh(folder / "a.vtu", in_space ? bad_shell() : bad_grid());
+    EXPECT_EQ(folder.run("info m.toml").exit_code, 0);
+    if (!in_space) {
+      EXPECT_EQ(folder.run("mesh m.toml --pipeline O -o out.msh").exit_code, 0);
+    }
+    const ProgramResult result =
+        folder.run(in_space ? "run shell.toml -o shell" : "run e.toml -o results --pictures none");
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    const std::size_t before = result.out.find("eta mean"), after = result.out.rfind("eta mean");
-    EXPECT_LT(std::stod(result.out.substr(before + 9)), 0.9) << name;
-    EXPECT_GT(std::stod(result.out.substr(after + 9)), 0.97) << name;
-    EXPECT_EQ(read_mesh(folder / "out.msh").quads.size(), 64u);
+    EXPECT_EQ(
+        folder.run(in_space ? "rerun shell/a/CO/record.json" : "rerun results/a/CO/record.json").exit_code,
+        0);
   }
-  const TemporaryFolder folder;
-  write_mesh(folder / "a.vtu", bad_shell());
-  const auto file = write_text(folder / "e.toml",
-                               "pipelines = [\"CO\", \"O\"]\n[[case]]\nname = \"a\"\nmesh = \"a.vtu\"\n"
-                               "start = true\n");
-  const ProgramResult result = delquad({"run", file, "-o", folder / "results"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(delquad({"rerun", folder / "results/a/CO/record.json"}).exit_code, 0);
-  EXPECT_EQ(delquad({"info", write_text(folder / "m.toml", "mesh = \"a.vtu\"\nstart = true\n")}).exit_code,
-            0);
+  // Words from elements need some.
+  write_text(folder / "f.toml",
+             "pipelines = ['CO']\n" + cases + "[[case]]\nname = 'b'\nsize = 0.1\n" + kSquare);
+  const ProgramResult refused = folder.run("run f.toml -o none");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.err, "'C' starts from quads")) << refused.err;
 }
 
 TEST(ImproveCommand, TornMeshesAreToldAndWelded) {
-  const TemporaryFolder folder;
+  const Workplace folder;
   Mesh mesh = bad_shell();
   for (std::size_t q = 32; q < 64; ++q)  // the upper half gets nodes of its own along the middle
     for (int& v : mesh.quads[q])
       if (v < 45) v += 45;
   for (int v = 36; v < 45; ++v) mesh.points.push_back(mesh.points[v] + Vec3{0, 1e-7, 0});
   write_mesh(folder / "torn.msh", mesh);
-  const std::string told = "9 points at open edges coincide with others";
-  const auto torn = delquad({"improve", folder / "torn.msh", "-o", folder / "out.msh"});
-  EXPECT_TRUE(contains(torn.err, told)) << torn.err;
-  EXPECT_TRUE(contains(delquad({"metrics", folder / "torn.msh"}).err, told));
-  EXPECT_TRUE(contains(delquad({"convert", folder / "torn.msh", folder / "c.msh"}).err, told));
+  write_text(folder / "m.toml", "mesh = 'torn.msh'\nstart = true\n");
+  for (const char* words :
+       {"improve torn.msh -o out.msh", "metrics torn.msh", "convert torn.msh c.msh", "info m.toml"}) {
+    const ProgramResult torn = folder.run(words);
+    EXPECT_TRUE(
+        contains(words[1] == 'n' ? torn.out : torn.err, "9 points at open edges coincide with others"))
+        << words << torn.out << torn.err;
+  }
   EXPECT_EQ(read_mesh(folder / "c.msh").points.size(), 90u);
-  const auto model = write_text(folder / "m.toml", "mesh = \"torn.msh\"\nstart = true\n");
-  EXPECT_TRUE(contains(delquad({"info", model}).out, told));
-  for (const char* command : {"improve", "convert"}) {
-    std::vector<std::string> arguments = {command, folder / "torn.msh", "--weld", "1e-6"};
-    if (command[0] == 'i') arguments.push_back("-o");
-    arguments.push_back(folder / "joined.msh");
-    const auto joined = delquad(arguments);
+  for (const char* words :
+       {"improve torn.msh --weld 1e-6 -o joined.msh", "convert torn.msh --weld 1e-6 joined.msh"}) {
+    const ProgramResult joined = folder.run(words);
     EXPECT_EQ(joined.exit_code, 0);
     EXPECT_TRUE(contains(joined.err, "welded 9 points")) << joined.err;
     EXPECT_EQ(read_mesh(folder / "joined.msh").points.size(), 81u);
@@ -129,7 +115,7 @@ TEST(ImproveCommand, TornMeshesAreToldAndWelded) {
 }
 
 TEST(ImproveCommand, WebsAreWeldedToPlates) {
-  const TemporaryFolder folder;
+  const Workplace folder;
   Mesh mesh = bad_shell();
   for (int row = 0; row < 3; ++row)  // a web of 8 x 2 quads stands on the middle line
     for (int i = 0; i < 9; ++i) mesh.points.push_back((1 + 0.2 * row) * mesh.points[36 + i]);
@@ -139,17 +125,16 @@ TEST(ImproveCommand, WebsAreWeldedToPlates) {
     mesh.quad_region.push_back(0);
   }
   write_mesh(folder / "torn.msh", mesh);
-  const auto torn = delquad({"metrics", folder / "torn.msh"});
+  const ProgramResult torn = folder.run("metrics torn.msh");
   EXPECT_TRUE(contains(torn.err, "9 points at open edges coincide with others")) << torn.err;
-  const auto joined =
-      delquad({"improve", folder / "torn.msh", "--weld", "1e-6", "-o", folder / "joined.msh"});
+  const ProgramResult joined = folder.run("improve torn.msh --weld 1e-6 -o joined.msh");
   ASSERT_EQ(joined.exit_code, 0) << joined.err;
   const Mesh result = read_mesh(folder / "joined.msh");
   EXPECT_EQ(result.points.size(), 81u + 18u);
   int branching = 0;
   for_each_edge(sorted_half_edges(result), [&](const auto& edge) { branching += edge.size() == 3; });
   EXPECT_EQ(branching, 8);
-  EXPECT_FALSE(contains(delquad({"metrics", folder / "joined.msh"}).err, "coincide"));
+  EXPECT_FALSE(contains(folder.run("metrics joined.msh").err, "coincide"));
 }
 
 }  // namespace

@@ -23,19 +23,6 @@ std::vector<std::string> mesh_words(const TemporaryFolder& folder, const std::ve
   return words;
 }
 
-TEST(TimeLimit, EndsTheRunWithTheStageAndItsFace) {
-  const TemporaryFolder folder;
-  auto words = mesh_words(folder, kLong);
-  words.insert(words.end(), {"--time-limit", "1.5"});
-  const ProgramResult result = delquad(words);
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_TRUE(result.err.starts_with("error: not done after 1.5 s (--time-limit): ")) << result.err;
-  EXPECT_TRUE(contains(result.err, "Lp-CVT smoothing of region 1 (")) << result.err;
-  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-  EXPECT_EQ(result.out, "");
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
-}
-
 TEST(StageTimes, NameTheLongestStageUnlessItIsTheLast) {
   StageTimes times;
   EXPECT_EQ(times.longest(9), "") << "no stage has begun";
@@ -47,23 +34,6 @@ TEST(StageTimes, NameTheLongestStageUnlessItIsTheLast) {
   times.begin("lifting", 62);
   EXPECT_EQ(times.longest(94), "; boundary took longest: 42.0 s");
   EXPECT_EQ(times.longest(95), "");
-}
-
-TEST(TimeLimit, IsNotFeltByWhatIsDone) {
-  const TemporaryFolder folder;
-  const ProgramResult result =
-      delquad(mesh_words(folder, {"--size", "0.1", "--time-limit", "1e6", "--pipeline", "D"}));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.err, "");
-}
-
-TEST(TimeLimit, MustBeATime) {
-  const TemporaryFolder folder;
-  for (const char* bad : {"0", "-1", "soon"}) {
-    const ProgramResult result = delquad(mesh_words(folder, {"--size", "0.1", "--time-limit", bad}));
-    EXPECT_EQ(result.exit_code, 2) << bad;
-    EXPECT_TRUE(contains(result.err, "--time-limit")) << result.err;
-  }
 }
 
 struct Ending {

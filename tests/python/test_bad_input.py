@@ -1,5 +1,9 @@
 """What cannot be meshed: an exception that says what and where, and an interpreter that goes on."""
 
+import pathlib
+import re
+import tomllib
+
 import numpy as np
 import pytest
 
@@ -59,7 +63,6 @@ def test_models_that_fail_when_they_are_meshed(tmp_path):
     says(delquad.InputError, "none.step", tmp_path / "none.step", 1)
     says(delquad.InputError, "unknown kind", tmp_path / "a.xyz", 1)
     says(TypeError, "model: expected", 17, 1)
-    says(delquad.InputError, "options: 'insertion.h_max' must be a finite number", square(), 1, options={"insertion.h_max": [1.5]})
     (tmp_path / "broken.msh").write_bytes(b"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2 3")
     says(delquad.InputError, "broken.msh", tmp_path / "broken.msh", 1)
 
@@ -86,13 +89,20 @@ def test_models_that_fail_when_they_are_meshed(tmp_path):
         ({"size": 0.1, "seed": -1}, "seed: 'seed' is -1"),
         ({"size": 0.1, "sources": [((0, 0, 0), (0, 0, 0), 0, 1, 0, 1)]}, "sources: 'near' is 0: expected a number above 0"),
         ({"size": 0.1, "cross": "sideways"}, "cross"),
-        ({"size": 0.1, "options": {"insertion.h_mix": 1.5}}, "options: unknown key 'insertion.h_mix'; did you mean 'h_max'"),
-        ({"size": 0.1, "options": {"insertion.h_max": 100}}, "insertion.h_max"),
-        ({"size": 0.1, "options": {"insertion.h_max": True}}, "insertion.h_max"),
     ],
 )
 def test_problems(named, pattern):
     says(delquad.InputError, pattern, square(), **named)
+
+
+# The rows that the command line and model files are tried with.
+ROWS = re.findall(r"^  \| (\w+\.\w+)=(\S+) \| (.*)$", (pathlib.Path(__file__).parents[1] / "program/refusals.txt").read_text(), re.MULTILINE)
+
+
+@pytest.mark.parametrize("key, value, words", ROWS)
+def test_keys_of_stages(key, value, words):
+    pattern = "options: .*" + ".*".join(map(re.escape, words.split(" ... ")))
+    says(delquad.InputError, pattern, square(), 0.1, options={key: tomllib.loads("it = " + value.replace("\\", ""))["it"]})
 
 
 def test_surfaces():

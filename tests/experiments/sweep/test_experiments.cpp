@@ -89,36 +89,6 @@ TEST(Experiments, LewisReachesThePublishedRow) {
   }
 }
 
-TEST(Experiments, MisspeltNamesAreSuggested) {
-  const testing_support::TemporaryFolder folder;
-  const auto expect = [&](const std::string& text, std::initializer_list<const char*> parts) {
-    const auto file = testing_support::write_text(
-        folder / "e.toml", text + "\n[[case]]\nname = \"a\"\nsize = 1\nexample = \"sphere\"\n");
-    expect_input_error([&] { Experiment::read(file); }, parts);
-  };
-  expect("columns = [\"quadz\"]", {"e.toml:1", "'quadz'", "did you mean 'n_quads'?"});
-  expect("pipelines = [\"DB\", \"dbco\"]", {"e.toml:1", "'dbco'", "did you mean 'DBCO'?"});
-  expect("[[case]]\nname = \"b\"\nsize = 1\nexample = \"spere\"",
-         {"e.toml:4", "'spere'", "did you mean 'sphere'?"});
-}
-
-TEST(Experiments, KeysThatWentSayTheNewWay) {
-  const testing_support::TemporaryFolder folder;
-  const auto expect = [&](const std::string& text, std::initializer_list<const char*> parts) {
-    const auto file = testing_support::write_text(
-        folder / "e.toml", text + "\n[[case]]\nname = \"a\"\nsize = 1\nexample = \"sphere\"\n");
-    expect_input_error([&] { Experiment::read(file); }, parts);
-  };
-  expect("[ratio]\nmetric = \"d4\"", {"e.toml:1", "no 'ratio' any longer", "runs.csv"});
-  expect("[slopes]\nof = [\"d4\"]", {"e.toml:1", "no 'slopes' any longer", "what_buys_error.py"});
-  expect("[correlate]\nof = [\"d4\"]", {"e.toml:1", "no 'correlate' any longer", "which_quality.py"});
-  expect("[linf_delaunay]\npoints = [9]", {"e.toml:1", "no 'linf_delaunay' any longer", "make paper"});
-  expect("repeat_times = 4", {"e.toml:1", "no 'repeat_times' any longer", "'seed' in [matrix]"});
-  const std::string claim = "[[hypotheses]]\nbetter = \"DB\"\nthan = \"FB\"\nmeasures = [\"d4\"]\n";
-  expect(claim + "secondary = true", {"e.toml:5", "no 'secondary' any longer", "one family"});
-  expect(claim + "two_sided = true", {"e.toml:5", "no 'two_sided' any longer", "two-sided"});
-}
-
 /// Keys at the top hold for planar cases and cases in space alike.
 TEST(Experiments, TakeMetricsInSpace) {
   const testing_support::TemporaryFolder folder;
@@ -132,11 +102,8 @@ TEST(Experiments, TakeMetricsInSpace) {
   EXPECT_GT(read_records(folder / "out").at(0).values.at("metric_eta_mean"), 0.5);
 }
 
-TEST(Experiments, DataExcludesOtherModels) {
+TEST(Experiments, DataMayBeAbsent) {
   const testing_support::TemporaryFolder folder;
-  expect_input_error(
-      [&] { read_model_case(testing_support::write_text(folder / "m.toml", "data = \"part.step\"\n")); },
-      {"m.toml:1", "experiments"});
   const auto experiment = [&](const std::string& keys) {
     return Experiment::read(
         testing_support::write_text(folder / "e.toml", "[[case]]\nname = \"a\"\nsize = 1\n" + keys), "there");
@@ -146,11 +113,6 @@ TEST(Experiments, DataExcludesOtherModels) {
   EXPECT_TRUE(e.read_variant(0).may_be_absent);
   testing_support::write_text(folder / "part.step", "");
   EXPECT_FALSE(experiment("model = \"part.step\"\n").read_variant(0).may_be_absent);
-  expect_input_error([&] { experiment("data = \"part.step\"\nmodel = \"part.stl\"\n"); },
-                     {"e.toml:", "exclude each other"});
-  expect_input_error([&] { experiment("data = \"part.stp\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n"); },
-                     {"e.toml:4", "exclude each other"});
-  expect_input_error([&] { experiment("data = \"part.toml\"\n"); }, {"e.toml:4", "no data"});
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include "experiments/sweep/experiment.h"
 #include "patches/prepared.h"
-#include "tests/support/expect_input_error.h"
 #include "tests/support/prepare_case.h"
 #include "tests/support/temporary_folder.h"
 
@@ -39,7 +38,6 @@ TEST_F(Matrix, KeysMayBeQuoted) {
   ASSERT_EQ(e.n_variants(), 2u);
   EXPECT_EQ(e.read_variant(0, 1).options.number("insertion.h_max"), 1.4);
   EXPECT_EQ(e.read_variant(0, 1).folder, "a@seed=2,h_max=1.4");
-  expect_input_error([&] { read("[matrix]\n\"a.b\" = [1]\na.b = [2]\n"); }, {"e.toml:", "'a.b'", "twice"});
 }
 
 TEST_F(Matrix, OtherKeysOfATableStay) {
@@ -64,13 +62,6 @@ TEST_F(Matrix, VariantsAreSetsOfKeysUnderAName) {
   EXPECT_EQ(none.options.number("insertion.rejection"), 0.5);
   EXPECT_FALSE(none.options.flag("repair.part_twins"));
   EXPECT_TRUE(all.cross.text.empty() && all.options.flag("repair.part_twins"));
-  expect_input_error([&] { read("[[variant]]\nname = \"x\"\n[[variant]]\nname = \"x\"\n"); },
-                     {"e.toml:4", "'x' is there twice"});
-  expect_input_error([&] { read("[[variant]]\nname = \"x\"\nloop = 1\n"); }, {"e.toml:3", "'variant.loop'"});
-  expect_input_error([&] { read("[[variant]]\nname = \"x\"\ncleanup.round = 1\n"); },
-                     {"e.toml:3", "did you mean 'rounds'"});
-  expect_input_error([&] { read("[[variant]]\nname = \"x\"\nseed = 1\n[matrix]\nseed = [1]\n"); },
-                     {"e.toml:", "'seed'", "varies already"});
 }
 
 TEST_F(Matrix, LikeNamedAxesAndLongValuesAreToldApart) {
@@ -82,31 +73,6 @@ TEST_F(Matrix, LikeNamedAxesAndLongValuesAreToldApart) {
   const Experiment more =
       read("[matrix]\ncleanup.seed = [1]\nseed = [2]\nsize = [\"2\", \"1/" + value + "\", \"1\"]\n");
   EXPECT_EQ(more.read_variant(0, 1).folder, folder) << "another value beside it changes nothing";
-}
-
-TEST_F(Matrix, MistakesAreNamed) {
-  expect_input_error([&] { read("[matrix]\nsize = 0.1\n"); }, {"e.toml:2", "'matrix.size'", "a list"});
-  expect_input_error([&] { read("[matrix]\nsize = []\n"); }, {"e.toml:2", "at least one"});
-  expect_input_error([&] { read("[matrix]\nsize = [1, 2, 1]\n"); }, {"e.toml:2", "1 twice"});
-  expect_input_error([&] { read("[matrix]\nsize = [0.1, -1]\nseed = [-1]\n"); },
-                     {"e.toml:3", "'seed' is -1"});
-  expect_input_error([&] { read("[matrix]\ninsertion.h_mx = [1.3]\n"); },
-                     {"e.toml:2", "'matrix.insertion.h_mx'", "'h_max'"});
-  expect_input_error([&] { read("[matrix]\nsead = [1, 2]\n"); },
-                     {"e.toml:2: unknown key 'matrix.sead'; did you mean 'seed'?"});
-  expect_input_error([&] { read("[matrix]\nsize = [0.1, true]\n"); }, {"e.toml:2: 'matrix.size' must be"});
-  expect_input_error([&] { read("[matrix]\ninsertoin.h_max = [1.3]\n"); },
-                     {"e.toml:2", "'matrix.insertoin'", "'insertion'"});
-  expect_input_error(
-      [&] {
-        read("[matrix]\ninsertion.h_max = [1.3]\n",
-             kSquare + "size = 0.1\ninsertion = { rejektion = 0.5 }\n");
-      },
-      {"e.toml:7", "'case.insertion.rejektion'", "'rejection'"});
-  expect_input_error([&] { read("[matrix]\nsize.gradation = [0.3]\n"); },
-                     {"e.toml:2", "'size' is no table at", "e.toml:6"});
-  expect_input_error([&] { read("[matrix]\ninsertion.h_max = [9]\n"); },
-                     {"e.toml:2", "'insertion.h_max' is 9"});
 }
 
 /// Another place for every node, but the same domain.

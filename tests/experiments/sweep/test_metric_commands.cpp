@@ -136,23 +136,6 @@ TEST_F(MetricCommands, FailuresAreNamedAndTheMeshIsThere) {
   EXPECT_FALSE(fs::exists(folder_ / "out" / "square" / ".DB.work"));
 }
 
-/// A failed measure counts as a failed cell does, in its shard and in later runs, too; one that is not
-/// defined does not.
-TEST_F(MetricCommands, FailuresCountInTheExitCode) {
-  const auto exit_code = [&](const std::string& metrics) {
-    const std::string file = write(metrics).string();
-    const std::string out = (folder_ / "out").string();
-    return testing_support::run_program(DELQUAD_PROGRAM, {{"run", file, "-o", out}, 0, {}});
-  };
-  const auto failed = exit_code(metric("m", "exit 3"));
-  EXPECT_EQ(failed.exit_code, 1) << failed.err;
-  EXPECT_NE(failed.err.find("error: square DB: no 'm': sh: ended with exit code 3"), std::string::npos)
-      << failed.err;
-  EXPECT_EQ(exit_code(metric("m", "exit 3")).exit_code, 1);
-  const auto undefined = exit_code(metric("m", "echo nan"));
-  EXPECT_EQ(undefined.exit_code, 0) << undefined.err;
-}
-
 /// What determines a value belongs to the cell's key; a cell whose measures have failed is tried again.
 TEST_F(MetricCommands, AreMadeAgainWhenTheirFilesChange) {
   const auto script = testing_support::write_text(folder_ / "measure.sh", "echo 1\n");
@@ -204,33 +187,6 @@ TEST_F(MetricCommands, PlaceholdersAreFilledIn) {
             "\"sh\", \"{mesh}\", \"{case}-{pipeline}-{size}-{seed}\", \"{folder}\"]\n",
             "[\"DB\"]"));
   EXPECT_EQ(record("DB")["metrics"]["m"], 1) << record("DB")["failed_metrics"];
-}
-
-TEST_F(MetricCommands, MistakesAreNamed) {
-  const auto refused = [&](const std::string& text, std::initializer_list<const char*> parts) {
-    expect_input_error([&] { Experiment::read(write(text)); }, parts);
-  };
-  const std::string good = "[[metric]]\nname = \"m\"\ncommand = [\"x\", \"{mesh}\"]\n";
-  EXPECT_NO_THROW(Experiment::read(write(good)));
-  refused("[[metric]]\ncommand = [\"x\", \"{mesh}\"]\n", {"e.toml:2", "'metric.name'"});
-  refused("[[metric]]\nname = \"m\"\n", {"e.toml:2", "'metric.command'"});
-  refused("[[metric]]\nname = \"m\"\ncommand = [\"x\"]\n", {"e.toml:4", "lacks {mesh}"});
-  refused("[[metric]]\nname = \"m\"\ncommand = [\"x\", \"{msh}\"]\n",
-          {"e.toml:4", "the unknown {msh}", "did you mean '{mesh}'?"});
-  refused("[[metric]]\nname = \"m\"\ncommand = []\n", {"e.toml:4", "is empty"});
-  refused(good + good, {"e.toml:6", "there is a metric 'm' already"});
-  refused("[[metric]]\nname = \"\"\ncommand = [\"x\", \"{mesh}\"]\n", {"e.toml:3", "'name' is empty"});
-  for (const char* name : {"1m", "a b", "a.b", "../a"})
-    refused("[[metric]]\nname = \"" + std::string(name) + "\"\ncommand = [\"x\", \"{mesh}\"]\n",
-            {"e.toml:3", "name of a metric"});
-  for (const char* name : {"tau", "seconds", "seconds_total"})
-    refused("[[metric]]\nname = \"" + std::string(name) + "\"\ncommand = [\"x\", \"{mesh}\"]\n",
-            {"e.toml:3", "already"});
-  refused(good + "better = \"more\"\n", {"e.toml:5: 'better' is 'more': expected higher, lower, neither"});
-  refused(good + "timeout = 0\n", {"e.toml:5: 'timeout' is 0: expected 1 to 604800"});
-  refused(good + "digits = 13\n", {"e.toml:5", "0 to 12"});
-  refused(good + "files = [\"nowhere.txt\"]\n", {"e.toml:5", "nowhere.txt"});
-  refused(good + "tiitle = \"x\"\n", {"'metric.tiitle'", "did you mean 'title'?"});
 }
 
 }  // namespace

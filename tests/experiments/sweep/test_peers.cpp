@@ -316,38 +316,6 @@ TEST_F(Peers, ProgramsEndWithTheirLimit) {
   EXPECT_EQ(run_program({"no-such-program"}, folder_.path(), folder_ / "log").error, ENOENT);
 }
 
-TEST_F(Peers, BadEntriesAreNamed) {
-  const auto expect = [&](const std::string& entry, std::initializer_list<const char*> parts) {
-    expect_input_error([&] { experiment("[\"DB\"]", "[[peer]]\n" + entry + kPeerSquare); }, parts);
-  };
-  const std::string version = "version = [\"true\"]\n", name = "name = \"x\"\n";
-  expect(name + version + "command = [\"x\", \"{input}\"]\n", {"{output}", "command"});
-  expect(name + version + "command = [\"x\", \"{imput}\", \"{output}\"]\n",
-         {"peers.toml:5: 'command' has the unknown {imput}", "did you mean '{input}'?"});
-  expect(name + version + "command = [\"x\", \"{input}\", \"{output}\", \"--h={mesh}\"]\n",
-         {"peers.toml:5", "the unknown {mesh}; known: {input}, {output}"});
-  expect(name + version + "command = [\"sh\", \"-c\", \"x {imput} {output}\"]\n",
-         {"peers.toml:5", "the unknown {imput}; did you mean '{input}'?"});
-  EXPECT_NO_THROW(experiment("[\"DB\"]", "[[peer]]\n" + name + version +
-                                             "command = [\"sh\", \"-c\", \"awk '{print}' {input} > ${x} "
-                                             "{output}\", \"${y}\", \"{ 1 }\"]\n" +
-                                             kPeerSquare));
-  expect(name + version + "command = []\n", {"command", "empty"});
-  expect(name + version + "command = [\"./nothere.sh\", \"{input}\", \"{output}\"]\n",
-         {"peers.toml:5: 'command': there is no program '", "nothere.sh'"});
-  EXPECT_NO_THROW(experiment(
-      "[\"DB\"]",
-      "[[peer]]\n" + name + version + "command = [\"nothere\", \"{input}\", \"{output}\"]\n" + kPeerSquare));
-  expect(name + "command = [\"x\", \"{input}\", \"{output}\"]\n", {"version"});
-  const std::string command = version + "command = [\"x\", \"{input}\", \"{output}\"]\n";
-  expect("name = \"Gmsh\"\n" + command, {"Gmsh", "small letter"});
-  expect(name + command + "output = \"vtu\"\n", {"vtu", "msh, obj"});
-  expect(name + command + "[[peer]]\n" + name + command, {"second peer"});
-  expect_input_error([&] { experiment("[\"y\"]", "[[peer]]\n" + name + command + kPeerSquare); }, {"'y'"});
-  expect_input_error([&] { experiment("[\"x\", \"x\"]", "[[peer]]\n" + name + command + kPeerSquare); },
-                     {"'x'", "twice"});
-}
-
 /// A ring and a disc with a hole by a spline. An arc and a point lie inside.
 TEST_F(Peers, CurvesAreTheModels) {
   const auto file =

@@ -185,58 +185,6 @@ TEST_F(CalibratedPeers, KeepWhatTheyHaveWhenARunFails) {
   EXPECT_NE(to_markdown(outcome.table).find(" % at most: "), std::string::npos);
 }
 
-TEST_F(CalibratedPeers, KeysAreChecked) {
-  const std::string entry = peer("grid", kCoarserGrid);
-  expect_input_error(
-      [&] { experiment("pipelines = [\"grid\"]\ncalibrate = \"quads\"\n" + entry + kCalibratedSquare); },
-      {"calibrate_to", "no word that makes quads"});
-  expect_input_error(
-      [&] {
-        experiment("pipelines = [\"DB\", \"grid\"]\ncalibrate = \"vertices\"\n" + entry + kCalibratedSquare);
-      },
-      {"'calibrate' is 'vertices': expected none, quads"});
-  expect_input_error(
-      [&] {
-        experiment("pipelines = [\"DB\", \"grid\"]\ncalibrate = \"quads\"\ncalibrate_to = \"D\"\n" + entry +
-                   kCalibratedSquare);
-      },
-      {"'D'", "no quads"});
-  expect_input_error(
-      [&] { experiment("pipelines = [\"DB\"]\n" + entry + "planar = \"tetrahedra\"\n" + kCalibratedSquare); },
-      {"tetrahedra", "boundary"});
-  expect_input_error(
-      [&] { experiment("pipelines = [\"DB\"]\n" + entry + "size_field = \"points\"\n" + kCalibratedSquare); },
-      {"{size_field}"});
-  expect_input_error(
-      [&] {
-        experiment("pipelines = [\"DB\"]\n" + peer("x", "", "\"{size_field}\"", "size_field = \"grid\"\n") +
-                   kCalibratedSquare);
-      },
-      {"grid", "pos, sol, points"});
-}
-
-/// Peers may come from the command line: only with these it is known whether there are any.
-TEST_F(CalibratedPeers, AreThereWhereACalibrationIsAskedFor) {
-  const std::string peers_file = write_text(folder_ / "grid.toml", peer("grid", kCoarserGrid)).string();
-  const auto run = [&](const std::string& text, std::vector<std::string> more = {}) {
-    const std::string file = write_text(folder_ / "e.toml", text + kCalibratedSquare).string();
-    std::vector<std::string> arguments = {"run", file, "-o", out().string(), "--dry-run"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return testing_support::run_program(DELQUAD_PROGRAM, {arguments, 0, {}});
-  };
-  const std::string ask = "pipelines = [\"DB\"]\ncalibrate = \"quads\"\n";
-  const auto alone = run(ask);
-  EXPECT_EQ(alone.exit_code, 2);
-  EXPECT_NE(alone.err.find("e.toml:2: 'calibrate' has no effect: there are no peers"), std::string::npos)
-      << alone.err;
-  EXPECT_EQ(run(ask, {"--peer", peers_file}).exit_code, 0);
-  EXPECT_EQ(run("pipelines = [\"DB\"]\ncalibrate = \"none\"\n").exit_code, 0);
-  const auto word = run("pipelines = [\"DB\"]\ncalibrate_to = \"DB\"\n", {"--peer", peers_file});
-  EXPECT_EQ(word.exit_code, 2);
-  EXPECT_NE(word.err.find("e.toml:2: 'calibrate_to' has no effect: expected 'calibrate"), std::string::npos)
-      << word.err;
-}
-
 /// Nothing has failed where a mesher cannot be told a case.
 TEST_F(CalibratedPeers, MayBeNotApplicable) {
   const std::string peers = peer("number", "true") + peer("surfaces", "true", "", "planar = \"none\"\n") +
@@ -357,23 +305,6 @@ TEST_F(CalibratedPeers, AreReadFromFilesOfTheirOwn) {
   write_text(folder_ / "none.toml", "");
   expect_input_error([&] { added.add_peer_file(folder_ / "none.toml"); }, {"none.toml", "[[peer]]"});
   expect_input_error([&] { added.add_peer_file(folder_ / "meshers" / "grid.toml"); }, {"second peer 'grid'"});
-}
-
-/// --peer runs all of a file, or those of them that --pipelines names.
-TEST_F(CalibratedPeers, FilesMayBeNamedOnTheCommandLine) {
-  write_text(folder_ / "two.toml", peer("one", kCoarserGrid) + peer("two", kCoarserGrid));
-  const fs::path file = write_text(folder_ / "e.toml", "pipelines = [\"DB\"]\n" + kCalibratedSquare);
-  const auto cells = [&](std::vector<std::string> more) {
-    std::vector<std::string> arguments = {"run", file.string(), "-o", out().string(), "--dry-run"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const std::string out = testing_support::run_program(DELQUAD_PROGRAM, {arguments, 0, {}}).out;
-    return out.substr(0, out.find("cells: "));
-  };
-  const std::string two = (folder_ / "two.toml").string();
-  const auto line = [](const char* name) { return "to do          square " + std::string(name) + "\n"; };
-  EXPECT_EQ(cells({}), line("DB"));
-  EXPECT_EQ(cells({"--peer", two}), line("DB") + line("one") + line("two"));
-  EXPECT_EQ(cells({"--peer", two, "--pipelines", "FB,two"}), line("FB") + line("two"));
 }
 
 using CalibratedPeersPrograms = CalibratedPeers;

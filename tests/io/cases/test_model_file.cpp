@@ -2,7 +2,6 @@
 
 #include "io/cases/case_file.h"
 #include "io/cases/model_file.h"
-#include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
@@ -78,10 +77,6 @@ TEST_F(ModelFiles, LinesEmbeddedInSurfaces) {
   EXPECT_EQ(c.surface.embed[0].name, "way");
   EXPECT_EQ(c.surface.embed[1].points, (std::vector<Vec3>{{0, 0, 10}}));
   EXPECT_EQ(c.surface.compounds, Compounds::kAll);
-  expect_input_error([&] { read_surface(sphere + "embed = { polyline = [[1, 2, 3]] }"); },
-                     {"s.toml:2", "two points or more"});
-  expect_input_error([&] { read_surface(sphere + "embed = { name = \"a\" }"); },
-                     {"s.toml:2", "expected one of polyline, point"});
 }
 
 TEST_F(ModelFiles, EmbeddedCurvesAndPoints) {
@@ -97,49 +92,6 @@ TEST_F(ModelFiles, EmbeddedCurvesAndPoints) {
   ASSERT_EQ(model.points.size(), 1u);
   EXPECT_EQ(model.points[0].at, (Vec2{1.5, 0.5}));
   EXPECT_EQ(model.points[0].name, "sensor");
-  const std::string square = "loop = { rectangle = [[0, 0], [2, 2]] }\n";
-  expect_input_error([&] { read(square + "embed = { point = [1, 1], crack = true }"); },
-                     {"m.toml:2", "no crack"});
-  expect_input_error([&] { read(square + "embed = { segment = [[1, 1], [1, 1]] }"); }, {"m.toml:2"});
-  expect_input_error([&] { read(square + "embed = { name = \"nothing\" }"); }, {"m.toml:2", "no shape"});
-}
-
-TEST_F(ModelFiles, MistakesAreLocated) {
-  const std::string circle = "circle = { centre = [0, 0], radius = 1 }";
-  expect_input_error(
-      [&] { read("[[curve]]\nname = \"a\"\n" + circle + "\n[[curve]]\nname = \"a\"\n" + circle); },
-      {"m.toml:5", "second curve 'a'"});
-  expect_input_error([&] { read("[[loop]]\n" + circle + "\nboundary = [\"a\", \"b\"]"); },
-                     {"m.toml:3", "2 boundary names", "1 curves"});
-  expect_input_error([&] { read("[[loop]]\n" + circle + "\nhole = true\nregion = \"r\""); },
-                     {"m.toml:3", "exclude"});
-  expect_input_error([&] { read("[[loop]]\ncircle = { centre = [0, 0], radius = -1 }"); },
-                     {"m.toml:2", "'radius' is -1: expected a number above 0"});
-  expect_input_error([&] { read("[[loop]]\ncircle = { center = [0, 0], radius = 1 }"); },
-                     {"m.toml:2", "unknown key 'loop.circle.center'", "'centre'"});
-  const std::string arc = "arc = { center = [0, 0], radius = 1, from = 0, to = 90 }";
-  expect_input_error([&] { read("[[curve]]\nname = \"a\"\n" + arc); },
-                     {"m.toml:3", "arc.center'", "'centre'"});
-  expect_input_error([&] { read("[[curve]]\nnam = \"a\"\n" + circle); },
-                     {"m.toml:2", "'curve.nam'", "'name'"});
-  expect_input_error([&] { read("[[loop]]\ncurves = []"); }, {"m.toml:2", "no curves"});
-  for (const char* count : {"[0, 2]", "[2]", "[1.5, 2]", "[100000, 100000]"})
-    expect_input_error([&] { read("[[pattern]]\n" + circle + "\nstep = [1, 1]\ncount = " + count); },
-                       {"m.toml:4", "'count'"});
-}
-
-/// Before anything is missed that was meant.
-TEST_F(ModelFiles, UnknownKeysAreToldFirst) {
-  const auto refused = [&](const std::string& text, std::initializer_list<const char*> parts) {
-    expect_input_error([&] { read_model_case(testing_support::write_text(folder_ / "m.toml", text)); },
-                       parts);
-  };
-  const std::string curve = "curve = { name = \"a\", circle = { centre = [0, 0], radius = 1 } }\n";
-  refused(curve + "loops = { curves = [\"a\"] }\nsize = 0.1", {"m.toml:2", "unknown key 'loops'", "'loop'"});
-  refused("loop = { rectangle = [[0, 0], [1, 1]] }\nsize = { bas = 1 }",
-          {"m.toml:2", "'size.bas'", "'base'"});
-  refused("loop = { rectangle = [[0, 0], [1, 1]] }\nlayer = { on = \"a\", frist = 1, number = 2 }",
-          {"m.toml:2", "'layer.frist'", "'first'"});
 }
 
 }  // namespace

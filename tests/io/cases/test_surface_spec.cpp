@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "features/curves/surface_input.h"
 #include "io/cases/case_file.h"
-#include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace delquad {
@@ -57,50 +55,12 @@ TEST(SurfaceSpecs, HolesAndFilletsHaveRanges) {
   ASSERT_EQ(c.fillet_rows.size(), 1u);
   EXPECT_EQ(c.fillet_rows[0].rows, 3);
   EXPECT_EQ(c.surface.fill_holes, 2);
-  expect_input_error([&] { with("washers = [{ diameter = [5, 12], rows = -1 }]\n"); },
-                     {"m.toml:2", "'rows' is -1", "1 to 1000"});
-  expect_input_error([&] { with("washers = [{ diameter = 5 }]\n"); }, {"m.toml:2", "'washers.diameter'"});
-  expect_input_error([&] { with("washers = [{ diameter = [5, 6], edge = 8 }]\n"); }, {"m.toml:2", "'edges'"});
 }
 
 TEST(SurfaceSpecs, TheMirrorWeldsAsTheModelDoes) {
   EXPECT_EQ(
       read("weld_tolerance = 1e-5\nmirror = { point = [0, 0, 0], normal = [0, 0, 1] }\n").mirror->tolerance,
       1e-5);
-}
-
-TEST(SurfaceSpecs, NonsenseIsRefusedWithItsLine) {
-  const auto refused = [](const std::string& keys, std::initializer_list<const char*> parts) {
-    expect_input_error([&] { read(keys); }, parts);
-  };
-  refused("compound = \"most\"\n", {"m.toml:3", "'most'", "all or tangent"});
-  refused("glue = 1\n", {"m.toml:3", "glue"});
-  refused("compound = 3\n", {"m.toml:3", "list of lists"});
-  refused("compound = [1, 2]\n", {"m.toml:3", "list of lists"});
-  refused("compound = [[1, 2.5]]\n", {"m.toml:3", "list of lists"});
-  refused("compound = [[1, 3000000000]]\n", {"m.toml:3", "list of lists"});
-  refused("compound = [[1, 2], []]\n", {"m.toml:3", "two faces"});
-  refused("merge_curves = 0\n", {"m.toml:3", "merge_curves"});
-  refused("ignore_below = -1\n", {"m.toml:3", "ignore_below"});
-  refused("feature_angle = 200\n", {"m.toml:3", "200"});
-  refused("weld_tolerance = 1\n", {"m.toml:3", "0.1"});
-  refused("weld = 1e-5\n", {"m.toml:3", "weld"});
-  refused("\nmirror = { point = [0, 0], normal = [0, 0, 1] }\n", {"m.toml:4", "point", "three numbers"});
-  refused("mirror = { point = [0, 0, 0], normal = [0, 0, 0] }\n", {"m.toml:3", "no length"});
-  refused("mirror = { point = [0, 0, 0], normal = [0, 0, 1], tolerance = -1 }\n", {"m.toml:3", "tolerance"});
-  refused("mirror = { point = [0, 0, 0], normal = [0, 0, 1], plane = 1 }\n", {"m.toml:3", "plane"});
-}
-
-TEST(SurfaceSpecs, WhatDoesNothingForCadIsRefused) {
-  const auto made = [](const char* spec) {
-    MeshProblem problem;
-    problem.model = ExampleModel{"bracket"};
-    problem.surface = read(spec);
-    return make_surface(problem);
-  };
-  expect_input_error([&] { made("mirror = { point = [0, 0, 0], normal = [0, 0, 1] }\n"); },
-                     {"m.toml:2", "CAD"});
-  expect_input_error([&] { made("feature_angle = 20\n"); }, {"m.toml:2", "CAD"});
 }
 
 }  // namespace
