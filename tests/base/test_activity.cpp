@@ -1,13 +1,5 @@
 #include "base/activity.h"
-
-#include <gtest/gtest.h>
-
-#include <memory>
-#include <thread>
-#include <utility>
-#include <vector>
-
-#include "base/context.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

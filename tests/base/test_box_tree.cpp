@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "base/box_tree.h"
 #include "geometry/mesh/nearest_triangle.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

@@ -1,17 +1,7 @@
-#include "base/context.h"
-
-#include <gtest/gtest.h>
-
 #include <atomic>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <thread>
-#include <vector>
-
 #include "base/activity.h"
 #include "base/parallel.h"
-#include "delquad/error.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
 #include "base/disjoint_sets.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

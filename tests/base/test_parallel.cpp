@@ -1,13 +1,5 @@
 #include "base/parallel.h"
-
-#include <gtest/gtest.h>
-
-#include <numeric>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include "base/context.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

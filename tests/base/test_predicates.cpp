@@ -1,8 +1,4 @@
-#include "base/predicates.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

@@ -1,12 +1,5 @@
 #include "base/stopwatch.h"
-
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <functional>
-#include <thread>
-
-#include "base/context.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

@@ -1,17 +1,8 @@
-#include "base/system.h"
-
-#include <gtest/gtest.h>
-
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
-#include <fstream>
-#include <stdexcept>
-#include <vector>
-
 #include "base/process.h"
-#include "delquad/error.h"
-#include "tests/support/expect_input_error.h"
+#include "base/system.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -40,18 +31,18 @@ TEST(System, LibrariesThatCannotBeLoadedAreNamed) {
 TEST(System, TemporaryFoldersArePrivateAndGo) {
   fs::path first;
   {
-    const TemporaryFolder folder, other;
+    const delquad::TemporaryFolder folder, other;
     first = folder.path();
     EXPECT_NE(first, other.path());
     EXPECT_EQ(fs::status(first).permissions(), fs::perms::owner_all);
-    const TemporaryFolder inner(first / ".work");
+    const delquad::TemporaryFolder inner(first / ".work");
     EXPECT_EQ(inner.path().parent_path(), first);
     std::ofstream(inner.path() / "file") << "text";
     errno = ENOSPC;
   }
   EXPECT_EQ(errno, ENOSPC) << "it tells why a stream failed";
   EXPECT_FALSE(fs::exists(first));
-  EXPECT_THROW(TemporaryFolder("/nowhere/at/all"), InputError);
+  EXPECT_THROW(delquad::TemporaryFolder("/nowhere/at/all"), InputError);
 }
 
 /// Needs a kilobyte of the stack for each level.

@@ -1,6 +1,5 @@
 #include "base/warning.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

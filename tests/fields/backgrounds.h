@@ -1,15 +1,7 @@
 #pragma once
 
-#include <cmath>
-#include <functional>
-#include <memory>
-#include <span>
-#include <vector>
-
-#include "delquad/mesh.h"
 #include "fields/background_mesh.h"
-#include "geometry/mesh/constrained_delaunay.h"
-#include "tests/support/shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 

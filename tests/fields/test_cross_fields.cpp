@@ -1,12 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <complex>
-#include <numbers>
-
-#include "delquad/error.h"
-#include "delquad/fields.h"
-#include "fields/fields.h"
 #include "tests/fields/backgrounds.h"
 
 namespace delquad {

@@ -1,11 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
-#include "delquad/error.h"
-#include "delquad/fields.h"
-#include "fields/fields.h"
 #include "tests/fields/backgrounds.h"
 
 namespace delquad {

@@ -1,20 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <complex>
-#include <functional>
-#include <numbers>
-#include <vector>
-
 #include "fields/size_aware_cross_field.h"
 #include "tests/fields/backgrounds.h"
-#include "tests/support/analytic_fields.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::FunctionSize;
 
 constexpr double kQuarterTurn = std::numbers::pi / 2;
 

@@ -1,9 +1,4 @@
 #include "fields/laplace.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "tests/fields/backgrounds.h"
 
 namespace delquad {

@@ -1,10 +1,5 @@
-#include "fields/singularities.h"
-
-#include <gtest/gtest.h>
-
 #include <complex>
-#include <functional>
-
+#include "fields/singularities.h"
 #include "tests/fields/backgrounds.h"
 
 namespace delquad {

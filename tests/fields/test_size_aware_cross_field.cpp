@@ -1,20 +1,10 @@
-#include "fields/size_aware_cross_field.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <complex>
-#include <functional>
-#include <numbers>
-
+#include "fields/size_aware_cross_field.h"
 #include "tests/fields/backgrounds.h"
-#include "tests/support/analytic_fields.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::FunctionCross;
-using testing_support::FunctionSize;
 using Complex = std::complex<double>;
 
 /// Angle between two crosses, in [0, pi/4].

@@ -1,24 +1,13 @@
-#include "delquad/fields.h"
 #include "fields/surface/surface_size.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "fields/fields.h"
 #include "geometry/surface/improve_triangulation.h"
+#include "tests/support/meshing.h"
 #include "tests/support/polygon_face.h"
-#include "tests/support/surfaces.h"
 
 namespace delquad {
 namespace {
 
-namespace surfaces = testing_support;
-
 SurfaceModel square(int n, double side) {
-  return surfaces::grid_surface({n, n}, [=](double u, double v) { return Vec3{side * u, side * v, 0}; });
+  return grid_surface({n, n}, [=](double u, double v) { return Vec3{side * u, side * v, 0}; });
 }
 
 WantedSize curved(const SurfaceModel& model, double base, double per_turn, double gradation = 0.3) {
@@ -59,7 +48,7 @@ TEST(SlopeLimit, GrowsFromALineExactly) {
 
 TEST(SlopeLimit, SheetsCloseInSpaceDoNotMix) {
   // A strip folded once: its ends lie 0.01 above each other, 2 apart along the surface.
-  const SurfaceModel model = surfaces::grid_surface({40, 4}, [](double u, double v) {
+  const SurfaceModel model = grid_surface({40, 4}, [](double u, double v) {
     const double s = 2 * u;
     return s <= 1 ? Vec3{s, 0.2 * v, 0} : Vec3{2 - s, 0.2 * v, 0.01 * (s - 1)};
   });
@@ -87,8 +76,8 @@ TEST(SurfaceSizes, AreTheBaseWhereNothingElseIsWanted) {
 TEST(SurfaceSizes, FollowTheCurvatureOfClosedForms) {
   const double turn = 2 * std::numbers::pi / 24;
   for (const auto& [model, radius] :
-       {std::pair(surfaces::round_sphere(16), 1.0), std::pair(surfaces::cylinder(48, 12, 0.5, 2), 0.5),
-        std::pair(surfaces::torus(64, 32, 1, 0.4), 0.4)}) {
+       {std::pair(round_sphere(16), 1.0), std::pair(cylinder(48, 12, 0.5, 2), 0.5),
+        std::pair(torus(64, 32, 1, 0.4), 0.4)}) {
     const SurfaceSize size(model, curved(model, 2, 24));
     for (const Vec3& p : model.fine.points)
       EXPECT_NEAR(size_at(size, p), radius * turn, 0.15 * radius * turn);
@@ -96,7 +85,7 @@ TEST(SurfaceSizes, FollowTheCurvatureOfClosedForms) {
 }
 
 TEST(SurfaceSizes, KeepTheirLimits) {
-  const SurfaceModel model = surfaces::round_sphere(16);
+  const SurfaceModel model = round_sphere(16);
   WantedSize wanted = curved(model, 0.1, 24);
   EXPECT_DOUBLE_EQ(size_at(SurfaceSize(model, wanted), {1, 0, 0}), 0.1) << "the base is the largest";
   wanted = curved(model, 10, 1000);
@@ -108,7 +97,7 @@ TEST(SurfaceSizes, KeepTheirLimits) {
 // A plane of two large triangles between two arcs of tiny radius, as a plane between fillets.
 TEST(SurfaceSizes, APlaneBetweenSmallSizesGrowsUpToItsOwn) {
   const double r = 0.05;
-  SurfaceModel model = surfaces::grid_surface({14, 1}, [&](double u, double v) {
+  SurfaceModel model = grid_surface({14, 1}, [&](double u, double v) {
     const int i = static_cast<int>(std::lround(14 * u));
     const bool left = i < 7;
     const double angle = (left ? 6 - i : i - 8 + 1) * std::numbers::pi / 14;
@@ -147,7 +136,7 @@ TEST(SurfaceSizes, APlaneBetweenSmallSizesGrowsUpToItsOwn) {
 
 /// A polygon of which each side is a curve.
 SurfaceModel face_of_curves(const std::vector<Vec2>& corners, double step) {
-  SurfaceModel model = surfaces::polygon_face(corners, step);
+  SurfaceModel model = polygon_face(corners, step);
   Mesh& fine = model.fine;
   fine.curves.clear();
   for (std::size_t l = 0; l < fine.lines.size(); ++l) {

@@ -1,11 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "delquad/mesher.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -20,8 +13,7 @@ MeshProblem folded_sheet() {
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
   sheet.triangle_region = {0, 0, 1, 1};
   sheet.regions = {{1, {"floor"}}, {2, {"wall"}}};
-  MeshProblem problem;
-  problem.model = TriangleModel{sheet};
+  MeshProblem problem = problem_of(TriangleModel{sheet});
   // More edges on the ridge than beside.
   problem.size.field = make_function_size(
       [](const Vec3& p) { return std::max(p.z, kRidge - p.x) > 0.5 ? 1.0 : 0.8; }, "finer at the ridge");

@@ -1,9 +1,4 @@
-#include <gtest/gtest.h>
-
-#include "fields/fields.h"
-#include "mesher/prepare.h"
-#include "mesher/runner.h"
-#include "tests/support/prepare_surface.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -37,11 +32,7 @@ SurfaceModel three_pages() {
 }
 
 TEST(BranchingSurface, FacesShareTheirCurvesNodes) {
-  MeshProblem c;
-  c.name = c.where = "pages";
-  const PreparedProblem prepared =
-      testing_support::prepare_surface(c, three_pages(), make_constant_size(0.25));
-  const MeshResult result = run_word(prepared, parse_word("DB"));
+  const MeshResult result = meshed(three_pages(), 0.25, "DB");
   EXPECT_EQ(result.mesh.quads.size(), 3u * 16);
   EXPECT_TRUE(result.mesh.triangles.empty());
   ASSERT_TRUE(result.surface);

@@ -1,20 +1,7 @@
-#include <gtest/gtest.h>
 #include <malloc.h>
-
 #include <atomic>
-#include <chrono>
-#include <cmath>
-#include <memory>
-#include <random>
-#include <thread>
-
 #include "base/activity.h"
-#include "base/context.h"
-#include "delquad/error.h"
-#include "delquad/mesher.h"
-#include "mesher/prepare.h"
-#include "mesher/runner.h"
-#include "tests/support/triangulated_shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -24,21 +11,9 @@ namespace {
 /// many checks come after the one that finds the run cancelled.
 constexpr int kMostChecksAfter = 100;
 
-PlanarModel disc_with_hole() {
-  PlanarModel model;
-  model.source = "disc";
-  model.curves = {{make_circle({0, 0}, 1), "", "outer"}, {make_circle({0.3, 0.1}, 0.2), "", "inner"}};
-  model.loops = {{{0}, "", "outer"}, {{1}, "", "inner", true}};
-  return model;
-}
+PlanarModel disc_with_hole() { return ModelMaker().circle({0, 0}, 1).circle({0.3, 0.1}, 0.2); }
 
-PlanarModel square() {
-  PlanarModel model;
-  model.source = "square";
-  model.curves = {{make_polyline({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}), "", "outline"}};
-  model.loops = {{{0}, "", "outline"}};
-  return model;
-}
+PlanarModel square() { return ModelMaker().loop({make_polyline({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}})}); }
 
 /// Small near one place, so that sizes vary.
 std::shared_ptr<const SizeField> graded(double delta) {
@@ -47,8 +22,7 @@ std::shared_ptr<const SizeField> graded(double delta) {
 }
 
 MeshProblem planar_problem() {
-  MeshProblem problem;
-  problem.model = disc_with_hole();
+  MeshProblem problem = problem_of(disc_with_hole());
   problem.size.field = graded(0.08);
   return problem;
 }
@@ -60,17 +34,10 @@ MeshProblem size_aware_problem() {
   return problem;
 }
 
-MeshProblem box_problem() {
-  MeshProblem problem;
-  problem.model = TriangleModel{testing_support::box(4), "box"};
-  problem.size.field = make_constant_size(0.11);
-  return problem;
-}
+MeshProblem box_problem() { return problem_of(TriangleModel{box(4), "box"}, 0.11); }
 
 MeshProblem lens_problem() {
-  MeshProblem problem;
-  problem.model = TriangleModel{testing_support::lens(24, 6, 0.3), "lens"};
-  problem.size.field = make_constant_size(0.1);
+  MeshProblem problem = problem_of(TriangleModel{lens(24, 6, 0.3), "lens"}, 0.1);
   problem.size.curvature = 30;
   return problem;
 }
@@ -86,7 +53,7 @@ const Row kTable[] = {
     {"boxGood", "DBCO", box_problem},        {"lensBest", "DLBCO", lens_problem},
 };
 
-Mesh mesh_of(const Row& row) { return run_word(prepare_problem(row.problem()), parse_word(row.word)).mesh; }
+Mesh mesh_of(const Row& row) { return meshed(prepare_problem(row.problem()), row.word).mesh; }
 
 bool same(const Mesh& a, const Mesh& b) {
   return a.points == b.points && a.quads == b.quads && a.triangles == b.triangles && a.lines == b.lines;
@@ -193,7 +160,7 @@ TEST(CancellationBySize, IsHeardBeforeTheSizeIsAskedOftenAgain) {
     problem.size.field = size;
     const RunScope scope({.threads = 1, .cancel = stop.get_token()});
     try {
-      run_word(prepare_problem(problem), parse_word("DLBCO"));
+      meshed(prepare_problem(problem), "DLBCO");
     } catch (const Cancelled&) {
     }
     return size->evaluations();
@@ -238,11 +205,9 @@ TEST(ManyMeshes, DoNotFillTheMemory) {
   constexpr int kFirst = 100, kMeshes = 400;
   constexpr std::size_t kMostPerMesh = 256;  // bytes
   const auto mesh_once = [] {
-    MeshProblem problem;
-    problem.model = square();
-    problem.size.field = make_constant_size(0.25);
+    MeshProblem problem = problem_of(square(), 0.25);
     const RunScope run({.threads = 2});
-    return run_word(prepare_problem(problem), parse_word("DLBCO")).mesh.quads.size();
+    return meshed(prepare_problem(problem), "DLBCO").mesh.quads.size();
   };
   for (int i = 0; i < kFirst; ++i) ASSERT_GT(mesh_once(), 0u);
   malloc_trim(0);
@@ -270,7 +235,7 @@ TEST(ManyMeshes, ThatAreCancelledDoNotFillTheMemory) {
                           if (++checks == at) stop.request_stop();
                         }});
     try {
-      run_word(prepare_problem(problem), parse_word("DLBCO"));
+      meshed(prepare_problem(problem), "DLBCO");
     } catch (const Cancelled&) {
     }
   };

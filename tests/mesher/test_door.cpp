@@ -1,20 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-#include "delquad/extend.h"
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/triangulated_shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
 
 MeshProblem plate() {
-  MeshProblem problem;
+  MeshProblem problem =
+      problem_of(polygons({{{0, 0}, {3, 0}, {3, 2}, {0, 2}}, {{1, 0.5}, {2, 0.5}, {1.5, 1.5}}}));
   problem.name = "plate";
-  problem.model = polygons({{{0, 0}, {3, 0}, {3, 2}, {0, 2}}, {{1, 0.5}, {2, 0.5}, {1.5, 1.5}}});
   problem.size.text = "0.1 + 0.05*x";
   return problem;
 }
@@ -56,7 +48,7 @@ TEST(Door, WhatNobodySaysIsGood) {
   expect_same(mesh(said, "good").mesh, mesh(as_good, good.word).mesh);
   as_good.cross.kind = good.cross;
   expect_same(mesh(plate()).mesh, mesh(as_good, good.word).mesh);
-  expect_input_error([] { mesh(plate(), "god"); }, {"unknown letter"});
+  expect_refused(plate(), "god", {"unknown letter"});
 }
 
 TEST(Door, TextsMeanWhatTheirFieldsMean) {
@@ -74,13 +66,13 @@ TEST(Door, TextsMeanWhatTheirFieldsMean) {
 }
 
 TEST(Door, FilesAreReadWhenTheyAreMeshed) {
-  const testing_support::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto file = folder / "box.msh";
   MeshProblem by_file, by_mesh;
   by_file.model = ModelFile{file};
   by_file.size.text = by_mesh.size.text = "0.25";
   expect_input_error([&] { prepare(by_file); }, {"box.msh"});
-  by_mesh.model = TriangleModel{testing_support::box(1)};
+  by_mesh.model = TriangleModel{box(1)};
   write_mesh(file, std::get<TriangleModel>(by_mesh.model).mesh);
   const Prepared prepared = prepare(by_file);
   EXPECT_TRUE(prepared.is_surface());
@@ -88,7 +80,7 @@ TEST(Door, FilesAreReadWhenTheyAreMeshed) {
   expect_same(mesh(prepared, "DB").mesh, mesh(by_mesh, "DB").mesh);
   EXPECT_EQ(model_info(by_file).report.faces.size(), 6u);
   // Words may begin from the elements of a given mesh.
-  expect_input_error([&] { mesh(by_file, "B"); }, {"starts from"});
+  expect_refused(by_file, "B", {"starts from"});
 }
 
 TEST(Door, HasAVersion) { EXPECT_EQ(std::ranges::count(std::string(version()), '.'), 2); }

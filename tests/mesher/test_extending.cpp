@@ -1,34 +1,16 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <numbers>
-
-#include "delquad/extend.h"
 #include "delquad/matching.h"
 #include "geometry/planar/planar_model.h"
-#include "mesher/prepare.h"
-#include "mesher/runner.h"
-#include "tests/support/analytic_fields.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
 
 /// A disc at size 0.2.
-MeshProblem disc() {
-  PlanarModel model;
-  model.curves.push_back({make_circle({0, 0}, 1), "", "test"});
-  model.loops.push_back({{0}, "", "test"});
-  MeshProblem problem;
-  problem.model = std::move(model);
-  problem.size.field = make_constant_size(0.2);
-  return problem;
-}
+MeshProblem disc() { return ModelMaker().circle({0, 0}, 1).problem(0.2); }
 
 MeshResult run(const MeshProblem& problem, const char* word) {
-  return run_word(prepare_problem(problem), parse_word(word));
+  return meshed(prepare_problem(problem), word);
 }
 
 std::string complaint(const MeshProblem& problem, const char* word) {

@@ -1,23 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <numbers>
-#include <numeric>
-#include <string>
-
-#include "delquad/mesher.h"
-#include "mesher/prepare.h"
-#include "tests/support/grid_mesh.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
 
 PreparedProblem with_size_aware_crosses(const Mesh& model, double size) {
-  MeshProblem problem;
-  problem.model = TriangleModel{model};
-  problem.size.field = make_constant_size(size);
+  MeshProblem problem = problem_of(TriangleModel{model}, size);
   problem.cross.kind = CrossKind::kSizeAware;
   return prepare_problem(problem);
 }
@@ -32,18 +19,18 @@ void expect_indices(const PreparedProblem& prepared, int sum) {
 }
 
 TEST(FieldGroups, ClosedSurfacesHaveTheSingularitiesOfTheirGenus) {
-  const PreparedProblem sphere = with_size_aware_crosses(testing_support::round_sphere(16).fine, 0.1);
+  const PreparedProblem sphere = with_size_aware_crosses(round_sphere(16).fine, 0.1);
   ASSERT_GT(sphere.patches.size(), 1u);
   expect_indices(sphere, 8);
   for (const PlacedSingularity& s : sphere.crosses.singularities) EXPECT_NEAR(norm(s.at), 1, 0.01);
-  expect_indices(with_size_aware_crosses(testing_support::torus(48, 24, 1, 0.4).fine, 0.1), 0);
-  expect_indices(with_size_aware_crosses(testing_support::double_torus(6).fine, 0.2), -8);
+  expect_indices(with_size_aware_crosses(torus(48, 24, 1, 0.4).fine, 0.1), 0);
+  expect_indices(with_size_aware_crosses(double_torus(6).fine, 0.2), -8);
 }
 
 /// Two unit squares as two faces, the second bent up by `bend` (radians), and divided along the slanted line
 /// from (1.2, 0) to (0.8, 1) where `bend` is 0.
 Mesh two_faces(double bend) {
-  Mesh mesh = testing_support::triangle_grid(16, 8, 2, 1);
+  Mesh mesh = triangle_grid(16, 8, 2, 1);
   mesh.lines.clear();
   mesh.line_curve.clear();
   mesh.curves.clear();

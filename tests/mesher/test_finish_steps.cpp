@@ -1,12 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-#include "geometry/surface/triangulated_model.h"
 #include "mesher/finish_steps.h"
-#include "mesher/prepare.h"
-#include "tests/support/prepare_surface.h"
-#include "tests/support/triangulated_shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -14,21 +7,19 @@ namespace {
 PreparedProblem prepared_lens(const Options& options, const Criteria& criteria = {}) {
   MeshProblem problem;
   problem.criteria = criteria;
-  problem.name = problem.where = "lens";
   problem.options = options;
-  return testing_support::prepare_surface(problem, make_surface_model(testing_support::lens(64, 12, 0.45)),
-                                          make_constant_size(0.3));
+  return prepare_surface(problem, make_surface_model(lens(64, 12, 0.45)), make_constant_size(0.3));
 }
 
-MeshResult lens(const Options& options) { return run_word(prepared_lens(options), parse_word("DBC")); }
+MeshResult finished_lens(const Options& options) { return meshed(prepared_lens(options), "DBC"); }
 
 TEST(FinishSteps, EachIsSwitchedOffByItsOwnOption) {
-  const MeshResult all = lens({});
+  const MeshResult all = finished_lens({});
   int n_ran = 0;
   for (const FinishStep& step : finish_steps()) {
     if (step.option == nullptr || !all.log.summaries.has(step.name)) continue;
     ++n_ran;
-    const MeshResult without = lens(Options().set(std::string("repair.") + step.name, false));
+    const MeshResult without = finished_lens(Options().set(std::string("repair.") + step.name, false));
     for (const FinishStep& other : finish_steps())
       EXPECT_EQ(without.log.summaries.has(other.name),
                 all.log.summaries.has(other.name) && other.name != std::string(step.name))
@@ -39,7 +30,7 @@ TEST(FinishSteps, EachIsSwitchedOffByItsOwnOption) {
 
 TEST(BetterMesh, FailingQuadsCountBeforeRegularityAndShapes) {
   const PreparedProblem prepared = prepared_lens({});
-  const MeshResult before = run_word(prepared, parse_word("DBC"));
+  const MeshResult before = meshed(prepared, "DBC");
   MeshResult after = before;
   after.metrics.values.at("n_irregular") -= 2;
   after.metrics.values.at("eta_mean") += 0.01;

@@ -1,13 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
-#include <vector>
-
-#include "delquad/mesher.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -17,7 +8,7 @@ constexpr double kSize = 0.1;
 /// Two squares, [-1, 1] x [0, 1], with curves on the sides that are given numbers from 1 on: between the two,
 /// and from there around. The one between is of three: up to y = 0.5, 0.01 long, and the rest.
 Mesh two_squares() {
-  Mesh mesh = testing_support::triangle_grid(16, 8, 2, 1);
+  Mesh mesh = triangle_grid(16, 8, 2, 1);
   for (Vec3& p : mesh.points) {
     p.x -= 1;
     if (p.x == 0 && p.y == 0.625) p.y = 0.51;
@@ -38,19 +29,16 @@ Mesh two_squares() {
   return mesh;
 }
 
-MeshProblem problem_of(Mesh model) {
-  MeshProblem problem;
-  problem.model = TriangleModel{std::move(model)};
-  problem.size.field = make_constant_size(kSize);
-  return problem;
+MeshProblem problem_of(Mesh model) { return problem_of(TriangleModel{std::move(model)}, kSize); }
+
+auto nodes_at(const MeshResult& result, const Vec3& place) {
+  return std::ranges::count_if(result.mesh.points, [&](const Vec3& p) { return norm(p - place) < 1e-9; });
 }
 
 /// How many nodes there are at both ends of the short curve.
-int nodes_at_ends(const MeshProblem& problem) {
+auto nodes_at_ends(const MeshProblem& problem) {
   const MeshResult result = mesh(problem, "DBCO");
-  return static_cast<int>(std::ranges::count_if(result.mesh.points, [](const Vec3& p) {
-    return norm(p - Vec3{0, 0.5, 0}) < 1e-9 || norm(p - Vec3{0, 0.51, 0}) < 1e-9;
-  }));
+  return nodes_at(result, {0, 0.5, 0}) + nodes_at(result, {0, 0.51, 0});
 }
 
 TEST(JoinShortCurves, NoNodeIsNeededWhereTwoGoOnAsOne) {
@@ -58,11 +46,7 @@ TEST(JoinShortCurves, NoNodeIsNeededWhereTwoGoOnAsOne) {
   const MeshResult joined = mesh(problem, "DBCO");
   EXPECT_EQ(joined.metrics.values.at("n_irregular"), 0);
   EXPECT_EQ(joined.mesh.quads.size(), 200u);
-  EXPECT_EQ(std::ranges::count_if(joined.warnings,
-                                  [](const Warning& warning) {
-                                    return warning.text.find("curves.join_below = 0") != std::string::npos;
-                                  }),
-            1);
+  EXPECT_EQ(count_told(joined.warnings, "curves.join_below = 0"), 1);
   for (const Vec3& p : joined.mesh.points)
     if (p.x == 0) {
       EXPECT_NEAR(std::remainder(p.y, kSize), 0, 1e-3);
@@ -117,17 +101,12 @@ TEST(JoinShortCurves, TurnsStay) {
   for (Vec3& p : bent.points)
     if (p.y > 0.5) p.x += slope * (p.y - 0.5) * (1 - std::abs(p.x));
   MeshProblem problem = problem_of(bent);
-  const MeshResult result = mesh(problem, "DBCO");
-  EXPECT_EQ(std::ranges::count_if(result.mesh.points,
-                                  [](const Vec3& p) {
-                                    return norm(p - Vec3{0, 0.5, 0}) < 1e-9;
-                                  }),
-            1);
+  EXPECT_EQ(nodes_at(mesh(problem, "DBCO"), {0, 0.5, 0}), 1);
 }
 
 TEST(JoinShortCurves, ImagesShareTheirFateWhereLengthsAreRound) {
   // One is a quarter of the size long, its image a little less.
-  Mesh model = testing_support::triangle_grid(16, 8, 2, 1);
+  Mesh model = triangle_grid(16, 8, 2, 1);
   for (Vec3& p : model.points) p.x -= 1;
   model.points[5].x = -0.475;
   model.points[11].x = 0.475 + 1e-10;
@@ -140,12 +119,7 @@ TEST(JoinShortCurves, ImagesShareTheirFateWhereLengthsAreRound) {
   MeshProblem problem = problem_of(model);
   problem.symmetry.planes = {{{0, 0, 0}, {1, 0, 0}}};
   const MeshResult result = mesh(problem, "DBCO");
-  for (const double x : {-0.5, 0.5})
-    EXPECT_EQ(std::ranges::count_if(result.mesh.points,
-                                    [&](const Vec3& p) {
-                                      return norm(p - Vec3{x, 0, 0}) < 1e-9;
-                                    }),
-              1);
+  for (const double x : {-0.5, 0.5}) EXPECT_EQ(nodes_at(result, {x, 0, 0}), 1);
 }
 
 }  // namespace

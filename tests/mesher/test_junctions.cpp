@@ -1,57 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <random>
-#include <set>
-
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/meshing.h"
+#include "tests/support/named_lines.h"
 
 namespace delquad {
 namespace {
-
-/// Regions side by side, curves and points inside of them, cracks.
-class ModelMaker {
- public:
-  ModelMaker& loop(std::vector<std::shared_ptr<const Curve>> curves, const std::string& region = "",
-                   const std::vector<std::string>& names = {}) {
-    ModelLoop loop{{}, region, "loop " + std::to_string(model_.loops.size() + 1)};
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      loop.curves.push_back(static_cast<int>(model_.curves.size()));
-      model_.curves.push_back({curves[i], i < names.size() ? names[i] : "", ""});
-    }
-    model_.loops.push_back(loop);
-    return *this;
-  }
-  ModelMaker& rectangle(Vec2 low, Vec2 high, const std::string& region = "",
-                        const std::vector<std::string>& names = {}) {
-    const std::vector<Vec2> c{low, {high.x, low.y}, high, {low.x, high.y}};
-    std::vector<std::shared_ptr<const Curve>> sides;
-    for (std::size_t i = 0; i < 4; ++i) sides.push_back(make_segment(c[i], c[(i + 1) % 4]));
-    return loop(sides, region, names);
-  }
-  ModelMaker& curve(std::shared_ptr<const Curve> shape, const std::string& name, bool is_crack = false) {
-    model_.curves.push_back({std::move(shape), name, "", is_crack});
-    return *this;
-  }
-  ModelMaker& point(Vec2 at, const std::string& name) {
-    model_.points.push_back({at, name, ""});
-    return *this;
-  }
-  MeshProblem problem(double size) const {
-    MeshProblem problem;
-    problem.model = model_;
-    problem.size.field = make_constant_size(size);
-    return problem;
-  }
-
- private:
-  PlanarModel model_{"test", {}, {}};
-};
 
 std::map<std::string, double> areas(const Mesh& mesh) {
   std::map<std::string, double> areas;
@@ -62,23 +13,6 @@ std::map<std::string, double> areas(const Mesh& mesh) {
           cross(mesh.points[v[k]], mesh.points[v[(k + 1) % 4]]).z / 2;
   }
   return areas;
-}
-
-/// The lines of the curves with a name, each pair of nodes with the smaller first.
-std::set<std::pair<int, int>> lines_named(const Mesh& mesh, const std::string& name) {
-  std::set<std::pair<int, int>> lines;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    const auto& names = mesh.curves[mesh.line_curve[l]].names;
-    if (std::ranges::find(names, name) != names.end())
-      lines.insert(std::minmax(mesh.lines[l][0], mesh.lines[l][1]));
-  }
-  return lines;
-}
-
-double length(const Mesh& mesh, const std::set<std::pair<int, int>>& lines) {
-  double sum = 0;
-  for (const auto& [a, b] : lines) sum += norm(mesh.points[b] - mesh.points[a]);
-  return sum;
 }
 
 /// Whether the lines are one path between two places, without a branch.
@@ -104,9 +38,9 @@ void expect_sound(const MeshResult& result) {
 
 TEST(Junctions, RegionsSideBySideShareTheirNodes) {
   const MeshProblem problem = ModelMaker()
-                                  .rectangle({0, 0}, {1, 1}, "left", {"south", "mid", "north", "west"})
-                                  .rectangle({1, 0}, {2, 1}, "right", {"south", "east", "north", "mid"})
-                                  .rectangle({0.3, 1}, {1.4, 1.5}, "roof")
+                                  .rectangle({0, 0}, {1, 1}, {"south", "mid", "north", "west"}, "left")
+                                  .rectangle({1, 0}, {2, 1}, {"south", "east", "north", "mid"}, "right")
+                                  .rectangle({0.3, 1}, {1.4, 1.5}, {""}, "roof")
                                   .problem(0.11);
   for (const char* word : {"DB", "DBCO", "FB", "PBCO", "DLB"}) {
     SCOPED_TRACE(word);
@@ -118,7 +52,7 @@ TEST(Junctions, RegionsSideBySideShareTheirNodes) {
     EXPECT_NEAR(area.at("right"), 1, 1e-12);
     EXPECT_NEAR(area.at("roof"), 0.55, 1e-12);
     expect_path(result.mesh, "mid", {1, 0}, {1, 1});
-    EXPECT_NEAR(length(result.mesh, lines_named(result.mesh, "south")), 2, 1e-12);
+    EXPECT_NEAR(length_named(result.mesh, "south"), 2, 1e-12);
   }
 }
 
@@ -129,9 +63,7 @@ TEST(Junctions, LoopsMayHaveCurvesInCommon) {
                   {middle, "mid", ""},
                   {make_polyline({{1, 0}, {2, 0}, {2, 1}, {1, 1}}), "b", ""}};
   model.loops = {{{0, 1}, "left", ""}, {{2, 1}, "right", ""}};
-  MeshProblem problem;
-  problem.model = model;
-  problem.size.field = make_constant_size(0.2);
+  MeshProblem problem = problem_of(model, 0.2);
   const MeshResult result = mesh(problem, "DBCO");
   expect_sound(result);
   EXPECT_NEAR(areas(result.mesh).at("right"), 1, 1e-12);
@@ -179,7 +111,7 @@ TEST(Junctions, RandomPartsOfARectangle) {
     }
     ModelMaker maker;
     for (std::size_t i = 0; i < parts.size(); ++i)
-      maker.rectangle(parts[i].low, parts[i].high, "part " + std::to_string(i));
+      maker.rectangle(parts[i].low, parts[i].high, {""}, "part " + std::to_string(i));
     const MeshResult result = mesh(maker.problem(0.06), round % 2 ? "DB" : "DBCO");
     SCOPED_TRACE(round);
     expect_sound(result);
@@ -194,18 +126,18 @@ TEST(Junctions, RandomPartsOfARectangle) {
 /// A hole that shares part of the border is a notch: nothing is left of that part.
 TEST(Junctions, HolesAtTheBorderAreNotches) {
   const MeshResult result = mesh(ModelMaker()
-                                     .rectangle({0, 0}, {1, 1}, "plate", {"south"})
+                                     .rectangle({0, 0}, {1, 1}, {"south", "", "", ""}, "plate")
                                      .rectangle({0.25, 0}, {0.75, 0.5})
                                      .problem(0.1),
                                  "DBCO");
   expect_sound(result);
   EXPECT_NEAR(areas(result.mesh).at("plate"), 0.75, 1e-12);
-  EXPECT_NEAR(length(result.mesh, lines_named(result.mesh, "south")), 0.5, 1e-12);
+  EXPECT_NEAR(length_named(result.mesh, "south"), 0.5, 1e-12);
 }
 
 TEST(Junctions, CurvesAndPointsInsideAreInTheMesh) {
   const MeshProblem problem = ModelMaker()
-                                  .rectangle({0, 0}, {2, 1}, "plate")
+                                  .rectangle({0, 0}, {2, 1}, {""}, "plate")
                                   .curve(make_segment({0.2, 0.2}, {1.1, 0.8}), "one")
                                   .curve(make_segment({0.3, 0.9}, {1.2, 0.1}), "two")
                                   .curve(make_segment({1.5, 0.5}, {2, 0.7}), "to the wall")
@@ -220,7 +152,7 @@ TEST(Junctions, CurvesAndPointsInsideAreInTheMesh) {
     expect_path(result.mesh, "one", {0.2, 0.2}, {1.1, 0.8});
     expect_path(result.mesh, "two", {0.3, 0.9}, {1.2, 0.1});
     expect_path(result.mesh, "to the wall", {1.5, 0.5}, {2, 0.7});
-    EXPECT_NEAR(length(result.mesh, lines_named(result.mesh, "bow")), 0.3 * 2.8, 0.01);
+    EXPECT_NEAR(length_named(result.mesh, "bow"), 0.3 * 2.8, 0.01);
     ASSERT_EQ(result.mesh.named_points.size(), 2u);
     for (const auto& [point, entity] : result.mesh.named_points)
       EXPECT_EQ(result.mesh.points[point],
@@ -235,7 +167,7 @@ TEST(Junctions, RandomSegmentsAndPoints) {
     std::mt19937 engine(static_cast<unsigned>(round));
     std::uniform_real_distribution<double> place(0.05, 0.95);
     ModelMaker maker;
-    maker.rectangle({0, 0}, {1, 1}, "square");
+    maker.rectangle({0, 0}, {1, 1}, {""}, "square");
     const int n = 5 + 3 * round;
     std::vector<std::pair<Vec2, Vec2>> segments;
     std::vector<Vec2> points;
@@ -264,7 +196,7 @@ TEST(Junctions, RandomSegmentsAndPoints) {
 /// Along a crack each lip has its own nodes; tips inside are shared, an end on the boundary is not.
 TEST(Junctions, CracksComeApart) {
   ModelMaker maker;
-  maker.rectangle({0, 0}, {2, 1}, "plate");
+  maker.rectangle({0, 0}, {2, 1}, {""}, "plate");
   const MeshResult whole =
       mesh(ModelMaker(maker).curve(make_segment({0, 0.5}, {0.7, 0.5}), "crack").problem(0.1), "DB");
   const MeshResult apart =
@@ -276,9 +208,7 @@ TEST(Junctions, CracksComeApart) {
   EXPECT_EQ(apart.mesh.quads.size(), whole.mesh.quads.size());
   // Nodes of both lips lie on each other, and only the tip is there once.
   std::map<std::pair<double, double>, int> at;
-  std::set<int> nodes;
-  for (const auto& [a, b] : lips) nodes.insert({a, b});
-  for (const int v : nodes) ++at[{apart.mesh.points[v].x, apart.mesh.points[v].y}];
+  for (const int v : nodes_named(apart.mesh, "crack")) ++at[{apart.mesh.points[v].x, apart.mesh.points[v].y}];
   for (const auto& [p, n] : at) EXPECT_EQ(n, p.first == 0.7 ? 1 : 2) << p.first;
 
   const MeshResult inside = mesh(ModelMaker(maker)
@@ -286,16 +216,14 @@ TEST(Junctions, CracksComeApart) {
                                      .problem(0.06),
                                  "DBCO");
   expect_sound(inside);
-  const auto kink = lines_named(inside.mesh, "kink");
-  std::set<int> of_kink;
-  for (const auto& [a, b] : kink) of_kink.insert({a, b});
-  EXPECT_EQ(of_kink.size(), kink.size());  // one closed chain
+  EXPECT_EQ(nodes_named(inside.mesh, "kink").size(), lines_named(inside.mesh, "kink").size())
+      << "a closed chain";
 }
 
 /// One edge between two tips could not open, whatever else ends there.
 TEST(Junctions, CracksShorterThanTheSizeComeApart) {
   const MeshResult result = mesh(ModelMaker()
-                                     .rectangle({0, 0}, {1, 1}, "plate")
+                                     .rectangle({0, 0}, {1, 1}, {""}, "plate")
                                      .curve(make_segment({0.2, 0.5}, {0.5, 0.5}), "line")
                                      .curve(make_segment({0.5, 0.5}, {0.53, 0.54}), "crack", true)
                                      .problem(0.1),
@@ -303,14 +231,14 @@ TEST(Junctions, CracksShorterThanTheSizeComeApart) {
   expect_sound(result);
   const auto lips = lines_named(result.mesh, "crack");
   EXPECT_GE(lips.size(), 4u);
-  EXPECT_NEAR(length(result.mesh, lips), 2 * 0.05, 1e-12);
+  EXPECT_NEAR(length_named(result.mesh, "crack"), 2 * 0.05, 1e-12);
   EXPECT_NEAR(areas(result.mesh).at("plate"), 1, 1e-12);
 }
 
 /// Small corners and short pieces of curves: the mesh is finer there, and says so.
 TEST(Junctions, SizesFollowShortPieces) {
   ModelMaker maker;
-  maker.rectangle({0, 0}, {1, 1}, "square");
+  maker.rectangle({0, 0}, {1, 1}, {""}, "square");
   maker.curve(make_segment({0.2, 0.5}, {0.8, 0.5}), "a");
   maker.curve(make_segment({0.5, 0.49}, {0.52, 0.9}), "b");
   const MeshResult result = mesh(maker.problem(0.1), "DBCO");
@@ -321,7 +249,7 @@ TEST(Junctions, SizesFollowShortPieces) {
 
 TEST(Junctions, RefusesWhatMakesNoSense) {
   ModelMaker square;
-  square.rectangle({0, 0}, {1, 1}, "square");
+  square.rectangle({0, 0}, {1, 1}, {""}, "square");
   const auto meshing = [](const ModelMaker& maker) { return [maker] { mesh(maker.problem(0.1), "DB"); }; };
   expect_input_error(meshing(ModelMaker(square).curve(make_segment({0.5, 0.5}, {1.5, 0.5}), "out")),
                      {"'out'", "outside of every region", "(1.5, 0.5)"});
@@ -339,17 +267,19 @@ TEST(Junctions, RefusesWhatMakesNoSense) {
   hole.rectangle({0.4, 0.4}, {0.6, 0.6});
   expect_input_error(meshing(hole.curve(make_segment({0.45, 0.5}, {0.55, 0.5}), "in the hole")),
                      {"'in the hole'", "outside of every region"});
-  expect_input_error(meshing(ModelMaker(square).rectangle({0.53, 0.52}, {1.5, 1.5}, "over")), {"cross at"});
+  expect_input_error(meshing(ModelMaker(square).rectangle({0.53, 0.52}, {1.5, 1.5}, {""}, "over")),
+                     {"cross at"});
   expect_input_error(
-      meshing(ModelMaker(square).rectangle({0, 0}, {0.5, 1}, "a").rectangle({0.5, 0}, {1, 1}, "b")),
+      meshing(
+          ModelMaker(square).rectangle({0, 0}, {0.5, 1}, {""}, "a").rectangle({0.5, 0}, {1, 1}, {""}, "b")),
       {"'square'", "nothing is left"});
-  expect_input_error(meshing(ModelMaker(square).rectangle({0, 0}, {1, 1}, "again")), {"same curves"});
+  expect_input_error(meshing(ModelMaker(square).rectangle({0, 0}, {1, 1}, {""}, "again")), {"same curves"});
 }
 
 TEST(Junctions, PointsSurviveFiles) {
-  const MeshResult result =
-      mesh(ModelMaker().rectangle({0, 0}, {1, 1}, "square").point({0.4, 0.6}, "sensor").problem(0.2), "DB");
-  const testing_support::TemporaryFolder folder;
+  const MeshResult result = mesh(
+      ModelMaker().rectangle({0, 0}, {1, 1}, {""}, "square").point({0.4, 0.6}, "sensor").problem(0.2), "DB");
+  const TemporaryFolder folder;
   for (const bool binary : {false, true}) {
     write_mesh(folder / "mesh.msh", result.mesh, {.binary = binary});
     const Mesh again = read_mesh(folder / "mesh.msh");
@@ -358,7 +288,7 @@ TEST(Junctions, PointsSurviveFiles) {
     EXPECT_EQ(again.named_points[0].entity.names, std::vector<std::string>{"sensor"});
   }
   write_mesh(folder / "mesh.inp", result.mesh);
-  EXPECT_NE(testing_support::read_text(folder / "mesh.inp").find("*NSET, NSET=sensor"), std::string::npos);
+  EXPECT_NE(read_text(folder / "mesh.inp").find("*NSET, NSET=sensor"), std::string::npos);
 }
 
 /// Lines and points of a file: what they divide, what stands in a region.
@@ -387,8 +317,7 @@ TEST(Junctions, OfLineMeshes) {
   chain({{0.5, 0.5}, {0.5, 0.8}}, 3, "stiffener");
   lines.named_points.push_back({static_cast<int>(lines.points.size()), {1, {"sensor"}}});
   lines.points.push_back({0.25, 0.25, 0});
-  MeshProblem problem;
-  problem.model = LineModel{lines};
+  MeshProblem problem = problem_of(LineModel{lines});
   problem.size.from_boundary = true;
   const MeshResult result = mesh(problem, "DBCO");
   expect_sound(result);

@@ -1,13 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <fstream>
-
-#include "mesher/runner.h"
-#include "patches/prepared.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/prepare_case.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/triangulated_shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -16,27 +7,17 @@ namespace {
 class KeepGoing : public ::testing::Test {
  protected:
   KeepGoing() {
-    const Mesh cube = testing_support::box(1);
-    std::ofstream out(folder_ / "cube.off");
-    out << "OFF\n" << cube.points.size() << " " << cube.triangles.size() << " 0\n";
-    for (const Vec3& p : cube.points) out << p.x << " " << p.y << " " << p.z << "\n";
-    for (const auto& v : cube.triangles) out << "3 " << v[0] << " " << v[1] << " " << v[2] << "\n";
-    out.close();
-    case_.name = "cube";
-    case_.where = "cube.off";
-    case_.model = ModelFile{folder_ / "cube.off"};
-    case_.size.text = "0.25";
-    prepared_ = prepare_case(case_);
+    MeshProblem problem = problem_of(TriangleModel{box(1), "cube.off"}, 0.25);
+    problem.where = "cube.off";
+    prepared_ = prepare_problem(problem);
   }
   /// Makes the boundary of a patch cross itself.
   void damage(int patch) {
     auto& points = prepared_.patches[patch].boundary.points;
     std::swap(points[1], points[9]);
   }
-  MeshResult run() { return run_word(prepared_, parse_word("DB")); }
+  MeshResult run() { return meshed(prepared_, "DB"); }
 
-  testing_support::TemporaryFolder folder_;
-  Case case_;
   PreparedProblem prepared_;
 };
 

@@ -1,12 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include "delquad/mesher.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -26,10 +18,7 @@ MeshProblem plate(int n, double size) {
                       (static_cast<double>(i / n) + 0.5) / n + radius * std::sin(angle)});
     }
   }
-  MeshProblem problem;
-  problem.model = polygons(loops);
-  problem.size.field = make_constant_size(size);
-  return problem;
+  return problem_of(polygons(loops), size);
 }
 
 /// How many quads have a side that is shorter or longer than engineers ask for: .33 to 1.75 of the size.

@@ -1,34 +1,16 @@
 #include "algorithms/finish/edit_failing.h"
 #include "algorithms/finish/lift_bad_quads.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <random>
-#include <utility>
-
-#include "fields/fields.h"
 #include "geometry/mesh/quad_corners.h"
-#include "geometry/mesh/quad_topology.h"
 #include "mesher/finish_steps.h"
-#include "mesher/prepare.h"
-#include "mesher/runner.h"
 #include "metrics/judgement/poor_quads.h"
-#include "metrics/judgement/soundness.h"
-#include "tests/support/prepare_surface.h"
-#include "tests/support/shapes.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
 
-namespace surfaces = testing_support;
-
 /// A ball with noise: bends sharper than any size, and no curve along them.
 SurfaceModel rough_ball(int seed, double noise) {
-  SurfaceModel model = surfaces::round_sphere(5);
+  SurfaceModel model = round_sphere(5);
   std::mt19937_64 random(seed);
   for (Vec3& p : model.fine.points) p = (1 + noise * (2 * shapes::uniform(random) - 1)) * p;
   return model;
@@ -38,11 +20,8 @@ TEST(LiftBadQuads, RingsHelpWhereMovingDoesNot) {
   double rings = 0;
   for (int seed = 0; seed < 8; ++seed) {
     MeshProblem c;
-    c.name = c.where = "ball";
     c.options.set("curves.agreement", 0);  // with it, they are not needed
-    const PreparedProblem prepared =
-        surfaces::prepare_surface(c, rough_ball(seed, 0.2), make_constant_size(0.4));
-    const MeshResult result = run_word(prepared, parse_word("DB"));
+    const MeshResult result = meshed(rough_ball(seed, 0.2), 0.4, "DB", c);
     rings += result.log.summaries.number("lift_bad_quads", "rings");
     EXPECT_TRUE(result.soundness.sound()) << seed << ": " << result.soundness.text();
   }
@@ -52,11 +31,7 @@ TEST(LiftBadQuads, RingsHelpWhereMovingDoesNot) {
 TEST(LiftBadQuads, ChangesHelpWhereRingsDoNot) {
   double mended = 0;
   for (const int seed : {0, 2, 3, 4, 5}) {  // 1, 6 and 7 need smaller sizes
-    MeshProblem c;
-    c.name = c.where = "ball";
-    const PreparedProblem prepared =
-        surfaces::prepare_surface(c, rough_ball(seed, 0.3), make_constant_size(0.7));
-    const MeshResult result = run_word(prepared, parse_word("DB"));
+    const MeshResult result = meshed(rough_ball(seed, 0.3), 0.7, "DB");
     mended += result.log.summaries.number("lift_bad_quads", "mended");
     EXPECT_TRUE(result.soundness.sound()) << seed << ": " << result.soundness.text();
   }
@@ -65,7 +40,7 @@ TEST(LiftBadQuads, ChangesHelpWhereRingsDoNot) {
 
 /// A roof without a curve on its ridge, which runs askew to the rows of quads.
 SurfaceModel roof(double skew, double slope) {
-  return surfaces::grid_surface({40, 40}, [=](double u, double v) {
+  return grid_surface({40, 40}, [=](double u, double v) {
     const double x = 2 * u - 1;
     return Vec3{x + skew * (2 * v - 1) * (1 - x * x), 2 * v - 1, -slope * std::abs(x)};
   });
@@ -80,12 +55,11 @@ TEST(RepairFailingQuads, MovesLeaveFewer) {
     for (const double h : {0.1, 0.13, 0.17}) {
       SCOPED_TRACE(testing::Message() << skew << ' ' << h);
       MeshProblem c;
-      c.name = c.where = "roof";
       c.criteria = batch();
       const auto run = [&](bool repairs) {
         c.options.set("repair.failing_quads", repairs);
-        const PreparedProblem prepared = surfaces::prepare_surface(c, roof(skew, 0.7), make_constant_size(h));
-        const MeshResult result = run_word(prepared, parse_word("DBCO"));
+        const PreparedProblem prepared = prepare_surface(c, roof(skew, 0.7), make_constant_size(h));
+        const MeshResult result = meshed(prepared, "DBCO");
         (repairs ? after : before) += failing_part(prepared, result.mesh);
         return std::pair(result.metrics.values.at("eta_mean"), result.metrics.values.at("eta_worst"));
       };
@@ -101,10 +75,8 @@ TEST(RepairFailingQuads, MovesLeaveFewer) {
 TEST(RepairFailingQuads, NothingIsDoneWithoutCriteria) {
   for (const bool has_criteria : {false, true}) {
     MeshProblem c;
-    c.name = c.where = "roof";
     if (has_criteria) c.criteria = batch();
-    const PreparedProblem prepared = surfaces::prepare_surface(c, roof(0.3, 0.7), make_constant_size(0.13));
-    const MeshResult result = run_word(prepared, parse_word("DBCO"));
+    const MeshResult result = meshed(roof(0.3, 0.7), 0.13, "DBCO", c);
     const Summaries& done = result.log.summaries;
     EXPECT_TRUE(done.has("lift_bad_quads"));
     EXPECT_EQ(done.has("failing_quads") && done.number("failing_quads", "moved") > 0, has_criteria);
@@ -127,7 +99,7 @@ int ties(const QuadPatch& mesh) {
 
 /// A spike without a tip.
 SurfaceModel spike() {
-  return surfaces::grid_surface({40, 40}, [](double u, double v) {
+  return grid_surface({40, 40}, [](double u, double v) {
     return Vec3{(2 * u - 1) * (1 - 0.9 * v), 4 * v, 0.2 * v * v};
   });
 }
@@ -140,10 +112,9 @@ TEST(RepairFailingQuads, EditsLeaveFewer) {
   for (const double h : {0.11, 0.13, 0.17, 0.19, 0.23}) {
     SCOPED_TRACE(h);
     MeshProblem c;
-    c.name = c.where = "spike";
     c.criteria = batch();
     const std::shared_ptr<const SizeField> size = make_constant_size(h);
-    const PreparedProblem prepared = surfaces::prepare_surface(c, spike(), size);
+    const PreparedProblem prepared = prepare_surface(c, spike(), size);
     MeshingState state = begin_meshing(prepared);
     for (const Stage* stage : word.stages) run_stage(*stage, prepared, state);
     const std::vector<char> none(state.patches.size(), 0);
@@ -171,13 +142,8 @@ TEST(RepairFailingQuads, OfAGivenMeshToo) {
   double before = 0, after = 0;
   for (const double h : {0.13, 0.17, 0.19, 0.23}) {
     MeshProblem c;
-    c.name = c.where = "spike";
     c.options.set("repair.lift_bad_quads", false);
-    const std::shared_ptr<const SizeField> size = make_constant_size(h);
-    MeshProblem given;
-    given.name = given.where = "given";
-    given.model = GivenMesh{run_word(surfaces::prepare_surface(c, spike(), size), parse_word("DB")).mesh};
-    given.size.field = size;
+    MeshProblem given = problem_of(GivenMesh{meshed(spike(), h, "DB", c).mesh}, h);
     given.criteria = batch();
     const auto failing = [&](bool repairs) {
       given.options.set("repair.failing_quads", repairs);
@@ -194,10 +160,7 @@ TEST(RepairFailingQuads, OfAGivenMeshToo) {
 }
 
 TEST(LiftBadQuads, SaysWhatItTook) {
-  MeshProblem c;
-  c.name = c.where = "ball";
-  const PreparedProblem prepared = surfaces::prepare_surface(c, rough_ball(0, 0.2), make_constant_size(0.4));
-  const Summaries done = run_word(prepared, parse_word("DB")).log.summaries;
+  const Summaries done = meshed(rough_ball(0, 0.2), 0.4, "DB").log.summaries;
   EXPECT_GT(done.number("lift_bad_quads", "moved"), 0);
   double seconds = 0;
   for (const FinishStep& step : finish_steps())

@@ -1,10 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
-#include <vector>
-
-#include "delquad/mesher.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -15,36 +9,18 @@ std::string warnings_of(const MeshProblem& problem) {
   return all;
 }
 
-MeshProblem problem_of(PlanarModel model, double size) {
-  MeshProblem problem;
-  problem.model = std::move(model);
-  problem.size.field = make_constant_size(size);
-  return problem;
-}
-
 /// Two squares side by side, the second one away by a gap.
 PlanarModel squares(double gap) {
-  PlanarModel model;
-  const auto add = [&](double x, const std::vector<std::string>& names) {
-    const std::vector<Vec2> corners = {{x, 0}, {x + 1, 0}, {x + 1, 1}, {x, 1}};
-    ModelLoop loop{{}, "", ""};
-    for (std::size_t i = 0; i < 4; ++i) {
-      loop.curves.push_back(static_cast<int>(model.curves.size()));
-      model.curves.push_back({make_segment(corners[i], corners[(i + 1) % 4]), names[i], ""});
-    }
-    model.loops.push_back(loop);
-  };
-  add(0, {"s", "east", "n", "w"});
-  add(1 + gap, {"s", "e", "n", "west"});
-  return model;
+  return ModelMaker()
+      .rectangle({0, 0}, {1, 1}, {"s", "east", "n", "w"})
+      .rectangle({1 + gap, 0}, {2 + gap, 1}, {"s", "e", "n", "west"});
 }
 
 bool tells(const std::string& all, const std::string& part) { return all.find(part) != std::string::npos; }
 
 TEST(ModelWarnings, GapsBetweenRegions) {
   const std::string all = warnings_of(problem_of(squares(2e-4), 0.1));
-  EXPECT_TRUE(tells(all, "leave a gap of 0.0002")) << all;
-  EXPECT_TRUE(tells(all, "'east'") && tells(all, "'west'")) << all;
+  expect_text(all, {"leave a gap of 0.0002", "'east'", "'west'"});
   EXPECT_EQ(std::ranges::count(all, '\n'), 1) << all;
   for (const double gap : {0.0, 2e-3, 0.3}) {
     const std::string none = warnings_of(problem_of(squares(gap), 0.1));
@@ -67,7 +43,7 @@ TEST(ModelWarnings, SizesByNameThatHaveNoEffect) {
   MeshProblem problem = problem_of(squares(0), 0.1);
   problem.size.named = {{.name = "east", .size = 0.2, .where = "--size-on east=0.2"}};
   const std::string all = warnings_of(problem);
-  EXPECT_TRUE(tells(all, "--size-on east=0.2: the size 0.2 of 'east' has no effect")) << all;
+  expect_text(all, {"--size-on east=0.2: the size 0.2 of 'east' has no effect"});
   EXPECT_EQ(std::ranges::count(all, '\n'), 1) << all;
   problem.size.named[0].size = 0.05;
   EXPECT_FALSE(tells(warnings_of(problem), "no effect"));

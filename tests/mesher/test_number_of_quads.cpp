@@ -1,30 +1,15 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "base/calibration.h"
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/triangulated_shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::box;
-
 /// A square with a hole, of which the curves have names.
 MeshProblem plate_of_quads() {
-  MeshProblem problem;
+  MeshProblem problem = problem_of(ModelMaker()
+                                       .loop({make_polyline({{0, 0}, {4, 0}, {4, 3}, {0, 3}, {0, 0}})})
+                                       .circle({2, 1.5}, 0.5, "hole"));
   problem.name = problem.where = "plate";
-  PlanarModel model = polygons({{{0, 0}, {4, 0}, {4, 3}, {0, 3}}});
-  model.curves.push_back({make_circle({2, 1.5}, 0.5), "hole", "hole"});
-  model.loops.push_back({.curves = {static_cast<int>(model.curves.size()) - 1},
-                         .region = "",
-                         .where = "hole",
-                         .is_hole = true});
-  problem.model = model;
   return problem;
 }
 
@@ -67,8 +52,7 @@ TEST(Refine, DividesEverySize) {
 }
 
 TEST(Refine, DividesSizesByCurvature) {
-  MeshProblem problem;
-  problem.model = ExampleModel{"pipe_tee"};
+  MeshProblem problem = problem_of(ExampleModel{"pipe_tee"});
   problem.size = {.text = "4", .curvature = 12};
   MeshProblem half = problem;
   half.size = {.text = "2", .gradation = kCurvatureGradation / 2, .curvature = 24};
@@ -202,26 +186,20 @@ TEST(NumberOfQuads, CountsLayersAndGrids) {
   expect_quads(problem, "good");
 }
 
-bool tells(const MeshResult& result, const std::string& what) {
-  return std::ranges::any_of(result.warnings,
-                             [&](const Warning& w) { return w.text.find(what) != std::string::npos; });
-}
-
 TEST(NumberOfQuads, SaysWhereItIsOutOfReach) {
-  MeshProblem problem;
+  MeshProblem problem = problem_of(ExampleModel{"bracket"});
   problem.name = problem.where = "flange";
-  problem.model = ExampleModel{"bracket"};
   problem.quads = 4;
   const MeshResult result = mesh(problem, "DB");
   EXPECT_GT(count_of_quads(result.mesh), 8);
   EXPECT_TRUE(result.soundness.accepted());
-  EXPECT_TRUE(tells(result, "flange: 4 quads were asked for"));
+  EXPECT_TRUE(is_told(result.warnings, "flange: 4 quads were asked for"));
   // A box has six times a square of an even number.
   problem.model = TriangleModel{box(1)};
   problem.quads = 800;
   const MeshResult near = mesh(problem, "DB");
   EXPECT_EQ(count_of_quads(near.mesh), 6 * 12 * 12);
-  EXPECT_TRUE(tells(near, "has 864"));
+  EXPECT_TRUE(is_told(near.warnings, "has 864"));
 }
 
 TEST(NumberOfQuads, RefusesNumbersThatCannotBe) {

@@ -1,17 +1,8 @@
-#include "delquad/options.h"
-
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/treatment/treatment.h"
 #include "delquad/matching.h"
-#include "delquad/mesher.h"
 #include "smoothing/cvt/smooth_points.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/prepare_surface.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -46,9 +37,7 @@ TEST(OptionValues, WhereFacesAreJoinedRegularityMayCostMore) {
     MeshProblem problem;
     problem.surface.compounds = compounds;
     problem.options = options;
-    return testing_support::prepare_surface(problem, testing_support::cylinder(12, 4, 1, 2),
-                                            make_constant_size(0.5))
-        .settings.options;
+    return prepare_surface(problem, cylinder(12, 4, 1, 2), make_constant_size(0.5)).settings.options;
   };
   const auto tolerance = [&](Compounds compounds, const Options& options) {
     return prepared(compounds, options).number("regularity.tolerance");
@@ -121,7 +110,7 @@ TEST(OptionGroups, MistakesOfProgrammersAreNamed) {
       add_options(std::move(group));
       ADD_FAILURE() << why;
     } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+      expect_text(error.what(), {why});
     }
   };
   refused({.name = "insertion"}, "already");

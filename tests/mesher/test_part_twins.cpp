@@ -1,18 +1,6 @@
 #include "algorithms/finish/part_twins.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-
-#include "fields/fields.h"
-#include "geometry/surface/triangulated_model.h"
-#include "mesher/prepare.h"
-#include "mesher/runner.h"
-#include "tests/support/patch_invariants.h"
-#include "tests/support/prepare_surface.h"
+#include "tests/support/meshing.h"
 #include "tests/support/quad_patches.h"
-#include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
@@ -20,15 +8,13 @@ namespace {
 // With four to eight nodes on the circle both caps have chords between the same two of them, or are one quad
 // each. check_invariants() says where an edge has more than two elements or two elements have the same nodes.
 TEST(PartTwins, CapsOnACoarseCircleShareNothingElse) {
-  MeshProblem c;
-  c.name = c.where = "lens";
   for (const double height : {0.45, 0.7})
     for (const double size : {5.0, 1.5, 1.2, 1.0, 0.8, 0.6}) {
-      const PreparedProblem prepared = testing_support::prepare_surface(
-          c, make_surface_model(testing_support::lens(64, 12, height)), make_constant_size(size));
+      const PreparedProblem prepared =
+          prepare_surface({}, make_surface_model(lens(64, 12, height)), make_constant_size(size));
       for (const char* word : {"F", "D", "DL", "FB", "DB", "PB", "DLB", "DBC", "DBCO"}) {
         SCOPED_TRACE(std::string(word) + " " + std::to_string(size) + " " + std::to_string(height));
-        const MeshResult result = run_word(prepared, parse_word(word));
+        const MeshResult result = meshed(prepared, word);
         EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{});
         EXPECT_EQ(result.surface->mesh.euler_characteristic, 2);
         EXPECT_TRUE(result.surface->mesh.watertight());
@@ -156,7 +142,7 @@ int two_sides_in_common(const std::vector<PatchMesh>& patches, const PreparedPro
 TEST_F(Pillow, NoTwoQuadsShareTwoSides) {
   for (const int n : {1, 2, 5}) {
     for (const bool mirrored : {false, true}) {
-      const QuadPatch grid = testing_support::grid_patch(n, n);
+      const QuadPatch grid = grid_patch(n, n);
       PatchMesh& patch = patches[mirrored];
       patch.form = PatchForm::kQuads;
       patch.quads = grid;
@@ -180,7 +166,7 @@ TEST_F(Pillow, NoQuadHasBothSidesOfACut) {
   prepared.patches.resize(1);
   patches.resize(1);
   patches[0].form = PatchForm::kQuads;
-  patches[0].quads = testing_support::grid_patch(3, 3);
+  patches[0].quads = grid_patch(3, 3);
   PatchBoundary& boundary = prepared.patches[0].boundary;
   boundary = shapes::rectangle(3, 3, 3, 3);
   boundary.point_node.back() = boundary.point_node[1];

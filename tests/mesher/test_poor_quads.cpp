@@ -1,29 +1,10 @@
 #include "metrics/judgement/poor_quads.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "tests/features/layers/layered_model.h"
 
 namespace delquad {
 namespace {
 
 using Polygon = std::vector<Vec2>;
-
-MeshProblem problem_of_polygons(const std::vector<Polygon>& loops, double size) {
-  MeshProblem problem;
-  problem.model = polygons(loops);
-  problem.size.field = make_constant_size(size);
-  return problem;
-}
-
-Polygon rectangle(Vec2 low, Vec2 high) { return {low, {high.x, low.y}, high, {low.x, high.y}}; }
 
 /// A coast line: a ragged circle of so many points.
 Polygon coast(int points, double radius) {
@@ -49,32 +30,31 @@ std::string poor_in(const MeshResult& result) {
   return all;
 }
 
-void expect_told(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+void expect_told(const std::string& text, std::initializer_list<std::string> parts) {
+  expect_text(text, parts);
   EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;
 }
 
 TEST(PoorQuads, OfAnOutlineThatIsFinerThanTheSize) {
   const std::vector<Polygon> outline{coast(800, 5)};
-  expect_told(poor_in(mesh(problem_of_polygons(outline, 1), "DBCO")),
+  expect_told(poor_in(mesh(problem_of(polygons(outline), 1), "DBCO")),
               {"quads are poor", "a side below a tenth of the size", "where curves are finer than the size",
                "would help"});
   // What the message says.
-  EXPECT_EQ(poor_in(mesh(problem_of_polygons(outline, 0.04), "DBCO")), "");
+  EXPECT_EQ(poor_in(mesh(problem_of(polygons(outline), 0.04), "DBCO")), "");
 }
 
 TEST(PoorQuads, OfAGapNarrowerThanTheSize) {
-  const std::string text = poor_in(mesh(problem_of_polygons(islands(0.022), 1), "DB"));
+  const std::string text = poor_in(mesh(problem_of(polygons(islands(0.022)), 1), "DB"));
   expect_told(text, {"in places narrower than the size", "would help"});
-  EXPECT_EQ(poor_in(mesh(problem_of_polygons(islands(3), 1), "DB")), "");
+  EXPECT_EQ(poor_in(mesh(problem_of(polygons(islands(3)), 1), "DB")), "");
 }
 
 TEST(PoorQuads, OfAHoleBesideAWall) {
   for (const double gap : {0.005, 0.01}) {
     const std::vector<Polygon> loops{rectangle({0, 0}, {3, 3}), rectangle({gap, 1}, {1, 2})};
     for (const char* word : {"DB", "DBCO"}) {
-      const std::string text = poor_in(mesh(problem_of_polygons(loops, 0.1), word));
+      const std::string text = poor_in(mesh(problem_of(polygons(loops), 0.1), word));
       expect_told(text, {"narrower than the size, " + fmt::format("{:.3g} in", gap)});
       for (const char* wrong : {"finer than the size", "for other reasons"})
         EXPECT_EQ(text.find(wrong), std::string::npos) << text;
@@ -94,10 +74,8 @@ TEST(PoorQuads, OptionsAreNamedWhereTheyHelp) {
       for (int k = 0; k < 2; ++k) plate.triangle_region.push_back(static_cast<int>(plate.regions.size()));
       plate.regions.push_back({static_cast<int>(plate.regions.size()) + 1, {}});
     }
-    MeshProblem problem;
-    problem.model = TriangleModel{plate};
+    MeshProblem problem = problem_of(TriangleModel{plate}, 1);
     problem.surface.ignore_below = ignore_below;
-    problem.size.field = make_constant_size(1);
     return mesh(problem, "DB");
   };
   const auto poor_of = [&](const std::vector<Polygon>& faces, double ignore_below) {
@@ -115,12 +93,12 @@ TEST(PoorQuads, OptionsAreNamedWhereTheyHelp) {
 }
 
 TEST(PoorQuads, OfACornerOfTheModel) {
-  const MeshResult result = mesh(problem_of_polygons({{{0, 0}, {6, -0.05}, {6, 0.05}}}, 0.1), "DB");
+  const MeshResult result = mesh(problem_of(polygons({{{0, 0}, {6, -0.05}, {6, 0.05}}}), 0.1), "DB");
   expect_told(poor_in(result), {"in sharp corners of the model", "0.955 degrees", "at (0."});
 }
 
 TEST(PoorQuads, LayersAreFlatOnPurpose) {
-  LayeredModel model;
+  ModelMaker model;
   model.rectangle({0, 0}, {4, 4}, {"wall", "out", "far", "in"});
   MeshProblem problem = model.problem(0.2, {layer_on({"wall"}, 1e-4, 20)});
   problem.options.set("limits.max_aspect", 10.0);
@@ -131,22 +109,20 @@ TEST(PoorQuads, LayersAreFlatOnPurpose) {
 }
 
 TEST(PoorQuads, OfAGivenMesh) {
-  MeshProblem problem;
-  problem.model = GivenMesh{mesh(problem_of_polygons(islands(0.022), 1), "DB").mesh};
+  MeshProblem problem = problem_of(GivenMesh{mesh(problem_of(polygons(islands(0.022)), 1), "DB").mesh});
   expect_told(poor_in(mesh(problem, "CO")), {"in places narrower than the size"});
 }
 
 TEST(Limits, AreAnErrorWithPlaces) {
-  MeshProblem problem = problem_of_polygons({{{0, 0}, {6, -0.5}, {6, 0.5}}}, 0.2);
+  MeshProblem problem = problem_of(polygons({{{0, 0}, {6, -0.5}, {6, 0.5}}}), 0.2);
   problem.options.set("limits.min_angle", 20.0);
   try {
     mesh(problem, "DB");
     FAIL() << "a corner of ten degrees passed";
   } catch (const UnsoundError& error) {
     const std::string text = error.what();
-    for (const char* part :
-         {"beyond the limits", "elements have an angle below 20 degrees", "the least 9.5", "at ("})
-      EXPECT_NE(text.find(part), std::string::npos) << text;
+    expect_text(text,
+                {"beyond the limits", "elements have an angle below 20 degrees", "the least 9.5", "at ("});
     EXPECT_EQ(text.find("not sound"), std::string::npos) << text;
     ASSERT_TRUE(error.result);
     EXPECT_TRUE(error.result->soundness.sound());
@@ -160,11 +136,11 @@ TEST(Limits, AreAnErrorWithPlaces) {
   EXPECT_TRUE(beyond.sound());
   EXPECT_EQ(allowed.warnings.back().text, beyond.complaint());
   ASSERT_EQ(beyond.beyond.size(), 1u);
-  EXPECT_NE(beyond.beyond[0].find("an aspect above 1.5"), std::string::npos) << beyond.beyond[0];
+  expect_text(beyond.beyond[0], {"an aspect above 1.5"});
 }
 
 TEST(Limits, LetPerfectSquaresThrough) {
-  MeshProblem problem = problem_of_polygons({rectangle({0.1, 0.1}, {1.1, 1.1})}, 0.1);
+  MeshProblem problem = problem_of(polygons({rectangle({0.1, 0.1}, {1.1, 1.1})}), 0.1);
   problem.options.set("limits.min_angle", 90.0).set("limits.max_aspect", 1.0);
   EXPECT_TRUE(mesh(problem, "DB").soundness.accepted());
   EXPECT_THROW(problem.options.set("limits.max_aspect", 0.5), InputError);
@@ -172,15 +148,14 @@ TEST(Limits, LetPerfectSquaresThrough) {
 
 TEST(SinglePrecision, IsToldOfFarModels) {
   const auto far_away = [](double x) {
-    return mesh(problem_of_polygons({rectangle({x, x}, {x + 1, x + 1})}, 0.1), "DB").warnings;
+    return mesh(problem_of(polygons({rectangle({x, x}, {x + 1, x + 1})}), 0.1), "DB").warnings;
   };
   EXPECT_TRUE(far_away(0).empty());
   EXPECT_TRUE(far_away(1e3).empty());
   const auto warnings = far_away(4e6);  // numbers there are half a unit apart
   ASSERT_EQ(warnings.size(), 1u);
-  for (const char* part :
-       {"single precision", "inverted or flat", "origin near to (4000000.5, 4000000.5, 0)"})
-    EXPECT_NE(warnings[0].text.find(part), std::string::npos) << warnings[0].text;
+  expect_text(warnings[0].text,
+              {"single precision", "inverted or flat", "origin near to (4000000.5, 4000000.5, 0)"});
 }
 
 }  // namespace

@@ -1,16 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-
-#include "delquad/error.h"
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/grid_mesh.h"
-#include "tests/support/shapes.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -20,19 +8,12 @@ namespace {
 MeshProblem ridge(double size) {
   TriangleModel sheet;
   sheet.source = "ridge";
-  sheet.mesh = testing_support::triangle_grid(80, 20, 4, 2);
+  sheet.mesh = triangle_grid(80, 20, 4, 2);
   for (Vec3& p : sheet.mesh.points)
     p.z = 1.2 * std::max(0.0, 1 - std::abs(p.x - 2) / 0.2) * std::max(0.0, 1 - std::abs(p.y - 1) / 0.6);
-  MeshProblem problem;
+  MeshProblem problem = problem_of(sheet, size);
   problem.name = problem.where = "ridge";
-  problem.model = sheet;
-  problem.size.field = make_constant_size(size);
   return problem;
-}
-
-bool says(const MeshResult& result, const std::string& text) {
-  return std::ranges::any_of(result.warnings,
-                             [&](const Warning& w) { return w.text.find(text) != std::string::npos; });
 }
 
 TEST(RefineUnsound, MakesSizesSmallerWhereQuadsCannotBeSound) {
@@ -43,7 +24,7 @@ TEST(RefineUnsound, MakesSizesSmallerWhereQuadsCannotBeSound) {
   const MeshResult result = mesh(problem, "DB");
   EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
   EXPECT_GT(result.log.summaries.number("refine_unsound", "rounds"), 0);
-  EXPECT_TRUE(says(result, "the size is smaller"));
+  EXPECT_TRUE(is_told(result.warnings, "the size is smaller"));
 }
 
 TEST(RefineUnsound, StaysAwayFromTheRest) {
@@ -65,19 +46,13 @@ TEST(RefineUnsound, LeavesSoundMeshesAlone) {
 TEST(RefineUnsound, KeepGoingLeavesOutWhatIsNotSound) {
   MeshProblem problem = ridge(0.5);
   auto& sheets = std::get<TriangleModel>(problem.model).mesh;
-  const Mesh flat = testing_support::triangle_grid(4, 4, 2, 2);
-  const int n = static_cast<int>(sheets.points.size());
-  for (const Vec3& p : flat.points) sheets.points.push_back(p + Vec3{0, 5, 0});
-  for (const auto& [a, b, c] : flat.triangles) {
-    sheets.triangles.push_back({a + n, b + n, c + n});
-    sheets.triangle_region.push_back(0);
-  }
+  append(sheets, triangle_grid(4, 4, 2, 2), {0, 5, 0});
   problem.options.set("repair.refine_unsound", false);
   EXPECT_THROW(mesh(problem, "DB"), UnsoundError);
   problem.keep_going = true;
   const MeshResult result = mesh(problem, "DB");
   ASSERT_FALSE(result.failures.empty());
-  EXPECT_NE(result.failures[0].reason.find("is not sound"), std::string::npos) << result.failures[0].reason;
+  expect_text(result.failures[0].reason, {"is not sound"});
   EXPECT_TRUE(result.soundness.sound());
   EXPECT_EQ(result.mesh.quads.size(), 16u) << "of the flat sheet alone";
 }
@@ -111,24 +86,21 @@ MeshProblem needle(double angle) {
   std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
   mesh.regions = {{1, {}}};
   mesh.triangle_region.assign(mesh.triangles.size(), 0);
-  MeshProblem problem;
+  MeshProblem problem = problem_of(slab, 0.6);
   problem.name = problem.where = "needle";
-  problem.model = slab;
-  problem.size.field = make_constant_size(0.6);
   return problem;
 }
 
 TEST(RefineUnsound, LeavesOutWhatIsNarrowAtLastAndSaysSo) {
   MeshProblem problem = needle(1e-5 * std::numbers::pi / 180);
   const MeshResult result = mesh(problem, "DBCO");
-  EXPECT_TRUE(says(result, "what is narrower than 0.06, a tenth of the size, is left out"));
+  EXPECT_TRUE(is_told(result.warnings, "what is narrower than 0.06, a tenth of the size, is left out"));
   problem.options.set("repair.refine_unsound", false);
   try {
     mesh(problem, "DBCO");
     ADD_FAILURE() << "the test is too easy";
   } catch (const UnsoundError& error) {
-    EXPECT_NE(std::string(error.what()).find("in places narrower than the size"), std::string::npos)
-        << error.what() << ": the reason is told";
+    expect_text(error.what(), {"in places narrower than the size"});
   }
 }
 
@@ -136,13 +108,11 @@ TEST(RefineUnsound, LeavesOutWhatIsNarrowAtLastAndSaysSo) {
 MeshProblem rubble(int seed) {
   TriangleModel ball;
   ball.source = "rubble";
-  ball.mesh = testing_support::round_sphere(5).fine;
+  ball.mesh = round_sphere(5).fine;
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   for (Vec3& p : ball.mesh.points) p = (1 + 0.5 * (2 * shapes::uniform(random) - 1)) * p;
-  MeshProblem problem;
+  MeshProblem problem = problem_of(ball, 0.7);
   problem.name = problem.where = "rubble";
-  problem.model = ball;
-  problem.size.field = make_constant_size(0.7);
   problem.surface.feature_angle = 180;
   problem.allow_unsound = true;
   problem.options.set("repair.ignore_small", false);
@@ -157,7 +127,7 @@ TEST(RefineUnsound, KeepsTheBestMeshAndSaysWhyItEnds) {
   problem.options.set("repair.refine_unsound", true);
   const MeshResult after = mesh(problem, "DB");
   EXPECT_LE(after.soundness.places.size(), before.soundness.places.size());
-  EXPECT_TRUE(after.soundness.sound() || says(after, "smaller sizes around places"));
+  EXPECT_TRUE(after.soundness.sound() || is_told(after.warnings, "smaller sizes around places"));
   EXPECT_EQ(after.mesh.quads.size() == before.mesh.quads.size(), !after.log.summaries.has("refine_unsound"));
 }
 

@@ -1,15 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <random>
-#include <set>
-#include <tuple>
-
-#include "delquad/mesher.h"
-#include "geometry/mesh/half_edges.h"
 #include "metrics/regularity.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

@@ -1,13 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "io/cases/case_file.h"
 #include "io/mesh_io.h"
-#include "mesher/runner.h"
-#include "patches/prepared.h"
+#include "tests/support/meshing.h"
 #include "tests/support/prepare_case.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
@@ -15,12 +9,12 @@ namespace {
 class SlidingNodes : public testing::Test {
  protected:
   Case read(const std::string& text, long long seed = 0) {
-    Case c = read_model_case(testing_support::write_text(folder_ / "c.toml", text));
+    Case c = read_model_case(write_text(folder_ / "c.toml", text));
     c.seed = seed;
     return c;
   }
-  static Mesh run(const PreparedProblem& prepared) { return run_word(prepared, parse_word("DBO")).mesh; }
-  testing_support::TemporaryFolder folder_;
+  static Mesh run(const PreparedProblem& prepared) { return meshed(prepared, "DBO").mesh; }
+  TemporaryFolder folder_;
 };
 
 TEST_F(SlidingNodes, StayOnTheCirclesThatRegionsShare) {

@@ -1,22 +1,9 @@
-#include "metrics/judgement/soundness.h"
-#include "tests/support/prepare_case.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <limits>
-
 #include "geometry/mesh/check_invariants.h"
-#include "geometry/surface/triangulated_model.h"
 #include "io/cases/case_file.h"
 #include "io/mesh_io.h"
-#include "mesher/prepare.h"
-#include "mesher/runner.h"
-#include "tests/support/prepare_surface.h"
+#include "tests/support/meshing.h"
+#include "tests/support/prepare_case.h"
 #include "tests/support/shared_data.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
@@ -30,7 +17,7 @@ bool has(const Soundness& soundness, const std::string& part) {
 
 /// Corners of 180 degrees passed here by rounding, with scaled Jacobians of 4e-14.
 TEST(Margin, FlatCornersAreCured) {
-  const auto file = testing_support::shared_data("hard2/example-ro__gripper_motor_single_collision.STL");
+  const auto file = shared_data("hard2/example-ro__gripper_motor_single_collision.STL");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "data not found: " << file;
   Case c = read_model_case(file);
   const Mesh model = read_mesh(file);
@@ -49,10 +36,8 @@ TEST(Margin, FlatCornersAreCured) {
 class SoundCube : public testing::Test {
  protected:
   SoundCube() {
-    case_.name = case_.where = "cube";
-    prepared_ = testing_support::prepare_surface(case_, make_surface_model(testing_support::box(8)),
-                                                 make_constant_size(0.25));
-    mesh_ = run_word(prepared_, parse_word("DB")).mesh;
+    prepared_ = prepare_surface({}, make_surface_model(box(8)), make_constant_size(0.25));
+    mesh_ = meshed(prepared_, "DB").mesh;
   }
   Soundness check(const std::vector<char>& left_out = std::vector<char>(6, 0)) const {
     const PreparedSurface& surface = *prepared_.surface;
@@ -76,7 +61,6 @@ class SoundCube : public testing::Test {
     return "face " + std::to_string(mesh_.regions[mesh_.quad_region[inner_quad()]].tag);
   }
 
-  MeshProblem case_;
   PreparedProblem prepared_;
   Mesh mesh_;
 };
@@ -219,17 +203,17 @@ TEST_F(SoundCube, FacesThatAreLeftOutAreNotMissed) {
 class SoundDomain : public testing::Test {
  protected:
   SoundDomain() {
-    c_ = read_model_case(testing_support::write_text(
+    c_ = read_model_case(write_text(
         folder_ / "domain.toml",
         "size = 0.1\nloop = [{ rectangle = [[0, 0], [2, 1]] }, { circle = { centre = [0.5, 0.5], radius = "
         "0.2 } },\n{ circle = { centre = [1.5, 0.5], radius = 0.3 }, region = \"core\" }]\n"));
     prepared_ = prepare_case(c_);
-    result_ = run_word(prepared_, parse_word("DB"));
+    result_ = meshed(prepared_, "DB");
     mesh_ = result_.mesh;
   }
   Soundness check() const { return check_soundness(prepared_, mesh_, nullptr, sorted_half_edges(mesh_)); }
 
-  testing_support::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   Case c_;
   PreparedProblem prepared_;
   MeshResult result_;
@@ -287,11 +271,7 @@ TEST(SoundSurface, MayLookDown) {
       for (auto& v : square.triangles) std::ranges::reverse(v);
     square.triangle_region = {0, 0};
     square.regions = {{1, {}}};
-    MeshProblem c;
-    c.name = c.where = "square";
-    const PreparedProblem prepared =
-        testing_support::prepare_surface(c, make_surface_model(square), make_constant_size(0.2));
-    const MeshResult result = run_word(prepared, parse_word("DBCO"));
+    const MeshResult result = meshed(make_surface_model(square), 0.2, "DBCO");
     EXPECT_TRUE(result.soundness.sound()) << down << ": " << result.soundness.text();
     EXPECT_EQ(result.metrics.values.at("n_inverted"), 0);
     EXPECT_NEAR(result.metrics.values.at("eta_worst"), 1, 1e-6);
@@ -304,18 +284,15 @@ TEST(SoundSurface, MayLookDown) {
 
 /// Twins that are not parted are found out.
 TEST(SoundSurface, TwinsAreNot) {
-  MeshProblem c;
-  c.name = c.where = "lens";
-  PreparedProblem prepared = testing_support::prepare_surface(
-      c, make_surface_model(testing_support::lens(64, 12, 0.45)), make_constant_size(5));
-  const auto run = [&] { return run_word(prepared, parse_word("DB")); };
-  const MeshResult parted = run();
+  PreparedProblem prepared =
+      prepare_surface({}, make_surface_model(lens(64, 12, 0.45)), make_constant_size(5));
+  const MeshResult parted = meshed(prepared, "DB");
   EXPECT_FALSE(has(parted.soundness, "conforming")) << parted.soundness.text();
   const Summaries& done = parted.log.summaries;
   ASSERT_TRUE(done.has("part_twins"));
   EXPECT_GT(done.number("part_twins", "chords") + done.number("part_twins", "rings"), 0);
   prepared.settings.options.set("repair.part_twins", false);
-  const MeshResult twins = run();
+  const MeshResult twins = meshed(prepared, "DB");
   EXPECT_FALSE(twins.log.summaries.has("part_twins"));
   EXPECT_TRUE(has(twins.soundness, "conforming") || has(twins.soundness, "more or fewer"))
       << twins.soundness.text();

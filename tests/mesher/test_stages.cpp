@@ -1,7 +1,4 @@
-#include <gtest/gtest.h>
-
-#include "mesher/runner.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

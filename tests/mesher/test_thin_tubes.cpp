@@ -1,38 +1,16 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numbers>
-
-#include "fields/fields.h"
 #include "geometry/surface/surface_editor.h"
-#include "mesher/prepare.h"
-#include "mesher/runner.h"
 #include "metrics/judgement/poor_quads.h"
-#include "metrics/metrics.h"
+#include "tests/support/meshing.h"
 #include "tests/support/polygon_face.h"
-#include "tests/support/prepare_surface.h"
-#include "tests/support/surfaces.h"
 
 namespace delquad {
 namespace {
 
-namespace surfaces = testing_support;
-
-PreparedProblem prepared_surface(SurfaceModel model, double size) {
-  MeshProblem c;
-  c.name = c.where = "tube";
-  return surfaces::prepare_surface(c, std::move(model), make_constant_size(size));
-}
-
 /// Elements do not meet themselves, and no two have the same vertices.
-MeshResult mesh_of(const PreparedProblem& prepared, const char* word) {
-  MeshResult result = run_word(prepared, parse_word(word));
+MeshResult mesh_of(SurfaceModel model, double size, const char* word) {
+  MeshResult result = meshed(std::move(model), size, word);
   EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{});
   return result;
-}
-
-MeshResult mesh_of(SurfaceModel model, double size, const char* word) {
-  return mesh_of(prepared_surface(std::move(model), size), word);
 }
 
 double worst_eta(const Mesh& mesh) {
@@ -42,7 +20,7 @@ double worst_eta(const Mesh& mesh) {
 
 TEST(ThinTubes, QuadsDoNotMeetThemselvesAround) {
   for (const double size : {0.2, 0.5, 1.0, 2.0}) {
-    const MeshResult result = mesh_of(surfaces::cylinder(16, 96, 0.1, 4), size, "DB");
+    const MeshResult result = mesh_of(cylinder(16, 96, 0.1, 4), size, "DB");
     EXPECT_TRUE(result.mesh.triangles.empty());
     EXPECT_EQ(result.surface->mesh.euler_characteristic, 0);
     EXPECT_GT(worst_eta(result.mesh), 0.3) << size;
@@ -53,7 +31,7 @@ TEST(ThinTubes, TwoQuadsMeetAtAPointedTip) {
   for (const double degrees : {2, 5, 10, 20, 33}) {
     const double half_angle = degrees * std::numbers::pi / 180;
     for (const double size : {0.07, 0.2}) {
-      const MeshResult result = mesh_of(surfaces::cone(48, 24, half_angle), size, "DB");
+      const MeshResult result = mesh_of(cone(48, 24, half_angle), size, "DB");
       EXPECT_EQ(result.surface->mesh.euler_characteristic, 1);
       const auto at_tip = std::ranges::count_if(result.mesh.quads, [&](const auto& quad) {
         return std::ranges::any_of(quad, [&](int v) { return norm(result.mesh.points[v]) < 1e-12; });
@@ -70,22 +48,22 @@ TEST(ThinTubes, ATipDoesNotKeepTheRestFromTreatment) {
   // Where treatment leaves but two quads around, the whole patch keeps what the matching left: flat boundary
   // corners.
   for (const auto& [half_angle, n] : {std::pair(0.05, 76), {0.05, 88}, {0.066, 64}, {0.09, 94}})
-    EXPECT_EQ(mesh_of(surfaces::cone(48, 64, half_angle), 1.0 / n, "DB").bad_elsewhere, 0)
-        << half_angle << " " << n;
+    EXPECT_EQ(mesh_of(cone(48, 64, half_angle), 1.0 / n, "DB").bad_elsewhere, 0) << half_angle << " " << n;
 }
 
 TEST(ThinTubes, VerticesMoveBesideTips) {
-  const MeshResult result = mesh_of(surfaces::cone(48, 24, 0.15), 0.1, "DBO");
+  const MeshResult result = mesh_of(cone(48, 24, 0.15), 0.1, "DBO");
   EXPECT_EQ(result.surface->mesh.euler_characteristic, 1);
   EXPECT_GT(worst_eta(result.mesh), 0.9 * 0.15 / (std::numbers::pi / 4));
 }
 
 TEST(SharpCorners, ExplainQuadsThatReachTheirBoundOnly) {
   const PreparedProblem prepared =
-      prepared_surface(surfaces::polygon_face({{0, 0}, {6, -0.2}, {6, 0.2}}, 0.1), 0.5);
+      prepare_surface({}, polygon_face({{0, 0}, {6, -0.2}, {6, 0.2}}, 0.1), make_constant_size(0.5));
   ASSERT_EQ(prepared.surface->domain.sharp_corners.size(), 1u);
   EXPECT_LT(prepared.surface->domain.sharp_corners[0].eta_bound, 0.1);
-  MeshResult result = mesh_of(prepared, "DB");
+  MeshResult result = meshed(prepared, "DB");
+  EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{});
   EXPECT_EQ(result.bad_in_corners, 1);
   EXPECT_EQ(result.bad_elsewhere, 0);
   // A corner of its quad that opens to nearly 180 degrees is worse than the model's.
@@ -104,9 +82,7 @@ TEST(SharpCorners, ExplainQuadsThatReachTheirBoundOnly) {
 /// A square of side 10 with a slit from the middle of a side to its centre, in so many lines.
 SurfaceModel slit_square(int lines) {
   const int n = 2 * lines;
-  SurfaceModel model = surfaces::grid_surface({n, n}, [](double u, double v) {
-    return Vec3{10 * u, 10 * v, 0};
-  });
+  SurfaceModel model = grid_surface({n, n}, [](double u, double v) { return Vec3{10 * u, 10 * v, 0}; });
   std::vector<int> chain;
   for (int i = 0; i <= lines; ++i) {
     const Vec3 x{5.0 * i / lines, 5, 0};
@@ -133,8 +109,8 @@ TEST(ThinTubes, ASlitIsNone) {
 }
 
 TEST(ThinTubes, TrianglesCoverThemToo) {
-  EXPECT_EQ(mesh_of(surfaces::cylinder(16, 96, 0.1, 4), 1, "D").surface->mesh.euler_characteristic, 0);
-  EXPECT_EQ(mesh_of(surfaces::cone(48, 24, 0.15), 0.2, "D").surface->mesh.euler_characteristic, 1);
+  EXPECT_EQ(mesh_of(cylinder(16, 96, 0.1, 4), 1, "D").surface->mesh.euler_characteristic, 0);
+  EXPECT_EQ(mesh_of(cone(48, 24, 0.15), 0.2, "D").surface->mesh.euler_characteristic, 1);
 }
 
 }  // namespace

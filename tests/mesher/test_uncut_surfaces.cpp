@@ -1,13 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <map>
-#include <numbers>
-
-#include "delquad/mesher.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
+#include "tests/support/named_lines.h"
 
 namespace delquad {
 namespace {
@@ -37,9 +29,7 @@ Mesh torus_scan() {
 }
 
 MeshResult mesh_scan(const Mesh& scan, double size, int threads = 1) {
-  MeshProblem problem;
-  problem.model = TriangleModel{scan};
-  problem.size.field = make_constant_size(size);
+  MeshProblem problem = problem_of(TriangleModel{scan}, size);
   return mesh(problem, "DBCQO", {.threads = threads});
 }
 
@@ -70,8 +60,7 @@ TEST(AcrossCuts, ATorusGetsFewerIrregularVertices) {
 }
 
 TEST(AcrossCuts, ASphereGetsFewerIrregularVertices) {
-  expect_fewer(testing_support::round_sphere(24).fine, 0.06,
-               [](const Vec3& p) { return std::abs(norm(p) - 1); });
+  expect_fewer(round_sphere(24).fine, 0.06, [](const Vec3& p) { return std::abs(norm(p) - 1); });
 }
 
 TEST(AcrossCuts, NothingHappensToAnOpenScanWithoutCuts) {
@@ -86,9 +75,7 @@ TEST(AcrossCuts, NothingHappensToAnOpenScanWithoutCuts) {
 
 /// Halves that are images must stay so.
 TEST(AcrossCuts, NothingHappensToSymmetricSurfaces) {
-  MeshProblem problem;
-  problem.model = TriangleModel{torus_scan()};
-  problem.size.field = make_constant_size(0.1);
+  MeshProblem problem = problem_of(TriangleModel{torus_scan()}, 0.1);
   problem.symmetry.planes = {{{0, 0, 0}, {0, 0, 1}}};
   const MeshResult result = mesh(problem, "DBCQO");
   EXPECT_EQ(result.log.summaries.get<long long>("across_cuts", "faces"), 0);
@@ -97,9 +84,7 @@ TEST(AcrossCuts, NothingHappensToSymmetricSurfaces) {
 }
 
 TEST(AcrossCuts, LinesAndPointsInsideStay) {
-  MeshProblem problem;
-  problem.model = TriangleModel{torus_scan()};
-  problem.size.field = make_constant_size(0.06);
+  MeshProblem problem = problem_of(TriangleModel{torus_scan()}, 0.06);
   const Vec3 point{0, -1.4, 0};
   const std::vector<Vec3> rib{{1.4, 0, 0}, {1.4 * std::cos(0.5), 1.4 * std::sin(0.5), 0}};
   problem.surface.embed = {{rib, "rib", "test"}, {{point}, "sensor", "test"}};
@@ -108,9 +93,8 @@ TEST(AcrossCuts, LinesAndPointsInsideStay) {
   EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
   const Mesh& mesh = result.mesh;
   std::map<int, int> uses;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-    if (mesh.curves[mesh.line_curve[l]].names == std::vector<std::string>{"rib"})
-      for (const int v : mesh.lines[l]) ++uses[v];
+  for (const auto& line : lines_named(mesh, "rib"))
+    for (const int v : line) ++uses[v];
   EXPECT_GT(uses.size(), 8u);
   for (const Vec3& end : rib)
     EXPECT_TRUE(std::ranges::any_of(uses, [&](const auto& use) {

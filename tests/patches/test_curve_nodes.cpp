@@ -1,14 +1,6 @@
 #include "patches/curve_nodes.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include "patches/even_counts.h"
-#include "tests/support/shapes.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

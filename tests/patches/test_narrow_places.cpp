@@ -1,12 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numbers>
-
 #include "geometry/surface/flatten.h"
 #include "patches/across_view.h"
 #include "patches/face_corners.h"
 #include "patches/narrow_places.h"
+#include "tests/support/meshing.h"
 #include "tests/support/polygon_face.h"
 
 namespace delquad {

@@ -1,24 +1,14 @@
-#include "patches/surface_domain.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
-
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/treatment/treatment.h"
 #include "features/curves/mesh_surface_curves.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/surface/improve_triangulation.h"
-#include "geometry/surface/triangulated_model.h"
-#include "metrics/metrics.h"
 #include "patches/places_inside.h"
+#include "patches/surface_domain.h"
 #include "smoothing/surface/surface_lift.h"
+#include "tests/support/meshing.h"
 #include "tests/support/polygon_face.h"
-#include "tests/support/surfaces.h"
 
 namespace delquad {
 namespace {

@@ -1,17 +1,13 @@
 #pragma once
 
-#include <memory>
-#include <utility>
-#include <vector>
-
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/treatment/treatment.h"
 #include "delquad/extend.h"
 #include "features/curves/mesh_surface_curves.h"
-#include "fields/fields.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "smoothing/surface/surface_tracks.h"
+#include "tests/support/meshing.h"
 
 namespace delquad::testing_support {
 

@@ -1,14 +1,9 @@
 #pragma once
 
-#include <cstdint>
-#include <random>
-#include <vector>
-
-#include "geometry/mesh/constrained_delaunay.h"
 #include "smoothing/cvt/bounded_voronoi.h"
 #include "smoothing/cvt/lp_energy.h"
 #include "smoothing/cvt/moving_delaunay.h"
-#include "tests/support/shapes.h"
+#include "tests/support/meshing.h"
 #include "tests/support/tri_patches.h"
 
 /// Seeds in a patch, with axes and weights of every kind.

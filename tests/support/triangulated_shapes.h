@@ -98,6 +98,16 @@ inline Mesh lens(int n_around, int n_rings, double height) {
   return shape.mesh;
 }
 
+/// Adds the triangles of a moved mesh, in regions of the same numbers. Returns the number of its first point.
+inline int append(Mesh& mesh, const Mesh other, const Vec3& shift = {}) {
+  const int n = static_cast<int>(mesh.points.size());
+  for (const Vec3& p : other.points) mesh.points.push_back(p + shift);
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + n, b + n, c + n});
+  mesh.triangle_region.insert(mesh.triangle_region.end(), other.triangle_region.begin(),
+                              other.triangle_region.end());
+  return n;
+}
+
 /// All triangles in one region.
 inline Mesh without_regions(Mesh mesh) {
   mesh.regions = {{1, {}}};

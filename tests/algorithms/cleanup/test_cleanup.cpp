@@ -1,37 +1,7 @@
-#include "algorithms/cleanup/cleanup.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-
-#include "algorithms/insertion/frontal_mesher.h"
-#include "algorithms/recombination/recombine.h"
-#include "algorithms/treatment/local_remeshing.h"
-#include "algorithms/treatment/treatment.h"
-#include "algorithms/treatment/treatment_moves.h"
-#include "delquad/extend.h"
-#include "smoothing/relocation/quad_relocation.h"
-#include "tests/support/analytic_fields.h"
-#include "tests/support/quad_patch_checks.h"
-#include "tests/support/quad_patches.h"
+#include "tests/algorithms/stages.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
-
-/// Sum of (valence - ideal)^2.
-int valence_energy(const QuadPatch& mesh) {
-  const QuadTopology topology(mesh);
-  const ValenceEnergy energy(topology);
-  int sum = 0;
-  for (int v = 0; v < topology.vertex_slots(); ++v)
-    if (topology.vertex_alive(v)) sum += energy.of(v);
-  return sum;
-}
 
 /// Boundary vertices whose only quad has an angle of about 160 degrees or more.
 int forced_bad(const QuadPatch& mesh) {
@@ -40,27 +10,6 @@ int forced_bad(const QuadPatch& mesh) {
   int bad = 0;
   for (int v = 0; v < mesh.n_boundary; ++v) bad += topology.valence(v) == 1 && energy.of(v) > 7;
   return bad;
-}
-
-/// Cleans up and checks what must hold for any input.
-QuadPatch cleaned(const QuadPatch& mesh, const PatchBoundary& boundary, const ParametricSize& size,
-                  const CleanupOptions& options = {}, CleanupSummary* summary = nullptr) {
-  CleanupSummary own;
-  const QuadPatch result = clean_up(mesh, size, options, &own);
-  expect_sound(result, boundary);
-  EXPECT_EQ(result.triangles.size(), mesh.triangles.size());
-  EXPECT_EQ(static_cast<int>(result.quads.size()) - static_cast<int>(mesh.quads.size()),
-            own.splits + 2 * own.openings - own.diamonds - own.doublets);
-  EXPECT_LE(valence_energy(result), valence_energy(mesh));
-  EXPECT_GE(worst_sine(result), std::min(worst_sine(mesh), sine_of_eta(kCleanupFloorEta)));
-  if (summary != nullptr) *summary = own;
-  return result;
-}
-
-QuadPatch treated(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
-                  const ParametricSize& size) {
-  const QuadPatch raw = recombine(mesh_frontal(boundary, placement, cross, size), *make_primal_dual_solver());
-  return treat_paper(raw, size);
 }
 
 TEST(ValenceEnergy, ForcedElementsCostMore) {
@@ -77,7 +26,7 @@ TEST(ValenceEnergy, ForcedElementsCostMore) {
   EXPECT_EQ(of_corner(90, 1), 0);
   EXPECT_EQ(of_corner(90, 2), 1);     // 45 degrees each: eta 1/2 is none too bad
   EXPECT_EQ(of_corner(134, 1), 0);    // ideal
-  EXPECT_EQ(of_corner(136, 1), 2);    // eta .49
+  EXPECT_EQ(of_corner(136, 1), 2);    // eta 0.49
   EXPECT_EQ(of_corner(157.5, 1), 7);  // eta 1/4: half of 12, and one step of valence
   EXPECT_EQ(of_corner(157.5, 2), 0);
   EXPECT_EQ(of_corner(179.99, 1), 13);
@@ -86,51 +35,33 @@ TEST(ValenceEnergy, ForcedElementsCostMore) {
 }
 
 TEST(ValenceEnergy, GainIsWhatTheSumLoses) {
-  const QuadPatch mesh = scrambled(grid_patch(8, 7), 3, 30);
-  const auto sum = [](const QuadTopology& topology, const ValenceEnergy& energy) {
-    int total = 0;
-    for (int v = 0; v < topology.vertex_slots(); ++v)
-      if (topology.vertex_alive(v)) total += energy.of(v);
-    return total;
-  };
-  QuadTopology topology(mesh);
-  const ValenceEnergy energy(topology);
-  const int before = sum(topology, energy);
-  std::array<int, 8> tried{};
-  const auto check = [&](const TreatmentMove& move) {
-    if (!is_legal(topology, move)) return;
-    const int gain = energy.gain(move);
-    const auto start = topology.mark();
-    apply(topology, move);
-    EXPECT_EQ(before - sum(topology, energy), gain) << "kind " << move.kind << " at " << move.at;
-    topology.rollback(start);
-    ++tried[move.kind];
-  };
-  for (int e = 0; e < topology.element_slots(); ++e) {
-    for_each_move(topology, e, check);
-    for_each_opening(topology, e, check);
+  // On this the end of the queues of moves rests.
+  std::vector<QuadPatch> meshes = {scrambled(grid_patch(8, 7), 3, 30)};
+  for (int seed = 0; seed < 20; ++seed) meshes.push_back(scrambled(grid_patch(8, 8), seed, 100));
+  for (const QuadPatch& mesh : meshes) {
+    QuadTopology topology(mesh);
+    const ValenceEnergy energy(topology);
+    const int before = valence_energy(topology, energy);
+    std::array<int, 8> tried{};
+    const auto check = [&](const TreatmentMove& move) {
+      if (!is_legal(topology, move)) return;
+      const int gain = energy.gain(move);
+      const auto start = topology.mark();
+      apply(topology, move);
+      EXPECT_EQ(before - valence_energy(topology, energy), gain) << "kind " << move.kind << " at " << move.at;
+      topology.rollback(start);
+      ++tried[move.kind];
+    };
+    for (int e = 0; e < topology.element_slots(); ++e) {
+      for_each_move(topology, e, check);
+      for_each_opening(topology, e, check);
+    }
+    for (int v = 0; v < topology.vertex_slots(); ++v) for_each_split(topology, v, check);
+    using Move = TreatmentMove;
+    for (const auto kind : {Move::kRotateForward, Move::kRotateBackward, Move::kCollapse, Move::kSplit,
+                            Move::kOpenForward, Move::kOpenBackward})
+      EXPECT_GT(tried[kind], 10) << "kind " << kind;
   }
-  for (int v = 0; v < topology.vertex_slots(); ++v) for_each_split(topology, v, check);
-  using Move = TreatmentMove;
-  for (const auto kind : {Move::kRotateForward, Move::kRotateBackward, Move::kCollapse, Move::kSplit,
-                          Move::kOpenForward, Move::kOpenBackward})
-    EXPECT_GT(tried[kind], 10) << "kind " << kind;
-}
-
-TEST(Cleanup, RegularGridStays) {
-  const QuadPatch grid = grid_patch(7, 5);
-  CleanupSummary summary;
-  const QuadPatch result = cleaned(grid, shapes::rectangle(7, 5, 7, 5), FunctionSize(1), {}, &summary);
-  EXPECT_EQ(result.points, grid.points);
-  EXPECT_EQ(result.quads, grid.quads);
-  EXPECT_EQ(summary.irregular_before, 0);
-  EXPECT_EQ(summary.tried, 0);
-}
-
-TEST(Cleanup, SmallestMeshes) {
-  const QuadPatch one = cleaned(grid_patch(1, 1), shapes::rectangle(1, 1, 1, 1), FunctionSize(1));
-  EXPECT_EQ(one.quads.size(), 1u);
-  EXPECT_EQ(cleaned(triangle_patch(), shapes::disk(1, 3), FunctionSize(1)).triangles.size(), 1u);
 }
 
 TEST(Cleanup, ScrambledGridRecovers) {
@@ -144,15 +75,16 @@ TEST(Cleanup, ScrambledGridRecovers) {
 }
 
 TEST(Cleanup, DoubletGoes) {
-  QuadPatch doublet;
-  doublet.points = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}};
-  doublet.quads = {{0, 1, 2, 4}, {0, 4, 2, 3}};
-  doublet.n_boundary = 4;
   CleanupSummary summary;
-  const QuadPatch result =
-      cleaned(doublet, shapes::polygon({{0, 0}, {2, 0}, {2, 2}, {0, 2}}), FunctionSize(2), {}, &summary);
+  cleaned(doublet(), shapes::rectangle(2, 2, 1, 1), FunctionSize(2), {}, &summary);
   EXPECT_EQ(summary.doublets + summary.diamonds, 1);
-  EXPECT_EQ(result.quads.size(), 1u);
+}
+
+TEST(Cleanup, TriesNothingOnARegularGrid) {
+  CleanupSummary summary;
+  cleaned(grid_patch(7, 5), shapes::rectangle(7, 5, 7, 5), FunctionSize(1), {}, &summary);
+  EXPECT_EQ(summary.irregular_before, 0);
+  EXPECT_EQ(summary.tried, 0);
 }
 
 TEST(Cleanup, FlatBoundaryVertexGetsItsSecondQuad) {
@@ -180,11 +112,10 @@ TEST(Cleanup, EdgeWithoutLengthIsOpened) {
 
 TEST(Cleanup, AnnealingFindsWhatGreedyCannot) {
   const FunctionSize size([](Vec2 p) { return 0.04 * (1 + norm(p)); });
-  const FunctionCross cross(0.3);
   int greedy = 0, annealed = 0;
   for (int seed = 0; seed < 10; ++seed) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
-    const QuadPatch mesh = treated(boundary, *make_linf_delquad(), cross, size);
+    const QuadPatch mesh = treat_paper(matched(boundary, size), size);
     greedy += valence_energy(cleaned(mesh, boundary, size, {.rounds = 0}));
     annealed += valence_energy(cleaned(mesh, boundary, size));
   }
@@ -193,18 +124,15 @@ TEST(Cleanup, AnnealingFindsWhatGreedyCannot) {
 
 TEST(Cleanup, RandomPolygonsWithHoles) {
   const FunctionSize size(0.06);
-  const FunctionCross cross(0.3);
   for (int seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
     const auto placement = seed % 2 == 0 ? make_linf_delquad() : make_l2_frontal();
-    const QuadPatch mesh = treated(boundary, *placement, cross, size);
+    const QuadPatch mesh = treat_paper(matched(boundary, size, FunctionCross(0.3), *placement), size);
     const QuadPatch result = cleaned(mesh, boundary, size);
     EXPECT_GT(worst_sine(result), 0);
     EXPECT_EQ(forced_bad(result), 0);
-    const QuadPatch again = clean_up(mesh, size);
-    EXPECT_EQ(again.points, result.points);
-    EXPECT_EQ(again.quads, result.quads);
+    expect_same(clean_up(mesh, size), result);
   }
 }
 
@@ -213,15 +141,14 @@ TEST(Cleanup, WorksOnWhatMatchingLeaves) {
   for (int seed = 0; seed < 5; ++seed) {
     SCOPED_TRACE(seed);
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
-    const TriPatch triangles = mesh_frontal(boundary, *make_linf_delquad(), FunctionCross(0.3), size);
-    cleaned(recombine(triangles, *make_primal_dual_solver()), boundary, size);
+    cleaned(matched(boundary, size), boundary, size);
   }
 }
 
 TEST(Cleanup, SeedsDiffer) {
   const PatchBoundary boundary = shapes::random_polygon_with_holes(3, 0.06);
   const FunctionSize size(0.05);
-  const QuadPatch mesh = treated(boundary, *make_l2_frontal(), FunctionCross(0.3), size);
+  const QuadPatch mesh = treat_paper(matched(boundary, size, FunctionCross(0.3), *make_l2_frontal()), size);
   const QuadPatch first = cleaned(mesh, boundary, size, {.seed = 1});
   const QuadPatch second = cleaned(mesh, boundary, size, {.seed = 2});
   EXPECT_NE(first.points, second.points);
@@ -231,20 +158,10 @@ TEST(Cleanup, NoVerticesNearlyCoincide) {
   const FunctionSize size(0.15);
   for (int seed = 0; seed < 10; ++seed) {
     const PatchBoundary boundary = shapes::rotated(shapes::plate_with_holes(3, 20, 3, 0.3, 13), 0.1 * seed);
-    const FunctionCross cross(0.1 * seed);
-    const QuadPatch raw =
-        recombine(mesh_frontal(boundary, *make_linf_delquad(), cross, size), *make_primal_dual_solver());
+    const QuadPatch raw = matched(boundary, size, FunctionCross(0.1 * seed));
     EXPECT_GT(least_room(cleaned(raw, boundary, size), size), kShortSide) << seed;
     EXPECT_GT(least_room(cleaned(treat_paper(raw, size), boundary, size), size), kShortSide) << seed;
   }
-}
-
-TEST(Cleanup, OddBoundaryKeepsItsTriangle) {
-  const PatchBoundary boundary = shapes::disk(1, 31);
-  const FunctionSize size(0.2);
-  const QuadPatch mesh = treated(boundary, *make_linf_delquad(), FunctionCross(0), size);
-  ASSERT_EQ(mesh.triangles.size(), 1u);
-  EXPECT_GT(worst_sine(cleaned(mesh, boundary, size)), 0);
 }
 
 }  // namespace

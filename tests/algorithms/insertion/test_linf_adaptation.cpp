@@ -1,25 +1,9 @@
 #include "algorithms/insertion/linf_adaptation.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <set>
-
-#include "algorithms/insertion/frontal_mesher.h"
-#include "delquad/extend.h"
-#include "geometry/mesh/constrained_delaunay.h"
-#include "tests/support/analytic_fields.h"
-#include "tests/support/patch_invariants.h"
-#include "tests/support/shapes.h"
+#include "tests/algorithms/stages.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::FunctionCross;
-using testing_support::FunctionSize;
 constexpr int kMostSweeps = AdaptationOptions{}.max_sweeps;
 
 /// The mesh is a triangulation of the patch with the boundary that was given.

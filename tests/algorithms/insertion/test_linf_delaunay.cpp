@@ -1,10 +1,5 @@
 #include "algorithms/insertion/linf_delaunay.h"
-
-#include <gtest/gtest.h>
-
-#include <random>
-
-#include "tests/support/shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

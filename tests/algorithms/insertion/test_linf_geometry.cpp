@@ -1,16 +1,5 @@
 #include "algorithms/insertion/linf_geometry.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-
-#include "delquad/extend.h"
-#include "tests/support/shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

@@ -1,31 +1,11 @@
-#include "algorithms/layout/layout.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <memory>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
-
-#include "algorithms/cleanup/cleanup.h"
-#include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/layout/field_lines.h"
+#include "algorithms/layout/layout.h"
 #include "algorithms/layout/layout_arcs.h"
 #include "algorithms/layout/layouts_together.h"
-#include "algorithms/recombination/recombine.h"
-#include "algorithms/treatment/treatment.h"
-#include "delquad/extend.h"
-#include "fields/fields.h"
-#include "tests/support/analytic_fields.h"
-#include "tests/support/quad_patch_checks.h"
-#include "tests/support/shapes.h"
+#include "tests/algorithms/stages.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 HarmonicCrossField field_of(const PatchBoundary& boundary) {
   return HarmonicCrossField(std::make_shared<const BackgroundMesh>(std::span(&boundary, 1)));
@@ -173,7 +153,7 @@ struct RowOfBoxes {
     // Uprights, then bottoms, then tops.
     for (const int edges : uprights) network.curves.push_back({edges, 1, true});
     for (int i = 0; i < 2 * n; ++i) network.curves.push_back({8, 1, true});
-    network.curves.front().is_free = network.curves[static_cast<std::size_t>(n)].is_free = false;
+    network.curves.front().is_free = network.curves[n].is_free = false;
     network.boundary = [this](int p, const std::vector<int>& edges) { return std::optional(box(p, edges)); };
     network.may_be = [](const QuadPatch&, const PatchBoundary&) { return true; };
     for (int p = 0; p < n; ++p) {

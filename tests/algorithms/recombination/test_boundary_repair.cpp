@@ -1,11 +1,5 @@
-#include "algorithms/recombination/recombine.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-
 #include "algorithms/recombination/dual_graph.h"
+#include "tests/algorithms/stages.h"
 
 namespace delquad {
 namespace {

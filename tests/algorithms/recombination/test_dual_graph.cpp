@@ -1,24 +1,10 @@
 #include "algorithms/recombination/dual_graph.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <numbers>
-#include <set>
-
-#include "algorithms/recombination/recombine.h"
-#include "geometry/mesh/constrained_delaunay.h"
-#include "tests/support/patch_invariants.h"
-#include "tests/support/shapes.h"
+#include "tests/algorithms/stages.h"
 #include "tests/support/tri_patches.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::make_patch;
 constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-12;
 
@@ -112,8 +98,7 @@ TEST(DualGraph, ExtraEdgesJoinTheEndsOfFansOfThreeAndMore) {
 TEST(DualGraph, HolesHaveExtraEdgesTooAndNoTwoEdgesAreParallel) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, seed % 2 == 0 ? 0 : 0.2);
-    const TriPatch tri =
-        constrained_delaunay(boundary, testing_support::random_inner_points(boundary, seed, 60, 0.1));
+    const TriPatch tri = constrained_delaunay(boundary, random_inner_points(boundary, seed, 60, 0.1));
     const DualGraph dual = build_dual_graph(tri);
     std::vector<int> fan(boundary.points.size(), 0);
     for (const auto& t : tri.triangles) {

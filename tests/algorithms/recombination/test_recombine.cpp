@@ -1,31 +1,9 @@
-#include "algorithms/recombination/recombine.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <numeric>
-#include <random>
-
-#include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/dual_graph.h"
-#include "geometry/mesh/constrained_delaunay.h"
-#include "tests/support/analytic_fields.h"
-#include "tests/support/quad_patch_checks.h"
-#include "tests/support/shapes.h"
+#include "tests/algorithms/stages.h"
 #include "tests/support/tri_patches.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::check_quad_patch;
-using testing_support::count_loops;
-using testing_support::FunctionCross;
-using testing_support::FunctionSize;
-using testing_support::random_inner_points;
 
 constexpr double kPerDegree = std::numbers::pi / 180;
 
@@ -67,7 +45,7 @@ TEST(Recombine, EveryTriangulationOfSmallPolygonsBecomesQuads) {
   int swaps = 0, duplications = 0, polygons = 0;
   for (int n = 3; n <= 10; ++n) {
     const PatchBoundary boundary = shapes::disk(1, n);
-    testing_support::for_each_polygon_triangulation(n, [&](const TriPatch& tri) {
+    for_each_polygon_triangulation(n, [&](const TriPatch& tri) {
       RecombineSummary summary;
       checked(tri, boundary, summary);
       swaps += summary.pentagon_swaps;
@@ -90,7 +68,7 @@ TEST(Recombine, CutsSpanningSidesWhenThereIsNoPerfectMatching) {
     triangles.push_back({i, i + 1, (i + 3) % n});
     triangles.push_back({i + 1, i + 2, (i + 3) % n});
   }
-  const TriPatch tri = testing_support::make_patch(boundary.points, triangles, n);
+  const TriPatch tri = make_patch(boundary.points, triangles, n);
   ASSERT_EQ(make_primal_dual_solver()->solve(build_dual_graph(tri).graph).status,
             MatchingStatus::kNotPerfect);
   RecombineSummary summary;
@@ -123,9 +101,9 @@ TEST(Recombine, RandomTriangulationsFullOfSlivers) {
 TEST(Recombine, FrontalMeshesOfPolygonsWithHoles) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.05);
-    const testing_support::FunctionSize size([](Vec2 u) { return 0.04 + 0.03 * u.x; });
+    const FunctionSize size([](Vec2 u) { return 0.04 + 0.03 * u.x; });
     for (const auto& placement : {make_l2_frontal(), make_linf_delquad()}) {
-      const TriPatch tri = mesh_frontal(boundary, *placement, testing_support::FunctionCross(0.2), size);
+      const TriPatch tri = mesh_frontal(boundary, *placement, FunctionCross(0.2), size);
       RecombineSummary summary;
       SCOPED_TRACE(seed);
       const QuadPatch mesh = checked(tri, boundary, summary);
@@ -140,8 +118,8 @@ TEST(Recombine, FrontalMeshesOfPolygonsWithHoles) {
 TEST(Recombine, RotatedLatticeBecomesSquares) {
   for (const double angle : {0.0, 0.35, 0.6}) {
     const PatchBoundary boundary = shapes::rectangle(1, 1, 20, 20, angle);
-    const TriPatch tri = mesh_frontal(boundary, *make_linf_delquad(), testing_support::FunctionCross(angle),
-                                      testing_support::FunctionSize(0.05));
+    const TriPatch tri =
+        mesh_frontal(boundary, *make_linf_delquad(), FunctionCross(angle), FunctionSize(0.05));
     RecombineSummary summary;
     const QuadPatch mesh = checked(tri, boundary, summary);
     EXPECT_EQ(mesh.quads.size(), 400u);
@@ -181,8 +159,7 @@ TEST(Recombine, EachComponentHasItsOwnParity) {
     for (int& v : t) v = v == inner ? static_cast<int>(points.size()) - 1 : v;
   }
   for (auto t : other.triangles) both.triangles.push_back({t[0] + inner, t[1] + inner, t[2] + inner});
-  const TriPatch tri =
-      testing_support::make_patch(points, both.triangles, static_cast<int>(points.size()) - 1);
+  const TriPatch tri = make_patch(points, both.triangles, static_cast<int>(points.size()) - 1);
   RecombineSummary summary;
   const QuadPatch mesh = recombine(tri, *make_primal_dual_solver(), &summary);
   EXPECT_EQ(mesh.quads.size(), 5u);
@@ -193,9 +170,7 @@ TEST(Recombine, EachComponentHasItsOwnParity) {
   for (auto t : other.triangles) twice.push_back({t[0] + 5, t[1] + 5, t[2] + 5});
   points = other.points;
   for (const Vec2 p : other.points) points.push_back(p + Vec2{5, 0});
-  EXPECT_EQ(
-      recombine(testing_support::make_patch(points, twice, 10), *make_primal_dual_solver()).triangles.size(),
-      2u);
+  EXPECT_EQ(recombine(make_patch(points, twice, 10), *make_primal_dual_solver()).triangles.size(), 2u);
 }
 
 TEST(Recombine, SameInputSameMeshAndNumberingDoesNotMatter) {
@@ -209,7 +184,7 @@ TEST(Recombine, SameInputSameMeshAndNumberingDoesNotMatter) {
   std::mt19937_64 random(1);
   auto triangles = tri.triangles;
   std::shuffle(triangles.begin(), triangles.end(), random);
-  const TriPatch shuffled = testing_support::make_patch(tri.points, triangles, tri.n_boundary);
+  const TriPatch shuffled = make_patch(tri.points, triangles, tri.n_boundary);
   const QuadPatch third = checked(shuffled, boundary, shuffled_summary);
   EXPECT_EQ(summary.cost, shuffled_summary.cost);
 }

@@ -1,20 +1,9 @@
 #include "algorithms/regularity/across_curves.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
-
-#include "algorithms/cleanup/cleanup.h"
 #include "algorithms/regularity/patterns.h"
-#include "base/context.h"
-#include "geometry/mesh/quad_topology.h"
-#include "tests/support/analytic_fields.h"
+#include "tests/algorithms/stages.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::FunctionSize;
 
 constexpr double kHeight = 8;
 
@@ -131,23 +120,17 @@ TEST(AcrossCurves, AnyNumberOfThreadsFillsTheSame) {
   // Each face takes part in what two curves ask for, so that visits at once are in each other's way.
   std::vector<int> counts;
   for (int k = 0; k <= 12; ++k) counts.push_back(k % 2 == 0 ? 8 : 10);
-  const auto run = [&](Rectangles& many, int threads) {
-    const RunScope scope({.threads = threads});
-    return make_regular_across_curves(many.network, {});
-  };
-  const std::vector<double> widths(12, 8);
-  Rectangles one(widths, counts), three(widths, counts);
-  ASSERT_EQ(one.irregular(), 24);
-  const AcrossCurvesSummary alone = run(one, 1), together = run(three, 3);
-  EXPECT_GE(alone.accepted, 6);
-  EXPECT_EQ(one.irregular(), 0);
-  one.expect_conforming();
-  EXPECT_EQ(together.tried, alone.tried);
-  EXPECT_EQ(three.network.nodes, one.network.nodes);
-  for (std::size_t p = 0; p < widths.size(); ++p) {
-    EXPECT_EQ(three.network.patches[p].mesh.points, one.network.patches[p].mesh.points);
-    EXPECT_EQ(three.network.patches[p].mesh.quads, one.network.patches[p].mesh.quads);
-  }
+  on_threads({1, 3}, [&] {
+    Rectangles many(std::vector<double>(12, 8), counts);
+    EXPECT_EQ(many.irregular(), 24);
+    const AcrossCurvesSummary summary = make_regular_across_curves(many.network, {});
+    EXPECT_GE(summary.accepted, 6);
+    EXPECT_EQ(many.irregular(), 0);
+    many.expect_conforming();
+    std::vector<std::pair<std::vector<Vec2>, std::vector<std::array<int, 4>>>> patches;
+    for (const auto& patch : many.network.patches) patches.emplace_back(patch.mesh.points, patch.mesh.quads);
+    return std::tuple(summary.tried, many.network.nodes, patches);
+  });
 }
 
 TEST(AcrossCurves, NothingChangesWhereCurvesStay) {

@@ -1,20 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <numeric>
-#include <random>
-
 #include "algorithms/regularity/patterns.h"
 #include "algorithms/regularity/polygon_sides.h"
-#include "geometry/mesh/quad_topology.h"
-#include "tests/support/quad_patch_checks.h"
-#include "tests/support/shapes.h"
+#include "tests/algorithms/stages.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::worst_sine;
 
 /// More irregular vertices than any pattern here has.
 constexpr int kMostIrregular = 100;
@@ -74,7 +63,7 @@ QuadPatch expect_filled(const Outline& outline) {
   PatchBoundary boundary;
   boundary.points = outline.places;
   for (int i = 0; i < patch.n_boundary; ++i) boundary.edges.push_back({i, (i + 1) % patch.n_boundary});
-  testing_support::expect_sound(patch, boundary);
+  expect_sound(patch, boundary);
   const QuadTopology topology(patch);
   int irregular = 0;
   for (int v = 0; v < topology.vertex_slots(); ++v) {

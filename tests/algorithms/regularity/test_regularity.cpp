@@ -1,53 +1,11 @@
-#include "algorithms/regularity/regularity.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-
-#include "algorithms/cleanup/cleanup.h"
-#include "algorithms/insertion/frontal_mesher.h"
-#include "algorithms/recombination/recombine.h"
-#include "algorithms/treatment/treatment.h"
-#include "delquad/extend.h"
-#include "smoothing/relocation/quad_relocation.h"
-#include "tests/support/analytic_fields.h"
-#include "tests/support/quad_patch_checks.h"
-#include "tests/support/quad_patches.h"
+#include "tests/algorithms/stages.h"
 
 namespace delquad {
 namespace {
 
-using namespace testing_support;
-
-/// Makes a mesh regular and checks what must hold for any input.
-QuadPatch regular(const QuadPatch& mesh, const PatchBoundary& boundary, const ParametricSize& size,
-                  const RegularityOptions& options = {}, RegularitySummary* summary = nullptr) {
-  RegularitySummary own;
-  const QuadPatch result = make_regular(mesh, size, options, &own);
-  expect_sound(result, boundary);
-  EXPECT_EQ(result.triangles.size(), mesh.triangles.size());
-  EXPECT_GE(worst_sine(result), std::min(worst_sine(mesh), sine_of_eta(kCleanupFloorEta)));
-  EXPECT_EQ(own.irregular_before, count_irregular(mesh));
-  EXPECT_EQ(own.irregular_after, count_irregular(result));
-  EXPECT_LE(own.irregular_after + own.accepted, own.irregular_before);
-  if (own.accepted == 0) {
-    EXPECT_EQ(result.points, mesh.points);
-    EXPECT_EQ(result.quads, mesh.quads);
-  }
-  const QuadPatch again = make_regular(mesh, size, options);
-  EXPECT_EQ(again.points, result.points);
-  EXPECT_EQ(again.quads, result.quads);
-  if (summary != nullptr) *summary = own;
-  return result;
-}
-
-QuadPatch meshed(const PatchBoundary& boundary, const PointPlacement& placement, const ParametricSize& size,
+QuadPatch meshed(const PatchBoundary& boundary, const ParametricSize& size,
                  const CrossField& cross = FunctionCross(0.3)) {
-  return treat_paper(recombine(mesh_frontal(boundary, placement, cross, size), *make_primal_dual_solver()),
-                     size);
+  return treat_paper(matched(boundary, size, cross), size);
 }
 
 /// A grid in which edges were turned at random, so that pairs of three and five wander, four irregular
@@ -83,11 +41,9 @@ QuadPatch with_two_pairs(int nx, int ny, std::uint64_t seed) {
   return topology.to_patch();
 }
 
-TEST(Regularity, RegularGridStays) {
-  const QuadPatch grid = grid_patch(7, 5);
+TEST(Regularity, TriesNothingOnARegularGrid) {
   RegularitySummary summary;
-  const QuadPatch result = regular(grid, shapes::rectangle(7, 5, 7, 5), FunctionSize(1), {}, &summary);
-  EXPECT_EQ(result.quads, grid.quads);
+  regular(grid_patch(7, 5), shapes::rectangle(7, 5, 7, 5), FunctionSize(1), {}, &summary);
   EXPECT_EQ(summary.cavities, 0);
 }
 
@@ -117,7 +73,7 @@ TEST(Regularity, WhatACornerForbidsIsNotTriedAgain) {
   const FunctionSize size(0.06);
   for (int seed = 0; seed < 8; ++seed) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
-    const QuadPatch mesh = clean_up(meshed(boundary, *make_linf_delquad(), size), size);
+    const QuadPatch mesh = clean_up(meshed(boundary, size), size);
     RegularitySummary some, more;
     make_regular(mesh, size, {.tolerance = 0, .rounds = 20}, &some);
     make_regular(mesh, size, {.tolerance = 0, .rounds = 40}, &more);
@@ -139,7 +95,7 @@ TEST(Regularity, SidesStayShortWhateverTheTolerance) {
   const FunctionSize size(delta);
   for (int seed = 0; seed < 4; ++seed) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, delta);
-    const QuadPatch mesh = clean_up(meshed(boundary, *make_linf_delquad(), size), size);
+    const QuadPatch mesh = clean_up(meshed(boundary, size), size);
     const QuadPatch result = regular(mesh, boundary, size, {.tolerance = 30, .quads = 1000});
     EXPECT_LT(count_irregular(result), count_irregular(mesh) / 2) << seed;
     // Fills are relaxed once more when they are kept.
@@ -158,7 +114,7 @@ TEST(Regularity, NothingIsPaidWithoutTolerance) {
   int without = 0, with = 0;
   for (int seed = 0; seed < 4; ++seed) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
-    const QuadPatch mesh = clean_up(meshed(boundary, *make_linf_delquad(), size), size);
+    const QuadPatch mesh = clean_up(meshed(boundary, size), size);
     const QuadPatch result = regular(mesh, boundary, size, {.tolerance = 0, .rounds = 1});
     EXPECT_GE(mean(result), mean(mesh) - 0.002) << seed;
     without += count_irregular(result);
@@ -170,7 +126,7 @@ TEST(Regularity, NothingIsPaidWithoutTolerance) {
 TEST(Regularity, FewerThanCleanUpLeaves) {
   const FunctionSize size(0.03);
   const PatchBoundary boundary = shapes::rectangle(1, 0.9, 34, 30);
-  const QuadPatch mesh = clean_up(meshed(boundary, *make_linf_delquad(), size), size);
+  const QuadPatch mesh = clean_up(meshed(boundary, size), size);
   ASSERT_GT(count_irregular(mesh), 20);
   EXPECT_LT(count_irregular(regular(mesh, boundary, size)), 0.6 * count_irregular(mesh));
 }
@@ -181,7 +137,7 @@ TEST(Regularity, RandomPolygonsWithHoles) {
     SCOPED_TRACE(seed);
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
     const auto placement = seed % 2 == 0 ? make_linf_delquad() : make_l2_frontal();
-    const QuadPatch mesh = meshed(boundary, *placement, size);
+    const QuadPatch mesh = treat_paper(matched(boundary, size, FunctionCross(0.3), *placement), size);
     regular(mesh, boundary, size);
     regular(clean_up(mesh, size), boundary, size);
   }
@@ -191,7 +147,7 @@ TEST(Regularity, NoVerticesNearlyCoincide) {
   for (int seed = 0; seed < 10; ++seed) {
     const PatchBoundary boundary = shapes::rotated(shapes::plate_with_holes(3, 20, 3, 0.3, 13), 0.1 * seed);
     const FunctionSize size([&](Vec2 p) { return 0.15 * std::exp(0.5 * std::sin(3 * p.x + seed)); });
-    const QuadPatch mesh = meshed(boundary, *make_linf_delquad(), size, FunctionCross(0.1 * seed));
+    const QuadPatch mesh = meshed(boundary, size, FunctionCross(0.1 * seed));
     // What was narrow before may not be so afterwards.
     const double least = std::min(kShortSide, least_room(mesh, size)) / 2;
     EXPECT_GE(least_room(regular(mesh, boundary, size, {.tolerance = 20}), size), least) << seed;
@@ -207,19 +163,6 @@ TEST(Regularity, ManyIrregularVerticesInOnePlace) {
     // Each visit tries a few, and is made when something around was filled or another round begins.
     EXPECT_LT(summary.tried, 60 * summary.irregular_before);
   }
-}
-
-TEST(Regularity, SmallestMeshes) {
-  regular(grid_patch(1, 1), shapes::rectangle(1, 1, 1, 1), FunctionSize(1));
-  regular(grid_patch(2, 1), shapes::rectangle(2, 1, 2, 1), FunctionSize(1));
-  regular(triangle_patch(), shapes::disk(1, 3), FunctionSize(1));
-  // Two quads around the middle of a square: nothing better than a doublet has the same boundary.
-  QuadPatch doublet;
-  doublet.points = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}};
-  doublet.quads = {{0, 1, 2, 4}, {0, 4, 2, 3}};
-  doublet.n_boundary = 4;
-  const QuadPatch one = regular(doublet, shapes::polygon({{0, 0}, {2, 0}, {2, 2}, {0, 2}}), FunctionSize(2));
-  EXPECT_EQ(one.quads.size(), 1u);
 }
 
 TEST(Regularity, AllVerticesOnTheBoundary) {
@@ -252,7 +195,7 @@ TEST(Regularity, HoleOfThreeEdges) {
     boundary.edges.push_back({n + k, n + (k + 1) % 3});
   }
   const FunctionSize size(0.075);
-  const QuadPatch mesh = meshed(boundary, *make_linf_delquad(), size);
+  const QuadPatch mesh = meshed(boundary, size);
   EXPECT_EQ(mesh.triangles.size(), 1u) << "an odd number of edges";
   regular(mesh, boundary, size);
 }
@@ -266,15 +209,7 @@ TEST(Regularity, SizesGradedByAThousand) {
   for (std::size_t i = corners.size() - 8; i > 0; --i) corners.push_back({0, corners[i].x});
   shapes::add_polygon(boundary, corners, std::vector<int>(corners.size(), 1));
   ASSERT_EQ(boundary.points.size() % 2, 0u);
-  regular(meshed(boundary, *make_linf_delquad(), size), boundary, size);
-}
-
-TEST(Regularity, LeftoverTrianglesStay) {
-  const PatchBoundary boundary = shapes::disk(1, 31);
-  const FunctionSize size(0.2);
-  const QuadPatch mesh = meshed(boundary, *make_linf_delquad(), size);
-  ASSERT_EQ(mesh.triangles.size(), 1u);
-  EXPECT_GT(worst_sine(regular(mesh, boundary, size)), 0);
+  regular(meshed(boundary, size), boundary, size);
 }
 
 }  // namespace

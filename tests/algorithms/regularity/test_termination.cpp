@@ -1,28 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <random>
-
-#include "algorithms/cleanup/cleanup.h"
-#include "algorithms/insertion/frontal_mesher.h"
-#include "algorithms/recombination/recombine.h"
-#include "algorithms/regularity/regularity.h"
-#include "algorithms/treatment/treatment.h"
-#include "algorithms/treatment/treatment_moves.h"
-#include "delquad/extend.h"
-#include "tests/support/analytic_fields.h"
-#include "tests/support/quad_patch_checks.h"
-#include "tests/support/quad_patches.h"
-#include "tests/support/shapes.h"
+#include "tests/algorithms/stages.h"
 
 /// Loops that edit a mesh end, after work that is linear in it, whatever the mesh is like.
 namespace delquad {
 namespace {
-
-using testing_support::FunctionCross;
-using testing_support::FunctionSize;
 
 /// Uniform between two values, in the logarithm.
 double log_uniform(std::mt19937_64& random, double low, double high) {
@@ -100,9 +80,7 @@ void expect_linear_work(const QuadPatch& raw, const ParametricSize& size, const 
     EXPECT_LT(static_cast<double>(regularity.looks), kMostLooks * n) << what;
     EXPECT_LT(static_cast<double>(regular.quads.size()), 6 * n) << what;
     EXPECT_LE(regularity.irregular_after, regularity.irregular_before) << what;
-    EXPECT_GE(testing_support::worst_sine(regular),
-              std::min(testing_support::worst_sine(*mesh), sine_of_eta(kCleanupFloorEta)))
-        << what;
+    EXPECT_GE(worst_sine(regular), std::min(worst_sine(*mesh), sine_of_eta(kCleanupFloorEta))) << what;
   }
 }
 
@@ -120,9 +98,8 @@ void mesh_random_patches(const char* name, Seeds seeds,
     const PatchBoundary boundary = boundary_of(corners, size, random);
     const FunctionSize delta(size);
     const auto placement = seed % 2 == 0 ? make_linf_delquad() : make_l2_frontal();
-    expect_linear_work(
-        recombine(mesh_frontal(boundary, *placement, FunctionCross(0.3), delta), *make_primal_dual_solver()),
-        delta, std::string(name) + " " + std::to_string(seed));
+    expect_linear_work(matched(boundary, delta, FunctionCross(0.3), *placement), delta,
+                       std::string(name) + " " + std::to_string(seed));
   }
 }
 
@@ -135,8 +112,7 @@ TEST(TerminationLong, Slivers) { mesh_random_patches("slivers", kMore, slivers);
 
 /// The greater the seed, the more tangled.
 void tangle_grid(int seed) {
-  const QuadPatch mesh = testing_support::jittered(
-      testing_support::scrambled(testing_support::grid_patch(16, 16), seed, 400), seed, 0.1 * seed);
+  const QuadPatch mesh = jittered(scrambled(grid_patch(16, 16), seed, 400), seed, 0.1 * seed);
   expect_linear_work(mesh, FunctionSize(1), "grid " + std::to_string(seed));
 }
 
@@ -165,34 +141,6 @@ TEST(Termination, VerticesOfManyQuads) {
 }
 TEST(TerminationLong, VerticesOfManyQuads) {
   for (const int n : {200, 1000}) expect_linear_work(wheel(n), FunctionSize(0.3), std::to_string(n));
-}
-
-TEST(Termination, MovesTakeOffWhatTheyPromise) {
-  // On this the end of the queues of moves rests.
-  for (int seed = 0; seed < 20; ++seed) {
-    QuadTopology mesh(testing_support::scrambled(testing_support::grid_patch(8, 8), seed, 100));
-    const ValenceEnergy energy(mesh);
-    const auto sum = [&] {
-      int total = 0;
-      for (int v = 0; v < mesh.vertex_slots(); ++v)
-        if (mesh.vertex_alive(v)) total += energy.of(v);
-      return total;
-    };
-    const int before = sum();
-    const auto check = [&](const TreatmentMove& move) {
-      if (!is_legal(mesh, move)) return;
-      const int gain = energy.gain(move);
-      const auto start = mesh.mark();
-      apply(mesh, move);
-      EXPECT_EQ(before - sum(), gain) << "kind " << move.kind << " at " << move.at;
-      mesh.rollback(start);
-    };
-    for (int e = 0; e < mesh.element_slots(); ++e) {
-      for_each_move(mesh, e, check);
-      for_each_opening(mesh, e, check);
-    }
-    for (int v = 0; v < mesh.vertex_slots(); ++v) for_each_split(mesh, v, check);
-  }
 }
 
 }  // namespace

@@ -1,34 +1,19 @@
-#include <gtest/gtest.h>
-
-#include <functional>
-
-#include "algorithms/cleanup/cleanup.h"
-#include "algorithms/regularity/regularity.h"
-#include "algorithms/treatment/treatment.h"
-#include "base/context.h"
-#include "tests/support/analytic_fields.h"
-#include "tests/support/quad_patch_checks.h"
-#include "tests/support/quad_patches.h"
+#include "tests/algorithms/stages.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 constexpr int kWide = 220, kHigh = 190;  ///< three blocks
 
 /// Works on a large mesh with several numbers of threads: always the same, sound, mesh.
 QuadPatch expect_same(const QuadPatch& mesh, const std::function<QuadPatch(const QuadPatch&)>& work) {
-  QuadPatch first;
-  for (const int threads : {1, 2, 7}) {
-    const RunScope run({.threads = threads});
-    const QuadPatch result = work(mesh);
-    if (threads == 1) first = result;
-    EXPECT_EQ(result.points, first.points) << threads;
-    EXPECT_EQ(result.quads, first.quads) << threads;
-  }
-  expect_sound(first, shapes::rectangle(kWide, kHigh, kWide, kHigh));
-  return first;
+  QuadPatch result;
+  on_threads({1, 2, 7}, [&] {
+    result = work(mesh);
+    return std::pair(result.points, result.quads);
+  });
+  expect_sound(result, shapes::rectangle(kWide, kHigh, kWide, kHigh));
+  return result;
 }
 
 int irregular(const QuadPatch& mesh) {

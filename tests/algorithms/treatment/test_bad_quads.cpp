@@ -1,23 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
-#include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/dual_graph.h"
-#include "algorithms/recombination/recombine.h"
-#include "algorithms/treatment/treatment.h"
-#include "delquad/extend.h"
-#include "tests/support/analytic_fields.h"
-#include "tests/support/quad_patch_checks.h"
-#include "tests/support/shapes.h"
+#include "tests/algorithms/stages.h"
 
 /// Boundaries that leave quads of eta 0 after matching: the treatment leaves none.
 namespace delquad {
 namespace {
-
-using testing_support::FunctionCross;
-using testing_support::FunctionSize;
 
 double worst_eta(const QuadPatch& mesh) {
   double worst = 1;
@@ -30,13 +16,10 @@ double worst_eta(const QuadPatch& mesh) {
 /// eta worst after the treatment, of a case in which matching alone leaves quads of eta 0.
 double repaired(const PatchBoundary& boundary, double size) {
   const FunctionSize delta(size);
-  const QuadPatch raw = recombine(mesh_frontal(boundary, *make_linf_delquad(), FunctionCross(0), delta),
-                                  *make_primal_dual_solver());
+  const QuadPatch raw = matched(boundary, delta, FunctionCross(0));
   EXPECT_LE(worst_eta(raw), 1e-12);
   const QuadPatch mesh = treat_paper(raw, delta);
-  const auto wrong =
-      testing_support::check_quad_patch(mesh, boundary, 2 - testing_support::count_loops(boundary));
-  EXPECT_TRUE(wrong.empty()) << wrong.front();
+  expect_sound(mesh, boundary);
   EXPECT_TRUE(mesh.triangles.empty());
   return worst_eta(mesh);
 }

@@ -1,24 +1,9 @@
-#include "algorithms/recombination/recombine.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/dual_graph.h"
-#include "algorithms/treatment/treatment.h"
-#include "delquad/extend.h"
-#include "geometry/mesh/constrained_delaunay.h"
-#include "smoothing/relocation/quad_relocation.h"
-#include "tests/support/analytic_fields.h"
-#include "tests/support/quad_patch_checks.h"
+#include "tests/algorithms/stages.h"
 #include "tests/support/tri_patches.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 double eta(const QuadPatch& mesh, const std::array<int, 4>& q) {
   return signed_eta(mesh.points[q[0]], mesh.points[q[1]], mesh.points[q[2]], mesh.points[q[3]]);

@@ -1,19 +1,7 @@
-#include "smoothing/relocation/quad_relocation.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "tests/support/analytic_fields.h"
-#include "tests/support/quad_patch_checks.h"
-#include "tests/support/quad_patches.h"
+#include "tests/algorithms/stages.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 TEST(QuadRelocation, SinesOfCorners) {
   QuadPatch mesh;
@@ -76,7 +64,7 @@ TEST(QuadRelocation, HoldsLengthsWhereItIsAsked) {
 TEST(QuadRelocation, StepsNeverRaiseTheCost) {
   const FunctionSize size([](Vec2 p) { return 0.4 + 0.15 * p.x; });
   for (int seed = 0; seed < 20; ++seed) {
-    QuadTopology mesh(jittered(testing_support::scrambled(grid_patch(6, 6), seed, 40), seed, 0.5));
+    QuadTopology mesh(jittered(scrambled(grid_patch(6, 6), seed, 40), seed, 0.5));
     QuadRelocation relocation(mesh, size);
     for (int v = mesh.to_patch().n_boundary; v < mesh.vertex_slots(); ++v) {
       const double before = relocation.cost(v);
@@ -134,21 +122,21 @@ TEST(QuadRelocation, LiftImprovesTheWorstAndEnds) {
 TEST(QuadRelocation, VerticesKeepApart) {
   const FunctionSize size(1);
   for (int seed = 0; seed < 20; ++seed) {
-    const QuadPatch mesh = testing_support::scrambled(grid_patch(12, 12), seed, 40);
-    ASSERT_GT(testing_support::least_room(mesh, size), 0.2);
+    const QuadPatch mesh = scrambled(grid_patch(12, 12), seed, 40);
+    ASSERT_GT(least_room(mesh, size), 0.2);
     QuadTopology topology(mesh);
     QuadRelocation relocation(topology, size);
     relocation.activate_all();
     relocation.relax(0.02, 30);
     relocation.lift_worst(0.5, 10);
-    EXPECT_GE(testing_support::least_room(topology.to_patch(), size), kShortSide) << seed;
+    EXPECT_GE(least_room(topology.to_patch(), size), kShortSide) << seed;
   }
 }
 
 TEST(QuadRelocation, KeptSinesAreKept) {
   const double kept = 0.6;
   for (int seed = 0; seed < 10; ++seed) {
-    const QuadPatch mesh = testing_support::scrambled(testing_support::grid_patch(9, 9), seed, 12);
+    const QuadPatch mesh = scrambled(grid_patch(9, 9), seed, 12);
     QuadTopology topology(mesh);
     const FunctionSize size(1);
     QuadRelocation relocation(topology, size);

@@ -1,62 +1,7 @@
-#include "algorithms/treatment/treatment.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "algorithms/insertion/frontal_mesher.h"
-#include "algorithms/recombination/recombine.h"
-#include "delquad/extend.h"
-#include "smoothing/relocation/quad_relocation.h"
-#include "tests/support/analytic_fields.h"
-#include "tests/support/quad_patch_checks.h"
-#include "tests/support/quad_patches.h"
+#include "tests/algorithms/stages.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
-
-/// Of the interior vertices.
-double regular_share(const QuadPatch& mesh) {
-  const QuadTopology topology(mesh);
-  int regular = 0, interior = 0;
-  for (int v = mesh.n_boundary; v < topology.vertex_slots(); ++v, ++interior)
-    regular += topology.valence(v) == 4;
-  return double(regular) / interior;
-}
-
-/// Treats and checks what must hold for any input.
-QuadPatch treated(const QuadPatch& mesh, const PatchBoundary& boundary, const ParametricSize& size) {
-  TreatmentSummary summary;
-  const QuadPatch result = treat_paper(mesh, size, {}, &summary);
-  expect_sound(result, boundary);
-  EXPECT_EQ(result.triangles.size(), mesh.triangles.size());
-  // Doublets and diamonds take one quad each, openings add two.
-  EXPECT_EQ(static_cast<int>(result.quads.size()) - static_cast<int>(mesh.quads.size()),
-            summary.ring_quads + 2 * summary.openings - summary.diamonds - summary.doublets);
-  return result;
-}
-
-QuadPatch meshed(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
-                 const ParametricSize& size) {
-  return recombine(mesh_frontal(boundary, placement, cross, size), *make_primal_dual_solver());
-}
-
-TEST(Treatment, RegularGridStays) {
-  const QuadPatch grid = grid_patch(7, 5);
-  const QuadPatch result = treated(grid, shapes::rectangle(7, 5, 7, 5), FunctionSize(1));
-  EXPECT_EQ(result.points, grid.points);
-  EXPECT_EQ(result.quads, grid.quads);
-}
-
-TEST(Treatment, SmallestMeshes) {
-  const QuadPatch one = treated(grid_patch(1, 1), shapes::rectangle(1, 1, 1, 1), FunctionSize(1));
-  EXPECT_EQ(one.quads.size(), 1u);
-  EXPECT_EQ(treated(triangle_patch(), shapes::disk(1, 3), FunctionSize(1)).triangles.size(), 1u);
-}
 
 TEST(Treatment, ScrambledGridRecovers) {
   for (int seed = 0; seed < 5; ++seed) {
@@ -99,28 +44,23 @@ TEST(Treatment, FlatBoundaryVertexWithOneQuad) {
 
 TEST(Treatment, RandomPolygonsWithHoles) {
   const FunctionSize size(0.06);
-  const FunctionCross cross(0.3);
   for (int seed = 0; seed < 30; ++seed) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
     const auto placement = seed % 2 == 0 ? make_linf_delquad() : make_l2_frontal();
-    const QuadPatch mesh = meshed(boundary, *placement, cross, size);
+    const QuadPatch mesh = matched(boundary, size, FunctionCross(0.3), *placement);
     const QuadPatch result = treated(mesh, boundary, size);
     EXPECT_GE(worst_sine(result), worst_sine(mesh)) << "seed " << seed;
     EXPECT_GT(worst_sine(result), 0) << "seed " << seed;
     EXPECT_GT(regular_share(result), regular_share(mesh)) << "seed " << seed;
-    const QuadPatch again = treat_paper(mesh, size);
-    EXPECT_EQ(again.points, result.points);
-    EXPECT_EQ(again.quads, result.quads);
+    expect_same(treat_paper(mesh, size), result);
   }
 }
 
 TEST(Treatment, BoundaryMuchFinerThanTheSize) {
   const FunctionSize size([](Vec2 p) { return 0.03 * (1 + 4 * norm(p)); });
-  const FunctionCross cross(0);
   for (int seed = 0; seed < 10; ++seed) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.03);
-    const QuadPatch mesh = meshed(boundary, *make_linf_delquad(), cross, size);
-    treated(mesh, boundary, size);
+    treated(matched(boundary, size, FunctionCross(0)), boundary, size);
   }
 }
 
@@ -129,18 +69,10 @@ TEST(Treatment, NoVerticesNearlyCoincide) {
   for (int seed = 0; seed < 10; ++seed) {
     const PatchBoundary boundary = shapes::rotated(shapes::plate_with_holes(3, 20, 3, 0.3, 13), 0.1 * seed);
     const auto placement = seed % 2 == 0 ? make_linf_delquad() : make_l2_frontal();
-    const QuadPatch mesh = meshed(boundary, *placement, FunctionCross(0.1 * seed), size);
+    const QuadPatch mesh = matched(boundary, size, FunctionCross(0.1 * seed), *placement);
     EXPECT_GT(least_room(mesh, size), kShortSide) << seed;
     EXPECT_GT(least_room(treated(mesh, boundary, size), size), kShortSide) << seed;
   }
-}
-
-TEST(Treatment, OddBoundaryKeepsItsTriangle) {
-  PatchBoundary boundary = shapes::disk(1, 31);
-  const FunctionSize size(0.2);
-  const QuadPatch mesh = meshed(boundary, *make_linf_delquad(), FunctionCross(0), size);
-  ASSERT_EQ(mesh.triangles.size(), 1u);
-  EXPECT_GT(worst_sine(treated(mesh, boundary, size)), 0);
 }
 
 TEST(Treatment, StrongGrading) {
@@ -149,8 +81,7 @@ TEST(Treatment, StrongGrading) {
     return 0.02 * (1 + 30 * g * g + (1 - p.x) * (1 - p.x));
   });
   PatchBoundary boundary = shapes::rectangle(1, 1, 20, 24);
-  const QuadPatch result =
-      treated(meshed(boundary, *make_linf_delquad(), FunctionCross(0), size), boundary, size);
+  const QuadPatch result = treated(matched(boundary, size, FunctionCross(0)), boundary, size);
   // The boundary does not follow the size, which goes from half to fifteen times its edges.
   EXPECT_GT(worst_sine(result), std::sin(0.1 * std::numbers::pi / 2));
 }

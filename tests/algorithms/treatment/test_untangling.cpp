@@ -1,17 +1,8 @@
 #include "smoothing/relocation/untangling.h"
-
-#include <gtest/gtest.h>
-
-#include <numeric>
-
-#include "smoothing/relocation/quad_relocation.h"
-#include "tests/support/quad_patch_checks.h"
-#include "tests/support/quad_patches.h"
+#include "tests/algorithms/stages.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 std::vector<int> interior(const QuadTopology& mesh, int n_boundary) {
   std::vector<int> vertices(mesh.vertex_slots() - n_boundary);
@@ -21,7 +12,7 @@ std::vector<int> interior(const QuadTopology& mesh, int n_boundary) {
 
 TEST(Untangling, RandomPlacesInAndOutsideTheOutline) {
   for (int seed = 0; seed < 20; ++seed) {
-    const QuadPatch grid = testing_support::jittered(grid_patch(6, 5), seed, 4);
+    const QuadPatch grid = jittered(grid_patch(6, 5), seed, 4);
     QuadTopology mesh(grid);
     ASSERT_LT(worst_sine(mesh), -0.5);
     EXPECT_TRUE(untangle(mesh, interior(mesh, grid.n_boundary))) << "seed " << seed;
@@ -58,7 +49,7 @@ TEST(Untangling, OnlyTheGivenVerticesMove) {
 }
 
 TEST(Untangling, WhatIsSoundStays) {
-  const QuadPatch grid = testing_support::jittered(grid_patch(5, 4), 3, 0.2);
+  const QuadPatch grid = jittered(grid_patch(5, 4), 3, 0.2);
   QuadTopology mesh(grid);
   ASSERT_GT(worst_sine(mesh), 0);
   EXPECT_TRUE(untangle(mesh, interior(mesh, grid.n_boundary)));

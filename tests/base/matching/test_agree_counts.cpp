@@ -1,10 +1,5 @@
 #include "base/matching/edge_counts.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

@@ -1,15 +1,11 @@
-#include "delquad/matching.h"
-
-#include <gtest/gtest.h>
-
 #include "base/matching/matching.h"
 #include "base/matching/wide.h"
+#include "delquad/matching.h"
 #include "tests/base/matching/graph_kinds.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 /// Two triangles, joined by a dear edge and by two that are dearer still: both become blossoms.
 MatchingGraph two_triangles() {

@@ -1,9 +1,5 @@
 #include "base/matching/matching.h"
-
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <random>
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

@@ -1,24 +1,14 @@
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
-
-#include <fstream>
-#include <functional>
-#include <limits>
 #include <new>
-#include <stdexcept>
 #include <stop_token>
-
-#include "base/context.h"
 #include "base/matching/matching.h"
-#include "delquad/error.h"
 #include "tests/base/matching/graph_kinds.h"
+#include "tests/support/meshing.h"
 #include "tests/support/needs_file.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 /// LEMON takes neither parallel edges nor loops: the cheapest of each kind is left.
 MatchingGraph simple(const MatchingGraph& graph) {
@@ -202,15 +192,12 @@ TEST(PrimalDual, WitnessesInGraphsOfManyRanges) {
     graph.edges.push_back({first, 30'000, 0});
   }
   price(graph, random, 1000);
-  const auto witness = [&](int threads) {
-    const RunScope run({.threads = threads});
+  on_threads({1, 2, 7}, [&] {
     const MatchingResult result = make_primal_dual_solver()->solve(graph);
     EXPECT_EQ(result.status, MatchingStatus::kNotPerfect);
     EXPECT_TRUE(proves_not_perfect(graph, result.certificate));
     return result.certificate.witness;
-  };
-  const std::vector<int> first = witness(1);
-  for (const int threads : {2, 7}) EXPECT_EQ(witness(threads), first);
+  });
 }
 
 TEST(PrimalDual, BlossomsNestedDeeply) {
@@ -258,20 +245,14 @@ TEST(PrimalDual, EveryNumberOfThreadsGivesTheSameMatching) {
   const int spare = graphs[2].n_nodes++;
   for (int v = 0; v < spare; ++v) graphs[2].edges.push_back({v, spare, 0});
   for (const MatchingGraph& graph : graphs) {
-    const auto solved = [&](int threads) {
-      const RunScope run({.threads = threads});
-      return make_primal_dual_solver()->solve(graph);
-    };
-    const MatchingResult first = solved(1);
+    MatchingResult result;
+    on_threads({1, 2, 3, 7}, [&] {
+      result = make_primal_dual_solver()->solve(graph);
+      const MatchingCertificate& proof = result.certificate;
+      return std::tuple(result.mate, proof.node_dual, proof.blossom_parent, result.contractions);
+    });
     std::string why;
-    ASSERT_TRUE(proves_optimal(graph, first.mate, first.certificate, &why)) << why;
-    for (const int threads : {2, 3, 7}) {
-      const MatchingResult result = solved(threads);
-      EXPECT_EQ(result.mate, first.mate);
-      EXPECT_EQ(result.certificate.node_dual, first.certificate.node_dual);
-      EXPECT_EQ(result.certificate.blossom_parent, first.certificate.blossom_parent);
-      EXPECT_EQ(result.contractions, first.contractions);
-    }
+    ASSERT_TRUE(proves_optimal(graph, result.mate, result.certificate, &why)) << why;
   }
 }
 

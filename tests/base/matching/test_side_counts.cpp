@@ -1,10 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include "base/matching/edge_counts.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

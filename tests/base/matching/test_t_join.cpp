@@ -1,11 +1,5 @@
 #include "base/matching/edge_counts.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
-#include "tests/support/shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

@@ -1,42 +1,25 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "base/warning.h"
-#include "delquad/mesher.h"
 #include "features/curved/untangle_curved.h"
 #include "geometry/mesh/element_nodes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
 
 MeshProblem curved_problem(Model model, int order, double size) {
-  MeshProblem problem;
-  problem.model = std::move(model);
-  problem.size.field = make_constant_size(size);
+  MeshProblem problem = problem_of(std::move(model), size);
   problem.order = order;
   return problem;
 }
 
-PlanarModel coarse_disc() {
-  PlanarModel model;
-  model.curves.push_back({make_circle({0, 0}, 1), "", ""});
-  model.loops.push_back({{0}, "", ""});
-  return model;
-}
+PlanarModel coarse_disc() { return ModelMaker().circle({0, 0}, 1); }
 
 /// Two arcs leave the origin in the same direction.
 PlanarModel cusp_of_arcs() {
   constexpr double kDegree = std::numbers::pi / 180;
-  PlanarModel model;
-  model.curves.push_back({make_arc({0, 2}, 2, -90 * kDegree, -60 * kDegree), "", ""});
-  model.curves.push_back(
-      {make_segment(model.curves[0].shape->point(1), {std::cos(30 * kDegree), 0.5}), "", ""});
-  model.curves.push_back({make_arc({0, 1}, 1, -30 * kDegree, -90 * kDegree), "", ""});
-  model.loops.push_back({{0, 1, 2}, "", ""});
-  return model;
+  const auto first = make_arc({0, 2}, 2, -90 * kDegree, -60 * kDegree);
+  return ModelMaker().loop({first, make_segment(first->point(1), {std::cos(30 * kDegree), 0.5}),
+                            make_arc({0, 1}, 1, -30 * kDegree, -90 * kDegree)});
 }
 
 double least_proven_of(const Mesh& mesh) {
@@ -64,10 +47,7 @@ TEST(CurvedElements, ACuspIsProvenAndToldApart) {
     EXPECT_EQ(result.log.summaries.get<long long>("curving", "below"), 1) << order;
     EXPECT_EQ(result.log.summaries.get<long long>("curving", "in_corners"), 1) << order;
     EXPECT_GT(result.log.summaries.get<double>("curving", "least_elsewhere"), kLowJacobian) << order;
-    const bool is_told = std::ranges::any_of(texts(result.warnings), [](const std::string& text) {
-      return text.find("corners of the model that allow no more") != std::string::npos;
-    });
-    EXPECT_TRUE(is_told);
+    EXPECT_TRUE(is_told(result.warnings, "corners of the model that allow no more"));
   }
 }
 

@@ -1,26 +1,16 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
-#include "delquad/mesher.h"
 #include "features/curved/jacobian_bounds.h"
 #include "features/curved/untangle_curved.h"
 #include "geometry/mesh/element_nodes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
 
 /// One: a disc; two: what lies between.
 MeshProblem circles(const std::vector<double>& radii, int order, double size) {
-  PlanarModel model;
-  for (const double r : radii) {
-    model.curves.push_back({make_circle({0, 0}, r), r == 1 ? "outer" : "inner", ""});
-    model.loops.push_back({{static_cast<int>(model.curves.size()) - 1}, "", ""});
-  }
-  MeshProblem problem;
-  problem.model = model;
-  problem.size.field = make_constant_size(size);
+  ModelMaker model;
+  for (const double r : radii) model.circle({0, 0}, r, r == 1 ? "outer" : "inner");
+  MeshProblem problem = model.problem(size);
   problem.order = order;
   return problem;
 }
@@ -68,9 +58,7 @@ TEST(CurvedMesh, ThinLayersOnCirclesStayPositive) {
 }
 
 TEST(CurvedMesh, NodesOfSpheresLieOnThem) {
-  MeshProblem problem;
-  problem.model = ExampleModel{"sphere"};
-  problem.size.field = make_constant_size(0.4);
+  MeshProblem problem = problem_of(ExampleModel{"sphere"}, 0.4);
   problem.order = 2;
   const MeshResult result = mesh(problem, "DBCO");
   const double r = norm(result.mesh.points[0]);

@@ -1,14 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "delquad/mesher.h"
 #include "features/curved/curved_geometry.h"
 #include "features/curved/raise_order.h"
 #include "features/curved/untangle_curved.h"
 #include "geometry/mesh/element_nodes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -41,14 +35,7 @@ class RingGeometry final : public ModelGeometry {
 };
 
 Mesh ring(int order) {
-  PlanarModel model;
-  for (const double r : {kOuter, kInner}) {
-    model.curves.push_back({make_circle({0, 0}, r), "", ""});
-    model.loops.push_back({{static_cast<int>(model.curves.size()) - 1}, "", ""});
-  }
-  MeshProblem problem;
-  problem.model = model;
-  problem.size.field = make_constant_size(0.25);
+  MeshProblem problem = ModelMaker().circle({0, 0}, kOuter).circle({0, 0}, kInner).problem(0.25);
   problem.order = order;
   problem.options.set("curves.agreement", 0.0);  // no grid
   return mesh(problem, "DBCO").mesh;

@@ -1,10 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "features/curved/jacobian_bounds.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

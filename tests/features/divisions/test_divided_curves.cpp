@@ -1,16 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <map>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -36,9 +24,7 @@ TriangleModel tube_wall() {
 }
 
 MeshProblem problem_of(Model model, double size, std::vector<CurveDivision> divisions) {
-  MeshProblem problem;
-  problem.model = std::move(model);
-  problem.size.field = make_constant_size(size);
+  MeshProblem problem = problem_of(std::move(model), size);
   problem.divisions = std::move(divisions);
   return problem;
 }
@@ -80,17 +66,10 @@ TEST(DividedCurves, StayAsTheyAreInSpace) {
 }
 
 TEST(DividedCurves, ThatMakeAnOddBoundaryAreRefused) {
-  expect_input_error(
-      [] {
-        mesh(problem_of(tube_wall(), 0.2, {{"curve_1", 21, 1, 1, "d 1"}, {"curve_2", 44, 1, 1, "d 2"}}),
-             "DBCO");
-      },
-      {"face 1 with an odd number", "curve"});
-  expect_input_error(
-      [] {
-        mesh(problem_of(tube_wall(), 0.2, {{"rim", 20, 1, 1, "d 1"}}), "DBCO");
-      },
-      {"d 1: no curve is called 'rim'"});
+  expect_refused(problem_of(tube_wall(), 0.2, {{"curve_1", 21, 1, 1, "d 1"}, {"curve_2", 44, 1, 1, "d 2"}}),
+                 "DBCO", {"face 1 with an odd number", "curve"});
+  expect_refused(problem_of(tube_wall(), 0.2, {{"rim", 20, 1, 1, "d 1"}}), "DBCO",
+                 {"d 1: no curve is called 'rim'"});
 }
 
 TEST(DividedCurves, OfGivenLinesAreRefused) {
@@ -99,20 +78,15 @@ TEST(DividedCurves, OfGivenLinesAreRefused) {
   square.mesh.lines = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
   square.mesh.line_curve = {0, 0, 0, 0};
   square.mesh.curves = {{1, {"rim"}}};
-  expect_input_error(
-      [&] {
-        mesh(problem_of(square, 0.2, {{"rim", 8, 1, 1, "d 1"}}), "DBCO");
-      },
-      {"d 1: 'rim' cannot be divided"});
+  expect_refused(problem_of(square, 0.2, {{"rim", 8, 1, 1, "d 1"}}), "DBCO",
+                 {"d 1: 'rim' cannot be divided"});
 }
 
 TEST(DividedCurves, TellWhereTheTipOfAConeTakesTheirLastNodes) {
   const Mesh cone = testing_support::cone(24, 100, 0.05).fine;
-  Mesh surface;
-  surface.points = cone.points;
-  surface.triangles = cone.triangles;
-  surface.triangle_region = cone.triangle_region;
-  surface.regions = cone.regions;
+  Mesh surface = cone;
+  surface.lines.clear();
+  surface.line_curve.clear();
   surface.curves = {{7, {"seam"}}};
   std::map<double, int> along;  // points of a generator, by their height
   for (std::size_t i = 0; i < cone.points.size(); ++i)
@@ -128,11 +102,7 @@ TEST(DividedCurves, TellWhereTheTipOfAConeTakesTheirLastNodes) {
   ASSERT_NE(seam, r.mesh.curves.end());
   const std::size_t left = edges_by_tag(r.mesh)[seam->tag].size();
   EXPECT_LT(left, kAsked);
-  std::string all;
-  for (const Warning& warning : r.warnings) all += warning.text + "\n";
-  const std::string told =
-      "curve " + std::to_string(seam->tag) + " gets " + std::to_string(left) + " edges, not 60";
-  EXPECT_NE(all.find(told), std::string::npos) << told << ": " << all;
+  EXPECT_TRUE(is_told(r.warnings, fmt::format("curve {} gets {} edges, not 60", seam->tag, left)));
 }
 
 }  // namespace

@@ -1,32 +1,13 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <random>
-
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/surfaces.h"
-#include "tests/support/triangulated_shapes.h"
+#include "tests/support/meshing.h"
+#include "tests/support/named_lines.h"
 
 namespace delquad {
 namespace {
 
-using namespace testing_support;
-
-std::vector<std::array<int, 2>> lines_on(const Mesh& mesh, const std::string& name) {
-  std::vector<std::array<int, 2>> lines;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-    if (const auto& names = mesh.curves[mesh.line_curve[l]].names; !names.empty() && names[0] == name)
-      lines.push_back(mesh.lines[l]);
-  return lines;
-}
-
 /// The ends of the way that the lines of this name make.
 std::vector<Vec3> ends_of_way(const Mesh& mesh, const std::string& name) {
   std::map<int, int> uses;
-  for (const auto& line : lines_on(mesh, name))
+  for (const auto& line : lines_named(mesh, name))
     for (const int v : line) ++uses[v];
   std::vector<Vec3> ends;
   for (const auto& [v, n] : uses) {
@@ -40,12 +21,7 @@ bool is_near(const Vec3& x, const std::vector<Vec3>& all, double distance) {
   return std::ranges::any_of(all, [&](const Vec3& y) { return norm(y - x) <= distance; });
 }
 
-MeshProblem sphere_problem() {
-  MeshProblem problem;
-  problem.model = TriangleModel{round_sphere(24).fine};
-  problem.size.field = make_constant_size(0.15);
-  return problem;
-}
+MeshProblem sphere_problem() { return problem_of(TriangleModel{round_sphere(24).fine}, 0.15); }
 
 void expect_embedded(const MeshProblem& problem, const MeshResult& result) {
   EXPECT_TRUE(result.soundness.sound());
@@ -91,7 +67,7 @@ TEST(EmbeddedLines, GetSizesByName) {
   problem.surface.embed = {{{{1, 0, 0}, {0, 1, 0}}, "rib", "test"}, {{{0, -s, -s}}, "point", "test"}};
   const auto longest_at_rib = [](const Mesh& mesh) {
     double longest = 0;
-    for (const auto& [a, b] : lines_on(mesh, "rib"))
+    for (const auto& [a, b] : lines_named(mesh, "rib"))
       longest = std::max(longest, norm(mesh.points[b] - mesh.points[a]));
     return longest;
   };
@@ -113,7 +89,7 @@ TEST(EmbeddedLines, GetSizesByName) {
   EXPECT_LT(longest_at_rib(fine.mesh), 1.4 * 0.03);
   EXPECT_LT(longest_at_point(fine.mesh), 2 * 0.02);
   problem.size.named[0].name = "rip";
-  expect_input_error([&] { mesh(problem, "DBCO"); }, {"nothing is called 'rip'", "'rib'"});
+  expect_refused(problem, "DBCO", {"nothing is called 'rip'", "'rib'"});
 }
 
 TEST(EmbeddedLines, NamedPointsAndLinesOfATriangulationStay) {
@@ -158,11 +134,9 @@ TEST(EmbeddedLines, EveryNumberOfThreadsMakesTheSameMesh) {
 }
 
 TEST(EmbeddedLines, PlanarModelsRefuseThem) {
-  MeshProblem problem;
-  problem.model = polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
-  problem.size.field = make_constant_size(0.5);
+  MeshProblem problem = problem_of(polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}), 0.5);
   problem.surface.embed = {{{{0.5, 0.5, 0}}, "p", "test"}};
-  expect_input_error([&] { mesh(problem, "DBCO"); }, {"the model is planar", "embed"});
+  expect_refused(problem, "DBCO", {"the model is planar", "embed"});
 }
 
 }  // namespace

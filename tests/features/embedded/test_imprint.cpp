@@ -1,23 +1,12 @@
 #include "features/embedded/imprint.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <set>
-
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/surface/flatten.h"
-#include "geometry/surface/triangulated_model.h"
-#include "tests/support/expect_input_error.h"
 #include "tests/support/flat_patch_checks.h"
-#include "tests/support/grid_mesh.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
+#include "tests/support/named_lines.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 double size_of_tenth(const Vec3&) { return 0.1; }
 
@@ -37,14 +26,6 @@ SurfaceModel imprinted(SurfaceModel model, std::vector<LooseLine> lines) {
   return model;
 }
 
-double length_of(const Mesh& mesh, const std::string& name) {
-  double sum = 0;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-    if (const auto& names = mesh.curves[mesh.line_curve[l]].names; !names.empty() && names[0] == name)
-      sum += norm(mesh.points[mesh.lines[l][1]] - mesh.points[mesh.lines[l][0]]);
-  return sum;
-}
-
 double area_of(const Mesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles)
@@ -61,8 +42,8 @@ int corner_at(const SurfaceModel& model, const Vec3& x) {
 TEST(Imprint, LinesThatCrossShareACorner) {
   const SurfaceModel model = imprinted(
       square(), {asked({{0.1, 0.15, 0}, {0.9, 0.75, 0}}, "a"), asked({{0.1, 0.75, 0}, {0.9, 0.15, 0}}, "b")});
-  EXPECT_NEAR(length_of(model.fine, "a"), 1, 1e-12);
-  EXPECT_NEAR(length_of(model.fine, "b"), 1, 1e-12);
+  EXPECT_NEAR(length_named(model.fine, "a"), 1, 1e-12);
+  EXPECT_NEAR(length_named(model.fine, "b"), 1, 1e-12);
   EXPECT_NEAR(area_of(model.fine), 1, 1e-12);
   EXPECT_EQ(model.embedded.size(), 2u);
   EXPECT_GE(corner_at(model, {0.5, 0.45, 0}), 0);
@@ -79,7 +60,7 @@ TEST(Imprint, AcrossASharpEdgeALineHasAPieceInEachFace) {
   ASSERT_EQ(model.embedded.size(), 2u);
   EXPECT_NE(model.embedded[0].face, model.embedded[1].face);
   EXPECT_GE(corner_at(model, {0.5, 0.4, 1}), 0);
-  EXPECT_NEAR(length_of(model.fine, "over"), 2 * std::hypot(0.3, 0.6), 1e-12);
+  EXPECT_NEAR(length_named(model.fine, "over"), 2 * std::hypot(0.3, 0.6), 1e-12);
 }
 
 TEST(Imprint, OnASphereSegmentsAreInOnePlaneAndGreatCirclesNearly) {
@@ -94,7 +75,7 @@ TEST(Imprint, OnASphereSegmentsAreInOnePlaneAndGreatCirclesNearly) {
       EXPECT_NEAR(dot(across, mesh.points[v] - first), 0, 1e-6 * norm(across));
       EXPECT_NEAR(mesh.points[v].y, 0, 5e-4);
     }
-  EXPECT_NEAR(length_of(mesh, "arc"), std::acos(0.6), 1e-2);
+  EXPECT_NEAR(length_named(mesh, "arc"), std::acos(0.6), 1e-2);
 }
 
 TEST(Imprint, APointHasEdgesToBothSidesAndItsName) {
@@ -154,7 +135,7 @@ TEST(Imprint, LinesOfAFileThatLieElsewhereAreNamed) {
   const SurfaceModel model = imprinted(square(), {line});
   EXPECT_TRUE(model.embedded.empty());
   ASSERT_FALSE(model.warnings.empty());
-  EXPECT_NE(model.warnings.back().text.find("the line 'far' is left out: it is 1 away"), std::string::npos);
+  expect_text(model.warnings.back().text, {"the line 'far' is left out: it is 1 away"});
 }
 
 TEST(Imprint, PointsOfAFileWithoutRoomStayNoNodes) {
@@ -166,8 +147,7 @@ TEST(Imprint, PointsOfAFileWithoutRoomStayNoNodes) {
   EXPECT_EQ(model.fine.named_points[0].entity.names[0], "far");
   EXPECT_LT(corner_at(model, near.points[0]), 0);
   EXPECT_GE(corner_at(model, far.points[0]), 0);
-  EXPECT_NE(model.warnings.back().text.find("the line 'near' is left out: it is nearer than a thousandth"),
-            std::string::npos);
+  expect_text(model.warnings.back().text, {"the line 'near' is left out: it is nearer than a thousandth"});
   SurfaceModel twice = square();
   twice.loose = {line, near, near};
   twice.loose[2].is_asked = true;

@@ -1,21 +1,16 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <set>
-#include <string>
-#include <vector>
-
 #include "delquad/hexahedra.h"
+#include "tests/support/meshing.h"
 
 namespace delquad::testing_support {
 
 inline constexpr double kPi = std::numbers::pi;
+
+inline void expect_not_extruded(const Mesh& mesh, const SweepPath& path, const SweepLayers& layers,
+                                std::initializer_list<const char*> parts) {
+  expect_input_error([&] { extrude(mesh, path, layers); }, parts);
+}
 
 /// A hexahedron's sides, counterclockwise seen from outside.
 inline std::array<std::array<int, 4>, 6> sides_of(const std::array<int, 8>& h) {

@@ -1,14 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <random>
-#include <set>
-
-#include "delquad/extend.h"
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/features/given/given.h"
 
 namespace delquad {
 namespace {
@@ -51,26 +41,6 @@ Mesh shaken(Mesh mesh, double by) {
   return mesh;
 }
 
-/// Each quad as two triangles, along one diagonal or the other.
-Mesh halved(Mesh mesh) {
-  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-    const auto [a, b, c, d] = mesh.quads[q];
-    const bool other = q % 2 == 0;
-    mesh.triangles.push_back(other ? std::array{a, b, d} : std::array{a, b, c});
-    mesh.triangles.push_back(other ? std::array{b, c, d} : std::array{a, c, d});
-    mesh.triangle_region.insert(mesh.triangle_region.end(), 2, mesh.quad_region[q]);
-  }
-  mesh.quads.clear();
-  mesh.quad_region.clear();
-  return mesh;
-}
-
-MeshResult improve_given(const Mesh& given, const std::string& word) {
-  MeshProblem problem;
-  problem.model = GivenMesh{given};
-  return mesh(problem, word);
-}
-
 using Segment = std::array<double, 4>;
 
 /// The lines by their ends' coordinates, of each curve by its name.
@@ -84,14 +54,6 @@ std::set<std::pair<std::string, Segment>> lines_by_name(const Mesh& mesh) {
                   {ends.first.first, ends.first.second, ends.second.first, ends.second.second}});
   }
   return lines;
-}
-
-void expect_same_entities(const std::vector<Entity>& a, const std::vector<Entity>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].tag, b[i].tag);
-    EXPECT_EQ(a[i].names, b[i].names);
-  }
 }
 
 void expect_kept(const Mesh& given, const MeshResult& result) {
@@ -138,7 +100,7 @@ TEST(GivenMeshes, AShakenGridIsUntangled) {
 }
 
 TEST(GivenMeshes, TrianglesAreMerged) {
-  const Mesh triangles = halved(given_grid(10));
+  const Mesh triangles = halved(given_grid(10), 2);
   for (const char* word : {"B", "BCO", "LBCO", "GCO", "DBCO"}) {
     const MeshResult result = improve_given(triangles, word);
     expect_kept(triangles, result);
@@ -178,7 +140,7 @@ TEST(GivenMeshes, LinesInsideStay) {
   grid.line_curve.push_back(2);
   grid.curves.push_back({9, {"wire"}});
   expect_kept(grid, improve_given(shaken(grid, 0.03), "CO"));
-  expect_kept(grid, improve_given(halved(grid), "BCO"));
+  expect_kept(grid, improve_given(halved(grid, 2), "BCO"));
 }
 
 /// From (0.3, 0.5) to (0.7, 0.5) the nodes are there twice, but for the ends.
@@ -214,14 +176,12 @@ TEST(GivenMeshes, AnOddOutlineKeepsItsTriangle) {
   const MeshResult result = improve_given(grid, "CO");
   EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
   EXPECT_EQ(result.mesh.triangles.size(), 1u);
-  EXPECT_TRUE(std::ranges::any_of(
-      result.warnings, [](const Warning& w) { return w.text.find("odd number") != std::string::npos; }));
+  EXPECT_TRUE(is_told(result.warnings, "odd number"));
 }
 
 TEST(GivenMeshes, TheWayThroughAFileIsTheSame) {
-  MeshProblem problem;
-  problem.model = polygons({{{0, 0}, {3, 0.3}, {2.5, 2}, {0.4, 1.7}}, {{1, 0.7}, {1.6, 0.8}, {1.2, 1.3}}});
-  problem.size.field = make_constant_size(0.06);
+  MeshProblem problem = problem_of(
+      polygons({{{0, 0}, {3, 0.3}, {2.5, 2}, {0.4, 1.7}}, {{1, 0.7}, {1.6, 0.8}, {1.2, 1.3}}}), 0.06);
   const auto whole = mesh(problem, "DBCO").metrics.values;
   const Mesh start = mesh(problem, "DB").mesh;
   problem.model = GivenMesh{start};
@@ -256,8 +216,7 @@ TEST(GivenMeshes, AreKeptWhereTheResultWouldBeWorse) {
   expect_kept(grid, result);
   EXPECT_EQ(result.metrics.values.at("eta_worst"), 1);
   ASSERT_EQ(result.warnings.size(), 1u);
-  EXPECT_NE(result.warnings[0].text.find("the given mesh is kept: what was made of the given mesh"),
-            std::string::npos);
+  expect_text(result.warnings[0].text, {"the given mesh is kept: what was made of the given mesh"});
 }
 
 /// The worst angle, shortest edge and largest aspect, and the number of quads.
@@ -275,11 +234,11 @@ void expect_no_worse(const MeshResult& after, const Mesh& given) {
 TEST(GivenMeshes, NothingGetsWorse) {
   for (const double size : {1.0, 0.7})
     for (const double gap : {0.022, 0.3, 1.5}) {
-      MeshProblem problem;
-      problem.model = polygons({{{0, 0}, {20, 0}, {20, 20}, {0, 20}},
-                                {{5, 8}, {8, 8}, {8, 11}, {5, 11}},
-                                {{8 + gap, 8.5}, {11 + gap, 8.5}, {11 + gap, 11.5}, {8 + gap, 11.5}}});
-      problem.size.field = make_constant_size(size);
+      MeshProblem problem =
+          problem_of(polygons({{{0, 0}, {20, 0}, {20, 20}, {0, 20}},
+                               {{5, 8}, {8, 8}, {8, 11}, {5, 11}},
+                               {{8 + gap, 8.5}, {11 + gap, 8.5}, {11 + gap, 11.5}, {8 + gap, 11.5}}}),
+                     size);
       const Mesh given = mesh(problem, "DB").mesh;
       for (const char* word : {"CO", "O", "CQO"}) {
         SCOPED_TRACE(std::to_string(size) + " " + std::to_string(gap) + " " + word);
@@ -289,8 +248,7 @@ TEST(GivenMeshes, NothingGetsWorse) {
 }
 
 TEST(GivenMeshes, WhatGetsWorseIsTakenWhereItIsAskedFor) {
-  MeshProblem problem;
-  problem.model = GivenMesh{given_grid(10)};
+  MeshProblem problem = problem_of(GivenMesh{given_grid(10)});
   problem.options.set("repair.keep_given", false);
   const MeshResult result = mesh(problem, "V");
   EXPECT_LT(result.metrics.values.at("eta_worst"), 1);
@@ -299,8 +257,8 @@ TEST(GivenMeshes, WhatGetsWorseIsTakenWhereItIsAskedFor) {
 
 TEST(GivenMeshes, WhatCannotBeUsedIsNamed) {
   const Mesh grid = given_grid(4);
-  expect_input_error([&] { improve_given(halved(grid), "CO"); }, {"triangles", "B"});
-  expect_input_error([&] { improve_given(shaken(halved(grid), 0.3), "BCO"); },
+  expect_input_error([&] { improve_given(halved(grid, 2), "CO"); }, {"triangles", "B"});
+  expect_input_error([&] { improve_given(shaken(halved(grid, 2), 0.3), "BCO"); },
                      {"inverted or flat", "first at"});
 
   Mesh hanging = grid;  // (0.25, 0.25) is a point of its own in one of its quads
@@ -325,7 +283,7 @@ TEST(GivenMeshes, WhatCannotBeUsedIsNamed) {
   expect_input_error([&] { improve_given(pinched, "CO"); }, {"cover each other"});
 
   // A hole of which one corner was drawn over the opposite side.
-  Mesh inside_out = halved(given_grid(6));
+  Mesh inside_out = halved(given_grid(6), 2);
   const auto hole = std::ranges::find(inside_out.triangles, std::array{16, 17, 23});
   ASSERT_NE(hole, inside_out.triangles.end());
   inside_out.triangle_region.erase(inside_out.triangle_region.begin() +
@@ -339,9 +297,8 @@ TEST(GivenMeshes, WhatCannotBeUsedIsNamed) {
   expect_input_error([&] { improve_given(twice, "CO"); }, {"corner twice"});
 
   expect_input_error([&] { improve_given({}, "CO"); }, {"neither triangles nor quads"});
-  MeshProblem lines;
-  lines.model = polygons({{{0, 0}, {1, 0}, {0, 1}}});
-  expect_input_error([&] { mesh(lines, "CO"); }, {"'C' starts from quads"});
+  MeshProblem lines = problem_of(polygons({{{0, 0}, {1, 0}, {0, 1}}}));
+  expect_refused(lines, "CO", {"'C' starts from quads"});
 }
 
 }  // namespace

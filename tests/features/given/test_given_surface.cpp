@@ -1,17 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <map>
-#include <numbers>
-#include <random>
-#include <set>
-
-#include "delquad/mesher.h"
-#include "metrics/metrics.h"
 #include "metrics/shape.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/features/given/given.h"
 
 namespace delquad {
 namespace {
@@ -96,25 +84,6 @@ Mesh shaken_in_space(Mesh mesh, double by, const std::function<bool(int)>& moves
   return mesh;
 }
 
-Mesh halved_in_space(Mesh mesh) {
-  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-    const auto [a, b, c, d] = mesh.quads[q];
-    const bool other = q % 3 == 0;
-    mesh.triangles.push_back(other ? std::array{a, b, d} : std::array{a, b, c});
-    mesh.triangles.push_back(other ? std::array{b, c, d} : std::array{a, c, d});
-    mesh.triangle_region.insert(mesh.triangle_region.end(), 2, mesh.quad_region[q]);
-  }
-  mesh.quads.clear();
-  mesh.quad_region.clear();
-  return mesh;
-}
-
-MeshResult improve_in_space(const Mesh& given, const std::string& word) {
-  MeshProblem problem;
-  problem.model = GivenMesh{given};
-  return mesh(problem, word);
-}
-
 using Segment3 = std::set<std::array<double, 3>>;
 
 std::set<std::pair<int, Segment3>> lines_of(const Mesh& mesh) {
@@ -149,16 +118,8 @@ void expect_kept_in_space(const Mesh& given, const MeshResult& result) {
     return lines_of(free);
   };
   EXPECT_EQ(free_edges(result.mesh), free_edges(given));
-  ASSERT_EQ(result.mesh.curves.size(), given.curves.size());
-  for (std::size_t i = 0; i < given.curves.size(); ++i) {
-    EXPECT_EQ(result.mesh.curves[i].tag, given.curves[i].tag);
-    EXPECT_EQ(result.mesh.curves[i].names, given.curves[i].names);
-  }
-  ASSERT_EQ(result.mesh.regions.size(), given.regions.size());
-  for (std::size_t i = 0; i < given.regions.size(); ++i) {
-    EXPECT_EQ(result.mesh.regions[i].tag, given.regions[i].tag);
-    EXPECT_EQ(result.mesh.regions[i].names, given.regions[i].names);
-  }
+  expect_same_entities(result.mesh.curves, given.curves);
+  expect_same_entities(result.mesh.regions, given.regions);
   EXPECT_EQ(result.mesh.unit, given.unit);
 }
 
@@ -170,7 +131,7 @@ TEST(GivenSurfaces, ASphereGetsBetterAndStaysRound) {
       cube_sphere(n), 0.06, [](int) { return true; }, onto_sphere);
   const MeshMetrics before = evaluate_metrics(given, nullptr);
   for (const char* word : {"O", "CO"}) {
-    const MeshResult result = improve_in_space(given, word);
+    const MeshResult result = improve_given(given, word);
     expect_kept_in_space(given, result);
     EXPECT_EQ(result.surface->mesh.euler_characteristic, 2);
     EXPECT_GT(result.metrics.values.at("eta_mean"), before.values.at("eta_mean") + 0.08) << word;
@@ -196,7 +157,7 @@ TEST(GivenSurfaces, WhatACureMakesWorseIsTold) {
     for (const char* word : {"CO", "O", "C", "BCO"}) {
       SCOPED_TRACE(std::to_string(turn) + " " + word);
       const Mesh given = tangled_shell(turn);
-      const MeshResult result = improve_in_space(given, word);
+      const MeshResult result = improve_given(given, word);
       expect_kept_in_space(given, result);
       EXPECT_TRUE(result.soundness.sound());
       double aspect = 1;
@@ -209,14 +170,12 @@ TEST(GivenSurfaces, WhatACureMakesWorseIsTold) {
       const auto& values = result.metrics.values;
       const auto before = evaluate_metrics(given, result.prepared->size.field.get()).values;
       EXPECT_GT(before.at("n_folded"), 0);
-      const bool is_told = std::ranges::any_of(result.warnings, [](const Warning& w) {
-        return w.text.find("sound now, at a price: ") != std::string::npos;
-      });
+      const bool told_of = is_told(result.warnings, "sound now, at a price: ");
       const bool is_worse = values.at("aspect_max") > aspect * (1 + 1e-9) ||
                             values.at("edge_min") < before.at("edge_min") * (1 - 1e-9) ||
                             std::abs(values.at("n_quads") - 64) > 6.4;
-      EXPECT_EQ(is_worse, is_told);
-      told += is_told, ++n;
+      EXPECT_EQ(is_worse, told_of);
+      told += told_of, ++n;
     }
   EXPECT_LT(2 * told, n);
 }
@@ -227,14 +186,13 @@ TEST(GivenSurfaces, ThePriceOfACureIsToldWithItsPlace) {
     const double u = i / 12.0, v = i == 6 && j == 0 ? 1.5 / 12 : j / 12.0;
     return Vec3{std::sin(6 * u), 2 * v, std::cos(6 * u)};
   });
-  const MeshResult result = improve_in_space(given, "CO");
+  const MeshResult result = improve_given(given, "CO");
   EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
   const auto told = std::ranges::find_if(result.warnings, [](const Warning& w) {
     return w.text.find("sound now, at a price: ") != std::string::npos;
   });
   ASSERT_NE(told, result.warnings.end());
-  EXPECT_NE(told->text.find("the largest aspect of sound quads goes from "), std::string::npos) << told->text;
-  EXPECT_NE(told->text.find(" at ("), std::string::npos) << told->text;
+  expect_text(told->text, {"the largest aspect of sound quads goes from ", " at ("});
 }
 
 /// A node of one rim nearly meets the other rim: what lies between them is poor where it is sound.
@@ -249,16 +207,15 @@ TEST(GivenSurfaces, ACureThatMakesQuadsPoorIsAskedFor) {
     ADD_FAILURE() << "poor quads are taken";
   } catch (const UnsoundError& error) {
     const std::string text = error.what();
-    EXPECT_NE(text.find("become sound only at a price: "), std::string::npos) << text;
-    EXPECT_NE(text.find("--set repair.at_any_price=true takes it"), std::string::npos) << text;
+    expect_text(text, {"become sound only at a price: ", "--set repair.at_any_price=true takes it"});
   }
   problem.options.set("repair.at_any_price", true);
   EXPECT_GT(mesh(problem, "CO").metrics.values.at("aspect_max"), 20);
 }
 
 TEST(GivenSurfaces, TrianglesOfATorusAreMerged) {
-  const Mesh given = halved_in_space(torus_of_quads(36, 12));
-  const MeshResult result = improve_in_space(given, "BCO");
+  const Mesh given = halved(torus_of_quads(36, 12), 3);
+  const MeshResult result = improve_given(given, "BCO");
   expect_kept_in_space(given, result);
   EXPECT_TRUE(result.mesh.triangles.empty());
   EXPECT_EQ(result.surface->mesh.euler_characteristic, 0);
@@ -275,13 +232,13 @@ TEST(GivenSurfaces, AnOpenShellKeepsItsOutlineNamesAndUnit) {
   };
   const auto is_inside = [](int v) { return v % 9 != 0 && v % 9 != 8 && v > 8 && v < 54; };
   given = shaken_in_space(given, 0.05, is_inside, onto);
-  const MeshResult result = improve_in_space(given, "CO");
+  const MeshResult result = improve_given(given, "CO");
   expect_kept_in_space(given, result);
   EXPECT_GT(result.metrics.values.at("eta_mean"), evaluate_metrics(given, nullptr).values.at("eta_mean"));
   ASSERT_EQ(result.mesh.named_points.size(), 1u);
   EXPECT_EQ(result.mesh.points[result.mesh.named_points[0].point], given.points[2 * 9 + 3]);
   EXPECT_EQ(result.mesh.named_points[0].entity.names, std::vector<std::string>{"sensor"});
-  expect_kept_in_space(halved_in_space(given), improve_in_space(halved_in_space(given), "BCO"));
+  expect_kept_in_space(halved(given, 3), improve_given(halved(given, 3), "BCO"));
 }
 
 /// A single line inside, which bounds nothing.
@@ -290,10 +247,10 @@ TEST(GivenSurfaces, LinesInsideStay) {
   given.lines.push_back({2 * 9 + 3, 2 * 9 + 4});
   given.line_curve.push_back(1);
   given.curves.push_back({8, {"wire"}});
-  expect_kept_in_space(given, improve_in_space(given, "CO"));
+  expect_kept_in_space(given, improve_given(given, "CO"));
   given.lines.insert(given.lines.end(), {{2 * 9 + 4, 3 * 9 + 4}, {3 * 9 + 4, 4 * 9 + 4}});
   given.line_curve.resize(given.lines.size(), 1);
-  expect_kept_in_space(halved_in_space(given), improve_in_space(halved_in_space(given), "BCO"));
+  expect_kept_in_space(halved(given, 3), improve_given(halved(given, 3), "BCO"));
 }
 
 /// Three squares on one edge; that of the second stands upright.
@@ -331,7 +288,7 @@ TEST(GivenSurfaces, SheetsMayShareAnEdge) {
         return Vec3{p.x, p.y, 0};
       });
   for (const char* word : {"O", "CO"}) {
-    const MeshResult result = improve_in_space(given, word);
+    const MeshResult result = improve_given(given, word);
     expect_kept_in_space(given, result);
     EXPECT_EQ(result.surface->mesh.branching_edges, n);
     EXPECT_GT(result.metrics.values.at("eta_mean"), 0.97);
@@ -354,7 +311,7 @@ TEST(GivenSurfaces, SharpEdgesStay) {
   for (auto& quad : given.quads) {
     if (quad[0] % 3 == 0) std::ranges::reverse(quad);  // elements may run either way round
   }
-  const MeshResult result = improve_in_space(given, "CO");
+  const MeshResult result = improve_given(given, "CO");
   expect_kept_in_space(given, result);
   EXPECT_EQ(on_edges(result.mesh), on_edges(given));
   for (const Vec3& p : result.mesh.points) EXPECT_GE(sides(p), 1);
@@ -368,7 +325,7 @@ TEST(GivenSurfaces, TrianglesAmongQuadsStay) {
   given.triangle_region = {0, 0};
   given.quads.erase(given.quads.begin() + 20);
   given.quad_region.pop_back();
-  const MeshResult result = improve_in_space(given, "CO");
+  const MeshResult result = improve_given(given, "CO");
   expect_kept_in_space(given, result);
   EXPECT_EQ(result.mesh.triangles.size(), 2u);
 }
@@ -387,12 +344,12 @@ TEST(GivenSurfaces, QuadsWithoutAreaAreMended) {
   beyond.points[corner] = between(1.3);
   for (const Mesh& given : {line, edge, beyond})
     for (const char* word : {"CO", "O"}) {
-      const MeshResult result = improve_in_space(given, word);
+      const MeshResult result = improve_given(given, word);
       EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
       EXPECT_EQ(result.mesh.quads.size(), shell.quads.size());
       EXPECT_GT(result.metrics.values.at("eta_worst"), 0.5);
       ASSERT_FALSE(result.warnings.empty());
-      EXPECT_NE(result.warnings[0].text.find("inverted, folded or without area"), std::string::npos);
+      expect_text(result.warnings[0].text, {"inverted, folded or without area"});
     }
 }
 
@@ -406,20 +363,20 @@ TEST(GivenSurfaces, WhatCannotBeUsedIsNamed) {
   hanging.quads.insert(hanging.quads.end(),
                        {{first + 1, first + 2, first, 0}, {first + 2, first + 3, 1, first}});
   hanging.quad_region.resize(hanging.quads.size(), 0);
-  expect_input_error([&] { improve_in_space(hanging, "CO"); }, {"hanging node"});
+  expect_input_error([&] { improve_given(hanging, "CO"); }, {"hanging node"});
 
   Mesh twice = shell;
   twice.quads[3] = twice.quads[4];
-  expect_input_error([&] { improve_in_space(twice, "CO"); }, {"is there twice"});
+  expect_input_error([&] { improve_given(twice, "CO"); }, {"is there twice"});
 
   Mesh flat = shell;
   flat.quads[0] = {0, 1, 1, 9};
-  expect_input_error([&] { improve_in_space(flat, "CO"); }, {"a corner twice"});
+  expect_input_error([&] { improve_given(flat, "CO"); }, {"a corner twice"});
 
-  Mesh thin = halved_in_space(shell);
+  Mesh thin = halved(shell, 3);
   thin.points[thin.triangles[9][2]] =
       0.5 * (thin.points[thin.triangles[9][0]] + thin.points[thin.triangles[9][1]]);
-  expect_input_error([&] { improve_in_space(thin, "BCO"); }, {"no area"});
+  expect_input_error([&] { improve_given(thin, "BCO"); }, {"no area"});
 
   const int n = 24;
   const Mesh moebius = [&] {
@@ -434,15 +391,13 @@ TEST(GivenSurfaces, WhatCannotBeUsedIsNamed) {
         if (v % (n + 1) == n) v = (2 - v / (n + 1)) * (n + 1);
     return band;
   }();
-  expect_input_error([&] { improve_in_space(moebius, "CO"); }, {"Moebius", "found at the edge"});
-  expect_input_error([&] { improve_in_space(halved_in_space(shell), "CO"); }, {"triangles", "B"});
+  expect_input_error([&] { improve_given(moebius, "CO"); }, {"Moebius", "found at the edge"});
+  expect_input_error([&] { improve_given(halved(shell, 3), "CO"); }, {"triangles", "B"});
 }
 
 /// What words do in two steps is about what they do in one.
 TEST(GivenSurfaces, TheBracketInTwoSteps) {
-  MeshProblem problem;
-  problem.model = ExampleModel{"bracket"};
-  problem.size.field = make_constant_size(4);
+  MeshProblem problem = problem_of(ExampleModel{"bracket"}, 4);
   const auto whole = mesh(problem, "DBCO").metrics.values;
   const Mesh start = mesh(problem, "DB").mesh;
   problem.model = GivenMesh{start};

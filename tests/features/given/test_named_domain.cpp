@@ -1,10 +1,7 @@
-#include <gtest/gtest.h>
-
 #include "features/given/named_domain.h"
 #include "io/formats/msh.h"
 #include "io/mesh_io.h"
-#include "tests/support/grid_mesh.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -91,14 +88,14 @@ TEST(NamedDomain, OnlyNamedGroupNamesTheOnlyPatch) {
 }
 
 TEST(NamedDomain, ReaderTellsSurfacesWithoutElements) {
-  const testing_support::TemporaryFolder folder;
-  const auto file = testing_support::write_text(
-      folder / "m.msh",
-      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 5 \"rim\"\n2 20 \"my "
-      "plate\"\n$EndPhysicalNames\n"
-      "$Entities\n0 1 1 0\n3 0 0 0 1 1 0 1 5 0\n9 0 0 0 1 1 0 1 20 1 -3\n$EndEntities\n"
-      "$Nodes\n1 3 1 3\n1 3 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n"
-      "$Elements\n1 3 1 3\n1 3 1 3\n1 1 2\n2 2 3\n3 3 1\n$EndElements\n");
+  const TemporaryFolder folder;
+  const auto file =
+      write_text(folder / "m.msh",
+                 "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 5 \"rim\"\n2 20 \"my "
+                 "plate\"\n$EndPhysicalNames\n"
+                 "$Entities\n0 1 1 0\n3 0 0 0 1 1 0 1 5 0\n9 0 0 0 1 1 0 1 20 1 -3\n$EndEntities\n"
+                 "$Nodes\n1 3 1 3\n1 3 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n"
+                 "$Elements\n1 3 1 3\n1 3 1 3\n1 1 2\n2 2 3\n3 3 1\n$EndElements\n");
   DeclaredSurfaces surfaces;
   const Mesh mesh = read_msh(file, &surfaces);
   EXPECT_EQ(surfaces.group_names, Names{"my plate"});

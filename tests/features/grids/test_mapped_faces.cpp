@@ -1,16 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <numbers>
-#include <string>
-#include <utility>
-
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -18,57 +6,48 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 PlanarModel quarter_ring() {
-  PlanarModel model;
-  model.curves = {{make_arc({0, 0}, 1, 0, kPi / 2), "inner", {}},
-                  {make_segment({0, 1}, {0, 2}), "left", {}},
-                  {make_arc({0, 0}, 2, 0, kPi / 2), "outer", {}},
-                  {make_segment({1, 0}, {2, 0}), "right", {}}};
-  model.loops = {{{0, 1, 2, 3}, "ring", {}}};
-  return model;
+  return ModelMaker().loop({make_arc({0, 0}, 1, 0, kPi / 2), make_segment({0, 1}, {0, 2}),
+                            make_arc({0, 0}, 2, 0, kPi / 2), make_segment({1, 0}, {2, 0})},
+                           "ring", {"inner", "left", "outer", "right"});
 }
 
 /// Blocks side by side, which bend, and a free face at their end.
 PlanarModel row_of_blocks(int n) {
-  PlanarModel model;
+  ModelMaker model;
   const auto low = [](int i) { return Vec2{i + 0.2 * std::sin(3.0 * i), 0.2 * std::sin(1.0 * i)}; };
   const auto high = [&](int i) { return Vec2{low(i).x + 0.1, 1 + 0.2 * std::cos(1.0 * i)}; };
-  for (int i = 0; i <= n; ++i) model.curves.push_back({make_segment(low(i), high(i)), "wall", {}});
+  for (int i = 0; i <= n; ++i) model.curve(make_segment(low(i), high(i)), "wall");
   for (int i = 0; i < n; ++i) {
     const int first = static_cast<int>(model.curves.size());
-    model.curves.push_back({make_segment(low(i), low(i + 1)), "floor", {}});
-    model.curves.push_back({make_segment(high(i), high(i + 1)), "roof", {}});
-    model.loops.push_back({{first, i + 1, first + 1, i}, "block", {}});
+    model.curve(make_segment(low(i), low(i + 1)), "floor").curve(make_segment(high(i), high(i + 1)), "roof");
+    model.loop_of({first, i + 1, first + 1, i}, "block");
   }
   const Vec2 a = low(n), b = high(n);
-  model.curves.push_back({make_polyline({a, {a.x + 2, -1}, {a.x + 2.5, 1.6}, b}), "end", {}});
-  model.loops.push_back({{n, static_cast<int>(model.curves.size()) - 1}, "free", {}});
-  return model;
+  model.curve(make_polyline({a, {a.x + 2, -1}, {a.x + 2.5, 1.6}, b}), "end");
+  return model.loop_of({n, static_cast<int>(model.curves.size()) - 1}, "free");
 }
 
 /// A square with a hole, cut into four blocks from the corners on.
 PlanarModel plate_of_blocks() {
-  PlanarModel model;
+  ModelMaker model;
   const auto at = [](double r, int k) {
     const double angle = kPi / 4 + k * kPi / 2;
     return Vec2{r * std::cos(angle), r * std::sin(angle)};
   };
   for (int k = 0; k < 4; ++k) {
-    model.curves.push_back(
-        {make_arc({0, 0}, 0.4, kPi / 4 + k * kPi / 2, kPi / 4 + (k + 1) * kPi / 2), "hole", {}});
-    model.curves.push_back({make_segment(at(1.2, k), at(1.2, k + 1)), "side", {}});
-    model.curves.push_back({make_segment(at(0.4, k), at(1.2, k)), {}, {}});
+    model.curve(make_arc({0, 0}, 0.4, kPi / 4 + k * kPi / 2, kPi / 4 + (k + 1) * kPi / 2), "hole");
+    model.curve(make_segment(at(1.2, k), at(1.2, k + 1)), "side").curve(make_segment(at(0.4, k), at(1.2, k)));
   }
-  for (int k = 0; k < 4; ++k)
-    model.loops.push_back({{3 * k, 3 * ((k + 1) % 4) + 2, 3 * k + 1, 3 * k + 2}, "block", {}});
+  for (int k = 0; k < 4; ++k) model.loop_of({3 * k, 3 * ((k + 1) % 4) + 2, 3 * k + 1, 3 * k + 2}, "block");
   return model;
 }
 
 /// Sixteen of these side by side, each side of a square once.
 PlanarModel plate_with_16_holes() {
-  PlanarModel model;
+  ModelMaker model;
   const auto corner = [](int i, int j) { return Vec2{1.0 * i, 1.0 * j}; };
   const auto segment = [&](Vec2 a, Vec2 b, const char* name) {
-    model.curves.push_back({make_segment(a, b), name, {}});
+    model.curve(make_segment(a, b), name);
     return static_cast<int>(model.curves.size()) - 1;
   };
   int across[4][5], along[5][4];
@@ -88,20 +67,17 @@ PlanarModel plate_with_16_holes() {
       int arcs[4], spokes[4];
       for (int k = 0; k < 4; ++k) {
         const double angle = -3 * kPi / 4 + k * kPi / 2;
-        model.curves.push_back({make_arc(centre, 0.28, angle, angle + kPi / 2), "hole", {}});
+        model.curve(make_arc(centre, 0.28, angle, angle + kPi / 2), "hole");
         arcs[k] = static_cast<int>(model.curves.size()) - 1;
         spokes[k] = segment(on_hole(k), corners[k], "");
       }
-      for (int k = 0; k < 4; ++k)
-        model.loops.push_back({{sides[k], spokes[(k + 1) % 4], arcs[k], spokes[k]}, "block", {}});
+      for (int k = 0; k < 4; ++k) model.loop_of({sides[k], spokes[(k + 1) % 4], arcs[k], spokes[k]}, "block");
     }
   return model;
 }
 
 MeshProblem mapped_problem(PlanarModel model, double size, MappedSpec mapped) {
-  MeshProblem problem;
-  problem.model = std::move(model);
-  problem.size.field = make_constant_size(size);
+  MeshProblem problem = problem_of(std::move(model), size);
   problem.mapped = std::move(mapped);
   return problem;
 }
@@ -153,16 +129,10 @@ TEST(MappedFaces, ChainsAgreeOnTheirEdges) {
 
 /// Sizes follow the short edges of a grid, and do not make more of them.
 TEST(MappedFaces, NeighboursDoNotMakeAGridFiner) {
-  PlanarModel model;
-  model.curves = {{make_segment({0, 0}, {3, 0}), "long", {}},
-                  {make_segment({3, 0}, {2, 1}), "shared", {}},
-                  {make_segment({2, 1}, {1, 1}), "short", {}},
-                  {make_segment({1, 1}, {0, 0}), "other", {}}};
-  model.loops = {{{0, 1, 2, 3}, "grid", {}}};
+  ModelMaker model =
+      ModelMaker().polygon({{0, 0}, {3, 0}, {2, 1}, {1, 1}}, {"long", "shared", "short", "other"}, "grid");
   const auto counts = [](const PlanarModel& m) {
-    MeshProblem problem;
-    problem.model = m;
-    problem.size.field = make_constant_size(0.1);
+    MeshProblem problem = problem_of(m, 0.1);
     problem.mapped.names = {"grid"};
     const Mesh mesh = delquad::mesh(problem, "DB").mesh;
     std::array<int, 4> n{};
@@ -172,8 +142,7 @@ TEST(MappedFaces, NeighboursDoNotMakeAGridFiner) {
   };
   const auto alone = counts(model);
   EXPECT_EQ(alone, (std::array{17, 14, 17, 14}));
-  model.curves.push_back({make_polyline({{3, 0}, {3, 3}, {2, 2}, {2, 1}}), "rest", {}});
-  model.loops.push_back({{1, 4}, "free", {}});
+  model.curve(make_polyline({{3, 0}, {3, 3}, {2, 2}, {2, 1}}), "rest").loop_of({1, 4}, "free");
   EXPECT_EQ(counts(model), alone);
 }
 
@@ -186,8 +155,8 @@ TEST(MappedFaces, AroundAHole) {
   const MeshResult d = mesh(divided, "DBCO");
   EXPECT_EQ(d.mesh.quads.size(), 4u * 9 * 12);
   divided.divisions.push_back({"curve_2", 10, 1, 1, "d 3"});
-  expect_input_error([&] { mesh(divided, "DBCO"); },
-                     {"'block' with sides that do not match", "'hole' (9 edges)", "'side' (10 edges)"});
+  expect_refused(divided, "DBCO",
+                 {"'block' with sides that do not match", "'hole' (9 edges)", "'side' (10 edges)"});
 }
 
 bool all_convex(const Mesh& mesh) {
@@ -249,8 +218,7 @@ TEST(MappedFaces, ThreeSidesMeetInAMiddle) {
   }
   MeshProblem divided = mapped_problem(model, 0.1, {{"wedge", "sector"}});
   divided.divisions = {{"rim", 40, 1, 1, "d 1"}, {"down", 6, 1, 1, "d 2"}, {"axis", 6, 1, 1, "d 3"}};
-  expect_input_error([&] { mesh(divided, "DBCO"); },
-                     {"'sector'", "40", "6", "less than the two others together"});
+  expect_refused(divided, "DBCO", {"'sector'", "40", "6", "less than the two others together"});
 }
 
 TEST(MappedFaces, CornersAreTold) {
@@ -279,7 +247,7 @@ TEST(MappedFaces, CornersAreTold) {
   const auto refused = [&](std::vector<GridCorner> corners, std::initializer_list<const char*> says) {
     MappedSpec wrong;
     wrong.corners = {{"nut", std::move(corners), "m 7"}};
-    expect_input_error([&] { mesh(mapped_problem(model, 0.1, wrong), "DBCO"); }, says);
+    expect_refused(mapped_problem(model, 0.1, wrong), "DBCO", says);
   };
   refused({{"p1"}, {"p3"}, {"p5"}}, {"m 7: no point is called 'p5'; did you mean"});
   refused({{"p1"}, {"p3"}}, {"m 7: 'nut' is given 2 corner(s): expected 3 or 4"});
@@ -287,14 +255,12 @@ TEST(MappedFaces, CornersAreTold) {
   refused({{"p1"}, {"p3"}, {"p3"}}, {"is a corner of 'nut' twice"});
   MappedSpec unknown;
   unknown.corners = {{"not", {{"p1"}, {"p3"}, {"p1"}}, "m 8"}};
-  expect_input_error([&] { mesh(mapped_problem(model, 0.1, unknown), "DBCO"); },
-                     {"m 8: no region is called 'not'; did you mean 'nut'?"});
+  expect_refused(mapped_problem(model, 0.1, unknown), "DBCO",
+                 {"m 8: no region is called 'not'; did you mean 'nut'?"});
 }
 
 TEST(MappedFaces, RingsCloseAround) {
-  PlanarModel model;
-  model.curves = {{make_circle({0.05, 0}, 1.3), "inner", {}}, {make_circle({0, 0}, 1.8), "outer", {}}};
-  model.loops = {{{1}, "ring", {}}, {{0}, {}, {}}};
+  const PlanarModel model = ModelMaker().circle({0, 0}, 1.8, "outer", "ring").circle({0.05, 0}, 1.3, "inner");
   for (const MappedSpec& spec : {MappedSpec{{"ring"}}, MappedSpec{{}, true}}) {
     const MeshResult r = mesh(mapped_problem(model, 0.1, spec), "DBCO");
     EXPECT_TRUE(all_convex(r.mesh));
@@ -327,10 +293,7 @@ Rows rows_of(const PlanarModel& model, const std::string& word) {
 }
 
 PlanarModel ring(double width, double off) {
-  PlanarModel model;
-  model.curves = {{make_circle({0, 0}, 5), "outer", {}}, {make_circle({off, 0}, 5 - width), "inner", {}}};
-  model.loops = {{{0}, "ring", {}}, {{1}, {}, {}}};
-  return model;
+  return ModelMaker().circle({0, 0}, 5, "outer", "ring").circle({off, 0}, 5 - width, "inner");
 }
 
 TEST(MappedFaces, NarrowRingsAreRows) {
@@ -361,13 +324,9 @@ TEST(MappedFaces, NarrowRingsAreRows) {
 /// Half a ring of radius 5 outside, so wide at its ends.
 PlanarModel half_ring(double width, double to_width) {
   const double r = 5 - (width + to_width) / 2, x = (to_width - width) / 2;
-  PlanarModel model;
-  model.curves = {{make_arc({0, 0}, 5, 0, kPi), "outer", {}},
-                  {make_segment({-5, 0}, {x - r, 0}), "end", {}},
-                  {make_arc({x, 0}, r, 0, kPi), "inner", {}},
-                  {make_segment({x + r, 0}, {5, 0}), "begin", {}}};
-  model.loops = {{{0, 1, 2, 3}, "band", {}}};
-  return model;
+  return ModelMaker().loop({make_arc({0, 0}, 5, 0, kPi), make_segment({-5, 0}, {x - r, 0}),
+                            make_arc({x, 0}, r, 0, kPi), make_segment({x + r, 0}, {5, 0})},
+                           "band", {"outer", "end", "inner", "begin"});
 }
 
 TEST(MappedFaces, NarrowBandsAreRowsToTheirEnds) {
@@ -392,8 +351,8 @@ TEST(MappedFaces, NarrowFacesAreNoDemand) {
   EXPECT_TRUE(mesh(problem, "DBCO").mesh.triangles.empty());
   for (const char* name : {"begin", "end"}) problem.divisions.push_back({name, 1, 1, 1, "d 3"});
   problem.divisions[1].edges = 13;
-  expect_input_error([&] { mesh(problem, "DBCO"); },
-                     {"the numbers of edges that are given leave 'band' with an odd number around it"});
+  expect_refused(problem, "DBCO",
+                 {"the numbers of edges that are given leave 'band' with an odd number around it"});
 }
 
 TEST(MappedFaces, WhatWouldFoldIsSmoothed) {
@@ -407,25 +366,20 @@ TEST(MappedFaces, WhatWouldFoldIsSmoothed) {
 TEST(MappedFaces, WhatCannotBeAGridIsRefused) {
   const auto refused = [](PlanarModel model, MappedSpec spec, std::initializer_list<const char*> says) {
     spec.where = "m 1";
-    expect_input_error([&] { mesh(mapped_problem(std::move(model), 0.2, spec), "DBCO"); }, says);
+    expect_refused(mapped_problem(std::move(model), 0.2, spec), "DBCO", says);
   };
   refused(quarter_ring(), {{"rong"}}, {"m 1: no region is called 'rong'; did you mean 'ring'?"});
-  PlanarModel disk;
-  disk.curves = {{make_circle({0, 0}, 1), "rim", {}}};
-  disk.loops = {{{0}, "disk", {}}};
-  refused(disk, {{"disk"}}, {"'disk' cannot be a grid: its outline has 1 corner"});
+  refused(ModelMaker().circle({0, 0}, 1, "rim", "disk"), {{"disk"}},
+          {"'disk' cannot be a grid: its outline has 1 corner"});
   PlanarModel holed = quarter_ring();
   holed.curves.push_back({make_circle({1, 1}, 0.2), "hole", {}});
   holed.loops.push_back({{4}, {}, {}});
   refused(holed, {{"ring"}}, {"'ring' cannot be a grid: something lies inside of it"});
   EXPECT_GT(mesh(mapped_problem(holed, 0.2, {{}, true}), "DBCO").mesh.quads.size(), 0u);
-  PlanarModel arrow = polygons({{{0, 0}, {1, 1}, {0, 0.2}, {-1, 1}}});
-  arrow.loops[0].region = "arrow";
-  refused(arrow, {{"arrow"}}, {"'arrow' cannot be a grid: it would fold at ("});
-  PlanarModel half;
-  half.curves = {{make_arc({0, 0}, 1, 0, kPi), {}, {}}, {make_segment({-1, 0}, {1, 0}), {}, {}}};
-  half.loops = {{{0, 1}, "half", {}}};
-  refused(half, {{"half"}}, {"'half' cannot be a grid: its outline has 2 corner(s): expected at least 3"});
+  refused(ModelMaker().polygon({{0, 0}, {1, 1}, {0, 0.2}, {-1, 1}}, {""}, "arrow"), {{"arrow"}},
+          {"'arrow' cannot be a grid: it would fold at ("});
+  refused(ModelMaker().loop({make_arc({0, 0}, 1, 0, kPi), make_segment({-1, 0}, {1, 0})}, "half"), {{"half"}},
+          {"'half' cannot be a grid: its outline has 2 corner(s): expected at least 3"});
 }
 
 }  // namespace

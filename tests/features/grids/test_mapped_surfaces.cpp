@@ -1,21 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
-
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/triangulated_shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
 
 MeshProblem grids_on(Mesh surface, double size, MappedSpec mapped) {
-  MeshProblem problem;
-  problem.model = TriangleModel{std::move(surface)};
-  problem.size.field = make_constant_size(size);
+  MeshProblem problem = problem_of(TriangleModel{std::move(surface)}, size);
   problem.mapped = std::move(mapped);
   return problem;
 }
@@ -32,7 +21,7 @@ std::map<int, int> valences(const Mesh& mesh) {
 TEST(MappedSurfaces, ABoxIsSixGrids) {
   for (const char* word : {"DB", "DBCO"})
     for (const MappedSpec& spec : {MappedSpec{{}, true}, MappedSpec{{"region_1", "region_4", "region_5"}}}) {
-      const MeshResult r = mesh(grids_on(testing_support::box(3, 1, 1.5, 2), 0.23, spec), word);
+      const MeshResult r = mesh(grids_on(box(3, 1, 1.5, 2), 0.23, spec), word);
       EXPECT_TRUE(r.mesh.triangles.empty());
       if (!spec.automatic) continue;
       EXPECT_EQ(valences(r.mesh)[3], 8);
@@ -45,8 +34,7 @@ TEST(MappedSurfaces, ABoxIsSixGrids) {
 TEST(MappedSurfaces, ATubeIsAGridThatClosesAround) {
   for (const MappedSpec& spec : {MappedSpec{{"region_1"}}, MappedSpec{{}, true}}) {
     // O moves what was not asked for.
-    const MeshResult r =
-        mesh(grids_on(testing_support::can(48, 4), 0.15, spec), spec.automatic ? "DB" : "DBCO");
+    const MeshResult r = mesh(grids_on(can(48, 4), 0.15, spec), spec.automatic ? "DB" : "DBCO");
     EXPECT_TRUE(r.mesh.triangles.empty());
     // The wall: nodes at equal heights, as many at each.
     std::map<long, int> at_height;
@@ -63,7 +51,7 @@ TEST(MappedSurfaces, ATubeIsAGridThatClosesAround) {
 
 /// A part of a cylinder about z, of this angle, as triangles.
 Mesh cylinder_piece(int n, double angle, double height) {
-  testing_support::TriangulatedShape shape;
+  TriangulatedShape shape;
   shape.region();
   const auto at = [&](int i, int j) {
     const double t = angle * i / n;
@@ -102,7 +90,7 @@ TEST(MappedSurfaces, NarrowFacesAreGrids) {
 
 /// Flat, of radius 5 outside, as triangles.
 Mesh flat_ring(double width) {
-  testing_support::TriangulatedShape shape;
+  TriangulatedShape shape;
   shape.region();
   constexpr int kAround = 120;
   const auto at = [&](int i, double r) {
@@ -132,16 +120,16 @@ TEST(MappedSurfaces, NarrowRingsAreRows) {
 TEST(MappedSurfaces, WhatCannotBeIsRefused) {
   const auto refused = [](Mesh surface, MappedSpec spec, std::initializer_list<const char*> says) {
     spec.where = "m 1";
-    expect_input_error([&] { mesh(grids_on(std::move(surface), 0.2, spec), "DBCO"); }, says);
+    expect_refused(grids_on(std::move(surface), 0.2, spec), "DBCO", says);
   };
-  refused(testing_support::box(3), {{"region_9"}}, {"m 1: no region is called 'region_9'"});
-  refused(testing_support::can(24, 3), {{"region_2"}}, {"m 1: 'region_2' cannot be a grid: its outline has"});
-  MeshProblem divided = grids_on(testing_support::box(3), 0.2, {{"region_1"}, false, "m 1"});
+  refused(box(3), {{"region_9"}}, {"m 1: no region is called 'region_9'"});
+  refused(can(24, 3), {{"region_2"}}, {"m 1: 'region_2' cannot be a grid: its outline has"});
+  MeshProblem divided = grids_on(box(3), 0.2, {{"region_1"}, false, "m 1"});
   divided.divisions = {{"curve_1", 4, 1, 1, "d 1"},
                        {"curve_2", 5, 1, 1, "d 2"},
                        {"curve_3", 7, 1, 1, "d 3"},
                        {"curve_4", 8, 1, 1, "d 4"}};
-  expect_input_error([&] { mesh(divided, "DBCO"); }, {"m 1", "sides that do not match", "'curve_"});
+  expect_refused(divided, "DBCO", {"m 1", "sides that do not match", "'curve_"});
 }
 
 }  // namespace

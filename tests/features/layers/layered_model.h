@@ -1,50 +1,9 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "base/predicates.h"
-#include "delquad/mesher.h"
-#include "delquad/model.h"
+#include "tests/support/meshing.h"
+#include "tests/support/named_lines.h"
 
 namespace delquad {
-
-struct LayeredModel {
-  PlanarModel model{"layered", {}, {}};
-
-  LayeredModel& polygon(const std::vector<Vec2>& corners, const std::vector<std::string>& names) {
-    ModelLoop loop{{}, "", ""};
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      loop.curves.push_back(static_cast<int>(model.curves.size()));
-      model.curves.push_back(
-          {make_segment(corners[i], corners[(i + 1) % corners.size()]), names[i % names.size()], ""});
-    }
-    model.loops.push_back(loop);
-    return *this;
-  }
-  LayeredModel& rectangle(Vec2 low, Vec2 high, const std::vector<std::string>& names) {
-    return polygon({low, {high.x, low.y}, high, {low.x, high.y}}, names);
-  }
-  LayeredModel& curve(std::shared_ptr<const Curve> shape, const std::string& name) {
-    model.loops.push_back({{static_cast<int>(model.curves.size())}, "", ""});
-    model.curves.push_back({std::move(shape), name, ""});
-    return *this;
-  }
-  MeshProblem problem(double size, std::vector<LayerSpec> layers) const {
-    MeshProblem problem;
-    problem.model = model;
-    problem.size.field = make_constant_size(size);
-    problem.layers = std::move(layers);
-    return problem;
-  }
-};
 
 inline LayerSpec layer_on(std::vector<std::string> on, double first, int number, double growth = 1.2) {
   LayerSpec spec;
@@ -53,6 +12,10 @@ inline LayerSpec layer_on(std::vector<std::string> on, double first, int number,
   spec.number = number;
   spec.growth = growth;
   return spec;
+}
+
+inline std::vector<Vec2> rectangle(Vec2 low, Vec2 high) {
+  return {low, {high.x, low.y}, high, {low.x, high.y}};
 }
 
 inline Vec2 flat(const Vec3& p) { return {p.x, p.y}; }
@@ -107,9 +70,7 @@ inline void expect_layers(const MeshProblem& problem, const MeshResult& result) 
 /// Heights of the quads at the lines of a curve: areas by lengths.
 inline std::vector<double> first_heights(const Mesh& mesh, const std::string& name) {
   std::set<std::pair<int, int>> lines;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-    if (std::ranges::count(mesh.curves[mesh.line_curve[l]].names, name) > 0)
-      lines.insert(std::minmax(mesh.lines[l][0], mesh.lines[l][1]));
+  for (const auto& [a, b] : lines_named(mesh, name)) lines.insert(std::minmax(a, b));
   std::vector<double> heights;
   for (const auto& q : mesh.quads)
     for (int k = 0; k < 4; ++k) {
@@ -128,9 +89,7 @@ inline MeshProblem naca0012(bool is_sharp, double first) {
     return 0.6 * (0.2969 * s - 0.1260 * s * s - 0.3516 * std::pow(s, 4) + 0.2843 * std::pow(s, 6) -
                   last * std::pow(s, 8));
   };
-  LayeredModel model;
-  model.rectangle({-10, -10}, {11, 10}, {"far"});
-  std::vector<ModelCurve>& curves = model.model.curves;
+  ModelMaker model = ModelMaker().rectangle({-10, -10}, {11, 10}, {"far"});
   const double tail = is_sharp ? 0 : half(1);
   const auto side = [&](double sign) {
     return make_parametric_curve(
@@ -139,14 +98,9 @@ inline MeshProblem naca0012(bool is_sharp, double first) {
         },
         0, 1);
   };
-  ModelLoop loop{{4, 5}, "", "", true};
-  curves.push_back({side(1), "airfoil", ""});
-  curves.push_back({side(-1), "airfoil", ""});
-  if (!is_sharp) {
-    curves.push_back({make_segment({1, tail}, {1, -tail}), "airfoil", ""});
-    loop.curves = {4, 6, 5};
-  }
-  model.model.loops.push_back(loop);
+  std::vector<ModelMaker::Shape> shapes = {side(1), side(-1)};
+  if (!is_sharp) shapes.insert(shapes.begin() + 1, make_segment({1, tail}, {1, -tail}));
+  model.loop(shapes, "", {"airfoil"}).loops.back().is_hole = true;
   LayerSpec layer = layer_on({"airfoil"}, first, 0);
   layer.thickness = 0.02;
   MeshProblem problem = model.problem(1, {layer});

@@ -1,9 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "tests/features/layers/layered_model.h"
 
 namespace delquad {
@@ -38,22 +32,19 @@ TEST(LayerEnds, BluntTrailingEdges) {
   for (const double first : {1e-3, 1e-5}) {
     SCOPED_TRACE(first);
     MeshProblem problem = naca0012(false, first);
-    std::get<PlanarModel>(problem.model).curves[6].name = "base";
+    std::get<PlanarModel>(problem.model).curves[5].name = "base";
     const MeshResult result = expect_whole(problem);
     // Nodes of the base are as far apart as those of the sides that stand at its ends.
     double shortest = 1;
-    for (std::size_t l = 0; l < result.mesh.lines.size(); ++l) {
-      const auto [a, b] = result.mesh.lines[l];
-      if (result.mesh.curves[result.mesh.line_curve[l]].names[0] == "base")
-        shortest = std::min(shortest, norm(result.mesh.points[b] - result.mesh.points[a]));
-    }
+    for (const auto& [a, b] : lines_named(result.mesh, "base"))
+      shortest = std::min(shortest, norm(result.mesh.points[b] - result.mesh.points[a]));
     EXPECT_NEAR(shortest / first, first > 5e-4 ? 0.52 : 1, 1e-6);
   }
 }
 
 TEST(LayerEnds, BackwardSteps) {
-  const LayeredModel model = LayeredModel().polygon({{0, 0.1}, {1, 0.1}, {1, 0}, {3, 0}, {3, 1}, {0, 1}},
-                                                    {"before", "step", "after", "out", "top", "in"});
+  const ModelMaker model = ModelMaker().polygon({{0, 0.1}, {1, 0.1}, {1, 0}, {3, 0}, {3, 1}, {0, 1}},
+                                                {"before", "step", "after", "out", "top", "in"});
   const MeshResult one = expect_whole(model.problem(0.05, {thick_layer({"before"}, 1e-3, 0.15)}));
   expect_first(one.mesh, "before", 1e-3);
   // That behind the step fits it; that before it does not care.
@@ -63,12 +54,12 @@ TEST(LayerEnds, BackwardSteps) {
   expect_first(both.mesh, "before", 1e-3);
   EXPECT_LE(least_scale(both) * layer_heights(problem.layers[0]).back(), 0.45 * 0.1);
   ASSERT_FALSE(both.warnings.empty());
-  EXPECT_NE(both.warnings[0].text.find("(1, 0) on 'after'"), std::string::npos) << both.warnings[0].text;
+  expect_text(both.warnings[0].text, {"(1, 0) on 'after'"});
 }
 
 TEST(LayerEnds, BumpsLowerThanTheLayers) {
   const MeshProblem problem =
-      LayeredModel()
+      ModelMaker()
           .polygon({{0, 0}, {1, 0}, {1, 0.004}, {1.1, 0.004}, {1.1, 0}, {2, 0}, {2, 1}, {0, 1}},
                    {"floor", "side", "bump", "side", "floor", "out", "top", "in"})
           .problem(0.05, {thick_layer({"floor", "bump"}, 1e-3, 0.05)});
@@ -79,21 +70,19 @@ TEST(LayerEnds, BumpsLowerThanTheLayers) {
 }
 
 TEST(LayerEnds, ThinPlates) {
-  const LayeredModel plate = LayeredModel()
-                                 .rectangle({-2, -2}, {3, 2}, {"far"})
-                                 .rectangle({0, 0}, {1, 0.02}, {"below", "edge", "above", "edge"});
+  const ModelMaker plate = ModelMaker()
+                               .rectangle({-2, -2}, {3, 2}, {"far"})
+                               .rectangle({0, 0}, {1, 0.02}, {"below", "edge", "above", "edge"});
   expect_whole(plate.problem(0.1, {thick_layer({"below"}, 1e-3, 0.02)}));
   expect_whole(plate.problem(0.1, {thick_layer({"below", "above"}, 1e-4, 0.03)}));
 }
 
 TEST(LayerEnds, CylinderOnAShortBase) {
-  LayeredModel model = LayeredModel().rectangle({-2, -2}, {3, 2}, {"far"});
+  ModelMaker model = ModelMaker().rectangle({-2, -2}, {3, 2}, {"far"});
   const double half = 0.1, from = -std::numbers::pi / 2 + half, to = 1.5 * std::numbers::pi - half;
   const auto at = [](double a) { return Vec2{0.3 * std::cos(a), 0.3 * std::sin(a)}; };
-  std::vector<ModelCurve>& curves = model.model.curves;
-  curves.push_back({make_arc({0, 0}, 0.3, from, to), "round", ""});
-  curves.push_back({make_segment(at(to), at(from)), "base", ""});
-  model.model.loops.push_back({{4, 5}, "", "", true});
+  model.loop({make_arc({0, 0}, 0.3, from, to), make_segment(at(to), at(from))}, "", {"round", "base"});
+  model.loops.back().is_hole = true;
   for (const char* on : {"round", "base"}) {
     SCOPED_TRACE(on);
     expect_whole(model.problem(0.1, {thick_layer({on}, 1e-3, 0.15)}));
@@ -102,7 +91,7 @@ TEST(LayerEnds, CylinderOnAShortBase) {
 
 TEST(LayerEnds, TwoOnOneShortWall) {
   const MeshProblem problem =
-      LayeredModel()
+      ModelMaker()
           .polygon({{-0.05, 0}, {0.05, 0}, {1, 1}, {-1, 1}}, {"wall", "side", "top", "side"})
           .problem(0.08, {thick_layer({"side"}, 1e-3, 0.1)});
   const MeshResult result = mesh(problem, "DBCO");

@@ -1,24 +1,11 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-#include <limits>
-#include <numbers>
-#include <string>
-
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/meshing.h"
+#include "tests/support/named_lines.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::TemporaryFolder;
-
 MeshProblem square(double side = 1) {
-  MeshProblem problem;
-  problem.model = polygons({{{0, 0}, {side, 0}, {side, side}, {0, side}}});
-  return problem;
+  return problem_of(polygons({{{0, 0}, {side, 0}, {side, side}, {0, side}}}));
 }
 
 MeshProblem by_sizes(MeshProblem problem, const std::string& h1, const std::string& h2,
@@ -79,14 +66,9 @@ TEST(MetricPlane, TheComplexityIsTheNumberOfQuads) {
 
 // Nodes of the outline lie on the true circle although the flat plane knows a polygon.
 TEST(MetricPlane, NodesLieOnTheTrueCurves) {
-  MeshProblem problem;
-  PlanarModel model;
-  model.source = "disc with a hole";
-  model.curves = {{make_circle({0, 0}, 1), "outer", "", false},
-                  {make_circle({0.2, 0}, 0.3), "inner", "", false}};
-  model.loops = {{{0}, "ring", "", false}, {{1}, "", "", true}};
-  problem.model = model;
-  problem = by_sizes(problem, "0.02+0.1*abs(y)", "0.15", "pi/2");
+  const MeshProblem problem =
+      by_sizes(problem_of(ModelMaker().circle({0, 0}, 1, "outer", "ring").circle({0.2, 0}, 0.3, "inner")),
+               "0.02+0.1*abs(y)", "0.15", "pi/2");
   const MeshResult result = mesh(problem, "good");
   ASSERT_TRUE(result.soundness.sound());
   for (std::size_t l = 0; l < result.mesh.lines.size(); ++l)
@@ -99,14 +81,7 @@ TEST(MetricPlane, NodesLieOnTheTrueCurves) {
 }
 
 MeshProblem ring(double outer, double inner) {
-  MeshProblem problem;
-  PlanarModel model;
-  model.source = "ring";
-  model.curves = {{make_circle({0, 0}, outer), "outer", "", false},
-                  {make_circle({0, 0}, inner), "inner", "", false}};
-  model.loops = {{{0}, "ring", "", false}, {{1}, "", "", true}};
-  problem.model = model;
-  return problem;
+  return problem_of(ModelMaker().circle({0, 0}, outer, "outer", "ring").circle({0, 0}, inner, "inner"));
 }
 
 // Rows that are thinner than the sagitta of their length, and a hole that is smaller than all lengths: sides
@@ -124,26 +99,17 @@ TEST(MetricPlane, BendsAndSmallHolesStayUpright) {
 
 // Regions side by side, one of them twice on the same curve, and a line inside of one.
 TEST(MetricPlane, RegionsAndEmbeddedCurvesStay) {
-  MeshProblem problem;
-  PlanarModel model;
-  model.source = "two";
-  model.curves = {{make_polyline({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}), "left", "", false},
-                  {make_polyline({{1, 1}, {1, 0}, {2, 0}, {2, 1}, {1, 1}}), "right", "", false},
-                  {make_segment({0.2, 0.3}, {0.8, 0.6}), "inside", "", false}};
-  model.loops = {{{0}, "a", "", false}, {{1}, "b", "", false}};
-  model.points = {{{1.5, 0.25}, "spot", ""}};
-  problem.model = model;
+  const MeshProblem problem =
+      problem_of(ModelMaker()
+                     .loop({make_polyline({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}})}, "a", {"left"})
+                     .loop({make_polyline({{1, 1}, {1, 0}, {2, 0}, {2, 1}, {1, 1}})}, "b", {"right"})
+                     .curve(make_segment({0.2, 0.3}, {0.8, 0.6}), "inside")
+                     .point({1.5, 0.25}, "spot"));
   const MeshResult result = mesh(by_sizes(problem, "0.1", "0.02+0.05*y"), "good");
   ASSERT_TRUE(result.soundness.sound());
   EXPECT_NEAR(area(result.mesh), 2, 1e-12);
   EXPECT_EQ(result.mesh.regions.size(), 2u);
-  double inside = 0;
-  for (std::size_t l = 0; l < result.mesh.lines.size(); ++l) {
-    const auto& names = result.mesh.curves[result.mesh.line_curve[l]].names;
-    const auto [a, b] = result.mesh.lines[l];
-    if (!names.empty() && names[0] == "inside") inside += norm(result.mesh.points[b] - result.mesh.points[a]);
-  }
-  EXPECT_NEAR(inside, std::hypot(0.6, 0.3), 1e-12);
+  EXPECT_NEAR(length_named(result.mesh, "inside"), std::hypot(0.6, 0.3), 1e-12);
   ASSERT_EQ(result.mesh.named_points.size(), 1u);
   EXPECT_NEAR(norm(result.mesh.points[result.mesh.named_points[0].point] - Vec3{1.5, 0.25, 0}), 0, 1e-9);
 }
@@ -280,7 +246,7 @@ TEST(MetricPlane, RefusesWhatIsNoMetricWithItsPlace) {
   expect_input_error([&] { meshed({"1e12", "0", "1e12"}); }, {"1e+12 quads", "max-elements"});
   MeshProblem negative = by_sizes(square(), "0.1", "0.5-y");
   negative.metric.where = "model.toml:7";
-  expect_input_error([&] { mesh(negative, "DB"); }, {"model.toml:7", "h2 -0.5", "at (1, 1)"});
+  expect_refused(negative, "DB", {"model.toml:7", "h2 -0.5", "at (1, 1)"});
   expect_input_error([&] { meshed({"1", "0", "z"}); }, {"model.toml:7", "z"});
 }
 
@@ -338,18 +304,15 @@ TEST(MetricPlane, ReadsTensorsFromFiles) {
     EXPECT_NEAR(m.xy, 0, 1e-9) << file;
     EXPECT_NEAR(m.yy, 2500, 1e-9) << file;
   }
-  const auto refused = [&](const std::string& text) {
+  const auto refused = [&](const std::string& text, const char* says) {
     MeshProblem problem = square();
     problem.metric.file = write("a.sol", text);
-    return message_of([&] { mesh(problem, "DB"); });
+    expect_refused(problem, "DB", {says});
   };
-  EXPECT_NE(refused(head + "3\n1 3\n1 0 1\n1 0 1\n1 0 1\nEnd\n").find("values of 3 points: expected 4"),
-            std::string::npos);
-  EXPECT_NE(refused(head + "4\n1 1\n1\n1\n1\n1\nEnd\n").find("expected one of type 3"), std::string::npos);
-  EXPECT_NE(
-      refused(head + "4\n1 3\n1 2 1\n1 0 1\n1 0 1\n1 0 1\n").find("[1, 2, 1] (m11, m12, m22) at (0, 0)"),
-      std::string::npos);
-  EXPECT_NE(refused("MeshVersionFormatted 2\n").find("no SolAtVertices"), std::string::npos);
+  refused(head + "3\n1 3\n1 0 1\n1 0 1\n1 0 1\nEnd\n", "values of 3 points: expected 4");
+  refused(head + "4\n1 1\n1\n1\n1\n1\nEnd\n", "expected one of type 3");
+  refused(head + "4\n1 3\n1 2 1\n1 0 1\n1 0 1\n1 0 1\n", "[1, 2, 1] (m11, m12, m22) at (0, 0)");
+  refused("MeshVersionFormatted 2\n", "no SolAtVertices");
   const auto refused_file = [&](const std::string& file, std::initializer_list<const char*> parts) {
     expect_input_error([&] { make_file_metric(file); }, parts);
   };
@@ -365,23 +328,23 @@ TEST(MetricPlane, RefusesWhatDoesNotGoWithIt) {
   MeshProblem problem = by_sizes(square(), "0.1", "0.2");
   MeshProblem other = problem;
   other.size.field = make_constant_size(0.1);
-  expect_input_error([&] { mesh(other, "DB"); }, {"a size does", "not go with a metric"});
+  expect_refused(other, "DB", {"a size does", "not go with a metric"});
   other = problem;
   other.symmetry.automatic = true;
-  expect_input_error([&] { mesh(other, "DB"); }, {"planes of symmetry"});
+  expect_refused(other, "DB", {"planes of symmetry"});
   other = problem;
   other.metric.gradation = 0.5;
-  expect_input_error([&] { mesh(other, "DB"); }, {"gradation 0.5", "above 1"});
+  expect_refused(other, "DB", {"gradation 0.5", "above 1"});
   other = problem;
   other.metric.limits = {.min = 2, .max = 1};
-  expect_input_error([&] { mesh(other, "DB"); }, {"min 2 is above max 1"});
+  expect_refused(other, "DB", {"min 2 is above max 1"});
   other = problem;
   other.model = ExampleModel{"torus"};
-  expect_input_error([&] { mesh(other, "DB"); }, {"of a surface"});
+  expect_refused(other, "DB", {"of a surface"});
   other = square();
   other.size.field = make_constant_size(0.1);
   other.cross.kind = CrossKind::kMetric;
-  expect_input_error([&] { mesh(other, "DB"); }, {"there is no metric"});
+  expect_refused(other, "DB", {"there is no metric"});
 }
 
 }  // namespace

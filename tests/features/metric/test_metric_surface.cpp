@@ -1,27 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <functional>
-#include <initializer_list>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/triangulated_shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::can;
-
 double value_of(const MeshResult& result, const char* key) { return result.metrics.values.at(key); }
 
 MeshProblem by_chord(Model model, double chord, double max) {
-  MeshProblem problem;
-  problem.model = std::move(model);
+  MeshProblem problem = problem_of(std::move(model));
   problem.metric.chord = chord;
   problem.metric.limits.max = max;
   return problem;
@@ -86,16 +71,14 @@ TEST(MetricSurface, APlaneInSpaceIsThePlane) {
   const double c = std::cos(0.7), s = std::sin(0.7);
   const Vec3 e{c, 0, s}, f{-s * s, c, s * c};
   const double along = 1 / (0.2 * 0.2), across = 1 / (0.02 * 0.02);
-  MeshProblem in_space;
-  in_space.model = tilted_square(e, f);
+  MeshProblem in_space = problem_of(tilted_square(e, f));
   in_space.metric.in_space = [&](std::span<const Vec3> points, std::span<Tensor3> metric) {
     for (std::size_t i = 0; i < points.size(); ++i)
       metric[i] = {along * e.x * e.x + across * f.x * f.x, along * e.x * e.y + across * f.x * f.y,
                    along * e.x * e.z + across * f.x * f.z, along * e.y * e.y + across * f.y * f.y,
                    along * e.y * e.z + across * f.y * f.z, along * e.z * e.z + across * f.z * f.z};
   };
-  MeshProblem in_plane;
-  in_plane.model = polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
+  MeshProblem in_plane = problem_of(polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}));
   in_plane.metric.sizes = {"0.2", "0.02"};
   const MeshResult there = mesh(in_space, "DB"), here = mesh(in_plane, "DB");
   EXPECT_EQ(there.mesh.quads.size(), here.mesh.quads.size());
@@ -139,8 +122,7 @@ TEST(MetricSurface, ATorusIsClosed) {
 TEST(MetricSurface, FilletsTakeFewerQuads) {
   const double extent = 119.8;
   const MeshResult by_metric = mesh(by_chord(ExampleModel{"bracket"}, 0.08, 6), "good");
-  MeshProblem by_size;
-  by_size.model = ExampleModel{"bracket"};
+  MeshProblem by_size = problem_of(ExampleModel{"bracket"});
   by_size.size = {.text = "6", .curvature = 20};
   const MeshResult even = mesh(by_size, "good");
   EXPECT_TRUE(by_metric.soundness.sound());
@@ -172,7 +154,7 @@ TEST(MetricSurface, RefusesWhatDoesNotGoWithIt) {
                           std::initializer_list<const char*> parts) {
     MeshProblem problem = by_chord(tall_can(), 0.01, 2);
     change(problem);
-    expect_input_error([&] { mesh(problem, "DB"); }, parts);
+    expect_refused(problem, "DB", parts);
   };
   refuses([](MeshProblem& p) { p.size.text = "1"; }, {"a size does not go with a metric"});
   refuses([](MeshProblem& p) { p.size.curvature = 12; }, {"a size does not go with a metric"});
@@ -183,10 +165,9 @@ TEST(MetricSurface, RefusesWhatDoesNotGoWithIt) {
         p.metric = {.tensor = {"1", "0", "0", "-1", "0", "1"}};
       },
       {"the metric is [1, 0, 0, -1, 0, 1]", "positive definite"});
-  MeshProblem planar;
-  planar.model = polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
+  MeshProblem planar = problem_of(polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}));
   planar.metric.chord = 0.1;
-  expect_input_error([&] { mesh(planar, "DB"); }, {"for surfaces"});
+  expect_refused(planar, "DB", {"for surfaces"});
 }
 
 }  // namespace

@@ -1,12 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
-#include "delquad/fields.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

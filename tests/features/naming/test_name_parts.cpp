@@ -1,13 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
-#include <vector>
-
-#include "delquad/mesher.h"
 #include "features/naming/name_parts.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/triangulated_shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -16,7 +8,7 @@ constexpr double kX = 3, kY = 2, kZ = 1;
 
 MeshProblem block() {
   MeshProblem problem;
-  Mesh mesh = testing_support::box(2, kX, kY, kZ);
+  Mesh mesh = box(2, kX, kY, kZ);
   mesh.regions[2].names = {"side_low"};
   mesh.regions[3].names = {"side_high"};
   problem.model = TriangleModel{std::move(mesh), "block"};

@@ -1,54 +1,27 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <set>
-
-#include "delquad/mesher.h"
 #include "io/mesh_io.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/meshing.h"
+#include "tests/support/named_lines.h"
 
 namespace delquad {
 namespace {
 
-ModelCurve curve_of(std::shared_ptr<const Curve> shape, const std::string& name) {
-  return {std::move(shape), name, {}};
-}
-
 /// A square with a circular hole, and halves of a hole that its left and right side cut through.
 PlanarModel unit_cell() {
   const double r = 0.2, pi = std::numbers::pi;
-  PlanarModel model;
-  model.curves = {curve_of(make_segment({0, 0}, {1, 0}), "bottom"),
-                  curve_of(make_segment({1, 0}, {1, 0.5 - r}), "right"),
-                  curve_of(make_arc({1, 0.5}, r, 1.5 * pi, 0.5 * pi), "pore"),
-                  curve_of(make_segment({1, 0.5 + r}, {1, 1}), "right"),
-                  curve_of(make_segment({0, 1}, {1, 1}), "top"),
-                  curve_of(make_segment({0, 0.5 + r}, {0, 1}), "left"),
-                  curve_of(make_arc({0, 0.5}, r, -0.5 * pi, 0.5 * pi), "pore"),
-                  curve_of(make_segment({0, 0}, {0, 0.5 - r}), "left"),
-                  curve_of(make_circle({0.5, 0.5}, 0.15), "hole")};
-  model.loops = {{{0, 1, 2, 3, 4, 5, 6, 7}, {}, {}}, {{8}, {}, {}}};
-  return model;
+  return ModelMaker()
+      .loop({make_segment({0, 0}, {1, 0}), make_segment({1, 0}, {1, 0.5 - r}),
+             make_arc({1, 0.5}, r, 1.5 * pi, 0.5 * pi), make_segment({1, 0.5 + r}, {1, 1}),
+             make_segment({0, 1}, {1, 1}), make_segment({0, 0.5 + r}, {0, 1}),
+             make_arc({0, 0.5}, r, -0.5 * pi, 0.5 * pi), make_segment({0, 0}, {0, 0.5 - r})},
+            "", {"bottom", "right", "pore", "right", "top", "left", "pore", "left"})
+      .circle({0.5, 0.5}, 0.15, "hole");
 }
 
 MeshProblem cell_problem(PlanarModel model, double size) {
-  MeshProblem problem;
-  problem.model = std::move(model);
-  problem.size.field = make_constant_size(size);
+  MeshProblem problem = problem_of(std::move(model), size);
   problem.cross.kind = CrossKind::kSizeAware;
   problem.periodic = {{"left", "right", {{1, 0, 0}}, "p 1"}, {"bottom", "top", {{0, 1, 0}}, "p 2"}};
   return problem;
-}
-
-std::set<int> nodes_on(const Mesh& mesh, const std::string& name) {
-  std::set<int> nodes;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-    if (mesh.curves[mesh.line_curve[l]].names == std::vector{name})
-      nodes.insert(mesh.lines[l].begin(), mesh.lines[l].end());
-  return nodes;
 }
 
 /// Every node of `to` is the image of just one of `from`, as the mesh says.
@@ -65,8 +38,8 @@ void expect_images(const Mesh& mesh, const std::string& from, const std::string&
   }
   std::set<int> images, masters;
   for (const auto& [node, master] : of) images.insert(node), masters.insert(master);
-  EXPECT_EQ(images, nodes_on(mesh, to));
-  EXPECT_EQ(masters, nodes_on(mesh, from));
+  EXPECT_EQ(images, nodes_named(mesh, to));
+  EXPECT_EQ(masters, nodes_named(mesh, from));
 }
 
 TEST(Periodic, CellsWithHolesMatch) {
@@ -94,15 +67,12 @@ TEST(Periodic, SizesOnTheFirstSideCount) {
 TEST(Periodic, SectorsTurn) {
   const double third = 2 * std::numbers::pi / 3;
   const Vec2 e{std::cos(third), std::sin(third)};
-  PlanarModel model;
-  model.curves = {curve_of(make_segment({1, 0}, {2, 0}), "first"),
-                  curve_of(make_arc({0, 0}, 2, 0, third), "outer"),
-                  curve_of(make_segment({2 * e.x, 2 * e.y}, {e.x, e.y}), "last"),
-                  curve_of(make_arc({0, 0}, 1, third, 0), "inner")};
-  model.loops = {{{0, 1, 2, 3}, {}, {}}};
-  MeshProblem problem;
-  problem.model = model;
-  problem.size.field = make_constant_size(0.12);
+  MeshProblem problem =
+      ModelMaker()
+          .loop({make_segment({1, 0}, {2, 0}), make_arc({0, 0}, 2, 0, third),
+                 make_segment({2 * e.x, 2 * e.y}, {e.x, e.y}), make_arc({0, 0}, 1, third, 0)},
+                "", {"first", "outer", "last", "inner"})
+          .problem(0.12);
   problem.periodic = {{"first", "last", {{}, third}, "p"}};
   const MeshResult r = mesh(problem, "DBCO");
   EXPECT_TRUE(r.mesh.triangles.empty());
@@ -131,9 +101,7 @@ TriangleModel torus_sector(double angle, int along) {
 
 TEST(Periodic, SurfacesMatch) {
   const double angle = 0.5 * std::numbers::pi;
-  MeshProblem problem;
-  problem.model = torus_sector(angle, 30);
-  problem.size.field = make_constant_size(0.31);
+  MeshProblem problem = problem_of(torus_sector(angle, 30), 0.31);
   problem.periodic = {{"curve_1", "curve_2", {{}, angle}, "p"}};
   const MeshResult r = mesh(problem, "DBCO");
   EXPECT_TRUE(r.mesh.triangles.empty());
@@ -152,26 +120,24 @@ TEST(Periodic, SurfacesMatch) {
   EXPECT_EQ(images.size(), masters.size());
   EXPECT_GT(images.size(), 10u);
   problem.periodic[0].motion.angle = 1.5;
-  expect_input_error([&] { mesh(problem, "DBCO"); },
-                     {"p: the sides do not match: the image of (", "away from the curves of 'curve_2'"});
+  expect_refused(problem, "DBCO",
+                 {"p: the sides do not match: the image of (", "away from the curves of 'curve_2'"});
 }
 
 TEST(Periodic, IsWritten) {
-  const testing_support::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const MeshResult r = mesh(cell_problem(unit_cell(), 0.1), "DBCO");
   write_mesh(folder / "cell.msh", r.mesh);
-  const std::string text = testing_support::read_text(folder / "cell.msh");
-  EXPECT_NE(text.find("$Periodic\n3\n1 2 8\n16 1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1\n"), std::string::npos);
-  EXPECT_NE(text.find("$EndPeriodic"), std::string::npos);
+  const std::string text = read_text(folder / "cell.msh");
+  expect_text(text, {"$Periodic\n3\n1 2 8\n16 1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1\n", "$EndPeriodic"});
   write_mesh(folder / "cell.inp", r.mesh);
-  const std::string inp = testing_support::read_text(folder / "cell.inp");
-  EXPECT_NE(inp.find("*NSET, NSET=PERIODIC_3_MASTER\n"), std::string::npos);
+  const std::string inp = read_text(folder / "cell.inp");
+  expect_text(inp, {"*NSET, NSET=PERIODIC_3_MASTER\n"});
   EXPECT_EQ(inp.find("UNSORTED"), std::string::npos);  // which CalculiX refuses
   for (std::size_t i = 0; i < r.mesh.periodic.size(); ++i)
     for (const auto& [node, master] : r.mesh.periodic[i].nodes)
-      EXPECT_NE(inp.find("** PERIODIC_" + std::to_string(i + 1) + ": " + std::to_string(node + 1) + ", " +
-                         std::to_string(master + 1) + '\n'),
-                std::string::npos);
+      expect_text(inp, {"** PERIODIC_" + std::to_string(i + 1) + ": " + std::to_string(node + 1) + ", " +
+                        std::to_string(master + 1) + '\n'});
   EXPECT_EQ(read_mesh(folder / "cell.msh").quads, r.mesh.quads);
 }
 
@@ -179,7 +145,7 @@ TEST(Periodic, SidesThatDoNotMatchAreRefused) {
   const auto refused = [](const PeriodicPair& pair, std::initializer_list<const char*> says) {
     MeshProblem problem = cell_problem(unit_cell(), 0.1);
     problem.periodic = {pair};
-    expect_input_error([&] { mesh(problem, "DBCO"); }, says);
+    expect_refused(problem, "DBCO", says);
   };
   refused({"left", "right", {{0.9, 0, 0}}, "p 1"},
           {"p 1: the sides do not match", "has no image in 'right'"});
@@ -187,10 +153,10 @@ TEST(Periodic, SidesThatDoNotMatchAreRefused) {
   refused({"pore", "hole", {{1, 0, 0}}, "p 1"}, {"p 1: the sides do not match"});
   MeshProblem divided = cell_problem(unit_cell(), 0.1);
   divided.divisions = {{"top", 8, 1, 1, "d 1"}};
-  expect_input_error([&] { mesh(divided, "DBCO"); }, {"p 2: curve", "gets its nodes twice"});
+  expect_refused(divided, "DBCO", {"p 2: curve", "gets its nodes twice"});
   divided.divisions = {{"bottom", 9, 1.1, 1, "d 1"}};
   const MeshResult r = mesh(divided, "DBCO");
-  EXPECT_EQ(nodes_on(r.mesh, "top").size(), 10u);
+  EXPECT_EQ(nodes_named(r.mesh, "top").size(), 10u);
   expect_images(r.mesh, "bottom", "top");
 }
 

@@ -1,31 +1,15 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <set>
-#include <sstream>
-
-#include "delquad/mesher.h"
 #include "geometry/cad/example_models.h"
 #include "io/mesh_io.h"
 #include "metrics/shape.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/triangulated_shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::TriangulatedShape;
 constexpr double kHalfTurn = std::numbers::pi;
 
 MeshProblem problem_of(Model model, double size, std::vector<PeriodicPair> periodic) {
-  MeshProblem problem;
-  problem.model = std::move(model);
-  problem.size.field = make_constant_size(size);
+  MeshProblem problem = problem_of(std::move(model), size);
   problem.periodic = std::move(periodic);
   return problem;
 }
@@ -77,7 +61,7 @@ double volume(const Mesh& mesh) {
 
 TEST(PeriodicFaces, CubesMatchInThreeDirections) {
   for (const char* word : {"DB", "DBCO", "DLBCO"}) {
-    const MeshResult r = mesh(problem_of(TriangleModel{testing_support::box(3)}, 0.13, kCellPairs), word);
+    const MeshResult r = mesh(problem_of(TriangleModel{box(3)}, 0.13, kCellPairs), word);
     EXPECT_TRUE(r.mesh.triangles.empty());
     expect_images(r.mesh, 3);
     for (const PeriodicFaces& pair : r.mesh.periodic_faces) EXPECT_TRUE(pair.is_reversed);
@@ -88,7 +72,7 @@ TEST(PeriodicFaces, CubesMatchInThreeDirections) {
 }
 
 TEST(PeriodicFaces, SizesOnTheFirstFaceCount) {
-  MeshProblem problem = problem_of(TriangleModel{testing_support::box(4)}, 0.1, kCellPairs);
+  MeshProblem problem = problem_of(TriangleModel{box(4)}, 0.1, kCellPairs);
   problem.size.field = make_function_size([](const Vec3& x) { return 0.07 + 0.1 * x.x; }, "size");
   const MeshResult fine = mesh(problem, "DBCO");
   expect_images(fine.mesh, 3);
@@ -221,7 +205,7 @@ TEST(PeriodicFaces, SectorsTouchTheirAxis) {
 
 TEST(PeriodicFaces, CurvedFacesMatch) {
   const MeshProblem flat =
-      problem_of(TriangleModel{testing_support::box(16)}, 0.11, {{"region_1", "region_2", {{1, 0, 0}}, "p"}});
+      problem_of(TriangleModel{box(16)}, 0.11, {{"region_1", "region_2", {{1, 0, 0}}, "p"}});
   MeshProblem curved = flat;
   for (Vec3& p : std::get<TriangleModel>(curved.model).mesh.points)
     p.x += 0.1 * std::sin(kHalfTurn * p.y) * std::sin(kHalfTurn * p.z);
@@ -289,7 +273,7 @@ TEST(PeriodicFaces, CellsWithPoresAtTheCornersMatch) {
 }
 
 TEST(PeriodicFaces, FacesOfSheetsRunTheSameWay) {
-  Mesh sheets = testing_support::box(3);
+  Mesh sheets = box(3);
   std::vector<std::array<int, 3>> kept;
   std::vector<int> regions;
   for (std::size_t t = 0; t < sheets.triangles.size(); ++t) {
@@ -310,10 +294,9 @@ TEST(PeriodicFaces, FacesOfSheetsRunTheSameWay) {
 TEST(PeriodicFaces, FacesThatAreCutOpenMatch) {
   const Mesh can = testing_support::can(24, 4);
   Mesh two = can;
-  const int n = static_cast<int>(can.points.size()), n_faces = static_cast<int>(can.regions.size());
-  for (const Vec3& p : can.points) two.points.push_back(p + Vec3{3, 0, 0});
-  for (const auto& [a, b, c] : can.triangles) two.triangles.push_back({a + n, b + n, c + n});
-  for (const int region : can.triangle_region) two.triangle_region.push_back(region + n_faces);
+  append(two, can, {3, 0, 0});
+  const int n_faces = static_cast<int>(can.regions.size());
+  for (std::size_t t = can.triangles.size(); t < two.triangles.size(); ++t) two.triangle_region[t] += n_faces;
   for (int f = 0; f < n_faces; ++f) two.regions.push_back({n_faces + f + 1, {}});
   for (const char* word : {"DB", "DBCO", "DLBCO"}) {
     const MeshResult r =
@@ -353,28 +336,27 @@ TEST(PeriodicFaces, CadFacesMatch) {
 }
 
 TEST(PeriodicFaces, AreWritten) {
-  const testing_support::TemporaryFolder folder;
-  const MeshResult r = mesh(problem_of(TriangleModel{testing_support::box(2)}, 0.3, kCellPairs), "DB");
+  const TemporaryFolder folder;
+  const MeshResult r = mesh(problem_of(TriangleModel{box(2)}, 0.3, kCellPairs), "DB");
   write_mesh(folder / "cell.msh", r.mesh);
-  const std::string text = testing_support::read_text(folder / "cell.msh");
-  EXPECT_NE(text.find("\n2 2 1\n16 1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1\n"), std::string::npos);
-  EXPECT_NE(text.find("\n2 6 5\n16 1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 1\n"), std::string::npos);
+  const std::string text = read_text(folder / "cell.msh");
+  expect_text(text, {"\n2 2 1\n16 1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1\n",
+                     "\n2 6 5\n16 1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 1\n"});
   write_mesh(folder / "cell.inp", r.mesh);
-  const std::string inp = testing_support::read_text(folder / "cell.inp");
-  EXPECT_NE(inp.find("*NSET, NSET=PERIODIC_FACE_3_MASTER\n"), std::string::npos);
+  const std::string inp = read_text(folder / "cell.inp");
+  expect_text(inp, {"*NSET, NSET=PERIODIC_FACE_3_MASTER\n"});
   const auto [node, master] = r.mesh.periodic_faces[2].nodes[0];
-  EXPECT_NE(
-      inp.find("** PERIODIC_FACE_3: " + std::to_string(node + 1) + ", " + std::to_string(master + 1) + '\n'),
-      std::string::npos);
+  expect_text(inp,
+              {"** PERIODIC_FACE_3: " + std::to_string(node + 1) + ", " + std::to_string(master + 1) + '\n'});
   EXPECT_EQ(read_mesh(folder / "cell.msh").quads.size(), r.mesh.quads.size());
 }
 
 TEST(PeriodicFaces, WhatDoesNotMatchIsRefused) {
   const auto refused = [](const std::vector<PeriodicPair>& pairs, std::initializer_list<const char*> says,
                           const Mesh& model) {
-    expect_input_error([&] { mesh(problem_of(TriangleModel{model}, 0.2, pairs), "DB"); }, says);
+    expect_refused(problem_of(TriangleModel{model}, 0.2, pairs), "DB", says);
   };
-  const Mesh cube = testing_support::box(2);
+  const Mesh cube = box(2);
   refused({{"region_1", "region_2", {{0.9, 0, 0}}, "p 1"}},
           {"p 1: the faces do not match: the image of face 1 at", "is 0.1 away from face 2"}, cube);
   refused({{"region_1", "region_1", {{1, 0, 0}}, "p 1"}}, {"p 1: 'region_1' is 'from' and 'to'"}, cube);
@@ -388,7 +370,7 @@ TEST(PeriodicFaces, WhatDoesNotMatchIsRefused) {
   refused(
       {{"region_1", "region_2", {{1, 0, 0}, kHalfTurn / 2, {0, 0.5, 0.5}, {1, 0, 0}}, "p 1"}, kCellPairs[1]},
       {"would be the image of two curves that are not images of each other"}, cube);
-  Mesh dented = testing_support::box(4);
+  Mesh dented = box(4);
   for (Vec3& p : dented.points)
     if (p.x == 1 && p.y == 0.5 && p.z == 0.5) p.x = 1.01;
   refused(
@@ -398,7 +380,7 @@ TEST(PeriodicFaces, WhatDoesNotMatchIsRefused) {
 }
 
 TEST(PeriodicFaces, FacesTakeTheNameFromCurves) {
-  Mesh cube = testing_support::box(2);
+  Mesh cube = box(2);
   cube.regions[0].names = {"left"};
   cube.regions[1].names = {"right"};
   cube.curves.push_back({1, {"left"}});
@@ -412,9 +394,7 @@ TEST(PeriodicFaces, FacesTakeTheNameFromCurves) {
   const MeshResult r =
       mesh(problem_of(TriangleModel{cube}, 0.2, {{"left", "right", {{1, 0, 0}}, "p"}}), "DB");
   expect_images(r.mesh, 1);
-  EXPECT_TRUE(std::ranges::any_of(r.warnings, [](const Warning& w) {
-    return w.text.find("'left' is the name of faces and of curves") != std::string::npos;
-  }));
+  EXPECT_TRUE(is_told(r.warnings, "'left' is the name of faces and of curves"));
 }
 
 }  // namespace

@@ -1,14 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -21,9 +11,9 @@ Vec2 on_interface(int i, double x) { return {x, i * kHigh + 0.3 * std::sin(0.5 *
 /// Layers of less than half the size between a slanted fault and a straight one; the middle one is cut in two
 /// wedges of one degree.
 PlanarModel stack_of_layers() {
-  PlanarModel model;
+  ModelMaker model;
   const auto add = [&](std::shared_ptr<const Curve> shape, const std::string& name) {
-    model.curves.push_back({std::move(shape), name, {}});
+    model.curve(std::move(shape), name);
     return static_cast<int>(model.curves.size()) - 1;
   };
   const auto from = [](int i) { return 0.8 * i * kHigh; };
@@ -45,18 +35,15 @@ PlanarModel stack_of_layers() {
   const int cut = kLayers / 2;
   for (int i = 0; i < kLayers; ++i) {
     const std::string name = "layer_" + std::to_string(i);
-    if (i != cut) model.loops.push_back({{interfaces[i], right[i], interfaces[i + 1], left[i]}, name, {}});
+    if (i != cut) model.loop_of({interfaces[i], right[i], interfaces[i + 1], left[i]}, name);
   }
   const int wedge = add(spline(cut, cut + 1), "wedge");
-  model.loops.push_back({{interfaces[cut], right[cut], wedge}, "lower", {}});
-  model.loops.push_back({{wedge, interfaces[cut + 1], left[cut]}, "upper", {}});
-  return model;
+  return model.loop_of({interfaces[cut], right[cut], wedge}, "lower")
+      .loop_of({wedge, interfaces[cut + 1], left[cut]}, "upper");
 }
 
 MeshProblem problem_of(PlanarModel model, const std::string& thin) {
-  MeshProblem problem;
-  problem.model = std::move(model);
-  problem.size.field = make_constant_size(kSize);
+  MeshProblem problem = problem_of(std::move(model), kSize);
   problem.options.set("curves.thin", thin);
   return problem;
 }
@@ -104,9 +91,9 @@ TEST(ThinRows, OfAStackFaceEachOther) {
 
 /// Long waves of a block with three thin layers in its middle; all is symmetric and periodic.
 PlanarModel block() {
-  PlanarModel model;
+  ModelMaker model;
   const auto add = [&](std::shared_ptr<const Curve> shape, const std::string& name, int i) {
-    model.curves.push_back({std::move(shape), name + std::to_string(i), {}});
+    model.curve(std::move(shape), name + std::to_string(i));
   };
   const std::vector<double> heights{0, 20, 23, 26, 30, 60};
   const int n = static_cast<int>(heights.size()) - 1;
@@ -121,7 +108,7 @@ PlanarModel block() {
   for (int i = 0; i < n; ++i) add(make_segment(at(i, 0), at(i + 1, 0)), "left_", i);
   for (int i = 0; i < n; ++i) add(make_segment(at(i, 200), at(i + 1, 200)), "right_", i);
   for (int i = 0; i < n; ++i)
-    model.loops.push_back({{i, 2 * n + 1 + i, i + 1, n + 1 + i}, "layer_" + std::to_string(i), {}});
+    model.loop_of({i, 2 * n + 1 + i, i + 1, n + 1 + i}, "layer_" + std::to_string(i));
   return model;
 }
 
@@ -155,12 +142,8 @@ TEST(ThinRows, GoWithDivisionsPeriodicSidesMirrorsAndGrids) {
 TEST(ThinRows, EndInWedgesWithoutFlatQuads) {
   for (const double degrees : {0.6, 2.0, 5.0}) {
     const double angle = degrees * std::numbers::pi / 180;
-    PlanarModel model;
     const Vec2 tip{0, 0}, low{30, 0}, high{30 * std::cos(angle), 30 * std::sin(angle)};
-    model.curves = {{make_segment(tip, low), "low", {}},
-                    {make_segment(low, high), "end", {}},
-                    {make_segment(high, tip), "high", {}}};
-    model.loops = {{{0, 1, 2}, "wedge", {}}};
+    const PlanarModel model = ModelMaker().polygon({tip, low, high}, {"low", "end", "high"}, "wedge");
     const MeshResult result = mesh(problem_of(model, "rows"), "DBCO");
     EXPECT_TRUE(result.soundness.sound());
     double at_tip = 1, elsewhere = 1;
@@ -198,10 +181,7 @@ TEST(ThinRows, RefuseWhatCannotBe) {
 
 /// A circle with a hole off its middle: the gap is between .1 and .9.
 PlanarModel channel() {
-  PlanarModel model;
-  model.curves = {{make_circle({0, 0}, 1.5), "outer", {}}, {make_circle({0.4, 0}, 1), "inner", {}}};
-  model.loops = {{{0}, "gap", {}}, {{1}, {}, {}}};
-  return model;
+  return ModelMaker().circle({0, 0}, 1.5, "outer", "gap").circle({0.4, 0}, 1, "inner");
 }
 
 TEST(GapRows, FitBetweenArcs) {
@@ -248,8 +228,7 @@ TEST(ThinRows, LeaveGivenLinesAlone) {
   }
   lines.curves = {{1, {}}};
   const auto quads = [&](const std::string& thin) {
-    MeshProblem problem;
-    problem.model = LineModel{lines, {}, "wedge"};
+    MeshProblem problem = problem_of(LineModel{lines, {}, "wedge"});
     problem.allow_unsound = true;
     problem.options.set("curves.thin", thin);
     return mesh(problem, "DB").mesh.quads.size();

@@ -1,5 +1,4 @@
 #include "tests/geometry/cad/cad_files.h"
-
 #include <BRepTools.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
@@ -7,7 +6,7 @@
 #include <Message_Messenger.hxx>
 #include <STEPControl_Writer.hxx>
 #include <TopoDS_Shape.hxx>
-#include <stdexcept>
+#include "tests/support/meshing.h"
 
 namespace delquad::testing_support {
 

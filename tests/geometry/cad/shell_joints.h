@@ -54,14 +54,4 @@ std::vector<TopoDS_Face> gusset_from_a_corner();
 /// Pairs that are nearer to each other than their triangulations are to them, or lie in one plane.
 std::vector<std::vector<TopoDS_Face>> faces_apart();
 
-/// All beside each other.
-template <class Shape>
-TopoDS_Shape compound_of(const std::vector<Shape>& some) {
-  TopoDS_Compound all;
-  const BRep_Builder builder;
-  builder.MakeCompound(all);
-  for (const Shape& shape : some) builder.Add(all, shape);
-  return all;
-}
-
 }  // namespace delquad::testing_support

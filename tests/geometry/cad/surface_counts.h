@@ -1,13 +1,6 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <utility>
-#include <vector>
-
-#include "geometry/mesh/half_edges.h"
-#include "geometry/surface/surface_model.h"
+#include "tests/support/meshing.h"
 
 namespace delquad::testing_support {
 

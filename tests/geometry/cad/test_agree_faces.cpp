@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <utility>
-
 #include "geometry/cad/agree_faces.h"
-#include "tests/geometry/cad/surface_counts.h"
+#include "tests/geometry/cad/cad_files.h"
 
 namespace delquad {
 namespace {

@@ -1,27 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <BRepAlgoAPI_Fuse.hxx>
-#include <BRepBuilderAPI_MakeEdge.hxx>
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
-#include <BRepPrimAPI_MakeBox.hxx>
-#include <BRepPrimAPI_MakeTorus.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Face.hxx>
-#include <algorithm>
-#include <gp_Pln.hxx>
-#include <random>
-
-#include "geometry/cad/cad_reader.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/geometry/cad/surface_counts.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 class CadBadInput : public ::testing::Test {
  protected:
@@ -88,26 +69,24 @@ TEST_F(CadBadInput, DamagedFilesAreReadOrRefused) {
 
 TEST_F(CadBadInput, NoFace) {
   const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0));
-  expect_input_error([&] { read_cad(write_brep(folder_ / "a.brep", edge)); },
-                     {"a.brep", "the model holds no face"});
+  expect_input_error([&] { read_shape(edge); }, {"a.brep", "the model holds no face"});
 }
 
 TEST_F(CadBadInput, EndlessFace) {
   const TopoDS_Face face = BRepBuilderAPI_MakeFace(gp_Pln());
-  expect_input_error([&] { read_cad(write_brep(folder_ / "a.brep", face)); },
-                     {"face 1 has no boundary and its surface is infinite"});
+  expect_input_error([&] { read_shape(face); }, {"face 1 has no boundary and its surface is infinite"});
 }
 
 TEST_F(CadBadInput, FaceWithoutArea) {
   BRepBuilderAPI_MakePolygon wire(gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0), gp_Pnt(2, 1e-13, 0), true);
   const TopoDS_Face face = BRepBuilderAPI_MakeFace(gp_Pln(), wire.Wire());
-  expect_input_error([&] { read_cad(write_brep(folder_ / "a.brep", face)); }, {"a.brep", "face 1"});
+  expect_input_error([&] { read_shape(face); }, {"a.brep", "face 1"});
 }
 
 TEST_F(CadBadInput, BoundaryThatCrossesItselfIsCutAtTheCrossing) {
   BRepBuilderAPI_MakePolygon wire(gp_Pnt(0, 0, 0), gp_Pnt(1, 1, 0), gp_Pnt(1, 0, 0), gp_Pnt(0, 1, 0), true);
   const TopoDS_Face face = BRepBuilderAPI_MakeFace(gp_Pln(), wire.Wire());
-  const SurfaceModel model = read_cad(write_brep(folder_ / "a.brep", face));
+  const SurfaceModel model = read_shape(face);
   EXPECT_EQ(model.fine.regions.size(), 2u);
   EXPECT_NEAR(count(model.fine).area, 0.5, 1e-12);
   ASSERT_FALSE(model.warnings.empty());
@@ -127,7 +106,7 @@ TEST_F(CadBadInput, FaceThatNoFinenessHelps) {
   ASSERT_FALSE(others.left_out.empty());
   for (const auto& [face, reason] : others.left_out) {
     EXPECT_EQ(std::ranges::count(others.fine.triangle_region, face), 0);
-    EXPECT_NE(reason.find(std::to_string(face + 1)), std::string::npos) << reason;
+    expect_text(reason, {std::to_string(face + 1)});
   }
 }
 

@@ -1,41 +1,18 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <BRepPrimAPI_MakeBox.hxx>
-#include <BRepPrimAPI_MakeTorus.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_PrinterOStream.hxx>
 #include <cerrno>
-#include <chrono>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <optional>
-#include <sstream>
-#include <string>
-#include <thread>
-#include <vector>
-
 #include "base/activity.h"
-#include "base/context.h"
 #include "base/find_program.h"
-#include "delquad/error.h"
-#include "geometry/cad/cad_reader.h"
 #include "geometry/cad/cad_request.h"
-#include "geometry/cad/example_models.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/support/expect_input_error.h"
 #include "tests/support/needs_file.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 std::string contents(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);

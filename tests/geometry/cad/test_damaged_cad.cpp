@@ -1,23 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <BRepPrimAPI_MakeBox.hxx>
-#include <algorithm>
-#include <filesystem>
-#include <sstream>
-#include <string>
-
-#include "geometry/cad/cad_reader.h"
-#include "geometry/cad/example_models.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/geometry/cad/surface_counts.h"
-#include "tests/support/expect_input_error.h"
 #include "tests/support/shared_data.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 class DamagedCad : public ::testing::Test {
  protected:
@@ -45,7 +30,7 @@ class DamagedCad : public ::testing::Test {
     EXPECT_EQ(rest.fine.regions.size(), faces);
     ASSERT_EQ(rest.left_out.size(), 1u);
     EXPECT_EQ(rest.left_out[0].face, -1);
-    EXPECT_NE(rest.left_out[0].reason.find(last), std::string::npos) << rest.left_out[0].reason;
+    expect_text(rest.left_out[0].reason, {last});
   }
 
   TemporaryFolder folder_;

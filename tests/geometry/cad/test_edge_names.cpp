@@ -1,21 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <BRepPrimAPI_MakeBox.hxx>
-#include <BRep_Builder.hxx>
-#include <TopoDS_Compound.hxx>
-#include <algorithm>
 #include <gp_Pnt.hxx>
-#include <map>
-#include <string>
-
-#include "geometry/cad/cad_reader.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 /// The text of a STEP file in which the edges with these numbers (in the file's order, from 0) have names.
 std::string with_names(const std::string& text, const std::map<int, std::string>& names) {
@@ -52,11 +39,8 @@ TEST(EdgeNames, OfStepFilesAreNamesOfCurves) {
 
 TEST(EdgeNames, GoWithTheEdgesOfBodiesThatAreGlued) {
   const TemporaryFolder folder;
-  TopoDS_Compound both;
-  const BRep_Builder builder;
-  builder.MakeCompound(both);
-  builder.Add(both, BRepPrimAPI_MakeBox(2, 3, 4).Shape());
-  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(2, 0, 0), 2, 3, 4).Shape());
+  const TopoDS_Shape both =
+      compound_of({BRepPrimAPI_MakeBox(2, 3, 4), BRepPrimAPI_MakeBox(gp_Pnt(2, 0, 0), 2, 3, 4)});
   std::map<int, std::string> all;
   for (int e = 0; e < 24; ++e) all[e] = "edge " + std::to_string(e);
   write_text(folder / "named.step", with_names(read_text(write_step(folder / "boxes.step", both)), all));

@@ -1,22 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-#include <map>
-#include <numbers>
-#include <set>
-#include <sstream>
-
-#include "geometry/cad/cad_reader.h"
-#include "geometry/cad/example_models.h"
-#include "tests/geometry/cad/surface_counts.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/geometry/cad/cad_files.h"
 
 namespace delquad {
 namespace {
 
-using namespace testing_support;
 using std::numbers::pi;
 
 /// Of areas and volumes against closed forms: the triangulation is as fine as 0.15 radians.

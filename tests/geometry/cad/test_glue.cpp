@@ -1,39 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <fmt/format.h>
-
-#include <BRepAlgoAPI_Cut.hxx>
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
-#include <BRepPrimAPI_MakeBox.hxx>
-#include <BRepPrimAPI_MakeCylinder.hxx>
-#include <BRep_Builder.hxx>
-#include <TopoDS_Compound.hxx>
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <set>
-
-#include "delquad/fields.h"
-#include "delquad/mesher.h"
-#include "geometry/cad/cad_reader.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/geometry/cad/surface_counts.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
-using namespace testing_support;
 using std::numbers::pi;
 
 TopoDS_Shape box(double x, double y, double z, double dx, double dy, double dz) {
   return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), dx, dy, dz).Shape();
-}
-
-bool says(const SurfaceModel& model, const std::string& text) {
-  return std::ranges::any_of(model.warnings,
-                             [&](const Warning& w) { return w.text.find(text) != std::string::npos; });
 }
 
 /// Points at the same place, beyond the first of each.
@@ -48,11 +21,7 @@ int coincident_points(const Mesh& mesh) {
 class Glue : public ::testing::Test {
  protected:
   std::filesystem::path write(const std::vector<TopoDS_Shape>& bodies) {
-    TopoDS_Compound compound;
-    const BRep_Builder builder;
-    builder.MakeCompound(compound);
-    for (const TopoDS_Shape& body : bodies) builder.Add(compound, body);
-    return write_step(folder_ / "bodies.step", compound);
+    return write_step(folder_ / "bodies.step", compound_of(bodies));
   }
 
   /// Apart, the bodies are said to lie on each other; glued, they do not, and have `n_common` faces in
@@ -60,12 +29,12 @@ class Glue : public ::testing::Test {
   SurfaceModel read_both_ways(const std::vector<TopoDS_Shape>& bodies, int n_common) {
     const auto file = write(bodies);
     const SurfaceModel apart = read_cad(file);
-    EXPECT_TRUE(says(apart, "share no nodes (--glue"));
-    EXPECT_TRUE(says(apart, " touches face "));
+    EXPECT_TRUE(is_told(apart.warnings, "share no nodes (--glue"));
+    EXPECT_TRUE(is_told(apart.warnings, " touches face "));
     SurfaceModel glued = read_cad(file, {.glue = true});
-    EXPECT_FALSE(says(glued, "share no nodes"));
-    EXPECT_TRUE(says(glued, "glued: " + std::to_string(bodies.size()) + " bodies have " +
-                                std::to_string(n_common) + " faces, "));
+    EXPECT_FALSE(is_told(glued.warnings, "share no nodes"));
+    EXPECT_TRUE(is_told(glued.warnings, "glued: " + std::to_string(bodies.size()) + " bodies have " +
+                                            std::to_string(n_common) + " faces, "));
     EXPECT_EQ(coincident_points(glued.fine), 0);
     return glued;
   }
@@ -91,7 +60,7 @@ TEST_F(Glue, LargerFacesAreCut) {
   const SurfaceModel model = read_both_ways({box(0, 0, 0, 4, 4, 1), box(1, 1, 1, 1, 1, 1)}, 1);
   EXPECT_EQ(model.fine.regions.size(), 12u);
   EXPECT_NEAR(count(model.fine).area, 48 + 6 - 1, 1e-9);
-  EXPECT_TRUE(says(model, "faces cut where others lie on them")) << "the top of the plate";
+  EXPECT_TRUE(is_told(model.warnings, "faces cut where others lie on them")) << "the top of the plate";
 }
 
 TEST_F(Glue, FacesThatOverlapInPart) {
@@ -109,13 +78,13 @@ TEST_F(Glue, AnythingInAHole) {
 TEST_F(Glue, BodiesThatOverlapAreDivided) {
   const auto file = write({box(0, 0, 0, 2, 2, 2), box(1, 1, 1, 2, 2, 2)});
   const SurfaceModel model = read_cad(file, {.glue = true});
-  EXPECT_TRUE(says(model, "2 solids became 3"));
+  EXPECT_TRUE(is_told(model.warnings, "2 solids became 3"));
   EXPECT_NEAR(count(model.fine).area, 2 * 24, 1e-9);
 }
 
 TEST_F(Glue, BodiesWithACornerInCommonAreCounted) {
   const SurfaceModel model = read_cad(write({box(0, 0, 0, 1, 1, 1), box(1, 1, 1, 1, 1, 1)}), {.glue = true});
-  EXPECT_TRUE(says(model, "glued: 2 bodies have 0 faces, 0 edges and 1 vertices in common"));
+  EXPECT_TRUE(is_told(model.warnings, "glued: 2 bodies have 0 faces, 0 edges and 1 vertices in common"));
   EXPECT_EQ(coincident_points(model.fine), 0);
 }
 
@@ -126,9 +95,7 @@ TEST_F(Glue, ThreeBodiesAtAnEdge) {
 }
 
 TEST_F(Glue, MeshesShareTheirNodes) {
-  MeshProblem problem;
-  problem.model = CadModel{write({box(0, 0, 0, 4, 4, 1), box(1, 1, 1, 1, 1, 1)})};
-  problem.size.field = make_constant_size(0.25);
+  MeshProblem problem = problem_of(CadModel{write({box(0, 0, 0, 4, 4, 1), box(1, 1, 1, 1, 1, 1)})}, 0.25);
   problem.surface.glue = true;
   const Mesh mesh = delquad::mesh(problem, "DB").mesh;
   EXPECT_TRUE(mesh.triangles.empty());
@@ -141,17 +108,17 @@ TEST_F(Glue, MeshesShareTheirNodes) {
 
 TEST_F(Glue, OneBodyIsLeftAlone) {
   const SurfaceModel model = read_cad(write({box(0, 0, 0, 1, 1, 1)}), {.glue = true});
-  EXPECT_TRUE(says(model, "nothing to glue"));
+  EXPECT_TRUE(is_told(model.warnings, "nothing to glue"));
   EXPECT_EQ(model.fine.regions.size(), 6u);
 }
 
 TEST_F(Glue, NeighboursInABodyAndBodiesApartAreNotSaidToTouch) {
   const auto file = write({box(0, 0, 0, 1, 1, 1), box(1.001, 0, 0, 1, 1, 1)});
   const SurfaceModel model = read_cad(file);
-  EXPECT_FALSE(says(model, "share no nodes"));
-  EXPECT_TRUE(
-      says(model, "faces nearly touch at 1 place and stay apart: face 2 (solid 1) is 0.001 from face 7"));
-  EXPECT_FALSE(says(read_cad(file, {.size = [](const Vec3&) { return 0.009; }}), "nearly touch"));
+  EXPECT_FALSE(is_told(model.warnings, "share no nodes"));
+  EXPECT_TRUE(is_told(model.warnings,
+                      "faces nearly touch at 1 place and stay apart: face 2 (solid 1) is 0.001 from face 7"));
+  EXPECT_FALSE(is_told(read_cad(file, {.size = [](const Vec3&) { return 0.009; }}).warnings, "nearly touch"));
 }
 
 TopoDS_Shape sheet(const gp_Pnt& at, const gp_Vec& u, const gp_Vec& v) {
@@ -169,24 +136,25 @@ TEST_F(Glue, SheetsThatNearlyTouch) {
     for (const TopoDS_Shape& other :
          {sheet({0, 10, gap}, {40, 0, 0}, {0, 0, 6}), sheet({40 + gap, 0, 0}, {20, 0, 0}, {0, 30, 0})}) {
       const auto file = write({plate, other});
-      EXPECT_TRUE(says(read_cad(file, {.size = size}), told));
+      EXPECT_TRUE(is_told(read_cad(file, {.size = size}).warnings, told));
       const SurfaceModel glued = read_cad(file, {.glue = true, .size = size});
-      EXPECT_TRUE(says(glued, "2 parts hang apart"));
-      EXPECT_TRUE(says(glued, told));
+      EXPECT_TRUE(is_told(glued.warnings, "2 parts hang apart"));
+      EXPECT_TRUE(is_told(glued.warnings, told));
       const SurfaceModel joined = read_cad(file, {.glue = true, .weld = 1.2 * gap / std::hypot(40, 30)});
-      EXPECT_FALSE(says(joined, "apart"));
-      EXPECT_FALSE(says(joined, "nearly touch"));
+      EXPECT_FALSE(is_told(joined.warnings, "apart"));
+      EXPECT_FALSE(is_told(joined.warnings, "nearly touch"));
     }
   }
-  EXPECT_FALSE(says(read_cad(write({plate, sheet({0, 10, 0.11}, {40, 0, 0}, {0, 0, 6})}), {.size = size}),
-                    "nearly touch"));
+  EXPECT_FALSE(
+      is_told(read_cad(write({plate, sheet({0, 10, 0.11}, {40, 0, 0}, {0, 0, 6})}), {.size = size}).warnings,
+              "nearly touch"));
 }
 
 TEST_F(Glue, BodiesThatTouchOtherwiseAreToldOnce) {
   const auto told = [&](const TopoDS_Shape& other, const std::string& text) {
     const auto file = write({box(0, 0, 0, 2, 2, 1), other});
-    EXPECT_TRUE(says(read_cad(file), text)) << text;
-    EXPECT_FALSE(says(read_cad(file, {.glue = true}), "share no nodes"));
+    EXPECT_TRUE(is_told(read_cad(file).warnings, text)) << text;
+    EXPECT_FALSE(is_told(read_cad(file, {.glue = true}).warnings, "share no nodes"));
   };
   told(box(2, 2, 0, 1, 1, 1),
        "faces touch at 1 place and share no nodes (--glue, surface.glue = true): face 2 "

@@ -1,31 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <BRepPrimAPI_MakeBox.hxx>
-#include <BRepPrimAPI_MakeTorus.hxx>
-#include <BRep_Builder.hxx>
-#include <TopoDS_Compound.hxx>
-#include <numbers>
-
 #include "base/activity.h"
-#include "base/context.h"
-#include "geometry/cad/cad_reader.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/geometry/cad/surface_counts.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
-using namespace testing_support;
 using std::numbers::pi;
-
-TopoDS_Compound all_of(const std::vector<TopoDS_Shape>& shapes) {
-  TopoDS_Compound compound;
-  const BRep_Builder builder;
-  builder.MakeCompound(compound);
-  for (const TopoDS_Shape& shape : shapes) builder.Add(compound, shape);
-  return compound;
-}
 
 /// A box, six faces that take no time, and a torus that takes seconds at this fineness.
 class LateFaces : public ::testing::Test {
@@ -33,7 +12,7 @@ class LateFaces : public ::testing::Test {
   TemporaryFolder folder_;
   std::filesystem::path file_ =
       write_brep(folder_ / "late.brep",
-                 all_of({BRepPrimAPI_MakeBox(1, 1, 1).Shape(), BRepPrimAPI_MakeTorus(20, 5).Shape()}));
+                 compound_of({BRepPrimAPI_MakeBox(1, 1, 1).Shape(), BRepPrimAPI_MakeTorus(20, 5).Shape()}));
   CadOptions options_{.deflection = 1e-6, .face_seconds = 0.2};
 };
 
@@ -62,11 +41,11 @@ TEST(LateHealing, IsLeftOut) {
   const TemporaryFolder folder;
   std::vector<TopoDS_Shape> boxes;
   for (int i = 0; i < 300; ++i) boxes.push_back(BRepPrimAPI_MakeBox(gp_Pnt(2.0 * i, 0, 0), 1, 1, 1).Shape());
-  const auto file = write_brep(folder / "boxes.brep", all_of(boxes));
+  const auto file = write_brep(folder / "boxes.brep", compound_of(boxes));
   EXPECT_TRUE(read_cad(file).warnings.empty());
   const SurfaceModel model = read_cad(file, {.healing_seconds = 1e-6});
   ASSERT_EQ(model.warnings.size(), 1u);
-  EXPECT_NE(model.warnings[0].text.find("it is taken as it is"), std::string::npos);
+  expect_text(model.warnings[0].text, {"it is taken as it is"});
   EXPECT_EQ(model.fine.regions.size(), 1800u);
 }
 

@@ -1,35 +1,11 @@
-#include <gtest/gtest.h>
-
-#include <BRepBuilderAPI_MakeEdge.hxx>
-#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
-#include <BRepPrimAPI_MakeCylinder.hxx>
-#include <BRep_Builder.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Face.hxx>
-#include <TopoDS_Vertex.hxx>
-#include <TopoDS_Wire.hxx>
-#include <algorithm>
-#include <cmath>
-#include <gp_Circ.hxx>
-#include <gp_Pln.hxx>
-
-#include "delquad/mesher.h"
-#include "geometry/cad/cad_reader.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
-using namespace testing_support;
-
 MeshResult mesh_of(const std::filesystem::path& file, double size) {
-  MeshProblem problem;
-  problem.model = CadModel{file};
-  problem.size.field = make_constant_size(size);
+  MeshProblem problem = problem_of(CadModel{file}, size);
   return mesh(problem, "DBCO");
 }
 
@@ -77,12 +53,9 @@ TEST_F(LooseEdges, EdgesAndVerticesInsideOfAFaceStay) {
 }
 
 TEST_F(LooseEdges, ThoseThatLieOnAFaceAreImprintedAndOthersNamed) {
-  TopoDS_Compound all;
-  const BRep_Builder builder;
-  builder.MakeCompound(all);
-  builder.Add(all, BRepPrimAPI_MakeCylinder(1, 4).Shape());
-  builder.Add(all, BRepBuilderAPI_MakeEdge(gp_Pnt(-1, 0, 1), gp_Pnt(-1, 0, 3)).Edge());
-  builder.Add(all, BRepBuilderAPI_MakeEdge(gp_Pnt(5, 0, 1), gp_Pnt(5, 0, 3)).Edge());
+  const TopoDS_Shape all = compound_of({BRepPrimAPI_MakeCylinder(1, 4),
+                                        BRepBuilderAPI_MakeEdge(gp_Pnt(-1, 0, 1), gp_Pnt(-1, 0, 3)),
+                                        BRepBuilderAPI_MakeEdge(gp_Pnt(5, 0, 1), gp_Pnt(5, 0, 3))});
   const auto file = write_brep(folder_ / "beside.brep", all);
   const SurfaceModel model = read_cad(file);
   ASSERT_EQ(model.loose.size(), 2u);
@@ -92,9 +65,7 @@ TEST_F(LooseEdges, ThoseThatLieOnAFaceAreImprintedAndOthersNamed) {
     return norm(p - Vec3{-1, 0, p.z}) < 1e-9 && p.z > 0.5 && p.z < 3.5;
   };
   EXPECT_NEAR(length_in(result.mesh, on_line), 2, 1e-6);
-  EXPECT_TRUE(std::ranges::any_of(result.warnings, [&](const Warning& w) {
-    return w.text.find(model.loose[1].where + " is left out") != std::string::npos;
-  }));
+  EXPECT_TRUE(is_told(result.warnings, model.loose[1].where + " is left out"));
 }
 
 }  // namespace

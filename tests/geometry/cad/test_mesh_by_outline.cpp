@@ -1,25 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <BRepAlgoAPI_Cut.hxx>
-#include <BRepPrimAPI_MakeBox.hxx>
-#include <BRepPrimAPI_MakeCone.hxx>
-#include <BRepPrimAPI_MakeCylinder.hxx>
-#include <BRepPrimAPI_MakeSphere.hxx>
-#include <BRepPrimAPI_MakeTorus.hxx>
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "geometry/cad/cad_reader.h"
-#include "geometry/cad/example_models.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/geometry/cad/surface_counts.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
-using namespace testing_support;
 using std::numbers::pi;
 
 const CadOptions kByOutline{.by_outline = true};
@@ -59,9 +42,8 @@ INSTANTIATE_TEST_SUITE_P(All, ExamplesByOutline, ::testing::ValuesIn(example_mod
 class ByOutline : public ::testing::Test {
  protected:
   SurfaceModel read(const TopoDS_Shape& shape, const CadOptions& options = kByOutline) {
-    return read_cad(write_brep(folder_ / "a.brep", shape), options);
+    return read_shape(shape, options);
   }
-  TemporaryFolder folder_;
 };
 
 TEST_F(ByOutline, PolesSeamsAndApexes) {

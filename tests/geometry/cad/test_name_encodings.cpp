@@ -1,12 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <sstream>
-#include <string>
-
 #include "base/utf8.h"
-#include "geometry/cad/cad_reader.h"
-#include "geometry/cad/example_models.h"
+#include "tests/geometry/cad/cad_files.h"
 
 namespace delquad {
 namespace {
@@ -61,15 +54,13 @@ TEST(NameEncodings, BytesOfOtherSystems) {
 }
 
 TEST(NameEncodings, WhatIsGuessedIsTold) {
-  const auto is_told = [](const std::string& bytes, const std::string& text) {
-    return std::ranges::any_of(model_with(bytes).warnings, [&](const Warning& warning) {
-      return warning.text.find(text) != std::string::npos;
-    });
+  const auto tells = [](const std::string& bytes, const std::string& text) {
+    return is_told(model_with(bytes).warnings, text);
   };
-  EXPECT_TRUE(is_told("\xD6\xC4", "were taken for GB 2312 or GBK, as '\u5E1C'"));
-  EXPECT_TRUE(is_told("M\xE9tal", "were taken for ISO 8859-1, as 'M\u00E9tal'"));
+  EXPECT_TRUE(tells("\xD6\xC4", "were taken for GB 2312 or GBK, as '\u5E1C'"));
+  EXPECT_TRUE(tells("M\xE9tal", "were taken for ISO 8859-1, as 'M\u00E9tal'"));
   for (const char* text : {"M\u00E9tal", "\\X\\C4nderung", "plain"})
-    EXPECT_FALSE(is_told(text, "taken for")) << text;
+    EXPECT_FALSE(tells(text, "taken for")) << text;
 }
 
 TEST(NameEncodings, AreAlwaysUtf8) {

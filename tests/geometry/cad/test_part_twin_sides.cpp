@@ -1,20 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <BRepAlgoAPI_Cut.hxx>
-#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <gp_Ax2.hxx>
-
-#include "geometry/cad/cad_reader.h"
 #include "geometry/cad/weld_faces.h"
 #include "geometry/mesh/check_invariants.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/geometry/cad/surface_counts.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 /// A pillow: two squares on the same four corners, each divided along the diagonal 0-2.
 Mesh pillow() {
@@ -56,11 +46,9 @@ TEST(PartTwinSides, LeavesSidesOfTheBoundaryAlone) {
 
 TEST(PartTwinSides, CrossingCylindersOfNearlyTheSameRadiusAreRead) {
   // Where the intersection curves nearly touch, sides of both faces join the same nodes of theirs.
-  const TemporaryFolder folder;
   const auto along_x = BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, 0}, {1, 0, 0}), 0.5, 4).Shape();
   const auto along_z = BRepPrimAPI_MakeCylinder(gp_Ax2({2, 0, -2}, {0, 0, 1}), 0.499, 4).Shape();
-  const SurfaceModel model =
-      read_cad(write_brep(folder / "a.brep", BRepAlgoAPI_Cut(along_x, along_z).Shape()));
+  const SurfaceModel model = read_shape(BRepAlgoAPI_Cut(along_x, along_z).Shape());
   EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
   expect_sound(model);
   EXPECT_EQ(count(model.fine).crowded_sides, 0);

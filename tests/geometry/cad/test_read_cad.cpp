@@ -1,48 +1,17 @@
-#include <gtest/gtest.h>
-
-#include <BRepAlgoAPI_Cut.hxx>
-#include <BRepBuilderAPI_MakeEdge.hxx>
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
-#include <BRepPrimAPI_MakeBox.hxx>
-#include <BRepPrimAPI_MakeCone.hxx>
-#include <BRepPrimAPI_MakeCylinder.hxx>
-#include <BRepPrimAPI_MakeSphere.hxx>
-#include <BRepPrimAPI_MakeTorus.hxx>
-#include <BRep_Builder.hxx>
 #include <GCE2d_MakeSegment.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <Geom2d_TrimmedCurve.hxx>
 #include <Geom_CylindricalSurface.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Face.hxx>
-#include <cmath>
-#include <gp_Circ.hxx>
-#include <gp_Pln.hxx>
-#include <numbers>
-#include <optional>
-#include <set>
-
-#include "base/context.h"
-#include "geometry/cad/cad_reader.h"
-#include "geometry/cad/example_models.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/geometry/cad/surface_counts.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
-using namespace testing_support;
 using std::numbers::pi;
 
 /// Of area and volume against closed forms: the triangulation is as fine as 0.15 radians.
@@ -114,18 +83,11 @@ TEST(ReadCad, GivesTheSameBytesTwice) {
 }
 
 TEST(ReadCad, GivesTheSameForEveryNumberOfThreads) {
-  for (const char* example : {"bracket", "hood"}) {
-    std::optional<SurfaceModel> first;
-    for (const int threads : {1, 2, 4}) {
-      const RunScope run({.threads = threads});
+  for (const char* example : {"bracket", "hood"})
+    on_threads({1, 2, 4}, [&] {
       const SurfaceModel model = read_example(example);
-      if (!first) first = model;
-      EXPECT_EQ(model.fine.points, first->fine.points) << example;
-      EXPECT_EQ(model.fine.triangles, first->fine.triangles) << example;
-      EXPECT_EQ(model.fine.lines, first->fine.lines) << example;
-      EXPECT_EQ(texts(model.warnings), texts(first->warnings)) << example;
-    }
-  }
+      return std::tuple(model.fine.points, model.fine.triangles, model.fine.lines, texts(model.warnings));
+    });
 }
 
 TEST(ReadCad, TellsTheFormatByContent) {
@@ -144,9 +106,8 @@ TEST(ReadCad, ConvertsTheUnitsOfStepToMillimetres) {
   const SurfaceModel model = read_cad(write_text(folder / "b.step", text));
   EXPECT_NEAR(count(model.fine).area, 5200, 1e-9);
   ASSERT_EQ(model.warnings.size(), 1u);
-  EXPECT_NE(
-      model.warnings[0].text.find("lengths are in CENTIMETRE: the model, --size and the mesh are in mm"),
-      std::string::npos);
+  expect_text(model.warnings[0].text,
+              {"lengths are in CENTIMETRE: the model, --size and the mesh are in mm"});
 }
 
 TEST(ReadCad, HasLengthsInTheUnitThatIsAskedFor) {
@@ -166,15 +127,13 @@ TEST(ReadCad, HasLengthsInTheUnitThatIsAskedFor) {
   }
   CadOptions options;
   options.unit = "m";
-  expect_input_error([&] { read_cad(write_brep(folder / "a.brep", box().shape), options); },
-                     {"a.brep", "do not say their unit"});
+  expect_input_error([&] { read_shape(box().shape, options); }, {"a.brep", "do not say their unit"});
 }
 
 TEST(ReadCad, DropsAnOldTriangulation) {
-  const TemporaryFolder folder;
   const TopoDS_Shape shape = BRepPrimAPI_MakeSphere(3);
   BRepMesh_IncrementalMesh(shape, 2.0);
-  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", shape));
+  const SurfaceModel model = read_shape(shape);
   EXPECT_NEAR(count(model.fine).area / (36 * pi), 1, kFine);
 }
 
@@ -195,70 +154,41 @@ TEST(ReadCad, DeflectionIsRelativeToTheDiagonal) {
   }
 }
 
-TopoDS_Compound compound(const std::vector<TopoDS_Shape>& parts) {
-  TopoDS_Compound all;
-  BRep_Builder builder;
-  builder.MakeCompound(all);
-  for (const TopoDS_Shape& part : parts) builder.Add(all, part);
-  return all;
-}
-
-std::vector<TopoDS_Shape> faces_of(const TopoDS_Shape& shape) {
-  std::vector<TopoDS_Shape> faces;
-  for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) faces.push_back(face.Current());
-  return faces;
-}
-
-TopoDS_Face polygon(const std::vector<gp_Pnt>& points) {
-  BRepBuilderAPI_MakePolygon wire;
-  for (const gp_Pnt& p : points) wire.Add(p);
-  wire.Close();
-  return BRepBuilderAPI_MakeFace(wire.Wire());
-}
-
-bool mentions(const SurfaceModel& model, const std::string& text) {
-  return std::ranges::any_of(model.warnings,
-                             [&](const Warning& w) { return w.text.find(text) != w.text.npos; });
-}
+TopoDS_Face polygon(const std::vector<gp_Pnt>& points) { return BRepBuilderAPI_MakeFace(wire_of(points)); }
 
 /// A unit square and a face that rises from x on.
-SurfaceModel read_two_faces(const TemporaryFolder& folder, double x) {
-  return read_cad(
-      write_brep(folder / "a.brep", compound({polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}),
-                                              polygon({{x, 0, 0}, {2, 0, 1}, {2, 1, 1}, {x, 1, 0}})})));
+SurfaceModel read_two_faces(double x) {
+  return read_shape(compound_of({polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}),
+                                 polygon({{x, 0, 0}, {2, 0, 1}, {2, 1, 1}, {x, 1, 0}})}));
 }
 
 TEST(ReadCad, SewsFacesThatWereNeverJoined) {
-  const TemporaryFolder folder;
-  const SurfaceModel model = read_two_faces(folder, 1);
+  const SurfaceModel model = read_two_faces(1);
   EXPECT_EQ(model.fine.curves.size(), 7u);
   EXPECT_EQ(count(model.fine).euler, 1);
-  EXPECT_TRUE(mentions(model, "2 of 8 free edges coincided and have been sewn"));
-  EXPECT_TRUE(mentions(model, "the surface is open: free curves: 6"));
+  EXPECT_TRUE(is_told(model.warnings, "2 of 8 free edges coincided and have been sewn"));
+  EXPECT_TRUE(is_told(model.warnings, "the surface is open: free curves: 6"));
 }
 
 TEST(ReadCad, LeavesAGapOpenAndSaysSo) {
-  const TemporaryFolder folder;
-  const SurfaceModel model = read_two_faces(folder, 1.01);
+  const SurfaceModel model = read_two_faces(1.01);
   EXPECT_EQ(count(model.fine).euler, 2);
-  EXPECT_TRUE(mentions(model, "free curves: 8 (1, 2, 3, 4, 5, 6, 7, 8)"));
+  EXPECT_TRUE(is_told(model.warnings, "free curves: 8 (1, 2, 3, 4, 5, 6, 7, 8)"));
 }
 
 TEST(ReadCad, MakesNeighboursAgree) {
-  const TemporaryFolder folder;
   std::vector<TopoDS_Shape> faces = faces_of(box().shape);
   faces[2].Reverse();
-  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", compound(faces)));
+  const SurfaceModel model = read_shape(compound_of(faces));
   EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
-  EXPECT_TRUE(mentions(model, "1 faces disagreed with their neighbours"));
+  EXPECT_TRUE(is_told(model.warnings, "1 faces disagreed with their neighbours"));
   EXPECT_NEAR(count(model.fine).volume, 24, 1e-9);
 }
 
 TEST(ReadCad, TurnsASolidThatIsInsideOut) {
-  const TemporaryFolder folder;
-  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", box().shape.Reversed()));
+  const SurfaceModel model = read_shape(box().shape.Reversed());
   EXPECT_NEAR(count(model.fine).volume, 24, 1e-9);
-  EXPECT_TRUE(mentions(model, "inside out"));
+  EXPECT_TRUE(is_told(model.warnings, "inside out"));
 }
 
 TEST(ReadCad, KeepsAMirroredInstanceTheRightWayRound) {
@@ -266,8 +196,9 @@ TEST(ReadCad, KeepsAMirroredInstanceTheRightWayRound) {
   gp_Trsf mirror;
   mirror.SetMirror(gp_Ax2({10, 0, 0}, {1, 0, 0}));
   const TopoDS_Shape solid = BRepPrimAPI_MakeCylinder(2, 5);
-  const auto path = write_brep(
-      folder / "a.brep", compound({solid, BRepBuilderAPI_Transform(solid, mirror, /*Copy=*/false).Shape()}));
+  const auto path =
+      write_brep(folder / "a.brep",
+                 compound_of({solid, BRepBuilderAPI_Transform(solid, mirror, /*Copy=*/false).Shape()}));
   const SurfaceModel model = read_cad(path);
   EXPECT_EQ(model.fine.regions.size(), 6u);
   EXPECT_EQ(count(model.fine).euler, 4);
@@ -282,7 +213,7 @@ TEST(ReadCad, KeepsAPocketAroundPoles) {
   const auto ball = BRepPrimAPI_MakeSphere(gp_Ax2({0.5, 0.75, -0.25}, {0, 0, 1}), 0.75).Shape();
   const TopoDS_Shape shape = BRepAlgoAPI_Cut(cylinder, ball).Shape();
   const SurfaceModel step = read_cad(write_step(folder / "a.step", shape));
-  const SurfaceModel brep = read_cad(write_brep(folder / "a.brep", shape));
+  const SurfaceModel brep = read_shape(shape);
   EXPECT_EQ(check_invariants(step.fine), std::vector<std::string>{});
   expect_sound(step);
   EXPECT_EQ(count(step.fine).euler, 2);
@@ -301,36 +232,28 @@ TEST(ReadCad, KeepsAStripThatWindsThreeTimes) {
   BRepLib::BuildCurves3d(strip);
   for (const auto& path : {write_step(folder / "a.step", strip), write_brep(folder / "a.brep", strip)}) {
     const SurfaceModel model = read_cad(path);
-    EXPECT_FALSE(mentions(model, "turned over"));
+    EXPECT_FALSE(is_told(model.warnings, "turned over"));
     EXPECT_EQ(count(model.fine).euler, 1);
     EXPECT_NEAR(count(model.fine).area, 3 * pi, 0.01);
   }
 }
 
 TEST(ReadCad, NamesCurvesWhereThreeFacesMeet) {
-  const TemporaryFolder folder;
   BRepBuilderAPI_Sewing sewing(1e-6, true, true, true, /*option4: non-manifold*/ true);
   sewing.Add(polygon({{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}));
   sewing.Add(polygon({{0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {-1, 0, 0}}));
   sewing.Add(polygon({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}));
   sewing.Perform();
-  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", sewing.SewedShape()));
+  const SurfaceModel model = read_shape(sewing.SewedShape());
   EXPECT_EQ(count(model.fine).crowded_sides, 1);
-  EXPECT_TRUE(mentions(model, "more than two faces meet on curves: 1 ("));
+  EXPECT_TRUE(is_told(model.warnings, "more than two faces meet on curves: 1 ("));
 }
 
 TEST(ReadCad, GivesTheCommonSideOfHolesToOneCurve) {
-  const TemporaryFolder folder;
   BRepBuilderAPI_MakeFace plate(polygon({{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}}));
-  for (const double x : {1, 2}) {
-    BRepBuilderAPI_MakePolygon hole;
-    for (const gp_Pnt& p : {gp_Pnt(x, 1, 0), gp_Pnt(x, 2, 0), gp_Pnt(x + 1, 2, 0), gp_Pnt(x + 1, 1, 0)})
-      hole.Add(p);
-    hole.Close();
-    plate.Add(hole.Wire());
-  }
+  for (const double x : {1, 2}) plate.Add(wire_of({{x, 1, 0}, {x, 2, 0}, {x + 1, 2, 0}, {x + 1, 1, 0}}));
   const TopoDS_Shape wall = polygon({{2, 1, 0}, {2, 2, 0}, {2, 2, -1}, {2, 1, -1}});
-  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", compound({plate.Face(), wall})));
+  const SurfaceModel model = read_shape(compound_of({plate.Face(), wall}));
   std::set<std::pair<int, int>> lines;
   for (const auto& [a, b] : model.fine.lines)
     EXPECT_TRUE(lines.insert(std::minmax(a, b)).second) << a << " " << b;
@@ -338,11 +261,10 @@ TEST(ReadCad, GivesTheCommonSideOfHolesToOneCurve) {
 }
 
 TEST(ReadCad, KeepsATinyHole) {
-  const TemporaryFolder folder;
   BRepBuilderAPI_MakeFace face(polygon({{-100, -100, 0}, {100, -100, 0}, {100, 100, 0}, {-100, 100, 0}}));
   const gp_Circ circle(gp_Ax2({3, 4, 0}, {0, 0, -1}), 1e-3);
   face.Add(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle)));
-  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", face.Shape()));
+  const SurfaceModel model = read_shape(face.Shape());
   EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
   EXPECT_EQ(model.fine.curves.size(), 5u);
   EXPECT_EQ(count(model.fine).euler, 0);
@@ -352,7 +274,6 @@ TEST(ReadCad, KeepsATinyHole) {
 TEST(ReadCad, IsWholeUpToACusp) {
   // Two circles that touch in (0, 0). The inner one has the shorter chords in angle, so that its first
   // crosses the outer one's first.
-  const TemporaryFolder folder;
   const auto end = [](double radius, double angle) {
     return gp_Pnt(radius * std::sin(angle), radius * (1 - std::cos(angle)), 0);
   };
@@ -366,7 +287,7 @@ TEST(ReadCad, IsWholeUpToACusp) {
   const TopoDS_Edge side = BRepBuilderAPI_MakeEdge(end(60, outer_angle), end(40, inner_angle));
   const TopoDS_Face sickle =
       BRepBuilderAPI_MakeFace(gp_Pln(), BRepBuilderAPI_MakeWire(outer, side, inner).Wire());
-  const SurfaceModel model = read_cad(write_brep(folder / "a.brep", sickle), {.deflection = 1e-2});
+  const SurfaceModel model = read_shape(sickle, {.deflection = 1e-2});
   EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
   EXPECT_EQ(model.fine.curves.size(), 3u);
   EXPECT_EQ(count(model.fine).euler, 1);

@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/cad/weld_faces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

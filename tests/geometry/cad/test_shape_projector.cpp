@@ -1,40 +1,19 @@
-#include <gtest/gtest.h>
-
-#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
-#include <BRepPrimAPI_MakeBox.hxx>
-#include <BRepPrimAPI_MakeCone.hxx>
-#include <BRepPrimAPI_MakeCylinder.hxx>
-#include <BRepPrimAPI_MakeSphere.hxx>
-#include <BRepPrimAPI_MakeTorus.hxx>
 #include <GeomAPI_PointsToBSplineSurface.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_BezierSurface.hxx>
 #include <TColgp_Array2OfPnt.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Face.hxx>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <random>
-#include <thread>
-
-#include "geometry/cad/cad_reader.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 /// What read_cad promises, as a fraction of the diagonal.
 constexpr double kAccuracy = 1e-9;
 
 SurfaceModel read(const TopoDS_Shape& shape) {
   const TemporaryFolder folder;
-  return read_cad(write_brep(folder / "a.brep", shape));
+  return read_shape(shape);
 }
 
 Vec3 centre(const Mesh& mesh, std::size_t t) {

@@ -1,18 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <filesystem>
-#include <vector>
-
-#include "geometry/cad/cad_reader.h"
 #include "geometry/surface/compound.h"
-#include "tests/geometry/cad/surface_counts.h"
+#include "tests/geometry/cad/cad_files.h"
 #include "tests/support/shared_data.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 struct Expected {
   const char* file;

@@ -1,28 +1,10 @@
-#include <gtest/gtest.h>
-
 #include <BOPAlgo_Builder.hxx>
-#include <algorithm>
 #include <cstdio>
-#include <functional>
-#include <numeric>
-#include <set>
-#include <string>
-#include <vector>
-
-#include "delquad/error.h"
-#include "delquad/mesher.h"
-#include "geometry/cad/cad_reader.h"
-#include "geometry/mesh/half_edges.h"
 #include "tests/geometry/cad/cad_files.h"
 #include "tests/geometry/cad/shell_joints.h"
-#include "tests/geometry/cad/surface_counts.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 /// Which of some things hang together.
 class Parts {
@@ -77,9 +59,7 @@ void join_named(const std::string& text, const Mesh& mesh, Parts& parts) {
 }
 
 MeshProblem problem_of(const std::filesystem::path& file, bool glue) {
-  MeshProblem problem;
-  problem.model = CadModel{file};
-  problem.size.field = make_constant_size(0.8);
+  MeshProblem problem = problem_of(CadModel{file}, 0.8);
   problem.surface.glue = glue;
   return problem;
 }
@@ -175,7 +155,7 @@ TEST_P(ShellJoints, ContactsAtAPointAreNamedAndGluedOrRefused) {
     const auto file = write("contact", compound_of(contact.bodies));
     const std::vector<std::string> told = loose_joints_of(read_cad(file));
     ASSERT_EQ(told.size(), 1u);
-    EXPECT_NE(told[0].find("at 1 place "), std::string::npos) << told[0];
+    expect_text(told[0], {"at 1 place "});
     EXPECT_LT(norm(place_in(told[0]) - contact.at), kNear) << told[0];
     try {
       const SurfaceModel model = read_cad(file, {.glue = true});
@@ -185,7 +165,7 @@ TEST_P(ShellJoints, ContactsAtAPointAreNamedAndGluedOrRefused) {
       EXPECT_TRUE(contact.name == "rims" || model.fine.regions.size() > contact.bodies.size());
     } catch (const InputError& error) {
       const std::string text = error.what();
-      EXPECT_NE(text.find("cannot be glued at 1 place"), std::string::npos) << text;
+      expect_text(text, {"cannot be glued at 1 place"});
       EXPECT_LT(norm(place_in(text) - contact.at), kNear) << text;
     }
   }
@@ -199,7 +179,7 @@ TEST_P(ShellJoints, FacesOnEachOtherAreNamedAndBecomeOne) {
     const SurfaceModel apart = read_cad(file);
     const std::vector<std::string> told = loose_joints_of(apart);
     ASSERT_EQ(told.size(), 1u);
-    EXPECT_NE(told[0].find(" touches face "), std::string::npos) << told[0];
+    expect_text(told[0], {" touches face "});
     EXPECT_EQ(apart.fine.regions.size(), some.faces.size());
     EXPECT_EQ(parts_of(apart.fine).count(), 1 + static_cast<int>(some.faces.size()) - some.n_others);
     const SurfaceModel glued = read_cad(file, {.glue = true});
@@ -280,7 +260,7 @@ TEST_F(JoinedShells, ATipOnAFaceIsNamedAndRefused) {
   const auto file = write_step(folder_ / "tip.step", compound_of(tip_on_a_plate()));
   const std::vector<std::string> told = loose_joints_of(read_cad(file));
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_NE(told[0].find("face 1 touches face 2 at (4, 3, 0)"), std::string::npos) << told[0];
+  expect_text(told[0], {"face 1 touches face 2 at (4, 3, 0)"});
   expect_input_error([&] { read_cad(file, {.glue = true}); }, {"cannot be glued at 1 place", "(4, 3, 0)"});
 }
 
@@ -290,8 +270,7 @@ TEST_F(JoinedShells, EdgesFromACommonCornerAreNamed) {
   EXPECT_EQ(parts_of(model.fine).count(), 1);
   const std::vector<std::string> told = loose_joints_of(model);
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_NE(told[0].find("at 1 place "), std::string::npos) << told[0];
-  EXPECT_NE(told[0].find("face 3 touches face 1 at (8, 2, 0)"), std::string::npos) << told[0];
+  expect_text(told[0], {"at 1 place ", "face 3 touches face 1 at (8, 2, 0)"});
 }
 
 TEST_F(JoinedShells, NoOthersAreNamed) {

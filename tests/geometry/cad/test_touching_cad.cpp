@@ -1,42 +1,14 @@
-#include <gtest/gtest.h>
-
-#include <BRepBuilderAPI_MakeEdge.hxx>
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
-#include <BRepPrimAPI_MakeBox.hxx>
-#include <BRep_Builder.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Face.hxx>
-#include <TopoDS_Vertex.hxx>
-#include <TopoDS_Wire.hxx>
-#include <gp_Pln.hxx>
-#include <string>
-#include <vector>
-
-#include "geometry/cad/cad_reader.h"
 #include "geometry/mesh/check_invariants.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/geometry/cad/surface_counts.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 class TouchingCad : public ::testing::Test {
  protected:
   /// As faces that nothing joins.
   static TopoDS_Shape loose_faces(const std::vector<TopoDS_Shape>& bodies) {
-    TopoDS_Compound all;
-    BRep_Builder().MakeCompound(all);
-    for (const TopoDS_Shape& body : bodies)
-      for (TopExp_Explorer face(body, TopAbs_FACE); face.More(); face.Next())
-        BRep_Builder().Add(all, face.Current());
-    return all;
+    return compound_of(faces_of(compound_of(bodies)));
   }
   static TopoDS_Shape box(double x, double y, double z, double a, double b, double c) {
     return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), a, b, c).Shape();
@@ -52,26 +24,18 @@ class TouchingCad : public ::testing::Test {
       EXPECT_EQ(counts.crowded_sides, 0);
       EXPECT_EQ(counts.euler, 2 * static_cast<int>(bodies.size()));
       ASSERT_FALSE(model.warnings.empty());
-      EXPECT_NE(model.warnings[0].text.find("sewn each by itself: " + std::to_string(bodies.size())),
-                std::string::npos)
-          << model.warnings[0].text;
+      expect_text(model.warnings[0].text, {"sewn each by itself: " + std::to_string(bodies.size())});
     }
   }
 
-  static TopoDS_Wire polygon(const std::vector<gp_Pnt>& corners) {
-    BRepBuilderAPI_MakePolygon wire;
-    for (const gp_Pnt& p : corners) wire.Add(p);
-    wire.Close();
-    return wire.Wire();
-  }
   static std::vector<gp_Pnt> square(double x, double y, double side) {
     return {{x, y, 0}, {x + side, y, 0}, {x + side, y + side, 0}, {x, y + side, 0}};
   }
   /// The face in the plane z = 0; every line of its triangulation is a side of a triangle.
   void expect_face(const std::vector<std::vector<gp_Pnt>>& wires, double area, int euler) {
-    BRepBuilderAPI_MakeFace face(gp_Pln(), polygon(wires[0]));
-    for (std::size_t w = 1; w < wires.size(); ++w) face.Add(TopoDS::Wire(polygon(wires[w]).Reversed()));
-    const SurfaceModel model = read_cad(write_brep(folder_ / "a.brep", face.Face()));
+    BRepBuilderAPI_MakeFace face(gp_Pln(), wire_of(wires[0]));
+    for (std::size_t w = 1; w < wires.size(); ++w) face.Add(TopoDS::Wire(wire_of(wires[w]).Reversed()));
+    const SurfaceModel model = read_shape(face.Face());
     EXPECT_NEAR(count(model.fine).area, area, 1e-12);
     EXPECT_EQ(count(model.fine).euler, euler);
     const std::vector<std::string> wrong = check_invariants(model.fine, {});
@@ -124,8 +88,7 @@ TEST_F(TouchingCad, AWireThatRunsAlongAnEdgeTwice) {
        {edge(0, 1), edge(1, 2), edge(2, 3), edge(3, 0), seam, edge(4, 5), edge(5, 6), edge(6, 7), edge(7, 4)})
     builder.Add(wire, e);
   builder.Add(wire, seam.Reversed());
-  const SurfaceModel model =
-      read_cad(write_brep(folder_ / "a.brep", BRepBuilderAPI_MakeFace(gp_Pln(), wire).Face()));
+  const SurfaceModel model = read_shape(BRepBuilderAPI_MakeFace(gp_Pln(), wire).Face());
   EXPECT_NEAR(count(model.fine).area, 12, 1e-12);
   EXPECT_EQ(count(model.fine).euler, 0);
 }

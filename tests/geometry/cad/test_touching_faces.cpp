@@ -1,30 +1,15 @@
-#include <gtest/gtest.h>
-
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
-#include <BRepPrimAPI_MakeTorus.hxx>
-#include <filesystem>
 #include <gp_Ax1.hxx>
-#include <numbers>
-
-#include "delquad/mesher.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 /// Faces that touch themselves or each other in points.
 class TouchingFaces : public ::testing::Test {
  protected:
   static MeshResult mesh_of(const std::filesystem::path& file, double size) {
-    MeshProblem problem;
-    problem.model = CadModel{file};
-    problem.size.field = make_constant_size(size);
+    MeshProblem problem = problem_of(CadModel{file}, size);
     problem.allow_unsound = true;
     return mesh(problem, "good");
   }

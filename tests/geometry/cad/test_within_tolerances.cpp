@@ -1,35 +1,13 @@
-#include <gtest/gtest.h>
-
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepTools_ReShape.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_Line.hxx>
 #include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Face.hxx>
-#include <TopoDS_Vertex.hxx>
-#include <TopoDS_Wire.hxx>
-#include <array>
-#include <cmath>
-#include <gp_Pln.hxx>
-#include <numbers>
-#include <string>
-
-#include "geometry/cad/cad_reader.h"
 #include "tests/geometry/cad/cad_files.h"
-#include "tests/geometry/cad/surface_counts.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 /// Shapes that hold together only through the tolerances of their vertices.
 class WithinTolerances : public ::testing::Test {
@@ -67,13 +45,9 @@ class WithinTolerances : public ::testing::Test {
   }
   /// A cube with an edge cut off by `width`, the ends of the strip there drawn together in vertices.
   static TopoDS_Shape cube_with_strip(double width, double tolerance) {
-    BRepBuilderAPI_MakePolygon base;
-    for (const gp_Pnt& p : {gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0), gp_Pnt(1, 1 - width, 0),
-                            gp_Pnt(1 - width, 1, 0), gp_Pnt(0, 1, 0)})
-      base.Add(p);
-    base.Close();
+    const TopoDS_Wire base = wire_of({{0, 0, 0}, {1, 0, 0}, {1, 1 - width, 0}, {1 - width, 1, 0}, {0, 1, 0}});
     const TopoDS_Shape cube =
-        BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(gp_Pln(), base.Wire()).Face(), gp_Vec(0, 0, 1));
+        BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(gp_Pln(), base).Face(), gp_Vec(0, 0, 1));
     BRepTools_ReShape reshape;
     for (TopExp_Explorer e(cube, TopAbs_EDGE); e.More(); e.Next()) {
       TopoDS_Vertex from, to;
@@ -87,7 +61,7 @@ class WithinTolerances : public ::testing::Test {
     }
     return reshape.Apply(cube);
   }
-  SurfaceModel read(const TopoDS_Shape& shape) { return read_cad(write_brep(folder_ / "a.brep", shape)); }
+  SurfaceModel read(const TopoDS_Shape& shape) { return read_shape(shape); }
   void expect_closed(const SurfaceModel& model, double volume, double accuracy) {
     expect_sound(model);
     const SurfaceCounts counts = count(model.fine);
@@ -97,8 +71,6 @@ class WithinTolerances : public ::testing::Test {
     EXPECT_NEAR(counts.volume, volume, accuracy);
     EXPECT_TRUE(model.left_out.empty());
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(WithinTolerances, OutlineThatCrossesItselfWithinAVertexIsMeshed) {
@@ -111,8 +83,7 @@ TEST_F(WithinTolerances, StripBetweenTwoVerticesIsTakenOut) {
   EXPECT_EQ(model.fine.regions.size(), 6u);
   EXPECT_EQ(model.fine.curves.size(), 12u);
   ASSERT_FALSE(model.warnings.empty());
-  EXPECT_NE(model.warnings[0].text.find("were taken out, the edges sewn: "), std::string::npos)
-      << model.warnings[0].text;
+  expect_text(model.warnings[0].text, {"were taken out, the edges sewn: "});
 }
 
 }  // namespace

@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <sstream>
-
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

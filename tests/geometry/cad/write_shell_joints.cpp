@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <iostream>
 
 #include "tests/geometry/cad/cad_files.h"

@@ -1,22 +1,16 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "geometry/mesh/check_invariants.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::quad_grid;
-using testing_support::triangle_grid;
 using Report = std::vector<std::string>;
 
 /// There is one complaint only, and it holds the text.
 void expect_one(const Mesh& mesh, const std::string& text) {
   const Report wrong = check_invariants(mesh);
   ASSERT_EQ(wrong.size(), 1u) << ::testing::PrintToString(wrong);
-  EXPECT_NE(wrong[0].find(text), std::string::npos) << wrong[0];
+  expect_text(wrong[0], {text});
 }
 
 /// Some complaint holds the text.
@@ -30,7 +24,7 @@ TEST(MeshInvariants, HoldForSoundMeshes) {
   EXPECT_EQ(check_invariants(Mesh{}), Report());
   EXPECT_EQ(check_invariants(quad_grid(4, 3)), Report());
   EXPECT_EQ(check_invariants(triangle_grid(4, 3)), Report());
-  EXPECT_EQ(check_invariants(testing_support::grid_outline(1, 1, 1, 1)), Report()) << "lines alone";
+  EXPECT_EQ(check_invariants(grid_outline(1, 1, 1, 1)), Report()) << "lines alone";
 }
 
 TEST(MeshInvariants, IndicesAreInRange) {

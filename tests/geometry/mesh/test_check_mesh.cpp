@@ -1,11 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-
-#include "delquad/error.h"
 #include "geometry/mesh/check_mesh.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

@@ -1,13 +1,4 @@
-#include "geometry/mesh/constrained_delaunay.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
-#include "delquad/error.h"
-#include "tests/support/patch_invariants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

@@ -1,14 +1,5 @@
 #include "geometry/mesh/delaunay_kernel.h"
-
-#include <gtest/gtest.h>
-
-#include <random>
-#include <set>
-
-#include "base/predicates.h"
-#include "geometry/mesh/constrained_delaunay.h"
-#include "tests/support/patch_invariants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

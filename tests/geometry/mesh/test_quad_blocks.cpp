@@ -1,19 +1,9 @@
 #include "geometry/mesh/quad_blocks.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <vector>
-
-#include "geometry/mesh/quad_topology.h"
-#include "tests/support/patch_invariants.h"
+#include "tests/support/meshing.h"
 #include "tests/support/quad_patches.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 /// The corners' places of each quad, its least first, sorted: the same for every numbering.
 std::vector<std::array<double, 8>> shapes_of(const QuadPatch& mesh) {

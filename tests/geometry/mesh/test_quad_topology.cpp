@@ -1,20 +1,10 @@
-#include "geometry/mesh/quad_topology.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <stdexcept>
-
 #include "smoothing/relocation/quad_relocation.h"
-#include "tests/support/patch_invariants.h"
+#include "tests/support/meshing.h"
 #include "tests/support/quad_patch_checks.h"
 #include "tests/support/quad_patches.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::check_quad_patch;
-using testing_support::grid_patch;
 
 /// The half-edge from a to b; -1: none.
 int half_edge(const QuadTopology& mesh, int a, int b) {

@@ -1,10 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <random>
-
-#include "delquad/mesh.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

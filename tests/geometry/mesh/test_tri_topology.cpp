@@ -1,13 +1,5 @@
 #include "geometry/mesh/tri_topology.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
-#include "geometry/mesh/constrained_delaunay.h"
-#include "tests/support/patch_invariants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

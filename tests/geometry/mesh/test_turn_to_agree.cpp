@@ -1,6 +1,5 @@
 #include "geometry/mesh/turn_to_agree.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

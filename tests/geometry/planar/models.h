@@ -1,37 +1,12 @@
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "delquad/model.h"
 #include "geometry/planar/planar_model.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 
-/// A model built loop by loop.
-class ModelBuilder {
- public:
-  using Shape = std::shared_ptr<const Curve>;
-
-  ModelBuilder& loop(std::vector<Shape> shapes, std::string region = "") {
-    ModelLoop loop{{}, std::move(region), ""};
-    for (Shape& shape : shapes) {
-      loop.curves.push_back(static_cast<int>(model_.curves.size()));
-      model_.curves.push_back({std::move(shape), "", ""});
-    }
-    model_.loops.push_back(std::move(loop));
-    return *this;
-  }
-
-  PlanarModel build() const { return model_; }
-
- private:
-  PlanarModel model_{"test.toml", {}, {}};
-};
-
 /// The four sides of a rectangle, counterclockwise from (x0, y0).
-inline std::vector<ModelBuilder::Shape> rectangle_sides(double x0, double y0, double x1, double y1) {
+inline std::vector<ModelMaker::Shape> rectangle_sides(double x0, double y0, double x1, double y1) {
   return {make_segment({x0, y0}, {x1, y0}), make_segment({x1, y0}, {x1, y1}),
           make_segment({x1, y1}, {x0, y1}), make_segment({x0, y1}, {x0, y0})};
 }
@@ -47,7 +22,7 @@ inline Mesh polygon_lines(const std::vector<std::vector<Vec2>>& polygons) {
     const int base = static_cast<int>(mesh.points.size());
     const int n = static_cast<int>(polygons[k].size());
     for (int i = 0; i < n; ++i) {
-      const Vec2 p = polygons[k][static_cast<std::size_t>(i)];
+      const Vec2 p = polygons[k][i];
       mesh.points.push_back({p.x, p.y, 0});
       mesh.lines.push_back({base + i, base + (i + 1) % n});
       mesh.line_curve.push_back(static_cast<int>(k));

@@ -1,14 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-
-#include "delquad/fields.h"
-#include "delquad/model.h"
 #include "geometry/planar/arc_measure.h"
 #include "tests/geometry/planar/models.h"
-#include "tests/support/expect_input_error.h"
 
 namespace delquad {
 namespace {

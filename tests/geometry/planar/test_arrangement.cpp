@@ -1,12 +1,5 @@
 #include "geometry/planar/arrangement.h"
-
-#include <gtest/gtest.h>
-
-#include <numeric>
-#include <random>
-#include <set>
-
-#include "base/predicates.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -17,7 +10,7 @@ struct Lines {
 };
 
 bool meet(const Lines& g, std::array<int, 2> p, std::array<int, 2> q) {
-  const auto at = [&](int v) { return g.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](int v) { return g.points[v]; };
   const auto on = [&](int v, std::array<int, 2> l) {
     if (v == l[0] || v == l[1]) return false;
     const Vec2 a = at(l[0]), b = at(l[1]), x = at(v);
@@ -56,9 +49,7 @@ Lines random_lines(std::mt19937& engine, int n_points, int n_tries) {
 double area(const Lines& g, const Arrangement::Cycle& cycle) {
   double sum = 0;
   for (const int side : cycle)
-    sum += cross(g.points[static_cast<std::size_t>(start_of(g.lines, side))],
-                 g.points[static_cast<std::size_t>(start_of(g.lines, side ^ 1))]) /
-           2;
+    sum += cross(g.points[start_of(g.lines, side)], g.points[start_of(g.lines, side ^ 1)]) / 2;
   return sum;
 }
 
@@ -66,8 +57,8 @@ double area(const Lines& g, const Arrangement::Cycle& cycle) {
 int turns(const Lines& g, const Arrangement::Cycle& cycle, Vec2 x) {
   int turns = 0;
   for (const int side : cycle) {
-    const Vec2 a = g.points[static_cast<std::size_t>(start_of(g.lines, side))];
-    const Vec2 b = g.points[static_cast<std::size_t>(start_of(g.lines, side ^ 1))];
+    const Vec2 a = g.points[start_of(g.lines, side)];
+    const Vec2 b = g.points[start_of(g.lines, side ^ 1)];
     if (a.y <= x.y && b.y > x.y && orient2d(a, b, x) > 0) ++turns;
     if (b.y <= x.y && a.y > x.y && orient2d(a, b, x) < 0) --turns;
   }
@@ -78,14 +69,14 @@ int components(const Lines& g) {
   std::vector<int> root(g.points.size());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int v) {
-    while (root[static_cast<std::size_t>(v)] != v) v = root[static_cast<std::size_t>(v)];
+    while (root[v] != v) v = root[v];
     return v;
   };
   int joined = 0;
   for (const auto& [a, b] : g.lines) {
     const int i = find(a), j = find(b);
     joined += i != j;
-    root[static_cast<std::size_t>(i)] = j;
+    root[i] = j;
   }
   return static_cast<int>(g.points.size()) - joined;
 }
@@ -110,10 +101,10 @@ TEST(Arrangement, FacesOfRandomLines) {
         inside += area(g, cycles[c]);
         for (const int side : cycles[c]) {
           ASSERT_TRUE(sides.insert(side).second);
-          ASSERT_EQ(a.face_of[static_cast<std::size_t>(side)], static_cast<int>(f));
+          ASSERT_EQ(a.face_of[side], static_cast<int>(f));
           // A place just left of the side is inside of the outline, and in nothing that lies in it.
-          const Vec2 p = g.points[static_cast<std::size_t>(start_of(g.lines, side))];
-          const Vec2 q = g.points[static_cast<std::size_t>(start_of(g.lines, side ^ 1))];
+          const Vec2 p = g.points[start_of(g.lines, side)];
+          const Vec2 q = g.points[start_of(g.lines, side ^ 1)];
           const Vec2 x = 0.5 * (p + q) + 1e-3 * perp(q - p);
           int sum = 0;
           for (const auto& cycle : cycles) sum += turns(g, cycle, x);
@@ -151,9 +142,7 @@ TEST(Arrangement, FindsLinesThatMeet) {
     g.lines = {{0, 1}, {2, 3}, {round % 2 ? 0 : 4, 5}};
     bool expected = false;
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < i; ++j)
-        expected =
-            expected || meet(g, g.lines[static_cast<std::size_t>(i)], g.lines[static_cast<std::size_t>(j)]);
+      for (int j = 0; j < i; ++j) expected = expected || meet(g, g.lines[i], g.lines[j]);
     conflicting += expected;
     ASSERT_EQ(arrange(g.points, g.lines).conflict.has_value(), expected) << round;
   }

@@ -1,14 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <random>
-
 #include "features/curves/mesh_planar_curves.h"
 #include "tests/geometry/planar/models.h"
-#include "tests/support/expect_input_error.h"
 
 namespace delquad {
 namespace {
@@ -19,12 +10,12 @@ Mesh mesh_curves(const PlanarModel& model, const PointSize& size, const CurveMes
 
 std::vector<int> edges_per_curve(const Mesh& mesh) {
   std::vector<int> count(mesh.curves.size(), 0);
-  for (int c : mesh.line_curve) ++count[static_cast<std::size_t>(c)];
+  for (int c : mesh.line_curve) ++count[c];
   return count;
 }
 
 TEST(CurveMeshing, UnitSquareHasItsNodesAtTwentieths) {
-  const Mesh mesh = mesh_curves(ModelBuilder().loop(rectangle_sides(0, 0, 1, 1)).build(), constant(0.05));
+  const Mesh mesh = mesh_curves(ModelMaker().loop(rectangle_sides(0, 0, 1, 1)), constant(0.05));
   ASSERT_EQ(mesh.points.size(), 80u);
   ASSERT_EQ(mesh.lines.size(), 80u);
   EXPECT_EQ(edges_per_curve(mesh), std::vector<int>(4, 20));
@@ -38,20 +29,16 @@ TEST(CurveMeshing, RotatedSquareKeepsItsCounts) {
     const auto turned = [&](double x, double y) {
       return Vec2{x * std::cos(a) - y * std::sin(a), x * std::sin(a) + y * std::cos(a)};
     };
-    const PlanarModel model =
-        ModelBuilder()
-            .loop({make_polyline({turned(0, 0), turned(1, 0), turned(1, 1), turned(0, 1), turned(0, 0)})})
-            .build();
+    const PlanarModel model = ModelMaker().loop(
+        {make_polyline({turned(0, 0), turned(1, 0), turned(1, 1), turned(0, 1), turned(0, 0)})});
     const Mesh mesh = mesh_curves(model, constant(0.05));
     ASSERT_EQ(mesh.lines.size(), 80u);
-    for (const auto& [v, w] : mesh.lines)
-      EXPECT_NEAR(norm(mesh.points[static_cast<std::size_t>(v)] - mesh.points[static_cast<std::size_t>(w)]),
-                  0.05, 1e-15);
+    for (const auto& [v, w] : mesh.lines) EXPECT_NEAR(norm(mesh.points[v] - mesh.points[w]), 0.05, 1e-15);
   }
 }
 
 TEST(CurveMeshing, CurvesAreNamedAndTagged) {
-  PlanarModel model = ModelBuilder().loop(rectangle_sides(0, 0, 1, 1)).build();
+  PlanarModel model = ModelMaker().loop(rectangle_sides(0, 0, 1, 1));
   model.curves[2].name = "lid";
   const Mesh mesh = mesh_curves(model, constant(0.3));
   ASSERT_EQ(mesh.curves.size(), 4u);
@@ -62,13 +49,12 @@ TEST(CurveMeshing, CurvesAreNamedAndTagged) {
 
 TEST(CurveMeshing, CoarseSizesKeepEveryPieceAndNoLoopFolds) {
   const PointSize coarse = constant(1000);
-  EXPECT_EQ(mesh_curves(ModelBuilder().loop({make_circle({0, 0}, 1)}).build(), coarse).lines.size(), 4u);
+  EXPECT_EQ(mesh_curves(ModelMaker().loop({make_circle({0, 0}, 1)}), coarse).lines.size(), 4u);
   // A half disc: neither the arc nor its chord may be a single edge.
   const Mesh half = mesh_curves(
-      ModelBuilder().loop({make_arc({0, 0}, 1, 0, std::numbers::pi), make_segment({-1, 0}, {1, 0})}).build(),
-      coarse);
+      ModelMaker().loop({make_arc({0, 0}, 1, 0, std::numbers::pi), make_segment({-1, 0}, {1, 0})}), coarse);
   EXPECT_EQ(edges_per_curve(half), (std::vector<int>{2, 2}));
-  const auto triangle = ModelBuilder().loop({make_polyline({{0, 0}, {1, 0}, {0, 1}, {0, 0}})}).build();
+  const auto triangle = ModelMaker().loop({make_polyline({{0, 0}, {1, 0}, {0, 1}, {0, 0}})});
   EXPECT_EQ(mesh_curves(triangle, coarse).lines.size(), 4u);
 }
 
@@ -82,9 +68,8 @@ TEST(CurveMeshing, ParityIsMendedWhereItCostsLeast) {
     const Vec2 e = p3 - p1;
     const double l = norm(e), x = (l * l + b * b - c * c) / (2 * l), y = std::sqrt(b * b - x * x);
     const Vec2 u = (1 / l) * e, p2 = p1 + x * u - y * perp(u);
-    return ModelBuilder()
-        .loop({make_segment(p0, p1), make_segment(p1, p2), make_segment(p2, p3), make_segment(p3, p0)})
-        .build();
+    return ModelMaker().loop(
+        {make_segment(p0, p1), make_segment(p1, p2), make_segment(p2, p3), make_segment(p3, p0)});
   };
   EXPECT_EQ(edges_per_curve(mesh_curves(quadrangle(10.4, 10.3, 3.1, 7.45), constant(1))),
             (std::vector<int>{10, 10, 3, 7}));
@@ -96,11 +81,9 @@ TEST(CurveMeshing, ParityIsMendedWhereItCostsLeast) {
 }
 
 TEST(CurveMeshing, TiesGoToTheFirstCurve) {
-  const auto triangle =
-      ModelBuilder()
-          .loop({make_segment({0, 0}, {4, 0}), make_segment({4, 0}, {4, 4}), make_segment({4, 4}, {0, 4}),
-                 make_segment({0, 4}, {0, 2}), make_segment({0, 2}, {0, 1}), make_segment({0, 1}, {0, 0})})
-          .build();
+  const auto triangle = ModelMaker().loop({make_segment({0, 0}, {4, 0}), make_segment({4, 0}, {4, 4}),
+                                           make_segment({4, 4}, {0, 4}), make_segment({0, 4}, {0, 2}),
+                                           make_segment({0, 2}, {0, 1}), make_segment({0, 1}, {0, 0})});
   // 4 + 4 + 4 + 2 + 1 + 1 is even; at 4/3 each side has 3, the rest 2, 1, 1: odd.
   EXPECT_EQ(edges_per_curve(mesh_curves(triangle, constant(4 / 3.0)))[0], 4);
 }
@@ -110,7 +93,7 @@ double angle_of(int i, int n) { return 2 * std::numbers::pi * i / n; }
 // A star-shaped loop of segments and circles' arcs, with holes and inclusions inside.
 PlanarModel random_model(std::mt19937& engine) {
   std::uniform_real_distribution<double> unit(0, 1);
-  ModelBuilder builder;
+  ModelMaker builder;
   const int components = 1 + static_cast<int>(engine() % 3);
   for (int k = 0; k < components; ++k) {
     const Vec2 centre{10.0 * k, 3 * unit(engine)};
@@ -119,7 +102,7 @@ PlanarModel random_model(std::mt19937& engine) {
     for (int i = 0; i < corners; ++i)
       points.push_back(centre + (3.2 + unit(engine)) *
                                     Vec2{std::cos(angle_of(i, corners)), std::sin(angle_of(i, corners))});
-    std::vector<ModelBuilder::Shape> sides;
+    std::vector<ModelMaker::Shape> sides;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec2 a = points[i], b = points[(i + 1) % points.size()];
       sides.push_back(engine() % 2 ? make_segment(a, b) : make_segment(b, a));
@@ -134,7 +117,7 @@ PlanarModel random_model(std::mt19937& engine) {
       if (engine() % 2) builder.loop({make_circle(middle, 0.4 * radius)}, engine() % 2 ? "core" : "");
     }
   }
-  return builder.build();
+  return builder;
 }
 
 TEST(CurveMeshing, EveryPatchOfRandomModelsIsEven) {
@@ -148,7 +131,7 @@ TEST(CurveMeshing, EveryPatchOfRandomModelsIsEven) {
     std::vector<int> uses(domain.boundary.lines.size(), 0);
     for (const PatchBoundary& patch : domain.patches) {
       EXPECT_EQ(patch.edges.size() % 2, 0u) << round;
-      ++kinds[domain.boundary.regions[static_cast<std::size_t>(&patch - domain.patches.data())].names.at(0)];
+      ++kinds[domain.boundary.regions[&patch - domain.patches.data()].names.at(0)];
     }
     // Interfaces are even by themselves: loops of inner patches around which another patch lies.
     std::map<int, int> in_patches;
@@ -157,8 +140,7 @@ TEST(CurveMeshing, EveryPatchOfRandomModelsIsEven) {
     std::map<int, int> shared_on_curve;
     for (const auto& line : domain.boundary.lines)
       if (in_patches.at(line[0]) == 2)
-        ++shared_on_curve[domain.boundary
-                              .line_curve[static_cast<std::size_t>(&line - domain.boundary.lines.data())]];
+        ++shared_on_curve[domain.boundary.line_curve[&line - domain.boundary.lines.data()]];
     for (const auto& [curve, edges] : shared_on_curve) EXPECT_EQ(edges % 2, 0) << round << " curve " << curve;
   }
   for (const char* kind : {"first", "filling", "core", "domain", "domain_2"})
@@ -167,11 +149,11 @@ TEST(CurveMeshing, EveryPatchOfRandomModelsIsEven) {
 
 TEST(CurveMeshing, EdgesOfACurveAreAllAsLongAsTheSizeSays) {
   const PointSize size = [](const Vec3& p) { return 1e-4 + 0.1 * std::hypot(p.x, p.y); };
-  const Mesh mesh = mesh_curves(ModelBuilder().loop(rectangle_sides(0, 0, 1, 1)).build(), size);
+  const Mesh mesh = mesh_curves(ModelMaker().loop(rectangle_sides(0, 0, 1, 1)), size);
   std::vector<double> shortest(4, 10), longest(4, 0);
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    const Vec3 a = mesh.points[static_cast<std::size_t>(mesh.lines[l][0])];
-    const Vec3 b = mesh.points[static_cast<std::size_t>(mesh.lines[l][1])];
+    const Vec3 a = mesh.points[mesh.lines[l][0]];
+    const Vec3 b = mesh.points[mesh.lines[l][1]];
     const double ratio = norm(b - a) / size(0.5 * (a + b));
     const auto c = static_cast<std::size_t>(mesh.line_curve[l]);
     shortest[c] = std::min(shortest[c], ratio);
@@ -185,14 +167,14 @@ TEST(CurveMeshing, EdgesOfACurveAreAllAsLongAsTheSizeSays) {
 }
 
 TEST(CurveMeshing, LimitIsStatedBeforeWorkStarts) {
-  const PlanarModel model = ModelBuilder().loop(rectangle_sides(0, 0, 1, 1)).build();
+  const PlanarModel model = ModelMaker().loop(rectangle_sides(0, 0, 1, 1));
   expect_input_error([&] { mesh_curves(model, constant(1e-12)); }, {"test.toml", "4e+12 edges", "1e+08"});
   expect_input_error([&] { mesh_curves(model, constant(0.01), {100}); }, {"400 edges", "100"});
   EXPECT_EQ(mesh_curves(model, constant(0.01), {400}).lines.size(), 400u);
 }
 
 TEST(CurveMeshing, BadSizesAreInputErrors) {
-  const PlanarModel model = ModelBuilder().loop(rectangle_sides(0, 0, 1, 1)).build();
+  const PlanarModel model = ModelMaker().loop(rectangle_sides(0, 0, 1, 1));
   expect_input_error([&] { mesh_curves(model, constant(-1)); }, {"test.toml", "curve 1", "size is -1"});
   expect_input_error([&] { mesh_curves(model, [](const Vec3& p) { return std::sqrt(0.99 - p.y); }); },
                      {"size is", "nan", "curve 2"});

@@ -1,12 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-
-#include "delquad/fields.h"
-#include "delquad/model.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

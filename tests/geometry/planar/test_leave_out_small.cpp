@@ -1,39 +1,16 @@
 #include "geometry/planar/leave_out_small.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "delquad/mesher.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
 
-/// Segments from corner to corner, one loop.
-PlanarModel segments(const std::vector<Vec2>& corners, const std::string& name = "") {
-  PlanarModel model;
-  model.source = "model";
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    model.curves.push_back({make_segment(corners[i], corners[(i + 1) % corners.size()]), name, ""});
-  model.loops.push_back({{}, "plate", ""});
-  for (int c = 0; c < static_cast<int>(corners.size()); ++c) model.loops[0].curves.push_back(c);
-  return model;
-}
-
-void add_hole(PlanarModel& model, Vec2 at, double radius, const std::string& name = "") {
-  model.loops.push_back({{static_cast<int>(model.curves.size())}, "", ""});
-  model.curves.push_back({make_circle(at, radius), name, ""});
-}
-
 /// A plate of 10 x 6 with a step of .02 in its upper side.
-PlanarModel stepped_plate() { return segments({{0, 0}, {10, 0}, {10, 6}, {4, 6}, {4, 6.02}, {0, 6.02}}); }
+PlanarModel stepped_plate() {
+  return ModelMaker().polygon({{0, 0}, {10, 0}, {10, 6}, {4, 6}, {4, 6.02}, {0, 6.02}}, {""}, "plate");
+}
 
 MeshResult mesh_at_1(const PlanarModel& model, double ignore_below) {
-  MeshProblem problem;
-  problem.model = model;
-  problem.size.field = make_constant_size(1);
+  MeshProblem problem = problem_of(model, 1);
   problem.surface.ignore_below = ignore_below;
   return mesh(problem, "DBCO");
 }
@@ -50,7 +27,7 @@ TEST(LeaveOutSmall, AStepBecomesPartOfASide) {
   std::vector<Warning> warnings;
   const PlanarModel thin = leave_out_small(stepped_plate(), {0.3, 0, {}}, warnings);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].text.find("no node at (4, 6"), std::string::npos) << warnings[0].text;
+  expect_text(warnings[0].text, {"no node at (4, 6"});
   EXPECT_EQ(thin.curves.size(), 6U) << "numbers of curves stay";
   EXPECT_EQ(thin.loops[0].curves.size(), 5U);
   EXPECT_LT(shortest_edge(mesh_at_1(stepped_plate(), 0).mesh), 0.03);
@@ -64,9 +41,7 @@ TEST(LeaveOutSmall, CornersOfAPolyline) {
   std::vector<Vec2> points;
   for (int i = 0; i <= 40; ++i) points.push_back({0.25 * i, i == 20 ? 5 : 6 + 0.01 * (i % 2)});
   points.insert(points.end(), {{10, 0}, {0, 0}, points[0]});
-  PlanarModel model;
-  model.curves.push_back({make_polyline(points), "", ""});
-  model.loops.push_back({{0}, "", ""});
+  const PlanarModel model = ModelMaker().loop({make_polyline(points)});
   std::vector<Warning> warnings;
   const PlanarModel thin = leave_out_small(model, {1, 0, {}}, warnings);
   const std::vector<double> fixed = thin.curves[0].shape->fixed_parameters();
@@ -80,14 +55,14 @@ TEST(LeaveOutSmall, CornersOfAPolyline) {
 }
 
 TEST(LeaveOutSmall, HolesGoWithTheirNames) {
-  PlanarModel model = segments({{0, 0}, {10, 0}, {10, 6}, {0, 6}});
-  add_hole(model, {3, 3}, 0.04, "pin");
-  add_hole(model, {7, 3}, 1, "bore");
+  ModelMaker model = ModelMaker().polygon({{0, 0}, {10, 0}, {10, 6}, {0, 6}}, {""}, "plate");
+  model.circle({3, 3}, 0.04, "pin");
+  model.circle({7, 3}, 1, "bore");
   std::vector<Warning> warnings;
   const PlanarModel closed = leave_out_small(model, {0, 1, {}}, warnings);
   EXPECT_EQ(closed.loops.size(), 2U);
   ASSERT_EQ(warnings.size(), 2U);
-  EXPECT_NE(warnings[1].text.find("'pin' went"), std::string::npos) << warnings[1].text;
+  expect_text(warnings[1].text, {"'pin' went"});
   EXPECT_EQ(leave_out_small(model, {0, 1, {false, {"pin"}}}, warnings).loops.size(), 3U);
   EXPECT_EQ(leave_out_small(model, {0, 1, {true, {}}}, warnings).loops.size(), 3U);
   const Mesh mesh = mesh_at_1(model, 0.3).mesh;
@@ -98,10 +73,9 @@ TEST(LeaveOutSmall, HolesGoWithTheirNames) {
 }
 
 TEST(LeaveOutSmall, InclusionsTakeWhatLiesInThem) {
-  PlanarModel model = segments({{0, 0}, {10, 0}, {10, 6}, {0, 6}});
-  add_hole(model, {3, 3}, 0.1);
-  model.loops.back().region = "stone";
-  add_hole(model, {3, 3}, 0.05);
+  ModelMaker model = ModelMaker().polygon({{0, 0}, {10, 0}, {10, 6}, {0, 6}}, {""}, "plate");
+  model.circle({3, 3}, 0.1, "", "stone");
+  model.circle({3, 3}, 0.05);
   const Mesh mesh = mesh_at_1(model, 0.7).mesh;
   ASSERT_EQ(mesh.regions.size(), 1U);
   EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"plate"});
@@ -109,28 +83,22 @@ TEST(LeaveOutSmall, InclusionsTakeWhatLiesInThem) {
 }
 
 TEST(LeaveOutSmall, WhatHoldsSomethingThatStaysStays) {
-  PlanarModel model = segments({{0, 0}, {10, 0}, {10, 6}, {0, 6}});
-  add_hole(model, {3, 3}, 0.1);
-  model.loops.back().region = "stone";
-  add_hole(model, {3, 3}, 0.05, "core");
+  ModelMaker model = ModelMaker().polygon({{0, 0}, {10, 0}, {10, 6}, {0, 6}}, {""}, "plate");
+  model.circle({3, 3}, 0.1, "", "stone");
+  model.circle({3, 3}, 0.05, "core");
   std::vector<Warning> warnings;
   EXPECT_EQ(leave_out_small(model, {0, 1, {false, {"core"}}}, warnings).loops.size(), 3U);
   EXPECT_TRUE(warnings.empty());
 }
 
 TEST(LeaveOutSmall, AHoleOfJoinedArcsGetsItsWashers) {
-  PlanarModel model = segments({{0, 0}, {20, 0}, {20, 20}, {0, 20}});
-  model.loops.push_back({{4, 5}, "", ""});
-  model.curves.push_back({make_arc({10, 10}, 3, 0, 6.2), "", ""});
-  model.curves.push_back({make_arc({10, 10}, 3, 6.2, 2 * 3.14159265358979324), "", ""});
-  MeshProblem problem;
-  problem.model = model;
-  problem.size.field = make_constant_size(1);
+  ModelMaker model = ModelMaker().polygon({{0, 0}, {20, 0}, {20, 20}, {0, 20}}, {""}, "plate");
+  model.loop({make_arc({10, 10}, 3, 0, 6.2), make_arc({10, 10}, 3, 6.2, 2 * 3.14159265358979324)});
+  MeshProblem problem = problem_of(model, 1);
   problem.surface.ignore_below = 0.3;
   problem.washers.push_back({.least = 5, .most = 7, .rows = 1, .edges = 20});
   const MeshResult result = mesh(problem, "DBCO");
-  const auto is_told = [](const Warning& w) { return w.text.find("rows") != std::string::npos; };
-  EXPECT_TRUE(std::ranges::none_of(result.warnings, is_told));
+  EXPECT_FALSE(is_told(result.warnings, "rows"));
   const auto on_ring = std::ranges::count_if(
       result.mesh.points, [](const Vec3& x) { return std::abs(std::hypot(x.x - 10, x.y - 10) - 3) < 1e-9; });
   EXPECT_EQ(on_ring, 20);
@@ -138,7 +106,8 @@ TEST(LeaveOutSmall, AHoleOfJoinedArcsGetsItsWashers) {
 
 TEST(LeaveOutSmall, JunctionsAndNamesStay) {
   // Two regions beside each other meet at both ends of a short curve; another one has a name of its own.
-  PlanarModel model = segments({{0, 0}, {5, 0}, {5.1, 0}, {10, 0}, {10, 5}, {0, 5}});
+  ModelMaker model =
+      ModelMaker().polygon({{0, 0}, {5, 0}, {5.1, 0}, {10, 0}, {10, 5}, {0, 5}}, {""}, "plate");
   model.curves[1].name = "probe";
   std::vector<Warning> warnings;
   const PlanarModel same = leave_out_small(model, {0.3, 0, {}}, warnings);
@@ -148,38 +117,32 @@ TEST(LeaveOutSmall, JunctionsAndNamesStay) {
 }
 
 TEST(LeaveOutSmall, ASmallPartOfAPlateIsNoHole) {
-  PlanarModel model = segments({{0, 0}, {10, 0}, {10, 6}, {0, 6}});
-  add_hole(model, {20, 3}, 0.1);
+  ModelMaker model = ModelMaker().polygon({{0, 0}, {10, 0}, {10, 6}, {0, 6}}, {""}, "plate");
+  model.circle({20, 3}, 0.1);
   std::vector<Warning> warnings;
   EXPECT_EQ(leave_out_small(model, {0, 1, {}}, warnings).loops.size(), 2U);
 }
 
 TEST(LeaveOutSmall, BesideWhatNamesCurvesByNumberItIsRefused) {
-  MeshProblem problem;
-  problem.model = stepped_plate();
-  problem.size.field = make_constant_size(1);
+  MeshProblem problem = problem_of(stepped_plate(), 1);
   problem.surface.ignore_below = 0.3;
   problem.divisions.push_back({.name = "curve_1", .edges = 10});
-  expect_input_error([&] { mesh(problem, "DB"); }, {"cannot be left out beside numbers of edges"});
+  expect_refused(problem, "DB", {"cannot be left out beside numbers of edges"});
 }
 
 TEST(LeaveOutSmall, WhatTheCriteriaCallTooShort) {
-  MeshProblem problem;
-  problem.model = stepped_plate();
-  problem.size.field = make_constant_size(1);
+  MeshProblem problem = problem_of(stepped_plate(), 1);
   problem.surface.idealize = true;
-  expect_input_error([&] { mesh(problem, "DB"); }, {"there are no criteria"});
+  expect_refused(problem, "DB", {"there are no criteria"});
   problem.criteria = read_criteria("batch");
   EXPECT_GT(shortest_edge(mesh(problem, "DBCO").mesh), 0.5);
 }
 
 TEST(LeaveOutSmall, NamesThatNothingHas) {
-  MeshProblem problem;
-  problem.model = stepped_plate();
-  problem.size.field = make_constant_size(1);
+  MeshProblem problem = problem_of(stepped_plate(), 1);
   problem.surface.ignore_below = 0.3;
   problem.surface.keep = {"plat"};
-  expect_input_error([&] { mesh(problem, "DB"); }, {"'plat' is to stay", "plate"});
+  expect_refused(problem, "DB", {"'plat' is to stay", "plate"});
 }
 
 }  // namespace

@@ -1,23 +1,11 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <numeric>
-#include <random>
-
 #include "tests/geometry/planar/models.h"
-#include "tests/support/expect_input_error.h"
 
 namespace delquad {
 namespace {
 
 double area(const PatchBoundary& patch) {
   double sum = 0;
-  for (const auto& [v, w] : patch.edges)
-    sum += 0.5 * cross(patch.points[static_cast<std::size_t>(v)], patch.points[static_cast<std::size_t>(w)]);
+  for (const auto& [v, w] : patch.edges) sum += 0.5 * cross(patch.points[v], patch.points[w]);
   return sum;
 }
 
@@ -53,16 +41,15 @@ TEST(LineDomain, PatchBoundariesAreSound) {
     for (std::size_t i = 0; i < n; ++i) {
       const auto [v, w] = patch.edges[i];
       EXPECT_EQ(v, static_cast<int>(i)) << "points stand in loop order";
-      ++out[static_cast<std::size_t>(v)];
-      ++in[static_cast<std::size_t>(w)];
-      const Vec3& node = mesh.points[static_cast<std::size_t>(patch.point_node[i])];
+      ++out[v];
+      ++in[w];
+      const Vec3& node = mesh.points[patch.point_node[i]];
       EXPECT_EQ(patch.points[i], (Vec2{node.x, node.y}));
       // The same edge is a line of the mesh, in the same direction and on the same curve.
-      const std::array line{patch.point_node[static_cast<std::size_t>(v)],
-                            patch.point_node[static_cast<std::size_t>(w)]};
+      const std::array line{patch.point_node[v], patch.point_node[w]};
       const auto found = std::ranges::find(mesh.lines, line);
       ASSERT_NE(found, mesh.lines.end());
-      EXPECT_EQ(mesh.line_curve[static_cast<std::size_t>(found - mesh.lines.begin())], patch.edge_curve[i]);
+      EXPECT_EQ(mesh.line_curve[found - mesh.lines.begin()], patch.edge_curve[i]);
     }
     EXPECT_EQ(in, std::vector<int>(n, 1));
     EXPECT_EQ(out, std::vector<int>(n, 1));
@@ -101,8 +88,7 @@ TEST(LineDomain, OrderOfPointsDoesNotMatterEither) {
   const Mesh original = nested_squares();
   Mesh mesh = original;
   const int n = static_cast<int>(mesh.points.size());
-  for (int v = 0; v < n; ++v)
-    mesh.points[static_cast<std::size_t>(n - 1 - v)] = original.points[static_cast<std::size_t>(v)];
+  for (int v = 0; v < n; ++v) mesh.points[n - 1 - v] = original.points[v];
   for (auto& line : mesh.lines) line = {n - 1 - line[0], n - 1 - line[1]};
   const PlanarDomain a = make_domain(original), b = make_domain(mesh);
   for (std::size_t k = 0; k < a.patches.size(); ++k) EXPECT_EQ(a.patches[k].points, b.patches[k].points);

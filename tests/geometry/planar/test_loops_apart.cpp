@@ -1,23 +1,16 @@
-#include "geometry/planar/loops_apart.h"
-
-#include <gtest/gtest.h>
-
-#include <numbers>
-
 #include "features/curves/mesh_planar_curves.h"
+#include "geometry/planar/loops_apart.h"
 #include "tests/geometry/planar/models.h"
-#include "tests/support/expect_input_error.h"
 
 namespace delquad {
 namespace {
 
 /// A square from (-10, -10) to (10, 10) with two circles in it.
 PlanarModel two_circles(Vec2 a, double ra, Vec2 b, double rb) {
-  return ModelBuilder()
+  return ModelMaker()
       .loop(rectangle_sides(-10, -10, 10, 10))
       .loop({make_circle(a, ra)})
-      .loop({make_circle(b, rb)})
-      .build();
+      .loop({make_circle(b, rb)});
 }
 
 void expect_touching(const PlanarModel& model, double size, const std::string& where) {
@@ -50,17 +43,16 @@ TEST(LoopsApart, CloseIsNotTouching) {
     EXPECT_EQ(make_domain(two_circles({1.3, 8}, 2 - 1e-4, {0, 0}, 0.5), constant(size)).patches.size(), 1u);
   }
   // Everywhere close.
-  const PlanarModel ring =
-      ModelBuilder().loop({make_circle({0, 0}, 1)}).loop({make_circle({0, 0}, 1 - 1e-4)}).build();
+  const PlanarModel ring = ModelMaker().loop({make_circle({0, 0}, 1)}).loop({make_circle({0, 0}, 1 - 1e-4)});
   EXPECT_EQ(make_domain(ring, constant(0.01)).patches.size(), 1u);
 }
 
 TEST(LoopsApart, ManyLoopsTakeNoTimeOfPairs) {
-  ModelBuilder builder;
+  ModelMaker builder;
   builder.loop(rectangle_sides(-1, -1, 100, 100));
   for (int i = 0; i < 40; ++i)
     for (int j = 0; j < 40; ++j) builder.loop({make_circle({2.0 * i + 1, 2.0 * j + 1}, 0.99)});
-  EXPECT_EQ(make_domain(builder.build(), constant(0.1)).patches.size(), 1u);
+  EXPECT_EQ(make_domain(builder, constant(0.1)).patches.size(), 1u);
 }
 
 }  // namespace

@@ -1,14 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-
 #include "geometry/planar/model_chain.h"
 #include "tests/geometry/planar/models.h"
-#include "tests/support/expect_input_error.h"
 
 namespace delquad {
 namespace {
@@ -21,21 +12,21 @@ TEST(ModelChain, JoinsCurvesInAnyOrderAndDirection) {
   std::mt19937 engine(1);
   const std::vector<Vec2> corners{{0, 0}, {2, 0}, {3, 1}, {1, 0.5}, {0, 4}};
   for (int round = 0; round < 50; ++round) {
-    std::vector<ModelBuilder::Shape> sides;
+    std::vector<ModelMaker::Shape> sides;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vec2 a = corners[i], b = corners[(i + 1) % corners.size()];
       sides.push_back(engine() % 2 ? make_segment(a, b) : make_segment(b, a));
     }
     std::ranges::shuffle(sides, engine);
-    const PlanarModel model = ModelBuilder().loop(sides).build();
+    const PlanarModel model = ModelMaker().loop(sides);
     const ModelChain chain = chain_model(model);
     ASSERT_EQ(chain.nodes.size(), corners.size());
     std::vector<int> uses(corners.size(), 0);
     for (std::size_t c = 0; c < sides.size(); ++c)
       for (int end : {0, 1}) {
-        const int node = chain.curve_ends[c][static_cast<std::size_t>(end)];
-        ++uses[static_cast<std::size_t>(node)];
-        EXPECT_EQ(chain.nodes[static_cast<std::size_t>(node)], sides[c]->point(end));
+        const int node = chain.curve_ends[c][end];
+        ++uses[node];
+        EXPECT_EQ(chain.nodes[node], sides[c]->point(end));
       }
     EXPECT_EQ(uses, std::vector<int>(corners.size(), 2));
   }
@@ -44,20 +35,17 @@ TEST(ModelChain, JoinsCurvesInAnyOrderAndDirection) {
 TEST(ModelChain, JoinsEndsThatRoundingSeparates) {
   const double s = std::sqrt(0.5);
   const PlanarModel rounded =
-      ModelBuilder()
-          .loop({make_arc({0, 0}, 1, std::numbers::pi / 4, 3 * std::numbers::pi / 4),
-                 make_segment({-0.70710678, 0.70710678}, {0, -1}), make_segment({0, -1}, {s, s})})
-          .build();
+      ModelMaker().loop({make_arc({0, 0}, 1, std::numbers::pi / 4, 3 * std::numbers::pi / 4),
+                         make_segment({-0.70710678, 0.70710678}, {0, -1}), make_segment({0, -1}, {s, s})});
   EXPECT_EQ(chain_model(rounded).nodes.size(), 3u);
 }
 
 TEST(ModelChain, ToleranceFollowsTheModelsSize) {
   for (double scale : {1e-9, 1.0, 1e9}) {
     const auto triangle = [&](double gap) {
-      return ModelBuilder()
-          .loop({make_segment({0, 0}, {scale, 0}), make_segment({scale, gap * scale}, {0, scale}),
-                 make_segment({0, scale}, {0, 0})})
-          .build();
+      return ModelMaker().loop({make_segment({0, 0}, {scale, 0}),
+                                make_segment({scale, gap * scale}, {0, scale}),
+                                make_segment({0, scale}, {0, 0})});
     };
     EXPECT_EQ(chain_model(triangle(1e-8)).nodes.size(), 3u) << scale;
     expect_input_error([&] { chain_model(triangle(1e-5)); }, {"test.toml", "open", "curve 1", "curve 2"});
@@ -65,13 +53,13 @@ TEST(ModelChain, ToleranceFollowsTheModelsSize) {
 }
 
 TEST(ModelChain, ClosedCurvesAreLoopsAlone) {
-  const ModelChain chain = chain_model(ModelBuilder().loop({make_circle({0, 0}, 1)}).build());
+  const ModelChain chain = chain_model(ModelMaker().loop({make_circle({0, 0}, 1)}));
   EXPECT_EQ(chain.nodes.size(), 1u);
   EXPECT_EQ(chain.curve_ends[0], (std::array{0, 0}));
 }
 
 TEST(ModelChain, FillingOfAHoleMayBeALoopOfItsOwn) {
-  PlanarModel model = ModelBuilder().loop(rectangle_sides(0, 0, 4, 4)).loop({make_circle({2, 2}, 1)}).build();
+  PlanarModel model = ModelMaker().loop(rectangle_sides(0, 0, 4, 4)).loop({make_circle({2, 2}, 1)});
   model.loops.push_back({{4}, "steel", ""});
   const ModelChain chain = chain_model(model);
   ASSERT_EQ(chain.loops.size(), 2u);
@@ -82,8 +70,7 @@ TEST(ModelChain, FillingOfAHoleMayBeALoopOfItsOwn) {
 
 TEST(ModelChain, NamesWhatIsWrong) {
   const auto chain = [](const PlanarModel& model) { return [model] { chain_model(model); }; };
-  PlanarModel open =
-      ModelBuilder().loop({make_segment({0, 0}, {1, 0}), make_segment({1, 0}, {1, 1})}).build();
+  PlanarModel open = ModelMaker().loop({make_segment({0, 0}, {1, 0}), make_segment({1, 0}, {1, 1})});
   expect_input_error(chain(open), {"test.toml: ", "open between (0, 0)", "(1, 1) of curve 2"});
   open.curves[0].name = "inlet";
   open.curves[0].where = "test.toml:7";
@@ -92,16 +79,15 @@ TEST(ModelChain, NamesWhatIsWrong) {
 
   auto two = rectangle_sides(0, 0, 1, 1);
   for (const auto& side : rectangle_sides(3, 3, 4, 4)) two.push_back(side);
-  expect_input_error(chain(ModelBuilder().loop(two).build()), {"more than one chain", "4 of 8"});
+  expect_input_error(chain(ModelMaker().loop(two)), {"more than one chain", "4 of 8"});
 
   expect_input_error(chain({"test.toml", {}, {}}), {"no loops"});
-  expect_input_error(chain(ModelBuilder().loop({}).build()), {"loop 1 has no curves"});
-  expect_input_error(chain(ModelBuilder().loop({std::make_shared<NotFinite>()}).build()),
-                     {"curve 1", "finite"});
-  expect_input_error(chain(ModelBuilder().loop({make_circle({0, 0}, 1), make_circle({1e9, 0}, 1)}).build()),
+  expect_input_error(chain(ModelMaker().loop({})), {"loop 1 has no curves"});
+  expect_input_error(chain(ModelMaker().loop({std::make_shared<NotFinite>()})), {"curve 1", "finite"});
+  expect_input_error(chain(ModelMaker().loop({make_circle({0, 0}, 1), make_circle({1e9, 0}, 1)})),
                      {"curve 1", "no length"});
 
-  PlanarModel square = ModelBuilder().loop(rectangle_sides(0, 0, 1, 1)).build();
+  PlanarModel square = ModelMaker().loop(rectangle_sides(0, 0, 1, 1));
   square.loops.push_back({{0, 1}, "", ""});
   expect_input_error(chain(square), {"open"});
   square.loops[1].curves = {0, 17};

@@ -1,16 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <chrono>
-#include <cmath>
-#include <numbers>
-#include <optional>
-#include <random>
-#include <set>
-
-#include "base/predicates.h"
 #include "geometry/planar/arrangement.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
@@ -56,7 +45,7 @@ LoopNesting nest(const Polygons& p) {
 
 Vec2 at(const Polygons& p, std::size_t loop, std::size_t k) {
   const auto& nodes = p.loops[loop];
-  return p.points[static_cast<std::size_t>(nodes[k % nodes.size()])];
+  return p.points[nodes[k % nodes.size()]];
 }
 
 bool on_segment(Vec2 a, Vec2 b, Vec2 p) {
@@ -117,8 +106,7 @@ void make_counterclockwise(Polygons& p) {
   for (auto& nodes : p.loops) {
     double area = 0;
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      area += cross(p.points[static_cast<std::size_t>(nodes[k])],
-                    p.points[static_cast<std::size_t>(nodes[(k + 1) % nodes.size()])]);
+      area += cross(p.points[nodes[k]], p.points[nodes[(k + 1) % nodes.size()]]);
     if (area < 0) std::reverse(nodes.begin(), nodes.end());
   }
 }

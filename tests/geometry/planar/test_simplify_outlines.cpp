@@ -1,11 +1,5 @@
 #include "geometry/planar/simplify_outlines.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <vector>
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

@@ -1,14 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "features/curves/mesh_planar_curves.h"
 #include "geometry/planar/planar_model.h"
 #include "tests/geometry/planar/models.h"
-#include "tests/support/expect_input_error.h"
 
 namespace delquad {
 namespace {
@@ -16,14 +8,14 @@ namespace {
 using Polygon = std::vector<Vec2>;
 
 PlanarModel model_of(const std::vector<Polygon>& loops) {
-  ModelBuilder builder;
+  ModelMaker builder;
   for (const Polygon& loop : loops) {
-    std::vector<ModelBuilder::Shape> sides;
+    std::vector<ModelMaker::Shape> sides;
     for (std::size_t i = 0; i < loop.size(); ++i)
       sides.push_back(make_segment(loop[i], loop[(i + 1) % loop.size()]));
     builder.loop(sides);
   }
-  return builder.build();
+  return builder;
 }
 
 double area(const PlanarDomain& domain) {

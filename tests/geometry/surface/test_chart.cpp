@@ -1,18 +1,8 @@
 #include "geometry/surface/chart.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numbers>
-#include <numeric>
-
-#include "delquad/error.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 std::vector<Chart> all_charts(const SurfaceModel& model) {
   return extract_charts(model.fine, std::vector<char>(model.fine.triangles.size(), 1));

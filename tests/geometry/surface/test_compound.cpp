@@ -1,24 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "geometry/surface/compound.h"
-#include "geometry/surface/triangulated_model.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/meshing.h"
 #include "tests/support/surface_model_checks.h"
-#include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::box;
-using testing_support::can;
-using testing_support::expect_counts;
-using testing_support::triangle_grid;
-using testing_support::violations;
 
 const std::vector<std::string> kSound;
 

@@ -1,19 +1,9 @@
 #include "geometry/surface/conformal_maps.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "geometry/surface/flatten.h"
-#include "geometry/surface/triangulated_model.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 Chart chart_of(const SurfaceModel& model) {
   return extract_charts(model.fine, std::vector<char>(model.fine.triangles.size(), 1))[0];
@@ -69,8 +59,7 @@ TEST(ConformalMaps, SphereCapIsStereographic) {
     const Chart chart = chart_of(sphere_cap(4 * n, n, kCap));
     const std::vector<Vec2> flat = boundary_first_map(chart);
     ASSERT_TRUE(is_one_to_one(chart, flat));
-    const Vec2 pole =
-        flat[static_cast<std::size_t>(std::ranges::find(chart.points, Vec3{0, 0, 1}) - chart.points.begin())];
+    const Vec2 pole = flat[std::ranges::find(chart.points, Vec3{0, 0, 1}) - chart.points.begin()];
     double worst = 0;
     for (std::size_t v = 0; v < flat.size(); ++v) {
       const double theta = std::acos(std::min(1.0, chart.points[v].z));

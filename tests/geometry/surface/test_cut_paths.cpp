@@ -1,17 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "geometry/surface/cut_planner.h"
 #include "geometry/surface/laplacian.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 Chart one_chart(const SurfaceModel& model) {
   return extract_charts(model.fine, std::vector<char>(model.fine.triangles.size(), 1))[0];

@@ -1,23 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
 #include "geometry/surface/triangle_repair.h"
-#include "geometry/surface/triangulated_model.h"
+#include "tests/support/meshing.h"
 #include "tests/support/surface_model_checks.h"
-#include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::box;
-using testing_support::can;
-using testing_support::lens;
-using testing_support::soup;
-using testing_support::violations;
-using testing_support::volume;
-using testing_support::without_regions;
 
 double area(const Mesh& mesh) {
   double sum = 0;

@@ -1,20 +1,10 @@
 #include "geometry/surface/flatten.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
-
 #include "geometry/surface/improve_triangulation.h"
 #include "tests/support/flat_patch_checks.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 /// Largest relative change of a side's length.
 double length_error(const SurfaceModel& model, const FlatPatch& p) {

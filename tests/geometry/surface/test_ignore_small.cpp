@@ -1,25 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/ignore_small.h"
-#include "geometry/surface/triangulated_model.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/meshing.h"
 #include "tests/support/surface_model_checks.h"
-#include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::box;
-using testing_support::expect_counts;
-using testing_support::TriangulatedShape;
-using testing_support::volume;
 
 constexpr double kLength = 0.05;
 
@@ -98,7 +83,7 @@ TEST(IgnoreSmall, ShortCurvesAtTheEndOfAWedgeBecomePoints) {
   // A wedge whose edge is cut off: a face .01 wide and 1 high, between two long ones.
   const SurfaceModel model = model_of(prism({{0, 0}, {1, -0.005}, {1, 0.005}}, 1));
   const SurfaceModel wedge = ignore_small(model, {0.012});
-  EXPECT_EQ(testing_support::violations(wedge), std::vector<std::string>{});
+  EXPECT_EQ(violations(wedge), std::vector<std::string>{});
   EXPECT_LT(wedge.fine.regions.size(), model.fine.regions.size());
 }
 
@@ -195,7 +180,7 @@ TEST(IgnoreSmall, LargerHolesStay) {
 TEST(IgnoreSmall, WhatIsSmallAltogetherIsNoHole) {
   const SurfaceModel cube = model_of(box(1));
   EXPECT_EQ(close_small_holes(cube, {100}).fine.triangles, cube.fine.triangles);
-  const SurfaceModel square = make_surface_model(testing_support::triangle_grid(2, 2));
+  const SurfaceModel square = make_surface_model(triangle_grid(2, 2));
   EXPECT_EQ(close_small_holes(square, {100}).fine.triangles, square.fine.triangles);
 }
 

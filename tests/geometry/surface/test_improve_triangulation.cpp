@@ -1,17 +1,9 @@
 #include "geometry/surface/improve_triangulation.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "tests/support/flat_patch_checks.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 class CylinderProjector : public SurfaceProjector {
  public:

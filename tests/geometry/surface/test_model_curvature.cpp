@@ -1,18 +1,8 @@
 #include "geometry/surface/model_curvature.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
-
-namespace surfaces = testing_support;
 
 /// Curvature of face 0 at each fine point, over what it should be.
 std::vector<double> ratios(const SurfaceModel& model, const std::function<double(const Vec3&)>& exact) {
@@ -24,21 +14,21 @@ std::vector<double> ratios(const SurfaceModel& model, const std::function<double
 }
 
 TEST(ModelCurvature, OfASphereIsOneOverItsRadius) {
-  const auto r = ratios(surfaces::round_sphere(16), [](const Vec3&) { return 1.0; });
+  const auto r = ratios(round_sphere(16), [](const Vec3&) { return 1.0; });
   EXPECT_GT(r.front(), 0.85);  // around the corners of the cube it was made from
   EXPECT_LT(r.back(), 1.15);
 }
 
 TEST(ModelCurvature, OfACylinderAndOfLongStripsOfOne) {
   for (const int n_along : {10, 1}) {
-    const auto r = ratios(surfaces::cylinder(32, n_along, 0.5, 3), [](const Vec3&) { return 2.0; });
+    const auto r = ratios(cylinder(32, n_along, 0.5, 3), [](const Vec3&) { return 2.0; });
     EXPECT_GT(r.front(), 0.9) << n_along;
     EXPECT_LT(r.back(), 1.1) << n_along;
   }
 }
 
 TEST(ModelCurvature, OfATorusIsThatOfItsTube) {
-  const auto r = ratios(surfaces::torus(64, 32, 1, 0.4), [](const Vec3&) { return 2.5; });
+  const auto r = ratios(torus(64, 32, 1, 0.4), [](const Vec3&) { return 2.5; });
   EXPECT_GT(r.front(), 0.85);
   EXPECT_LT(r.back(), 1.15);
 }
@@ -46,7 +36,7 @@ TEST(ModelCurvature, OfATorusIsThatOfItsTube) {
 TEST(ModelCurvature, OfAPlaneIsZeroAlsoBesideABend) {
   // A plane, a quarter of a tube of radius 0.1 in six strips, a plane: one face.
   const double r = 0.1;
-  const SurfaceModel model = surfaces::grid_surface({8, 4}, [&](double u, double v) {
+  const SurfaceModel model = grid_surface({8, 4}, [&](double u, double v) {
     const int i = static_cast<int>(std::lround(8 * u));
     if (i == 0) return Vec3{-1, v, 0};
     if (i == 8) return Vec3{r, v, -1 - r};
@@ -64,7 +54,7 @@ TEST(ModelCurvature, OfAPlaneIsZeroAlsoBesideABend) {
 }
 
 TEST(ModelCurvature, NoiseIsSmoothed) {
-  SurfaceModel model = surfaces::round_sphere(20);
+  SurfaceModel model = round_sphere(20);
   std::mt19937 random(7);
   for (Vec3& p : model.fine.points) {  // 2 % of the edges
     const double edge = std::numbers::pi / 2 / 20;
@@ -77,7 +67,7 @@ TEST(ModelCurvature, NoiseIsSmoothed) {
 
 TEST(ModelCurvature, OfACircleThatBoundsAPlaneIsThatOfTheCircle) {
   // A plane ring of radii 0.2 and 1: two closed curves.
-  const SurfaceModel model = surfaces::grid_surface({40, 5, true}, [](double u, double v) {
+  const SurfaceModel model = grid_surface({40, 5, true}, [](double u, double v) {
     const double phi = 2 * std::numbers::pi * u, r = 0.2 + 0.8 * v;
     return Vec3{-r * std::cos(phi), r * std::sin(phi), 0};
   });

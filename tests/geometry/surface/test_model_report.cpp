@@ -1,19 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "geometry/surface/model_report.h"
-#include "geometry/surface/triangulated_model.h"
-#include "tests/support/grid_mesh.h"
-#include "tests/support/triangulated_shapes.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::box;
-using testing_support::can;
-using testing_support::triangle_grid;
 
 ModelReport report_of(const Mesh& mesh, double feature_angle = 40) {
   return report_model(make_surface_model(mesh, {.feature_angle = feature_angle}));
@@ -104,11 +93,7 @@ TEST(ModelReport, AnOpenShellHasAnOutline) {
 
 TEST(ModelReport, ShellsApartAreCountedApart) {
   Mesh mesh = box(1);
-  const int n = static_cast<int>(mesh.points.size());
-  const Mesh other = box(1);
-  for (const Vec3& p : other.points) mesh.points.push_back(p + Vec3{3, 0, 0});
-  for (const auto& v : other.triangles) mesh.triangles.push_back({v[0] + n, v[1] + n, v[2] + n});
-  for (const int r : other.triangle_region) mesh.triangle_region.push_back(r);
+  append(mesh, mesh, {3, 0, 0});
   const ModelReport report = report_of(mesh);
   ASSERT_EQ(report.shells.size(), 2u);
   for (const ShellReport& shell : report.shells) {
@@ -119,7 +104,7 @@ TEST(ModelReport, ShellsApartAreCountedApart) {
 }
 
 TEST(ModelReport, ASphereWithoutCurvesIsClosed) {
-  const ModelReport report = report_of(testing_support::without_regions(box(2)), 180);
+  const ModelReport report = report_of(without_regions(box(2)), 180);
   ASSERT_EQ(report.faces.size(), 1u);
   EXPECT_EQ(topology(report.faces[0]), "closed");
   EXPECT_TRUE(std::isinf(report.faces[0].width));

@@ -1,21 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numbers>
-
 #include "base/segment.h"
 #include "geometry/surface/ignore_small.h"
-#include "geometry/surface/triangulated_model.h"
+#include "tests/support/meshing.h"
 #include "tests/support/surface_model_checks.h"
-#include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::expect_counts;
-using testing_support::TriangulatedShape;
 
 constexpr double kWide = 0.05;
 
@@ -108,7 +97,7 @@ TEST(NarrowParts, SharpAnglesThatWidenSoonStay) {
 TEST(NarrowParts, BothSidesOfANeckStay) {
   const SurfaceModel model = dumbbell(true);
   const SurfaceModel apart = ignore_small(model, {kWide});
-  EXPECT_EQ(testing_support::violations(apart), std::vector<std::string>{});
+  EXPECT_EQ(violations(apart), std::vector<std::string>{});
   ASSERT_EQ(apart.fine.regions.size(), 4u) << "a face is in one piece";
   EXPECT_EQ(apart.fine.regions[0].tag, 1);
   EXPECT_EQ(apart.fine.regions[3].tag, 4);
@@ -196,7 +185,7 @@ TEST(IgnoreSmall, NoPointMovesFartherThanTheLength) {
   }
   const SurfaceModel model = make_surface_model(std::move(shape.mesh), {.feature_angle = 30});
   const SurfaceModel after = ignore_small(model, {kWide});
-  EXPECT_EQ(testing_support::violations(after), std::vector<std::string>{});
+  EXPECT_EQ(violations(after), std::vector<std::string>{});
   EXPECT_LT(after.fine.curves.size(), model.fine.curves.size());
   for (const auto& line : model.fine.lines) {
     const Vec3& p = model.fine.points[line[0]];

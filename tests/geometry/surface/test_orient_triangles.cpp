@@ -1,18 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "geometry/mesh/half_edges.h"
-#include "geometry/surface/triangulated_model.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/meshing.h"
 #include "tests/support/surface_model_checks.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::violations;
 
 /// A band of n squares around z whose section makes `turns` half turns.
 Mesh band(int n, int turns) {
@@ -58,9 +48,7 @@ TEST(OrientTriangles, SheetsThatCannotAgreeArePartedAtSharpEdges) {
   const SurfaceModel model = make_surface_model(sheets);
   EXPECT_EQ(violations(model), std::vector<std::string>{});
   EXPECT_EQ(model.fine.triangles.size(), sheets.triangles.size());
-  EXPECT_TRUE(std::ranges::any_of(model.warnings, [](const Warning& w) {
-    return w.text.find("sides of the surface do not agree at ") != std::string::npos;
-  }));
+  EXPECT_TRUE(is_told(model.warnings, "sides of the surface do not agree at "));
 }
 
 TEST(OrientTriangles, ASmoothBandOfOneSideIsRefused) {

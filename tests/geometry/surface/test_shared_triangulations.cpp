@@ -1,19 +1,11 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-
 #include "geometry/surface/compound.h"
-#include "geometry/surface/triangulated_model.h"
 #include "io/mesh_io.h"
+#include "tests/support/meshing.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/surface_model_checks.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::shared_data;
-using testing_support::violations;
-using testing_support::volume;
 
 const std::vector<std::string> kSoundShared;
 

@@ -1,14 +1,9 @@
 #include "geometry/surface/surface_editor.h"
-
-#include <gtest/gtest.h>
-
 #include "tests/support/flat_patch_checks.h"
-#include "tests/support/surfaces.h"
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 // Three squares that share the side from node 0 to node 1.
 SurfaceModel book() {

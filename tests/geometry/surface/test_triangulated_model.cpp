@@ -1,40 +1,13 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <utility>
-
-#include "delquad/error.h"
-#include "geometry/surface/triangulated_model.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/meshing.h"
 #include "tests/support/surface_model_checks.h"
-#include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::box;
-using testing_support::can;
-using testing_support::expect_counts;
-using testing_support::soup;
-using testing_support::triangle_grid;
-using testing_support::violations;
-using testing_support::volume;
-using testing_support::without_regions;
 
 const std::vector<std::string> kSoundModel;
 
 SurfaceModel triangulated(const Mesh& mesh, double feature_angle = 40) {
   return make_surface_model(mesh, {.feature_angle = feature_angle, .source = "case.off"});
-}
-
-bool has_warning(const SurfaceModel& model, const std::string& part) {
-  return std::any_of(model.warnings.begin(), model.warnings.end(),
-                     [&](const Warning& w) { return w.text.find(part) != std::string::npos; });
 }
 
 TEST(TriangulatedModel, BoxIsCutAtItsFeatures) {
@@ -88,11 +61,7 @@ TEST(TriangulatedModel, GivenCurvesAndRegionsKeepTagsAndNames) {
 TEST(TriangulatedModel, PiecesOfARegionShareItsNames) {
   // Two squares apart, one region; a line across the second cuts it.
   Mesh mesh = triangle_grid(2, 2);
-  const int n = static_cast<int>(mesh.points.size());
-  const Mesh other = mesh;
-  for (Vec3 p : other.points) mesh.points.push_back(p + Vec3{3, 0, 0});
-  for (auto v : other.triangles) mesh.triangles.push_back({v[0] + n, v[1] + n, v[2] + n});
-  mesh.triangle_region.assign(mesh.triangles.size(), 0);
+  const int n = append(mesh, mesh, {3, 0, 0});
   mesh.lines = {{n + 3, n + 4}, {n + 4, n + 5}};
   mesh.line_curve = {0, 0};
   mesh.curves = {{5, {"across"}}};
@@ -220,7 +189,7 @@ TEST(TriangleRepair, SoupIsWeldedAtItsOpenEdges) {
   const SurfaceModel model = triangulated(without_regions(soup(box(2))));
   expect_counts(model, 6, 12, 8);
   EXPECT_EQ(model.fine.points.size(), box(2).points.size());
-  EXPECT_TRUE(has_warning(model, "welded"));
+  EXPECT_TRUE(is_told(model.warnings, "welded"));
 }
 
 TEST(TriangleRepair, GapsAreWeldedWithinTheToleranceOrReported) {
@@ -229,11 +198,11 @@ TEST(TriangleRepair, GapsAreWeldedWithinTheToleranceOrReported) {
   const SurfaceModel open = triangulated(mesh);
   EXPECT_GT(open.fine.regions.size(), 6u);
   // Two ten-millionths, of a diagonal of the root of three, rounded up.
-  EXPECT_TRUE(has_warning(open, "no more than 2e-07 from others"));
-  EXPECT_TRUE(has_warning(open, "--weld 2e-07 (weld_tolerance, a part of the diagonal) closes"));
+  EXPECT_TRUE(is_told(open.warnings, "no more than 2e-07 from others"));
+  EXPECT_TRUE(is_told(open.warnings, "--weld 2e-07 (weld_tolerance, a part of the diagonal) closes"));
   const SurfaceModel closed = make_surface_model(mesh, {.weld_tolerance = 2e-7});
   expect_counts(closed, 6, 12, 8);
-  EXPECT_FALSE(has_warning(closed, "--weld"));
+  EXPECT_FALSE(is_told(closed.warnings, "--weld"));
 }
 
 TEST(TriangleRepair, WeldingIsNotAdvisedWhereItClosesNothing) {
@@ -255,9 +224,9 @@ TEST(TriangleRepair, WeldingIsNotAdvisedWhereItClosesNothing) {
     }
   }
   const SurfaceModel model = triangulated(mesh);
-  EXPECT_TRUE(has_warning(model, "parted the surface where it touched itself"));
-  EXPECT_FALSE(has_warning(model, "weld tolerance"));
-  EXPECT_FALSE(has_warning(model, "--weld"));
+  EXPECT_TRUE(is_told(model.warnings, "parted the surface where it touched itself"));
+  EXPECT_FALSE(is_told(model.warnings, "weld tolerance"));
+  EXPECT_FALSE(is_told(model.warnings, "--weld"));
 }
 
 TEST(TriangleRepair, DegenerateAndDuplicateTrianglesAndUnusedPointsGo) {
@@ -271,9 +240,9 @@ TEST(TriangleRepair, DegenerateAndDuplicateTrianglesAndUnusedPointsGo) {
   const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 6, 12, 8);
   EXPECT_EQ(model.fine.triangles.size(), box(2).triangles.size());
-  EXPECT_TRUE(has_warning(model, "left out 1 triangle without area (the first at (0, "));
-  EXPECT_TRUE(has_warning(model, "left out 2 triangles on the vertices of another"));
-  EXPECT_TRUE(has_warning(model, "left out 1 point that no triangle uses"));
+  EXPECT_TRUE(is_told(model.warnings, "left out 1 triangle without area (the first at (0, "));
+  EXPECT_TRUE(is_told(model.warnings, "left out 2 triangles on the vertices of another"));
+  EXPECT_TRUE(is_told(model.warnings, "left out 1 point that no triangle uses"));
 }
 
 TEST(TriangleRepair, FlatTrianglesLeaveNoGap) {
@@ -296,7 +265,7 @@ TEST(TriangleRepair, FlatTrianglesLeaveNoGap) {
   const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 6, 12, 8);
   EXPECT_NEAR(volume(model.fine), 1, 1e-12);
-  EXPECT_TRUE(has_warning(model, "left out 3 triangles without area"));
+  EXPECT_TRUE(is_told(model.warnings, "left out 3 triangles without area"));
 }
 
 TEST(TriangleRepair, NeedlesOfSinglePrecisionThatHangOnAnEdge) {
@@ -309,7 +278,7 @@ TEST(TriangleRepair, NeedlesOfSinglePrecisionThatHangOnAnEdge) {
   const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 6, 12, 8);
   EXPECT_NEAR(volume(model.fine), 1, 1e-7);
-  EXPECT_TRUE(has_warning(model, "left out 1 triangle without area"));
+  EXPECT_TRUE(is_told(model.warnings, "left out 1 triangle without area"));
 }
 
 TEST(TriangleRepair, AFlatTriangleOnAGivenCurveCutsItsLine) {
@@ -342,13 +311,13 @@ TEST(TriangleRepair, OrientationFollowsTheMajorityAndFacesOutwards) {
   for (size_t t = 0; t < mesh.triangles.size(); t += 5) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
   const SurfaceModel some = triangulated(mesh);
   EXPECT_NEAR(volume(some.fine), 1, 1e-12);
-  EXPECT_TRUE(has_warning(some, "turned over 10 triangles"));
+  EXPECT_TRUE(is_told(some.warnings, "turned over 10 triangles"));
 
   Mesh inwards = without_regions(box(2));
   for (auto& v : inwards.triangles) std::swap(v[0], v[1]);
   const SurfaceModel all = triangulated(inwards);
   EXPECT_NEAR(volume(all.fine), 1, 1e-12);
-  EXPECT_TRUE(has_warning(all, "turned outwards 1 closed surface"));
+  EXPECT_TRUE(is_told(all.warnings, "turned outwards 1 closed surface"));
 }
 
 TEST(TriangleRepair, ACavityKeepsFacingInwards) {
@@ -382,7 +351,7 @@ TEST(TriangleRepair, SurfacesThatTouchAtAVertexAreParted) {
   const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 12, 24, 16);
   EXPECT_EQ(model.fine.points.size(), 16u);
-  EXPECT_TRUE(has_warning(model, "touched itself at a vertex: 1 time (the first at (1, 1, 1))"));
+  EXPECT_TRUE(is_told(model.warnings, "touched itself at a vertex: 1 time (the first at (1, 1, 1))"));
 }
 
 TEST(TriangleRepair, BranchingEdgesAreCurves) {
@@ -394,8 +363,9 @@ TEST(TriangleRepair, BranchingEdgesAreCurves) {
   EXPECT_EQ(model.fine.regions.size(), 3u);
   EXPECT_EQ(model.fine.points.size(), 5u) << "the sheets share the edge's ends";
   EXPECT_EQ(violations(model), kSoundModel);
-  EXPECT_TRUE(has_warning(model, "branches at 1 edge with three triangles or more (the first at (0, 0, 0))"));
-  EXPECT_TRUE(has_warning(model, "more than two faces meet on curves: 1 ("));
+  EXPECT_TRUE(
+      is_told(model.warnings, "branches at 1 edge with three triangles or more (the first at (0, 0, 0))"));
+  EXPECT_TRUE(is_told(model.warnings, "more than two faces meet on curves: 1 ("));
 }
 
 TEST(TriangleRepair, SidesOfCellsAreRefused) {
@@ -428,14 +398,14 @@ Mesh rough_plate(int n, double roughness, bool peg) {
 
 TEST(TriangulatedModel, NoiseMakesNoFeatures) {
   const SurfaceModel model = triangulated(rough_plate(60, 0.65, false), 40);
-  EXPECT_TRUE(has_warning(model, "of sharp edges for noise")) << "the test has none";
+  EXPECT_TRUE(is_told(model.warnings, "of sharp edges for noise")) << "the test has none";
   EXPECT_EQ(model.fine.regions.size(), 1u);
   EXPECT_EQ(violations(model), kSoundModel);
 }
 
 TEST(TriangulatedModel, SmallFeaturesOfSmoothPartsStay) {
   const SurfaceModel model = triangulated(rough_plate(60, 0, true), 40);
-  EXPECT_FALSE(has_warning(model, "noise"));
+  EXPECT_FALSE(is_told(model.warnings, "noise"));
   EXPECT_GT(model.fine.regions.size(), 1u);
 }
 
@@ -443,8 +413,7 @@ TEST(TriangleRepair, WhatIsNoSurfaceOfTrianglesIsRefused) {
   Mesh nan = triangle_grid(1, 1);
   nan.points[2].y = std::numeric_limits<double>::quiet_NaN();
   expect_input_error([&] { triangulated(nan); }, {"case.off: point 3", "finite"});
-  expect_input_error([&] { triangulated(testing_support::quad_grid(2, 2)); },
-                     {"case.off: 4 quads", "triangles"});
+  expect_input_error([&] { triangulated(quad_grid(2, 2)); }, {"case.off: 4 quads", "triangles"});
   expect_input_error([&] { triangulated(Mesh{}); }, {"case.off: no triangles"});
   Mesh flat = triangle_grid(2, 2, 1, 0);
   expect_input_error([&] { triangulated(flat); }, {"case.off: no triangle has an area"});
@@ -480,12 +449,12 @@ TEST(TriangleRepair, LinesOffTheTrianglesGo) {
   mesh.line_curve.insert(mesh.line_curve.end(), {0, 0});
   const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 1, 4, 4);
-  EXPECT_TRUE(has_warning(model, "left out 1 line along no side"));
+  EXPECT_TRUE(is_told(model.warnings, "left out 1 line along no side"));
 }
 
 // A wall that stands on a floor, and leaves it in the middle without a turn.
 TEST(TriangulatedModel, BranchingEndsInsideACurve) {
-  testing_support::TriangulatedShape shape;
+  TriangulatedShape shape;
   const auto quad = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     shape.triangle(a, b, c);
     shape.triangle(a, c, d);
@@ -497,7 +466,7 @@ TEST(TriangulatedModel, BranchingEndsInsideACurve) {
   quad({0, 1, 0}, {0, 2, 0.05}, {0, 2, 1}, {0, 1, 1});
   const SurfaceModel model = make_surface_model(shape.mesh);
   EXPECT_EQ(violations(model), std::vector<std::string>{});
-  EXPECT_TRUE(has_warning(model, "branches at 1 edge with three triangles or more"));
+  EXPECT_TRUE(is_told(model.warnings, "branches at 1 edge with three triangles or more"));
 }
 
 }  // namespace

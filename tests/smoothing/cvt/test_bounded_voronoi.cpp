@@ -1,17 +1,9 @@
 #include "smoothing/cvt/bounded_voronoi.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "base/predicates.h"
 #include "smoothing/cvt/cell_walk.h"
 #include "tests/smoothing/seeds.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::random_seeds;
 
 bool is_inside(const PatchBoundary& boundary, Vec2 p) {
   bool inside = false;

@@ -1,21 +1,8 @@
 #include "smoothing/cvt/lp_energy.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "base/context.h"
 #include "tests/smoothing/seeds.h"
-#include "tests/support/expect_input_error.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::energy_of;
-using testing_support::EnergyAndGradient;
-using testing_support::equal_frames;
-using testing_support::random_frames;
-using testing_support::random_seeds;
 
 /// Of the derivative by central differences, relative to the largest of all components.
 constexpr double kGradientTolerance = 1e-6;
@@ -28,18 +15,13 @@ void check_gradient(const PatchBoundary& boundary, const std::vector<Vec2>& seed
   ASSERT_GT(at.energy, 0);
   double largest = 0;
   for (const Vec2 g : at.gradient) largest = std::max(largest, norm(g));
-  constexpr double kStep = 2e-6;
+  std::vector<Vec2> x = seeds;
   for (std::size_t i = 0; i < seeds.size(); ++i)
-    for (const Vec2 step : {Vec2{kStep, 0}, Vec2{0, kStep}}) {
-      std::vector<Vec2> ahead = seeds, behind = seeds;
-      ahead[i] += step;
-      behind[i] += -step;
-      const double difference =
-          (energy_of(boundary, ahead, frames, p).energy - energy_of(boundary, behind, frames, p).energy) /
-          (2 * kStep);
-      EXPECT_NEAR(dot(at.gradient[n_boundary + i], step) / kStep, difference, kGradientTolerance * largest)
+    for (double Vec2::*along : {&Vec2::x, &Vec2::y})
+      EXPECT_NEAR(at.gradient[n_boundary + i].*along,
+                  slope_of(x[i].*along, 2e-6, [&] { return energy_of(boundary, x, frames, p).energy; }),
+                  kGradientTolerance * largest)
           << "p " << p << ", seed " << i << " at " << seeds[i].x << " " << seeds[i].y;
-    }
   for (std::size_t i = 0; i < n_boundary; ++i) EXPECT_EQ(at.gradient[i], Vec2{}) << "boundary point " << i;
 }
 
@@ -126,15 +108,10 @@ TEST(LpEnergies, AreTheSameBytesOnAnyNumberOfThreads) {
   const std::vector<Vec2> seeds = random_seeds(boundary, 5, 20000, 0.012);
   ASSERT_GT(seeds.size(), 3000u);
   const SeedFrames frames = random_frames(boundary.points.size() + seeds.size(), 5);
-  std::vector<EnergyAndGradient> results;
-  for (const int threads : {1, 2, 4}) {
-    const RunScope run({.threads = threads});
-    results.push_back(energy_of(boundary, seeds, frames, 6));
-  }
-  for (const EnergyAndGradient& other : results) {
-    EXPECT_EQ(other.energy, results[0].energy);
-    EXPECT_EQ(other.gradient, results[0].gradient);
-  }
+  on_threads({1, 2, 4}, [&] {
+    const EnergyAndGradient at = energy_of(boundary, seeds, frames, 6);
+    return std::pair(at.energy, at.gradient);
+  });
 }
 
 TEST(LpEnergies, RefuseOtherNorms) {

@@ -1,21 +1,8 @@
 #include "smoothing/cvt/moving_delaunay.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-
-#include "base/predicates.h"
 #include "tests/smoothing/seeds.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/patch_invariants.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::inner_points;
-using testing_support::random_seeds;
 
 /// Corners start at a triangle of their point, and boundary fans begin with a boundary side.
 void expect_sound(const MovingDelaunay& d) {

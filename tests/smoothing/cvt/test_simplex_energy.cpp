@@ -1,10 +1,5 @@
 #include "smoothing/cvt/simplex_energy.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <utility>
+#include "tests/support/meshing.h"
 
 namespace delquad {
 namespace {

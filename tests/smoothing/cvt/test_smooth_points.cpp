@@ -1,31 +1,12 @@
-#include "smoothing/cvt/smooth_points.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-
 #include "algorithms/insertion/frontal_mesher.h"
-#include "base/context.h"
-#include "base/predicates.h"
 #include "features/curves/mesh_surface_curves.h"
-#include "fields/fields.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "patches/surface_domain.h"
+#include "smoothing/cvt/smooth_points.h"
 #include "tests/smoothing/seeds.h"
-#include "tests/support/analytic_fields.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/patch_invariants.h"
-#include "tests/support/surfaces.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::FunctionCross;
-using testing_support::FunctionSize;
-using testing_support::inner_points;
-using testing_support::random_seeds;
 
 struct Smoothed {
   TriPatch patch;
@@ -235,19 +216,14 @@ TEST(Smoothing, IsTheSameBytesOnAnyNumberOfThreads) {
   const FunctionSize size(0.02);
   const std::vector<Vec2> seeds = inner_points(frontal(boundary, cross, size));
   ASSERT_GT(seeds.size(), 5000u);  // several blocks
-  std::vector<TriPatch> results;
-  for (const int threads : {1, 2, 3, 7}) {
-    const RunScope run({.threads = threads});
-    results.push_back(smooth(boundary, seeds, cross, size).patch);
-  }
-  for (const TriPatch& other : results) {
-    EXPECT_EQ(other.points, results[0].points);
-    EXPECT_EQ(other.triangles, results[0].triangles);
-  }
+  on_threads({1, 2, 3, 7}, [&] {
+    const TriPatch patch = smooth(boundary, seeds, cross, size).patch;
+    return std::pair(patch.points, patch.triangles);
+  });
 }
 
 TEST(Smoothing, WorksInTheParameterPlaneOfASurface) {
-  SurfaceModel model = testing_support::bump(24, 0.4);
+  SurfaceModel model = bump(24, 0.4);
   improve_triangulation(model);
   const SurfaceSize size(make_constant_size(0.08));
   Flattening flattening = flatten(model);
@@ -265,20 +241,11 @@ TEST(Smoothing, WorksInTheParameterPlaneOfASurface) {
       const std::vector<Vec2> gradient(problem.gradient().begin(), problem.gradient().end());
       double largest = 0;
       for (const Vec2 g : gradient) largest = std::max(largest, norm(g));
-      constexpr double kStep = 1e-6;
-      const auto slope = [&](std::size_t i, Vec2 direction) {
-        const Vec2 x = seeds[i];
-        seeds[i] = x + kStep * direction;
-        const double ahead = *problem.evaluate(seeds);
-        seeds[i] = x - kStep * direction;
-        const double behind = *problem.evaluate(seeds);
-        seeds[i] = x;
-        return (ahead - behind) / (2 * kStep);
-      };
-      for (std::size_t i = 0; i < seeds.size(); i += 5) {
-        EXPECT_NEAR(slope(i, {1, 0}), gradient[i].x, 1e-6 * largest) << p;
-        EXPECT_NEAR(slope(i, {0, 1}), gradient[i].y, 1e-6 * largest) << p;
-      }
+      for (std::size_t i = 0; i < seeds.size(); i += 5)
+        for (double Vec2::*along : {&Vec2::x, &Vec2::y})
+          EXPECT_NEAR(slope_of(seeds[i].*along, 1e-6, [&] { return *problem.evaluate(seeds); }),
+                      gradient[i].*along, 1e-6 * largest)
+              << p;
     }
     const Smoothed after = smooth(patch.boundary, seeds, cross, delta);
     expect_sound(after.patch, patch.boundary, before.points.size());

@@ -1,16 +1,8 @@
 #include "smoothing/cvt/moving_delaunay.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "tests/smoothing/seeds.h"
-#include "tests/support/patch_invariants.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::random_seeds;
 
 TriPatch random_patch() {
   const PatchBoundary boundary = shapes::annulus(0.4, 1, 40, 100);

@@ -1,20 +1,10 @@
 #include "smoothing/optimisation/quad_energy.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <random>
-
-#include "base/context.h"
 #include "smoothing/relocation/quad_relocation.h"
+#include "tests/support/meshing.h"
 #include "tests/support/quad_patches.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::grid_patch;
-using testing_support::jittered;
 
 QuadEnergy<Vec2> energy_of(const QuadPatch& patch, double delta, double theta, double kept,
                            const QuadEnergyWeights& weights) {
@@ -31,22 +21,21 @@ QuadEnergy<Vec2> energy_of(const QuadPatch& patch, double delta, double theta, d
   return {std::move(mesh), weights};
 }
 
-/// The gradient agrees with central differences.
+/// The gradient, of which every so many components must agree with central differences.
 template <class Energy>
-void expect_gradient(const Energy& energy, const std::vector<double>& at) {
-  constexpr double kStep = 1e-6;
+std::vector<double> expect_gradient(const Energy& energy, std::vector<double> at, std::size_t every = 1,
+                                    double step = 1e-6, double tolerance = 1e-5) {
   std::vector<double> gradient(at.size());
   double value = 0;
-  ASSERT_TRUE(energy.evaluate(at.data(), value, gradient.data()));
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    std::vector<double> high = at, low = at;
-    high[i] += kStep, low[i] -= kStep;
-    double above = 0, below = 0;
-    ASSERT_TRUE(energy.evaluate(high.data(), above, nullptr));
-    ASSERT_TRUE(energy.evaluate(low.data(), below, nullptr));
-    const double difference = (above - below) / (2 * kStep);
-    EXPECT_NEAR(gradient[i], difference, 1e-5 * std::max(1.0, std::abs(difference)));
+  EXPECT_TRUE(energy.evaluate(at.data(), value, gradient.data()));
+  for (std::size_t i = 0; i < at.size(); i += every) {
+    const double difference = slope_of(at[i], step, [&] {
+      EXPECT_TRUE(energy.evaluate(at.data(), value, nullptr));
+      return value;
+    });
+    EXPECT_NEAR(gradient[i], difference, tolerance * std::max(1.0, std::abs(difference)));
   }
+  return gradient;
 }
 
 TEST(QuadEnergy, GradientAgreesWithCentralDifferences) {
@@ -99,27 +88,13 @@ TEST(QuadEnergy, TheSameOnAnyNumberOfThreads) {
   std::vector<double> at(energy.variables()), gradient(at.size());
   std::mt19937_64 random(1);
   for (double& x : at) x = 0.04 * (shapes::uniform(random) - 0.5);
-  double value = 0;
-  const RunScope one_thread({.threads = 1});
-  ASSERT_TRUE(energy.evaluate(at.data(), value, gradient.data()));
-  for (const int threads : {2, 3}) {
-    const RunScope run({.threads = threads});
-    std::vector<double> again(at.size());
-    double same = 0;
-    ASSERT_TRUE(energy.evaluate(at.data(), same, again.data()));
-    EXPECT_EQ(same, value);
-    EXPECT_EQ(again, gradient);
-  }
+  on_threads({1, 2, 3}, [&] {
+    double value = 0;
+    EXPECT_TRUE(energy.evaluate(at.data(), value, gradient.data()));
+    return std::pair(value, gradient);
+  });
   // Vertices that several threads share move, too.
-  const double step = 1e-5;
-  for (std::size_t i = 0; i < at.size(); i += 97) {
-    std::vector<double> high = at, low = at;
-    high[i] += step, low[i] -= step;
-    double above = 0, below = 0;
-    ASSERT_TRUE(energy.evaluate(high.data(), above, nullptr));
-    ASSERT_TRUE(energy.evaluate(low.data(), below, nullptr));
-    EXPECT_NEAR(gradient[i], (above - below) / (2 * step), 1e-4);
-  }
+  EXPECT_EQ(expect_gradient(energy, at, 97, 1e-5), gradient);
 }
 
 TEST(QuadEnergy, RegularGridIsAMinimum) {

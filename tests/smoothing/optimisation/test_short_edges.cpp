@@ -1,16 +1,10 @@
-#include "smoothing/relocation/untangling.h"
-
-#include <gtest/gtest.h>
-
 #include "smoothing/relocation/quad_relocation.h"
-#include "tests/support/analytic_fields.h"
+#include "smoothing/relocation/untangling.h"
+#include "tests/support/meshing.h"
 #include "tests/support/quad_patches.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::FunctionSize;
-using testing_support::grid_patch;
 
 TEST(ShortEdges, AreOpened) {
   QuadPatch mesh = grid_patch(6, 6);
@@ -25,7 +19,7 @@ TEST(ShortEdges, AreOpened) {
 }
 
 TEST(ShortEdges, OthersStay) {
-  const QuadPatch mesh = testing_support::jittered(grid_patch(6, 6), 1, 0.3);
+  const QuadPatch mesh = jittered(grid_patch(6, 6), 1, 0.3);
   QuadTopology topology(mesh);
   EXPECT_EQ(lengthen_short_edges(topology, FunctionSize(1)), 0);
   EXPECT_EQ(topology.to_patch().points, mesh.points);

@@ -1,24 +1,14 @@
-#include "smoothing/surface/surface_lift.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-#include "fields/fields.h"
-#include "metrics/metrics.h"
 #include "metrics/shape.h"
 #include "patches/places_inside.h"
+#include "smoothing/surface/surface_lift.h"
 #include "tests/smoothing/meshed_surface.h"
 #include "tests/support/polygon_face.h"
-#include "tests/support/surfaces.h"
 
 namespace delquad {
 namespace {
 
-namespace surfaces = testing_support;
-
 /// A model that has been meshed, ready to be lifted.
-struct Meshed : surfaces::MeshedSurface {
+struct Meshed : MeshedSurface {
   Meshed(SurfaceModel given, double h) : MeshedSurface(std::move(given), h, false) {
     std::vector<SurfaceTracks::Patch> patches;
     for (std::size_t p = 0; p < quads.size(); ++p) {
@@ -57,7 +47,7 @@ std::vector<double> shortest_edges(const Meshed& m) {
 }
 
 TEST(SurfaceTracks, PlacesOutsideThePatchGetAPositionInside) {
-  const Meshed m(surfaces::bump(40, 0.4), 0.12);
+  const Meshed m(bump(40, 0.4), 0.12);
   const SurfacePatch& patch = m.domain.patches.at(0);
   for (int v = 0; v < static_cast<int>(m.places.size()); v += 7) {
     if (m.tracks->is_on_curve(v) || v < static_cast<int>(m.nodes.points.size())) continue;
@@ -72,7 +62,7 @@ TEST(SurfaceTracks, PlacesOutsideThePatchGetAPositionInside) {
 
 // Each third vertex goes most of the way to a neighbour of its own kind.
 TEST(SurfaceLift, DisplacedVerticesFindBetterPlacesOnTheirTracks) {
-  Meshed m(surfaces::bump(40, 0.4), 0.12);
+  Meshed m(bump(40, 0.4), 0.12);
   const int n = static_cast<int>(m.places.size());
   for (const auto& quad : m.tracks->quads())
     for (int k = 0; k < 4; ++k) {
@@ -111,12 +101,11 @@ TEST(SurfaceLift, FoldedQuadsAreUnfolded) {
   int before = 0, after = 0;
   for (const double skew : {0.1, 0.2, 0.3, 0.4, 0.5})
     for (const double h : {0.11, 0.13, 0.17}) {
-      Meshed m(surfaces::grid_surface(
-                   {40, 40},
-                   [&](double u, double v) {
-                     const double x = 2 * u - 1;
-                     return Vec3{x + skew * (2 * v - 1) * (1 - x * x), 2 * v - 1, -3 * std::abs(x)};
-                   }),
+      Meshed m(grid_surface({40, 40},
+                            [&](double u, double v) {
+                              const double x = 2 * u - 1;
+                              return Vec3{x + skew * (2 * v - 1) * (1 - x * x), 2 * v - 1, -3 * std::abs(x)};
+                            }),
                h);
       before += folded(m);
       Budget trials(10'000'000);
@@ -128,7 +117,7 @@ TEST(SurfaceLift, FoldedQuadsAreUnfolded) {
 }
 
 TEST(SurfaceLift, WhatIsGoodStays) {
-  Meshed m(surfaces::polygon_face({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, 0.5), 0.5);
+  Meshed m(polygon_face({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, 0.5), 0.5);
   const auto before = m.places;
   Budget trials(1000);
   EXPECT_EQ(lift_worst_on_surface(*m.tracks, m.places, 0.3, 20, trials), 0);
@@ -137,7 +126,7 @@ TEST(SurfaceLift, WhatIsGoodStays) {
 }
 
 TEST(SurfaceLift, WhatPassesIsNotMended) {
-  Meshed m(surfaces::polygon_face({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, 0.5), 0.5);
+  Meshed m(polygon_face({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, 0.5), 0.5);
   const auto before = m.places;
   Budget trials(1000);
   EXPECT_EQ(mend_failing_on_surface(*m.tracks, m.places, *make_constant_size(0.5), 6, trials), 0);
@@ -150,13 +139,12 @@ TEST(SurfaceLift, WhatPassesIsNotMended) {
 }
 
 TEST(SurfaceLift, EndsOnceTheTrialsAreSpent) {
-  Meshed m(
-      surfaces::grid_surface({40, 40},
-                             [](double u, double v) {
-                               const double x = 2 * u - 1;
-                               return Vec3{x + 0.5 * (2 * v - 1) * (1 - x * x), 2 * v - 1, -3 * std::abs(x)};
-                             }),
-      0.11);
+  Meshed m(grid_surface({40, 40},
+                        [](double u, double v) {
+                          const double x = 2 * u - 1;
+                          return Vec3{x + 0.5 * (2 * v - 1) * (1 - x * x), 2 * v - 1, -3 * std::abs(x)};
+                        }),
+           0.11);
   const auto before = m.places;
   Budget none(0), all(10'000'000);
   EXPECT_EQ(lift_worst_on_surface(*m.tracks, m.places, 0.3, 20, none), 0);

@@ -1,23 +1,13 @@
-#include "smoothing/surface/surface_tracks.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/mesh/nearest_triangle.h"
-#include "metrics/metrics.h"
+#include "smoothing/surface/surface_tracks.h"
 #include "tests/smoothing/meshed_surface.h"
 #include "tests/support/polygon_face.h"
-#include "tests/support/surfaces.h"
 
 namespace delquad {
 namespace {
 
-namespace surfaces = testing_support;
-
 /// All patches of a model, meshed by DB, before and after their vertices slid.
-struct Slid : surfaces::MeshedSurface {
+struct Slid : MeshedSurface {
   Slid(SurfaceModel given, double h) : MeshedSurface(std::move(given), h, true) {
     std::vector<SurfaceTracks::Patch> patches;
     for (std::size_t p = 0; p < quads.size(); ++p) {
@@ -83,21 +73,21 @@ void expect_on_tracks(const Slid& slid) {
 }
 
 TEST(SurfaceTracks, NodesSlideAlongTheSidesOfAPolygon) {
-  const Slid slid(surfaces::polygon_face({{0, 0}, {7, 0}, {9, 5}, {3, 6}}, 0.2), 0.6);
+  const Slid slid(polygon_face({{0, 0}, {7, 0}, {9, 5}, {3, 6}}, 0.2), 0.6);
   expect_on_tracks(slid);
 }
 
-TEST(SurfaceTracks, BumpWithoutCorners) { expect_on_tracks(Slid(surfaces::bump(40, 0.5), 0.15)); }
+TEST(SurfaceTracks, BumpWithoutCorners) { expect_on_tracks(Slid(bump(40, 0.5), 0.15)); }
 
 TEST(SurfaceTracks, NodesSlideAlongTheCutOfACylinder) {
-  const Slid slid(surfaces::cylinder(60, 40, 1, 2), 0.21);
+  const Slid slid(cylinder(60, 40, 1, 2), 0.21);
   ASSERT_FALSE(std::all_of(slid.domain.cut_face.begin(), slid.domain.cut_face.end(),
                            [](int face) { return face < 0; }));
   expect_on_tracks(slid);
 }
 
 TEST(SurfaceTracks, SameInputSameMesh) {
-  const Slid a(surfaces::bump(30, 0.5), 0.2), b(surfaces::bump(30, 0.5), 0.2);
+  const Slid a(bump(30, 0.5), 0.2), b(bump(30, 0.5), 0.2);
   EXPECT_EQ(a.nodes.points, b.nodes.points);
   EXPECT_EQ(a.inside, b.inside);
 }

@@ -1,20 +1,11 @@
-#include "smoothing/optimisation/track_optimisation.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "geometry/mesh/quad_corners.h"
-#include "tests/support/analytic_fields.h"
+#include "smoothing/optimisation/track_optimisation.h"
+#include "tests/support/meshing.h"
 #include "tests/support/quad_patch_checks.h"
 #include "tests/support/quad_patches.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::grid_patch;
-using testing_support::jittered;
 
 /// A quarter of a cylinder about the x axis, of radius 4; the grid's u is x, v the arc length. The boundary
 /// vertices slide along the sides of the grid, its corners stay.
@@ -128,7 +119,7 @@ TEST(TrackOptimisation, ThinQuadsGetNoThinner) {
     std::vector<Vec3> points = tracks.points();
     const auto least = [&] {
       QuadPatch now = tracks.grid();
-      return testing_support::least_room(now, testing_support::FunctionSize(1));
+      return least_room(now, FunctionSize(1));
     };
     const double before = least();
     optimise_on_tracks(points, grid.quads, tracks, {.size = 5});
