@@ -48,80 +48,84 @@ bool closes_too_tightly(const QuadPatch& mesh, const std::vector<int>& point_nod
 
 namespace {
 
+/// Calls work(summary) and adds that summary and the time to the log.
+template <class Summary, class Work>
+void log_step(StageLog& log, const char* step, const Work& work) {
+  const Stopwatch watch;
+  Summary summary;
+  work(summary);
+  add_summary(log, summary);
+  log.add_time(step, watch.time());
+}
+
 /// `mesh`: mesh_frontal, mesh_delquad or mesh_packing.
 void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement, const StageInput& in,
                    PatchMesh& patch, StageLog& log) {
-  const Stopwatch watch;
-  FrontalSummary summary;
   FrontalOptions options = insertion_options(in.options);
   options.max_points = in.max_points;
-  patch.triangles = mesh(in.boundary, placement, in.cross, in.size, options, &summary);
+  log_step<FrontalSummary>(log, "insertion", [&](FrontalSummary& summary) {
+    patch.triangles = mesh(in.boundary, placement, in.cross, in.size, options, &summary);
+    if (summary.termination == FrontalTermination::kMaxPoints)
+      throw TooManyPoints(
+          fmt::format("insertion stopped at {} points, the most that {} elements (max-elements) allow",
+                      summary.inserted, in.max_points / kPointsPerElement));
+  });
   patch.form = PatchForm::kTriangles;
-  if (summary.termination == FrontalTermination::kMaxPoints)
-    throw TooManyPoints(
-        fmt::format("insertion stopped at {} points, the most that {} elements (max-elements) allow",
-                    summary.inserted, in.max_points / kPointsPerElement));
-  add_summary(log, summary);
-  log.add_time("insertion", watch.time());
 }
 
 void smooth_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
-  const Stopwatch watch;
-  SmoothingSummary summary;
-  patch.triangles =
-      smooth_points(patch.triangles, in.cross, in.size, smoothing_options(in.options), &summary);
-  add_summary(log, summary);
-  log.add_time("smoothing", watch.time());
+  log_step<SmoothingSummary>(log, "smoothing", [&](SmoothingSummary& summary) {
+    patch.triangles =
+        smooth_points(patch.triangles, in.cross, in.size, smoothing_options(in.options), &summary);
+  });
 }
 
-/// Edits of whole patches that were taken back, because they left two quads around a tube: treatments, of
-/// which relocation is left, and clean-ups.
+/// Notes edits of whole patches that were taken back, because they left two quads around a tube: treatments,
+/// of which relocation is left, and clean-ups.
 void note_discarded(bool treatment, bool cleanup, StageLog& log) {
   log.summaries.add("discarded", {{"treatments", static_cast<long long>(treatment)},
                                   {"cleanups", static_cast<long long>(cleanup)}});
 }
 
+/// `merge` returns the quads of a patch.
+template <class Merge>
+void merge_by(PatchMesh& patch, StageLog& log, const Merge& merge) {
+  log_step<RecombineSummary>(log, "matching", [&](RecombineSummary& summary) {
+    patch.quads = merge(summary);
+    patch.triangles = {};
+    patch.form = PatchForm::kQuads;
+  });
+}
+
 void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
-  const Stopwatch recombination;
   const DoingStage matching("matching");
   const RecombinationOptions options = recombination_options(in.options);
-  RecombineSummary summary;
-  const long long extra = is_astray(in.boundary, in.cross, in.size) ? kAstrayExtraEdgeCost : kExtraEdgeCost;
-  const AddedCost cost = added_cost(options.cost, in);
-  patch.quads =
-      recombine(patch.triangles, *matching_solver(options.solver, in.options), &summary, extra, cost);
-  patch.triangles = {};
-  patch.form = PatchForm::kQuads;
-  add_summary(log, summary);
-  log.add_time("matching", recombination.time());
+  merge_by(patch, log, [&](RecombineSummary& summary) {
+    const bool astray = is_astray(in.boundary, in.cross, in.size);
+    return recombine(patch.triangles, *matching_solver(options.solver, in.options), &summary,
+                     astray ? kAstrayExtraEdgeCost : kExtraEdgeCost, added_cost(options.cost, in));
+  });
   if (options.treatment == Treatment::kNone) return;
 
-  const Stopwatch treatment;
   const DoingStage treating("treatment");
-  TreatmentSummary treated;
-  TreatmentOptions treatment_options{.settled = options.settled};
-  QuadPatch result = treat_paper(patch.quads, in.size, treatment_options, &treated);
-  const bool discarded = closes_too_tightly(result, in.boundary.point_node);
-  if (discarded) {
-    treatment_options.max_rounds = 0;
-    const double in_vain = treated.seconds;
-    result = treat_paper(patch.quads, in.size, treatment_options, &treated);
-    treated.seconds += in_vain;
-  }
-  patch.quads = std::move(result);
-  note_discarded(discarded, false, log);
-  add_summary(log, treated);
-  log.add_time("treatment", treatment.time());
+  log_step<TreatmentSummary>(log, "treatment", [&](TreatmentSummary& treated) {
+    TreatmentOptions treatment_options{.settled = options.settled};
+    QuadPatch result = treat_paper(patch.quads, in.size, treatment_options, &treated);
+    const bool discarded = closes_too_tightly(result, in.boundary.point_node);
+    if (discarded) {
+      treatment_options.max_rounds = 0;
+      const double in_vain = treated.seconds;
+      result = treat_paper(patch.quads, in.size, treatment_options, &treated);
+      treated.seconds += in_vain;
+    }
+    patch.quads = std::move(result);
+    note_discarded(discarded, false, log);
+  });
 }
 
 void merge_greedily(PatchMesh& patch, StageLog& log, const GreedyOptions& options) {
-  const Stopwatch watch;
-  RecombineSummary summary;
-  patch.quads = recombine_greedily(patch.triangles, options, &summary);
-  patch.triangles = {};
-  patch.form = PatchForm::kQuads;
-  add_summary(log, summary);
-  log.add_time("matching", watch.time());
+  merge_by(patch, log,
+           [&](RecombineSummary& summary) { return recombine_greedily(patch.triangles, options, &summary); });
 }
 
 void merge_and_treat(const StageInput& in, PatchMesh& patch, StageLog& log) {
@@ -129,21 +133,17 @@ void merge_and_treat(const StageInput& in, PatchMesh& patch, StageLog& log) {
   const RecombinationOptions options = recombination_options(in.options);
   if (options.treatment == Treatment::kNone) return;
   const DoingStage treating("treatment");
-  const Stopwatch watch;
-  TreatmentSummary treated;
-  patch.quads = treat_by_degrees(patch.quads, in.size, {}, &treated);
-  add_summary(log, treated);
-  log.add_time("treatment", watch.time());
+  log_step<TreatmentSummary>(log, "treatment", [&](TreatmentSummary& treated) {
+    patch.quads = treat_by_degrees(patch.quads, in.size, {}, &treated);
+  });
 }
 
 void adapt_and_merge(const StageInput& in, PatchMesh& patch, StageLog& log) {
-  const Stopwatch watch;
   AdaptationOptions options;
   options.max_points = in.max_points;
-  AdaptationSummary summary;
-  patch.triangles = adapt_linf(patch.triangles, in.cross, in.size, options, &summary);
-  add_summary(log, summary);
-  log.add_time("adaptation", watch.time());
+  log_step<AdaptationSummary>(log, "adaptation", [&](AdaptationSummary& summary) {
+    patch.triangles = adapt_linf(patch.triangles, in.cross, in.size, options, &summary);
+  });
   constexpr double kGoodPair = 0.5;  // eta
   merge_greedily(patch, log, {kGoodPair, true, 0});
 }
@@ -153,21 +153,18 @@ template <class Summary, class Options>
 void lessen_irregular(QuadPatch (*work)(const QuadPatch&, const ParametricSize&, const Options&, Summary*),
                       const Options& options, const char* step, const StageInput& in, PatchMesh& patch,
                       StageLog& log) {
-  const Stopwatch watch;
-  Summary summary;
-  QuadPatch result = work(patch.quads, in.size, options, &summary);
-  const bool discarded = closes_too_tightly(result, in.boundary.point_node);
-  if (discarded) {
-    Summary nothing;
-    nothing.irregular_before = nothing.irregular_after = summary.irregular_before;
-    nothing.seconds = summary.seconds;
-    summary = nothing;
-  } else {
-    patch.quads = std::move(result);
-  }
-  add_summary(log, summary);
+  bool discarded = false;
+  log_step<Summary>(log, step, [&](Summary& summary) {
+    QuadPatch result = work(patch.quads, in.size, options, &summary);
+    discarded = closes_too_tightly(result, in.boundary.point_node);
+    if (!discarded) patch.quads = std::move(result);
+    // What was taken back has changed nothing, and taken its time.
+    if (discarded)
+      summary = {.irregular_before = summary.irregular_before,
+                 .irregular_after = summary.irregular_before,
+                 .seconds = summary.seconds};
+  });
   note_discarded(false, discarded, log);
-  log.add_time(step, watch.time());
 }
 
 void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
@@ -180,38 +177,30 @@ void fill_cavities(const StageInput& in, PatchMesh& patch, StageLog& log) {
 
 /// What has no layout, or one that closes too tightly, is meshed by D and B.
 void lay_out_or_insert(const StageInput& in, PatchMesh& patch, StageLog& log) {
-  const Stopwatch watch;
-  LayoutSummary summary;
-  auto mesh = lay_out(in.boundary, in.cross, in.size, layout_options(in.options), &summary);
-  if (mesh && closes_too_tightly(*mesh, in.boundary.point_node)) mesh = std::nullopt, summary.without = 1;
-  add_summary(log, summary);
-  log.add_time("layout", watch.time());
-  if (mesh) {
-    patch.quads = *std::move(mesh);
-    patch.form = PatchForm::kQuads;
-    return;
-  }
+  log_step<LayoutSummary>(log, "layout", [&](LayoutSummary& summary) {
+    auto mesh = lay_out(in.boundary, in.cross, in.size, layout_options(in.options), &summary);
+    if (mesh && closes_too_tightly(*mesh, in.boundary.point_node)) mesh = std::nullopt, summary.without = 1;
+    if (mesh) patch.quads = *std::move(mesh), patch.form = PatchForm::kQuads;
+  });
+  if (patch.form == PatchForm::kQuads) return;
   insert_points(mesh_delquad, *make_linf_delquad(), in, patch, log);
   merge_triangles(in, patch, log);
 }
 
 void lay_out_where_better(const StageInput& in, PatchMesh& patch, StageLog& log) {
   if (count_irregular(patch.quads) == 0 || !patch.quads.triangles.empty()) return;
-  const Stopwatch watch;
-  LayoutSummary summary;
-  auto mesh = more_regular(patch.quads, in.boundary, in.cross, in.size, layout_options(in.options), &summary);
-  if (mesh && closes_too_tightly(*mesh, in.boundary.point_node)) mesh = std::nullopt, summary.worse = 1;
-  if (mesh) patch.quads = *std::move(mesh);
-  add_summary(log, summary);
-  log.add_time("layout", watch.time());
+  log_step<LayoutSummary>(log, "layout", [&](LayoutSummary& summary) {
+    auto mesh =
+        more_regular(patch.quads, in.boundary, in.cross, in.size, layout_options(in.options), &summary);
+    if (mesh && closes_too_tightly(*mesh, in.boundary.point_node)) mesh = std::nullopt, summary.worse = 1;
+    if (mesh) patch.quads = *std::move(mesh);
+  });
 }
 
 void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
-  const Stopwatch watch;
-  OptimisationSummary summary;
-  summary.untangled = untangle_flat(patch.quads, in.size);
-  add_summary(log, summary);
-  log.add_time("optimisation", watch.time());
+  log_step<OptimisationSummary>(log, "optimisation", [&](OptimisationSummary& summary) {
+    summary.untangled = untangle_flat(patch.quads, in.size);
+  });
 }
 
 /// `z`: of planar meshes.
@@ -343,7 +332,7 @@ void optimise_quads(const AllPatches& in, StageLog& log) {
     for (const OptimisationSummary& summary : optimise_by_metric(in)) add_summary(log, summary);
   } else {
     OptimisationSummary summary = in.prepared.surface ? optimise_surface(in) : optimise_plane(in);
-    summary.seconds = watch.work_seconds();
+    summary.seconds = watch.seconds();
     add_summary(log, summary);
   }
   log.add_time("optimisation", watch.time());

@@ -15,6 +15,7 @@
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/layout/field_lines.h"
+#include "algorithms/layout/layout_pieces.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/regularity/patterns.h"
 #include "algorithms/regularity/regularity.h"
@@ -39,11 +40,10 @@ namespace {
 constexpr double kCut = 0.3, kCrowding = 1, kUneven = 0.5;
 /// Of an edge of a cut that joins two rims: the shortest is best.
 constexpr double kJoining = 0.05;
-/// Of a quad that lacks all of eta, before relocation; and what a piece costs at most that needs no better
-/// ones.
-constexpr double kLoss = 0.5, kGoodCost = 2;
-/// Of an irregular vertex, and of a size deviation.
-constexpr double kIrregular = 4, kDeviation = 1.5;
+/// The most that a piece costs which needs no better ones.
+constexpr double kGoodCost = 2;
+/// The cost of an irregular vertex.
+constexpr double kIrregular = 4;
 /// Of an irregular vertex while cuts are chosen for a try, in parts: those that leave a pair more may be
 /// better.
 constexpr double kEstimate = 0.25;
@@ -57,13 +57,8 @@ constexpr int kCornersPerLevel = 12;
 constexpr int kFewCorners = 8;
 /// Places of a piece from which lines are traced, at most: more are left out evenly.
 constexpr std::size_t kMostStarts = 160;
-/// Irregular vertices beyond those necessary of a piece that no pattern fills, and for each vertex of its
-/// rim; what a quad of it lacks.
-constexpr int kMixed = 4;
+/// Irregular vertices of a piece that no pattern fills, for each vertex of its rim; what a quad of it lacks.
 constexpr double kMixedPerVertex = 0.1, kMixedLoss = 0.15;
-/// In pieces of six corners with more vertices on their rims there is mostly a row of edges that leaves two
-/// stars.
-constexpr std::size_t kManyVertices = 36;
 /// Where there are quads already: pieces that are looked at, at most, and what a quad more counts that fails.
 /// With 2000 pieces a layout takes four times as long, and leaves as many irregular vertices.
 constexpr int kFewPieces = 40;
@@ -71,135 +66,6 @@ constexpr double kFailing = 0.4;
 /// Sweeps of relocation, first without lengths, and the part of an edge that is no move.
 constexpr int kSweeps = 60;
 constexpr double kRelaxed = 0.02;
-
-int corners_of(const Rim& rim) {
-  int sum = 0;
-  for (const RimVertex& v : rim) sum += 2 - v.quads;
-  return sum;
-}
-
-std::vector<int> turns_of(const Rim& rim) {
-  std::vector<int> turns;
-  for (const RimVertex& v : rim) turns.push_back(2 - v.quads);
-  return turns;
-}
-
-/// The two rims that a row of vertices makes of one, or the one that it makes of two.
-std::vector<Rim> cut_along(std::span<const Rim> rims, const FieldLine& line, std::span<const int> row) {
-  const Rim& first = rims[line.from.rim];
-  const Rim& second = rims[line.to.rim];
-  const auto copy = [](const Rim& rim, int from, int to, Rim& into) {
-    const int n = static_cast<int>(rim.size());
-    for (int i = (from + 1) % n; i != to; i = (i + 1) % n) into.push_back(rim[i]);
-  };
-  const RimVertex start = first[line.from.at], end = second[line.to.at];
-  const auto ahead = [&](Rim& into) {
-    for (const int v : row) into.push_back({v, 2});
-  };
-  const auto back = [&](Rim& into) {
-    for (std::size_t i = row.size(); i-- > 0;) into.push_back({row[i], 2});
-  };
-  if (line.from.rim != line.to.rim) {
-    Rim all{{start.vertex, start.quads - line.along}};
-    ahead(all);
-    all.push_back({end.vertex, end.quads - line.back});
-    copy(second, line.to.at, line.to.at, all);
-    all.push_back({end.vertex, line.back});
-    back(all);
-    all.push_back({start.vertex, line.along});
-    copy(first, line.from.at, line.from.at, all);
-    return {std::move(all)};
-  }
-  Rim right{{start.vertex, line.along}}, left{{end.vertex, end.quads - line.back}};
-  copy(first, line.from.at, line.to.at, right);
-  right.push_back({end.vertex, line.back});
-  back(right);
-  copy(first, line.to.at, line.from.at, left);
-  left.push_back({start.vertex, start.quads - line.along});
-  ahead(left);
-  return {std::move(right), std::move(left)};
-}
-
-bool is_convex(const Rim& rim) {
-  return std::ranges::all_of(rim, [](const RimVertex& v) { return v.quads <= 2; });
-}
-/// Of two to five corners, none of them concave.
-bool is_polygon(const Rim& rim) {
-  const int corners = corners_of(rim);
-  return corners >= 2 && corners <= 5 && is_convex(rim);
-}
-
-/// Whether a row of edges cuts a polygon of six sides into two of five that are stars.
-bool is_two_stars(std::span<const int> s) {
-  for (int i = 0; i < 3; ++i)
-    for (int a = 1; a < s[i]; ++a)
-      for (int b = 1; b < s[i + 3]; ++b) {
-        const int most = s[i] + s[i + 1] + s[i + 2] + s[i + 3];
-        for (int cut = 1 + (a + s[(i + 4) % 6] + s[(i + 5) % 6] + s[i + 3] - b + 1) % 2; cut <= most;
-             cut += 2) {
-          const std::array<int, 5> one{s[i] - a, s[i + 1], s[i + 2], b, cut},
-              other{s[i + 3] - b, s[(i + 4) % 6], s[(i + 5) % 6], a, cut};
-          if (star_feet(one) && star_feet(other)) return true;
-        }
-      }
-  return false;
-}
-
-/// Odd pieces have no quads.
-constexpr double kNever = 1e30;
-
-/// What the necessary irregular vertices of a piece cost.
-double cost_of_irregular(const Rim& rim, double weight) {
-  const int corners = corners_of(rim);
-  return rim.size() % 2 != 0 || rim.size() < 4 || corners < 2 ? kNever : weight * std::abs(4 - corners);
-}
-
-/// What the irregular vertices of a piece cost, as far as its rim tells.
-double cost_of(const Rim& rim, double weight) {
-  const int corners = corners_of(rim), least = std::abs(4 - corners);
-  const double irregular_cost = cost_of_irregular(rim, weight);
-  const auto sides = irregular_cost < kNever && corners <= 6 ? sides_of(turns_of(rim)) : std::nullopt;
-  if (!sides) return irregular_cost;
-  if (corners == 6)
-    return weight * (rim.size() > kManyVertices || is_two_stars(sides->edges) ? least : least + kMixed);
-  const int irregular = least_irregular_of(sides->edges);
-  if (irregular < 0 && corners == 4) {
-    // Rows that end, of which a pair of irregular vertices can end as many as there is room for.
-    int pairs = 1;
-    for (int i = 0; i < 2; ++i) {
-      const int rows = std::abs(sides->edges[i] - sides->edges[i + 2]),
-                room = std::min(sides->edges[(i + 1) % 4], sides->edges[(i + 3) % 4]);
-      pairs += (rows + 2 * room - 1) / (2 * std::max(1, room - 1));
-    }
-    return weight * 2 * pairs;
-  }
-  return weight * (irregular < 0 ? least + kMixed : irregular);
-}
-
-/// Twice the distance from the start of side i to the foot of the arm of a star there.
-int foot_of(std::span<const int> sides, std::size_t i) {
-  int sum = 0;
-  for (std::size_t k = 0; k < sides.size(); ++k, i = (i + 2) % sides.size()) sum = sides[i] - sum;
-  return sum;
-}
-
-/// The same where its sides can have other numbers of edges: by how far they are from those with which a grid
-/// or a star closes.
-double cost_of_closed(const Rim& rim, double weight) {
-  const double irregular = cost_of_irregular(rim, weight);
-  const auto sides = irregular < kNever ? sides_of(turns_of(rim)) : std::nullopt;
-  if (!sides) return irregular;
-  const std::vector<int>& s = sides->edges;
-  double off = 0;
-  if (s.size() == 4) {
-    for (int i = 0; i < 2; ++i)
-      off += std::abs(s[i] - s[i + 2]) * std::sqrt(double(s[i + 1]) * s[(i + 3) % 4]);
-    return kLoss * kDeviation / 4 * off;
-  }
-  if (s.size() == 3 || s.size() == 5)
-    for (std::size_t i = 0; i < s.size(); ++i) off = std::max(off, 2.0 - foot_of(s, i));
-  return irregular + off;
-}
 
 class LayoutSearch {
  public:
@@ -662,7 +528,7 @@ std::optional<QuadPatch> lay_out(const PatchBoundary& boundary, const CrossField
     mesh = fill_layout(*layout, boundary, cross, size, options, own);
   own.without = mesh ? 0 : 1;
   if (mesh) own.irregular = count_irregular(*mesh);
-  own.seconds = watch.work_seconds();
+  own.seconds = watch.seconds();
   if (summary != nullptr) *summary = own;
   return mesh;
 }
@@ -689,7 +555,7 @@ std::optional<QuadPatch> more_regular(const QuadPatch& mesh, const PatchBoundary
       found.reset(), own.worse = 1;
   }
   if (!found) own.irregular = irregular;
-  own.seconds = watch.work_seconds();
+  own.seconds = watch.seconds();
   if (summary != nullptr) *summary = own;
   return found;
 }

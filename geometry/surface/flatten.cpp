@@ -18,10 +18,8 @@
 #include "base/parallel.h"
 #include "base/segment.h"
 #include "base/sort_unique.h"
-#include "geometry/surface/conformal_maps.h"
 #include "geometry/surface/curve_chains.h"
-#include "geometry/surface/cut_planner.h"
-#include "geometry/surface/element_cuts.h"
+#include "geometry/surface/flatten_chart.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/surface_editor.h"
 
@@ -31,154 +29,6 @@ namespace {
 
 /// Part of the model's diagonal within which a face counts as plane.
 constexpr double kPlane = 1e-9;
-/// A map this good is taken without trying another.
-constexpr double kGoodSigma = 1.05, kGoodAreaRatio = 4;
-/// Above these a seam is cut through an annulus and a chart with more holes, instead of mapping it uncut.
-constexpr double kMaxUncutAnnulus = 2, kMaxUncutHoles = 4;
-/// A chart with branches is divided rather than cut open when that takes a curve this much shorter.
-constexpr double kShortDivision = 0.5;
-/// Below this a cut to a tip is not worth it.
-constexpr double kMinTipRatio = 2;
-/// After so many cuts through charts that had a map, it is taken when it is one-to-one: first whatever its
-/// angles, which cuts seldom improve, then with areas up to kMostAreas: beyond, parts of the face would be
-/// lost between the vertices of the mesh. After the last number charts are parted along their triangles'
-/// edges.
-constexpr int kAnyAngles = 2, kAnyAreas = 12, kMaxRounds = 40;
-constexpr double kMostAreas = 300;
-/// Charts with more loops are divided before any map is tried: one seam after the other would take too long.
-constexpr std::size_t kManyLoops = 8;
-
-using Map = ConformalMap;
-
-/// What became of a chart: a map, or how it is to be cut. Neither only for a triangle without area.
-struct Outcome {
-  std::optional<Map> map;
-  std::optional<CutPath> cut;
-  bool divides = false;
-  std::vector<char> parts = {};  ///< of each triangle, see plan_parting
-};
-
-ChartElements elements_of(const Chart& chart, const FlattenOptions& options) {
-  ChartElements elements;
-  for (const int t : chart.fine_triangle) elements.element.push_back(options.element[t]);
-  for (const int v : chart.fine_node)
-    elements.avoided.push_back(options.avoided.empty() ? 0 : options.avoided[v]);
-  return elements;
-}
-
-/// For each triangle 0 or 1, see plan_parting().
-std::vector<char> parted(const Chart& chart, const FlattenOptions& options) {
-  return options.element.empty() ? plan_parting(chart) : plan_division(chart, elements_of(chart, options));
-}
-
-class ChartWork {
- public:
-  ChartWork(const Chart& chart, const std::vector<CutEnd>& ends, const std::vector<char>& on_cut,
-            const FlattenOptions& options, double tolerance, int tries, bool stuck)
-      : chart_(chart),
-        ends_(ends),
-        on_cut_(on_cut),
-        options_(options),
-        tolerance_(tolerance),
-        tries_(tries),
-        stuck_(stuck) {
-    if (!options.element.empty()) elements_ = elements_of(chart, options);
-  }
-
-  Outcome run() const {
-    Outcome outcome = plan();
-    const bool wanted =
-        outcome.cut.has_value() || !outcome.map || outcome.map->quality.extreme_ratio > kMostAreas;
-    if (wanted && outcome.parts.empty() && (!outcome.cut || stuck_))
-      return {std::move(outcome.map), std::nullopt, true, parted(chart_, options_)};
-    return outcome;
-  }
-
- private:
-  Outcome plan() const {
-    if (chart_.loops.empty() || genus(chart_) > 0) return divide(std::nullopt);
-    // Of another metric the plane is a map where it has no directions.
-    if (auto flat = planar_map(chart_, tolerance_))
-      if (auto map = checked_map(chart_, std::move(*flat), "plane");
-          map && (chart_.sides.empty() || map->quality.sigma_95 <= kGoodSigma))
-        return {std::move(map), {}, false};
-    return chart_.loops.size() > 1 ? flatten_with_holes() : flatten_disk();
-  }
-
-  bool acceptable(const FlatQuality& q, double max_area_ratio) const {
-    return q.extreme_ratio <= kMostAreas && (q.area_ratio <= max_area_ratio || tries_ >= kAnyAreas) &&
-           (q.sigma_95 <= options_.max_sigma || tries_ >= kAnyAngles);
-  }
-
-  Outcome flatten_with_holes() const {
-    if (chart_.loops.size() > kManyLoops)
-      if (Outcome division = divide(std::nullopt); division.cut || !division.parts.empty()) return division;
-    const double limit = elements_                  ? options_.max_area_ratio
-                         : chart_.loops.size() == 2 ? kMaxUncutAnnulus
-                                                    : kMaxUncutHoles;
-    std::optional<Map> map = checked_map(chart_, spectral_map(chart_), "spectral");
-    if (map && acceptable(map->quality, std::min(limit, options_.max_area_ratio)))
-      return {std::move(map), {}, false};
-    auto seam = elements_ ? path_from(chart_.loops[1], chart_.loops[0]) : plan_seam(chart_, ends_);
-    if (chart_.loops.size() == 2 && seam) return {std::move(map), std::move(seam), false};
-    Outcome division = divide(std::move(map));
-    if (seam && !(division.cut && division.cut->length < kShortDivision * seam->length))
-      return {std::move(division.map), std::move(seam), false};
-    return division;
-  }
-
-  Outcome flatten_disk() const {
-    std::optional<Map> map = checked_map(chart_, boundary_first_map(chart_), "boundary-first");
-    const bool good = map && map->quality.sigma_95 <= kGoodSigma && map->quality.area_ratio <= kGoodAreaRatio;
-    if (!good) {
-      std::optional<Map> other = checked_map(chart_, spectral_map(chart_), "spectral");
-      if (other && (!map || better(other->quality, map->quality))) map = std::move(other);
-    }
-    if (!map || map->quality.area_ratio > kMinTipRatio) {
-      for (int tip : sharp_tips(chart_))
-        if (auto cut = elements_ ? path_to_boundary(tip) : plan_tip_cut(chart_, tip, ends_))
-          return {std::move(map), std::move(cut), false};
-    }
-    if (!elements_ && !stuck_)
-      if (auto through = plan_cut_through_tip(chart_, ends_, on_cut_))
-        return {std::move(map), std::move(through), true};
-    if (map && acceptable(map->quality, options_.max_area_ratio)) return {std::move(map), {}, false};
-    return divide(std::move(map));
-  }
-
-  bool better(const FlatQuality& a, const FlatQuality& b) const {
-    const bool fits_a = a.area_ratio <= options_.max_area_ratio,
-               fits_b = b.area_ratio <= options_.max_area_ratio;
-    // Angles count most: a size field can follow the scale.
-    auto cost = [](const FlatQuality& q) { return std::log(q.sigma_mean) + 0.02 * std::log(q.area_ratio); };
-    return fits_a != fits_b ? fits_a : cost(a) < cost(b);
-  }
-
-  Outcome divide(std::optional<Map> map) const {
-    if (elements_) return {std::move(map), std::nullopt, true, parted(chart_, options_)};
-    return {std::move(map), plan_division(chart_), true};
-  }
-  std::optional<CutPath> path_from(const std::vector<int>& from, const std::vector<int>& to) const {
-    std::vector<char> begins(chart_.points.size(), 0), ends(chart_.points.size(), 0);
-    for (const int v : from) begins[v] = 1;
-    for (const int v : to) ends[v] = 1;
-    return path_beside_elements(chart_, *elements_, begins, ends);
-  }
-  std::optional<CutPath> path_to_boundary(int tip) const {
-    std::vector<int> boundary(static_cast<std::size_t>(chart_.n_boundary));
-    std::iota(boundary.begin(), boundary.end(), 0);
-    return path_from({tip}, boundary);
-  }
-
-  const Chart& chart_;
-  const std::vector<CutEnd>& ends_;
-  const std::vector<char>& on_cut_;  ///< fine nodes
-  const FlattenOptions& options_;
-  double tolerance_;
-  int tries_;                              ///< cuts that were made because its map distorted
-  bool stuck_;                             ///< its last cut could not be made
-  std::optional<ChartElements> elements_;  ///< none: cuts run anywhere
-};
 
 }  // namespace
 
@@ -191,7 +41,7 @@ double double_area(const FlatPatch& patch, const Mesh& fine, std::size_t triangl
 
 namespace {
 
-FlatPatch to_patch(const Chart& chart, Map map) {
+FlatPatch to_patch(const Chart& chart, ConformalMap map) {
   FlatPatch patch;
   patch.face = chart.face;
   patch.flat = {std::move(map.flat), chart.triangles, chart.neighbours, chart.n_boundary};
@@ -272,7 +122,7 @@ class Flattener {
  private:
   struct Planned {
     Chart chart;
-    Outcome outcome;
+    ChartOutcome outcome;
   };
 
   std::vector<Chart> charts_of(const std::vector<char>& wanted, const std::vector<char>& open) const {
@@ -293,7 +143,7 @@ class Flattener {
     const std::vector<char> on_cut = nodes_on_cuts();
     std::vector<Planned> mapped, planned;
     std::vector<Chart> charts = charts_of(open_, standing_lines());
-    std::vector<Outcome> outcomes(charts.size());
+    std::vector<ChartOutcome> outcomes(charts.size());
     parallel_for(
         charts.size(),
         [&](std::size_t i) {
@@ -304,13 +154,13 @@ class Flattener {
             tries = std::max(tries, tries_[t]);
             stuck = stuck || stuck_[t] != 0;
           }
-          outcomes[i] = ChartWork(charts[i], ends, on_cut, options_, tolerance_, tries, stuck).run();
+          outcomes[i] = flatten_chart(charts[i], ends, on_cut, options_, tolerance_, tries, stuck);
         },
         [&](std::size_t i) { return static_cast<double>(charts[i].triangles.size()); });
     for (std::size_t i = 0; i < charts.size(); ++i) {
       check_cancelled();
       Chart& chart = charts[i];
-      Outcome& outcome = outcomes[i];
+      ChartOutcome& outcome = outcomes[i];
       if (outcome.cut || !outcome.parts.empty()) {
         planned.push_back({std::move(chart), std::move(outcome)});
         continue;
@@ -358,7 +208,7 @@ class Flattener {
     std::vector<char> is_stuck(mapped.size(), 0);
     for (const Chart& part : charts_of(wanted, {})) {
       const std::size_t i = chart_of[part.fine_triangle.front()];
-      const Map& map = *mapped[i].outcome.map;
+      const ConformalMap& map = *mapped[i].outcome.map;
       if (auto flat = opened_map(mapped[i].chart, map.flat, part)) {
         const FlatQuality quality = measure_flat(part, *flat);
         opened[i].push_back(to_patch(part, {*std::move(flat), quality, map.method}));
@@ -483,7 +333,7 @@ class Flattener {
   }
 
   /// Whether it could be made.
-  bool apply(SurfaceEditor& editor, const Chart& chart, const Outcome& outcome) {
+  bool apply(SurfaceEditor& editor, const Chart& chart, const ChartOutcome& outcome) {
     std::vector<int> chain;
     const CutPath& path = *outcome.cut;
     for (const EdgePoint& p : path.points) {
@@ -603,20 +453,6 @@ class Flattener {
 };
 
 }  // namespace
-
-std::optional<ConformalMap> checked_map(const Chart& chart, std::vector<Vec2> flat, const char* method) {
-  double flat_area = 0;
-  for (const auto& [a, b, c] : chart.triangles) flat_area += cross(flat[b] - flat[a], flat[c] - flat[a]) / 2;
-  const std::vector<double> areas = triangle_areas(chart);
-  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-  if (!(flat_area > 0) || !(area > 0)) return std::nullopt;
-  const double scale = std::sqrt(area / flat_area);
-  if (!std::isfinite(scale)) return std::nullopt;
-  for (Vec2& p : flat) p = scale * p;
-  if (!is_one_to_one(chart, flat)) return std::nullopt;
-  const FlatQuality quality = measure_flat(chart, flat);
-  return ConformalMap{std::move(flat), quality, method};
-}
 
 Flattening flatten(SurfaceModel& model, const FlattenOptions& options) {
   assert(options.left_out.empty() || options.left_out.size() == model.fine.regions.size());

@@ -10,7 +10,6 @@
 namespace delquad {
 
 double mean(std::span<const double> samples);
-double median(std::span<const double> samples);  ///< NaN of none
 /// Half the width of the 95 % confidence interval of the mean, by Student's t; NaN of fewer than two.
 double confidence_half_width(std::span<const double> samples);
 
