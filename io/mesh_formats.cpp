@@ -143,9 +143,13 @@ void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::pa
   find_format(kind_to_write(path))->rewrite(source, path, mesh, weld);
 }
 
-std::set<std::string> others_in_file(const std::filesystem::path& path) {
+std::string others_in_file(const std::filesystem::path& path) {
   const MeshFormat* format = find_format(kind_of_file(path));
-  return format == nullptr || format->others == nullptr ? std::set<std::string>() : format->others(path);
+  if (format == nullptr || format->others == nullptr) return "";
+  std::vector<std::string> others;
+  for (const auto& [name, count] : format->others(path))
+    others.push_back(fmt::format("{} ({})", name, count));
+  return fmt::format("{}", fmt::join(others, ", "));
 }
 
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options, int order) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -49,7 +49,7 @@ struct MeshFormat {
   void (*rewrite)(const std::filesystem::path& source, const std::filesystem::path&, const Mesh&,
                   double weld) = nullptr;
   /// See others_in_file(); null: there is nothing.
-  std::set<std::string> (*others)(const std::filesystem::path&) = nullptr;
+  std::map<std::string, int> (*others)(const std::filesystem::path&) = nullptr;
 };
 
 /// Readers that note nothing.
@@ -74,15 +74,16 @@ const std::vector<MeshFormat>& mesh_formats();
 
 /// Reads a mesh to improve it: with the regions and points that rewrite_mesh() needs, if it keeps such files.
 Mesh read_given_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
-/// Whether what else `source` holds stays in `path`: both are Abaqus or CalculiX files.
+/// Whether what else `source` holds stays in `path`: both are decks of Abaqus or CalculiX, or both of
+/// Nastran.
 bool keeps_file(const std::filesystem::path& source, const std::filesystem::path& path);
 /// Writes the source again with a mesh that read_given_mesh() read from it, or stages made of that. All else
 /// stays: types, numbers, sets, sections, loads. `weld`: the part of the diagonal within which
 /// weld_open_edges() joined points of it. Throws InputError if a line names something that is gone.
 void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh,
                   double weld);
-/// Keywords of a file that are no part of a mesh, such as "*MATERIAL".
-std::set<std::string> others_in_file(const std::filesystem::path& path);
+/// Keywords of a file that are no part of a mesh, and how many: "*CLOAD (2), *MATERIAL (1)".
+std::string others_in_file(const std::filesystem::path& path);
 
 /// The highest order of elements that write_mesh() writes there. Throws as check_mesh_format().
 int most_order_of(const std::filesystem::path& path);

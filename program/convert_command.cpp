@@ -66,7 +66,7 @@ int convert_command(const ConvertArguments& arguments) {
     for (const std::string& name : renamed_in_file(arguments.output, mesh))
       lost.push_back("a name as it was: " + name);
     if (const auto others = others_in_file(arguments.mesh); !others.empty())
-      lost.push_back(fmt::format("keywords: {}", fmt::join(others, ", ")));
+      lost.push_back("keywords and how many: " + others);
   }
   if (mesh.order > most_order_of(arguments.output)) mesh = straightened(std::move(mesh));
   if (is_kept)
@@ -92,7 +92,7 @@ void add_convert(CLI::App& app, Commands& commands) {
                   "Write a mesh in another format, with names, order and fields; says what is lost",
                   convert_command, true);
   convert->add_option("mesh", arguments.mesh, "mesh file to read ('delquad formats' lists all)")->required();
-  convert->add_option("output", arguments.output, "mesh file to write")->required();
+  convert->add_option("output,-o,--output", arguments.output, "mesh file to write")->required();
   convert->add_option("--weld", arguments.weld, "join ends of open edges within this part of the diagonal")
       ->check(CLI::Range(0.0, 0.1));
   add_msh(*convert, arguments.msh);

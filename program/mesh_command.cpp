@@ -107,9 +107,8 @@ bool keeps_given(const MeshArguments& arguments, const std::optional<Mesh>& give
     lost.push_back(fmt::format("{} cannot hold all names as they are: {}", output, fmt::join(renamed, "; ")));
   if (const auto names = lost_in_file(arguments.output, result.mesh); !names.empty())
     lost.push_back(fmt::format("{} loses {}", output, fmt::join(names, "; ")));
-  if (const auto others = given ? others_in_file(arguments.model) : std::set<std::string>(); !others.empty())
-    lost.push_back(
-        fmt::format("{} loses what {} holds: {}", output, arguments.model.string(), fmt::join(others, ", ")));
+  if (const auto others = given ? others_in_file(arguments.model) : ""; !others.empty())
+    lost.push_back(fmt::format("{} loses what {} holds: {}", output, arguments.model.string(), others));
   result.warnings.insert(result.warnings.end(), lost.begin(), lost.end());
   progress.warn(lost);
   return false;

@@ -16,6 +16,7 @@
 #include "io/cases/case_file.h"
 #include "io/cases/case_keys.h"
 #include "io/cases/read_problem.h"
+#include "io/mesh_formats.h"
 #include "program/options.h"
 
 namespace delquad {
@@ -194,6 +195,9 @@ void set_criteria(const MeshArguments& arguments, Criteria& criteria) {
   if (arguments.failing_sets && arguments.output.extension() != ".inp")
     refuse("--failing-sets: {}: expected an .inp file, where an element may be in several sets",
            arguments.output.string());
+  if (arguments.failing_sets && arguments.improve && keeps_file(arguments.model, arguments.output))
+    refuse("--failing-sets: {} keeps the sets of {} and gets no new ones: leave it out",
+           arguments.output.string(), arguments.model.string());
   if ((arguments.failing_sets || arguments.strict) && criteria.empty())
     refuse("{}: there are no criteria: expected --criteria, too",
            arguments.strict ? "--strict" : "--failing-sets");

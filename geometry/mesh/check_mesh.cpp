@@ -44,8 +44,10 @@ void check_further(const std::vector<int>& nodes, std::size_t n_elements, int ea
 
 void require_straight(const Mesh& mesh, const std::string& where) {
   if (mesh.order > 1)
-    throw InputError(fmt::format("{}: the mesh has elements of order {}: expected order 1, straight ones",
-                                 where, mesh.order));
+    throw InputError(
+        fmt::format("{}: the mesh has elements of order {}: expected straight ones, of order 1; 'delquad "
+                    "convert' to .obj writes their corners alone",
+                    where, mesh.order));
 }
 
 void require_readable(const Mesh& mesh, const std::string& where) {

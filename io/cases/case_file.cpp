@@ -353,7 +353,8 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   if (kind_of_file(file) != ".toml")
     throw InputError(file.string() + ": unknown kind of model '" + file.extension().string() +
                      "'; known: .toml (curves and loops), .msh (lines or triangles), " + surface_files() +
-                     ", and outlines: " + outline_files());
+                     ", and outlines: " + outline_files() +
+                     "; 'delquad metrics' and 'delquad improve' read other meshes");
   const TomlTable table = TomlTable::read(file);
   if (table.has("case"))
     refuse("{}: this is an experiment with cases of its own: run it with 'delquad run'", table.where("case"));

@@ -18,7 +18,7 @@
 #include "geometry/mesh/element_nodes.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/entity_names.h"
-#include "io/formats/inp_deck.h"
+#include "io/formats/deck.h"
 #include "io/formats/readers.h"
 #include "io/hex_sides.h"
 #include "io/mesh_formats.h"
@@ -437,8 +437,8 @@ MeshFormat inp_format() {
           .description = "Abaqus, CalculiX",
           .read =
               [](const std::filesystem::path& path, ReadNotes* notes, Strays) {
-                InpDeck deck = read_inp_deck(path, false);
-                for (const std::string& other : deck.others)
+                Deck deck = read_inp_deck(path, false);
+                for (const auto& [other, count] : deck.others)
                   if (notes != nullptr && other.starts_with("*ELEMENT"))
                     notes->push_back(other + " is not read");
                 return std::move(deck.mesh);
@@ -448,15 +448,8 @@ MeshFormat inp_format() {
           .write_hexahedra = write_hex_inp,
           .eight_nodes = EightNodes::kAlways,
           .names = kAllNames | kFurtherNames | kPeriodicPairs,
-          .read_given =
-              [](const std::filesystem::path& path, ReadNotes* notes) {
-                InpDeck deck = read_inp_deck(path, true);
-                if (notes != nullptr && deck.n_named > 0)
-                  notes->push_back(
-                      fmt::format("{}: inner nodes and elements that stay, as lines or sets name them: {}",
-                                  path.string(), deck.n_named));
-                return std::move(deck.mesh);
-              },
+          .read_given = [](const std::filesystem::path& path,
+                           ReadNotes* notes) { return given_mesh(read_inp_deck(path, true), notes); },
           .rewrite = rewrite_inp,
           .others = [](const std::filesystem::path& path) { return read_inp_deck(path, false).others; }};
 }

@@ -15,7 +15,7 @@
 #include "geometry/mesh/element_nodes.h"
 #include "io/entity_names.h"
 #include "io/face_reader.h"
-#include "io/formats/inp_deck.h"
+#include "io/formats/deck.h"
 #include "io/formats/readers.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
@@ -36,8 +36,8 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 }
 
 /// The keyword of a card and its parameters.
-InpDeck::Card card_of(std::string_view line) {
-  InpDeck::Card keyword;
+Deck::Card card_of(std::string_view line) {
+  Deck::Card keyword;
   const auto fields = fields_of(line.substr(1));
   if (fields.empty()) return keyword;
   keyword.name = upper(fields[0]);
@@ -69,8 +69,9 @@ int nodes_of_type(const std::string& type) {
   return 0;
 }
 
-/// Keywords between bars. Data of the first ones has no numbers of nodes and elements. Data of the second
-/// ones is read. The last ones make nodes, elements or coordinates.
+/// Keywords between bars. Data of kNoNumbers holds no numbers of nodes and elements. Data of kOfNodes holds
+/// no numbers of elements. kRefused make nodes, elements or coordinates. --weld may join nodes of kMayJoin.
+/// Sets of kMayGrow may get new nodes.
 constexpr std::string_view
     kNoNumbers =
         "|AMPLITUDE|BEAM SECTION|BUCKLE|CONDUCTIVITY|CONTROLS|DAMPING|DENSITY|DYNAMIC|EL FILE|EL PRINT|"
@@ -78,9 +79,19 @@ constexpr std::string_view
         "MEMBRANE SECTION|NODE FILE|NODE OUTPUT|NODE PRINT|OUTPUT|PLASTIC|SHELL GENERAL SECTION|"
         "SHELL SECTION|SOLID SECTION|SPECIFIC HEAT|STATIC|STEP|SURFACE BEHAVIOR|SURFACE INTERACTION|VISCO|",
     kRead = "|HEADING|NODE|ELEMENT|NSET|ELSET|SURFACE|",
-    kRefused = "|ELCOPY|ELGEN|INCLUDE|NCOPY|NFILL|NGEN|NMAP|SYSTEM|";
+    kRefused = "|ELCOPY|ELGEN|INCLUDE|NCOPY|NFILL|NGEN|NMAP|SYSTEM|",
+    kOfNodes =
+        "|BOUNDARY|CFLUX|CLOAD|ELEMENT|EQUATION|FIELD|MPC|NODAL THICKNESS|SURFACE|TEMPERATURE|TRANSFORM|",
+    kMayJoin = "|DFLUX|DLOAD|FILM|FOUNDATION|RADIATE|SURFACE|TRANSFORM|",
+    kMayGrow = "|BOUNDARY|FIELD|INITIAL CONDITIONS|NODAL THICKNESS|SURFACE|TEMPERATURE|TRANSFORM|";
 
 bool begins_name(char c) { return std::isalpha(static_cast<unsigned char>(c)); }
+
+/// "P2", "EDNOR1"
+bool is_side(std::string_view label) {
+  return !label.empty() && begins_name(label.front()) &&
+         std::isdigit(static_cast<unsigned char>(label.back()));
+}
 
 class InpReader {
  public:
@@ -89,7 +100,7 @@ class InpReader {
     deck_.source = path.string();
   }
 
-  InpDeck read() {
+  Deck read() {
     while (!in_.at_end()) {
       const std::string_view line = trimmed(in_.rest_of_line());
       const size_t place = place_of(line);
@@ -106,6 +117,7 @@ class InpReader {
     if (deck_.elements.empty()) in_.fail("the file holds no *ELEMENT of two, three, four or eight nodes");
     add_sides_of_shells();
     name_elements();
+    check_instances();
     if (as_deck_) part_elements(deck_);
     make_mesh();
     as_deck_ ? name_points(deck_) : add_node_sets();
@@ -115,8 +127,8 @@ class InpReader {
   }
 
  private:
-  using Card = InpDeck::Card;
-  using Element = InpDeck::Element;
+  using Card = Deck::Card;
+  using Element = Deck::Element;
 
   /// Where the line begins that a text of it is from.
   size_t place_of(std::string_view line) const {
@@ -156,7 +168,7 @@ class InpReader {
       in_.fail("*{}: expected a file that holds the whole mesh, with Cartesian coordinates of all nodes",
                card.name);
     if (!card.is_among(kRead)) {
-      deck_.others.insert('*' + card.name);
+      ++deck_.others['*' + card.name];
       for (const auto& [key, value] : card.parameters) other({value});  // REF NODE=17
     }
     const std::string nset = card.parameter("NSET"), elset = card.parameter("ELSET"),
@@ -172,7 +184,7 @@ class InpReader {
     if (card.name != "ELEMENT") return;
     n_nodes_ = nodes_of_type(type);
     if (n_nodes_ > 0) return;
-    deck_.others.insert("*ELEMENT, TYPE=" + type);
+    ++deck_.others["*ELEMENT, TYPE=" + type];
     if (unread_line_ == 0) unread_line_ = in_.line(), unread_type_ = type;
   }
 
@@ -203,14 +215,15 @@ class InpReader {
     const Card& card = deck_.cards.back();
     for (size_t k = 0; k < fields.size() && !card.is_among(kNoNumbers); ++k) {
       const std::string_view text = fields[k];
-      InpDeck::Word word{std::string(text),
-                         std::string(k + 1 < fields.size() ? fields[k + 1] : ""),
-                         in_.line(),
-                         static_cast<int>(deck_.cards.size()) - 1,
-                         0,
-                         k == 0};
+      Deck::Word word{std::string(text), in_.line(), static_cast<int>(deck_.cards.size()) - 1};
+      word.has_side = k + 1 < fields.size() && is_side(fields[k + 1]);
+      word.may_grow = card.is_among(kMayGrow);
+      word.counts_nodes = card.is_among(kOfNodes) && !word.may_grow;
+      word.forbids_join =
+          !card.is_among(kMayJoin) && (k == 0 || !(word.may_grow || card.is_among("|CFLUX|CLOAD|")));
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), word.number);
       if (error != std::errc() || end != text.data() + text.size()) word.number = 0;
+      word.of_element = !card.is_among(kOfNodes) && (k == 0 || word.number == 0);
       if (card.name == "ELEMENT" && k == 0 && !goes_on_)
         deck_.unread.insert(word.number);
       else if (as_deck_ && !text.empty() && (word.number > 0 || begins_name(text[0]) || text[0] == '_'))
@@ -243,7 +256,7 @@ class InpReader {
     const int index = static_cast<int>(deck_.nodes.size());
     if (!deck_.node_of.emplace(number, index).second)
       in_.fail("node {} is there twice; files of several parts cannot be read", number);
-    deck_.nodes.push_back({number, {x(1), x(2), x(3)}, place});
+    deck_.nodes.push_back({number, {x(1), x(2), x(3)}, place, line_end()});
     mesh_.points.push_back(deck_.nodes.back().at);
     if (set_ != nullptr) set_->push_back(index);
   }
@@ -270,7 +283,7 @@ class InpReader {
   }
 
   /// Numbers, or names of other sets. Elements of types that are not read count for no set.
-  void members(const std::vector<std::string_view>& fields, InpSets& sets,
+  void members(const std::vector<std::string_view>& fields, DeckSets& sets,
                const std::map<long long, int>& index_of) {
     Card& card = deck_.cards.back();
     const bool of_elements = &sets == &deck_.element_sets;
@@ -317,13 +330,26 @@ class InpReader {
 
   /// A set named by a leading underscore is a part of something else, and "Eall" names the whole.
   void name_elements() {
-    for (InpSets* sets : {&deck_.element_sets, &deck_.node_sets})
+    for (DeckSets* sets : {&deck_.element_sets, &deck_.node_sets})
       for (auto& [name, members] : *sets) sort_unique(members);
     for (const auto& [name, members] : deck_.element_sets)
       for (const int e : members)
         if (!name.empty() && name[0] != '_' && (name != "Eall" || members.size() != deck_.elements.size()))
           deck_.elements[e].sets.push_back(name);
     for (Element& e : deck_.elements) std::ranges::sort(e.sets);
+  }
+
+  void check_instances() const {
+    if (!as_deck_) return;
+    std::map<std::pair<bool, std::string>, std::string> instances;
+    for (const Deck::Card& card : deck_.cards) {
+      const bool of_nodes = card.is_among("|NODE|NSET|");
+      const std::string name = upper(card.parameter(of_nodes ? "NSET" : "ELSET")),
+                        of = card.parameter("INSTANCE");
+      const bool has_set = !name.empty() && (of_nodes || card.is_among("|ELEMENT|ELSET|"));
+      if (has_set && instances.try_emplace({of_nodes, name}, of).first->second != of)
+        in_.fail_at(card.line, "set {} is in a part and in its assembly: expected two names", name);
+    }
   }
 
   void make_mesh() {
@@ -347,7 +373,7 @@ class InpReader {
   /// Of shells our writer has the sides along curves in sets "_NAME_E2", and no surfaces of them.
   void add_sides_of_shells() {
     const auto is_used = [&](const std::string& set) {
-      return std::ranges::find(deck_.sides, set, &InpDeck::Side::elements) != deck_.sides.end();
+      return std::ranges::find(deck_.sides, set, &Deck::Side::elements) != deck_.sides.end();
     };
     for (const auto& [set, members] : deck_.element_sets) {
       const size_t n = set.size();
@@ -387,7 +413,7 @@ class InpReader {
   /// names. Surfaces of whole elements are no curves.
   void add_surfaces() {
     std::map<std::vector<int>, std::vector<std::string>> names_of;  // by the nodes of a line, its ends first
-    for (const InpDeck::Side& s : deck_.sides) {
+    for (const Deck::Side& s : deck_.sides) {
       for (const int e : deck_.elements_of(s)) {
         const int side = deck_.side_of(deck_.elements[e], s.label);
         if (side < 0) continue;
@@ -414,7 +440,7 @@ class InpReader {
     std::set<std::string, LessBlindToCase> known = {""};
     for (const auto* entities : {&mesh_.curves, &mesh_.regions})
       for (const Entity& entity : *entities) known.insert(entity.names.begin(), entity.names.end());
-    const InpSets filled = deck_.filled_regions();
+    const DeckSets filled = deck_.filled_regions();
     NamedPoints points;
     for (const auto& [name, nodes] : deck_.node_sets)
       if (!known.contains(name) && !filled.contains(name) && name[0] != '_' && !name.starts_with("curve_"))
@@ -423,7 +449,7 @@ class InpReader {
 
   TextScanner in_;
   const bool as_deck_;
-  InpDeck deck_;
+  Deck deck_;
   Mesh& mesh_ = deck_.mesh;
   int n_nodes_ = 0;                  ///< of the elements of a card; 0: they are not read
   std::vector<int>* set_ = nullptr;  ///< of a card with nodes or elements; null: they are in none
@@ -434,12 +460,68 @@ class InpReader {
   std::string unread_type_;
 };
 
+class InpText : public DeckText {
+ public:
+  using DeckText::DeckText;
+  using Numbers = std::vector<long long>;
+
+  std::string head_of_nodes() const override { return "*NODE\n"; }
+  std::string node(long long number, const Vec3& at, const Deck::Card* /*card*/) const override {
+    return fmt::format("{}, {}, {}, {}\n", number, inp_number(at.x, 0), inp_number(at.y, 0),
+                       inp_number(at.z, 0));
+  }
+  std::string as_in(const Deck::Card& card, const Numbers& nodes, bool /*are_new*/) const override {
+    return fmt::format("*NSET, NSET={}\n{}", card.parameter("NSET"), inp_lines(nodes));
+  }
+  std::string head(const Deck::Card& card, const std::string& type) const override {
+    std::string line = "*" + card.name;
+    for (const auto& [key, value] : card.parameters)
+      if (key != "GENERATE")
+        line += ", " + key + (value.empty() ? "" : "=" + (key == "TYPE" && !type.empty() ? type : value));
+    return line + '\n';
+  }
+  std::string element(long long number, const Deck::Element& /*model*/, const std::string& /*type*/,
+                      const Numbers& nodes, double /*angle*/) const override {
+    return fmt::format("{}, {}\n", number, fmt::join(nodes, ", "));
+  }
+  std::string type_with(std::string type, std::size_t corners) const override {  // S3 and S4
+    const char digit = corners == 3 ? '4' : '3', other = corners == 3 ? '3' : '4';
+    if (type.starts_with("STRI")) type = "S3";
+    const std::size_t at = type.rfind(digit);
+    if (at == std::string::npos) return type;
+    type[at] = other;
+    return corners == 3 ? type.substr(0, at + 1) : type;  // there is no S3R5
+  }
+  std::string set(const Deck::Card& card, const Numbers& numbers) const override {
+    std::string text = card.parameters.contains("GENERATE")
+                           ? head(card, "")
+                           : deck_.text.substr(card.begin, card.data - card.begin);
+    std::erase(text, '\r');
+    for (const std::string& name : card.names) text += name + '\n';
+    return text + inp_lines(numbers);
+  }
+};
+
 }  // namespace
 
 Mesh read_inp(const std::filesystem::path& path) { return InpReader(path, false).read().mesh; }
 
-InpDeck read_inp_deck(const std::filesystem::path& path, bool as_deck) {
+Deck read_inp_deck(const std::filesystem::path& path, bool as_deck) {
   return InpReader(path, as_deck).read();
+}
+
+std::string inp_lines(const std::vector<long long>& numbers) {
+  constexpr std::size_t kPerLine = 16;
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    text += fmt::format("{}{}", numbers[i], i + 1 == numbers.size() || (i + 1) % kPerLine == 0 ? "\n" : ", ");
+  return text;
+}
+
+void rewrite_inp(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh,
+                 double weld) {
+  Deck deck = read_inp_deck(source, true);
+  rewrite_deck(deck, InpText(deck), path, mesh, weld);
 }
 
 }  // namespace delquad

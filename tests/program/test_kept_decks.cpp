@@ -344,8 +344,8 @@ TEST(KeptDecks, WeldingKeepsThePlacesInSets) {
 TEST(KeptDecks, WeldingTellsWhichLineForbidsIt) {
   const TemporaryFolder folder;
   const std::pair<std::string, const char*> lines[] = {
-      {"*EQUATION\n2\n8, 3, 1., 12, 3, -1.\n", "join node 12 to node 8, but this line of *EQUATION names 12"},
-      {"*CLOAD\nMIDDLE, 3, 1.\n", "join node 12 to node 8, but *CLOAD counts each node of the set MIDDLE"}};
+      {"*EQUATION\n2\n8, 3, 1., 12, 3, -1.\n", "join node 12 to node 8, but this line of EQUATION names 12"},
+      {"*CLOAD\nMIDDLE, 3, 1.\n", "join node 12 to node 8, but CLOAD counts each node of the set MIDDLE"}};
   for (const auto& [line, why] : lines) {
     write_text(folder / "a.inp", two_plates(line));
     EXPECT_EQ(delquad({"convert", folder / "a.inp", folder / "b.inp"}).exit_code, 0);
@@ -376,15 +376,6 @@ TEST(KeptDecks, OtherFormatsGetSetsAndTellTheRest) {
   }
   EXPECT_TRUE(
       contains(delquad({"metrics", folder / "a.inp"}).err, "note: *ELEMENT, TYPE=SPRINGA is not read"));
-}
-
-TEST(KeptDecks, CardsThatABulkDataFileLosesAreTold) {
-  const TemporaryFolder folder;
-  write_text(folder / "a.bdf",
-             "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n"
-             "CQUAD4,1,1,1,2,3,4\nPSHELL,1,1,0.1\nSPC1,1,123456,1,2\nENDDATA\n");
-  EXPECT_TRUE(contains(delquad({"convert", folder / "a.bdf", folder / "b.bdf"}).err, "PSHELL, SPC1"));
-  EXPECT_TRUE(contains(delquad({"improve", folder / "a.bdf", "-o", folder / "b.bdf"}).err, "PSHELL, SPC1"));
 }
 
 TEST(KeptDecks, RefusesWhatMakesNodesOfItsOwn) {

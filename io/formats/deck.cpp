@@ -1,4 +1,4 @@
-#include "io/formats/inp_deck.h"
+#include "io/formats/deck.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,10 @@
 #include <cctype>
 #include <charconv>
 #include <climits>
+#include <cmath>
 #include <iterator>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -27,7 +29,7 @@
 
 namespace delquad {
 
-int InpDeck::side_of(const Element& element, const std::string& label) const {
+int Deck::side_of(const Element& element, const std::string& label) const {
   if (label.size() != 2 || label[1] < '1' || label[1] > '6') return -1;
   const int number = label[1] - '1';
   const std::string type = type_of(element);
@@ -38,7 +40,7 @@ int InpDeck::side_of(const Element& element, const std::string& label) const {
   return label[0] != 'S' ? -1 : is_shell ? number - 2 : number;
 }
 
-std::vector<int> InpDeck::elements_of(const Side& row) const {
+std::vector<int> Deck::elements_of(const Side& row) const {
   if (const auto set = element_sets.find(row.elements); set != element_sets.end()) return set->second;
   long long number = 0;
   std::from_chars(row.elements.data(), row.elements.data() + row.elements.size(), number);
@@ -48,7 +50,7 @@ std::vector<int> InpDeck::elements_of(const Side& row) const {
   return {};
 }
 
-InpSets InpDeck::filled_regions() const {
+DeckSets Deck::filled_regions() const {
   std::vector<std::vector<int>> regions_at(nodes.size());
   for (const Element& e : elements)
     for (const int v : e.nodes)
@@ -58,7 +60,7 @@ InpSets InpDeck::filled_regions() const {
     sort_unique(regions);
     for (const int r : regions) ++n_nodes[r];
   }
-  InpSets filled;
+  DeckSets filled;
   for (const auto& [name, members] : node_sets) {
     std::map<int, int> count;
     for (const int v : members)
@@ -76,22 +78,15 @@ InpSets InpDeck::filled_regions() const {
 
 namespace {
 
-/// Keywords between bars. The numbers in the data of the first ones are numbers of nodes alone; the second
-/// ones may get new nodes in their sets.
-constexpr std::string_view
-    kOfNodes =
-        "|BOUNDARY|CFLUX|CLOAD|ELEMENT|EQUATION|FIELD|MPC|NODAL THICKNESS|SURFACE|TEMPERATURE|TRANSFORM|",
-    kMayGrow = "|BOUNDARY|FIELD|INITIAL CONDITIONS|NODAL THICKNESS|SURFACE|TEMPERATURE|TRANSFORM|";
-
-bool names_side(const InpDeck& deck, const InpDeck::Side& row) {
+bool names_side(const Deck& deck, const Deck::Side& row) {
   const std::vector<int> elements = deck.elements_of(row);
   return !elements.empty() && deck.side_of(deck.elements[elements[0]], row.label) >= 0;
 }
 
 /// Sets of elements that have a side on a curve: they are made again from these sides.
-std::set<std::string, LessBlindToCase> sets_of_sides(const InpDeck& deck) {
+std::set<std::string, LessBlindToCase> sets_of_sides(const Deck& deck) {
   std::set<std::string, LessBlindToCase> names;
-  for (const InpDeck::Side& row : deck.sides)
+  for (const Deck::Side& row : deck.sides)
     if (row.elements[0] == '_' && names_side(deck, row)) names.insert(row.elements);
   return names;
 }
@@ -100,33 +95,29 @@ std::set<std::string, LessBlindToCase> sets_of_sides(const InpDeck& deck) {
 std::string without_instance(const std::string& name) { return name.substr(name.rfind('.') + 1); }
 
 /// Keeps the elements that lines name by number, or by one of their sides.
-void pin_elements(InpDeck& deck) {
+void pin_elements(Deck& deck) {
   const auto of_sides = sets_of_sides(deck);
-  const auto is_side = [](const std::string& label) {  // "P2", "EDNOR1"
-    return !label.empty() && std::isalpha(static_cast<unsigned char>(label.front())) &&
-           std::isdigit(static_cast<unsigned char>(label.back()));
-  };
-  for (const InpDeck::Word& word : deck.words) {
-    if (deck.cards[word.card].is_among(kOfNodes)) continue;
-    if (const auto e = deck.element_of.find(word.number); word.is_first && e != deck.element_of.end())
+  for (const Deck::Word& word : deck.words) {
+    if (!word.of_element) continue;
+    if (const auto e = deck.element_of.find(word.number); e != deck.element_of.end())
       deck.elements[e->second].pin = word.line;
     const auto set = deck.element_sets.find(without_instance(word.text));
-    if (set == deck.element_sets.end() || !(of_sides.contains(set->first) || is_side(word.next))) continue;
+    if (set == deck.element_sets.end() || !(word.has_side || of_sides.contains(set->first))) continue;
     for (const int e : set->second) deck.elements[e].pin = word.line;
   }
-  for (const InpDeck::Side& row : deck.sides)
+  for (const Deck::Side& row : deck.sides)
     if (!deck.element_sets.contains(row.elements) && !names_side(deck, row))
       for (const int e : deck.elements_of(row)) deck.elements[e].pin = row.line;
-  for (const InpDeck::Element& e : deck.elements) deck.n_named += e.pin >= 0;
+  for (const Deck::Element& e : deck.elements) deck.n_named += e.pin >= 0;
 }
 
 /// Keeps the nodes that other elements, lines and sets name.
-void pin_nodes(InpDeck& deck) {
-  InpSets fixed;  // with the line
-  for (const InpDeck::Word& word : deck.words) {
+void pin_nodes(Deck& deck) {
+  DeckSets fixed;  // with the line
+  for (const Deck::Word& word : deck.words) {
     if (const auto v = deck.node_of.find(word.number); v != deck.node_of.end())
       deck.nodes[v->second].pin = word.line;
-    if (!deck.cards[word.card].is_among(kMayGrow)) fixed[without_instance(word.text)] = {word.line};
+    if (!word.may_grow && word.number == 0) fixed[without_instance(word.text)] = {word.line};
   }
   deck.growing = deck.filled_regions();
   std::erase_if(deck.growing, [&](const auto& set) { return fixed.contains(set.first); });
@@ -134,23 +125,13 @@ void pin_nodes(InpDeck& deck) {
     for (const int v : nodes)
       if (!deck.growing.contains(name))
         deck.nodes[v].pin = std::max(deck.nodes[v].pin, fixed.contains(name) ? fixed[name][0] : 0);
-  for (const InpDeck::Element& e : deck.elements)
+  for (const Deck::Element& e : deck.elements)
     for (const int v : e.nodes)
       if (e.corners() == 2) deck.nodes[v].pin = e.line;
 }
 
-/// The type of quads beside triangles of a type, or the other way round: S3 and S4.
-std::string type_with(std::string type, std::size_t corners) {
-  const char digit = corners == 3 ? '4' : '3', other = corners == 3 ? '3' : '4';
-  if (type.starts_with("STRI")) type = "S3";
-  const std::size_t at = type.rfind(digit);
-  if (at == std::string::npos) return type;
-  type[at] = other;
-  return corners == 3 ? type.substr(0, at + 1) : type;  // there is no S3R5
-}
-
 /// Joins nodes as weld_open_edges() joins their points. Refuses lines for which that has another meaning.
-void join_nodes(InpDeck& deck, double weld) {
+void join_nodes(Deck& deck, double weld) {
   const PointNames names = names_at_open_edges(deck.mesh, weld * diagonal(deck.mesh));
   std::vector<int> node_at(names.size());
   for (std::size_t v = 0; v < deck.nodes.size(); ++v)
@@ -158,22 +139,20 @@ void join_nodes(InpDeck& deck, double weld) {
   for (std::size_t v = 0; v < deck.nodes.size(); ++v)
     if (const int p = deck.point_of[v]; p >= 0 && names[p] != p) deck.nodes[v].joined = node_at[names[p]];
   const auto check = [&](int line, int v, const std::string& why) {
-    const InpDeck::Node& node = deck.nodes[v];
+    const Deck::Node& node = deck.nodes[v];
     if (node.joined >= 0)
       refuse("{}:{}: --weld would join node {} to node {}, but {}; change this line, or leave --weld out",
              deck.source, line, node.number, deck.nodes[node.joined].number, why);
   };
-  for (const InpDeck::Word& word : deck.words) {
-    const InpDeck::Card& card = deck.cards[word.card];
-    const bool may_be_node = !card.is_among("|DFLUX|DLOAD|FILM|FOUNDATION|RADIATE|SURFACE|TRANSFORM|") &&
-                             (word.is_first || !(card.is_among(kMayGrow) || card.is_among("|CFLUX|CLOAD|")));
-    if (const auto v = deck.node_of.find(word.number); v != deck.node_of.end() && may_be_node)
-      check(word.line, v->second, fmt::format("this line of *{} names {}", card.name, word.number));
+  for (const Deck::Word& word : deck.words) {
+    const std::string& card = deck.cards[word.card].name;
+    if (const auto v = deck.node_of.find(word.number); v != deck.node_of.end() && word.forbids_join)
+      check(word.line, v->second, fmt::format("this line of {} names {}", card, word.number));
     const auto set = deck.node_sets.find(without_instance(word.text));
-    if (set == deck.node_sets.end() || !card.is_among(kOfNodes) || card.is_among(kMayGrow)) continue;
+    if (set == deck.node_sets.end() || !word.counts_nodes) continue;
     for (const int v : set->second)
       if (std::ranges::binary_search(set->second, deck.nodes[v].joined))
-        check(word.line, v, fmt::format("*{} counts each node of the set {}", card.name, set->first));
+        check(word.line, v, fmt::format("{} counts each node of the set {}", card, set->first));
   }
 }
 
@@ -183,11 +162,10 @@ int region_of(const Mesh& mesh, int element) {
 }
 
 /// Writes a deck again, edit by edit.
-class InpRewriter {
+class DeckRewriter {
  public:
-  InpRewriter(const InpDeck& deck, const Mesh& mesh) : deck_(deck), mesh_(mesh) {
-    if (mesh.regions.size() != deck.mesh.regions.size())
-      refuse("{}: a kept deck gets no new regions: expected no --failing-sets", deck.source);
+  DeckRewriter(const Deck& deck, const DeckText& writes, const Mesh& mesh)
+      : deck_(deck), writes_(writes), mesh_(mesh) {
     number_nodes();
     place_elements();
     find_gone_nodes();
@@ -202,10 +180,11 @@ class InpRewriter {
     std::ranges::stable_sort(edits_, {}, [](const Edit& e) { return std::pair(e.begin, e.end); });
     std::string result;
     std::size_t at = 0;
+    const bool has_returns = deck_.text.find("\r\n") != std::string::npos;
     for (const Edit& edit : edits_) {
       result.append(deck_.text, at, edit.begin - at);
-      if (!edit.text.empty() && result.back() != '\n') result += '\n';
-      result += edit.text;
+      if (!edit.text.empty() && !result.empty() && result.back() != '\n') result += '\n';
+      for (const char c : edit.text) result.append(c == '\n' && has_returns ? 1 : 0, '\r') += c;
       at = edit.end;
     }
     return result.append(deck_.text, at);
@@ -221,14 +200,16 @@ class InpRewriter {
   void number_nodes() {
     const auto place = [](const Vec3& p) { return std::array{p.x, p.y, p.z}; };
     std::map<std::array<double, 3>, long long> number_at;
-    for (const InpDeck::Element& e : deck_.elements)
+    for (const Deck::Element& e : deck_.elements)
       for (const int v : e.nodes) number_at[place(deck_.nodes[v].at)] = kept(v).number;
     for (const Vec3& p : mesh_.points) {
       const auto at = number_at.find(place(p));
       number_.push_back(at == number_at.end() ? 0 : at->second);
     }
     for (const NamedPoint& named : mesh_.named_points) number_[named.point] = kept_number(named.entity.tag);
-    long long largest = deck_.node_of.rbegin()->first;
+    largest_node_ = deck_.node_of.rbegin()->first;
+    for (const Deck::Word& word : deck_.words) largest_node_ = std::max(largest_node_, word.number);
+    long long largest = largest_node_;
     for (std::size_t p = 0; p < number_.size(); ++p) {
       if (number_[p] > 0 || mesh_.order > 1) continue;  // middles of eight nodes are in no deck
       number_[p] = ++largest;
@@ -237,7 +218,7 @@ class InpRewriter {
   }
 
   /// A node, or the one that takes its place.
-  const InpDeck::Node& kept(int v) const {
+  const Deck::Node& kept(int v) const {
     const int joined = deck_.nodes[v].joined;
     return deck_.nodes[joined < 0 ? v : joined];
   }
@@ -246,7 +227,7 @@ class InpRewriter {
     return v == deck_.node_of.end() ? number : kept(v->second).number;
   }
 
-  Numbers numbers_of(const InpDeck::Element& e) const {
+  Numbers numbers_of(const Deck::Element& e) const {
     Numbers numbers;
     for (const int v : e.nodes) numbers.push_back(kept(v).number);
     return numbers;
@@ -274,41 +255,62 @@ class InpRewriter {
       for (const int i : v) numbers.push_back(number_[i]);
       const auto found = old.find(sorted(numbers));
       if (found != old.end() && deck_.elements[found->second].region == region) {
-        const InpDeck::Element& e = deck_.elements[found->second];
+        const Deck::Element& e = deck_.elements[found->second];
         kept_[found->second] = 1;
         return add_sides(e.number, numbers_of(e), e.corners(), region);
       }
       if (mesh_.order > 1) refuse("{}: elements of order {} stay as they are", deck_.source, mesh_.order);
       std::vector<Vec3> corners;
       for (const int i : v) corners.push_back(mesh_.points[i]);
-      if (is_turned(corners, region)) std::reverse(numbers.begin() + 1, numbers.end());
+      const Deck::Element& near = nearest(corners, region);
+      if (dot(normal_of(corners_of(near)), normal_of(corners)) < 0) {
+        std::reverse(numbers.begin() + 1, numbers.end());
+        std::reverse(corners.begin() + 1, corners.end());
+      }
       add_sides(++largest, numbers, v.size(), region);
       const auto model = models_.contains({region, v.size()}) ? models_[{region, v.size()}]
                                                               : models_.lower_bound({region, 0})->second;
-      new_elements_[region].push_back({largest, model, std::move(numbers)});
+      new_elements_[region].push_back({largest, model, std::move(numbers), angle_as(near, corners)});
     });
   }
 
   static Vec3 normal_of(const std::vector<Vec3>& p) { return cross(p[2] - p[0], p.back() - p[1]); }
 
-  /// Whether an element runs the other way round than the deck's nearest one of its region.
-  bool is_turned(const std::vector<Vec3>& corners, int region) {
+  std::vector<Vec3> corners_of(const Deck::Element& e) const {
+    std::vector<Vec3> corners;
+    for (std::size_t k = 0; k < e.corners(); ++k) corners.push_back(deck_.nodes[e.nodes[k]].at);
+    return corners;
+  }
+  /// The deck's element of a region that is nearest to a new one.
+  const Deck::Element& nearest(const std::vector<Vec3>& corners, int region) {
     Facets& facets = facets_.at(region);
     if (!facets.tree) facets.tree = std::make_unique<NearestTriangle>(facets.points, facets.triangles);
     Vec3 middle;
     for (const Vec3& p : corners) middle = middle + (1.0 / static_cast<double>(corners.size())) * p;
-    std::vector<Vec3> nearest;
-    for (const int v : facets.triangles[facets.tree->find(middle).triangle])
-      nearest.push_back(facets.points[v]);
-    return dot(normal_of(nearest), normal_of(corners)) < 0;
+    return *facets.elements[facets.tree->find(middle).triangle];
   }
-  void add_facets(const InpDeck::Element& e) {
-    auto& [points, triangles, tree] = facets_[e.region];
-    for (std::size_t k = 2; k < e.corners(); ++k) {
-      const int n = static_cast<int>(points.size());
-      for (const int v : {e.nodes[0], e.nodes[k - 1], e.nodes[k]}) points.push_back(deck_.nodes[v].at);
-      triangles.push_back({n, n + 1, n + 2});
+  void add_facets(const Deck::Element& e) {
+    Facets& facets = facets_[e.region];
+    const std::vector<Vec3> corners = corners_of(e);
+    for (std::size_t k = 2; k < corners.size(); ++k) {
+      const int n = static_cast<int>(facets.points.size());
+      facets.points.insert(facets.points.end(), {corners[0], corners[k - 1], corners[k]});
+      facets.triangles.push_back({n, n + 1, n + 2});
+      facets.elements.push_back(&e);
     }
+  }
+  /// The angle at which the direction of an element lies in another one.
+  double angle_as(const Deck::Element& e, const std::vector<Vec3>& corners) const {
+    if (!deck_.has_directions) return e.angle;
+    constexpr double kDegree = std::numbers::pi / 180;
+    const auto axes_of = [](const std::vector<Vec3>& p) {
+      const Vec3 x = p[1] - p[0], n = normal_of(p);
+      return std::pair(x, (1 / norm(n)) * cross(n, x));
+    };
+    const auto [old_x, old_y] = axes_of(corners_of(e));
+    const auto [x, y] = axes_of(corners);
+    const Vec3 direction = std::cos(e.angle * kDegree) * old_x + std::sin(e.angle * kDegree) * old_y;
+    return std::atan2(dot(direction, y), dot(direction, x)) / kDegree;
   }
 
   /// Remembers each side by its ends, as the element runs.
@@ -322,123 +324,105 @@ class InpRewriter {
     const auto require_free = [&](int pin, const char* what, long long number) {
       if (pin > 0) refuse("{}:{}: {} {} is named and would be gone", deck_.source, pin, what, number);
     };
-    for (const InpDeck::Node& node : deck_.nodes)
+    for (const Deck::Node& node : deck_.nodes)
       if (node.joined >= 0) gone_nodes_.insert(node.number);
     for (std::size_t e = 0; e < kept_.size(); ++e) {
       if (kept_[e]) continue;
       require_free(deck_.elements[e].pin, "element", deck_.elements[e].number);
       gone_elements_.insert(deck_.elements[e].number);
       for (const int v : deck_.elements[e].nodes)
-        if (const InpDeck::Node& node = kept(v); !used_.contains(node.number)) {
+        if (const Deck::Node& node = kept(v); !used_.contains(node.number)) {
           require_free(node.pin, "node", node.number);
           gone_nodes_.insert(node.number);
         }
     }
   }
 
-  static std::string lines_of(const Numbers& numbers) {
-    constexpr std::size_t kPerLine = 16;
-    std::string text;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      text +=
-          fmt::format("{}{}", numbers[i], i + 1 == numbers.size() || (i + 1) % kPerLine == 0 ? "\n" : ", ");
-    return text;
-  }
-  std::size_t end_of_line(std::size_t at) const {
-    return std::min(deck_.text.find('\n', at), deck_.text.size() - 1) + 1;
-  }
   void replace(std::size_t begin, std::size_t end, std::string text = "") {
     if (begin < end || !text.empty()) edits_.push_back({begin, end, std::move(text)});
   }
-  static std::string keyword_line(const InpDeck::Card& card, const std::string& type) {
-    std::string line = "*" + card.name;
-    for (const auto& [key, value] : card.parameters)
-      if (key != "GENERATE")
-        line += ", " + key + (value.empty() ? "" : "=" + (key == "TYPE" && !type.empty() ? type : value));
-    return line + '\n';
-  }
-
   void edit_nodes() {
-    for (const InpDeck::Node& node : deck_.nodes)
-      if (gone_nodes_.contains(node.number)) replace(node.begin, end_of_line(node.begin));
-    std::string text = new_nodes_.empty() ? "" : "*NODE\n";
-    for (const std::size_t p : new_nodes_) {
-      const Vec3& x = mesh_.points[p];
-      text += fmt::format("{}, {}, {}, {}\n", number_[p], inp_number(x.x, 0), inp_number(x.y, 0),
-                          inp_number(x.z, 0));
-    }
-    const long long largest = deck_.node_of.rbegin()->first;
+    for (const Deck::Node& node : deck_.nodes)
+      if (gone_nodes_.contains(node.number)) replace(node.begin, node.end);
+    const Deck::Card& first = *std::ranges::find(deck_.cards, "NODE", &Deck::Card::name);
+    std::map<long long, const Deck::Card*> card_of;
+    std::string sets;
     for (const auto& [name, regions] : deck_.growing) {
       Numbers added;
       for (const int r : regions)
         for (const NewElement& e : new_elements_[r])
-          std::ranges::copy_if(e.nodes, std::back_inserter(added), [&](long long v) { return v > largest; });
+          std::ranges::copy_if(e.nodes, std::back_inserter(added),
+                               [&](long long v) { return v > largest_node_; });
       sort_unique(added);
-      const auto home = std::ranges::find_if(deck_.cards, [&](const InpDeck::Card& card) {
+      const auto home = std::ranges::find_if(deck_.cards, [&](const Deck::Card& card) {
         return (card.name == "NODE" || !card.numbers.empty()) && upper(card.parameter("NSET")) == upper(name);
       });
       if (home == deck_.cards.end() || added.empty()) continue;
-      if (home->name == "NODE") text += fmt::format("*NSET, NSET={}\n{}", name, lines_of(added));
-      if (home->name == "NSET") added_[&*home] = std::move(added);
+      if (home->name == "NODE") {
+        for (const long long v : added) card_of[v] = &*home;
+        sets += writes_.as_in(*home, added, true);
+      } else {
+        added_[&*home] = std::move(added);
+      }
     }
-    const std::size_t end = std::ranges::find(deck_.cards, "NODE", &InpDeck::Card::name)->end;
-    replace(end, end, text);
-    std::size_t last = end;  // all nodes are there
-    for (const InpDeck::Card& card : deck_.cards)
-      if (card.name == "NODE") last = card.end;
-    for (const InpDeck::Card& card : deck_.cards) {
+    std::string text = new_nodes_.empty() ? "" : writes_.head_of_nodes();
+    for (const std::size_t p : new_nodes_) {
+      const auto card = card_of.find(number_[p]);
+      text += writes_.node(number_[p], mesh_.points[p], card == card_of.end() ? nullptr : card->second);
+    }
+    replace(first.end, first.end, text + sets);
+    std::size_t last = first.end;  // all nodes are there
+    for (const Deck::Card& card : deck_.cards)
+      if (card.name == "NODE") last = std::max(last, card.end);
+    for (const Deck::Card& card : deck_.cards) {
       if (card.name != "NODE" || card.parameter("NSET").empty()) continue;
-      Numbers kept_nodes;
-      for (const InpDeck::Node& node : deck_.nodes)
-        if (node.joined >= 0 && node.begin >= card.data && node.begin < card.end &&
-            !gone_nodes_.contains(deck_.nodes[node.joined].number))
-          kept_nodes.push_back(deck_.nodes[node.joined].number);
-      sort_unique(kept_nodes);
-      if (!kept_nodes.empty())
-        replace(last, last, fmt::format("*NSET, NSET={}\n{}", card.parameter("NSET"), lines_of(kept_nodes)));
+      const std::vector<int>& members = deck_.node_sets.at(card.parameter("NSET"));
+      Numbers joined;
+      for (const int v : members)
+        if (const int to = deck_.nodes[v].joined; to >= 0 && !std::ranges::binary_search(members, to))
+          joined.push_back(deck_.nodes[to].number);
+      sort_unique(joined);
+      if (!joined.empty()) replace(last, last, writes_.as_in(card, joined, false));
     }
   }
 
   void edit_elements() {
     std::map<int, bool> has_some;
-    for (std::size_t e = 0; e < kept_.size(); ++e) {
-      has_some[deck_.elements[e].card] |= kept_[e] != 0;
-      const InpDeck::Element& element = deck_.elements[e];
-      const bool changes =
-          std::ranges::any_of(element.nodes, [&](int v) { return deck_.nodes[v].joined >= 0; });
-      if (!kept_[e]) replace(element.begin, element.end);
-      if (kept_[e] && changes)
-        replace(element.begin, element.end,
-                fmt::format("{}, {}\n", element.number, fmt::join(numbers_of(element), ", ")));
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+      const Deck::Element& e = deck_.elements[i];
+      has_some[e.card] |= kept_[i] != 0;
+      if (!kept_[i])
+        replace(e.begin, e.end);
+      else if (std::ranges::any_of(e.nodes, [&](int v) { return deck_.nodes[v].joined >= 0; }))
+        replace(e.begin, e.end, writes_.element(e.number, e, deck_.type_of(e), numbers_of(e), e.angle));
     }
     for (const auto& [card, some] : has_some)
       if (!some) replace(deck_.cards[card].begin, deck_.cards[card].data);
     std::map<std::pair<int, std::string>, std::string> blocks;  // by card and type
     for (const auto& [region, elements] : new_elements_)
       for (const NewElement& e : elements) {
-        const std::string type = deck_.type_of(*e.model);
-        const std::size_t n = e.nodes.size();
-        blocks[{e.model->card, e.model->nodes.size() == n ? type : type_with(type, n)}] +=
-            fmt::format("{}, {}\n", e.number, fmt::join(e.nodes, ", "));
+        std::string type = deck_.type_of(*e.model);
+        if (e.model->nodes.size() != e.nodes.size()) type = writes_.type_with(type, e.nodes.size());
+        blocks[{e.model->card, type}] += writes_.element(e.number, *e.model, type, e.nodes, e.angle);
       }
     for (const auto& [block, lines] : blocks) {
-      const InpDeck::Card& card = deck_.cards[block.first];
-      replace(card.end, card.end, keyword_line(card, block.second) + lines);
+      const Deck::Card& card = deck_.cards[block.first];
+      replace(card.end, card.end, writes_.head(card, block.second) + lines);
     }
   }
 
   /// Names sides of surfaces by the numbers of elements if any of these is gone. Makes sets "_NAME_E1" of our
   /// files again, in the place of the first one.
   void edit_surfaces() {
-    std::map<std::pair<int, std::string>, std::vector<const InpDeck::Side*>> surfaces;
-    for (const InpDeck::Side& row : deck_.sides)
+    std::map<std::pair<int, std::string>, std::vector<const Deck::Side*>> surfaces;
+    for (const Deck::Side& row : deck_.sides)
       surfaces[{row.card, row.card < 0 ? row.surface : ""}].push_back(&row);
     for (const auto& [surface, rows] : surfaces) {
       std::string text;
       std::map<std::string, Numbers> by_label;
       bool changes = false;
       std::set<std::string, LessBlindToCase> sets;
-      for (const InpDeck::Side* row : rows)
+      for (const Deck::Side* row : rows)
         if (names_side(deck_, *row))
           changes |= move_sides(*row, by_label), sets.insert(row->elements);
         else
@@ -447,11 +431,11 @@ class InpRewriter {
       for (auto& [label, numbers] : by_label) {
         sort_unique(numbers);
         text += surface.first < 0
-                    ? fmt::format("*ELSET, ELSET=_{}_{}\n{}", surface.second, label, lines_of(numbers))
+                    ? fmt::format("*ELSET, ELSET=_{}_{}\n{}", surface.second, label, inp_lines(numbers))
                     : fmt::format("{}, {}\n", fmt::join(numbers, fmt::format(", {}\n", label)), label);
       }
       if (surface.first >= 0) replace(deck_.cards[surface.first].data, deck_.cards[surface.first].end, text);
-      for (const InpDeck::Card& card : deck_.cards)
+      for (const Deck::Card& card : deck_.cards)
         if (surface.first < 0 && card.name == "ELSET" && sets.contains(card.parameter("ELSET"))) {
           replace(card.begin, card.end, std::exchange(text, ""));
           replaced_.insert(&card);
@@ -461,12 +445,12 @@ class InpRewriter {
 
   /// Renames joined nodes in the rows of surfaces of nodes.
   void edit_node_surfaces() {
-    for (const InpDeck::Card& card : deck_.cards) {
+    for (const Deck::Card& card : deck_.cards) {
       if (card.name != "SURFACE" || upper(card.parameter("TYPE")) != "NODE") continue;
       std::set<long long> known;
       for (const bool is_first_pass : {true, false})
         for (std::size_t at = card.data, next = 0; at < card.end; at = next) {
-          next = end_of_line(at);
+          next = std::min(deck_.text.find('\n', at), deck_.text.size() - 1) + 1;
           const std::size_t begin = std::min(deck_.text.find_first_not_of(" \t", at), next);
           long long number = 0;
           const char* const end =
@@ -482,10 +466,10 @@ class InpRewriter {
   }
 
   /// Finds the sides that stand for a row; returns whether any is of a new element.
-  bool move_sides(const InpDeck::Side& row, std::map<std::string, Numbers>& by_label) const {
+  bool move_sides(const Deck::Side& row, std::map<std::string, Numbers>& by_label) const {
     bool changes = false;
     for (const int index : deck_.elements_of(row)) {
-      const InpDeck::Element& e = deck_.elements[index];
+      const Deck::Element& e = deck_.elements[index];
       const int side = deck_.side_of(e, row.label);
       const auto number = [&](int k) {
         return kept(e.nodes[static_cast<std::size_t>(k) % e.corners()]).number;
@@ -505,27 +489,24 @@ class InpRewriter {
   /// region.
   void edit_sets() {
     const auto of_sides = sets_of_sides(deck_);
-    std::set<std::pair<std::string, long long>> done;  // sets with new elements
-    for (const auto& [region, elements] : new_elements_)
-      for (const NewElement& e : elements)
-        done.emplace(upper(deck_.cards[e.model->card].parameter("ELSET")), e.number);
-    for (const InpDeck::Card& card : deck_.cards) {
+    std::set<std::pair<std::string, int>> done;  // sets with the new elements of a region
+    for (const Deck::Card& card : deck_.cards) {
       if (card.numbers.empty() || replaced_.contains(&card)) continue;
       Numbers& added = added_[&card];
       const std::string set = upper(card.parameter("ELSET"));
-      std::set<int> regions;
-      for (const long long number : card.numbers)
-        if (const auto e = deck_.element_of.find(number); card.name == "ELSET" && e != deck_.element_of.end())
-          if (deck_.elements[e->second].corners() > 2) regions.insert(deck_.elements[e->second].region);
-      for (const int r : regions)
-        if (const auto found = new_elements_.find(r); found != new_elements_.end() && !of_sides.contains(set))
-          for (const NewElement& e : found->second)
-            if (done.emplace(set, e.number).second) added.push_back(e.number);
+      for (const long long number : card.numbers) {
+        const auto found = deck_.element_of.find(number);
+        if (card.name != "ELSET" || of_sides.contains(set) || found == deck_.element_of.end()) continue;
+        const int region = deck_.elements[found->second].region;
+        if (deck_.elements[found->second].corners() == 2 || !done.emplace(set, region).second) continue;
+        for (const NewElement& e : new_elements_[region])
+          if (upper(deck_.cards[e.model->card].parameter("ELSET")) != set) added.push_back(e.number);
+      }
       edit_set(card, card.name == "NSET" ? gone_nodes_ : gone_elements_, added);
     }
   }
 
-  void edit_set(const InpDeck::Card& card, const std::set<long long>& gone, const Numbers& added) {
+  void edit_set(const Deck::Card& card, const std::set<long long>& gone, const Numbers& added) {
     Numbers numbers;
     std::set<long long> known(card.numbers.begin(), card.numbers.end());
     for (const long long i : card.numbers) {
@@ -534,52 +515,43 @@ class InpRewriter {
     }
     if (numbers == card.numbers && added.empty()) return;
     numbers.insert(numbers.end(), added.begin(), added.end());
-    if (numbers.empty() && card.names.empty()) return replace(card.begin, card.end);
-    const bool has_keyword = card.parameters.contains("GENERATE");
-    std::string text = has_keyword ? keyword_line(card, "") : "";
-    for (const std::string& name : card.names) text += name + '\n';
-    replace(has_keyword ? card.begin : card.data, card.end, text + lines_of(numbers));
+    const bool is_empty = numbers.empty() && card.names.empty();
+    replace(card.begin, card.end, is_empty ? "" : writes_.set(card, numbers));
   }
 
   struct NewElement {
     long long number;
-    const InpDeck::Element* model;  ///< of its region; gives it type and block
+    const Deck::Element* model;  ///< of its region; gives it type and block
     Numbers nodes;
+    double angle;
   };
   struct Facets {
     std::vector<Vec3> points;
     std::vector<std::array<int, 3>> triangles;
+    std::vector<const Deck::Element*> elements;  ///< by triangle
     std::unique_ptr<NearestTriangle> tree = nullptr;
   };
-  const InpDeck& deck_;
+  const Deck& deck_;
+  const DeckText& writes_;
   const Mesh& mesh_;
+  long long largest_node_ = 0;
   Numbers number_;                                       ///< of each point of the mesh
   std::vector<std::size_t> new_nodes_;                   ///< points of the mesh
   std::vector<char> kept_;                               ///< by element of the deck
   std::map<int, std::vector<NewElement>> new_elements_;  ///< by region
   std::map<std::tuple<long long, long long, int>, std::pair<long long, int>>
-      side_at_;                                                            ///< by ends and region
-  std::map<std::pair<int, std::size_t>, const InpDeck::Element*> models_;  ///< by region and number of nodes
-  std::map<int, Facets> facets_;                                           ///< by region
+      side_at_;                                                         ///< by ends and region
+  std::map<std::pair<int, std::size_t>, const Deck::Element*> models_;  ///< by region and number of nodes
+  std::map<int, Facets> facets_;                                        ///< by region
   std::set<long long> used_, gone_nodes_, gone_elements_;
-  std::map<const InpDeck::Card*, Numbers> added_;
-  std::set<const InpDeck::Card*> replaced_;
+  std::map<const Deck::Card*, Numbers> added_;
+  std::set<const Deck::Card*> replaced_;
   std::vector<Edit> edits_;
 };
 
 }  // namespace
 
-void part_elements(InpDeck& deck) {
-  std::map<std::pair<bool, std::string>, std::string> instances;
-  for (const InpDeck::Card& card : deck.cards) {
-    const bool of_nodes = card.is_among("|NODE|NSET|");
-    const std::string name = upper(card.parameter(of_nodes ? "NSET" : "ELSET")),
-                      of = card.parameter("INSTANCE");
-    const bool has_set = !name.empty() && (of_nodes || card.is_among("|ELEMENT|ELSET|"));
-    if (has_set && instances.try_emplace({of_nodes, name}, of).first->second != of)
-      refuse("{}:{}: set {} is in a part and in its assembly: expected two names", deck.source, card.line,
-             name);
-  }
+void part_elements(Deck& deck) {
   const auto of_sides = sets_of_sides(deck);
   for (const auto& [name, members] : deck.element_sets)
     for (const int e : members)
@@ -587,9 +559,9 @@ void part_elements(InpDeck& deck) {
   pin_elements(deck);
   Mesh flat;
   flat.points.resize(deck.nodes.size());
-  std::vector<InpDeck::Element*> shells;  // triangles first
+  std::vector<Deck::Element*> shells;  // triangles first
   for (const std::size_t corners : {3, 4})
-    for (InpDeck::Element& e : deck.elements) {
+    for (Deck::Element& e : deck.elements) {
       if (e.corners() != corners) continue;
       const auto& v = e.nodes;
       if (corners == 3) flat.triangles.push_back({v[0], v[1], v[2]});
@@ -608,7 +580,7 @@ void part_elements(InpDeck& deck) {
   }
 }
 
-void name_points(InpDeck& deck) {
+void name_points(Deck& deck) {
   pin_nodes(deck);
   Mesh& mesh = deck.mesh;
   std::vector<char> used(mesh.points.size(), 0), stays(mesh.points.size(), 0);
@@ -636,11 +608,17 @@ void name_points(InpDeck& deck) {
   deck.point_of = drop_unused_points(mesh);
 }
 
-void rewrite_inp(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh,
-                 double weld) {
-  InpDeck deck = read_inp_deck(source, true);
+Mesh given_mesh(Deck deck, ReadNotes* notes) {
+  if (notes != nullptr && deck.n_named > 0)
+    notes->push_back(fmt::format("{}: inner nodes and elements that stay, as lines or sets name them: {}",
+                                 deck.source, deck.n_named));
+  return std::move(deck.mesh);
+}
+
+void rewrite_deck(Deck& deck, const DeckText& text, const std::filesystem::path& path, const Mesh& mesh,
+                  double weld) {
   join_nodes(deck, weld);
-  write_text_file(path, std::string_view(InpRewriter(deck, mesh).text()));
+  write_text_file(path, std::string_view(DeckRewriter(deck, text, mesh).text()));
 }
 
 }  // namespace delquad
