@@ -1,22 +1,10 @@
-#include "delquad/adapt.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <numbers>
-
 #include "adapt/adapt.h"
+#include "delquad/adapt.h"
 #include "tests/adapt/ugly_quads.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 double shock(double x, double y) { return std::tanh(20 * (x + 0.5 * y - 0.7)); }
 
@@ -68,7 +56,7 @@ TEST(Adapt, TheNextMeshHasTheSameDomain) {
   EXPECT_TRUE(made.result.soundness.sound());
   EXPECT_NEAR(static_cast<double>(mesh.quads.size()), 1500, 150);
   const auto names = [](const Mesh& m) {
-    std::vector<std::pair<int, std::vector<std::string>>> all;
+    std::vector<std::pair<int, Strings>> all;
     for (const auto* entities : {&m.curves, &m.regions})
       for (const Entity& e : *entities) all.emplace_back(e.tag, e.names);
     for (const NamedPoint& p : m.named_points) all.emplace_back(p.entity.tag, p.entity.names);

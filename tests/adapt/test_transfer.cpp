@@ -1,18 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 #include "delquad/adapt.h"
 #include "tests/adapt/ugly_quads.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 constexpr Transfer kAll[] = {Transfer::kInterpolated, Transfer::kConservative, Transfer::kBounded};
 

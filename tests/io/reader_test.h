@@ -1,14 +1,6 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <random>
-#include <string>
-
-#include "delquad/error.h"
-#include "delquad/mesh.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad::testing_support {
 
@@ -28,7 +20,7 @@ class ReaderTest : public Test {
       check(read(content));
       return true;
     } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(file_ + ":"), std::string::npos) << error.what();
+      EXPECT_TRUE(holds(error.what(), file_ + ":"));
       return false;
     }
   }

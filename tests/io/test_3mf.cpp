@@ -1,24 +1,15 @@
-#include <gtest/gtest.h>
 #include <zip.h>
 
-#include <map>
-#include <random>
-
-#include "io/mesh_io.h"
 #include "tests/io/reader_test.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::TemporaryFolder;
-using testing_support::write_text;
-
 const std::string kTetrahedron =
-    "<mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/>"
-    "<vertex x=\"0\" y=\"1\" z=\"0\"/><vertex x=\"0\" y=\"0\" z=\"1\"/></vertices><triangles>"
-    "<triangle v1=\"0\" v2=\"2\" v3=\"1\"/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/>"
-    "<triangle v1=\"0\" v2=\"3\" v3=\"2\" pid=\"7\" p1=\"1\"/><triangle v1=\"1\" v2=\"2\" v3=\"3\"/>"
-    "</triangles></mesh>";
+    "<mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/><vertex x=\"0\" "
+    "y=\"1\" z=\"0\"/><vertex x=\"0\" y=\"0\" z=\"1\"/></vertices><triangles><triangle v1=\"0\" v2=\"2\" "
+    "v3=\"1\"/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/><triangle v1=\"0\" v2=\"3\" v3=\"2\" pid=\"7\" "
+    "p1=\"1\"/><triangle v1=\"1\" v2=\"2\" v3=\"3\"/></triangles></mesh>";
 
 std::string model(const std::string& inside, const std::string& unit = "inch") {
   return "<?xml version=\"1.0\"?>\n<model unit=\"" + unit +
@@ -27,11 +18,11 @@ std::string model(const std::string& inside, const std::string& unit = "inch") {
 
 class ThreeMf : public testing::Test {
  protected:
-  std::filesystem::path write(const std::string& text, const char* name = "3D/3dmodel.model") {
+  fs::path write(const std::string& text, const char* name = "3D/3dmodel.model") {
     return write({{name, text}});
   }
-  std::filesystem::path write(const std::map<std::string, std::string>& files) {
-    const std::filesystem::path path = folder_ / "case.3mf";
+  fs::path write(const std::map<std::string, std::string>& files) {
+    const fs::path path = folder_ / "case.3mf";
     zip_t* archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, nullptr);
     for (const auto& [name, text] : files) {
       zip_source_t* source = zip_source_buffer(archive, text.data(), text.size(), 0);
@@ -44,22 +35,20 @@ class ThreeMf : public testing::Test {
     expect_input_error([&] { read_mesh(write(text)); }, parts);
   }
 
-  TemporaryFolder folder_;
+  Folder folder_;
 };
 
 /// One placed as it is, one mirrored and moved as a part of another: triangles keep looking outwards.
 TEST_F(ThreeMf, ReadsObjectsWherePlaced) {
-  const Mesh mesh =
-      read_mesh(write(model("<resources><basematerials id=\"7\"><base name=\"a\" displaycolor=\"#000000\"/>"
-                            "<base name=\"b\" displaycolor=\"#FF8000FF\"/></basematerials>"
-                            "<object id=\"1\" name=\"tip\">" +
-                            kTetrahedron +
-                            "</object>"
-                            "<object id=\"2\" name=\"pair\"><components><component objectid=\"1\" transform="
-                            "\"-1 0 0 0 1 0 0 0 1 0 0 0\"/></components></object><object id=\"3\">" +
-                            kTetrahedron +
-                            "</object></resources><build><item objectid=\"1\"/>"
-                            "<item objectid=\"2\" transform=\"2 0 0 0 2 0 0 0 2 10 20 30\"/></build>")));
+  const Mesh mesh = read_mesh(
+      write(model("<resources><basematerials id=\"7\"><base name=\"a\" displaycolor=\"#000000\"/><base "
+                  "name=\"b\" displaycolor=\"#FF8000FF\"/></basematerials><object id=\"1\" name=\"tip\">" +
+                  kTetrahedron +
+                  "</object><object id=\"2\" name=\"pair\"><components><component objectid=\"1\" "
+                  "transform=\"-1 0 0 0 1 0 0 0 1 0 0 0\"/></components></object><object id=\"3\">" +
+                  kTetrahedron +
+                  "</object></resources><build><item objectid=\"1\"/><item objectid=\"2\" transform=\"2 0 0 "
+                  "0 2 0 0 0 2 10 20 30\"/></build>")));
   EXPECT_EQ(mesh.unit, "in");
   ASSERT_EQ(mesh.points.size(), 8u) << "objects outside of the build are left out";
   EXPECT_EQ(mesh.points[3], (Vec3{0, 0, 1}));
@@ -68,26 +57,23 @@ TEST_F(ThreeMf, ReadsObjectsWherePlaced) {
   EXPECT_EQ(mesh.triangles[0], (std::array<int, 3>{0, 2, 1}));
   EXPECT_EQ(mesh.triangles[4], (std::array<int, 3>{4, 5, 6}));
   ASSERT_EQ(mesh.regions.size(), 2u);
-  EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"tip"});
-  EXPECT_EQ(mesh.regions[1].names, (std::vector<std::string>{"tip", "colour #ff8000"}));
+  EXPECT_EQ(mesh.regions[0].names, Strings{"tip"});
+  EXPECT_EQ(mesh.regions[1].names, (Strings{"tip", "colour #ff8000"}));
   EXPECT_EQ(mesh.triangle_region, (std::vector<int>{0, 0, 1, 0, 0, 0, 1, 0}));
 }
 
 /// The production extension: the build and components name objects of other files, with the same numbers.
 TEST_F(ThreeMf, ObjectsMayLieInOtherFiles) {
   const auto part = [&](const char* name, const char* unit = "inch") {
-    return model(
-        "<resources><object id=\"1\" name=\"" + std::string(name) + "\">" + kTetrahedron +
-            "</object><object id=\"2\"><components><component objectid=\"1\" transform=\"1 0 0 0 1 0 0 "
-            "0 1 0 0 5\"/></components></object></resources><build/>",
-        unit);
+    return model("<resources><object id=\"1\" name=\"" + std::string(name) + "\">" + kTetrahedron +
+                     "</object><object id=\"2\"><components><component objectid=\"1\" transform=\"1 0 0 0 1 "
+                     "0 0 0 1 0 0 5\"/></components></object></resources><build/>",
+                 unit);
   };
   const std::string main = model(
       "<resources><object id=\"1\"><components><component p:path=\"/3D/b.model\" objectid=\"1\" "
-      "transform=\"1 0 0 "
-      "0 1 0 0 0 1 10 0 0\"/></components></object></resources><build><item objectid=\"1\" transform=\"2 0 0 "
-      "0 2 0 "
-      "0 0 2 0 0 0\"/><item q:path=\"/3D/Objects/A.model\" objectid=\"2\"/></build>");
+      "transform=\"1 0 0 0 1 0 0 0 1 10 0 0\"/></components></object></resources><build><item objectid=\"1\" "
+      "transform=\"2 0 0 0 2 0 0 0 2 0 0 0\"/><item q:path=\"/3D/Objects/A.model\" objectid=\"2\"/></build>");
   const std::string main_name = "3D/3dmodel.model";
   const Mesh mesh =
       read_mesh(write({{main_name, main}, {"3D/b.model", part("b")}, {"3D/objects/a.model", part("a")}}));
@@ -96,8 +82,8 @@ TEST_F(ThreeMf, ObjectsMayLieInOtherFiles) {
   EXPECT_EQ(mesh.points[3], (Vec3{20, 0, 2}));
   EXPECT_EQ(mesh.points[7], (Vec3{0, 0, 6}));
   ASSERT_EQ(mesh.regions.size(), 2u);
-  EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"b"});
-  EXPECT_EQ(mesh.regions[1].names, std::vector<std::string>{"a"});
+  EXPECT_EQ(mesh.regions[0].names, Strings{"b"});
+  EXPECT_EQ(mesh.regions[1].names, Strings{"a"});
 
   const auto refuse = [&](const std::map<std::string, std::string>& files,
                           std::initializer_list<const char*> parts) {
@@ -149,8 +135,8 @@ TEST_F(ThreeMf, ObjectsThatMultiplyAreRefused) {
 
 TEST_F(ThreeMf, DamageIsReadOrRefused) {
   const std::string whole =
-      testing_support::read_text(write(model("<resources><object id=\"1\">" + kTetrahedron +
-                                             "</object></resources><build><item objectid=\"1\"/></build>")));
+      read_text(write(model("<resources><object id=\"1\">" + kTetrahedron +
+                            "</object></resources><build><item objectid=\"1\"/></build>")));
   std::mt19937 random(7);
   int refused = 0;
   for (int trial = 0; trial < 500; ++trial) {
@@ -159,7 +145,7 @@ TEST_F(ThreeMf, DamageIsReadOrRefused) {
     try {
       read_mesh(write_text(folder_ / "damaged.3mf", text));
     } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("damaged.3mf:"), std::string::npos) << error.what();
+      EXPECT_TRUE(holds(error.what(), "damaged.3mf:"));
       ++refused;
     }
   }

@@ -1,9 +1,4 @@
-#include <gtest/gtest.h>
-
-#include "io/mesh_io.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/grid_mesh.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
@@ -25,8 +20,8 @@ std::string changed(const std::string& text, const std::string& before, int by) 
 /// What a header says must be there, and no more: else a reader would leave out what follows, or take one
 /// thing for another.
 TEST(AnnouncedNumbers, MustBeThoseThatFollow) {
-  const testing_support::TemporaryFolder folder;
-  const Mesh mesh = testing_support::quad_grid(3, 2);
+  const Folder folder;
+  const Mesh mesh = quad_grid(3, 2);
   for (const Announced& in : {Announced{".mesh", "Vertices\n"}, Announced{".mesh", "Quadrilaterals\n"},
                               Announced{".mesh", "Edges\n"}, Announced{".vtu", "NumberOfPoints=\""},
                               Announced{".vtu", "NumberOfCells=\""}, Announced{".mfem", "elements\n"},
@@ -34,13 +29,12 @@ TEST(AnnouncedNumbers, MustBeThoseThatFollow) {
                               Announced{".msh", "$Nodes\n"}, Announced{".msh", "$Elements\n"}}) {
     const std::string name = std::string("case") + in.extension;
     SCOPED_TRACE(name + " " + in.before);
-    const std::filesystem::path path = folder / name;
+    const fs::path path = folder / name;
     write_mesh(path, mesh);
-    const std::string text = testing_support::read_text(path);
+    const std::string text = read_text(path);
     EXPECT_EQ(read_mesh(path).quads.size(), mesh.quads.size());
     for (const int by : {-1, 1})
-      expect_input_error([&] { read_mesh(testing_support::write_text(path, changed(text, in.before, by))); },
-                         {name.c_str()});
+      expect_input_error([&] { read_mesh(write_text(path, changed(text, in.before, by))); }, {name.c_str()});
   }
 }
 

@@ -1,21 +1,11 @@
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-
 #include <csignal>
-#include <stdexcept>
 
-#include "io/mesh_io.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::read_text;
-using testing_support::TemporaryFolder;
-using testing_support::write_text;
-using Names = std::vector<std::string>;
 
 /// No file may grow beyond so many bytes: what a full disk does to a program, without a full disk.
 class FileSizeLimit {
@@ -43,15 +33,15 @@ void write_long(std::ostream& out) {
 }
 
 TEST(AtomicFile, ReplacesWhatWasThere) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_text(folder / "a.txt", "before");
   write_file_atomically(folder / "a.txt", [](std::ostream& out) { out << "after"; });
   EXPECT_EQ(read_text(folder / "a.txt"), "after");
-  EXPECT_EQ(folder.names(), Names{"a.txt"});
+  EXPECT_EQ(folder.names(), Strings{"a.txt"});
 }
 
 TEST(AtomicFile, KeepsTheOldFileWhenTheDiskIsFull) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_text(folder / "a.txt", "before");
   {
     const FileSizeLimit limit(1000);
@@ -64,23 +54,23 @@ TEST(AtomicFile, KeepsTheOldFileWhenTheDiskIsFull) {
         {"b.txt", "too large"});
   }
   EXPECT_EQ(read_text(folder / "a.txt"), "before");
-  EXPECT_EQ(folder.names(), Names{"a.txt"});
+  EXPECT_EQ(folder.names(), Strings{"a.txt"});
 }
 
 TEST(AtomicFile, GoesThroughLinksThatPointNowhere) {
-  const TemporaryFolder folder;
-  std::filesystem::create_symlink("b.txt", folder / "a.txt");
-  std::filesystem::create_symlink(folder / "c.txt", folder / "b.txt");
+  const Folder folder;
+  fs::create_symlink("b.txt", folder / "a.txt");
+  fs::create_symlink(folder / "c.txt", folder / "b.txt");
   write_file_atomically(folder / "a.txt", [](std::ostream& out) { out << "text"; });
-  EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.txt"));
+  EXPECT_TRUE(fs::is_symlink(folder / "a.txt"));
   EXPECT_EQ(read_text(folder / "c.txt"), "text");
-  std::filesystem::create_symlink("e.txt", folder / "d.txt");
-  std::filesystem::create_symlink("d.txt", folder / "e.txt");
+  fs::create_symlink("e.txt", folder / "d.txt");
+  fs::create_symlink("d.txt", folder / "e.txt");
   expect_input_error([&] { write_file_atomically(folder / "d.txt", write_long); }, {"d.txt", "links"});
 }
 
 TEST(AtomicFile, LeavesNothingWhenTheWriterThrows) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto throwing = [](std::ostream& out) {
     write_long(out);
     throw std::runtime_error("interrupted");
@@ -90,7 +80,7 @@ TEST(AtomicFile, LeavesNothingWhenTheWriterThrows) {
 }
 
 TEST(AtomicFile, NamesThePathAndTheReason) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto write = [](std::ostream& out) { out << "text"; };
   write_text(folder / "file", "");
   expect_input_error([&] { write_file_atomically(folder / "no/such/a.txt", write); },
@@ -100,7 +90,7 @@ TEST(AtomicFile, NamesThePathAndTheReason) {
   expect_input_error([&] { write_file_atomically(folder.path(), write); }, {"folder"});
   expect_input_error([&] { write_file_atomically(folder / std::string(300, 'x'), write); },
                      {"File name too long"});
-  EXPECT_EQ(folder.names(), Names{"file"});
+  EXPECT_EQ(folder.names(), Strings{"file"});
 }
 
 TEST(AtomicFile, WritesIntoDevicesAndThroughLinks) {
@@ -111,25 +101,25 @@ TEST(AtomicFile, WritesIntoDevicesAndThroughLinks) {
   ASSERT_EQ(stat("/dev/null", &status), 0);
   EXPECT_TRUE(S_ISCHR(status.st_mode)) << "the device is still one";
 
-  const TemporaryFolder folder;
+  const Folder folder;
   write_text(folder / "target", "before");
-  std::filesystem::create_symlink("target", folder / "link");
+  fs::create_symlink("target", folder / "link");
   write_file_atomically(folder / "link", [](std::ostream& out) { out << "after"; });
-  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
   EXPECT_EQ(read_text(folder / "target"), "after");
 }
 
 TEST(AtomicFile, WritesIntoTheWorkingFolder) {
-  const TemporaryFolder folder;
-  const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(folder.path());
+  const Folder folder;
+  const auto before = fs::current_path();
+  fs::current_path(folder.path());
   write_file_atomically("a.txt", [](std::ostream& out) { out << "text"; });
-  std::filesystem::current_path(before);
-  EXPECT_EQ(folder.names(), Names{"a.txt"});
+  fs::current_path(before);
+  EXPECT_EQ(folder.names(), Strings{"a.txt"});
 }
 
 TEST(AtomicFiles, StandOrFallTogether) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_text(folder / "a.txt", "before");
   const auto write = [](const char* text) { return [text](std::ostream& out) { out << text; }; };
   const auto throws = [](std::ostream&) { throw InputError("no second"); };
@@ -139,7 +129,7 @@ TEST(AtomicFiles, StandOrFallTogether) {
       },
       {"no second"});
   EXPECT_EQ(read_text(folder / "a.txt"), "before");
-  EXPECT_EQ(folder.names(), Names{"a.txt"});
+  EXPECT_EQ(folder.names(), Strings{"a.txt"});
   write_files_atomically({{folder / "a.txt", write("after")}, {folder / "b.txt", write("too")}});
   EXPECT_EQ(read_text(folder / "a.txt"), "after");
   EXPECT_EQ(read_text(folder / "b.txt"), "too");

@@ -1,26 +1,15 @@
-#include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <cmath>
-#include <random>
-#include <set>
-
-#include "delquad/error.h"
 #include "geometry/mesh/split_polygon.h"
 #include "io/formats/vtu.h"
-#include "io/mesh_io.h"
 #include "tests/io/msh_files.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 #include "tests/support/shapes.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
-using namespace testing_support;
-
-std::filesystem::path write_gzip(const std::filesystem::path& path, const std::string& text) {
+fs::path write_gzip(const fs::path& path, const std::string& text) {
   const gzFile file = gzopen(path.c_str(), "wb");
   gzwrite(file, text.data(), static_cast<unsigned>(text.size()));
   gzclose(file);
@@ -49,16 +38,16 @@ std::string binary_22() {
 }
 
 TEST(BinaryMsh, ReadsLegacyFiles) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const Mesh mesh = read_mesh(write_text(folder / "a.msh", binary_22()));
   EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0.5}, {1, 0, 0.5}, {1, 1, 0.5}, {0, 1, 0.5}}));
-  EXPECT_EQ(mesh.quads, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}}));
-  EXPECT_EQ(mesh.lines, (std::vector<std::array<int, 2>>{{0, 1}, {1, 2}}));
-  EXPECT_EQ(mesh.regions[0].names, (std::vector<std::string>{"plate"}));
+  EXPECT_EQ(mesh.quads, (Quads{{0, 1, 2, 3}}));
+  EXPECT_EQ(mesh.lines, (Lines{{0, 1}, {1, 2}}));
+  EXPECT_EQ(mesh.regions[0].names, (Strings{"plate"}));
 }
 
 TEST(PeriodicMsh, SaysThatPairsAreNotRead) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(2, 2);
   ReadNotes notes;
   write_mesh(folder / "a.msh", mesh);
@@ -68,11 +57,11 @@ TEST(PeriodicMsh, SaysThatPairsAreNotRead) {
   write_mesh(folder / "a.msh", mesh);
   read_mesh(folder / "a.msh", &notes);
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes[0].find("$Periodic"), std::string::npos);
+  EXPECT_TRUE(holds(notes[0], "$Periodic"));
 }
 
 TEST(BinaryMsh, DamagedFilesGiveOneMessage) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(3, 2);
   write_mesh(folder / "a.msh", mesh, {true, MshCurves::kAll});
   for (const std::string& whole : {read_text(folder / "a.msh"), binary_22()}) {
@@ -93,7 +82,7 @@ TEST(BinaryMsh, DamagedFilesGiveOneMessage) {
 }
 
 TEST(Gzip, IsUnpacked) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_mesh(folder / "a.msh", quad_grid(5, 4), {true, MshCurves::kAll});
   const std::string text = read_text(folder / "a.msh");
   EXPECT_EQ(read_mesh(write_gzip(folder / "B.MSH.GZ", text)).quads, quad_grid(5, 4).quads);
@@ -104,7 +93,7 @@ TEST(Gzip, IsUnpacked) {
 }
 
 TEST(MisnamedFiles, AreCalledByTheirFormat) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto refuses = [&](const std::string& name, const std::string& text, const char* kind) {
     expect_input_error([&] { read_mesh(write_text(folder / name, text)); }, {name.c_str(), kind, "expected"});
   };
@@ -163,13 +152,13 @@ TEST(Polygons, AreSplitWithoutInvertedTriangles) {
 }
 
 TEST(Polygons, AreSaidWithTheirNumber) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const std::string points = "v 0 0 7\nv 2 0 7\nv 2 2 7\nv 1 3 7\nv 0 2 7\n";
   ReadNotes notes;
   const Mesh obj = read_mesh(write_text(folder / "a.OBJ", points + "g roof\nf 1 2 3 4 5\nf 1 3 2\n"), &notes);
   EXPECT_EQ(obj.triangles.size(), 4u);
   EXPECT_EQ(obj.triangle_region.size(), 4u);
-  EXPECT_EQ(obj.regions[0].names, (std::vector<std::string>{"roof"}));
+  EXPECT_EQ(obj.regions[0].names, (Strings{"roof"}));
   EXPECT_EQ(notes, (ReadNotes{"1 face of more than four vertices was split into 3 triangles"}));
   const Mesh off = read_mesh(
       write_text(folder / "a.off", "OFF\n5 1 0\n0 0 1\n0 2 1\n0 2 2\n0 1 3\n0 0 2\n5 0 1 2 3 4\n"), &notes);
@@ -183,63 +172,20 @@ TEST(Polygons, AreSaidWithTheirNumber) {
 }
 
 TEST(ObjNames, StayDifferent) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(1, 2);
   mesh.regions = {{1, {"a b"}}, {2, {"a_b"}}};
   mesh.quad_region = {0, 1};
   write_mesh(folder / "a.obj", mesh);
-  EXPECT_NE(read_text(folder / "a.obj").find("# group a_b_2 is \"a b\"\n"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(folder / "a.obj"), "# group a_b_2 is \"a b\"\n"));
   const Mesh back = read_mesh(folder / "a.obj");
   ASSERT_EQ(back.regions.size(), 2u);
-  EXPECT_EQ(back.regions[0].names, (std::vector<std::string>{"a_b_2"}));
-  EXPECT_EQ(back.regions[1].names, (std::vector<std::string>{"a_b"}));
-}
-
-/// Two regions, all curves named but one.
-Mesh two_regions() {
-  Mesh mesh = quad_grid(4, 3, 1.0 / 3, 7);
-  for (size_t i = 6; i < 12; ++i) mesh.quad_region[i] = 1;
-  mesh.regions = {{3, {"steel <1>", "all"}}, {7, {"all"}}};
-  mesh.curves[2].names = {};
-  return mesh;
-}
-
-TEST(OwnFiles, AreReadBack) {
-  const TemporaryFolder folder;
-  const Mesh mesh = two_regions();
-  for (const char* name : {"a.vtu", "a.mesh"}) {
-    write_mesh(folder / name, mesh);
-    const Mesh back = read_mesh(folder / name);
-    EXPECT_EQ(back.points, mesh.points) << name;
-    EXPECT_EQ(back.lines, mesh.lines) << name;
-    EXPECT_EQ(back.quads, mesh.quads) << name;
-    EXPECT_EQ(back.line_curve, mesh.line_curve) << name;
-    EXPECT_EQ(back.quad_region, mesh.quad_region) << name;
-    ASSERT_EQ(back.regions.size(), 2u) << name;
-    EXPECT_EQ(back.regions[1].tag, 7) << name;
-    EXPECT_EQ(std::set(back.regions[0].names.begin(), back.regions[0].names.end()),
-              (std::set<std::string>{"all", "steel <1>"}))
-        << name;
-    EXPECT_EQ(back.curves[1].names, mesh.curves[1].names) << name;
-    EXPECT_TRUE(back.curves[2].names.empty()) << name;
-  }
-}
-
-TEST(OwnFiles, InpKeepsElementsSetsAndSurfaces) {
-  const TemporaryFolder folder;
-  const Mesh mesh = two_regions();
-  write_mesh(folder / "a.INP", mesh);
-  const Mesh back = read_mesh(folder / "a.INP");
-  EXPECT_EQ(back.quads, mesh.quads);
-  EXPECT_EQ(back.quad_region, mesh.quad_region);
-  EXPECT_EQ(back.regions[0].tag, 3);
-  EXPECT_EQ(back.regions[0].names, (std::vector<std::string>{"all", "steel__1_"}));
-  EXPECT_EQ(back.lines.size(), mesh.lines.size());
-  EXPECT_EQ(back.curves.size(), 4u);
+  EXPECT_EQ(back.regions[0].names, (Strings{"a_b_2"}));
+  EXPECT_EQ(back.regions[1].names, (Strings{"a_b"}));
 }
 
 TEST(Inp, ReadsWhatProgramsWrite) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const Mesh mesh = read_mesh(write_text(folder / "a.inp", R"(** a comment
 *Node, nset=all
  7, 0., 0.
@@ -262,13 +208,13 @@ TEST(Inp, ReadsWhatProgramsWrite) {
 *Elastic
  2e5, .3
 )"));
-  EXPECT_EQ(mesh.quads, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}}));
-  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{1, 4, 2}}));
+  EXPECT_EQ(mesh.quads, (Quads{{0, 1, 2, 3}}));
+  EXPECT_EQ(mesh.triangles, (Triangles{{1, 4, 2}}));
   ASSERT_EQ(mesh.regions.size(), 2u);
-  EXPECT_EQ(mesh.regions[0].names, (std::vector<std::string>{"Left", "again", "both"}));
-  EXPECT_EQ(mesh.regions[1].names, (std::vector<std::string>{"again", "both"}));
-  EXPECT_EQ(mesh.lines, (std::vector<std::array<int, 2>>{{4, 2}}));
-  EXPECT_EQ(mesh.curves[0].names, (std::vector<std::string>{"side"}));
+  EXPECT_EQ(mesh.regions[0].names, (Strings{"Left", "again", "both"}));
+  EXPECT_EQ(mesh.regions[1].names, (Strings{"again", "both"}));
+  EXPECT_EQ(mesh.lines, (Lines{{4, 2}}));
+  EXPECT_EQ(mesh.curves[0].names, (Strings{"side"}));
   const auto refuses = [&](const std::string& text, std::initializer_list<const char*> parts) {
     expect_input_error([&] { read_mesh(write_text(folder / "b.inp", text)); }, parts);
   };
@@ -282,7 +228,7 @@ TEST(Inp, ReadsWhatProgramsWrite) {
 }
 
 TEST(Medit, NamesTheLineOfWhatIsWrong) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto refuses = [&](const std::string& text, std::initializer_list<const char*> parts) {
     expect_input_error([&] { read_mesh(write_text(folder / "b.mesh", text)); }, parts);
   };
@@ -294,7 +240,7 @@ TEST(Medit, NamesTheLineOfWhatIsWrong) {
 }
 
 TEST(Vtu, RefusesWhatIsDamaged) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_vtu(folder / "a.vtu", quad_grid(2, 2));
   const std::string whole = read_text(folder / "a.vtu");
   for (size_t n = 0; n < whole.size() - 12; n += 7)

@@ -1,32 +1,17 @@
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <functional>
-
-#include "delquad/error.h"
 #include "delquad/hexahedra.h"
 #include "io/mesh_formats.h"
-#include "io/mesh_io.h"
-#include "tests/support/curved_grid.h"
-#include "tests/support/expect_input_error.h"
 #include "tests/support/failing_disk.h"
-#include "tests/support/grid_mesh.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::curved_grid;
 using testing_support::FailingDisk;
-using testing_support::quad_grid;
-using testing_support::read_text;
-using testing_support::TemporaryFolder;
-using testing_support::write_text;
 
 /// What a folder holds.
-std::map<std::string, std::string> contents(const TemporaryFolder& folder) {
+std::map<std::string, std::string> contents(const Folder& folder) {
   std::map<std::string, std::string> all;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
     all[entry.path().lexically_relative(folder.path())] = entry.is_directory() ? "" : read_text(entry);
   return all;
 }
@@ -34,7 +19,7 @@ std::map<std::string, std::string> contents(const TemporaryFolder& folder) {
 /// A file that is written, and by what.
 struct Writer {
   std::string name;
-  std::function<void(const std::filesystem::path&)> write;
+  std::function<void(const fs::path&)> write;
 };
 
 void PrintTo(const Writer& writer, std::ostream* out) { *out << writer.name; }
@@ -48,7 +33,7 @@ class FullDisk : public ::testing::TestWithParam<Writer> {
   template <class MakeDisk>
   void try_on(MakeDisk make_disk, const std::string& what, const char* reason) {
     SCOPED_TRACE(GetParam().name + ", " + what);
-    const TemporaryFolder folder;
+    const Folder folder;
     write_text(folder / GetParam().name, "before");
     const auto before = contents(folder);
     std::string message;
@@ -67,13 +52,13 @@ class FullDisk : public ::testing::TestWithParam<Writer> {
     }
     ++messages_;
     EXPECT_TRUE(contents(folder) == before) << "something is left";
-    EXPECT_NE(message.find(folder.path().string()), std::string::npos) << message;
+    EXPECT_TRUE(holds(message, folder.path().string()));
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    EXPECT_NE(message.find(reason), std::string::npos) << message;
+    EXPECT_TRUE(holds(message, reason));
   }
 
   const char* before_ = getenv("TMPDIR");
-  const TemporaryFolder temporary_;
+  const Folder temporary_;
   std::map<std::string, std::string> good_;
   int messages_ = 0;
 };
@@ -81,7 +66,7 @@ class FullDisk : public ::testing::TestWithParam<Writer> {
 TEST_P(FullDisk, LeavesWholeFilesOrNone) {
   long long bytes = 0, calls = 0;
   {
-    const TemporaryFolder folder;
+    const Folder folder;
     const FailingDisk disk = FailingDisk::sound();
     GetParam().write(folder / GetParam().name);
     bytes = disk.bytes(), calls = disk.calls();
@@ -105,12 +90,11 @@ TEST_P(FullDisk, LeavesWholeFilesOrNone) {
 }
 
 TEST_P(FullDisk, NeedsAFolderForTemporaryFilesWhereItHasThem) {
-  const TemporaryFolder folder;
+  const Folder folder;
   setenv("TMPDIR", (folder / "nowhere").c_str(), 1);
   const std::string message = message_of([&] { GetParam().write(folder / GetParam().name); });
   if (message.empty()) return;  // it has none
-  EXPECT_NE(message.find((folder / "").string()), std::string::npos) << message;
-  EXPECT_NE(message.find("(TMPDIR): "), std::string::npos) << message;
+  EXPECT_TRUE(holds(message, (folder / "").string(), "(TMPDIR): "));
   EXPECT_TRUE(folder.names().empty());
 }
 

@@ -1,20 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstdint>
-
-#include "io/mesh_io.h"
 #include "tests/fuzz/reader_seeds.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::TemporaryFolder;
-using testing_support::write_text;
 
 // Small files that ask for much, and numbers that no type holds. Each was found by fuzzing.
 
@@ -26,14 +14,14 @@ std::string vtu(const std::string& types, const std::string& names = "") {
 }
 
 TEST(HostileVtu, ElementsInElementsAreNotFollowed) {
-  const TemporaryFolder folder;
+  const Folder folder;
   std::string deep;
   for (int i = 0; i < 1'000'000; ++i) deep += "<a>";
   expect_input_error([&] { read_mesh(write_text(folder / "a.vtu", deep)); }, {"a.vtu", "levels"});
 }
 
 TEST(HostileVtu, NumbersThatAreNoIntAreNoTypesAndTags) {
-  const TemporaryFolder folder;
+  const Folder folder;
   EXPECT_EQ(read_mesh(write_text(folder / "a.vtu", vtu("5 1"))).triangles.size(), 1u);
   for (const char* type : {"nan", "1e300", "-1e300", "inf"})
     expect_input_error([&] { read_mesh(write_text(folder / "a.vtu", vtu(std::string(type) + " 1"))); },
@@ -41,40 +29,38 @@ TEST(HostileVtu, NumbersThatAreNoIntAreNoTypesAndTags) {
   const Mesh mesh = read_mesh(
       write_text(folder / "a.vtu",
                  vtu("5 1", R"(<FieldData><DataArray Name="region n">1e300 nan 1</DataArray></FieldData>)")));
-  EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"n"});
+  EXPECT_EQ(mesh.regions[0].names, Strings{"n"});
 }
 
 /// Each line doubles the set: fifty would be more numbers than any memory holds.
 TEST(HostileInp, SetsThatHoldThemselvesDoNotGrow) {
-  const TemporaryFolder folder;
+  const Folder folder;
   std::string text =
       "*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=S3, ELSET=a\n1, 1, 2, 3\n*ELSET, ELSET=a\n";
   for (int i = 0; i < 50; ++i) text += "a, a\n";
   const Mesh mesh = read_mesh(write_text(folder / "a.inp", text));
-  EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"a"});
+  EXPECT_EQ(mesh.regions[0].names, Strings{"a"});
 }
 
 TEST(HostileInp, StepsEndWithTheLastElement) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const std::string text =
       "*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=S3\n7, 1, 2, 3\n*ELSET, ELSET=a, GENERATE\n";
   const auto read = [&](const std::string& range) {
     return read_mesh(write_text(folder / "a.inp", text + range + "\n"));
   };
-  EXPECT_EQ(read("7, 9223372036854775807, 9223372036854775807").regions[0].names,
-            std::vector<std::string>{"a"});
-  EXPECT_EQ(read("7, 7").regions[0].names, std::vector<std::string>{"a"});
+  EXPECT_EQ(read("7, 9223372036854775807, 9223372036854775807").regions[0].names, Strings{"a"});
+  EXPECT_EQ(read("7, 7").regions[0].names, Strings{"a"});
   EXPECT_TRUE(read("7, 6").regions[0].names.empty());
 }
 
 TEST(HostilePly, ColoursThatAreNoNumbersAreNone) {
-  const TemporaryFolder folder;
+  const Folder folder;
   std::string text =
       "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
       "float z\n"
       "element face 1\nproperty list uchar uchar vertex_indices\nproperty float red\nproperty float "
-      "green\nproperty float "
-      "blue\nend_header\n";
+      "green\nproperty float blue\nend_header\n";
   const auto put = [&](float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     for (int k = 0; k < 32; k += 8) text += static_cast<char>(bits >> k & 255);
@@ -86,7 +72,7 @@ TEST(HostilePly, ColoursThatAreNoNumbersAreNone) {
 }
 
 TEST(HostilePly, NamesAreShownInPrint) {
-  const TemporaryFolder folder;
+  const Folder folder;
   try {
     read_mesh(write_text(
         folder / "a.ply",
@@ -105,7 +91,7 @@ std::string three_mf(const std::string& resources, const std::string& build) {
 }
 
 TEST(HostileThreeMf, PlacesAreFinite) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const std::string object =
       R"(<object id="1"><mesh><vertices><vertex x="1e300" y="0" z="0"/><vertex x="1" y="0" z="0"/>)"
       R"(<vertex x="0" y="1" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>)";
@@ -119,7 +105,7 @@ TEST(HostileThreeMf, PlacesAreFinite) {
 
 /// Points count, too, where objects hold one another.
 TEST(HostileThreeMf, PointsThatMultiplyAreRefused) {
-  const TemporaryFolder folder;
+  const Folder folder;
   std::string resources = R"(<object id="0"><mesh><vertices>)";
   for (int i = 0; i < 1000; ++i) resources += R"(<vertex x="0" y="0" z="0"/>)";
   resources += R"(</vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>)";

@@ -1,19 +1,8 @@
-#include <gtest/gtest.h>
-
 #include "io/entity_names.h"
-#include "io/mesh_io.h"
-#include "tests/support/curved_grid.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::curved_grid;
-using testing_support::quad_grid;
-using testing_support::read_text;
-using testing_support::TemporaryFolder;
-using Names = std::vector<std::string>;
 
 TEST(MeshGroups, HaveTheNodesOfTheirLines) {
   const Mesh mesh = curved_grid(2, 1, 2, false);
@@ -37,39 +26,38 @@ TEST(MeshGroups, MoreNumbersThanAFormatHoldsAreRefused) {
 TEST(RenamedInFile, TellsWhatNoCommentTells) {
   Mesh mesh = quad_grid(1, 1);
   for (const char* name : {"a.msh", "a.cgns", "a.med", "a.e", "a.vtk"})
-    EXPECT_EQ(renamed_in_file(name, mesh), Names());
+    EXPECT_EQ(renamed_in_file(name, mesh), Strings());
   mesh.curves[0].names = {"in/out"};
   mesh.curves[1].names = {"c\xc3\xb4t\xc3\xa9 sud"};
-  EXPECT_EQ(renamed_in_file("a.cgns", mesh), Names{"curve \"in/out\" is in_out"});
-  EXPECT_EQ(renamed_in_file("a.med", mesh), Names{"curve \"c\xc3\xb4t\xc3\xa9 sud\" is c__t__ sud"});
-  EXPECT_EQ(renamed_in_file("a.e", mesh), Names());
+  EXPECT_EQ(renamed_in_file("a.cgns", mesh), Strings{"curve \"in/out\" is in_out"});
+  EXPECT_EQ(renamed_in_file("a.med", mesh), Strings{"curve \"c\xc3\xb4t\xc3\xa9 sud\" is c__t__ sud"});
+  EXPECT_EQ(renamed_in_file("a.e", mesh), Strings());
   EXPECT_EQ(renamed_in_file("a.vtk", mesh),
-            Names{"curve \"c\xc3\xb4t\xc3\xa9 sud\" is c\xc3\xb4t\xc3\xa9_sud"});
-  EXPECT_EQ(renamed_in_file("a.su2", mesh), Names()) << "its comments tell";
+            Strings{"curve \"c\xc3\xb4t\xc3\xa9 sud\" is c\xc3\xb4t\xc3\xa9_sud"});
+  EXPECT_EQ(renamed_in_file("a.su2", mesh), Strings()) << "its comments tell";
   mesh.regions[0].names = {"in/out"};
-  EXPECT_EQ(renamed_in_file("a.msh", mesh), Names{"region \"in/out\" is in/out_2"});
+  EXPECT_EQ(renamed_in_file("a.msh", mesh), Strings{"region \"in/out\" is in/out_2"});
   mesh.regions[0].names = {std::string(90, 'x')};
   EXPECT_EQ(renamed_in_file("a.e", mesh),
-            Names{"region \"" + std::string(90, 'x') + "\" is " + std::string(70, 'x')});
+            Strings{"region \"" + std::string(90, 'x') + "\" is " + std::string(70, 'x')});
 }
 
 TEST(VtkLegacy, CurvesOfOneNameAreOneArray) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(1, 1);
   mesh.curves[0].names = mesh.curves[2].names = {"a wall"};
   mesh.curves[1].names = {"a_wall"};
   write_mesh(folder / "a.vtk", mesh);
   const std::string text = read_text(folder / "a.vtk");
-  EXPECT_NE(text.find("FIELD FieldData 4\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("curve_a_wall_2 1 2 int\n1\n3\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("curve_a_wall 1 1 int\n2\n"), std::string::npos) << text;
+  EXPECT_TRUE(
+      holds(text, "FIELD FieldData 4\n", "curve_a_wall_2 1 2 int\n1\n3\n", "curve_a_wall 1 1 int\n2\n"));
 }
 
 TEST(Xdmf, IsWrittenWithItsNumbersOrNotAtAll) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directory(folder / "a.xdmf");
+  const Folder folder;
+  fs::create_directory(folder / "a.xdmf");
   expect_input_error([&] { write_mesh(folder / "a.xdmf", quad_grid(1, 1)); }, {"a.xdmf"});
-  EXPECT_EQ(folder.names(), Names{"a.xdmf"});
+  EXPECT_EQ(folder.names(), Strings{"a.xdmf"});
 }
 
 }  // namespace

@@ -1,13 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <random>
-
-#include "delquad/error.h"
-#include "io/mesh_io.h"
 #include "metrics/metrics.h"
 #include "tests/io/msh_files.h"
 #include "tests/io/reader_test.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {

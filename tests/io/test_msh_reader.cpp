@@ -1,10 +1,5 @@
-#include <gtest/gtest.h>
-
-#include "io/mesh_io.h"
 #include "tests/io/msh_files.h"
 #include "tests/io/reader_test.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
@@ -12,26 +7,25 @@ namespace {
 using msh_files::kSquare22;
 using msh_files::kSquare41;
 using msh_files::with;
-using Names = std::vector<std::string>;
 
 class MshReader : public testing_support::ReaderTest<> {
  protected:
   MshReader() : ReaderTest("case.msh") {}
   void expect_square(const Mesh& mesh) {
-    EXPECT_EQ(check_invariants(mesh), Names());
+    EXPECT_EQ(check_invariants(mesh), Strings());
     EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}))
         << "by tag: 1, 2, 4, 10";
-    EXPECT_EQ(mesh.lines, (std::vector<std::array<int, 2>>{{0, 1}, {1, 3}, {3, 2}, {2, 0}}));
+    EXPECT_EQ(mesh.lines, (Lines{{0, 1}, {1, 3}, {3, 2}, {2, 0}}));
     EXPECT_EQ(mesh.line_curve, (std::vector<int>{0, 0, 1, 1}));
-    EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 3}, {0, 3, 2}}));
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 3}, {0, 3, 2}}));
     ASSERT_EQ(mesh.curves.size(), 2u);
     ASSERT_EQ(mesh.regions.size(), 1u);
     EXPECT_EQ(mesh.curves[0].tag, 7);
-    EXPECT_EQ(mesh.curves[0].names, (Names{"wall one", "all walls"}));
+    EXPECT_EQ(mesh.curves[0].names, (Strings{"wall one", "all walls"}));
     EXPECT_EQ(mesh.curves[1].tag, 8);
-    EXPECT_EQ(mesh.curves[1].names, (Names{"all walls"}));
+    EXPECT_EQ(mesh.curves[1].names, (Strings{"all walls"}));
     EXPECT_EQ(mesh.regions[0].tag, 3);
-    EXPECT_EQ(mesh.regions[0].names, (Names{"plate"}));
+    EXPECT_EQ(mesh.regions[0].names, (Strings{"plate"}));
   }
 };
 
@@ -59,8 +53,8 @@ TEST_F(MshReader, GroupsWithoutNamesGoByTheirNumber) {
   const std::string text =
       kSquare22.substr(0, kSquare22.find("$PhysicalNames")) + kSquare22.substr(kSquare22.find("$Nodes"));
   const Mesh mesh = read(text);
-  EXPECT_EQ(mesh.curves[0].names, (Names{"1", "2"}));
-  EXPECT_EQ(mesh.regions[0].names, (Names{"1"}));
+  EXPECT_EQ(mesh.curves[0].names, (Strings{"1", "2"}));
+  EXPECT_EQ(mesh.regions[0].names, (Strings{"1"}));
 }
 
 TEST_F(MshReader, LinesWithoutGroupKeepTheirElementaryTag) {
@@ -82,8 +76,8 @@ TEST_F(MshReader, GroupsThatShareAnElementaryTagStayApart) {
         "$Elements\n3\n1 1 2 5 " +
         e + " 1 2\n2 1 2 6 " + e + " 2 3\n3 1 2 5 " + e + " 3 1\n$EndElements\n");
     EXPECT_EQ(mesh.line_curve, (std::vector<int>{0, 1, 0})) << e;
-    EXPECT_EQ(mesh.curves[0].names, (Names{"5"})) << e;
-    EXPECT_EQ(mesh.curves[1].names, (Names{"6"})) << e;
+    EXPECT_EQ(mesh.curves[0].names, (Strings{"5"})) << e;
+    EXPECT_EQ(mesh.curves[1].names, (Strings{"6"})) << e;
     EXPECT_NE(mesh.curves[0].tag, mesh.curves[1].tag) << e;
   }
 }

@@ -1,19 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "io/mesh_io.h"
-#include "tests/support/curved_grid.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/grid_mesh.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::TemporaryFolder;
-using testing_support::write_text;
 
 /// Two triangles, of areas .5 and 1, and a line with a point of its own; tags with gaps.
 const std::string kTwoTriangles22 =
@@ -22,7 +10,7 @@ const std::string kTwoTriangles22 =
     "$Elements\n3\n7 1 2 0 1 9 20\n8 2 2 0 1 3 5 6\n4 2 2 0 1 5 9 6\n$EndElements\n";
 
 std::string msh_view(const std::string& section, const std::string& name, int step, int components,
-                     const std::vector<std::string>& rows) {
+                     const Strings& rows) {
   std::string text = "$" + section + "\n1\n\"" + name + "\"\n1\n0.5\n3\n" + std::to_string(step) + "\n" +
                      std::to_string(components) + "\n" + std::to_string(rows.size()) + "\n";
   for (const std::string& row : rows) text += row + "\n";
@@ -37,7 +25,7 @@ std::vector<double> values_of_triangles(const NodalValues& field) {
 }
 
 TEST(NodalValues, OfNodesInAnyOrder) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto file = write_text(folder / "a.msh", kTwoTriangles22 + msh_view("NodeData", "wanted size", 0, 1,
                                                                             {"9 4", "5 2", "3 1", "6 3"}));
   for (const char* name : {"", "wanted size"})
@@ -45,7 +33,7 @@ TEST(NodalValues, OfNodesInAnyOrder) {
 }
 
 TEST(NodalValues, OfElementsAreMeansByArea) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto file =
       write_text(folder / "a.msh", kTwoTriangles22 + msh_view("ElementData", "h", 0, 1, {"4 7", "8 1"}));
   const double mean = (0.5 * 1 + 1.5 * 7) / 2;
@@ -53,7 +41,7 @@ TEST(NodalValues, OfElementsAreMeansByArea) {
 }
 
 TEST(NodalValues, TheLastStepCounts) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto file =
       write_text(folder / "a.msh",
                  kTwoTriangles22 + msh_view("NodeData", "h", 0, 1, {"3 9", "5 9", "6 9", "9 9"}) +
@@ -68,7 +56,7 @@ TEST(NodalValues, TheLastStepCounts) {
 }
 
 TEST(NodalValues, EveryPointOfAFaceNeedsOne) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto file =
       write_text(folder / "a.msh", kTwoTriangles22 + msh_view("NodeData", "h", 0, 1, {"3 1", "5 1", "6 1"}));
   expect_input_error([&] { read_values(file, ""); }, {"a.msh: the field has no value at (2, 2, 0)"});
@@ -77,7 +65,7 @@ TEST(NodalValues, EveryPointOfAFaceNeedsOne) {
 }
 
 TEST(NodalValues, DamagedViewsAreRefusedWithTheirLine) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const std::string whole = kTwoTriangles22 + msh_view("NodeData", "h", 0, 1, {"3 1", "5 1", "6 1", "9 1"});
   const size_t first = kTwoTriangles22.size();
   // Anywhere but within the last word, whose end is the file's.
@@ -97,7 +85,7 @@ std::string two_triangles_vtu(const std::string& data) {
 }
 
 TEST(NodalValues, OfVtuFiles) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto file = write_text(
       folder / "a.vtu",
       two_triangles_vtu(
@@ -121,9 +109,9 @@ bool same(const MeshField& a, const MeshField& b) {
 }
 
 TEST(MeshFields, WhatIsWrittenIsRead) {
-  const TemporaryFolder folder;
+  const Folder folder;
   for (const int order : {1, 2}) {
-    Mesh mesh = testing_support::curved_grid(3, 2, order, false);
+    Mesh mesh = curved_grid(3, 2, order, false);
     if (order == 1) mesh.triangles = {{0, 1, 3}}, mesh.triangle_region = {0};
     const std::size_t n = mesh.triangles.size() + mesh.quads.size();
     std::vector<MeshField> fields{
@@ -139,12 +127,12 @@ TEST(MeshFields, WhatIsWrittenIsRead) {
       EXPECT_TRUE(std::ranges::equal(read.fields, fields, same)) << name;
     }
   }
-  expect_input_error([&] { write_fields(folder / "a.obj", testing_support::quad_grid(1, 1), {}); },
+  expect_input_error([&] { write_fields(folder / "a.obj", quad_grid(1, 1), {}); },
                      {"a.obj", ".msh and .vtu"});
 }
 
 TEST(MeshFields, StepsGapsAndRefusals) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto of_plane =
       write_text(folder / "a.msh", kTwoTriangles22 +
                                        msh_view("NodeData", "v", 0, 2, {"3 9 9", "5 9 9", "6 9 9", "9 9 9"}) +
@@ -163,7 +151,7 @@ TEST(MeshFields, StepsGapsAndRefusals) {
   const auto long_view =
       write_text(folder / "c.msh", kTwoTriangles22 + msh_view("NodeData", "t", 0, 1000, {}));
   expect_input_error([&] { read_fields(long_view); }, {"c.msh: the field 't' has 1000 components"});
-  Mesh mesh = testing_support::curved_grid(2, 2, 2, false);
+  Mesh mesh = curved_grid(2, 2, 2, false);
   write_serendipity(folder / "d.vtu", mesh);
   expect_input_error([&] { read_fields(folder / "d.vtu"); }, {"d.vtu: fields on quads of 8 nodes"});
 }

@@ -1,9 +1,4 @@
-#include <gtest/gtest.h>
-
-#include "io/mesh_io.h"
 #include "tests/io/reader_test.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
@@ -20,11 +15,11 @@ TEST_F(Obj, ReadsWhatProgramsWrite) {
       "g plate upper\ns off\nf 2/1/1 3//1 4/1 5\nf -4 -3 -2\ng\nl 2 3 4 5\n");
   EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}))
       << "unused points go";
-  EXPECT_EQ(mesh.quads, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}}));
-  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}}));
-  EXPECT_EQ(mesh.lines, (std::vector<std::array<int, 2>>{{0, 1}, {1, 2}, {2, 3}}));
+  EXPECT_EQ(mesh.quads, (Quads{{0, 1, 2, 3}}));
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
+  EXPECT_EQ(mesh.lines, (Lines{{0, 1}, {1, 2}, {2, 3}}));
   ASSERT_EQ(mesh.regions.size(), 1u);
-  EXPECT_EQ(mesh.regions[0].names, (std::vector<std::string>{"plate", "upper"}));
+  EXPECT_EQ(mesh.regions[0].names, (Strings{"plate", "upper"}));
   ASSERT_EQ(mesh.curves.size(), 1u);
   EXPECT_TRUE(mesh.curves[0].names.empty());
 }
@@ -40,8 +35,8 @@ TEST_F(Obj, LinesGoOnBehindABackslash) {
       "# no more: \\\nv 0 0 \\\n 0\r\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 \\\r\n 2\\\n 3 4\ng a \\\n b\nf 1 2 "
       "3\n");
   EXPECT_EQ(mesh.points.size(), 4u);
-  EXPECT_EQ(mesh.quads, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}}));
-  EXPECT_EQ(mesh.regions[1].names, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(mesh.quads, (Quads{{0, 1, 2, 3}}));
+  EXPECT_EQ(mesh.regions[1].names, (Strings{"a", "b"}));
   expect_error("v 0 0 0\nv 1 0 0\nf 1 \\\n 2 \\\n 9\n", {"case.obj:5: ", "'9'"});
 }
 

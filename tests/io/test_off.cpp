@@ -1,13 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <random>
-
-#include "delquad/error.h"
-#include "io/mesh_io.h"
 #include "tests/io/reader_test.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
@@ -22,8 +13,8 @@ class Off : public testing_support::ReaderTest<> {
 TEST_F(Off, ReadsPlainFiles) {
   const Mesh mesh = read(kSquare);
   EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
-  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
-  EXPECT_EQ(check_invariants(mesh), std::vector<std::string>{});
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(check_invariants(mesh), Strings{});
 }
 
 TEST_F(Off, IgnoresCommentsColoursNormalsAndUnusedPoints) {
@@ -32,8 +23,8 @@ TEST_F(Off, IgnoresCommentsColoursNormalsAndUnusedPoints) {
       "9 9 9 0 0 1 1 1 1 1\n1 0 0 0 0 1 .5 .5 .5 1 # a point\n\n1 1 0 0 0 1 1 1 1 1\n0 1 0 0 0 1 1 1 1 1\n"
       "4 0 2 3 4 255 0 0\n# a triangle\n3 0 2 3 0.5 0.5 0.5 # red\n# the end");
   EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
-  EXPECT_EQ(mesh.quads, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}}));
-  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}}));
+  EXPECT_EQ(mesh.quads, (Quads{{0, 1, 2, 3}}));
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
 }
 
 TEST_F(Off, CountsMayFollowTheKeyword) { EXPECT_TRUE(reads("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2")); }

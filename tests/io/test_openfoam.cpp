@@ -1,18 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <sstream>
-
 #include "io/mesh_formats.h"
-#include "io/mesh_io.h"
-#include "tests/support/grid_mesh.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::quad_grid;
-using testing_support::read_text;
-using testing_support::TemporaryFolder;
 
 /// The lists of numbers in brackets, one a line.
 std::vector<std::vector<double>> rows_of(const std::string& text) {
@@ -39,7 +29,7 @@ Mesh channel() {
 }
 
 TEST(OpenFoam, PeriodicSidesAreCyclicPatches) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_mesh(folder / "a.foam", channel());
   const auto home = folder / "constant/polyMesh";
   const std::string boundary = read_text(home / "boundary");
@@ -47,13 +37,11 @@ TEST(OpenFoam, PeriodicSidesAreCyclicPatches) {
     const std::size_t at = boundary.find("\n" + name + "\n");
     EXPECT_NE(at, std::string::npos) << boundary;
     const std::string part = boundary.substr(at, boundary.find('}', at) - at);
-    EXPECT_NE(part.find("type cyclic;"), std::string::npos) << part;
-    EXPECT_NE(part.find("neighbourPatch " + neighbour + ";"), std::string::npos) << part;
-    EXPECT_NE(part.find("nFaces 2;"), std::string::npos) << part;
+    EXPECT_TRUE(holds(part, "type cyclic;", "neighbourPatch " + neighbour + ";", "nFaces 2;"));
     return std::stoul(part.substr(part.find("startFace") + 9));
   };
   const std::size_t west = patch("west", "east"), east = patch("east", "west");
-  EXPECT_NE(boundary.find("type patch"), std::string::npos);  // south and north
+  EXPECT_TRUE(holds(boundary, "type patch"));  // south and north
   const auto points = rows_of(read_text(home / "points")), faces = rows_of(read_text(home / "faces"));
   // OpenFOAM: both faces begin at the same node, and run round in opposite ways.
   for (std::size_t f = 0; f < 2; ++f)
@@ -65,12 +53,11 @@ TEST(OpenFoam, PeriodicSidesAreCyclicPatches) {
 }
 
 TEST(OpenFoam, NamedCurvesInsideAreFaceZones) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_mesh(folder / "a.foam", channel());
   const std::string zones = read_text(folder / "constant/polyMesh/faceZones");
-  EXPECT_NE(zones.find("steel_copper\n{\n    type faceZone;\n    faceLabels List<label> 2\n(\n"),
-            std::string::npos);
-  EXPECT_NE(zones.find("flipMap List<bool> 2{0};"), std::string::npos);
+  EXPECT_TRUE(holds(zones, "steel_copper\n{\n    type faceZone;\n    faceLabels List<label> 2\n(\n",
+                    "flipMap List<bool> 2{0};"));
   const auto points = rows_of(read_text(folder / "constant/polyMesh/points")),
              faces = rows_of(read_text(folder / "constant/polyMesh/faces"));
   std::istringstream labels(zones.substr(zones.find("(\n", zones.find("faceLabels")) + 2));
@@ -81,23 +68,20 @@ TEST(OpenFoam, NamedCurvesInsideAreFaceZones) {
 }
 
 TEST(Su2, TellsSettingsOfPeriodicMarkers) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_mesh(folder / "a.su2", channel());
   const std::string text = read_text(folder / "a.su2");
-  EXPECT_NE(text.find("% MARKER_PERIODIC= ( west, east, 0, 0, 0, 0, 0, 0, 4, 0, 0 )\n"), std::string::npos)
-      << text;
-  EXPECT_EQ(text.find("steel"), std::string::npos);
+  EXPECT_TRUE(holds(text, "% MARKER_PERIODIC= ( west, east, 0, 0, 0, 0, 0, 0, 4, 0, 0 )\n"));
+  EXPECT_FALSE(holds(text, "steel"));
 }
 
 TEST(LostInFile, NamesAndPairsThatTheFormatDoesNotHold) {
   const auto lost = [](const char* file) { return lost_in_file(file, channel()); };
   EXPECT_EQ(lost("a.msh").size(), 0u);
   EXPECT_EQ(lost("a.foam").size(), 0u);
-  EXPECT_EQ(lost("a.su2"), (std::vector<std::string>{"names of regions, which '.su2' does not hold: inside",
-                                                     "names of curves inside, which '.su2' does not hold: "
-                                                     "steel-copper"}));
-  EXPECT_EQ(lost("a.vtu"),
-            std::vector<std::string>{"which nodes are images of others, which '.vtu' does not hold"});
+  EXPECT_EQ(lost("a.su2"), (Strings{"names of regions, which '.su2' does not hold: inside",
+                                    "names of curves inside, which '.su2' does not hold: steel-copper"}));
+  EXPECT_EQ(lost("a.vtu"), Strings{"which nodes are images of others, which '.vtu' does not hold"});
 }
 
 }  // namespace

@@ -1,18 +1,13 @@
-#include <gtest/gtest.h>
-
 #include "io/item_buffer.h"
 #include "io/picture.h"
 #include "io/svg.h"
-#include "tests/support/curved_grid.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
 
 using testing_support::box;
-using testing_support::read_text;
-using testing_support::TemporaryFolder;
 
 /// The box with quads.
 Mesh quad_box(int n) {
@@ -39,7 +34,7 @@ size_t polygons(const std::string& svg) {
 }
 
 std::string drawn(const Mesh& mesh) {
-  const TemporaryFolder folder;
+  const Folder folder;
   draw_mesh(folder / "a.svg", mesh, "<box>");
   return read_text(folder / "a.svg");
 }
@@ -62,8 +57,7 @@ TEST(DrawSurface, ShowsThreeSidesOfABox) {
   const std::string text = drawn(quad_box(6));
   EXPECT_GE(polygons(text), 3u * 6 * 6);
   EXPECT_LE(polygons(text), 3u * 6 * 6 + 6 * 6) << "some whose rim is seen";
-  EXPECT_NE(text.find("&lt;box&gt;"), std::string::npos);
-  EXPECT_NE(text.find(">eta<"), std::string::npos);
+  EXPECT_TRUE(holds(text, "&lt;box&gt;", ">eta<"));
 }
 
 TEST(DrawSurface, MarksOnlyTheIrregularVerticesThatAreSeen) {
@@ -93,16 +87,16 @@ TEST(DrawSurface, IsCompactAndDrawsNoEdgesOfManyElements) {
   const Mesh mesh = quad_box(80);
   const std::string text = drawn(mesh);
   EXPECT_LT(text.size(), 20 * mesh.quads.size());
-  EXPECT_EQ(text.find("#222"), std::string::npos);
+  EXPECT_FALSE(holds(text, "#222"));
   EXPECT_EQ(text, drawn(mesh));
 }
 
 TEST(DrawSurface, SurvivesWhatHasNoExtent) {
   Mesh mesh = box(1);
   for (Vec3& p : mesh.points) p = {3, 3, 3};
-  EXPECT_NE(drawn(mesh).find("</svg>"), std::string::npos);
+  EXPECT_TRUE(holds(drawn(mesh), "</svg>"));
   for (Vec3& p : mesh.points) p = {0, 0, 1e-300 * p.x};
-  EXPECT_NE(drawn(mesh).find("</svg>"), std::string::npos);
+  EXPECT_TRUE(holds(drawn(mesh), "</svg>"));
 }
 
 /// Sides are divided into eight pieces, or lines would be those of the corners.
@@ -112,7 +106,7 @@ TEST(DrawSurface, DrawsCurvedSides) {
     return std::count_if(svg.begin() + static_cast<long>(first), svg.begin() + static_cast<long>(last),
                          [](char c) { return c >= '0' && c <= '9' ? false : c == ' ' || c == '-'; });
   };
-  const Mesh curved = testing_support::curved_grid(1, 1, 2, true);
+  const Mesh curved = curved_grid(1, 1, 2, true);
   Mesh straight = curved;
   straight.order = 1;
   straight.line_nodes = straight.quad_nodes = {};

@@ -1,17 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "io/picture.h"
 #include "io/svg.h"
-#include "tests/support/grid_mesh.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using namespace testing_support;
 
 size_t count(const std::string& text, const std::string& part) {
   size_t n = 0;
@@ -64,17 +56,17 @@ TEST(SvgPicture, SurvivesBoxesWithoutWidthHeightOrBoth) {
 }
 
 TEST(DrawMesh, HasOnePolygonAnElementAndEscapesItsTitle) {
-  const TemporaryFolder folder;
+  const Folder folder;
   draw_mesh(folder / "a.svg", quad_grid(7, 5), "<D> & B");
   const std::string text = read_text(folder / "a.svg");
   EXPECT_EQ(count(path_data(text), "z"), 7u * 5);
-  EXPECT_NE(text.find("&lt;D&gt; &amp; B"), std::string::npos);
+  EXPECT_TRUE(holds(text, "&lt;D&gt; &amp; B"));
   EXPECT_EQ(count(text, "valence"), 0u) << "all vertices are regular";
-  EXPECT_NE(text.find(">eta<"), std::string::npos);
+  EXPECT_TRUE(holds(text, ">eta<"));
 }
 
 TEST(DrawMesh, MarksIrregularVerticesByValence) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(2, 2);
   mesh.quads.erase(mesh.quads.begin());
   mesh.quad_region.pop_back();
@@ -88,7 +80,7 @@ TEST(DrawMesh, MarksIrregularVerticesByValence) {
 }
 
 TEST(DrawMesh, JoinsPairsOfIrregularVertices) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(6, 5);
   // The edge in the middle is turned: two pairs.
   mesh.quads[14] = {16, 17, 18, 23};
@@ -100,21 +92,21 @@ TEST(DrawMesh, JoinsPairsOfIrregularVertices) {
 }
 
 TEST(DrawMesh, OfTrianglesHasNoColourBar) {
-  const TemporaryFolder folder;
+  const Folder folder;
   draw_mesh(folder / "a.svg", triangle_grid(4, 4), "");
-  EXPECT_EQ(read_text(folder / "a.svg").find(">eta<"), std::string::npos);
+  EXPECT_FALSE(holds(read_text(folder / "a.svg"), ">eta<"));
 }
 
 TEST(DrawMesh, StaysSmallForManyElements) {
-  const TemporaryFolder folder;
+  const Folder folder;
   constexpr int n = 250;
   draw_mesh(folder / "a.svg", quad_grid(n, n), "");
-  EXPECT_LT(std::filesystem::file_size(folder / "a.svg"), 30.0 * n * n);
-  EXPECT_EQ(read_text(folder / "a.svg").find("#222"), std::string::npos) << "edges are not drawn";
+  EXPECT_LT(fs::file_size(folder / "a.svg"), 30.0 * n * n);
+  EXPECT_FALSE(holds(read_text(folder / "a.svg"), "#222")) << "edges are not drawn";
 }
 
 TEST(Pictures, AreTheSameBytesTwice) {
-  const TemporaryFolder folder;
+  const Folder folder;
   for (const char* name : {"a.svg", "b.svg"}) draw_mesh(folder / name, quad_grid(9, 9, 1, 3), "title");
   EXPECT_EQ(read_text(folder / "a.svg"), read_text(folder / "b.svg"));
 }

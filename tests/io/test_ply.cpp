@@ -1,18 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <bit>
-#include <cstdint>
-#include <cstring>
-#include <random>
-
-#include "io/mesh_io.h"
 #include "tests/io/reader_test.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::write_text;
 
 const std::string kPlySquare =
     "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 4\nproperty float x\nproperty float y\n"
@@ -64,10 +53,10 @@ std::string binary(bool big) {
 TEST_F(Ply, ReadsText) {
   const Mesh mesh = read(kPlySquare);
   EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
-  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(mesh.regions.size(), 1u);
   EXPECT_TRUE(mesh.regions[0].names.empty());
-  EXPECT_EQ(check_invariants(mesh), std::vector<std::string>{});
+  EXPECT_EQ(check_invariants(mesh), Strings{});
 }
 
 TEST_F(Ply, ReadsBytesOfBothOrders) {
@@ -75,10 +64,10 @@ TEST_F(Ply, ReadsBytesOfBothOrders) {
     const Mesh mesh = read(binary(big));
     EXPECT_EQ(mesh.points,
               (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}}));
-    EXPECT_EQ(mesh.quads, (std::vector<std::array<int, 4>>{{0, 1, 4, 3}, {1, 2, 5, 4}}));
+    EXPECT_EQ(mesh.quads, (Quads{{0, 1, 4, 3}, {1, 2, 5, 4}}));
     ASSERT_EQ(mesh.regions.size(), 2u) << "by colour";
-    EXPECT_EQ(mesh.regions[0].names, std::vector<std::string>{"colour #ff0010"});
-    EXPECT_EQ(mesh.regions[1].names, std::vector<std::string>{"colour #ff0110"});
+    EXPECT_EQ(mesh.regions[0].names, Strings{"colour #ff0010"});
+    EXPECT_EQ(mesh.regions[1].names, Strings{"colour #ff0110"});
     EXPECT_EQ(mesh.quad_region, (std::vector<int>{0, 1}));
   }
 }
@@ -94,7 +83,7 @@ TEST_F(Ply, ColoursThatPaintAPictureAreNoRegions) {
   EXPECT_EQ(mesh.regions.size(), 1u);
   EXPECT_EQ(mesh.triangle_region, std::vector<int>(100, 0));
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes[0].find("100 colours"), std::string::npos) << notes[0];
+  EXPECT_TRUE(holds(notes[0], "100 colours"));
 }
 
 TEST_F(Ply, NamesThePlaceOfWhatIsWrong) {

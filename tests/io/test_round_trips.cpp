@@ -1,20 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <random>
-
-#include "io/mesh_io.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/grid_mesh.h"
+#include "geometry/mesh/check_mesh.h"
+#include "io/mesh_formats.h"
+#include "tests/support/files.h"
 #include "tests/support/shapes.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::quad_grid;
-using testing_support::read_text;
-using testing_support::TemporaryFolder;
-using testing_support::triangle_grid;
 
 bool same_entities(const std::vector<Entity>& a, const std::vector<Entity>& b) {
   const auto same = [](const Entity& x, const Entity& y) { return x.tag == y.tag && x.names == y.names; };
@@ -70,9 +60,145 @@ Mesh named(Mesh mesh) {
   return mesh;
 }
 
+/// The places of nodes that items of two meshes have.
+template <class Nodes>
+void expect_same_places(const Mesh& a, const Mesh& b, std::size_t n, double rounding, Nodes nodes) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::vector<int> of_a = nodes(a, i), of_b = nodes(b, i);
+    ASSERT_EQ(of_a.size(), of_b.size());
+    for (std::size_t k = 0; k < of_a.size(); ++k)
+      EXPECT_LE(norm(a.points[of_a[k]] - b.points[of_b[k]]), rounding) << i << " " << k;
+  }
+}
+
+Strings names_of_items(const std::vector<int>& entity_of, const std::vector<Entity>& entities) {
+  Strings names;
+  for (const int i : entity_of) names.push_back(entities[i].names.empty() ? "" : entities[i].names[0]);
+  return names;
+}
+
+std::map<std::string, int> names_of_points(const Mesh& mesh) {
+  std::map<std::string, int> points;
+  for (const NamedPoint& named : mesh.named_points) points[named.entity.names.at(0)] = named.point;
+  return points;
+}
+
+/// Two triangles and a quad in two regions, with named points.
+Mesh two_kinds(bool has_blanks) {
+  Mesh mesh = quad_grid(2, 1, 1.0 / 3, 0.1);
+  mesh.quads.erase(mesh.quads.begin());
+  mesh.quad_region = {1};
+  mesh.triangles = {{0, 1, 4}, {0, 4, 3}};
+  mesh.triangle_region = {0, 0};
+  mesh.curves[0].names = {has_blanks ? "bottom side" : "bottom"};
+  mesh.regions = {{1, {has_blanks ? "steel: 5" : "steel"}}, {2, {"air"}}};
+  mesh.named_points = {{2, {1, {"tip"}}}, {4, {2, {has_blanks ? "Sensor 1" : "Sensor"}}}};
+  return mesh;
+}
+
+/// With middles of quads where eight other nodes have them.
+Mesh of_eight_nodes(Mesh mesh) {
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    const std::vector<int> v = nodes_of_quad(mesh, q);
+    const auto at = [&](int k) { return mesh.points[v[k]]; };
+    mesh.points[v[4]] = middle_of_eight({at(0), at(2), at(8), at(6)}, {at(1), at(5), at(7), at(3)});
+  }
+  return mesh;
+}
+
+/// A format keeps this of a mesh beside elements.
+struct Kept {
+  double rounding = 0;
+  bool has_lines = true, has_blanks = true, has_numbers = true, has_names = true;
+};
+const std::map<std::string, Kept> kKept = {
+    {".obj", {.has_blanks = false}},
+    {".inp", {.rounding = 1e-12, .has_blanks = false}},
+    {".bdf", {.rounding = 1e-9, .has_lines = false, .has_numbers = false}},
+    {".mfem", {.has_numbers = false}},
+    {".2dm", {.has_lines = false, .has_blanks = false}},
+    {".gr3", {.has_lines = false, .has_blanks = false}},
+    {".nc", {.has_lines = false, .has_names = false}}};
+
+void expect_same_in(const MeshFormat& format, const fs::path& file, const Mesh& mesh,
+                    const MshOptions& options) {
+  const auto found = kKept.find(format.extensions[0]);
+  const Kept kept = found == kKept.end() ? Kept{} : found->second;
+  write_mesh(file, mesh, options);
+  const Mesh back = read_mesh(file);
+  require_readable(back, "read");
+  EXPECT_EQ(check_invariants(back), Strings());
+  EXPECT_EQ(back.order, mesh.order);
+  EXPECT_EQ(back.points.size(), mesh.points.size());
+  ASSERT_EQ(back.triangles.size(), mesh.triangles.size());
+  ASSERT_EQ(back.quads.size(), mesh.quads.size());
+  ASSERT_EQ(back.lines.size(), kept.has_lines ? mesh.lines.size() : 0u);
+  if (kept.has_numbers && mesh.order == 1) {
+    EXPECT_EQ(back.quads, mesh.quads);
+    EXPECT_EQ(back.triangles, mesh.triangles);
+  }
+  expect_same_places(mesh, back, mesh.triangles.size(), kept.rounding, [](const Mesh& of, std::size_t i) {
+    return std::vector<int>(of.triangles[i].begin(), of.triangles[i].end());
+  });
+  expect_same_places(mesh, back, mesh.quads.size(), kept.rounding,
+                     [](const Mesh& of, std::size_t i) { return nodes_of_quad(of, i); });
+  if (kept.has_names && format.names & kRegionNames) {
+    EXPECT_EQ(names_of_items(back.triangle_region, back.regions),
+              names_of_items(mesh.triangle_region, mesh.regions));
+    EXPECT_EQ(names_of_items(back.quad_region, back.regions), names_of_items(mesh.quad_region, mesh.regions));
+  }
+  if (kept.has_lines && format.extensions[0] != ".inp") {  // which has surfaces, by name
+    expect_same_places(mesh, back, mesh.lines.size(), kept.rounding,
+                       [](const Mesh& of, std::size_t i) { return nodes_of_line(of, i); });
+    EXPECT_EQ(names_of_items(back.line_curve, back.curves), names_of_items(mesh.line_curve, mesh.curves));
+  }
+  if (kept.has_names && format.names & kPointNames && (mesh.order > 1 || format.extensions[0] != ".inp")) {
+    EXPECT_EQ(std::ranges::equal(names_of_points(back), names_of_points(mesh),
+                                 [&](const auto& a, const auto& b) {
+                                   return a.first == b.first && norm(back.points[a.second] -
+                                                                     mesh.points[b.second]) <= kept.rounding;
+                                 }),
+              true);
+  }
+}
+
+/// Each format holds elements up to the order that `delquad formats` prints.
+TEST(RoundTrips, OfEveryFormat) {
+  const Folder folder;
+  for (const MeshFormat& format : mesh_formats())
+    for (const std::string& extension : format.extensions) {
+      if (!can_write(format) || !format.package.empty()) continue;
+      const fs::path file = folder / ("a" + extension);
+      for (int order = 1; order <= kMostOrder; ++order)
+        for (const bool in_space : {false, true}) {
+          SCOPED_TRACE(fmt::format("{} {} {}", extension, order, in_space));
+          Mesh mesh = curved_grid(4, 3, order, in_space);
+          if (order > format.most_order) {
+            expect_input_error([&] { write_mesh(file, mesh); }, {extension.c_str(), "no elements of order"});
+            continue;
+          }
+          if (extension == ".14" || extension == ".grd") mesh = triangle_grid(3, 2);  // all that they hold
+          if (order == 1 && in_space && format.most_order == 1) continue;             // of the plane
+          if (order == 2 && format.eight_nodes == EightNodes::kAlways) mesh = of_eight_nodes(mesh);
+          if (format.read == nullptr && in_space) continue;
+          if (format.read == nullptr) {
+            write_mesh(file, mesh);
+            expect_input_error([&] { read_mesh(file); }, {"unknown kind"});
+            continue;
+          }
+          expect_same_in(format, file, mesh, {});
+          if (format.has_binary) expect_same_in(format, file, mesh, {.binary = true});
+        }
+      if (format.read == nullptr || extension == ".14" || extension == ".grd") continue;
+      SCOPED_TRACE(extension);
+      const auto kept = kKept.find(format.extensions[0]);
+      expect_same_in(format, file, two_kinds(kept == kKept.end() || kept->second.has_blanks), {});
+    }
+}
+
 TEST(MshRoundTrip, KeepsEverything) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(check_invariants(mixed()), std::vector<std::string>());
+  const Folder folder;
+  ASSERT_EQ(check_invariants(mixed()), Strings());
   Mesh lines = testing_support::grid_outline(1, 1, 1, 1);
   lines.regions.clear();
   for (const Mesh& mesh : {mixed(), quad_grid(5, 3), triangle_grid(3, 4), shaken(quad_grid(20, 20)), lines}) {
@@ -87,15 +213,14 @@ TEST(MshRoundTrip, KeepsEverything) {
 }
 
 TEST(MshRoundTrip, GroupsThatAreNumbersKeepThem) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_mesh(folder / "a.msh", mixed());
   const std::string text = read_text(folder / "a.msh");
-  EXPECT_NE(text.find("\n2 17 \"17\"\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("\n1 1 \"bord côté sud\"\n"), std::string::npos) << text;
+  EXPECT_TRUE(holds(text, "\n2 17 \"17\"\n", "\n1 1 \"bord côté sud\"\n"));
 }
 
 TEST(MshWriter, IsTheDocumentedFormat) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_mesh(folder / "a.msh", quad_grid(1, 1, 0.5, 2));
   EXPECT_EQ(read_text(folder / "a.msh"), R"($MeshFormat
 4.1 0 8
@@ -155,7 +280,7 @@ std::string section(const std::string& text, const std::string& name) {
 }
 
 TEST(MshWriter, PutsEveryEntityIntoOneGroup) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(1, 3);
   mesh.regions = {
       {1, {"product", "colour #FF0000", "hole"}}, {2, {"product", "colour #FF0000"}}, {3, {"product"}}};
@@ -175,7 +300,7 @@ TEST(MshWriter, PutsEveryEntityIntoOneGroup) {
 }
 
 TEST(MshWriter, LeavesOutLinesInside) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto curves = [&](MshCurves which) {
     write_mesh(folder / "a.msh", mixed(), {false, which});
     std::vector<int> tags;
@@ -193,26 +318,24 @@ TEST(MshWriter, LeavesOutLinesInside) {
 }
 
 TEST(ObjRoundTrip, KeepsShapeAndNames) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const Mesh mesh = shaken(quad_grid(5, 3));
   write_mesh(folder / "a.obj", mesh);
   expect_same(mesh, read_mesh(folder / "a.obj", nullptr, Strays::kKept));
 }
 
 TEST(MeshFormats, AreToldByExtension) {
-  const TemporaryFolder folder;
+  const Folder folder;
   for (const char* name : {"a.msh", "a.obj", "A.MSH", "A.Obj"}) {
     write_mesh(folder / name, quad_grid(3, 3));
     expect_same(quad_grid(3, 3), read_mesh(folder / name));
   }
   write_mesh(folder / "a.vtu", quad_grid(3, 3));
-  EXPECT_NE(read_text(folder / "a.vtu").find("Name=\"eta\""), std::string::npos);
-  expect_input_error(
-      [&] { write_mesh(folder / "a.stl", quad_grid(1, 1)); },
-      {"a.stl", "'.stl'",
-       ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .mfem, .su2, .bdf, .unv, .k, "
-       ".2dm, .gr3, .nc, .ism, .abq, .re2, "
-       ".specfem, .foam or .svg"});
+  EXPECT_TRUE(holds(read_text(folder / "a.vtu"), "Name=\"eta\""));
+  expect_input_error([&] { write_mesh(folder / "a.stl", quad_grid(1, 1)); },
+                     {"a.stl", "'.stl'",
+                      ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .mfem, .su2, .bdf, .unv, "
+                      ".k, .2dm, .gr3, .nc, .ism, .abq, .re2, .specfem, .foam or .svg"});
   expect_input_error([&] { write_mesh(folder / "a.msh.gz", quad_grid(1, 1)); }, {"a.msh.gz", "'.gz'"});
   expect_input_error(
       [&] {
@@ -222,7 +345,7 @@ TEST(MeshFormats, AreToldByExtension) {
   expect_input_error([&] { read_mesh(folder / "a.xyz"); },
                      {"a.xyz", ".msh, .vtu, .obj, .inp, .mesh, .mfem, .bdf, "});
   write_mesh(folder / "a.svg", quad_grid(3, 3));
-  EXPECT_NE(read_text(folder / "a.svg").find("<svg"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(folder / "a.svg"), "<svg"));
 }
 
 }  // namespace

@@ -1,19 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <set>
-
-#include "io/mesh_io.h"
-#include "tests/support/grid_mesh.h"
-#include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::quad_grid;
-using testing_support::read_text;
-using testing_support::TemporaryFolder;
-using testing_support::write_text;
 
 /// Two quads and two triangles on a bent surface, in two regions, with names that Abaqus cannot hold.
 Mesh bent() {
@@ -98,25 +86,24 @@ _west_S4, S4
 )";
 
 TEST(AbaqusInp, IsTheDocumentedFormat) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_mesh(folder / "a.inp", quad_grid(1, 1, 0.5, 2));
   EXPECT_EQ(read_text(folder / "a.inp"), kGridInp);
 }
 
 TEST(AbaqusInp, NamesBecomeLabels) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_mesh(folder / "a.inp", bent());
   const std::string text = read_text(folder / "a.inp");
-  for (const char* line : {"TYPE=S3, ELSET=Eall\n1, ", "TYPE=S4, ELSET=Eall\n3, ", "ELSET=Blech\n3, 4\n",
-                           "ELSET=all_parts\n1, 2, 3, 4\n", "ELSET=blech_2\n1, 2\n", "NSET=SET_3_c__t__s\n",
-                           "NSET=curve_3\n", "ELSET=region_7\n1, 2\n", "** region \"blech\" is blech_2\n",
-                           "** curve \"3 côtés\" is SET_3_c__t__s\n",
-                           "*SURFACE, NAME=SET_3_c__t__s, TYPE=NODE\n1\n2\n3\n4\n", "ELSET=_curve_1_E1\n"})
-    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  EXPECT_TRUE(holds(text, "TYPE=S3, ELSET=Eall\n1, ", "TYPE=S4, ELSET=Eall\n3, ", "ELSET=Blech\n3, 4\n",
+                    "ELSET=all_parts\n1, 2, 3, 4\n", "ELSET=blech_2\n1, 2\n", "NSET=SET_3_c__t__s\n",
+                    "NSET=curve_3\n", "ELSET=region_7\n1, 2\n", "** region \"blech\" is blech_2\n",
+                    "** curve \"3 côtés\" is SET_3_c__t__s\n",
+                    "*SURFACE, NAME=SET_3_c__t__s, TYPE=NODE\n1\n2\n3\n4\n", "ELSET=_curve_1_E1\n"));
 }
 
 TEST(AbaqusInp, NumbersComeBack) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto numbers = [](const std::vector<Entity>& entities) {
     std::set<int> all;
     for (const Entity& entity : entities) {
@@ -137,50 +124,48 @@ TEST(AbaqusInp, NumbersComeBack) {
 }
 
 TEST(AbaqusInp, SetsOfEverythingGiveWayToNames) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(2, 2);
   mesh.regions[0].names = {"EALL"};
   write_mesh(folder / "a.inp", mesh);
   const std::string text = read_text(folder / "a.inp");
-  for (const char* line : {"TYPE=CPS4, ELSET=Eall_2\n", "*NODE, NSET=Nall\n", "** set \"Eall\" is Eall_2\n"})
-    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  EXPECT_TRUE(holds(text, "TYPE=CPS4, ELSET=Eall_2\n", "*NODE, NSET=Nall\n", "** set \"Eall\" is Eall_2\n"));
 }
 
 TEST(AbaqusInp, AFaceThatLooksDownIsAShell) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(2, 2);
   for (auto& quad : mesh.quads) std::swap(quad[1], quad[3]);
   write_mesh(folder / "a.inp", mesh);
-  EXPECT_NE(read_text(folder / "a.inp").find("TYPE=S4,"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(folder / "a.inp"), "TYPE=S4,"));
 }
 
 TEST(AbaqusInp, NumbersFitCalculix) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(1, 1, 100, 100);
   mesh.points[1].z = 6.467675661368277e-05;
   mesh.points[2].z = -1.2345678901234567e-05;
   mesh.points[3].z = 1.7763568394002505e-15;
   write_mesh(folder / "a.inp", mesh);
   const std::string text = read_text(folder / "a.inp");
-  for (const char* line :
-       {"\n2, 100, 0, 6.46767566136828e-05\n", "\n3, 0, 100, -1.2345678901235e-05\n", "\n4, 100, 100, 0\n"})
-    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  EXPECT_TRUE(holds(text, "\n2, 100, 0, 6.46767566136828e-05\n", "\n3, 0, 100, -1.2345678901235e-05\n",
+                    "\n4, 100, 100, 0\n"));
   EXPECT_EQ(read_mesh(folder / "a.inp").points[1].z, 6.46767566136828e-05);
 }
 
 const std::string kPython = "/usr/bin/python3";
 
-testing_support::ProgramResult run_python(std::vector<std::string> arguments) {
-  testing_support::ProgramOptions options;
+ProgramResult run_python(Strings arguments) {
+  ProgramOptions options;
   options.arguments = std::move(arguments);
-  return testing_support::run_program(kPython, options);
+  return run_program(kPython, options);
 }
 
 // Read back by an independent program, which compares with the MSH file of the same mesh.
 TEST(SolverFormats, MeshioReadsTheSameMesh) {
   if (run_python({"-c", "import meshio"}).exit_code != 0)
     GTEST_SKIP() << "meshio is not installed for " << kPython;
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto script = write_text(folder / "compare.py", R"(
 import sys, meshio, numpy as np
 msh, other = meshio.read(sys.argv[1]), meshio.read(sys.argv[2])

@@ -1,15 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <random>
-
-#include "delquad/error.h"
-#include "io/mesh_io.h"
 #include "tests/io/reader_test.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
@@ -67,8 +56,8 @@ TEST_F(Stl, TextAndBinaryGiveOneClosedMesh) {
                                      binary_file(kStlTetrahedron, solid_header)}) {
     const Mesh mesh = read(content);
     EXPECT_EQ(mesh.points, (std::vector<Vec3>{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}}));
-    EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {2, 1, 3}}));
-    EXPECT_EQ(check_invariants(mesh), std::vector<std::string>{});
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {2, 1, 3}}));
+    EXPECT_EQ(check_invariants(mesh), Strings{});
   }
 }
 
@@ -146,7 +135,7 @@ TEST_F(Stl, EachSolidOfATextIsARegion) {
   const Mesh mesh =
       read(text_file({kStlTetrahedron[0]}, "left wing") + text_file({kStlTetrahedron[3]}, "right"));
   ASSERT_EQ(mesh.regions.size(), 2u);
-  EXPECT_EQ(mesh.regions[0].names, (std::vector<std::string>{"left wing"}));
+  EXPECT_EQ(mesh.regions[0].names, (Strings{"left wing"}));
   EXPECT_EQ(mesh.regions[1].tag, 2);
   EXPECT_EQ(mesh.triangle_region, (std::vector<int>{0, 1}));
 }

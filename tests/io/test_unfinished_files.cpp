@@ -1,9 +1,7 @@
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "io/mesh_io.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad::testing_support {
 namespace {
@@ -19,7 +17,7 @@ int run_in_child(Work work) {
 }
 
 TEST(UnfinishedFiles, GoWithTheProcessThatAbandonsThem) {
-  const TemporaryFolder folder;
+  const Folder folder;
   EXPECT_EQ(run_in_child([&] {
               write_file_atomically(folder / "out.msh", [&](std::ostream& out) {
                 out << "half" << std::flush;
@@ -28,11 +26,11 @@ TEST(UnfinishedFiles, GoWithTheProcessThatAbandonsThem) {
               return 9;
             }),
             7);
-  EXPECT_EQ(folder.names(), std::vector<std::string>{});
+  EXPECT_EQ(folder.names(), Strings{});
 }
 
 TEST(UnfinishedFiles, AreFinishedOnceTheFirstStands) {
-  const TemporaryFolder folder;
+  const Folder folder;
   EXPECT_EQ(run_in_child([&] {
               write_file_atomically(folder / "out.msh", [](std::ostream& out) { out << "all"; });
               bool abandoned = true;
@@ -43,7 +41,7 @@ TEST(UnfinishedFiles, AreFinishedOnceTheFirstStands) {
               return abandoned ? 1 : 0;
             }),
             0);
-  EXPECT_EQ(folder.names(), (std::vector<std::string>{"out.json", "out.msh"}));
+  EXPECT_EQ(folder.names(), (Strings{"out.json", "out.msh"}));
 }
 
 }  // namespace

@@ -1,20 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <cstring>
-#include <limits>
-
 #include "io/formats/vtu.h"
-#include "io/mesh_io.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/grid_mesh.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::quad_grid;
-using testing_support::TemporaryFolder;
 
 /// The bytes of the DataArray of that name, decoded, after its length.
 std::string array_bytes(const std::string& xml, const std::string& name) {
@@ -45,14 +33,14 @@ std::vector<T> array(const std::string& xml, const std::string& name) {
 }
 
 TEST(Vtu, HoldsCellsAndTheirData) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(1, 1, 0.1, 3);
   mesh.triangles = {{0, 1, 3}};
   mesh.triangle_region = {0};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   write_vtu(folder / "a.vtu", mesh, {{"a < b", {1, 2, 3, 4, nan, 0.1}}});
-  const std::string xml = testing_support::read_text(folder / "a.vtu");
-  EXPECT_NE(xml.find("NumberOfPoints=\"4\" NumberOfCells=\"6\""), std::string::npos);
+  const std::string xml = read_text(folder / "a.vtu");
+  EXPECT_TRUE(holds(xml, "NumberOfPoints=\"4\" NumberOfCells=\"6\""));
   EXPECT_EQ(array<double>(xml, "Points"), (std::vector<double>{0, 0, 0, 0.1, 0, 0, 0, 3, 0, 0.1, 3, 0}));
   EXPECT_EQ(array<std::int64_t>(xml, "connectivity"),
             (std::vector<std::int64_t>{0, 1, 1, 3, 3, 2, 2, 0, 0, 1, 3, 0, 1, 3, 2}));
@@ -69,29 +57,29 @@ TEST(Vtu, HoldsCellsAndTheirData) {
 }
 
 TEST(Vtu, NeedsOneValueForEachCell) {
-  const TemporaryFolder folder;
+  const Folder folder;
   EXPECT_THROW(write_vtu(folder / "a.vtu", quad_grid(1, 1), {{"short", {1}}}), std::invalid_argument);
   EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(Vtu, KeepsNamesOfPoints) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(2, 1);
   mesh.named_points = {{4, {7, {"sensor", "tip < 1"}}}, {1, {8, {}}}, {0, {9, {"sensor"}}}};
   write_vtu(folder / "a.vtu", mesh);
-  const std::string xml = testing_support::read_text(folder / "a.vtu");
+  const std::string xml = read_text(folder / "a.vtu");
   EXPECT_EQ(array<std::int32_t>(xml, "point sensor"), (std::vector<std::int32_t>{4, 0}));
   EXPECT_EQ(array<std::int32_t>(xml, "point tip &lt; 1"), (std::vector<std::int32_t>{4}));
   const Mesh read = read_mesh(folder / "a.vtu");
   ASSERT_EQ(read.named_points.size(), 2u);
   EXPECT_EQ(read.named_points[0].point, 4);
-  EXPECT_EQ(read.named_points[0].entity.names, (std::vector<std::string>{"sensor", "tip < 1"}));
+  EXPECT_EQ(read.named_points[0].entity.names, (Strings{"sensor", "tip < 1"}));
   EXPECT_EQ(read.named_points[1].point, 0);
-  EXPECT_EQ(read.named_points[1].entity.names, (std::vector<std::string>{"sensor"}));
+  EXPECT_EQ(read.named_points[1].entity.names, (Strings{"sensor"}));
 }
 
 TEST(Vtu, NamesOfPointsThatAreNotThereAreAnError) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = quad_grid(2, 1);
   mesh.named_points = {{6, {1, {"far"}}}};
   write_vtu(folder / "a.vtu", mesh);

@@ -1,17 +1,9 @@
 #include "metrics/judgement/element_values.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "metrics/solve/solve.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::quad_grid;
 
 constexpr double kOfSteps = 5e-4;  // what critical_step() promises
 

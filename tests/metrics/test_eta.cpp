@@ -1,10 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "metrics/metrics.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {

@@ -1,15 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "metrics/flow_links.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::quad_grid;
-using testing_support::triangle_grid;
 
 TEST(FlowLinks, OfQuadsInCirclesAreOrthogonal) {
   // Rings of trapezoids, each of which has a circle through its corners.

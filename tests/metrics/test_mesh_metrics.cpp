@@ -1,18 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <numeric>
-#include <set>
-
 #include "metrics/metrics.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::quad_grid;
-using testing_support::triangle_grid;
 
 constexpr double kMeshRounding = 1e-12;
 
@@ -75,7 +65,7 @@ TEST(Metrics, InterfacesBetweenRegionsAreInterior) {
     mesh.lines.push_back({5 * j + 2, 5 * j + 7});
     mesh.line_curve.push_back(4);
   }
-  ASSERT_EQ(check_invariants(mesh), std::vector<std::string>());
+  ASSERT_EQ(check_invariants(mesh), Strings());
   EXPECT_EQ(evaluate_metrics(mesh, nullptr).valences, (std::map<int, long long>{{4, 9}}));
 }
 

@@ -1,15 +1,12 @@
 #include "metrics/surface/surface_report.h"
-
-#include <gtest/gtest.h>
-
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
 
 /// 8 x 8 quads with a cut from south to north through the middle; its curve is the last.
 Mesh grid_with_cut() {
-  Mesh mesh = testing_support::quad_grid(8, 8);
+  Mesh mesh = quad_grid(8, 8);
   mesh.curves.push_back({99, {}});
   const int curve = static_cast<int>(mesh.curves.size()) - 1;
   for (int j = 0; j < 8; ++j) {

@@ -1,18 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "metrics/metrics.h"
 #include "metrics/shape.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::quad_grid;
-using testing_support::triangle_grid;
 
 constexpr double kDegree = std::numbers::pi / 180;
 

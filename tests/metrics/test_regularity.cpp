@@ -1,21 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <set>
-#include <utility>
-
 #include "algorithms/regularity/patterns.h"
 #include "metrics/metrics.h"
 #include "metrics/regularity.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::quad_grid;
 
 using Burgers = std::map<std::array<int, 2>, long long>;
 

@@ -1,19 +1,11 @@
-#include "metrics/size_efficiency.h"
-
-#include <gtest/gtest.h>
-
 #include <atomic>
-#include <cmath>
-#include <functional>
 
 #include "metrics/metrics.h"
-#include "tests/support/grid_mesh.h"
+#include "metrics/size_efficiency.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::quad_grid;
-using testing_support::triangle_grid;
 
 constexpr double kQuadrature = 1e-3;  // relative, what the integral promises
 constexpr double kSizeRounding = 1e-12;

@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "geometry/surface/triangulated_model.h"
 #include "metrics/surface/surface_report.h"
+#include "tests/support/files.h"
 #include "tests/support/triangulated_shapes.h"
 
 namespace delquad {

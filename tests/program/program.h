@@ -1,21 +1,8 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
-#include "tests/support/run_program.h"
+#include "tests/support/files.h"
 
 namespace delquad::testing_support {
-
-inline ProgramResult delquad(std::vector<std::string> arguments) {
-  return run_program(DELQUAD_PROGRAM, {std::move(arguments), 0, {}});
-}
-
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// An empty folder, in which a shell runs the program with these words.
 class Workplace : public TemporaryFolder {

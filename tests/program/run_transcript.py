@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the scenes of a transcript: run_transcript.py FILE --build FOLDER [--no-cad] [TITLE ...]
+"""Runs the scenes of a transcript: run_transcript.py FILE --build FOLDER [--no-cad] [--only TITLE]
 
 A scene begins with its title, at the margin, and has an empty folder, in another of its own. In it, indented by two spaces:
 
@@ -26,7 +26,7 @@ import sys
 import tempfile
 
 SECONDS = 120
-DEFINED = []  # functions, by the transcript
+DEFINITION, DEFINED = re.compile(r"\w+\(\)"), []  # of functions by the transcript
 FUNCTIONS = r"""
 # A unit square with named sides, and further lines: square FILE [LINE ...]
 square() {
@@ -94,7 +94,7 @@ def names():
 
 
 def run(command):
-    if re.match(r"\w+\(\)", command):
+    if DEFINITION.match(command):
         DEFINED.append(command)
     result = subprocess.run(["bash", "-c", "\n".join([*DEFINED, command])], stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS)
     return result.returncode, result.stdout.decode(errors="replace"), result.stderr.decode(errors="replace")
@@ -140,7 +140,7 @@ def main():
     parser.add_argument("file", type=pathlib.Path)
     parser.add_argument("--build", type=pathlib.Path, required=True)
     parser.add_argument("--cad", action=argparse.BooleanOptionalAction, default=True)
-    parser.add_argument("titles", nargs="*")
+    parser.add_argument("--only", metavar="TITLE")
     given = parser.parse_args()
     os.environ["SOURCE"] = str(pathlib.Path(__file__).parents[2])
     os.environ["PATH"] = f"{given.build.resolve()}:{os.environ['PATH']}"
@@ -150,7 +150,8 @@ def main():
         functions.write_text(FUNCTIONS)
         os.environ["BASH_ENV"] = str(functions)
         for scene in scenes(given.file.resolve()):
-            if (not given.cad and scene.title.startswith("CAD: ")) or (given.titles and scene.title not in given.titles):
+            if (not given.cad and scene.title.startswith("CAD: ")) or given.only not in (None, scene.title):
+                DEFINED.extend(command for _, command, _ in scene.steps if DEFINITION.match(command))
                 continue
             with tempfile.TemporaryDirectory() as folder:
                 os.mkdir(f"{folder}/scene")

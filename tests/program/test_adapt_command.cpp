@@ -1,14 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <filesystem>
-
-#include "io/mesh_io.h"
 #include "tests/program/program.h"
-#include "tests/support/curved_grid.h"
-#include "tests/support/grid_mesh.h"
 
 namespace delquad::testing_support {
 namespace {
@@ -38,9 +28,8 @@ TEST(AdaptCommand, ASolutionAndTheNextMesh) {
     const ProgramResult result = folder.run("adapt " + std::string(name) + ":u --quads 500 -o " + next +
                                             " --goal-weight w --h-max 0.3 --quality fast");
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_TRUE(contains(result.out, "u: error ")) << result.out;
-    EXPECT_TRUE(contains(result.out, "estimated on the 256 elements of before; ")) << result.out;
-    EXPECT_TRUE(contains(result.out, "with the fields flow, u, w, k (of elements)\n")) << result.out;
+    EXPECT_TRUE(holds(result.out, "u: error ", "estimated on the 256 elements of before; ",
+                      "with the fields flow, u, w, k (of elements)\n"));
     const MeshWithFields made = read_fields(folder / next);
     EXPECT_NEAR(static_cast<double>(made.mesh.quads.size()), 500, 60);
     EXPECT_EQ(made.mesh.curves[0].names[0], "south");
@@ -64,13 +53,13 @@ TEST(AdaptCommand, ModelsAndOtherFormats) {
   const ProgramResult result = folder.run(
       "adapt a.vtu:u --error 0.03 --norm inf --model m.toml -o b.inp --transfer bounded --isotropic");
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_TRUE(contains(result.out, "(maximum), of its gradient")) << result.out;
+  EXPECT_TRUE(holds(result.out, "(maximum), of its gradient"));
   const MeshWithFields beside = read_fields(folder / "b.vtu");
   EXPECT_EQ(beside.mesh.quads.size(), read_mesh(folder / "b.inp").quads.size());
   EXPECT_EQ(beside.mesh.curves[0].names[0], "bottom");
-  EXPECT_TRUE(contains(folder.run("adapt a.vtu:u --quads 300 --model l.toml -o c.msh").err,
-                       "layers do not go with a metric"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "c.msh"));
+  EXPECT_TRUE(holds(folder.run("adapt a.vtu:u --quads 300 --model l.toml -o c.msh").err,
+                    "layers do not go with a metric"));
+  EXPECT_FALSE(fs::exists(folder / "c.msh"));
 }
 
 // Steps in time: the mesh is fine where any of them asks for it, and has the last one's values.
@@ -86,8 +75,7 @@ TEST(AdaptCommand, SeveralFiles) {
   step("a.vtu", 0.2), step("b.msh", 0.8);
   const ProgramResult result = folder.run("adapt a.vtu:u b.msh:u --quads 400 -o n.vtu --quality fast");
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_TRUE(contains(result.out, "a.vtu:u: error ") && contains(result.out, "b.msh:u: error "))
-      << result.out;
+  EXPECT_TRUE(holds(result.out, "a.vtu:u: error ", "b.msh:u: error "));
   const MeshWithFields made = read_fields(folder / "n.vtu");
   const std::vector<double>& u = field_of(made, "u").values;
   std::array<int, 3> near{};
@@ -167,11 +155,11 @@ TEST(AdaptCommand, WrongFields) {
         {"a.vtu:u", "expected --quads or --error"},
         {"a.vtu:u --quads 100 --goal-weight bad", "the field of weights is nan"}}) {
     const ProgramResult result =
-        folder.run("adapt " + std::string(words) + (contains(words, "-o") ? "" : " -o n.msh"));
+        folder.run("adapt " + std::string(words) + (holds(words, "-o") ? "" : " -o n.msh"));
     EXPECT_EQ(result.exit_code, 2) << words;
-    EXPECT_TRUE(contains(result.err, message)) << result.err;
+    EXPECT_TRUE(holds(result.err, message));
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-    EXPECT_FALSE(std::filesystem::exists(folder / "n.msh"));
+    EXPECT_FALSE(fs::exists(folder / "n.msh"));
   }
 }
 

@@ -1,10 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <set>
-
-#include "io/mesh_io.h"
 #include "tests/program/program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad::testing_support {
 namespace {
@@ -20,7 +14,7 @@ class Examples : public ::testing::TestWithParam<Example> {};
 
 TEST_P(Examples, AreWrittenAndMeshedWithQuadsOnly) {
   const Example& example = GetParam();
-  const TemporaryFolder folder;
+  const Folder folder;
   for (const char* extension : {".step", ".brep"}) {
     const auto file = folder / (std::string(example.name) + extension);
     const auto written = delquad({"example", example.name, "-o", file});
@@ -29,7 +23,7 @@ TEST_P(Examples, AreWrittenAndMeshedWithQuadsOnly) {
     const auto meshed = delquad({"mesh", file, "-o", folder / "out.msh", "--size", example.size});
     ASSERT_EQ(meshed.exit_code, 0) << meshed.err;
     const Mesh mesh = read_mesh(folder / "out.msh");
-    EXPECT_EQ(check_invariants(mesh), std::vector<std::string>{});
+    EXPECT_EQ(check_invariants(mesh), Strings{});
     EXPECT_TRUE(mesh.triangles.empty());
     std::set<std::pair<int, int>> edges;
     for (const auto& quad : mesh.quads)

@@ -1,12 +1,4 @@
-#include <array>
-#include <cmath>
-#include <map>
-#include <set>
-#include <sstream>
-
-#include "io/mesh_io.h"
 #include "tests/program/program.h"
-#include "tests/support/curved_grid.h"
 
 namespace delquad::testing_support {
 namespace {
@@ -17,11 +9,11 @@ struct ReadDeck {
   std::map<int, std::vector<int>> elements;
   std::map<int, std::string> types;
   std::map<std::string, std::set<int>> nsets, elsets;
-  std::vector<std::string> surface_rows, others;
+  Strings surface_rows, others;
 };
 
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> fields;
+Strings split(const std::string& line) {
+  Strings fields;
   std::stringstream stream(line);
   for (std::string field; std::getline(stream, field, ',');) {
     field.erase(0, field.find_first_not_of(" \r"));
@@ -30,13 +22,13 @@ std::vector<std::string> split(const std::string& line) {
   return fields;
 }
 
-ReadDeck read_deck(const std::filesystem::path& path) {
+ReadDeck read_deck(const fs::path& path) {
   ReadDeck deck;
   std::map<std::string, std::string> parameters;
   std::string keyword;
   std::stringstream lines(read_text(path));
   for (std::string line; std::getline(lines, line);) {
-    const std::vector<std::string> fields = split(line);
+    const Strings fields = split(line);
     if (line[0] == '*' && line[1] != '*') {
       keyword = fields[0];
       parameters.clear();
@@ -163,7 +155,7 @@ std::array<double, 2> area_of(const ReadDeck& deck, const std::string& set) {
 std::set<std::pair<int, int>> sides_of_rim(const ReadDeck& deck) {
   std::set<std::pair<int, int>> sides;
   for (const std::string& row : deck.surface_rows) {
-    const std::vector<std::string> fields = split(row);
+    const Strings fields = split(row);
     const std::size_t k = static_cast<std::size_t>(fields[1][1] - '1');
     const std::set<int> elements =
         deck.elsets.contains(fields[0]) ? deck.elsets.at(fields[0]) : std::set<int>{std::stoi(fields[0])};
@@ -173,7 +165,7 @@ std::set<std::pair<int, int>> sides_of_rim(const ReadDeck& deck) {
 }
 
 TEST(KeptDecks, ConvertingKeepsEveryByte) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_text(folder / "a.inp", plate("S4R", 0.1, hangers()));
   ASSERT_EQ(delquad({"convert", folder / "a.inp", folder / "b.inp"}).err, "");
   EXPECT_EQ(read_text(folder / "b.inp"), read_text(folder / "a.inp"));
@@ -183,7 +175,7 @@ TEST(KeptDecks, ConvertingKeepsEveryByte) {
 }
 
 TEST(KeptDecks, SetsOfAnAssemblyStayThere) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const std::string part =
       "*Part, name=P\n" +
       plate("S4", 0, "*End Part\n*Assembly, name=A\n*Instance, name=P-1, part=P\n*End Instance\n");
@@ -199,17 +191,16 @@ TEST(KeptDecks, SetsOfAnAssemblyStayThere) {
   write_text(folder / "c.inp", part + "*Elset, elset=plate, instance=P-1\n1001\n*End Assembly\n");
   const auto refused = delquad({"improve", folder / "c.inp", "-o", folder / "d.inp"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_TRUE(contains(refused.err, "set PLATE is in a part and in its assembly")) << refused.err;
+  EXPECT_TRUE(holds(refused.err, "set PLATE is in a part and in its assembly"));
 }
 
 TEST(KeptDecks, ImprovingKeepsAllButTheMesh) {
   for (const double bend : {0.0, 0.1}) {
-    const TemporaryFolder folder;
+    const Folder folder;
     write_text(folder / "a.inp", plate("S4", bend, hangers()));
     const auto result = delquad({"improve", folder / "a.inp", "-o", folder / "b.inp"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_TRUE(contains(result.err, "inner nodes and elements that stay, as lines or sets name them: "))
-        << result.err;
+    EXPECT_TRUE(holds(result.err, "inner nodes and elements that stay, as lines or sets name them: "));
     const ReadDeck before = read_deck(folder / "a.inp"), after = read_deck(folder / "b.inp");
     EXPECT_EQ(after.others, before.others);
     for (const char* set : {"CLAMP", "SENSOR", "LOADED"})
@@ -247,7 +238,7 @@ TEST(KeptDecks, ImprovingKeepsAllButTheMesh) {
 }
 
 TEST(KeptDecks, SetsOfSidesOfOurFilesFollow) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_text(folder / "a.inp", plate("S4", 0.1, ""));
   ASSERT_EQ(delquad({"convert", folder / "a.inp", folder / "a.msh"}).exit_code, 0);
   Mesh mesh = read_mesh(folder / "a.msh");
@@ -271,7 +262,7 @@ TEST(KeptDecks, SetsOfSidesOfOurFilesFollow) {
 }
 
 TEST(KeptDecks, TrianglesBecomeQuadsOfTheirType) {
-  const TemporaryFolder folder;
+  const Folder folder;
   std::string text = plate("CPS3", 0, "*SOLID SECTION, ELSET=PLATE, MATERIAL=M\n1.\n");
   std::stringstream lines(text);
   text.clear();
@@ -291,7 +282,7 @@ TEST(KeptDecks, TrianglesBecomeQuadsOfTheirType) {
 }
 
 TEST(KeptDecks, ALoadOnAllNodesIsNotSpread) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_text(folder / "a.inp", plate("S4", 0, "*STEP\n*STATIC\n*CLOAD\nEVERY, 3, -1.\n*END STEP\n"));
   ASSERT_EQ(delquad({"improve", folder / "a.inp", "-o", folder / "b.inp"}).exit_code, 0);
   EXPECT_EQ(read_deck(folder / "b.inp").nsets, read_deck(folder / "a.inp").nsets);
@@ -316,13 +307,13 @@ std::string two_plates(const std::string& more) {
 }
 
 TEST(KeptDecks, WeldingKeepsThePlacesInSets) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_text(folder / "a.inp", two_plates("*ELEMENT, TYPE=B31, ELSET=BEAM\n30, 11, 19\n"
                                           "*SURFACE, NAME=EDGE, TYPE=NODE\n 12, 0.5\n8\n13\n"
                                           "*DLOAD\n11, P, 1.\n*CLOAD\nSEAM_R, 3, 1.\n"
                                           "*BOUNDARY\nNRIGHT, 1, 6\nMIDDLE, 1\n"));
   for (const char* command : {"convert", "improve"}) {
-    std::vector<std::string> arguments = {command, folder / "a.inp", "--weld", "1e-6"};
+    Strings arguments = {command, folder / "a.inp", "--weld", "1e-6"};
     if (command[0] == 'i') arguments.push_back("-o");
     arguments.push_back(folder / "b.inp");
     const ProgramResult result = delquad(arguments);
@@ -342,7 +333,7 @@ TEST(KeptDecks, WeldingKeepsThePlacesInSets) {
 }
 
 TEST(KeptDecks, WeldingTellsWhichLineForbidsIt) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const std::pair<std::string, const char*> lines[] = {
       {"*EQUATION\n2\n8, 3, 1., 12, 3, -1.\n", "join node 12 to node 8, but this line of EQUATION names 12"},
       {"*CLOAD\nMIDDLE, 3, 1.\n", "join node 12 to node 8, but CLOAD counts each node of the set MIDDLE"}};
@@ -351,40 +342,37 @@ TEST(KeptDecks, WeldingTellsWhichLineForbidsIt) {
     EXPECT_EQ(delquad({"convert", folder / "a.inp", folder / "b.inp"}).exit_code, 0);
     const ProgramResult result = delquad({"convert", folder / "a.inp", folder / "c.inp", "--weld", "1e-6"});
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_TRUE(contains(result.err, why)) << result.err;
-    EXPECT_TRUE(contains(result.err, "change this line, or leave --weld out")) << result.err;
+    EXPECT_TRUE(holds(result.err, why, "change this line, or leave --weld out"));
   }
 }
 
 TEST(KeptDecks, OtherFormatsGetSetsAndTellTheRest) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_text(folder / "a.inp", plate("S4", 0, hangers()));
   for (const char* command : {"convert", "improve"}) {
-    std::vector<std::string> arguments = {command, folder / "a.inp", folder / "b.msh"};
+    Strings arguments = {command, folder / "a.inp", folder / "b.msh"};
     if (command[0] == 'i') arguments.insert(arguments.begin() + 2, "-o");
     const auto result = delquad(arguments);
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    for (const char* part : {"*MATERIAL", "*ELEMENT, TYPE=SPRINGA", "*CLOAD"})
-      EXPECT_TRUE(contains(result.err, part)) << result.err;
+    EXPECT_TRUE(holds(result.err, "*MATERIAL", "*ELEMENT, TYPE=SPRINGA", "*CLOAD"));
     const std::string text = read_text(folder / "b.msh");
-    for (const char* name : {"\"SOME\"", "\"RIM\""}) EXPECT_TRUE(contains(text, name)) << command << name;
+    EXPECT_TRUE(holds(text, "\"SOME\"", "\"RIM\""));
     std::map<std::string, int> points;
     for (const NamedPoint& named : read_mesh(folder / "b.msh").named_points)
       for (const std::string& name : named.entity.names) ++points[name];
     EXPECT_EQ(points, (std::map<std::string, int>{{"CLAMP", kRows + 1}, {"LOADED", 2}, {"SENSOR", 1}}))
         << command;
   }
-  EXPECT_TRUE(
-      contains(delquad({"metrics", folder / "a.inp"}).err, "note: *ELEMENT, TYPE=SPRINGA is not read"));
+  EXPECT_TRUE(holds(delquad({"metrics", folder / "a.inp"}).err, "note: *ELEMENT, TYPE=SPRINGA is not read"));
 }
 
 TEST(KeptDecks, RefusesWhatMakesNodesOfItsOwn) {
-  const TemporaryFolder folder;
+  const Folder folder;
   for (const char* card : {"*INCLUDE, INPUT=more.inp\n", "*NGEN\n1, 5\n", "*SYSTEM\n0, 0, 1\n"}) {
     write_text(folder / "a.inp", std::string("*HEADING\nx\n") + card);
     const auto result = delquad({"improve", folder / "a.inp", "-o", folder / "b.inp"});
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_TRUE(contains(result.err, "a.inp:3: *")) << result.err;
+    EXPECT_TRUE(holds(result.err, "a.inp:3: *"));
   }
 }
 

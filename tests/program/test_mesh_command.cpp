@@ -1,9 +1,6 @@
-#include <algorithm>
-
 #include "io/cases/read_described.h"
 #include "io/mesh_formats.h"
 #include "tests/program/program.h"
-#include "tests/support/curved_grid.h"
 #include "tests/support/needs_file.h"
 
 namespace delquad::testing_support {
@@ -16,45 +13,45 @@ TEST(MeshCommand, HelpHasTheOptionsOfAllDescriptions) {
     for (const TomlKey& key : keys) {
       if (key.option == nullptr) continue;
       ++options;
-      EXPECT_TRUE(contains(help, std::string("  ") + key.option)) << key.option;
-      EXPECT_TRUE(contains(help, ": " + key.about)) << key.option;
+      EXPECT_TRUE(holds(help, std::string("  ") + key.option)) << key.option;
+      EXPECT_TRUE(holds(help, ": " + key.about)) << key.option;
     }
   EXPECT_GT(options, 20);
 }
 
 TEST(MeshCommand, AFullDiskLeavesNothing) {
   NEEDS_FILE("/dev/full");
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto model = write_text(folder / "model.toml", kSquare);
   const auto refused = [&](const std::string& name, long long room, const char* why) {
     const ProgramResult result = run_program(
         DELQUAD_PROGRAM, {{"mesh", "-q", model, "-o", folder / name, "--size", "0.04"}, room, {}});
     EXPECT_EQ(result.exit_code, 2) << name;
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-    EXPECT_TRUE(contains(result.err, "error: ") && contains(result.err, why)) << result.err;
+    EXPECT_TRUE(holds(result.err, "error: ", why));
     return result.err;
   };
   for (const MeshFormat& format : mesh_formats()) {
     if (!can_write(format) || !format.package.empty()) continue;
     const std::string link = "link" + format.extensions[0];
-    EXPECT_TRUE(contains(refused("out" + format.extensions[0], 4096, "File too large"), folder.path()));
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
-    std::filesystem::create_symlink("/dev/full", folder / link);
-    if (format.extensions[0] == ".xdmf") std::filesystem::create_symlink("/dev/full", folder / "link.h5");
-    EXPECT_TRUE(contains(refused(link, 0, "No space left"), "link."));
-    std::filesystem::remove(folder / link);
-    std::filesystem::remove(folder / "link.h5");
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
+    EXPECT_TRUE(holds(refused("out" + format.extensions[0], 4096, "File too large"), folder.path()));
+    EXPECT_EQ(folder.names(), Strings{"model.toml"});
+    fs::create_symlink("/dev/full", folder / link);
+    if (format.extensions[0] == ".xdmf") fs::create_symlink("/dev/full", folder / "link.h5");
+    EXPECT_TRUE(holds(refused(link, 0, "No space left"), "link."));
+    fs::remove(folder / link);
+    fs::remove(folder / "link.h5");
+    EXPECT_EQ(folder.names(), Strings{"model.toml"});
   }
 }
 
 TEST(MetricsCommand, ElementsThatAreNotProvenAreCounted) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Mesh mesh = curved_grid(3, 3, 2, false);
   mesh.points[nodes_of_quad(mesh, 4)[4]] = mesh.points[mesh.quads[4][0]];  // the middle in a corner
   write_mesh(folder / "a.vtu", mesh);
   const std::string out = delquad({"metrics", folder / "a.vtu"}).out;
-  EXPECT_TRUE(contains(out, "unproven              1 ")) << out;
+  EXPECT_TRUE(holds(out, "unproven              1 "));
 }
 
 }  // namespace

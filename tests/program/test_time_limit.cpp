@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
 #include <pty.h>
-
-#include <algorithm>
 #include <cerrno>
-#include <cstring>
 
 #include "experiments/console/interrupt.h"
 #include "tests/program/program.h"
@@ -12,13 +8,12 @@ namespace delquad::testing_support {
 namespace {
 
 /// Takes more than three seconds on any machine, nearly all of them in smoothing.
-const std::vector<std::string> kLong = {"--size",        "0.0025*(1+x)", "--pipeline",
-                                        "DLLLLLLLLLLLL", "--threads",    "1"};
+const Strings kLong = {"--size", "0.0025*(1+x)", "--pipeline", "DLLLLLLLLLLLL", "--threads", "1"};
 
-std::vector<std::string> mesh_words(const TemporaryFolder& folder, const std::vector<std::string>& more) {
-  std::vector<std::string> words = {"mesh",   write_text(folder / "model.toml", kSquare),
-                                    "-o",     folder / "out.msh",
-                                    "--json", folder / "out.json"};
+Strings mesh_words(const Folder& folder, const Strings& more) {
+  Strings words = {"mesh",   write_text(folder / "model.toml", kSquare),
+                   "-o",     folder / "out.msh",
+                   "--json", folder / "out.json"};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -42,20 +37,20 @@ struct Ending {
 class Signals : public testing::TestWithParam<Ending> {};
 
 TEST_P(Signals, EndTheRunWithoutAFile) {
-  const TemporaryFolder folder;
+  const Folder folder;
   ProgramOptions options{mesh_words(folder, kLong), 0, {}, GetParam().signal_number};
   int asked = 0;
   options.interrupt_when = [&] { return ++asked > 50; };  // half a second
   const ProgramResult result = run_program(DELQUAD_PROGRAM, options);
   EXPECT_EQ(result.exit_code, GetParam().exit_code) << result.err;
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"model.toml"});
+  EXPECT_EQ(folder.names(), Strings{"model.toml"});
 }
 INSTANTIATE_TEST_SUITE_P(Of, Signals, testing::Values(Ending{SIGINT, 130}, Ending{SIGTERM, 143}),
                          [](const auto& ending) { return std::to_string(ending.param.exit_code); });
 
 /// What is being written then is written to its end.
 TEST(Signals, WhileAFileIsWritten) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto is_temporary = [&] {
     return std::ranges::any_of(folder.names(),
                                [](const std::string& name) { return name.ends_with(".tmp"); });
@@ -67,11 +62,11 @@ TEST(Signals, WhileAFileIsWritten) {
                          SIGTERM};
   const ProgramResult result = run_program(DELQUAD_PROGRAM, options);
   EXPECT_EQ(result.exit_code, 143) << result.err;
-  EXPECT_EQ(folder.names(), (std::vector<std::string>{"model.toml", "out.msh"}));
+  EXPECT_EQ(folder.names(), (Strings{"model.toml", "out.msh"}));
 }
 
 TEST(Progress, NamesTheFaceOnATerminal) {
-  const TemporaryFolder folder;
+  const Folder folder;
   auto words = mesh_words(folder, kLong);
   words.insert(words.begin(), DELQUAD_PROGRAM);
   words.insert(words.end(), {"--time-limit", "1.5"});
@@ -92,7 +87,7 @@ TEST(Progress, NamesTheFaceOnATerminal) {
   close(terminal);
   int status = 0;
   waitpid(child, &status, 0);
-  EXPECT_TRUE(contains(text, "model DLLLLLLLLLLLL: Lp-CVT smoothing, region 1")) << text;
+  EXPECT_TRUE(holds(text, "model DLLLLLLLLLLLL: Lp-CVT smoothing, region 1"));
 }
 
 }  // namespace

@@ -1,12 +1,7 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
-
 #include "tests/report/report_results.h"
+#include "tests/support/files.h"
 
 namespace delquad::testing_support {
 
@@ -101,9 +96,9 @@ const choose = (select, value) => {
 
 /// Opens r.html for each script, one after the other in one start of the browser. Does as the script says
 /// when all is drawn, and returns the values that scripts return.
-inline std::vector<nlohmann::json> ask_page(const std::string& browser, const TemporaryFolder& folder,
-                                            const std::vector<std::string>& scripts,
-                                            const std::string& window = "800,600") {
+inline std::vector<Json> ask_page(const std::string& browser, const TemporaryFolder& folder,
+                                  const std::vector<std::string>& scripts,
+                                  const std::string& window = "800,600") {
   // Without a screen there are no frames to wait for.
   const std::string page = "<script>window.requestAnimationFrame = (act) => setTimeout(act, 10);</script>" +
                            read_text(folder / "r.html") + "<script type=\"module\">" + kReadersHands;
@@ -139,11 +134,10 @@ document.body.append(Object.assign(document.createElement("pre"), { id: "answer"
   const auto at = shown.out.find(begin);
   if (at == std::string::npos) {
     ADD_FAILURE() << "the page gave no answer: " << shown.err;
-    return std::vector<nlohmann::json>(scripts.size());
+    return std::vector<Json>(scripts.size());
   }
   const auto from = at + begin.size();
-  return nlohmann::json::parse(shown.out.substr(from, shown.out.find("</pre>", from) - from))
-      .get<std::vector<nlohmann::json>>();
+  return Json::parse(shown.out.substr(from, shown.out.find("</pre>", from) - from)).get<std::vector<Json>>();
 }
 
 }  // namespace delquad::testing_support

@@ -1,14 +1,8 @@
 #pragma once
 
-#include <string>
-
-#include "tests/support/run_program.h"
+#include "tests/support/files.h"
 
 namespace delquad::testing_support {
-
-inline ProgramResult delquad(std::vector<std::string> arguments) {
-  return run_program(DELQUAD_PROGRAM, {std::move(arguments), 0, {}});
-}
 
 /// Two sizes of a square, one of them meshed, triangles and quads, with smoothing; and a case that fails.
 inline const std::string kSquareExperiment = R"(

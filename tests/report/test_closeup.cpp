@@ -1,15 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <set>
-
 #include "metrics/metrics.h"
 #include "report/page_json.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::quad_grid;
 
 /// Squares, of which those around two vertices are spoilt, the second less.
 Mesh spoilt_grid() {
@@ -53,9 +47,7 @@ TEST(Closeup, LooksAtSurfacesFromTheFront) {
   EXPECT_NEAR(b.normal.y, -1, 1e-12);
 }
 
-TEST(Closeup, NothingOfTriangles) {
-  EXPECT_TRUE(worst_quads(testing_support::triangle_grid(3, 3), 3).empty());
-}
+TEST(Closeup, NothingOfTriangles) { EXPECT_TRUE(worst_quads(triangle_grid(3, 3), 3).empty()); }
 
 TEST(Closeup, NeighboursCountOnce) {
   Mesh mesh = quad_grid(2, 2);

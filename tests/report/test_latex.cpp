@@ -1,15 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <memory>
-
 #include "metrics/tables/tables.h"
 #include "tests/report/report_results.h"
+#include "tests/support/files.h"
 
 namespace delquad::testing_support {
 namespace {
-
-namespace fs = std::filesystem;
 
 bool has_latex() {
   return std::system("kpsewhich booktabs.sty >/dev/null 2>&1 && command -v pdflatex >/dev/null") == 0;
@@ -31,7 +25,7 @@ std::string compile(const fs::path& folder, const std::string& name) {
 class StudyPrograms : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = std::make_unique<TemporaryFolder>();
+    folder_ = std::make_unique<Folder>();
     for (const char* file : {"study.toml", "paper.tex"})
       fs::copy_file(fs::path(DELQUAD_EXAMPLES) / "study" / file, *folder_ / file);
     ASSERT_EQ(delquad({"run", *folder_ / "study.toml", "-o", results(), "--pictures", "none"}).exit_code, 0);
@@ -43,7 +37,7 @@ class StudyPrograms : public testing::Test {
     return run_program("/usr/bin/python3", {{DELQUAD_EXPERIMENTS "/check_claims.py", results()}, 0, {}});
   }
 
-  static inline std::unique_ptr<TemporaryFolder> folder_;
+  static inline std::unique_ptr<Folder> folder_;
 };
 
 TEST_F(StudyPrograms, IsAPaperWithProvenClaims) {
@@ -52,13 +46,13 @@ TEST_F(StudyPrograms, IsAPaperWithProvenClaims) {
     GTEST_SKIP() << "python3-matplotlib is not installed";
   EXPECT_EQ(compile(folder_->path(), "paper.tex"), "");
   const std::string tables = read_text(results() / "tables.tex");
-  EXPECT_NE(tables.find("\\textbf{"), std::string::npos) << "something is proven";
-  EXPECT_EQ(tables.find("longtable"), std::string::npos);
+  EXPECT_TRUE(holds(tables, "\\textbf{")) << "something is proven";
+  EXPECT_FALSE(holds(tables, "longtable"));
   if (std::system("command -v pdffonts >/dev/null") != 0) GTEST_SKIP() << "poppler-utils is not installed";
   const ProgramResult fonts =
       run_program("/bin/sh", {{"-c", "pdffonts '" + (*folder_ / "paper.pdf").string() + "'"}, 0, {}});
-  EXPECT_NE(fonts.out.find("DejaVuSans"), std::string::npos) << fonts.out;
-  EXPECT_EQ(fonts.out.find(" no  yes"), std::string::npos) << "a font that is not inside: " << fonts.out;
+  EXPECT_TRUE(holds(fonts.out, "DejaVuSans"));
+  EXPECT_FALSE(holds(fonts.out, " no  yes")) << "a font that is not inside: " << fonts.out;
 }
 
 TEST_F(StudyPrograms, ClaimsAreConfirmedByAnotherProgram) {
@@ -66,7 +60,7 @@ TEST_F(StudyPrograms, ClaimsAreConfirmedByAnotherProgram) {
     GTEST_SKIP() << "python3-scipy is not installed";
   const ProgramResult whole = check_claims();
   EXPECT_EQ(whole.exit_code, 0) << whole.out << whole.err;
-  EXPECT_NE(whole.out.find("4 comparisons of 4 tests"), std::string::npos) << whole.out;
+  EXPECT_TRUE(holds(whole.out, "4 comparisons of 4 tests"));
   const auto tamper = [](const char* file, const std::string& claim, const std::string& by) {
     std::string text = read_text(results() / file);
     const auto at = text.find(claim);
@@ -76,13 +70,13 @@ TEST_F(StudyPrograms, ClaimsAreConfirmedByAnotherProgram) {
   const auto expect_refused = [](const std::string& reason) {
     const ProgramResult tampered = check_claims();
     EXPECT_EQ(tampered.exit_code, 1);
-    EXPECT_NE(tampered.out.find(reason), std::string::npos) << tampered.out;
+    EXPECT_TRUE(holds(tampered.out, reason));
   };
   tamper("hypotheses.csv", ",proven,", ",refuted,");
   expect_refused("is 'refuted', by runs.csv 'proven'");
   tamper("study.json", "\"plan_changed\": false", "\"plan_changed\": true");
   ASSERT_EQ(delquad({"tables", results()}).exit_code, 0);
-  EXPECT_NE(check_claims().out.find("tests: not planned, confirmed"), std::string::npos);
+  EXPECT_TRUE(holds(check_claims().out, "tests: not planned, confirmed"));
   tamper("pairs.csv", ",exploratory,", ",better,");
   expect_refused("claims what was not planned");
   // The same meshes without hypotheses: every two words are tested.
@@ -93,7 +87,7 @@ TEST_F(StudyPrograms, ClaimsAreConfirmedByAnotherProgram) {
   ASSERT_EQ(delquad({"run", *folder_ / "study.toml", "-o", results(), "--pictures", "none"}).exit_code, 0);
   const ProgramResult pairs = check_claims();
   EXPECT_EQ(pairs.exit_code, 0) << pairs.out << pairs.err;
-  EXPECT_NE(pairs.out.find("24 comparisons"), std::string::npos) << pairs.out;
+  EXPECT_TRUE(holds(pairs.out, "24 comparisons"));
   tamper("pairs.csv", ",not proven,", ",better,");
   expect_refused("is 'better', by runs.csv 'not proven'");
   fs::remove(results() / "pairs.csv");
@@ -104,7 +98,7 @@ TEST_F(StudyPrograms, ClaimsAreConfirmedByAnotherProgram) {
 /// with half-widths, marks, published numbers and long names.
 TEST(LatexPrograms, DefaultColumnsFitAPage) {
   if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
-  const TemporaryFolder folder;
+  const Folder folder;
   StudyResults results;
   results.study.title = "Wide";
   results.study.pipelines = {"DB", "DLBCO", "gmsh-frontal-quads-full"};
@@ -137,8 +131,8 @@ TEST(LatexPrograms, DefaultColumnsFitAPage) {
       "\\input{tables}\n\\input{table}\n\\input{pairs}\n"
       "\\footnotesize\\typeout{size \\csname f@size\\endcsname}\\end{document}\n");
   EXPECT_EQ(compile(folder.path(), "t.tex"), "");
-  EXPECT_NE(read_text(folder / "t.log").find("size 8"), std::string::npos);
-  EXPECT_EQ(to_tex(outcome.table).find("scriptsize"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(folder / "t.log"), "size 8"));
+  EXPECT_FALSE(holds(to_tex(outcome.table), "scriptsize"));
 }
 
 /// One word with two options on ten domains; the second value of each is better on all of them.
@@ -174,7 +168,7 @@ TEST(Latex, OptionsHaveARowForEachValue) {
   for (std::size_t i = 1; i < rows.size(); i += 4)
     EXPECT_TRUE(rows[i].bold.contains("mean")) << "better than all others of its axis: " << rows[i].group;
   const std::string tables = outcome.files.at("tables.tex");
-  EXPECT_NE(tables.find("than every other of its axis"), std::string::npos);
+  EXPECT_TRUE(holds(tables, "than every other of its axis"));
   EXPECT_EQ(tables.find("p{", tables.find("tab:pairs")), std::string::npos) << tables;
 }
 
@@ -189,21 +183,20 @@ TEST(Latex, PlannedStudiesSayHowTheyAreTested) {
   StudyResults results = planned_study();
   const Outcome planned = make_tables(results);
   const std::string tables = planned.files.at("tables.tex");
-  for (const char* part : {"two-sided", "over all hypotheses", "p corr.", "\\textbf{", "as hypotheses ask"})
-    EXPECT_NE(tables.find(part), std::string::npos) << part << " in " << tables;
+  EXPECT_TRUE(holds(tables, "two-sided", "over all hypotheses", "p corr.", "\\textbf{", "as hypotheses ask"));
   const std::string alone = to_tex(planned.hypotheses);
-  EXPECT_EQ(alone.find("p{"), std::string::npos) << "long names stand above their rows: " << alone;
+  EXPECT_FALSE(holds(alone, "p{")) << "long names stand above their rows: " << alone;
   results.study.plan_changed = true;
   const Outcome late = make_tables(results);
   const std::string marked = late.files.at("tables.tex");
-  EXPECT_NE(marked.find("\\textbf{Not planned: "), std::string::npos) << marked;
-  EXPECT_EQ(marked.find("\\textbf{0"), std::string::npos) << marked;
-  EXPECT_EQ(marked.find("Bold"), std::string::npos) << marked;
+  EXPECT_TRUE(holds(marked, "\\textbf{Not planned: "));
+  EXPECT_FALSE(holds(marked, "\\textbf{0"));
+  EXPECT_FALSE(holds(marked, "Bold"));
 }
 
 /// No box is too wide or too loose.
 std::string compile_inputs(const Outcome& outcome, const std::string& names) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_text(folder / "tables.tex", outcome.files.at("tables.tex"));
   write_text(folder / "summary.tex", to_tex(outcome.summary));
   write_text(folder / "pairs.tex", to_tex(outcome.pairs));
@@ -228,7 +221,7 @@ TEST(LatexPrograms, StudiesOfOptionsAreSet) {
 
 TEST(LatexPrograms, LongTablesBreakOverPages) {
   if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
-  const TemporaryFolder folder;
+  const Folder folder;
   Table table;
   table.title = "Long";
   table.columns = {{"eta_mean", "eta mean", 3}, {"d4", "d4", 1}};
@@ -236,21 +229,21 @@ TEST(LatexPrograms, LongTablesBreakOverPages) {
     table.rows.push_back(
         {"case_" + std::to_string(k / 3), "DB", {{"eta_mean", 0.5}, {"d4", 80}}, {}, "", ""});
   table.notes = {
-      "/home/of/somebody/with/a_long/path/that/goes/on/and/on/for_more/than/a/line/of/text/is/"
-      "wide/to/the/model.step is missing"};
+      "/home/of/somebody/with/a_long/path/that/goes/on/and/on/for_more/than/a/line/of/text/is/wide/to/the/"
+      "model.step is missing"};
   write_text(folder / "table.tex", to_tex(table));
   write_text(
       folder / "t.tex",
       "\\documentclass[a4paper]{article}\\usepackage{booktabs,longtable}\\begin{document}\nBefore it.\n\n"
       "\\input{table}\n\\end{document}\n");
   EXPECT_EQ(compile(folder.path(), "t.tex"), "");
-  EXPECT_NE(read_text(folder / "t.log").find("t.pdf (4 pages"), std::string::npos)
+  EXPECT_TRUE(holds(read_text(folder / "t.log"), "t.pdf (4 pages"))
       << "120 rows, and a line above each of 40 cases";
 }
 
 TEST(LatexPrograms, TextsThatMeanSomethingToIt) {
   if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
-  const TemporaryFolder folder;
+  const Folder folder;
   write_text(folder / "reference.toml",
              "source = \"50 % & #1 of {A}\"\n[[row]]\nname = \"a_b^c~d \\\\ $e$\"\neta_mean = 0.5\n");
   write_text(folder / "50%_&{}#$^~.msh", "no mesh");

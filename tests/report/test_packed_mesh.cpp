@@ -1,22 +1,11 @@
-#include <gtest/gtest.h>
 #include <zlib.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <cstring>
 
 #include "metrics/metrics.h"
 #include "report/packed_mesh.h"
-#include "tests/support/curved_grid.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::quad_grid;
-using testing_support::triangle_grid;
 
 constexpr double kExact = 1e-6;  // coordinates are of single precision
 
@@ -154,7 +143,7 @@ TEST(PackedMesh, ReadsBackTrianglesInSpaceWithAllTheyHave) {
 }
 
 TEST(PackedMesh, JoinsTheNodesOfCurvedElements) {
-  const Mesh mesh = testing_support::curved_grid(3, 2, 3, true);
+  const Mesh mesh = curved_grid(3, 2, 3, true);
   const PackedMesh packed = pack_mesh(mesh);
   EXPECT_EQ(packed.info["order"], 3);
   EXPECT_EQ(packed.info["lines"], 3 * mesh.lines.size());

@@ -1,6 +1,5 @@
-#include <gtest/gtest.h>
-
 #include "tests/report/browser.h"
+#include "tests/support/files.h"
 
 namespace delquad::testing_support {
 namespace {
@@ -40,7 +39,7 @@ const act = async () => {
 act();
 </script>)";
 
-void expect_moved_together(const std::string& browser, const TemporaryFolder& folder) {
+void expect_moved_together(const std::string& browser, const Folder& folder) {
   // Without a screen there are no frames to wait for.
   const std::string timer = "<script>window.requestAnimationFrame = (act) => setTimeout(act, 10);</script>";
   write_text(folder / "read.html", timer + read_text(folder / "r.html") + kReader);
@@ -52,8 +51,8 @@ void expect_moved_together(const std::string& browser, const TemporaryFolder& fo
 }
 
 /// The report of two meshes says something so many times, and its pictures move.
-void expect_page(const std::string& browser, const TemporaryFolder& folder, const char* results,
-                 const char* part, std::size_t times) {
+void expect_page(const std::string& browser, const Folder& folder, const char* results, const char* part,
+                 std::size_t times) {
   ASSERT_EQ(delquad({"report", folder / results, "-o", folder / "r.html"}).exit_code, 0);
   const ProgramResult shown = open_page(browser, folder, "r.html");
   expect_sound(shown, 2);
@@ -63,7 +62,7 @@ void expect_page(const std::string& browser, const TemporaryFolder& folder, cons
 
 TEST(PageInBrowserPrograms, DrawsPlanarCases) {
   NEEDS_BROWSER(browser);
-  const TemporaryFolder folder;
+  const Folder folder;
   run_into(folder, "square", kSquareExperiment);
   ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
   const ProgramResult shown = open_page(browser, folder, "r.html");
@@ -76,29 +75,28 @@ TEST(PageInBrowserPrograms, DrawsPlanarCases) {
 
 TEST(PageInBrowserPrograms, DrawsSurfaces) {
   NEEDS_BROWSER(browser);
-  const TemporaryFolder folder;
+  const Folder folder;
   // A tetrahedron, whose faces are flat.
   write_text(folder / "t.off",
              "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   const ProgramResult made = run_into(folder, "surface",
-                                      "title = \"A surface\"\npipelines = [\"D\", \"DB\"]\nsize = 0.2\n"
-                                      "[[case]]\nname = \"tetrahedron\"\nmodel = \"t.off\"\n");
+                                      "title = 'A surface'\npipelines = ['D', 'DB']\nsize = 0.2\n"
+                                      "[[case]]\nname = 'tetrahedron'\nmodel = 't.off'\n");
   ASSERT_EQ(made.exit_code, 0) << made.err;
   expect_page(browser, folder, "results", "watertight: yes", 2);
 }
 
 TEST(PageInBrowserPrograms, ShowsPeers) {
   NEEDS_BROWSER(browser);
-  const TemporaryFolder folder;
+  const Folder folder;
   const std::string square =
-      "[[case]]\nname = \"square\"\nsize = 0.25\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
-  run_into(folder, "own", "pipelines = [\"DB\"]\n" + square);
+      "[[case]]\nname = 'square'\nsize = 0.25\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
+  run_into(folder, "own", "pipelines = ['DB']\n" + square);
   const std::string mesh = (folder / "results/own/square/DB/mesh.msh").string();
-  const ProgramResult made =
-      run_into(folder, "peers",
-               "pipelines = [\"DB\", \"copy\"]\n[[peer]]\nname = \"copy\"\nversion = [\"echo\", "
-               "\"1.5\"]\ncommand = [\"sh\", \"-c\", \"cp '" +
-                   mesh + "' {output} # {input}\"]\n" + square);
+  const ProgramResult made = run_into(folder, "peers",
+                                      "pipelines = [\"DB\", \"copy\"]\n[[peer]]\nname = \"copy\"\nversion = "
+                                      "[\"echo\", \"1.5\"]\ncommand = [\"sh\", \"-c\", \"cp '" +
+                                          mesh + "' {output} # {input}\"]\n" + square);
   ASSERT_EQ(made.exit_code, 0) << made.err;
   expect_page(browser, folder, "results/peers", "another mesher, version 1.5", 1);
 }
@@ -106,7 +104,7 @@ TEST(PageInBrowserPrograms, ShowsPeers) {
 /// The test would notice: a script that fails, and one that asks the network.
 TEST(PageInBrowserPrograms, ErrorsAndRequestsAreSeen) {
   NEEDS_BROWSER(browser);
-  const TemporaryFolder folder;
+  const Folder folder;
   run_into(folder, "square", kSquareExperiment);
   ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
   const std::string page = read_text(folder / "r.html");

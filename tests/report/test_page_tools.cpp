@@ -1,15 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <memory>
-
 #include "tests/report/browser.h"
+#include "tests/support/files.h"
 
 namespace delquad::testing_support {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 /// Two cases with three seeds; DG leaves triangles, F has nothing but.
 const std::string kSeedsExperiment = R"(
@@ -31,8 +24,8 @@ class Question {
  public:
   explicit Question(const char* script) : place_(scripts().size()) { scripts().emplace_back(script); }
   std::size_t place() const { return place_; }
-  static std::vector<std::string>& scripts() {
-    static std::vector<std::string> all;
+  static Strings& scripts() {
+    static Strings all;
     return all;
   }
 
@@ -44,7 +37,7 @@ class PageToolsPrograms : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     if (find_browser().program.empty()) return;
-    seeds_ = std::make_unique<TemporaryFolder>();
+    seeds_ = std::make_unique<Folder>();
     run_into(*seeds_, "seeds", kSeedsExperiment);
     report(*seeds_);
     answers_ = ask_page(find_browser().program, *seeds_, Question::scripts());
@@ -54,7 +47,7 @@ class PageToolsPrograms : public testing::Test {
     NEEDS_BROWSER(browser);
     browser_ = browser;
   }
-  static void report(const TemporaryFolder& folder) {
+  static void report(const Folder& folder) {
     ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
   }
   /// A page of the test's own: its r.html, with results in results/seeds. All tests share the cells.
@@ -73,8 +66,8 @@ class PageToolsPrograms : public testing::Test {
   }
 
   std::string browser_;
-  TemporaryFolder folder_;
-  static inline std::unique_ptr<TemporaryFolder> seeds_;
+  Folder folder_;
+  static inline std::unique_ptr<Folder> seeds_;
   static inline std::vector<Json> answers_;
 };
 
@@ -153,8 +146,7 @@ TEST_F(PageToolsPrograms, FiltersByCaseAndPipeline) {
 
 /// The columns that the experiment asks for, which fit a common screen; all of them on demand.
 TEST_F(PageToolsPrograms, ShowsTheColumnsOfTheExperiment) {
-  make_page("columns = [\"tau\", \"n_quads\", \"eta_mean\", \"warp_max\"]\nstep_times = true\n" +
-            kSeedsExperiment);
+  make_page("columns = ['tau', 'n_quads', 'eta_mean', 'warp_max']\nstep_times = true\n" + kSeedsExperiment);
   const Json seen = ask(R"(
     const table = document.querySelector(".table"), heads = () => all("thead th", table).map((th) => th.dataset.key), looks = [];
     const choice = table.querySelector("[data-choice=columns]"), scroll = table.querySelector(".scroll");
@@ -229,8 +221,7 @@ TEST_F(PageToolsPrograms, SavesFigures) {
   }
   if (!fs::exists("/usr/bin/pdftotext")) GTEST_SKIP() << "poppler-utils is not installed";
   const std::string words = text_of_pdf(folder_ / "f0.pdf");
-  for (const char* word : {"DB", "DG", "insertion", "matching"})
-    EXPECT_NE(words.find(word), std::string::npos) << words;
+  EXPECT_TRUE(holds(words, "DB", "DG", "insertion", "matching"));
   text_of_pdf(folder_ / "f6.pdf");
 }
 
@@ -245,9 +236,9 @@ TEST_F(PageToolsPrograms, SavesFiguresOfTheFolder) {
                                     "fill=\"#c00\"/><text x=\"20\" y=\"40\">plain</text></g></svg>");
   write_text(figures / "b.svg",
              head +
-                 "<defs><linearGradient id=\"g\"><stop stop-color=\"#c00\"/></linearGradient></defs>"
-                 "<script>document.title = 'taken over'</script>"
-                 "<rect width=\"90\" height=\"50\" fill=\"url(#g)\" onclick=\"x()\"/></svg>");
+                 "<defs><linearGradient id=\"g\"><stop "
+                 "stop-color=\"#c00\"/></linearGradient></defs><script>document.title = 'taken "
+                 "over'</script><rect width=\"90\" height=\"50\" fill=\"url(#g)\" onclick=\"x()\"/></svg>");
   report(folder_);
   const Json saved = ask(R"(
     const buttons = all(".drawings .save button");
@@ -263,7 +254,7 @@ TEST_F(PageToolsPrograms, SavesFiguresOfTheFolder) {
   EXPECT_EQ(count(decoded(saved.at("saved").at("seeds-b.svg")), "onclick"), 0u);
   write_text(folder_ / "a.pdf", decoded(saved.at("saved").at("seeds-a.pdf")));
   if (!fs::exists("/usr/bin/pdftotext")) GTEST_SKIP() << "poppler-utils is not installed";
-  EXPECT_NE(text_of_pdf(folder_ / "a.pdf").find("plain"), std::string::npos);
+  EXPECT_TRUE(holds(text_of_pdf(folder_ / "a.pdf"), "plain"));
 }
 
 const Question kShowsOneSeedAtATimeAndTheMeans(R"(
@@ -326,9 +317,9 @@ TEST_F(PageToolsPrograms, BoxesOfSeedsAndCases) {
     return std::stod(label.substr(label.find(before) + before.size()));
   };
   EXPECT_NEAR(median_in(seen[0]), (all[2] + all[3]) / 2, 1e-4);
-  EXPECT_NE(seen[0].get<std::string>().find("of 6"), std::string::npos);
+  EXPECT_TRUE(holds(seen[0].get<std::string>(), "of 6"));
   EXPECT_EQ(seen[1], 2);  // DB and DG; F has no eta
-  EXPECT_NE(seen[2].get<std::string>().find("of 3"), std::string::npos);
+  EXPECT_TRUE(holds(seen[2].get<std::string>(), "of 3"));
   EXPECT_EQ(seen[3], 0);  // three values make no box
   EXPECT_EQ(median_in(seen[4]), square[1]);
 }
@@ -409,9 +400,8 @@ TEST_F(PageToolsPrograms, PrintsTablesWhole) {
     const fs::path pdf = folder_ / "p.pdf";
     browse(browser_, folder_, "p.html", {"--print-to-pdf=" + pdf.string(), "--virtual-time-budget=60000"});
     const std::string text = text_of_pdf(pdf);
-    for (const char* title :
-         {"vertices", "eta worst", "eta mean", "tau", "% quads", "insertion s", "total CPU s"})
-      EXPECT_NE(text.find(title), std::string::npos) << paper << ": " << title << "\n" << header;
+    EXPECT_TRUE(
+        holds(text, "vertices", "eta worst", "eta mean", "tau", "% quads", "insertion s", "total CPU s"));
   }
 }
 

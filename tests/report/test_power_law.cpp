@@ -1,8 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "report/page_json.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {

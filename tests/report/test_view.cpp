@@ -1,7 +1,5 @@
-#include "io/mesh_io.h"
 #include "tests/report/browser.h"
-#include "tests/support/curved_grid.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 
 namespace delquad::testing_support {
 namespace {
@@ -21,20 +19,19 @@ Mesh mesh_to_look_at() {
 }
 
 /// Where there is a display, a browser would be opened for the user.
-ProgramResult delquad_without_display(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {"-u", "WAYLAND_DISPLAY", "-u", "DISPLAY", DELQUAD_PROGRAM};
+ProgramResult delquad_without_display(const Strings& arguments) {
+  Strings words = {"-u", "WAYLAND_DISPLAY", "-u", "DISPLAY", DELQUAD_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return run_program("/usr/bin/env", {std::move(words), 0, {}});
 }
 
 /// The page of a mesh, and what `script` returns there.
-nlohmann::json ask_view(const std::string& browser, const TemporaryFolder& folder, const Mesh& mesh,
-                        const std::string& script) {
+Json ask_view(const std::string& browser, const Folder& folder, const Mesh& mesh, const std::string& script) {
   write_mesh(folder / "m.msh", mesh);
   const ProgramResult result = delquad_without_display({"view", folder / "m.msh"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, "view: " + (folder / "m.msh.html").string() + "\n");
-  std::filesystem::rename(folder / "m.msh.html", folder / "r.html");
+  fs::rename(folder / "m.msh.html", folder / "r.html");
   return ask_page(browser, folder, {script})[0];
 }
 
@@ -61,19 +58,19 @@ return { seen, numbers: all(".numbers dd").map((n) => n.textContent), facts: all
 
 TEST(ViewPrograms, ShowsQualitySizesNamesAndWorstQuads) {
   NEEDS_BROWSER(browser);
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto told = ask_view(browser, folder, mesh_to_look_at(), kTryAll);
-  const std::vector<std::string> acts = {"size",
-                                         "names",
-                                         "shape (\u03b7)",
-                                         "inside 8 elementsonly",
-                                         "right </script> 9 elements, 1 irregularonly",
-                                         "south 4 linesonly",
-                                         "sensor point, number 5",
-                                         "all",
-                                         "only",
-                                         "worst",
-                                         "whole"};
+  const Strings acts = {"size",
+                        "names",
+                        "shape (\u03b7)",
+                        "inside 8 elementsonly",
+                        "right </script> 9 elements, 1 irregularonly",
+                        "south 4 linesonly",
+                        "sensor point, number 5",
+                        "all",
+                        "only",
+                        "worst",
+                        "whole"};
   for (const std::string& act : acts)
     EXPECT_EQ(told["seen"].value(act, false), true) << act << " in " << told;
   EXPECT_EQ(told["numbers"][0], "25");
@@ -83,20 +80,20 @@ TEST(ViewPrograms, ShowsQualitySizesNamesAndWorstQuads) {
 
 TEST(ViewPrograms, ShowsCurvedSurfaces) {
   NEEDS_BROWSER(browser);
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto told = ask_view(browser, folder, curved_grid(4, 3, 2, true), kTryAll);
   for (const char* act : {"size", "names", "south 4 linesonly", "worst", "whole", "cut", "uncut"})
     EXPECT_EQ(told["seen"].value(act, false), true) << act << " in " << told;
-  EXPECT_NE(told["facts"].get<std::string>().find("elements of order 2"), std::string::npos) << told;
+  EXPECT_TRUE(holds(told["facts"].get<std::string>(), "elements of order 2")) << told;
 }
 
 TEST(View, IsOpenedInABrowserWhereThereIsADisplay) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_mesh(folder / "m.msh", quad_grid(2, 2));
   write_text(folder / "xdg-open", "#!/bin/sh\necho \"$1\" > " + (folder / "opened.part").string() + "\nmv " +
                                       (folder / "opened.part").string() + " " + (folder / "opened").string() +
                                       "\n");
-  std::filesystem::permissions(folder / "xdg-open", std::filesystem::perms::owner_all);
+  fs::permissions(folder / "xdg-open", fs::perms::owner_all);
   for (const std::string display : {"", ":7"}) {
     const auto result = run_program(
         "/usr/bin/env",
@@ -105,19 +102,18 @@ TEST(View, IsOpenedInABrowserWhereThereIsADisplay) {
          0,
          {}});
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    for (int i = 0; i < 100 && display != "" && !std::filesystem::exists(folder / "opened"); ++i)
-      usleep(50'000);
-    EXPECT_EQ(std::filesystem::exists(folder / "opened"), display != "");
+    for (int i = 0; i < 100 && display != "" && !fs::exists(folder / "opened"); ++i) usleep(50'000);
+    EXPECT_EQ(fs::exists(folder / "opened"), display != "");
   }
   EXPECT_EQ(read_text(folder / "opened"), (folder / "page.html").string() + "\n");
 }
 
 TEST(View, OfAMeshThatIsMade) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto model = write_text(folder / "m.toml", "loop = { rectangle = [[0, 0], [1, 1]] }\nsize = 0.25\n");
   const auto result = delquad_without_display({"mesh", model, "-o", folder / "m.msh", "--view"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(read_text(folder / "m.msh.html").find("\"n_quads\":16"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(folder / "m.msh.html"), "\"n_quads\":16"));
 }
 
 }  // namespace

@@ -1,16 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <nlohmann/json.hpp>
-
-#include "delquad/mesh.h"
 #include "tests/report/report_results.h"
+#include "tests/support/files.h"
 
 namespace delquad::testing_support {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 Json data_of(const fs::path& page) {
   const std::string text = read_text(page), begin = "id=\"data\">", end = "</script>";
@@ -25,15 +17,15 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 TEST(Report, HasEveryCellWithItsPictureOrItsReason) {
-  const TemporaryFolder folder;
+  const Folder folder;
   ASSERT_EQ(run_into(folder, "square", kSquareExperiment).exit_code, 2);  // the broken case
   const ProgramResult result = delquad({"report", folder / "results/square", "-o", folder / "r.html"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   const std::string page = read_text(folder / "r.html");
   EXPECT_EQ(count(page, "id=\"mesh-"), 6u);
-  EXPECT_EQ(count(page, "<b>more</b>"), 0u);                       // titles are text
-  EXPECT_EQ(page.find("WebGLRenderer=class"), std::string::npos);  // no surfaces, no three.js
+  EXPECT_EQ(count(page, "<b>more</b>"), 0u);         // titles are text
+  EXPECT_FALSE(holds(page, "WebGLRenderer=class"));  // no surfaces, no three.js
   const Json data = data_of(folder / "r.html");
   ASSERT_EQ(data["studies"].size(), 1u);
   const Json& study = data["studies"][0];
@@ -59,7 +51,7 @@ TEST(Report, HasEveryCellWithItsPictureOrItsReason) {
 /// Faces that join smoothly are one patch: its quads lie in the file by faces, and not in the mesh.
 TEST(Report, QuadsThatFailHaveAColour) {
   constexpr double kLeast = 3;
-  const TemporaryFolder folder;
+  const Folder folder;
   const ProgramResult made = run_into(folder, "lengths", R"(
 pipelines = ["DBC"]
 [[case]]
@@ -89,11 +81,10 @@ criteria = { min_length = 3 }
 
 /// Shares of vertices by the quads around them are counted as d4 is: a vertex with triangles is not regular.
 TEST(Report, ValencesAreThoseOfD4) {
-  const TemporaryFolder folder;
-  const ProgramResult made =
-      run_into(folder, "disc",
-               "pipelines = [\"DB\", \"DG\"]\nsize = 0.15\n[[case]]\nname = \"disc\"\nloop = { circle = { "
-               "centre = [0, 0], radius = 1 } }\n");
+  const Folder folder;
+  const ProgramResult made = run_into(folder, "disc",
+                                      "pipelines = ['DB', 'DG']\nsize = 0.15\n[[case]]\nname = 'disc'\nloop "
+                                      "= { circle = { centre = [0, 0], radius = 1 } }\n");
   ASSERT_EQ(made.exit_code, 0) << made.err;
   ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / "r.html"}).exit_code, 0);
   const Json cells = data_of(folder / "r.html")["studies"][0]["sheets"][0]["seeds"][0]["cells"];
@@ -111,7 +102,7 @@ TEST(Report, ValencesAreThoseOfD4) {
 
 /// Figures that lie in the results are on the page, or it says where those lie that are too large.
 TEST(Report, FiguresOfTheFolder) {
-  const TemporaryFolder folder;
+  const Folder folder;
   run_into(folder, "square", kSquareExperiment);
   fs::create_directories(folder / "results/square/figures");
   const std::string small = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"/>";
@@ -122,13 +113,13 @@ TEST(Report, FiguresOfTheFolder) {
   const Json drawings = data_of(folder / "r.html")["studies"][0]["drawings"];
   ASSERT_EQ(drawings.size(), 2u);
   EXPECT_FALSE(drawings[0].contains("svg"));
-  EXPECT_NE(drawings[0]["left_out"].get<std::string>().find("figures/a.svg"), std::string::npos);
+  EXPECT_TRUE(holds(drawings[0]["left_out"].get<std::string>(), "figures/a.svg"));
   EXPECT_EQ(drawings[1]["name"], "b");
   EXPECT_EQ(drawings[1]["svg"], small);
 }
 
 TEST(Report, SameBytesTwice) {
-  const TemporaryFolder folder;
+  const Folder folder;
   run_into(folder, "square", kSquareExperiment);
   for (const char* name : {"a.html", "b.html"})
     ASSERT_EQ(delquad({"report", folder / "results", "-o", folder / name}).exit_code, 0);
@@ -136,7 +127,7 @@ TEST(Report, SameBytesTwice) {
 }
 
 TEST(Report, SeveralExperimentsOfWhichSomeAreBroken) {
-  const TemporaryFolder folder;
+  const Folder folder;
   run_into(folder, "one", kSquareExperiment);
   run_into(folder, "two", kSquareExperiment);
   run_into(folder, "three", kSquareExperiment);
@@ -146,9 +137,8 @@ TEST(Report, SeveralExperimentsOfWhichSomeAreBroken) {
   fs::remove(folder / "results/three/square@seed=2/DB/mesh.msh");
   const ProgramResult result = delquad({"report", folder / "results", "-o", folder / "r.html"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_NE(result.err.find("results/two/square@seed=1/DB/record.json"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("results/three/square@seed=1/DB/mesh.msh"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("results/three/square@seed=2/DB/mesh.msh"), std::string::npos) << result.err;
+  EXPECT_TRUE(holds(result.err, "results/two/square@seed=1/DB/record.json",
+                    "results/three/square@seed=1/DB/mesh.msh", "results/three/square@seed=2/DB/mesh.msh"));
   const Json data = data_of(folder / "r.html");
   ASSERT_EQ(data["studies"].size(), 3u);
   EXPECT_TRUE(data["left_out"].empty());
@@ -159,22 +149,22 @@ TEST(Report, SeveralExperimentsOfWhichSomeAreBroken) {
   const Json& cell = data["studies"][1]["sheets"][0]["seeds"][0]["cells"][1];
   EXPECT_EQ(cell["status"], "ok");
   EXPECT_FALSE(cell.contains("mesh"));
-  EXPECT_NE(cell["no_picture"].get<std::string>().find("mesh.msh"), std::string::npos);
+  EXPECT_TRUE(holds(cell["no_picture"].get<std::string>(), "mesh.msh"));
 }
 
 /// Thousands of cells stay in the tables, and out of the sheets.
 TEST(ReportLong, LargeSweeps) {
-  const TemporaryFolder folder;
+  const Folder folder;
   std::string seeds = "1";
   for (int seed = 2; seed <= 2100; ++seed) seeds += ", " + std::to_string(seed);
-  const auto file = write_text(folder / "e.toml",
-                               "pipelines = [\"DB\"]\nsize = 0.5\n[matrix]\nseed = [" + seeds +
-                                   "]\n[[case]]\nname = \"a\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
+  const auto file =
+      write_text(folder / "e.toml", "pipelines = ['DB']\nsize = 0.5\n[matrix]\nseed = [" + seeds +
+                                        "]\n[[case]]\nname = 'a'\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
   ASSERT_EQ(delquad({"run", file, "-o", folder / "out", "--shard", "0/2100"}).exit_code, 0);
   Json sealed_record = Json::parse(read_text(folder / "out/a@seed=1/DB/record.json"));
   sealed_record.erase("digest");
   const std::string record = sealed_record.dump(2), variant = "\"seed\": \"1\"";
-  ASSERT_NE(record.find(variant), std::string::npos);
+  ASSERT_TRUE(holds(record, variant));
   for (int seed = 2; seed <= 2100; ++seed) {
     const fs::path cell = folder / ("out/a@seed=" + std::to_string(seed) + "/DB");
     fs::create_directories(cell);
@@ -193,21 +183,21 @@ TEST(ReportLong, LargeSweeps) {
 }
 
 TEST(Report, NothingToShow) {
-  const TemporaryFolder folder;
+  const Folder folder;
   fs::create_directories(folder / "empty");
   for (const char* name : {"empty", "absent"}) {
     const ProgramResult result = delquad({"report", folder / name, "-o", folder / "r.html"});
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_NE(result.err.find(name), std::string::npos) << result.err;
+    EXPECT_TRUE(holds(result.err, name));
     EXPECT_FALSE(fs::exists(folder / "r.html"));
   }
 }
 
 TEST(Report, StaysWhatItWasWhereItCannotBeWritten) {
-  const TemporaryFolder folder;
+  const Folder folder;
   run_into(folder, "square", kSquareExperiment);
   write_text(folder / "r.html", "before");
-  const std::vector<std::string> arguments = {"report", folder / "results", "-o", folder / "r.html"};
+  const Strings arguments = {"report", folder / "results", "-o", folder / "r.html"};
   constexpr long long kTooLittle = 20'000;
   const ProgramResult full = run_program(DELQUAD_PROGRAM, {arguments, kTooLittle, {}});
   EXPECT_EQ(full.exit_code, 2) << full.err;

@@ -74,4 +74,10 @@ inline ProgramResult run_program(const std::string& program, const ProgramOption
   return result;
 }
 
+#ifdef DELQUAD_PROGRAM
+inline ProgramResult delquad(std::vector<std::string> arguments) {
+  return run_program(DELQUAD_PROGRAM, {std::move(arguments), 0, {}});
+}
+#endif
+
 }  // namespace delquad::testing_support

@@ -1,10 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "delquad/mesher.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/files.h"
 #include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
@@ -12,7 +7,7 @@ namespace {
 
 /// A lattice of half of the unit square's width about its middle, turned by an angle, at a height.
 Mesh lattice(double degrees, double height) {
-  Mesh mesh = testing_support::quad_grid(8, 8);
+  Mesh mesh = quad_grid(8, 8);
   const double c = std::cos(degrees * std::numbers::pi / 180), s = std::sin(degrees * std::numbers::pi / 180);
   for (Vec3& p : mesh.points) {
     const double x = (p.x - 0.5) / 2, y = (p.y - 0.5) / 2;
@@ -38,7 +33,7 @@ TEST(Misalignment, IsTheAngleBetweenEdgesAndTheFieldOfThePlane) {
   EXPECT_NEAR(misalignment(along_sides, lattice(60, 0)), 30, 1e-6) << "the nearest of the directions";
   problem.cross.text = "pi/12";
   EXPECT_NEAR(misalignment(prepare(problem), lattice(0, 0)), 15, 1e-6);
-  EXPECT_TRUE(std::isnan(misalignment(along_sides, testing_support::triangle_grid(4, 4))));
+  EXPECT_TRUE(std::isnan(misalignment(along_sides, triangle_grid(4, 4))));
 }
 
 /// The sides of a box have fields along their edges.

@@ -1,12 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "base/calibration.h"
 #include "experiments/sweep/peer.h"
 #include "mesher/prepare.h"
 #include "metrics/tables/notes.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
@@ -92,10 +88,10 @@ Prepared square() {
 
 /// A record counts when it is of the same cell; else the word is run.
 TEST(ReferenceQuads, AreThoseOfAValidRecord) {
-  const testing_support::TemporaryFolder folder;
+  const Folder folder;
   const Prepared prepared = square();
   const auto quads = [&](const std::string& record) {
-    testing_support::write_text(folder / "record.json", record);
+    write_text(folder / "record.json", record);
     return reference_quads(prepared, "DB", {folder.path(), "abc"});
   };
   EXPECT_EQ(reference_quads(prepared, "DB", {}), 16);
@@ -118,14 +114,13 @@ CellRecord calibrated(const CalibrationRecord& calibration, const std::string& s
 TEST(CalibrationNotes, SayHowCloseTheNumberCame) {
   EXPECT_EQ(
       calibration_notes({calibrated({"DB", 1.08, 100, 100.5, 2}), calibrated({"DB", 1.1, 100, 99.5, 2})}),
-      (std::vector<std::string>{
-          "plate other: size times 1.08 to 1.1, so that it has DB's number of quads within 1 %"}));
+      (Strings{"plate other: size times 1.08 to 1.1, so that it has DB's number of quads within 1 %"}));
   EXPECT_EQ(
       calibration_notes({calibrated({"DB", 1, 100, 104, 8})}),
-      (std::vector<std::string>{
+      (Strings{
           "plate other: size times 1, and yet 1 of 1 meshes miss DB's number of quads, by +4 % at most"}));
   EXPECT_EQ(calibration_notes({calibrated({"DB", 1, 0, 0, 1})}),
-            (std::vector<std::string>{"plate other: size as given, for DB has no mesh to compare with"}));
+            (Strings{"plate other: size as given, for DB has no mesh to compare with"}));
 }
 
 /// Tables show means over the seeds: one of them being off is not all of them being off.
@@ -133,9 +128,8 @@ TEST(CalibrationNotes, SayInHowManySeedsItWasMissed) {
   std::vector<CellRecord> cells = {
       calibrated({"DB", 1, 10000, 10000, 1}, "1"), calibrated({"DB", 1, 10000, 9497, 8}, "2"),
       calibrated({"DB", 1, 10000, 10050, 1}, "3"), calibrated({"DB", 1.1, 10000, 10200, 8}, "4")};
-  EXPECT_EQ(calibration_notes(cells),
-            (std::vector<std::string>{"plate other: size times 1 to 1.1, and yet 2 of 4 meshes miss DB's "
-                                      "number of quads, by -5.03 % at most"}));
+  EXPECT_EQ(calibration_notes(cells), (Strings{"plate other: size times 1 to 1.1, and yet 2 of 4 meshes miss "
+                                               "DB's number of quads, by -5.03 % at most"}));
   cells[1].calibration->ended_by = "it crashed";
   EXPECT_TRUE(calibration_notes(cells)[0].ends_with("-5.03 % at most: it crashed"));
 }
@@ -164,9 +158,8 @@ TEST(QuadCountNotes, SayHowMuchTheOtherWordsDiffer) {
   for (std::size_t i = records.size() - 2; i < records.size(); ++i)
     records[i].calibration = CalibrationRecord{"DBCO", 1, 100, 101, 2};
   EXPECT_EQ(quad_count_notes(records),
-            (std::vector<std::string>{
-                "Calibrated, by their sizes, to DBCO's number of quads: peer. Not calibrated, beside it: "
-                "FB +3 to +17 %, few -5 to -2 %, both -2 to +10 %"}));
+            (Strings{"Calibrated, by their sizes, to DBCO's number of quads: peer. Not calibrated, beside "
+                     "it: FB +3 to +17 %, few -5 to -2 %, both -2 to +10 %"}));
 }
 
 }  // namespace

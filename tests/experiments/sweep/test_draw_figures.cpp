@@ -1,20 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <sstream>
-
 #include "experiments/sweep/draw_figures.h"
 #include "metrics/tables/tables.h"
-#include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-namespace fs = std::filesystem;
-using testing_support::read_text;
-using testing_support::write_text;
 
 CellRecord cell(const std::string& name, const std::string& pipeline, double eta, double seconds) {
   CellRecord record;
@@ -87,9 +76,9 @@ columns = figures.read(folder, "runs_columns.csv")
 runs = figures.Runs(figures.read(folder, "runs.csv"), columns)
 (figures.effects(folder, columns).get(name) or functools.partial(figures.COMPARISONS[name], runs=runs))(Axes())
 )";
-    const testing_support::ProgramResult run = testing_support::run_program(
-        "/usr/bin/python3",
-        {{"-c", kScript, DELQUAD_EXPERIMENTS "/figures.py", folder_.path(), figure}, 0, {}});
+    const ProgramResult run =
+        run_program("/usr/bin/python3",
+                    {{"-c", kScript, DELQUAD_EXPERIMENTS "/figures.py", folder_.path(), figure}, 0, {}});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     std::vector<Line> found;
     std::istringstream out(run.out);
@@ -102,8 +91,8 @@ runs = figures.Runs(figures.read(folder, "runs.csv"), columns)
     return found;
   }
 
-  std::vector<std::string> drawn() const {
-    std::vector<std::string> names;
+  Strings drawn() const {
+    Strings names;
     if (fs::exists(folder_ / kFigures))
       for (const auto& file : fs::directory_iterator(folder_ / kFigures))
         names.push_back(file.path().filename().string());
@@ -111,7 +100,7 @@ runs = figures.Runs(figures.read(folder, "runs.csv"), columns)
     return names;
   }
 
-  testing_support::TemporaryFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(Figures, ProfilesHaveThePartWithinEachFactor) {
@@ -205,11 +194,11 @@ TEST_F(FiguresPrograms, AreTheSameBytesTwiceWithTheirFonts) {
   ASSERT_EQ(draw_figures({folder_.path()}), "");
   for (const auto& [name, bytes] : first) EXPECT_EQ(read_text(folder_ / kFigures / name), bytes) << name;
   const std::string &svg = first.at("profile_eta.svg"), &pdf = first.at("profile_eta.pdf");
-  EXPECT_NE(svg.find("width=\"244.8pt\""), std::string::npos) << "3.4 inches, a column";
-  EXPECT_EQ(svg.find("<text"), std::string::npos) << "letters are shapes";
-  EXPECT_NE(svg.find("<!-- A -->"), std::string::npos);
-  EXPECT_NE(pdf.find("/FontFile2"), std::string::npos);
-  EXPECT_EQ(pdf.find("CreationDate"), std::string::npos);
+  EXPECT_TRUE(holds(svg, "width=\"244.8pt\"")) << "3.4 inches, a column";
+  EXPECT_FALSE(holds(svg, "<text")) << "letters are shapes";
+  EXPECT_TRUE(holds(svg, "<!-- A -->"));
+  EXPECT_TRUE(holds(pdf, "/FontFile2"));
+  EXPECT_FALSE(holds(pdf, "CreationDate"));
 }
 
 TEST_F(FiguresPrograms, GoWhenThereAreNoneAnyLonger) {
@@ -230,7 +219,7 @@ TEST_F(FiguresPrograms, GoWhenThereAreNoneAnyLonger) {
   std::erase_if(one_pipeline, [](const CellRecord& r) { return r.pipeline == "peer"; });
   write(one_pipeline);
   ASSERT_EQ(draw_figures({folder_.path()}), "");
-  EXPECT_EQ(drawn(), std::vector<std::string>{"mine.svg"});
+  EXPECT_EQ(drawn(), Strings{"mine.svg"});
 }
 
 /// Tables are whole without figures, and a script of one's own is run in the place of ours.

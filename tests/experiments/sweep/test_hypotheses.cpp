@@ -1,23 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "delquad/mesh.h"
 #include "experiments/sweep/run_experiment.h"
-#include "io/mesh_io.h"
 #include "metrics/tables/study_file.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/run_program.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
 
-namespace fs = std::filesystem;
-using testing_support::read_text;
-using testing_support::write_text;
-
 const std::string kHead =
-    "pipelines = [\"F\", \"DB\", \"DBC\"]\nsolver = [\"poisson\"]\n[matrix]\ncross = [\"boundary\", \"x\"]\n"
+    "pipelines = ['F', 'DB', 'DBC']\nsolver = ['poisson']\n[matrix]\ncross = ['boundary', 'x']\n"
     "seed = [1]\n";
 /// Of different proportions, and the last one as the first, but larger.
 const std::string kRectangles = [] {
@@ -25,7 +14,7 @@ const std::string kRectangles = [] {
   for (int i = 1; i <= 5; ++i)
     text += "[[case]]\nname = \"r" + std::to_string(i) +
             "\"\nsize = 0.4\nloop = { rectangle = [[0, 0], [1, " + std::to_string(i) + "]] }\n";
-  return text + "[[case]]\nname = \"large\"\nsize = 0.9\nloop = { rectangle = [[1, 1], [3, 3]] }\n";
+  return text + "[[case]]\nname = 'large'\nsize = 0.9\nloop = { rectangle = [[1, 1], [3, 3]] }\n";
 }();
 
 class Planned : public testing::Test {
@@ -36,10 +25,10 @@ class Planned : public testing::Test {
     return dry_run(read(claim(keys)), "", effect);
   }
   static void expect_part(const std::string& text, const std::string& part) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
+    EXPECT_TRUE(holds(text, part)) << part << "\nis not in\n" << text;
   }
 
-  testing_support::TemporaryFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(Planned, HypothesesMayBeOnValues) {
@@ -52,7 +41,7 @@ TEST_F(Planned, HypothesesMayBeOnValues) {
 }
 
 TEST_F(Planned, ADryRunSaysWhatCanBeProven) {
-  const std::string keys = "better = \"DBC\"\nthan = \"DB\"\nmeasures = [\"eta_mean\"]\n";
+  const std::string keys = "better = 'DBC'\nthan = 'DB'\nmeasures = ['eta_mean']\n";
   const std::string five = plan(keys);
   expect_part(five, "to do          r1@cross=boundary,seed=1 F\n");
   expect_part(five, "cells: 36, of which 0 are done\ntime: not known");
@@ -60,13 +49,13 @@ TEST_F(Planned, ADryRunSaysWhatCanBeProven) {
   expect_part(five,
               "tests of hypotheses: 1\n  1 over 5 domains: nothing can be proven; it takes 6 domains\n");
   // Six have 2 * 2^-6, and the power of all six to agree is P(Z > -0.5)^6, by hand.
-  const std::string sixth = "[[case]]\nname = \"r6\"\nsize = 0.4\nloop = { rectangle = [[0, 0], [1, 6]] }\n";
+  const std::string sixth = "[[case]]\nname = 'r6'\nsize = 0.4\nloop = { rectangle = [[0, 0], [1, 6]] }\n";
   expect_part(dry_run(read(claim(keys) + sixth), "", 0.5),
               "  1 over 6 domains: p corrected 0.0312 at the least; power 0.11 for 0.5 deviations\n");
   // Seven: 7 * 2 * 2^-n is at most 0.05 from nine on.
   std::string many = keys;
   many.replace(
-      many.find("\"eta_mean\""), 10,
+      many.find("'eta_mean'"), 10,
       "\"eta_mean\", \"eta_worst\", \"d4\", \"tau\", \"aspect_max\", \"poisson_h1\", \"poisson_l2\"");
   expect_part(plan(many), "  7 over 5 domains: nothing can be proven; it takes 9 domains\n");
   // Without hypotheses DB and DBC are one pair, in eta mean, eta worst, d4, tau and four measures of the
@@ -78,7 +67,7 @@ TEST_F(Planned, ADryRunSaysWhatCanBeProven) {
 
 /// The first command of docs/experiments.md.
 TEST_F(Planned, ADryRunNeedsNoResultsInTheFolder) {
-  const std::string experiment = claim("better = \"DBC\"\nthan = \"DB\"\nmeasures = [\"eta_mean\"]\n");
+  const std::string experiment = claim("better = 'DBC'\nthan = 'DB'\nmeasures = ['eta_mean']\n");
   expect_part(dry_run(read(experiment), folder_ / "results", 1), "cells: 36, of which 0 are done\n");
   EXPECT_FALSE(fs::exists(folder_ / "results"));
 }
@@ -101,7 +90,7 @@ TEST_F(Planned, PlansThatWereChangedAfterwardsSaySo) {
   other.file = "other.toml";
   const std::string refused = dry_run(other, out, {});
   expect_part(refused, "not of 'other': give another folder\ncells: 2, of which 0 are done\n");
-  EXPECT_EQ(refused.find("guessed"), std::string::npos) << "the same case";
+  EXPECT_FALSE(holds(refused, "guessed")) << "the same case";
   EXPECT_EQ(read_study(out)->hypotheses, read(text("d4")).hypotheses);
   EXPECT_TRUE(note_after(text("tau")));
   EXPECT_TRUE(note_after(text("d4"))) << "it stays said";
@@ -120,16 +109,16 @@ TEST_F(Planned, PlansThatWereChangedAfterwardsSaySo) {
   EXPECT_FALSE(note_after(text("tau")));
   std::string seeded = text("tau");
   EXPECT_TRUE(note_after(seeded.replace(seeded.find("size = 0.5"), 0, "seed = 2\n"))) << "another seed";
-  EXPECT_NE(read_text(out / "hypotheses.md").find("exploratory"), std::string::npos);
+  EXPECT_TRUE(holds(read_text(out / "hypotheses.md"), "exploratory"));
 }
 
 /// Whatever a case says belongs to the plan: seeds, sizes and models could be tried until something is
 /// proven.
 TEST_F(Planned, NothingOfCasesCanBeTried) {
   const std::string head =
-      "pipelines = [\"DB\", \"DBC\"]\n[[hypotheses]]\nbetter = \"DBC\"\nthan = \"DB\"\nmeasures = [\"d4\"]\n";
-  const std::string first = "[[case]]\nname = \"a\"\nseed = 1\nsize = 0.5\nmodel = \"a.toml\"\n";
-  const std::string second = "[[case]]\nname = \"b\"\nsize = 0.5\nloop = { rectangle = [[0, 0], [1, 2]] }\n";
+      "pipelines = ['DB', 'DBC']\n[[hypotheses]]\nbetter = 'DBC'\nthan = 'DB'\nmeasures = ['d4']\n";
+  const std::string first = "[[case]]\nname = 'a'\nseed = 1\nsize = 0.5\nmodel = 'a.toml'\n";
+  const std::string second = "[[case]]\nname = 'b'\nsize = 0.5\nloop = { rectangle = [[0, 0], [1, 2]] }\n";
   const auto model = [&](double width) {
     write_text(folder_ / "a.toml", "loop = { rectangle = [[0, 0], [" + std::to_string(width) + ", 1]] }\n");
   };
@@ -144,13 +133,13 @@ TEST_F(Planned, NothingOfCasesCanBeTried) {
   EXPECT_EQ(plan_of(head + with(first, "0.5", "5e-1") + second), before) << "the same number";
   for (const std::string& other :
        {with(first, "seed = 1", "seed = 2"), with(first, "size = 0.5", "size = 0.4"),
-        first + "cleanup = { rounds = 1 }\n", first + "domain = \"b\"\n"})
+        first + "cleanup = { rounds = 1 }\n", first + "domain = 'b'\n"})
     EXPECT_NE(plan_of(head + other + second), before) << other;
-  EXPECT_NE(plan_of(with(head, "DBC\"]", "DBC\", \"FB\"]") + first + second), before) << "a pipeline more";
+  EXPECT_NE(plan_of(with(head, "'DBC']", "'DBC', 'FB']") + first + second), before) << "a pipeline more";
   const std::string peer =
-      "[[peer]]\nname = \"x\"\ncommand = [\"x\", \"{input}\", \"{output}\"]\nversion = [\"true\"]\n";
+      "[[peer]]\nname = 'x'\ncommand = ['x', '{input}', '{output}']\nversion = ['true']\n";
   const std::string with_peer = plan_of(head + peer + first + second);
-  for (const std::string keys : {"exit_codes = [1]\n", "metrics = true\n", "surfaces = \"none\"\n"})
+  for (const std::string keys : {"exit_codes = [1]\n", "metrics = true\n", "surfaces = 'none'\n"})
     EXPECT_NE(plan_of(head + peer + keys + first + second), with_peer) << keys;
   EXPECT_NE(plan_of("solver = [\"poisson\"]\n" + head + first + second), before);
   EXPECT_NE(plan_of(head + first + second + "[[variant]]\nname = \"v\"\norder = 2\n"), before);
@@ -160,7 +149,7 @@ TEST_F(Planned, NothingOfCasesCanBeTried) {
 
 /// Headers of STEP and sizes of an outline that was exported make no domains.
 TEST_F(Planned, DomainsAreGeometries) {
-  std::string text = "pipelines = [\"DB\"]\n";
+  std::string text = "pipelines = ['DB']\n";
   const auto add = [&](const std::string& name, const std::string& model) {
     text += "[[case]]\nname = \"" + name + "\"\nsize = 1\nmodel = \"" + model + "\"\n";
   };
@@ -196,7 +185,7 @@ TEST_F(Planned, DomainsAreGeometries) {
 /// The key `domain` counts as it stands now, and belongs to the plan.
 TEST_F(Planned, DomainsOfTheExperimentCountForOldRecords) {
   const auto text = [](const std::string& domain) {
-    std::string cases = "pipelines = [\"DB\"]\n";
+    std::string cases = "pipelines = ['DB']\n";
     for (const std::string n : {"1", "2"})
       cases += "[[case]]\nname = \"r" + n + "\"\nsize = 0.5\nloop = { rectangle = [[0, 0], [1, " + n +
                "]] }\n" + domain;
@@ -206,7 +195,7 @@ TEST_F(Planned, DomainsOfTheExperimentCountForOldRecords) {
   run_experiment(read(text("")), out);
   const auto domain_of_second = [&] { return read_results(out).records.at(1).domain; };
   EXPECT_EQ(domain_of_second(), "r2");
-  run_experiment(read(text("domain = \"same\"\n")), out);
+  run_experiment(read(text("domain = 'same'\n")), out);
   EXPECT_EQ(domain_of_second(), "same");
   expect_part(read_text(out / "runs.csv"), "r2,same,");
 }

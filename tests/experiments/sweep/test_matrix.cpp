@@ -1,21 +1,19 @@
-#include <gtest/gtest.h>
-
 #include "experiments/sweep/experiment.h"
 #include "patches/prepared.h"
+#include "tests/support/files.h"
 #include "tests/support/prepare_case.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
-const std::string kSquare = "[[case]]\nname = \"a\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
+const std::string kSquare = "[[case]]\nname = 'a'\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
 
 class Matrix : public testing::Test {
  protected:
   Experiment read(const std::string& matrix, const std::string& rest = kSquare + "size = 0.1\n") {
-    return Experiment::read(testing_support::write_text(folder_ / "e.toml", matrix + rest));
+    return Experiment::read(write_text(folder_ / "e.toml", matrix + rest));
   }
-  testing_support::TemporaryFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(Matrix, EveryCombinationIsAVariant) {
@@ -49,7 +47,7 @@ TEST_F(Matrix, OtherKeysOfATableStay) {
 
 TEST_F(Matrix, VariantsAreSetsOfKeysUnderAName) {
   const std::string variants =
-      "[[variant]]\nname = \"all\"\n[[variant]]\nname = \"none\"\ncross = \"size-aware\"\n"
+      "[[variant]]\nname = 'all'\n[[variant]]\nname = 'none'\ncross = 'size-aware'\n"
       "insertion.h_max = 1.4\nrepair = { part_twins = false }\n[matrix]\nseed = [1, 2]\n";
   const Experiment e = read(variants, kSquare + "size = 0.1\ninsertion = { rejection = 0.5 }\n");
   ASSERT_EQ(e.n_variants(), 4u);
@@ -78,8 +76,7 @@ TEST_F(Matrix, LikeNamedAxesAndLongValuesAreToldApart) {
 /// Another place for every node, but the same domain.
 TEST_F(Matrix, SeedsTurnAndShiftADomain) {
   const auto prepared = [&](const std::string& seed) {
-    return prepare_case(
-        read("", kSquare + "size = \"0.05 + 0.05*x\"\ncross = \"x\"\n" + seed).read_variant(0));
+    return prepare_case(read("", kSquare + "size = '0.05 + 0.05*x'\ncross = 'x'\n" + seed).read_variant(0));
   };
   const PreparedProblem plain = prepared(""), same = prepared("seed = 0\n"), other = prepared("seed = 5\n"),
                         again = prepared("seed = 5\n");

@@ -1,21 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "experiments/sweep/metric_command.h"
 #include "experiments/sweep/run_experiment.h"
 #include "metrics/tables/comparison.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 TEST(MetricOutput, IsANumberOrAnObject) {
   const auto values = [](const std::string& text) { return parse_metric_output("m", text).values; };
@@ -38,24 +27,24 @@ TEST(MetricOutput, AnythingElseIsAFailure) {
   for (const char* text : {"", " \n\t\n"}) EXPECT_EQ(failure(text), "printed nothing");
   for (const char* text :
        {"hello", "1,5", "1 2", "0x", "[1]", "\"1\"", "true", "{\"a\": 1", "{\"a\": NaN}", "--5"})
-    EXPECT_NE(failure(text).find("neither a number nor"), std::string::npos) << text;
-  EXPECT_NE(failure("inf").find("infinite"), std::string::npos);
-  EXPECT_NE(failure("{}").find("empty"), std::string::npos);
-  EXPECT_NE(failure("{\"a\": \"x\"}").find("'a'"), std::string::npos);
-  EXPECT_NE(failure("{\"a\": {\"b\": 1}}").find("'a'"), std::string::npos);
-  EXPECT_NE(failure("{\"a b\": 1}").find("'a b'"), std::string::npos);
-  EXPECT_NE(failure("{\"\": 1}").find("expected letters"), std::string::npos);
-  EXPECT_NE(failure(std::string(3, '\0')).find("neither"), std::string::npos);
+    EXPECT_TRUE(holds(failure(text), "neither a number nor")) << text;
+  EXPECT_TRUE(holds(failure("inf"), "infinite"));
+  EXPECT_TRUE(holds(failure("{}"), "empty"));
+  EXPECT_TRUE(holds(failure("{\"a\": \"x\"}"), "'a'"));
+  EXPECT_TRUE(holds(failure("{\"a\": {\"b\": 1}}"), "'a'"));
+  EXPECT_TRUE(holds(failure("{\"a b\": 1}"), "'a b'"));
+  EXPECT_TRUE(holds(failure("{\"\": 1}"), "expected letters"));
+  EXPECT_TRUE(holds(failure(std::string(3, '\0')), "neither"));
   EXPECT_LT(failure(std::string(100'000, 'x')).size(), 1000u);
 }
 
 class MetricCommands : public testing::Test {
  protected:
   static constexpr const char* kSquare =
-      "[[case]]\nname = \"square\"\nloop = { rectangle = [[0, 0], [1, 1]] }\nsize = 0.25\n";
+      "[[case]]\nname = 'square'\nloop = { rectangle = [[0, 0], [1, 1]] }\nsize = 0.25\n";
 
   fs::path write(const std::string& metrics, const std::string& words = "[\"D\", \"DB\"]") {
-    return testing_support::write_text(folder_ / "e.toml", "pipelines = " + words + "\n" + metrics + kSquare);
+    return write_text(folder_ / "e.toml", "pipelines = " + words + "\n" + metrics + kSquare);
   }
   static std::string metric(const std::string& name, const std::string& script,
                             const std::string& more = "") {
@@ -71,12 +60,12 @@ class MetricCommands : public testing::Test {
     return std::ranges::any_of(outcome.table.notes,
                                [&](const std::string& note) { return note.find(part) != note.npos; });
   }
-  testing_support::TemporaryFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(MetricCommands, AreColumnsLikeOthers) {
   const Outcome outcome = run(write(
-      metric("lines", "grep -c '' \"$1\"", "title = \"lines of the file\"\nbetter = \"lower\"\ndigits = 1") +
+      metric("lines", "grep -c '' \"$1\"", "title = 'lines of the file'\nbetter = 'lower'\ndigits = 1") +
       metric("parts", "echo '{\"a\": 1, \"b\": 2}'")));
   EXPECT_EQ(outcome.bad_inputs + outcome.others_failed, 0);
   const Json db = record("DB");
@@ -87,7 +76,7 @@ TEST_F(MetricCommands, AreColumnsLikeOthers) {
   EXPECT_EQ(db["metrics"]["parts.b"], 2);
   EXPECT_TRUE(db["seconds"].contains("metrics by command"));
   EXPECT_FALSE(db.contains("failed_metrics"));
-  std::vector<std::string> titles;
+  Strings titles;
   for (const TableColumn& column : outcome.table.columns) titles.push_back(column.title);
   for (const char* title : {"lines of the file", "parts.a", "parts.b"})
     EXPECT_EQ(std::ranges::count(titles, title), 1) << title;
@@ -101,15 +90,15 @@ TEST_F(MetricCommands, AreColumnsLikeOthers) {
 }
 
 TEST_F(MetricCommands, FailuresAreNamedAndTheMeshIsThere) {
-  const Outcome outcome = run(write(
-      metric("broken", "echo first >&2; echo second >&2; exit 3") + metric("silent", "true") +
-          metric("chatty", "echo hello") + metric("none", "echo nan") +
-          metric("slow", "sleep 60", "timeout = 1") + metric("killed", "kill -9 $$") +
-          "[[metric]]\nname = \"absent\"\ncommand = [\"no-such-program\", \"{mesh}\"]\n" +
-          "[[metric]]\nname = \"python\"\ncommand = [\"python3\", \"-c\", \"raise ValueError('singular')\", "
-          "\"{mesh}\"]\n" +
-          metric("good", "echo 1"),
-      "[\"DB\"]"));
+  const Outcome outcome =
+      run(write(metric("broken", "echo first >&2; echo second >&2; exit 3") + metric("silent", "true") +
+                    metric("chatty", "echo hello") + metric("none", "echo nan") +
+                    metric("slow", "sleep 60", "timeout = 1") + metric("killed", "kill -9 $$") +
+                    "[[metric]]\nname = 'absent'\ncommand = ['no-such-program', '{mesh}']\n" +
+                    "[[metric]]\nname = \"python\"\ncommand = [\"python3\", \"-c\", \"raise "
+                    "ValueError('singular')\", \"{mesh}\"]\n" +
+                    metric("good", "echo 1"),
+                "[\"DB\"]"));
   EXPECT_EQ(outcome.bad_inputs + outcome.others_failed, 0);
   EXPECT_EQ(outcome.metrics_failed, 1) << "cells";
   const Json db = record("DB");
@@ -117,7 +106,7 @@ TEST_F(MetricCommands, FailuresAreNamedAndTheMeshIsThere) {
   const Json failed = db["failed_metrics"];
   const auto expect = [&](const char* name, const char* part) {
     ASSERT_TRUE(failed.contains(name)) << name;
-    EXPECT_NE(failed[name].get<std::string>().find(part), std::string::npos) << failed[name];
+    EXPECT_TRUE(holds(failed[name].get<std::string>(), part)) << failed[name];
     EXPECT_TRUE(notes(outcome, "no '" + std::string(name) + "' of square DB: ")) << name;
     EXPECT_FALSE(db["metrics"].contains(name)) << name;
   };
@@ -138,10 +127,10 @@ TEST_F(MetricCommands, FailuresAreNamedAndTheMeshIsThere) {
 
 /// What determines a value belongs to the cell's key; a cell whose measures have failed is tried again.
 TEST_F(MetricCommands, AreMadeAgainWhenTheirFilesChange) {
-  const auto script = testing_support::write_text(folder_ / "measure.sh", "echo 1\n");
-  testing_support::write_text(folder_ / "data.txt", "x");
+  const auto script = write_text(folder_ / "measure.sh", "echo 1\n");
+  write_text(folder_ / "data.txt", "x");
   const std::string text =
-      "[[metric]]\nname = \"m\"\ncommand = [\"sh\", \"measure.sh\", \"{mesh}\"]\nfiles = [\"data.txt\"]\n";
+      "[[metric]]\nname = 'm'\ncommand = ['sh', 'measure.sh', '{mesh}']\nfiles = ['data.txt']\n";
   const fs::path file = write(text, "[\"DB\"]");
   const auto run_again = [&] {
     run(file);
@@ -153,16 +142,16 @@ TEST_F(MetricCommands, AreMadeAgainWhenTheirFilesChange) {
   EXPECT_EQ(run_again()["key"], first["key"]);
   EXPECT_EQ(fs::last_write_time(record_file("DB")), time);
 
-  testing_support::write_text(script, "echo 22; cat data.txt >/dev/null\n");
+  write_text(script, "echo 22; cat data.txt >/dev/null\n");
   const Json second = run_again();
   EXPECT_NE(second["key"], first["key"]);
-  EXPECT_NE(second["failed_metrics"]["m"].dump().find("data.txt"), std::string::npos)
+  EXPECT_TRUE(holds(second["failed_metrics"]["m"].dump(), "data.txt"))
       << "it runs in the cell's folder, not beside the experiment: " << second["failed_metrics"];
 
-  testing_support::write_text(script, "test -e \"$1\" && echo 22\n");
+  write_text(script, "test -e \"$1\" && echo 22\n");
   const Json third = run_again();
   EXPECT_EQ(third["metrics"]["m"], 22);
-  testing_support::write_text(folder_ / "data.txt", "another");
+  write_text(folder_ / "data.txt", "another");
   EXPECT_NE(run_again()["key"], third["key"]);
 }
 
@@ -171,21 +160,20 @@ TEST_F(MetricCommands, CellsWithFailedOnesAreTriedAgain) {
   const fs::path file = write(metric("m", "test -e " + flag + " && echo 5"), "[\"DB\"]");
   run(file);
   EXPECT_EQ(record("DB")["metrics_status"], "failed");
-  EXPECT_NE(list_cells(Experiment::read(file), folder_ / "out").find("metric failed"), std::string::npos);
-  testing_support::write_text(flag, "");
+  EXPECT_TRUE(holds(list_cells(Experiment::read(file), folder_ / "out"), "metric failed"));
+  write_text(flag, "");
   run(file);
   EXPECT_EQ(record("DB")["metrics"]["m"], 5);
   EXPECT_FALSE(record("DB").contains("metrics_status"));
-  EXPECT_NE(list_cells(Experiment::read(file), folder_ / "out").find("done"), std::string::npos);
+  EXPECT_TRUE(holds(list_cells(Experiment::read(file), folder_ / "out"), "done"));
 }
 
 TEST_F(MetricCommands, PlaceholdersAreFilledIn) {
-  run(
-      write("seed = 0\n[[metric]]\nname = \"m\"\ncommand = [\"sh\", \"-c\", "
-            "'test \"$2\" = square-DB-0.25-0 && test \"$1\" = \"$PWD/mesh.msh\" && test \"$3\" = \"$PWD\" && "
-            "echo 1', "
-            "\"sh\", \"{mesh}\", \"{case}-{pipeline}-{size}-{seed}\", \"{folder}\"]\n",
-            "[\"DB\"]"));
+  run(write(
+      "seed = 0\n[[metric]]\nname = 'm'\ncommand = ['sh', '-c', 'test \"$2\" = square-DB-0.25-0 && test "
+      "\"$1\" = \"$PWD/mesh.msh\" && test \"$3\" = \"$PWD\" && echo 1', 'sh', '{mesh}', "
+      "'{case}-{pipeline}-{size}-{seed}', '{folder}']\n",
+      "[\"DB\"]"));
   EXPECT_EQ(record("DB")["metrics"]["m"], 1) << record("DB")["failed_metrics"];
 }
 

@@ -1,37 +1,21 @@
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
-
-#include <chrono>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <numbers>
-#include <thread>
 
 #include "delquad/mesher.h"
 #include "experiments/sweep/domain_brep.h"
 #include "experiments/sweep/run_experiment.h"
 #include "experiments/sweep/run_program.h"
 #include "experiments/sweep/verify.h"
-#include "io/mesh_io.h"
 #include "metrics/tables/result_records.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/files.h"
 #include "tests/support/needs_file.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
 
-namespace fs = std::filesystem;
-using testing_support::read_text;
-using testing_support::write_text;
-
 const std::string kPeerSquare =
-    "[[case]]\nname = \"square\"\nsize = 0.25\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
+    "[[case]]\nname = 'square'\nsize = 0.25\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
 
 /// Experiments with meshers that are shell scripts, which get the files to read and to write.
 class Peers : public testing::Test {
@@ -49,7 +33,7 @@ class Peers : public testing::Test {
   std::string out() const { return (folder_ / "out").string(); }
   /// A mesh of the square by our own, for scripts to copy.
   std::string good_mesh() {
-    const fs::path file = write_text(folder_ / "own.toml", "pipelines = [\"DB\"]\n" + kPeerSquare);
+    const fs::path file = write_text(folder_ / "own.toml", "pipelines = ['DB']\n" + kPeerSquare);
     run_experiment(Experiment::read(file), folder_ / "own");
     return (folder_ / "own" / "square" / "DB" / "mesh.msh").string();
   }
@@ -59,7 +43,7 @@ class Peers : public testing::Test {
     return by_name;
   }
 
-  testing_support::TemporaryFolder folder_;
+  Folder folder_;
 };
 
 /// Measures that look at the word are told of words alone.
@@ -68,10 +52,9 @@ TEST_F(Peers, AreVerifiedAsTheyWereMeasured) {
   const auto verified = [&] {
     add_metric({"letters", "letters", "", Better::kLower, 1, "a test"},
                [](const MetricInput& in) { return static_cast<double>(in.word.size()); });
-    run_experiment(
-        experiment("[\"DB\", \"copy\"]",
-                   peer("copy", "cp '" + good_mesh() + "' $2", "output = \"msh\"\n") + kPeerSquare),
-        out());
+    run_experiment(experiment("[\"DB\", \"copy\"]",
+                              peer("copy", "cp '" + good_mesh() + "' $2", "output = 'msh'\n") + kPeerSquare),
+                   out());
     const Verification found = verify_results(out(), "");
     return found.measured == 2 && found.findings.empty() && records().at("DB").values.at("letters") == 2;
   };
@@ -91,7 +74,7 @@ TEST_F(Peers, AreMeasuredAsOurs) {
   const fs::path cell = fs::path(out()) / "square" / "copy";
   EXPECT_EQ(read_text(cell / "peer.log"), "hello\n");
   EXPECT_EQ(read_mesh(cell / "input.msh").lines.size(), 16u);
-  const auto record = nlohmann::json::parse(read_text(cell / "record.json"));
+  const auto record = Json::parse(read_text(cell / "record.json"));
   EXPECT_EQ(record.at("peer").at("version_line"), "1.0");
   EXPECT_EQ(record.at("peer").at("command").size(), 3u);
   const Rerun again = rerun_record(cell / "record.json");
@@ -129,14 +112,14 @@ TEST_F(Peers, SayWhenTheyDoNotTellTheirVersion) {
   text.replace(text.find(tells), tells.size(), "[\"sh\", \"-c\", \"echo; echo 7\"]");
   run_experiment(experiment("[\"copy\"]", text), out());
   EXPECT_TRUE(records().at("copy").warnings.empty());
-  EXPECT_NE(read_text(fs::path(out()) / "square" / "copy" / "record.json").find("\"version_line\": \"7\""),
-            std::string::npos);
+  EXPECT_TRUE(
+      holds(read_text(fs::path(out()) / "square" / "copy" / "record.json"), "\"version_line\": \"7\""));
 }
 
 TEST_F(Peers, AnotherScriptIsAnotherCell) {
   const std::string good = good_mesh(), text = peer("copy", "cp '" + good + "' $2") + kPeerSquare;
   run_experiment(experiment("[\"copy\"]", text), out());
-  const auto record = nlohmann::json::parse(read_text(fs::path(out()) / "square" / "copy" / "record.json"));
+  const auto record = Json::parse(read_text(fs::path(out()) / "square" / "copy" / "record.json"));
   EXPECT_TRUE(record.at("peer").at("content").contains("./copy.sh"));
   peer("copy", "cp '" + good + "' $2 # again");
   EXPECT_EQ(list_cells(experiment("[\"copy\"]", text), out()), "outdated       square copy\n");
@@ -160,8 +143,8 @@ TEST_F(Peers, FilesOfAnEarlierRunAreRemoved) {
 TEST_F(Peers, ScriptsAreFoundBesideTheExperiment) {
   write_text(folder_ / "copy.sh", "cp '" + good_mesh() + "' $2\n");
   const std::string text =
-      "[[peer]]\nname = \"copy\"\ncommand = [\"sh\", \"copy.sh\", \"{input}\", \"{output}\"]\n"
-      "version = [\"echo\", \"1.0\"]\ninput = \"msh\"\n" +
+      "[[peer]]\nname = 'copy'\ncommand = ['sh', 'copy.sh', '{input}', '{output}']\n"
+      "version = ['echo', '1.0']\ninput = 'msh'\n" +
       kPeerSquare;
   EXPECT_EQ(run_experiment(experiment("[\"copy\"]", text), out()).others_failed, 0);
   write_text(folder_ / "copy.sh", "exit 3\n");
@@ -178,7 +161,7 @@ TEST_F(Peers, ThatFailLeaveWhatTheyReadAndPrinted) {
     const fs::path cell = fs::path(out()) / "square" / name;
     EXPECT_EQ(read_text(cell / "peer.log"), printed);
     EXPECT_EQ(read_mesh(cell / "input.msh").lines.size(), 16u);
-    const auto record = nlohmann::json::parse(read_text(cell / "record.json"));
+    const auto record = Json::parse(read_text(cell / "record.json"));
     EXPECT_EQ(record.at("status"), "failed");
     EXPECT_TRUE(record.at("files").contains("peer.log"));
   }
@@ -206,9 +189,9 @@ TEST_F(Peers, FailAlone) {
                            peer("moved", copy("moved.msh")) + peer("folded", copy("folded.msh")) +
                            kPeerSquare;
   const Outcome outcome = run_experiment(
-      experiment("[\"crash\", \"code\", \"garbage\", \"DB\", \"mute\", \"empty\", \"hole\", \"moved\", "
-                 "\"folded\"]",
-                 text),
+      experiment(
+          "[\"crash\", \"code\", \"garbage\", \"DB\", \"mute\", \"empty\", \"hole\", \"moved\", \"folded\"]",
+          text),
       out());
   EXPECT_EQ(outcome.others_failed, 8);
   auto cells = records();
@@ -224,7 +207,7 @@ TEST_F(Peers, FailAlone) {
                                                       {"folded", "is not sound"}};
   for (const auto& [name, record] : cells) {
     EXPECT_EQ(record.kind, "peer") << name;
-    EXPECT_NE(record.reason.find(reasons.at(name)), std::string::npos) << name << ": " << record.reason;
+    EXPECT_TRUE(holds(record.reason, reasons.at(name))) << name << ": " << record.reason;
   }
 }
 
@@ -246,23 +229,22 @@ TEST_F(Peers, MayMakeMeshesThatAreNotSound) {
   EXPECT_TRUE(cells.at("DB").unsound.empty());
   EXPECT_TRUE(cells.at("good").unsound.empty());
   ASSERT_FALSE(cells.at("bad").unsound.empty());
-  EXPECT_NE(cells.at("bad").unsound[0].find("inverted or flat"), std::string::npos);
+  EXPECT_TRUE(holds(cells.at("bad").unsound[0], "inverted or flat"));
   EXPECT_EQ(cells.at("bad").values.at("eta_worst"), 0);
   ASSERT_EQ(outcome.table.rows.size(), 3u);
   EXPECT_EQ(outcome.table.rows[1].unsound, "unsound");
-  EXPECT_NE(to_markdown(outcome.table).find("| bad (unsound) "), std::string::npos);
-  EXPECT_NE(to_markdown(outcome.table).find("square bad is not sound: "), std::string::npos);
+  EXPECT_TRUE(holds(to_markdown(outcome.table), "| bad (unsound) ", "square bad is not sound: "));
   EXPECT_TRUE(rerun_record(fs::path(out()) / "square" / "bad" / "record.json").same_mesh);
 }
 
 /// Two tables of the size: the one that was given, and what became of it.
 TEST(Sizes, TablesSayAgainstWhichTauIs) {
-  const testing_support::TemporaryFolder folder;
+  const Folder folder;
   write_mesh(folder / "lens.msh", testing_support::lens(64, 12, 0.45));
   const auto file = write_text(folder / "e.toml",
-                               "pipelines = [\"DB\"]\n"
-                               "[[case]]\nname = \"plain\"\nmodel = \"lens.msh\"\nsize = 0.3\n"
-                               "[[case]]\nname = \"bent\"\nmodel = \"lens.msh\"\n"
+                               "pipelines = ['DB']\n"
+                               "[[case]]\nname = 'plain'\nmodel = 'lens.msh'\nsize = 0.3\n"
+                               "[[case]]\nname = 'bent'\nmodel = 'lens.msh'\n"
                                "size = { base = 0.5, curvature = 24 }\n");
   const Outcome outcome = run_experiment(Experiment::read(file), folder / "out");
   ASSERT_EQ(outcome.table.rows.size(), 2u);
@@ -271,11 +253,9 @@ TEST(Sizes, TablesSayAgainstWhichTauIs) {
   EXPECT_EQ(plain.at("tau"), plain.at("tau_given"));
   EXPECT_GT(bent.at("tau"), bent.at("tau_given") + 5);
   const std::string text = to_markdown(outcome.table);
-  EXPECT_NE(text.find("- plain: uniform delta = 0.3\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("- bent: delta = 0.5 was made smaller for curvature: tau is measured against that"),
-            std::string::npos)
-      << text;
-  EXPECT_NE(text.find("| tau given |"), std::string::npos) << text;
+  EXPECT_TRUE(holds(text, "- plain: uniform delta = 0.3\n",
+                    "- bent: delta = 0.5 was made smaller for curvature: tau is measured against that",
+                    "| tau given |"));
 }
 
 /// A mesh whose elements run the other way round is a good mesh.
@@ -321,10 +301,10 @@ TEST_F(Peers, CurvesAreTheModels) {
   const auto file =
       write_text(folder_ / "ring.toml",
                  "[[loop]]\ncircle = { centre = [0, 0], radius = 1 }\n"
-                 "[[loop]]\ncircle = { centre = [0, 0], radius = 0.5 }\nregion = \"disc\"\n"
-                 "[[curve]]\nname = \"blob\"\nspline = [[0.2, 0], [0.14, 0.14], [0, 0.2], [-0.14, 0.14], "
+                 "[[loop]]\ncircle = { centre = [0, 0], radius = 0.5 }\nregion = 'disc'\n"
+                 "[[curve]]\nname = 'blob'\nspline = [[0.2, 0], [0.14, 0.14], [0, 0.2], [-0.14, 0.14], "
                  "[-0.2, 0], [-0.14, -0.14], [0, -0.2], [0.14, -0.14], [0.2, 0]]\n"
-                 "[[loop]]\ncurves = [\"blob\"]\nhole = true\n"
+                 "[[loop]]\ncurves = ['blob']\nhole = true\n"
                  "[[embed]]\narc = { centre = [0, 0], radius = 0.75, from = 0, to = 60 }\n"
                  "[[embed]]\npoint = [0, -0.75]\n");
   MeshProblem problem = read_model_file(file);
@@ -343,7 +323,7 @@ TEST_F(Peers, CurvesAreTheModels) {
       return std::abs(curve.length / length - 1) < 2e-3;
     })) << length;
   const std::string text = read_text(folder_ / "ring.brep");
-  EXPECT_NE(text.find("\n7 0 0 3 "), std::string::npos) << "the spline is cubic";
+  EXPECT_TRUE(holds(text, "\n7 0 0 3 ")) << "the spline is cubic";
 }
 
 /// Gmsh itself: its size is ours, number or field, and it divides the curves of a model. It also gets
@@ -352,18 +332,17 @@ using PeersPrograms = Peers;
 TEST_F(PeersPrograms, GmshMeshesWhatWeMesh) {
   if (std::system("gmsh --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "gmsh is not installed";
   const std::string text =
-      "[[peer]]\nname = \"gmsh\"\nversion = [\"gmsh\", \"--version\"]\n"
-      "command = [\"gmsh\", \"{input}\", \"-2\", \"-o\", \"{output}\", \"-nt\", \"1\", \"-setnumber\", "
-      "\"Mesh.RecombineAll\", \"1\", \"-setnumber\", \"Mesh.Algorithm\", \"6\"]\n"
-      "[[case]]\nname = \"graded\"\nsize = \"0.02 + 0.2*x\"\n"
+      "[[peer]]\nname = 'gmsh'\nversion = ['gmsh', '--version']\n"
+      "command = ['gmsh', '{input}', '-2', '-o', '{output}', '-nt', '1', '-setnumber', 'Mesh.RecombineAll', "
+      "'1', '-setnumber', 'Mesh.Algorithm', '6']\n"
+      "[[case]]\nname = 'graded'\nsize = '0.02 + 0.2*x'\n"
       "[[case.loop]]\nrectangle = [[0, 0], [1, 1]]\n[[case.loop]]\ncircle = { centre = [0.5, 0.5], radius = "
       "0.2 }\n"
-      "region = \"disc\"\n"
-      "[[case]]\nname = \"turned\"\nseed = 3\nsize = 0.1\nloop = { rectangle = [[0, 0], [2, 1]] }\n"
-      "[[case]]\nname = \"inside\"\nsize = 0.1\nembed = [{ arc = { centre = [0, 0], radius = 0.75, from = 0, "
-      "to = 60 } }, "
-      "{ point = [0, -0.75] }]\nloop = { circle = { centre = [0, 0], radius = 1 } }\n"
-      "[[case]]\nname = \"lens\"\nsize = 0.1\nmodel = \"lens.obj\"\n";
+      "region = 'disc'\n"
+      "[[case]]\nname = 'turned'\nseed = 3\nsize = 0.1\nloop = { rectangle = [[0, 0], [2, 1]] }\n"
+      "[[case]]\nname = 'inside'\nsize = 0.1\nembed = [{ arc = { centre = [0, 0], radius = 0.75, from = 0, "
+      "to = 60 } }, { point = [0, -0.75] }]\nloop = { circle = { centre = [0, 0], radius = 1 } }\n"
+      "[[case]]\nname = 'lens'\nsize = 0.1\nmodel = 'lens.obj'\n";
   write_mesh(folder_ / "lens.obj", testing_support::lens(64, 12, 0.45));
   run_experiment(experiment("[\"DB\", \"gmsh\"]", text), out());
   std::map<std::string, double> quads;

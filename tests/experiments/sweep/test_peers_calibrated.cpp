@@ -1,43 +1,26 @@
-#include <gtest/gtest.h>
 #include <signal.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
-
-#include "delquad/error.h"
 #include "delquad/extend.h"
 #include "experiments/sweep/run_experiment.h"
 #include "experiments/sweep/verify.h"
-#include "io/mesh_io.h"
 #include "metrics/tables/result_records.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
 
-namespace fs = std::filesystem;
-using testing_support::read_text;
-using testing_support::write_text;
-
 const std::string kCalibratedSquare =
-    "[[case]]\nname = \"square\"\nsize = 0.1\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
+    "[[case]]\nname = 'square'\nsize = 0.1\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
 const std::string kGraded =
-    "[[case]]\nname = \"graded\"\nsize = \"0.1 + 0.05*x\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
+    "[[case]]\nname = 'graded'\nsize = '0.1 + 0.05*x'\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
 
 /// A square of n times n quads: a script that needs n in $n.
 const std::string kGrid =
     "awk -v n=\"$n\" 'BEGIN { for (j = 0; j <= n; ++j) for (i = 0; i <= n; ++i) print \"v\", i / n, j / n, "
     "0\n"
     "for (j = 0; j < n; ++j) for (i = 1; i <= n; ++i) { a = j * (n + 1) + i; print \"f\", a, a + 1, a + n + "
-    "2, a "
-    "+ n + 1 } }' > $2";
+    "2, a + n + 1 } }' > $2";
 /// n = 1.3/size.
 const std::string kCoarserGrid = "n=$(awk -v h=\"$3\" 'BEGIN { print int(1 / (1.3 * h) + .5) }')\n" + kGrid;
 
@@ -50,8 +33,7 @@ class CalibratedPeers : public testing::Test {
     fs::permissions(folder_ / (name + ".sh"), fs::perms::owner_all);
     return "[[peer]]\nname = \"" + name + "\"\ncommand = [\"./" + name + ".sh\", \"{input}\", \"{output}\"" +
            (arguments.empty() ? "" : ", " + arguments) +
-           "]\nversion = [\"echo\", \"1.0\"]\ninput = \"msh\"\noutput = \"obj\"\nkeeps_boundary = false\n" +
-           keys;
+           "]\nversion = ['echo', '1.0']\ninput = 'msh'\noutput = 'obj'\nkeeps_boundary = false\n" + keys;
   }
   Experiment experiment(const std::string& text) {
     return Experiment::read(write_text(folder_ / "peers.toml", text));
@@ -62,20 +44,19 @@ class CalibratedPeers : public testing::Test {
     for (CellRecord& record : read_records(out())) by_name[record.pipeline] = std::move(record);
     return by_name;
   }
-  nlohmann::json record_of(const std::string& name, const std::string& pipeline) const {
-    return nlohmann::json::parse(read_text(out() / name / pipeline / "record.json"));
+  Json record_of(const std::string& name, const std::string& pipeline) const {
+    return Json::parse(read_text(out() / name / pipeline / "record.json"));
   }
 
-  testing_support::TemporaryFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(CalibratedPeers, HaveOurNumberOfQuads) {
   const std::string peers =
-      peer("grid", kCoarserGrid) + peer("plain", kCoarserGrid, "\"{size}\"", "calibrate = \"none\"\n");
-  const Outcome outcome =
-      run_experiment(experiment("pipelines = [\"DB\", \"grid\", \"plain\"]\ncalibrate = \"quads\"\n" + peers +
-                                kCalibratedSquare),
-                     out());
+      peer("grid", kCoarserGrid) + peer("plain", kCoarserGrid, "\"{size}\"", "calibrate = 'none'\n");
+  const Outcome outcome = run_experiment(
+      experiment("pipelines = ['DB', 'grid', 'plain']\ncalibrate = 'quads'\n" + peers + kCalibratedSquare),
+      out());
   EXPECT_EQ(outcome.others_failed + outcome.bad_inputs, 0);
   const auto cells = records();
   EXPECT_EQ(cells.at("DB").values.at("n_quads"), 100);
@@ -89,10 +70,8 @@ TEST_F(CalibratedPeers, HaveOurNumberOfQuads) {
   EXPECT_EQ(done.quads, 100);
   EXPECT_GT(done.runs, 1);
   EXPECT_NEAR(done.size_factor, 1 / 1.3, 0.04);
-  EXPECT_NE(
-      to_markdown(outcome.table).find("- square grid: size times 0.8, so that it has DB's number of quads"),
-      std::string::npos)
-      << to_markdown(outcome.table);
+  EXPECT_TRUE(holds(to_markdown(outcome.table),
+                    "- square grid: size times 0.8, so that it has DB's number of quads"));
   for (const Table* table : {&outcome.table, &outcome.pairs})
     EXPECT_EQ(std::ranges::count(table->notes,
                                  "Calibrated, by their sizes, to DB's number of quads: grid. Not calibrated, "
@@ -104,8 +83,8 @@ TEST_F(CalibratedPeers, HaveOurNumberOfQuads) {
 
 /// Whether our mesh is there already, is made beside, or is not asked for: the number is the same.
 TEST_F(CalibratedPeers, NeedNoRecordOfOurs) {
-  const std::string text = "pipelines = [\"DB\", \"grid\"]\ncalibrate = \"quads\"\n" +
-                           peer("grid", kCoarserGrid) + kCalibratedSquare;
+  const std::string text =
+      "pipelines = ['DB', 'grid']\ncalibrate = 'quads'\n" + peer("grid", kCoarserGrid) + kCalibratedSquare;
   Experiment alone = experiment(text);
   alone.words = alone.find_pipelines({"grid"});
   run_experiment(alone, out());
@@ -119,7 +98,7 @@ TEST_F(CalibratedPeers, NeedNoRecordOfOurs) {
 TEST_F(CalibratedPeers, AreNotBlamedForOurWord) {
   add_stage({'X', "crash", PatchForm::kQuads, PatchForm::kQuads,
              [](const StageInput&, PatchMesh&, StageLog&) { raise(SIGKILL); }});
-  const std::string text = "pipelines = [\"grid\"]\ncalibrate = \"quads\"\ncalibrate_to = \"DBX\"\n" +
+  const std::string text = "pipelines = ['grid']\ncalibrate = 'quads'\ncalibrate_to = 'DBX'\n" +
                            peer("grid", kCoarserGrid) + kCalibratedSquare;
   EXPECT_EQ(run_experiment(experiment(text), out()).others_failed, 1);
   const CellRecord cell = records().at("grid");
@@ -127,14 +106,14 @@ TEST_F(CalibratedPeers, AreNotBlamedForOurWord) {
   EXPECT_EQ(cell.reason.find("our word DBX, whose number of quads it was to have, failed: ended by signal 9"),
             0u)
       << cell.reason;
-  EXPECT_NE(cell.reason.find("; the peer was not run"), std::string::npos) << cell.reason;
+  EXPECT_TRUE(holds(cell.reason, "; the peer was not run"));
   EXPECT_FALSE(fs::exists(out() / "square" / "grid" / "peer.log"));
 }
 
 TEST_F(CalibratedPeers, AreOtherCellsForAnotherWord) {
   const std::string peers = peer("grid", kCoarserGrid) + kCalibratedSquare;
-  const std::string head = "pipelines = [\"grid\"]\ncalibrate = \"quads\"\n";
-  run_experiment(experiment(head + "calibrate_to = \"DB\"\n" + peers), out());
+  const std::string head = "pipelines = ['grid']\ncalibrate = 'quads'\n";
+  run_experiment(experiment(head + "calibrate_to = 'DB'\n" + peers), out());
   EXPECT_EQ(list_cells(experiment(head + "calibrate_to = \"DB\"\n" + peers), out()),
             "done           square grid\n");
   EXPECT_EQ(list_cells(experiment(head + "calibrate_to = \"FB\"\n" + peers), out()),
@@ -145,10 +124,9 @@ TEST_F(CalibratedPeers, AreOtherCellsForAnotherWord) {
 TEST_F(CalibratedPeers, GetTheBoundaryOfTheScaledSize) {
   const std::string edges = "n=$(awk '$1 == \"l\" { n += NF - 2 } END { print n / 2 }' $1)\n";
   std::string entry = peer("halves", edges + kGrid, "");
-  entry.replace(entry.find("input = \"msh\""), 13, "input = \"obj\"");
+  entry.replace(entry.find("input = 'msh'"), 13, "input = 'obj'");
   const Outcome outcome = run_experiment(
-      experiment("pipelines = [\"DB\", \"halves\"]\ncalibrate = \"quads\"\n" + entry + kCalibratedSquare),
-      out());
+      experiment("pipelines = ['DB', 'halves']\ncalibrate = 'quads'\n" + entry + kCalibratedSquare), out());
   EXPECT_EQ(outcome.others_failed, 0) << to_markdown(outcome.table);
   const auto cells = records();
   EXPECT_EQ(cells.at("halves").values.at("n_quads"), 100);
@@ -159,40 +137,34 @@ TEST_F(CalibratedPeers, GetTheBoundaryOfTheScaledSize) {
 }
 
 TEST_F(CalibratedPeers, SayHowFarTheyAreOff) {
-  const Outcome outcome =
-      run_experiment(experiment("pipelines = [\"DB\", \"deaf\"]\ncalibrate = \"quads\"\n" +
-                                peer("deaf", "n=8\n" + kGrid) + kCalibratedSquare),
-                     out());
+  const Outcome outcome = run_experiment(experiment("pipelines = ['DB', 'deaf']\ncalibrate = 'quads'\n" +
+                                                    peer("deaf", "n=8\n" + kGrid) + kCalibratedSquare),
+                                         out());
   EXPECT_EQ(records().at("deaf").calibration->runs, 2);
-  EXPECT_NE(
-      to_markdown(outcome.table)
-          .find("square deaf: size times 1, and yet 1 of 1 meshes miss DB's number of quads, by -36 % at "
-                "most"),
-      std::string::npos)
-      << to_markdown(outcome.table);
+  EXPECT_TRUE(
+      holds(to_markdown(outcome.table),
+            "square deaf: size times 1, and yet 1 of 1 meshes miss DB's number of quads, by -36 % at most"));
 }
 
 /// The first mesh stands when a further run fails, and its log and input are what is kept.
 TEST_F(CalibratedPeers, KeepWhatTheyHaveWhenARunFails) {
   const std::string script = "echo \"size $3\"\n[ \"$3\" = 0.1 ] || exit 4\nn=8\n" + kGrid;
-  const Outcome outcome =
-      run_experiment(experiment("pipelines = [\"DB\", \"once\"]\ncalibrate = \"quads\"\n" +
-                                peer("once", script) + kCalibratedSquare),
-                     out());
+  const Outcome outcome = run_experiment(experiment("pipelines = ['DB', 'once']\ncalibrate = 'quads'\n" +
+                                                    peer("once", script) + kCalibratedSquare),
+                                         out());
   EXPECT_EQ(outcome.others_failed, 0);
   EXPECT_EQ(read_text(out() / "square" / "once" / "peer.log"), "size 0.1\n");
-  EXPECT_NE(records().at("once").calibration->ended_by.find("exit code 4"), std::string::npos);
-  EXPECT_NE(to_markdown(outcome.table).find(" % at most: "), std::string::npos);
+  EXPECT_TRUE(holds(records().at("once").calibration->ended_by, "exit code 4"));
+  EXPECT_TRUE(holds(to_markdown(outcome.table), " % at most: "));
 }
 
 /// Nothing has failed where a mesher cannot be told a case.
 TEST_F(CalibratedPeers, MayBeNotApplicable) {
-  const std::string peers = peer("number", "true") + peer("surfaces", "true", "", "planar = \"none\"\n") +
+  const std::string peers = peer("number", "true") + peer("surfaces", "true", "", "planar = 'none'\n") +
                             peer("code", "echo working; echo 'needs a cube'; exit 77", "") +
-                            "[[peer]]\nname = \"absent\"\ncommand = [\"no-such-mesher\", \"{input}\", "
-                            "\"{output}\"]\nversion = [\"no-such-mesher\"]\n";
-  const std::string text =
-      "pipelines = [\"DB\", \"number\", \"surfaces\", \"code\", \"absent\"]\n" + peers + kGraded;
+                            "[[peer]]\nname = 'absent'\ncommand = ['no-such-mesher', '{input}', "
+                            "'{output}']\nversion = ['no-such-mesher']\n";
+  const std::string text = "pipelines = ['DB', 'number', 'surfaces', 'code', 'absent']\n" + peers + kGraded;
   const Outcome outcome = run_experiment(experiment(text), out());
   EXPECT_EQ(outcome.others_failed + outcome.bad_inputs + outcome.unsound, 0);
   auto cells = records();
@@ -204,23 +176,23 @@ TEST_F(CalibratedPeers, MayBeNotApplicable) {
   ASSERT_EQ(cells.size(), reasons.size());
   for (const auto& [name, cell] : cells) {
     EXPECT_EQ(cell.kind, "not applicable") << name;
-    EXPECT_NE(cell.reason.find(reasons.at(name)), std::string::npos) << name << ": " << cell.reason;
-    EXPECT_NE(list_cells(experiment(text), out()).find("not applicable graded " + name), std::string::npos);
+    EXPECT_TRUE(holds(cell.reason, reasons.at(name))) << name << ": " << cell.reason;
+    EXPECT_TRUE(holds(list_cells(experiment(text), out()), "not applicable graded " + name));
   }
   const std::string table = to_markdown(outcome.table);
-  EXPECT_NE(table.find("| code     |   0 | not applicable |"), std::string::npos) << table;
-  EXPECT_NE(table.find("- graded code is not applicable: needs a cube"), std::string::npos) << table;
+  EXPECT_TRUE(
+      holds(table, "| code     |   0 | not applicable |", "- graded code is not applicable: needs a cube"));
 }
 
 /// Of a surface whose faces the case changes, the file would not do.
 TEST_F(CalibratedPeers, AreNotGivenFilesOfChangedSurfaces) {
   write_mesh(folder_ / "lens.msh", testing_support::lens(24, 6, 0.45));
-  const std::string text = "pipelines = [\"file\", \"mesh\"]\n" + peer("file", "exit 1", "") +
-                           peer("mesh", "cp $1 $2", "", "surfaces = \"triangles\"\n") +
-                           "[[case]]\nname = \"lens\"\nmodel = \"lens.msh\"\nsize = 0.3\n"
-                           "surface = { compound = \"all\" }\n";
+  const std::string text = "pipelines = ['file', 'mesh']\n" + peer("file", "exit 1", "") +
+                           peer("mesh", "cp $1 $2", "", "surfaces = 'triangles'\n") +
+                           "[[case]]\nname = 'lens'\nmodel = 'lens.msh'\nsize = 0.3\n"
+                           "surface = { compound = 'all' }\n";
   std::string with_obj = text;
-  with_obj.replace(with_obj.rfind("input = \"msh\""), 13, "input = \"obj\"");
+  with_obj.replace(with_obj.rfind("input = 'msh'"), 13, "input = 'obj'");
   EXPECT_EQ(run_experiment(experiment(with_obj), out()).others_failed, 0);
   EXPECT_EQ(records().at("file").kind, "not applicable");
   EXPECT_EQ(records().at("mesh").reason, "");
@@ -231,13 +203,13 @@ TEST_F(CalibratedPeers, GetSizesAtPoints) {
   const std::string keep = "cp \"$3\" told.txt 2>/dev/null\nn=8\n" + kGrid;
   for (const char* format : {"points", "sol", "pos"}) {
     const std::string text =
-        "pipelines = [\"field\"]\n" +
+        "pipelines = ['field']\n" +
         peer("field", keep, "\"{size_field}\"", "size_field = \"" + std::string(format) + "\"\n") + kGraded;
     EXPECT_EQ(run_experiment(experiment(text), out()).others_failed, 0) << format;
     EXPECT_TRUE(fs::exists(out() / "graded" / "field" / ("size." + std::string(format))));
   }
-  const std::string text = "pipelines = [\"field\"]\n" +
-                           peer("field", keep, "\"{size_field}\"", "size_field = \"points\"\n") + kGraded;
+  const std::string text = "pipelines = ['field']\n" +
+                           peer("field", keep, "\"{size_field}\"", "size_field = 'points'\n") + kGraded;
   run_experiment(experiment(text), out());
   std::ifstream points(out() / "graded" / "field" / "size.points");
   double x, y, z, delta;
@@ -252,19 +224,18 @@ TEST_F(CalibratedPeers, GetTensorsWhereThereIsAMetric) {
   const std::string script =
       "n=$(awk 'NR == 6 { print int(sqrt(sqrt($1 * $3)) / 1.3 + .5) }' $3)\nls $4 > told.txt\n" + kGrid;
   const std::string text =
-      "pipelines = [\"DB\", \"tensor\", \"sizes\"]\ncalibrate = \"quads\"\n" +
-      peer("tensor", script, "\"{size_field}\", \"{data}/{case}\"",
-           "size_field = \"sol\"\nmetrics = true\n") +
-      peer("sizes", script, "\"{size_field}\"", "size_field = \"sol\"\n") +
-      "[[case]]\nname = \"square\"\nmetric = { sizes = [\"0.1\", \"0.025\"] }\nloop = { rectangle = [[0, 0], "
-      "[1, 1]] }\n";
+      "pipelines = ['DB', 'tensor', 'sizes']\ncalibrate = 'quads'\n" +
+      peer("tensor", script, "\"{size_field}\", \"{data}/{case}\"", "size_field = 'sol'\nmetrics = true\n") +
+      peer("sizes", script, "\"{size_field}\"", "size_field = 'sol'\n") +
+      "[[case]]\nname = 'square'\nmetric = { sizes = ['0.1', '0.025'] }\nloop = { rectangle = [[0, 0], [1, "
+      "1]] }\n";
   fs::create_directories(folder_ / "data" / "square");
   write_text(folder_ / "data" / "square" / "here", "");
   Experiment e = Experiment::read(write_text(folder_ / "peers.toml", text), folder_ / "data");
   EXPECT_EQ(run_experiment(e, out()).others_failed, 0);
   const auto cells = records();
   EXPECT_EQ(cells.at("sizes").kind, "not applicable");
-  EXPECT_NE(cells.at("sizes").reason.find("is told sizes, and the case has a metric"), std::string::npos);
+  EXPECT_TRUE(holds(cells.at("sizes").reason, "is told sizes, and the case has a metric"));
   ASSERT_EQ(cells.at("tensor").reason, "");
   EXPECT_EQ(cells.at("DB").values.at("n_quads"), 400);
   EXPECT_EQ(cells.at("tensor").values.at("n_quads"), 400);
@@ -288,19 +259,19 @@ TEST_F(CalibratedPeers, AreReadFromFilesOfTheirOwn) {
   const std::string entry = peer("grid", kCoarserGrid);
   fs::rename(folder_ / "grid.sh", folder_ / "meshers" / "grid.sh");
   write_text(folder_ / "meshers" / "grid.toml", entry);
-  run_experiment(experiment("pipelines = [\"DB\", \"grid\"]\npeer_files = [\"meshers/grid.toml\"]\n" +
-                            kCalibratedSquare),
-                 out());
+  run_experiment(
+      experiment("pipelines = ['DB', 'grid']\npeer_files = ['meshers/grid.toml']\n" + kCalibratedSquare),
+      out());
   EXPECT_EQ(records().at("grid").values.at("n_quads"), 64);
 
-  Experiment added = experiment("pipelines = [\"DB\"]\ncalibrate = \"quads\"\n" + kCalibratedSquare);
-  EXPECT_EQ(added.add_peer_file(folder_ / "meshers" / "grid.toml"), std::vector<std::string>{"grid"});
+  Experiment added = experiment("pipelines = ['DB']\ncalibrate = 'quads'\n" + kCalibratedSquare);
+  EXPECT_EQ(added.add_peer_file(folder_ / "meshers" / "grid.toml"), Strings{"grid"});
   added.words = added.find_pipelines({"DB", "grid"});
   run_experiment(added, folder_ / "added");
   EXPECT_EQ(read_mesh(folder_ / "added" / "square" / "grid" / "mesh.msh").quads.size(), 100u);
   EXPECT_TRUE(rerun_record(folder_ / "added" / "square" / "grid" / "record.json").same_mesh);
 
-  write_text(folder_ / "none.toml", "title = \"x\"\n");
+  write_text(folder_ / "none.toml", "title = 'x'\n");
   expect_input_error([&] { added.add_peer_file(folder_ / "none.toml"); }, {"none.toml", "title"});
   write_text(folder_ / "none.toml", "");
   expect_input_error([&] { added.add_peer_file(folder_ / "none.toml"); }, {"none.toml", "[[peer]]"});
@@ -312,9 +283,8 @@ using CalibratedPeersPrograms = CalibratedPeers;
 TEST_F(CalibratedPeersPrograms, GmshFollowsSizesOnSurfaces) {
   if (std::system("gmsh --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "gmsh is not installed";
   Experiment e = experiment(
-      "pipelines = [\"DB\"]\ncalibrate = \"quads\"\n[[case]]\nname = \"bracket\"\nexample = "
-      "\"bracket\"\nsize = \"3 + "
-      "0.05*x\"\n");
+      "pipelines = ['DB']\ncalibrate = 'quads'\n[[case]]\nname = 'bracket'\nexample = 'bracket'\nsize = '3 + "
+      "0.05*x'\n");
   e.add_peer_file(fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers/adapters/gmsh.toml");
   e.words = e.find_pipelines({"DB", "gmsh"});
   run_experiment(e, out());
@@ -329,12 +299,11 @@ TEST_F(CalibratedPeersPrograms, GmshFollowsSizesOnSurfaces) {
 TEST_F(CalibratedPeersPrograms, AdaptersMeshOrSayWhyNot) {
   const fs::path folder = fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers/adapters";
   Experiment e = experiment(
-      "pipelines = [\"DB\"]\ncalibrate = \"quads\"\n"
-      "[[case]]\nname = \"ring\"\nsize = 0.1\nloop = [{ circle = { centre = [0, 0], radius = 1 } }, { circle "
-      "= { "
-      "centre = [0, 0], radius = 0.3 } }]\n"
-      "[[case]]\nname = \"sphere\"\nexample = \"sphere\"\nsize = 3\n");
-  std::vector<std::string> pipelines = {"DB"};
+      "pipelines = ['DB']\ncalibrate = 'quads'\n"
+      "[[case]]\nname = 'ring'\nsize = 0.1\nloop = [{ circle = { centre = [0, 0], radius = 1 } }, { circle = "
+      "{ centre = [0, 0], radius = 0.3 } }]\n"
+      "[[case]]\nname = 'sphere'\nexample = 'sphere'\nsize = 3\n");
+  Strings pipelines = {"DB"};
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string text = read_text(entry.path());
     EXPECT_LE(std::ranges::count(text, '\n'), 50) << entry.path();
@@ -398,10 +367,10 @@ TEST_F(CalibratedPeers, AdaptersSpeakToProgramsThatAreAbsentHere) {
   setenv("PATH", (bin.string() + ":" + path).c_str(), 1);
   setenv("QUADWILD", wild.c_str(), 1);
   Experiment e = experiment(
-      "pipelines = [\"DB\"]\n[[case]]\nname = \"sphere\"\nexample = \"sphere\"\nsize = 3\n"
-      "[[case]]\nname = \"square\"\nsize = 1\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
-      "[[case]]\nname = \"touching\"\nsize = 0.5\nloop = [{ rectangle = [[0, 0], [2, 1]] }, "
-      "{ polygon = [[0, 0], [1, 0.3], [0.5, 0.7]] }]\n");
+      "pipelines = ['DB']\n[[case]]\nname = 'sphere'\nexample = 'sphere'\nsize = 3\n"
+      "[[case]]\nname = 'square'\nsize = 1\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
+      "[[case]]\nname = 'touching'\nsize = 0.5\nloop = [{ rectangle = [[0, 0], [2, 1]] }, { polygon = [[0, "
+      "0], [1, 0.3], [0.5, 0.7]] }]\n");
   for (const char* name : {"gmsh", "instant_meshes", "mmg", "quadriflow", "quadwild", "tqmesh"})
     e.add_peer_file(fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers/adapters" /
                     (std::string(name) + ".toml"));
@@ -409,26 +378,23 @@ TEST_F(CalibratedPeers, AdaptersSpeakToProgramsThatAreAbsentHere) {
       e.find_pipelines({"instant-meshes", "mmg", "quadriflow-source", "quadwild", "tqmesh", "gmsh-quasi"});
   run_experiment(e, out());
   const std::string peers = DELQUAD_SOURCE_DIR "/experiments/peers/adapters/";
-  const auto answer = [&](std::vector<std::string> words) {
-    return testing_support::run_program("/bin/sh", {std::move(words), 0, {}});
-  };
+  const auto answer = [&](Strings words) { return run_program("/bin/sh", {std::move(words), 0, {}}); };
   EXPECT_EQ(answer({peers + "mmg.sh", "--version"}).out.find("5.8.0 (2024), delquad "), 0u);
   EXPECT_EQ(answer({peers + "gmsh.sh", "3.0.6", "11", "1", "a.geo", "a.msh"}).exit_code, 77);
   setenv("PATH", path.c_str(), 1);
   unsetenv("QUADWILD");
   const auto touching = record_of("touching", "tqmesh");
   EXPECT_EQ(touching.at("status"), "not applicable");
-  EXPECT_NE(touching.at("reason").get<std::string>().find("touch in a node"), std::string::npos) << touching;
-  std::vector<std::string> meshed;
+  EXPECT_TRUE(holds(touching.at("reason").get<std::string>(), "touch in a node")) << touching;
+  Strings meshed;
   for (const CellRecord& cell : read_records(out())) {
     if (cell.reason.empty()) meshed.push_back(cell.name + " " + cell.pipeline);
     EXPECT_NE(record_of(cell.name, cell.pipeline).at("peer").at("version_line"), "") << cell.pipeline;
   }
   std::ranges::sort(meshed);
-  EXPECT_EQ(meshed,
-            (std::vector<std::string>{"sphere instant-meshes", "sphere mmg", "sphere quadriflow-source",
-                                      "sphere quadwild", "square gmsh-quasi", "square instant-meshes",
-                                      "square tqmesh", "touching instant-meshes"}));
+  EXPECT_EQ(meshed, (Strings{"sphere instant-meshes", "sphere mmg", "sphere quadriflow-source",
+                             "sphere quadwild", "square gmsh-quasi", "square instant-meshes", "square tqmesh",
+                             "touching instant-meshes"}));
   const std::string log = read_text(out() / "sphere" / "quadwild" / "peer.log");
   double factor = 0;
   ASSERT_EQ(std::sscanf(log.c_str(), "scaleFact %lf", &factor), 1) << log;

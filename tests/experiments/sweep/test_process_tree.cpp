@@ -1,19 +1,13 @@
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <unistd.h>
-
 #include <atomic>
-#include <chrono>
 #include <new>
-#include <string>
-#include <thread>
-#include <vector>
 
 #include "base/context.h"
 #include "base/parallel.h"
-#include "delquad/error.h"
 #include "experiments/sweep/process_tree.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
@@ -94,7 +88,7 @@ TEST_F(ProcessTree, FailuresHaveTheirReasonsAndTheRestGoesOn) {
   EXPECT_EQ(failures_[0].reason, "no such thing");
   EXPECT_EQ(failures_[1].kind, "internal error");
   EXPECT_EQ(failures_[2].kind, "crash");
-  EXPECT_NE(failures_[2].reason.find("signal 9"), std::string::npos) << failures_[2].reason;
+  EXPECT_TRUE(holds(failures_[2].reason, "signal 9"));
   EXPECT_EQ(failures_[3].reason, "ended with exit code 9");
   EXPECT_EQ(shared_.done, 1);
 }
@@ -128,14 +122,14 @@ TEST_F(ProcessTree, MemoryIsLimited) {
   GTEST_SKIP() << "the sanitizer reserves more memory than any limit leaves";
 #endif
   run({job([] {
-         std::vector<std::string> hoard;
+         Strings hoard;
          for (;;) hoard.emplace_back(1 << 20, 'x');
        }),
        counting_job()},
       {1, 0, 300 << 20});
   ASSERT_EQ(failures_.size(), 1u);
   EXPECT_EQ(failures_[0].kind, "memory");
-  EXPECT_NE(failures_[0].reason.find("0.293 GiB"), std::string::npos) << failures_[0].reason;
+  EXPECT_TRUE(holds(failures_[0].reason, "0.293 GiB"));
   EXPECT_EQ(shared_.done, 1);
 }
 

@@ -1,42 +1,28 @@
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <cmath>
-#include <map>
-#include <memory>
-#include <random>
-#include <thread>
-
 #include "experiments/sweep/run_experiment.h"
 #include "experiments/sweep/verify.h"
 #include "metrics/tables/result_records.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/files.h"
 #include "tests/support/needs_file.h"
-#include "tests/support/run_program.h"
 
 namespace delquad {
 namespace {
 
-namespace fs = std::filesystem;
-using testing_support::read_text;
-using testing_support::run_program;
-using testing_support::write_text;
-
 const std::string kSweep =
-    "title = \"A sweep\"\npipelines = [\"F\", \"FB\", \"DB\", \"DBC\"]\n[matrix]\nseed = [1, 2, 3]\n"
-    "[[case]]\nname = \"square\"\nsize = 0.2\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
-    "[[case]]\nname = \"disc\"\nsize = 0.3\nloop = { circle = { centre = [0, 0], radius = 1 } }\n";
+    "title = 'A sweep'\npipelines = ['F', 'FB', 'DB', 'DBC']\n[matrix]\nseed = [1, 2, 3]\n"
+    "[[case]]\nname = 'square'\nsize = 0.2\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
+    "[[case]]\nname = 'disc'\nsize = 0.3\nloop = { circle = { centre = [0, 0], radius = 1 } }\n";
 constexpr int kResumedCells = 24;
 
 class Resume : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    done_ = std::make_unique<testing_support::TemporaryFolder>();
+    done_ = std::make_unique<Folder>();
     run_experiment(Experiment::read(write_text(*done_ / "sweep.toml", kSweep)), *done_ / "out");
   }
   static void TearDownTestSuite() { done_.reset(); }
@@ -46,13 +32,13 @@ class Resume : public testing::Test {
     return out(name);
   }
   fs::path write(const std::string& text) { return write_text(folder_ / "sweep.toml", text); }
-  testing_support::ProgramResult program(std::vector<std::string> arguments) {
+  ProgramResult program(Strings arguments) {
     return run_program(DELQUAD_PROGRAM, {std::move(arguments), 0, {}});
   }
   std::string out(const std::string& name = "out") const { return (folder_ / name).string(); }
 
-  testing_support::TemporaryFolder folder_;
-  static inline std::unique_ptr<testing_support::TemporaryFolder> done_;
+  Folder folder_;
+  static inline std::unique_ptr<Folder> done_;
 };
 
 /// Everything but times, by cell.
@@ -93,8 +79,8 @@ TEST_F(Resume, DoneCellsAreLeftAloneUntilTheyAreOutdated) {
   std::string finer = kSweep;
   finer.replace(finer.find("0.3"), 3, "0.2");  // of the discs
   const Experiment changed = Experiment::read(write(finer));
-  EXPECT_NE(list_cells(changed, out()).find("outdated       disc@seed=1 DB\n"), std::string::npos);
-  EXPECT_NE(list_cells(changed, out()).find("done           square@seed=1 DB\n"), std::string::npos);
+  EXPECT_TRUE(holds(list_cells(changed, out()), "outdated       disc@seed=1 DB\n",
+                    "done           square@seed=1 DB\n"));
   run_experiment(changed, out());
   for (const auto& [path, time] : record_times(out()))
     EXPECT_EQ(time == first.at(path), path.string().find("square") != std::string::npos) << path;
@@ -156,14 +142,13 @@ TEST_F(Resume, AnInterruptedCellIsToBeMadeYet) {
   NEEDS_FILE("/proc/self/stat");
   const std::string flag = out("flag");
   const std::string file =
-      write(kSweep + "[[metric]]\nname = \"one\"\ncommand = [\"sh\", \"-c\", '''[ -e " + flag +
-            " ] || { touch " + flag +
-            "; kill -TERM $(cut -d ' ' -f 4 /proc/$PPID/stat); sleep 5; }; echo 1''', \"{mesh}\"]\n")
+      write(kSweep + "[[metric]]\nname = 'one'\ncommand = ['sh', '-c', '''[ -e " + flag + " ] || { touch " +
+            flag + "; kill -TERM $(cut -d ' ' -f 4 /proc/$PPID/stat); sleep 5; }; echo 1''', \"{mesh}\"]\n")
           .string();
   const auto first = program({"run", file, "-o", out()});
   EXPECT_EQ(first.exit_code, 1) << first.err;
-  EXPECT_NE(first.err.find("interrupted from outside"), std::string::npos) << first.err;
-  EXPECT_NE(first.out.find("1 of 24 cells have no result yet"), std::string::npos) << first.out;
+  EXPECT_TRUE(holds(first.err, "interrupted from outside"));
+  EXPECT_TRUE(holds(first.out, "1 of 24 cells have no result yet"));
   const auto before = record_times(out());
   EXPECT_EQ(before.size(), std::size_t{kResumedCells - 1});
   EXPECT_EQ(program({"run", file, "-o", out()}).exit_code, 0);
@@ -236,44 +221,39 @@ TEST_F(Resume, AFolderHasOneRunAndOneExperiment) {
 TEST_F(Resume, FailuresAreCellsWithReasons) {
   const std::string file =
       write(
-          "pipelines = [\"DB\"]\n[[case]]\nname = \"good\"\nsize = 0.2\nloop = { rectangle = [[0, 0], [1, "
-          "1]] }\n"
-          "[[case]]\nname = \"bad\"\nsize = \"0.2 - x\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
-          "[[case]]\nname = \"long\"\nsize = 0.0004\nloop = { rectangle = [[0, 0], [1, 1]] }\n")
+          "pipelines = ['DB']\n[[case]]\nname = 'good'\nsize = 0.2\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
+          "[[case]]\nname = 'bad'\nsize = '0.2 - x'\nloop = { rectangle = [[0, 0], [1, 1]] }\n"
+          "[[case]]\nname = 'long'\nsize = 0.0004\nloop = { rectangle = [[0, 0], [1, 1]] }\n")
           .string();
   const auto result = program({"run", file, "-o", out(), "--timeout", "1", "-j", "2"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.err.find("error: long DB: not done after 1 s (--timeout): "), std::string::npos)
-      << result.err;
-  EXPECT_NE(result.err.find("error: bad DB: "), std::string::npos) << result.err;
+  EXPECT_TRUE(holds(result.err, "error: long DB: not done after 1 s (--timeout): ", "error: bad DB: "));
   const auto records = read_records(out());
   ASSERT_EQ(records.size(), 3u);
   EXPECT_EQ(records[0].reason, "");
   EXPECT_EQ(records[1].kind, "bad input");
   EXPECT_EQ(records[2].kind, "timeout");
-  EXPECT_NE(program({"run", file, "-o", out(), "--dry-run"}).out.find("failed         long DB\n"),
-            std::string::npos);
+  EXPECT_TRUE(holds(program({"run", file, "-o", out(), "--dry-run"}).out, "failed         long DB\n"));
 }
 
 TEST_F(Resume, TablesComeFromRecordsAlone) {
   const std::string file = write(kSweep).string();
   ASSERT_EQ(program({"run", file, "-o", out()}).exit_code, 0);
   const std::string table = read_text(out() + "/table.md"), pairs = read_text(out() + "/pairs.csv");
-  EXPECT_NE(table.find("| square | DBC "), std::string::npos) << table;
-  EXPECT_NE(pairs.find("DBC - DB,eta mean,ok,,2,"), std::string::npos) << pairs;
+  EXPECT_TRUE(holds(table, "| square | DBC "));
+  EXPECT_TRUE(holds(pairs, "DBC - DB,eta mean,ok,,2,"));
   for (const char* name : {"table.md", "table.csv", "table.tex", "table.json", "pairs.md"})
     fs::remove(out() + "/" + name);
   fs::remove(file);
   fs::remove_all(out() + "/disc@seed=3");
   const auto result = program({"tables", out()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("4 of 24 cells have no result yet"), std::string::npos) << result.out;
+  EXPECT_TRUE(holds(result.out, "4 of 24 cells have no result yet"));
   EXPECT_TRUE(fs::exists(out() + "/table.tex"));
   write_text(out() + "/disc@seed=2/DB/record.json", "{\"case\": 1");
   const auto broken = program({"tables", out()});
   EXPECT_EQ(broken.exit_code, 0);
-  EXPECT_NE(broken.out.find("damaged record: " + out() + "/disc@seed=2/DB/record.json"), std::string::npos)
-      << broken.out;
+  EXPECT_TRUE(holds(broken.out, "damaged record: " + out() + "/disc@seed=2/DB/record.json"));
 }
 
 TEST_F(Resume, RecordsCanBeMadeAgain) {

@@ -1,18 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
-
 #include "experiments/sweep/run_experiment.h"
 #include "geometry/cad/cad_reader.h"
 #include "metrics/tables/result_records.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// "case pipeline" -> digest of the mesh
 using Digests = std::map<std::string, std::string>;
@@ -39,7 +31,7 @@ bool has_fma() {
 /// where CAD is read, on OpenCASCADE.
 TEST(SameBytes, InEveryBuild) {
   if (!has_fma()) GTEST_SKIP() << "the digests are of a processor (x86-64) with FMA";
-  const testing_support::TemporaryFolder folder;
+  const Folder folder;
   const fs::path files = fs::path(DELQUAD_SAME_BYTES);
   SweepOptions options;
   options.pictures = false;
@@ -47,7 +39,7 @@ TEST(SameBytes, InEveryBuild) {
   Digests made;
   for (const CellRecord& record : read_records(folder / "out")) {
     if (!record.reason.empty()) continue;  // is missing below
-    const auto json = nlohmann::json::parse(std::ifstream(record.folder / "record.json"));
+    const auto json = Json::parse(std::ifstream(record.folder / "record.json"));
     made[record.group + " " + record.pipeline] = json.at("digests").at("mesh");
   }
   const Digests expected = expected_digests(files / "digests.txt", !cad_program().empty());

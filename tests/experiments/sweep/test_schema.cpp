@@ -1,25 +1,11 @@
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
-
-#include "delquad/error.h"
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/schema.h"
 #include "io/cases/problem_record.h"
 #include "io/cases/read_described.h"
-#include "tests/support/run_program.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-namespace fs = std::filesystem;
-using testing_support::read_text;
-using testing_support::TemporaryFolder;
-using testing_support::write_text;
-using Json = nlohmann::json;
 
 /// A table of an experiment with scalar keys: what stands before and after one of them.
 struct KeyPlace {
@@ -54,7 +40,7 @@ class Schema : public testing::Test {
     const std::string size = line.starts_with("size =") ? "" : "size = 1\n";
     const auto file =
         write_text(folder_ / "e.toml",
-                   line + "\n" + size + "[[case]]\nname = \"a\"\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
+                   line + "\n" + size + "[[case]]\nname = 'a'\nloop = { rectangle = [[0, 0], [1, 1]] }\n");
     try {
       Experiment::read(file);
       return "";
@@ -68,7 +54,7 @@ class Schema : public testing::Test {
         << place.path << "." << key << " = " << value << ": " << complaint(place, key, value);
   }
 
-  TemporaryFolder folder_;
+  Folder folder_;
 };
 
 bool allows(const Json& type, const char* name) {
@@ -132,9 +118,8 @@ TEST_F(Schema, HasNoKeyThatTheProgramLacks) {
   for (const KeyPlace& place : places())
     for (const TomlKey& key : place.keys) {
       const std::string said = complaint(place, key.name, "{ nonsense = 1 }");
-      EXPECT_EQ(said.find("unknown key '" + (place.path.empty() ? "" : place.path + ".") + key.name + "'"),
-                std::string::npos)
-          << said;
+      EXPECT_FALSE(
+          holds(said, "unknown key '" + (place.path.empty() ? "" : place.path + ".") + key.name + "'"));
     }
 }
 
@@ -182,8 +167,8 @@ void expect_everywhere(const std::string& schema, const std::string& docs) {
     if (info.rule.form == Form::kNone || info.rule.form == Form::kMost) return;
     ++described;
     EXPECT_EQ(std::ranges::count(keys, info.key, &TomlKey::name), 1) << info.key;
-    EXPECT_NE(schema.find("\"" + std::string(info.key) + "\": {"), std::string::npos) << info.key;
-    EXPECT_NE(docs.find("`" + std::string(info.key) + "`"), std::string::npos) << info.key;
+    EXPECT_TRUE(holds(schema, "\"" + std::string(info.key) + "\": {")) << info.key;
+    EXPECT_TRUE(holds(docs, "`" + std::string(info.key) + "`")) << info.key;
   });
   EXPECT_GT(described, 0);
 }
@@ -216,8 +201,7 @@ using SchemaPrograms = Schema;
 TEST_F(SchemaPrograms, AgreesWithThePeersOfJsonSchema) {
   if (std::system("python3 -c 'import jsonschema, tomllib' 2>/dev/null") != 0)
     GTEST_SKIP() << "Python's jsonschema and tomllib are not installed";
-  std::vector<std::string> arguments = {"-c", kChecker,
-                                        write_text(folder_ / "schema.json", experiment_schema()).string()};
+  Strings arguments = {"-c", kChecker, write_text(folder_ / "schema.json", experiment_schema()).string()};
   std::string expected;
   const auto add = [&](const fs::path& file, const char* verdict) {
     arguments.push_back(file.string());
@@ -230,7 +214,7 @@ TEST_F(SchemaPrograms, AgreesWithThePeersOfJsonSchema) {
   std::ranges::sort(files);
   ASSERT_GT(files.size(), 10u);
   for (const fs::path& file : files) add(file, "good");
-  const std::string square = "[[case]]\nname = \"a\"\nsize = 1\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
+  const std::string square = "[[case]]\nname = 'a'\nsize = 1\nloop = { rectangle = [[0, 0], [1, 1]] }\n";
   const auto expect = [&](const std::string& name, const std::string& text, bool good) {
     const fs::path file = write_text(folder_ / (name + ".toml"), text);
     add(file, good ? "good" : "bad");
@@ -246,25 +230,24 @@ TEST_F(SchemaPrograms, AgreesWithThePeersOfJsonSchema) {
   expect("plain", square, true);
   expect("matrix", "[matrix]\nsize = [1, \"x\"]\ninsertion.h_max = [1.3]\n\"cleanup.seed\" = [2]\n" + square,
          true);
-  expect("unknown", "titel = \"x\"\n" + square, false);
+  expect("unknown", "titel = 'x'\n" + square, false);
   expect("unknown_inside", square + "insertion = { hmax = 1.3 }\n", false);
   expect("unknown_varied", "[matrix]\ncrosss = [1]\n" + square, false);
   expect("no_list", "[matrix]\nseed = 1\n" + square, false);
   expect("no_pairs", "pairs = []\n" + square, false);
-  expect("solver_twice", "solver = [\"poisson\", \"poisson\"]\n" + square, false);
+  expect("solver_twice", "solver = ['poisson', 'poisson']\n" + square, false);
   expect("point_sets", "[linf_delaunay]\npoints = [10]\n" + square, false);
-  expect("no_case", "title = \"x\"\n", false);
+  expect("no_case", "title = 'x'\n", false);
   expect("no_name", "[[case]]\nloop = { rectangle = [[0, 0], [1, 1]] }\n", false);
-  expect("bad_shape", "[[case]]\nname = \"a\"\nloop = { rectangle = [[0, 0]] }\n", false);
-  expect("peer_without_version",
-         "[[peer]]\nname = \"p\"\ncommand = [\"p\", \"{input}\", \"{output}\"]\n" + square, false);
-  const testing_support::ProgramResult checked =
-      testing_support::run_program("/usr/bin/env", {[&] {
-                                                      arguments.insert(arguments.begin(), "python3");
-                                                      return arguments;
-                                                    }(),
-                                                    0,
-                                                    {}});
+  expect("bad_shape", "[[case]]\nname = 'a'\nloop = { rectangle = [[0, 0]] }\n", false);
+  expect("peer_without_version", "[[peer]]\nname = 'p'\ncommand = ['p', '{input}', '{output}']\n" + square,
+         false);
+  const ProgramResult checked = run_program("/usr/bin/env", {[&] {
+                                                               arguments.insert(arguments.begin(), "python3");
+                                                               return arguments;
+                                                             }(),
+                                                             0,
+                                                             {}});
   ASSERT_EQ(checked.exit_code, 0) << checked.err;
   std::string said;
   for (std::size_t at = 0, end; (end = checked.out.find('\n', at)) != std::string::npos; at = end + 1) {

@@ -1,39 +1,31 @@
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "experiments/sweep/run_experiment.h"
 #include "io/cases/case_file.h"
 #include "smoothing/cvt/smooth_points.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
 
-namespace fs = std::filesystem;
-
 class SmoothingStage : public testing::Test {
  protected:
   Case read(const std::string& smoothing) {
-    return read_model_case(testing_support::write_text(
+    return read_model_case(write_text(
         folder_ / "c.toml",
         "loop = { circle = { centre = [0, 0], radius = 1 } }\nsize = 0.15\nsmoothing = " + smoothing + "\n"));
   }
   void run(const std::string& smoothing, const std::string& words) {
-    const auto file = testing_support::write_text(
-        folder_ / "e.toml", "pipelines = " + words + "\nsmoothing = " + smoothing +
-                                "\n[[case]]\nname = \"disk\"\n"
-                                "loop = { circle = { centre = [0, 0], radius = 1 } }\nsize = 0.15\n");
+    const auto file = write_text(folder_ / "e.toml",
+                                 "pipelines = " + words + "\nsmoothing = " + smoothing +
+                                     "\n[[case]]\nname = 'disk'\n"
+                                     "loop = { circle = { centre = [0, 0], radius = 1 } }\nsize = 0.15\n");
     const Outcome outcome = run_experiment(Experiment::read(file), folder_ / "out");
     EXPECT_EQ(outcome.bad_inputs + outcome.others_failed, 0);
     EXPECT_EQ(outcome.leftover_triangles, 0);
   }
-  nlohmann::json record(const std::string& word) {
-    return nlohmann::json::parse(std::ifstream(folder_ / "out" / "disk" / word / "record.json"));
+  Json record(const std::string& word) {
+    return Json::parse(std::ifstream(folder_ / "out" / "disk" / word / "record.json"));
   }
-  testing_support::TemporaryFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(SmoothingStage, OptionsAreRead) {
@@ -49,7 +41,7 @@ TEST_F(SmoothingStage, OptionsAreRead) {
 TEST_F(SmoothingStage, MistakesAreNamed) {
   expect_input_error([&] { read("{ p = 5 }"); }, {"c.toml:3", "'smoothing.p' is 5", "2, 4, 6"});
   expect_input_error([&] { read("{ p = 18 }"); }, {"c.toml:3", "14 or 16"});
-  expect_input_error([&] { read("{ method = \"lloyd\" }"); },
+  expect_input_error([&] { read("{ method = 'lloyd' }"); },
                      {"c.toml:3", "no 'smoothing.method' any longer", "exact gradient"});
   expect_input_error([&] { read("{ inner_iterations = -1 }"); },
                      {"c.toml:3", "'smoothing.inner_iterations' is -1"});
@@ -59,10 +51,10 @@ TEST_F(SmoothingStage, MistakesAreNamed) {
 
 TEST_F(SmoothingStage, RecordsItsConvergence) {
   run("{ outer_iterations = 2 }", "[\"F\", \"FL\", \"FLB\", \"DLB\"]");
-  const nlohmann::json f = record("F"), fl = record("FL");
+  const Json f = record("F"), fl = record("FL");
   EXPECT_EQ(f["metrics"]["n_vertices"], fl["metrics"]["n_vertices"]);
   EXPECT_FALSE(f.contains("smoothing"));
-  const nlohmann::json s = fl["smoothing"];
+  const Json s = fl["smoothing"];
   EXPECT_LT(s["final_energy"], s["first_energy"]);
   EXPECT_GT(s["iterations"], 3);
   EXPECT_EQ(s["energy_by_evaluation"].size(), 1u);

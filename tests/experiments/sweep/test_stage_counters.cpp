@@ -1,10 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <numeric>
-
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/finish/lift_bad_quads.h"
 #include "algorithms/finish/part_twins.h"
@@ -22,15 +15,13 @@
 #include "smoothing/cvt/smooth_points.h"
 #include "smoothing/optimisation/track_optimisation.h"
 #include "tests/support/analytic_fields.h"
+#include "tests/support/files.h"
 #include "tests/support/prepare_surface.h"
 #include "tests/support/shapes.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
-
-using Json = nlohmann::json;
 
 template <class... Summaries>
 struct Types {};
@@ -121,8 +112,7 @@ TEST(SummariesOfSteps, MistakesAreNamed) {
 }
 
 TEST(StageCounters, DocumentationHasEveryOne) {
-  const std::string text =
-      testing_support::read_text(std::filesystem::path(DELQUAD_EXPERIMENTS) / "../docs/results.md");
+  const std::string text = read_text(fs::path(DELQUAD_EXPERIMENTS) / "../docs/results.md");
   const auto table = text.find("| step | counters |");
   ASSERT_NE(table, std::string::npos);
   for_each_summary(AllSummaries{}, [&](const char* step, const auto& summary) {
@@ -130,7 +120,7 @@ TEST(StageCounters, DocumentationHasEveryOne) {
     ASSERT_NE(begin, std::string::npos) << step;
     const std::string row = text.substr(begin, text.find('\n', begin) - begin);
     for (const SummaryField& field : fields_of(summary))
-      EXPECT_NE(row.find("`" + field.key + "`"), std::string::npos) << step << ": " << field.key;
+      EXPECT_TRUE(holds(row, "`" + field.key + "`")) << step << ": " << field.key;
   });
 }
 

@@ -1,21 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <set>
-
 #include "experiments/sweep/experiment.h"
 #include "geometry/mesh/half_edges.h"
-#include "io/mesh_io.h"
 #include "tests/program/program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad::testing_support {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 const fs::path kSuite = fs::path(DELQUAD_EXPERIMENTS) / "suite";
 
@@ -89,14 +77,14 @@ TEST(Suite, TriangulationsAreManifoldsOfTheirGenus) {
 
 /// Meshes of ours stand for finished meshes of another program, which a peer copies.
 struct Finished {
-  TemporaryFolder work;
+  Folder work;
   std::string cases = {};
 
   Finished() {
     fs::create_directory(work / "meshes");
     write_text(work / "theirs.toml",
-               "[[peer]]\nname = \"theirs\"\nversion = [\"echo\", \"1.2\"]\n"
-               "command = [\"cp\", \"meshes/{case}.msh\", \"{output}\"]\nkeeps_boundary = false\n");
+               "[[peer]]\nname = 'theirs'\nversion = ['echo', '1.2']\n"
+               "command = ['cp', 'meshes/{case}.msh', '{output}']\nkeeps_boundary = false\n");
   }
   /// A case of the suite at its first size.
   void add(const std::string& model, const std::string& file, const std::string& size) {
@@ -109,8 +97,8 @@ struct Finished {
         {"mesh", kSuite / "models" / of_file, "-o", file(model), "--size", size, "--quality", "fast"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
-  ProgramResult run(std::vector<std::string> more = {}) const {
-    write_text(work / "e.toml", "pipelines = [\"DB\"]\n" + cases);
+  ProgramResult run(Strings more = {}) const {
+    write_text(work / "e.toml", "pipelines = ['DB']\n" + cases);
     more.insert(more.begin(), {"run", work / "e.toml", "--peer", work / "theirs.toml", "--pipelines",
                                "theirs", "-o", work / "out", "--pictures", "none"});
     return delquad(more);
@@ -151,26 +139,25 @@ TEST(Suite, FinishedMeshesAreMeasuredAsAPeersAre) {
       EXPECT_NEAR(record.at("metrics").at(key), wanted.at(key), 1e-9) << model << " " << key;
     EXPECT_EQ(record.at("sound"), true) << model;
   }
-  EXPECT_TRUE(contains(theirs.reason("ring_gear"), "% of the domain's area")) << theirs.reason("ring_gear");
-  EXPECT_TRUE(contains(theirs.reason("bracket"), "% of the model's area")) << theirs.reason("bracket");
-  EXPECT_TRUE(contains(theirs.reason("hood"), "cannot be read")) << theirs.reason("hood");
-  EXPECT_TRUE(contains(theirs.reason("loft"), "meshes/loft.msh")) << theirs.reason("loft");
+  EXPECT_TRUE(holds(theirs.reason("ring_gear"), "% of the domain's area"));
+  EXPECT_TRUE(holds(theirs.reason("bracket"), "% of the model's area"));
+  EXPECT_TRUE(holds(theirs.reason("hood"), "cannot be read"));
+  EXPECT_TRUE(holds(theirs.reason("loft"), "meshes/loft.msh"));
   const auto again = delquad({"rerun", theirs.work / "out/gear/theirs/record.json"});
   EXPECT_EQ(again.exit_code, 0) << again.err;
   // A mesh belongs to the key of its cell alone.
   const auto listed = [&] { return theirs.run({"--dry-run"}).out; };
-  EXPECT_TRUE(contains(listed(), "done           gear theirs")) << listed();
+  EXPECT_TRUE(holds(listed(), "done           gear theirs"));
   fs::copy_file(theirs.file("circles"), theirs.file("gear"), fs::copy_options::overwrite_existing);
-  EXPECT_TRUE(contains(listed(), "outdated       gear theirs")) << listed();
-  EXPECT_TRUE(contains(listed(), "done           circles theirs")) << listed();
+  EXPECT_TRUE(holds(listed(), "outdated       gear theirs", "done           circles theirs"));
 }
 
 TEST(Suite, PeersGetPackedModelsUnpacked) {
   Finished theirs;
   theirs.add("sphere_noisy", "sphere_noisy.obj.gz", "0.16");
   write_text(theirs.work / "theirs.toml",
-             "[[peer]]\nname = \"theirs\"\nversion = [\"echo\", \"1\"]\ninput = \"obj\"\noutput = \"obj\"\n"
-             "command = [\"cp\", \"{input}\", \"{output}\"]\n");
+             "[[peer]]\nname = 'theirs'\nversion = ['echo', '1']\ninput = 'obj'\noutput = 'obj'\n"
+             "command = ['cp', '{input}', '{output}']\n");
   theirs.run();
   EXPECT_EQ(theirs.record("sphere_noisy").at("metrics").at("n_triangles"), 6912);
 }
@@ -202,14 +189,13 @@ TEST(SuiteLong, MeshesBesideTheModelAreRefused) {
   write_mesh(theirs.file("fracture_network"), grid);
   EXPECT_EQ(theirs.run().exit_code, 1);
   for (const char* model : {"gear", "torus"})
-    EXPECT_TRUE(contains(theirs.reason(model), "no mesh of this model")) << theirs.reason(model);
-  EXPECT_TRUE(contains(theirs.reason("fracture_network"), "do not follow the curves"))
-      << theirs.reason("fracture_network");
+    EXPECT_TRUE(holds(theirs.reason(model), "no mesh of this model"));
+  EXPECT_TRUE(holds(theirs.reason("fracture_network"), "do not follow the curves"));
 }
 
 /// Each hard model is meshed soundly by `fast`, or refused with one message; but for one that takes long.
 TEST(SuiteLong, HardModelsAreSoundOrRefused) {
-  const TemporaryFolder work;
+  const Folder work;
   const Experiment hard = Experiment::read(kSuite / "hard.toml");
   for (std::size_t i = 0; i < hard.n_cases(); i += 3) {
     const Case c = hard.read_variant(i);
@@ -219,14 +205,14 @@ TEST(SuiteLong, HardModelsAreSoundOrRefused) {
         delquad({"mesh", file, "-o", work / "m.msh", "--size", c.size.text, "--quality", "fast"});
     if (run.exit_code == 0) continue;
     EXPECT_EQ(run.exit_code, 2) << c.name << ": " << run.err;
-    EXPECT_TRUE(contains(run.err, file.filename())) << run.err;
+    EXPECT_TRUE(holds(run.err, file.filename()));
   }
 }
 
 TEST(Suite, ItsCommandIsRefusedWithTheNewWay) {
   const auto run = delquad({"suite", "models", "-o", "x"});
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_TRUE(contains(run.err, "delquad run experiments/suite/planar.toml")) << run.err;
+  EXPECT_TRUE(holds(run.err, "delquad run experiments/suite/planar.toml"));
 }
 
 }  // namespace

@@ -1,23 +1,16 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-#include <string>
-
 #include "experiments/sweep/run_experiment.h"
+#include "tests/support/files.h"
 #include "tests/support/shared_data.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
-namespace fs = std::filesystem;
 using testing_support::shared_data;
 
-Table run(const char* file, const std::vector<std::string>& words) {
+Table run(const char* file, const Strings& words) {
   Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / "paper" / file, shared_data());
   e.words = e.find_pipelines(words);
-  const testing_support::TemporaryFolder folder;
+  const Folder folder;
   return run_experiment(e, folder / "out").table;
 }
 

@@ -1,11 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "experiments/sweep/wanted_fields.h"
-#include "io/mesh_io.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
@@ -24,7 +18,7 @@ Vec3 vector_at(const MeshField& field, std::size_t i) {
 
 /// The content of a file of the mesh of a problem.
 MeshWithFields fields_of(const MeshProblem& problem) {
-  const testing_support::TemporaryFolder folder;
+  const Folder folder;
   const MeshResult result = mesh(prepare(problem), "DB");
   write_wanted(folder / "fields.vtu", result.mesh, result.prepared);
   MeshWithFields read = read_fields(folder / "fields.vtu");

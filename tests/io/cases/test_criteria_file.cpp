@@ -1,17 +1,11 @@
-#include <gtest/gtest.h>
-
 #include "io/cases/case_file.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::TemporaryFolder;
-using testing_support::write_text;
-
 Criteria read_sheet(const std::string& text) {
-  const TemporaryFolder folder;
+  const Folder folder;
   return read_criteria(write_text(folder / "sheet.toml", text).string());
 }
 
@@ -47,10 +41,10 @@ min_length = "0.2 size"
 }
 
 TEST(CriteriaFile, IsAKeyOfModels) {
-  const TemporaryFolder folder;
+  const Folder folder;
   write_text(folder / "sheet.toml", "max_aspect = 3\n");
   const auto criteria_of = [&](const std::string& value) {
-    return read_model_case(write_text(folder / "m.toml", "model = \"part.step\"\ncriteria = " + value))
+    return read_model_case(write_text(folder / "m.toml", "model = 'part.step'\ncriteria = " + value))
         .criteria;
   };
   EXPECT_EQ(criteria_of("\"static\"\n").name, "static");

@@ -1,22 +1,14 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <sstream>
-#include <string>
-
 #include "delquad/mesher.h"
 #include "io/cases/case_file.h"
 #include "io/cases/read_problem.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
 
 /// The indented block of a page that begins with this line.
 std::string block_of(const std::string& page, const std::string& first) {
-  std::istringstream in(
-      testing_support::read_text(std::filesystem::path(DELQUAD_EXPERIMENTS) / "../docs" / page));
+  std::istringstream in(read_text(fs::path(DELQUAD_EXPERIMENTS) / "../docs" / page));
   std::string block;
   for (std::string line; std::getline(in, line);) {
     const bool is_indented = line.starts_with("    ");
@@ -33,10 +25,10 @@ int lines_named(const Mesh& mesh, const std::string& name) {
 }
 
 TEST(Documents, TheExampleOfManyKeysIsMeshed) {
-  const testing_support::TemporaryFolder folder;
+  const Folder folder;
   const std::string text = block_of("meshing.md", "# channel.toml: one period of a heated channel");
   ASSERT_FALSE(text.empty());
-  const Case c = read_model_case(testing_support::write_text(folder / "channel.toml", text));
+  const Case c = read_model_case(write_text(folder / "channel.toml", text));
   const MeshResult result = mesh(read_files(c), "DBCO");
   EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
   const Mesh& m = result.mesh;

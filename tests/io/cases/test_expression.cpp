@@ -1,13 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <thread>
-#include <vector>
-
 #include "io/cases/expression.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {

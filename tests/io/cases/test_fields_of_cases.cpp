@@ -1,7 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <numbers>
-
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/treatment/treatment.h"
@@ -10,24 +6,21 @@
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
 #include "smoothing/optimisation/track_optimisation.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/support/files.h"
 #include "tests/support/prepare_case.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
 
 class Cases : public testing::Test {
  protected:
-  Case read(const std::string& text) {
-    return read_model_case(testing_support::write_text(folder_ / "c.toml", text));
-  }
+  Case read(const std::string& text) { return read_model_case(write_text(folder_ / "c.toml", text)); }
   static double size_at(const PreparedProblem& p, double x, double y) {
     int hint = -1;
     return p.size.field->at({x, y, 0}, hint);
   }
   const std::string square_ = "loop = { rectangle = [[0, 0], [1, 1]] }\n";
-  testing_support::TemporaryFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(Cases, Layers) {
@@ -37,23 +30,23 @@ TEST_F(Cases, Layers) {
                       "layer = [{ on = 's', first = 0.001, number = 3 },\n"
                       "{ on = ['n', 'w'], first = 0.01, growth = 1.5, thickness = 0.1, fan = 70 }]");
   ASSERT_EQ(c.layers.size(), 2u);
-  EXPECT_EQ(c.layers[0].on, std::vector<std::string>{"s"});
+  EXPECT_EQ(c.layers[0].on, Strings{"s"});
   EXPECT_EQ(c.layers[0].number, 3);
   EXPECT_EQ(c.layers[0].growth, 1.2);
-  EXPECT_EQ(c.layers[1].on, (std::vector<std::string>{"n", "w"}));
+  EXPECT_EQ(c.layers[1].on, (Strings{"n", "w"}));
   EXPECT_EQ(c.layers[1].thickness, 0.1);
   EXPECT_EQ(c.layers[1].fan, 70);
   EXPECT_EQ(read_files(c).layers.size(), 2u);
 }
 
 TEST_F(Cases, AFileGivesTheSize) {
-  testing_support::write_text(
+  write_text(
       folder_ / "h.msh",
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
       "$Elements\n1\n1 3 2 0 1 1 2 3 4\n$EndElements\n"
       "$NodeData\n1\n\"h\"\n1\n0\n3\n0\n1\n4\n1 0.1\n2 0.2\n3 0.2\n4 0.1\n$EndNodeData\n"
       "$NodeData\n1\n\"bad\"\n1\n0\n3\n0\n1\n4\n1 0.1\n2 0.2\n3 -1\n4 0.1\n$EndNodeData\n");
-  for (const char* size : {"size = \"h.msh:h\"\n", "size = { base = \"h.msh:h\", max = 0.5 }\n"}) {
+  for (const char* size : {"size = 'h.msh:h'\n", "size = { base = 'h.msh:h', max = 0.5 }\n"}) {
     const PreparedProblem p = prepare_case(read(square_ + size));
     EXPECT_DOUBLE_EQ(size_at(p, 0.25, 0.7), 0.125) << size;
     EXPECT_DOUBLE_EQ(size_at(p, 3, 0.5), 0.2) << size;
@@ -68,13 +61,12 @@ TEST_F(Cases, AFileGivesTheSize) {
 
 TEST_F(Cases, NamesHaveSizes) {
   const std::string model =
-      "loop = [{ rectangle = [[0, 0], [1, 1]], boundary = [\"bottom\", \"\", \"top\", \"\"] },\n"
-      "        { circle = { centre = [0.5, 0.5], radius = 0.2 }, region = \"core\" }]\n"
-      "embed = { point = [0.9, 0.9], name = \"sensor\" }\n[size]\nbase = 0.2\n";
+      "loop = [{ rectangle = [[0, 0], [1, 1]], boundary = ['bottom', '', 'top', ''] },\n"
+      "        { circle = { centre = [0.5, 0.5], radius = 0.2 }, region = 'core' }]\n"
+      "embed = { point = [0.9, 0.9], name = 'sensor' }\n[size]\nbase = 0.2\n";
   const PreparedProblem p = prepare_case(
-      read(model +
-           "on = [{ name = \"bottom\", size = 0.05 }, { name = \"core\", size = 0.04, growth = 0.5 },\n"
-           "      { name = \"sensor\", size = 0.03, reach = 0.05 }]\n"));
+      read(model + "on = [{ name = 'bottom', size = 0.05 }, { name = 'core', size = 0.04, growth = 0.5 },\n"
+                   "      { name = 'sensor', size = 0.03, reach = 0.05 }]\n"));
   EXPECT_DOUBLE_EQ(size_at(p, 0.1, 0), 0.05);
   EXPECT_NEAR(size_at(p, 0.1, 0.1), 0.05 + 0.3 * 0.1, 1e-12);
   EXPECT_DOUBLE_EQ(size_at(p, 0.45, 0.55), 0.04);
@@ -84,28 +76,27 @@ TEST_F(Cases, NamesHaveSizes) {
   EXPECT_NEAR(size_at(p, 0.9, 0.75), 0.03 + 0.3 * 0.1, 1e-12);
   EXPECT_DOUBLE_EQ(size_at(p, 0, 0.98), 0.2);
   const PreparedProblem turns =
-      prepare_case(read(model + "on = { name = \"core\", curvature = 48 }\ncurvature = 24\n"));
+      prepare_case(read(model + "on = { name = 'core', curvature = 48 }\ncurvature = 24\n"));
   EXPECT_NEAR(size_at(turns, 0.7, 0.5), 2 * std::numbers::pi * 0.2 / 48, 1e-4);
   EXPECT_NEAR(size_at(turns, 0.8, 0.5), 2 * std::numbers::pi * 0.2 / 48 + 0.3 * 0.1, 1e-3);
   const PreparedProblem around =
-      prepare_case(read("loop = [{ circle = { centre = [0, 0], radius = 2 }, region = \"rim\" },\n"
+      prepare_case(read("loop = [{ circle = { centre = [0, 0], radius = 2 }, region = 'rim' },\n"
                         "        { circle = { centre = [0, 0], radius = 0.5 }, hole = true }]\n"
-                        "[size]\nbase = 1\non = { name = \"rim\", curvature = 48 }\nmin = 0.01\n"));
+                        "[size]\nbase = 1\non = { name = 'rim', curvature = 48 }\nmin = 0.01\n"));
   EXPECT_NEAR(size_at(around, 0.5, 0), 2 * std::numbers::pi * 0.5 / 48, 1e-4);
   EXPECT_NEAR(size_at(around, 2, 0), 2 * std::numbers::pi * 2 / 48, 1e-3);
   const PreparedProblem all = prepare_case(read(model + "curvature = 24\nmin = 0.06\n"));
   EXPECT_NEAR(size_at(all, 0.7, 0.5), 0.06, 1e-4);
-  const PreparedProblem by_number = prepare_case(read(model + "on = { name = \"curve_2\", size = 0.05 }\n"));
+  const PreparedProblem by_number = prepare_case(read(model + "on = { name = 'curve_2', size = 0.05 }\n"));
   EXPECT_DOUBLE_EQ(size_at(by_number, 1, 0.5), 0.05);
 }
 
 TEST_F(Cases, CurvesAreDivided) {
   const std::string model =
-      "loop = { rectangle = [[0, 0], [2, 1]], boundary = [\"bottom\", \"right\", \"top\", \"left\"] }\nsize "
-      "= 0.1\n";
+      "loop = { rectangle = [[0, 0], [2, 1]], boundary = ['bottom', 'right', 'top', 'left'] }\nsize = 0.1\n";
   const PreparedProblem p =
-      prepare_case(read(model + "divide = [{ name = \"bottom\", edges = 8, progression = 1.5 },\n"
-                                "          { name = \"top\", edges = 30, bump = 0.25 }]\n"));
+      prepare_case(read(model + "divide = [{ name = 'bottom', edges = 8, progression = 1.5 },\n"
+                                "          { name = 'top', edges = 30, bump = 0.25 }]\n"));
   std::vector<double> bottom, top;
   for (const Vec3& x : p.boundary.points) {
     if (x.y == 0) bottom.push_back(x.x);
@@ -121,7 +112,7 @@ TEST_F(Cases, CurvesAreDivided) {
   EXPECT_NEAR(top[1] - top[0], top[30] - top[29], 1e-12);
   // Sizes near the curve are those of its edges, smaller or larger.
   const PreparedProblem one =
-      prepare_case(read(model + "divide = { name = \"bottom\", edges = 8, progression = 1.5 }\n"));
+      prepare_case(read(model + "divide = { name = 'bottom', edges = 8, progression = 1.5 }\n"));
   EXPECT_GT(size_at(one, 1.9, 0), 0.8 * (bottom[8] - bottom[7]));
   EXPECT_NEAR(size_at(one, 0, 0), bottom[1] - bottom[0], 1e-9);
   EXPECT_EQ(size_at(one, 1, 0.9), 0.1);
@@ -129,16 +120,16 @@ TEST_F(Cases, CurvesAreDivided) {
 
 TEST_F(Cases, GridsWithCorners) {
   const std::string model =
-      "loop = [{ polygon = [[0, 0], [1, -0.2], [2, 0], [2, 1], [0, 1]], region = \"house\" },\n"
-      "        { rectangle = [[3, 0], [4, 1]], region = \"hall\" }]\n"
-      "embed = { point = [2, 1], name = \"tip\" }\nsize = 0.2\n";
+      "loop = [{ polygon = [[0, 0], [1, -0.2], [2, 0], [2, 1], [0, 1]], region = 'house' },\n"
+      "        { rectangle = [[3, 0], [4, 1]], region = 'hall' }]\n"
+      "embed = { point = [2, 1], name = 'tip' }\nsize = 0.2\n";
   const auto grids = [&](const std::string& mapped) {
     int n = 0;
     for (const PreparedPatch& patch : prepare_case(read(model + "mapped = " + mapped + "\n")).patches)
       n += patch.grid.has_value();
     return n;
   };
-  const std::string house = "{ name = \"house\", corners = [[0, 0], [2, 0], \"tip\", [0, 1]] }";
+  const std::string house = "{ name = 'house', corners = [[0, 0], [2, 0], 'tip', [0, 1]] }";
   EXPECT_EQ(grids(house), 1);
   EXPECT_EQ(grids("[\"hall\", " + house + "]"), 2);
   EXPECT_EQ(grids("\"auto\""), 2);
@@ -147,11 +138,11 @@ TEST_F(Cases, GridsWithCorners) {
 TEST_F(Cases, DividedCurvesHaveCornersAndOthersAcross) {
   // Corners of a polyline and an interface that ends on it are nodes; the numbers of edges are kept.
   const PreparedProblem p =
-      prepare_case(read("curve = [{ name = \"wall\", polyline = [[0, 0], [1, 0.2], [2, 0]] },\n"
-                        "         { name = \"rest\", polyline = [[2, 0], [2, 1], [0, 1], [0, 0]] }]\n"
-                        "loop = { curves = [\"wall\", \"rest\"] }\n"
-                        "embed = { segment = [[1.5, 0.1], [1.5, 1]], name = \"stiffener\" }\nsize = 0.1\n"
-                        "divide = [{ name = \"wall\", edges = 11 }, { name = \"stiffener\", edges = 5 }]\n"));
+      prepare_case(read("curve = [{ name = 'wall', polyline = [[0, 0], [1, 0.2], [2, 0]] },\n"
+                        "         { name = 'rest', polyline = [[2, 0], [2, 1], [0, 1], [0, 0]] }]\n"
+                        "loop = { curves = ['wall', 'rest'] }\n"
+                        "embed = { segment = [[1.5, 0.1], [1.5, 1]], name = 'stiffener' }\nsize = 0.1\n"
+                        "divide = [{ name = 'wall', edges = 11 }, { name = 'stiffener', edges = 5 }]\n"));
   std::vector<int> edges(p.boundary.curves.size(), 0);
   for (const int c : p.boundary.line_curve) ++edges[c];
   EXPECT_EQ(edges[0], 11);
@@ -159,23 +150,23 @@ TEST_F(Cases, DividedCurvesHaveCornersAndOthersAcross) {
   expect_input_error(
       [&] {
         prepare_case(
-            read("curve = [{ name = \"wall\", polyline = [[0, 0], [1, 0.2], [2, 0], [0, 1]] },\n"
-                 "         { name = \"rest\", segment = [[0, 1], [0, 0]] }]\n"
-                 "loop = { curves = [\"wall\", \"rest\"] }\nsize = 0.1\n"
-                 "divide = { name = \"wall\", edges = 2 }\n"));
+            read("curve = [{ name = 'wall', polyline = [[0, 0], [1, 0.2], [2, 0], [0, 1]] },\n"
+                 "         { name = 'rest', segment = [[0, 1], [0, 0]] }]\n"
+                 "loop = { curves = ['wall', 'rest'] }\nsize = 0.1\n"
+                 "divide = { name = 'wall', edges = 2 }\n"));
       },
       {"3 pieces: expected at least 3"});
 }
 
 TEST_F(Cases, SourcesAndGradationShapeTheSize) {
-  const PreparedProblem p = prepare_case(
-      read(square_ + "[size]\nbase = 0.2\nsource = { at = [0, 0], to = [1, 0], near = 0.05, far = "
-                     "0.2, radius_near = 0.1, radius_far = 0.4 }\n"));
+  const PreparedProblem p =
+      prepare_case(read(square_ + "[size]\nbase = 0.2\nsource = { at = [0, 0], to = [1, 0], near = 0.05, far "
+                                  "= 0.2, radius_near = 0.1, radius_far = 0.4 }\n"));
   EXPECT_DOUBLE_EQ(size_at(p, 0.5, 0.05), 0.05);
   EXPECT_NEAR(size_at(p, 0.5, 0.25), 0.125, 1e-12);
   EXPECT_DOUBLE_EQ(size_at(p, 0.5, 0.9), 0.2);
 
-  const std::string step = square_ + "[size]\nbase = \"x < 0.5 ? 0.02 : 0.2\"\n";
+  const std::string step = square_ + "[size]\nbase = 'x < 0.5 ? 0.02 : 0.2'\n";
   EXPECT_DOUBLE_EQ(size_at(prepare_case(read(step)), 0.6, 0.5), 0.2);
   EXPECT_LT(size_at(prepare_case(read(step + "gradation = 0.2\n")), 0.6, 0.5), 0.07);
 }
@@ -195,7 +186,7 @@ TEST_F(Cases, AnalyticCrosses) {
   const PreparedProblem angle = prepare_case(read(square_ + "size = 0.1\ncross = 0.3\n"));
   EXPECT_NEAR(angle.patches[0].cross->at({0.5, 0.5}, hint).angle(), 0.3, 1e-12);
   const PreparedProblem gradient =
-      prepare_case(read(square_ + "size = \"0.1 + 0.01*x + 0.02*y\"\ncross = \"gradient\"\n"));
+      prepare_case(read(square_ + "size = '0.1 + 0.01*x + 0.02*y'\ncross = 'gradient'\n"));
   hint = -1;
   EXPECT_NEAR(gradient.patches[0].cross->at({0.5, 0.5}, hint).angle(),
               std::atan2(0.02, 0.01) - std::acos(0.0), 1e-6);
@@ -203,7 +194,7 @@ TEST_F(Cases, AnalyticCrosses) {
 
 TEST_F(Cases, SizeAwareCrossesSaveDislocations) {
   const std::string lewis = "loop = { rectangle = [[-1.25, -0.5], [1.25, 1.25]] }\n";
-  const Case c = read(lewis + "size = \"0.01*(1 + 30*(x - y^2)^2 + (1 - x)^2)\"\ncross = \"size-aware\"\n");
+  const Case c = read(lewis + "size = '0.01*(1 + 30*(x - y^2)^2 + (1 - x)^2)'\ncross = 'size-aware'\n");
   const PreparedProblem p = prepare_case(c);
   ASSERT_TRUE(p.crosses.dislocations);
   EXPECT_LT(p.crosses.dislocations->second, 0.6 * p.crosses.dislocations->first);
@@ -227,7 +218,7 @@ TEST_F(Cases, RowsEndWhereCirclesDiffer) {
   const double ends = expected_row_ends(prepare_case(read(ring + "size = 0.025\n")));
   EXPECT_NEAR(ends, 2 * std::numbers::pi * 0.6 / 0.025, 30);
   EXPECT_NEAR(expected_row_ends(prepare_case(read(square_ + "size = 0.025\n"))), 0, 1e-6);
-  const PreparedProblem aware = prepare_case(read(ring + "size = 0.025\ncross = \"size-aware\"\n"));
+  const PreparedProblem aware = prepare_case(read(ring + "size = 0.025\ncross = 'size-aware'\n"));
   EXPECT_EQ(expected_row_ends(aware), ends);
 }
 
@@ -245,12 +236,11 @@ TEST_F(Cases, SizeAwareCrossesScaleWithTheSize) {
 
 TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
   // Two patches: a square and the square inside it.
-  const std::string text =
-      square_ +
-      "pattern = { polygon = [[0.4, 0.3], [0.7, 0.4], [0.6, 0.7], [0.3, 0.6]], region = \"in\", "
-      "count = [1, 1], step = [0, 0] }\nsize = 0.05\n";
+  const std::string text = square_ +
+                           "pattern = { polygon = [[0.4, 0.3], [0.7, 0.4], [0.6, 0.7], [0.3, 0.6]], region = "
+                           "'in', count = [1, 1], step = [0, 0] }\nsize = 0.05\n";
   const PreparedProblem aligned = prepare_case(read(text)),
-                        aware = prepare_case(read(text + "cross = \"size-aware\"\n"));
+                        aware = prepare_case(read(text + "cross = 'size-aware'\n"));
   ASSERT_EQ(aware.patches.size(), 2u);
   EXPECT_EQ(aware.crosses.index_sum_and_expected, aligned.crosses.index_sum_and_expected);
   EXPECT_EQ(aware.crosses.dislocations->first, aware.crosses.dislocations->second);
@@ -267,7 +257,7 @@ TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
 TEST_F(Cases, OptionsReachTheStages) {
   const Case c = read(square_ +
                       "size = 0.1\ninsertion = { h_max = 1.2, rejection = 0.6 }\n"
-                      "recombination = { treatment = \"none\" }\n");
+                      "recombination = { treatment = 'none' }\n");
   const FrontalOptions insertion = insertion_options(c.options);
   EXPECT_EQ(insertion.h_max, 1.2);
   EXPECT_EQ(insertion.rejection, 0.6);
@@ -322,11 +312,11 @@ TEST_F(Cases, MostPointsFollowMostElements) {
 TEST_F(Cases, PatchesShareTheirInterface) {
   const Case c = read(
       "size = 0.1\n[[loop]]\nrectangle = [[0, 0], [1, 1]]\n"
-      "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.25 }\nregion = \"inside\"\n"
+      "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.25 }\nregion = 'inside'\n"
       "[[loop]]\nrectangle = [[2, 0], [3, 1]]\n");
   for (const char* word : {"F", "D", "FB", "DB"}) {
     const MeshResult result = run_word(prepare_case(c), parse_word(word));
-    EXPECT_EQ(check_invariants(result.mesh), std::vector<std::string>{}) << word;
+    EXPECT_EQ(check_invariants(result.mesh), Strings{}) << word;
     EXPECT_EQ(result.mesh.regions.size(), 3u);
   }
 }

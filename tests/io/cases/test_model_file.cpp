@@ -1,8 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "io/cases/case_file.h"
 #include "io/cases/model_file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
@@ -10,17 +8,16 @@ namespace {
 class ModelFiles : public testing::Test {
  protected:
   PlanarModel read(const std::string& text) {
-    const TomlTable table = TomlTable::read(testing_support::write_text(folder_ / "m.toml", text));
+    const TomlTable table = TomlTable::read(write_text(folder_ / "m.toml", text));
     PlanarModel model = read_planar_model(table);
     table.finish();
     return model;
   }
-  testing_support::TemporaryFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(ModelFiles, RectangleRunsRoundFromItsLowerLeftCorner) {
-  const PlanarModel model =
-      read("loop = { rectangle = [[2, 3], [0, 1]], boundary = [\"b\", \"r\", \"t\", \"l\"] }");
+  const PlanarModel model = read("loop = { rectangle = [[2, 3], [0, 1]], boundary = ['b', 'r', 't', 'l'] }");
   ASSERT_EQ(model.curves.size(), 4u);
   const Vec2 corners[] = {{0, 1}, {2, 1}, {2, 3}, {0, 3}};
   const char* names[] = {"b", "r", "t", "l"};
@@ -34,12 +31,12 @@ TEST_F(ModelFiles, RectangleRunsRoundFromItsLowerLeftCorner) {
 
 TEST_F(ModelFiles, CurvesOfEveryKind) {
   const PlanarModel model = read(
-      "[[curve]]\nname = \"s\"\nsegment = [[0, 0], [1, 0]]\n"
-      "[[curve]]\nname = \"a\"\nboundary = \"round\"\narc = { centre = [1, 1], radius = 1, from = -90, "
-      "to = 90 }\n"
-      "[[curve]]\nname = \"p\"\npolyline = [[1, 2], [0.5, 2.5], [0, 2]]\n"
-      "[[curve]]\nname = \"e\"\nexpression = { x = 0, y = \"2*(1 - t)\", from = 0, to = 1 }\n"
-      "[[loop]]\ncurves = [\"s\", \"a\", \"p\", \"e\"]\nregion = \"inside\"\n");
+      "[[curve]]\nname = 's'\nsegment = [[0, 0], [1, 0]]\n"
+      "[[curve]]\nname = 'a'\nboundary = 'round'\narc = { centre = [1, 1], radius = 1, from = -90, to = 90 "
+      "}\n"
+      "[[curve]]\nname = 'p'\npolyline = [[1, 2], [0.5, 2.5], [0, 2]]\n"
+      "[[curve]]\nname = 'e'\nexpression = { x = 0, y = '2*(1 - t)', from = 0, to = 1 }\n"
+      "[[loop]]\ncurves = ['s', 'a', 'p', 'e']\nregion = 'inside'\n");
   ASSERT_EQ(model.curves.size(), 4u);
   EXPECT_EQ(model.curves[1].name, "round");
   const Vec2 east = model.curves[1].shape->point(0.5);
@@ -65,13 +62,13 @@ TEST_F(ModelFiles, PatternRepeatsItsShape) {
 
 TEST_F(ModelFiles, LinesEmbeddedInSurfaces) {
   const auto read_surface = [&](const std::string& text) {
-    testing_support::write_text(folder_ / "s.toml", text);
+    write_text(folder_ / "s.toml", text);
     return read_model_case(folder_ / "s.toml");
   };
-  const std::string sphere = "example = \"sphere\"\n";
+  const std::string sphere = "example = 'sphere'\n";
   const Case c = read_surface(sphere +
-                              "embed = [{ polyline = [[10, 0, 0], [0, 10, 0]], name = \"way\" },\n"
-                              "         { point = [0, 0, 10] }]\n[surface]\ncompound = \"all\"\n");
+                              "embed = [{ polyline = [[10, 0, 0], [0, 10, 0]], name = 'way' },\n"
+                              "         { point = [0, 0, 10] }]\n[surface]\ncompound = 'all'\n");
   ASSERT_EQ(c.surface.embed.size(), 2u);
   EXPECT_EQ(c.surface.embed[0].points, (std::vector<Vec3>{{10, 0, 0}, {0, 10, 0}}));
   EXPECT_EQ(c.surface.embed[0].name, "way");
@@ -82,8 +79,7 @@ TEST_F(ModelFiles, LinesEmbeddedInSurfaces) {
 TEST_F(ModelFiles, EmbeddedCurvesAndPoints) {
   const PlanarModel model = read(
       "loop = { rectangle = [[0, 0], [2, 2]] }\n"
-      "embed = [{ segment = [[0, 1], [1, 1]], name = \"fault\" }, { point = [1.5, 0.5], name = \"sensor\" "
-      "},\n"
+      "embed = [{ segment = [[0, 1], [1, 1]], name = 'fault' }, { point = [1.5, 0.5], name = 'sensor' },\n"
       "         { arc = { centre = [1, 1], radius = 0.5, from = 0, to = 90 }, crack = true }]\n");
   ASSERT_EQ(model.curves.size(), 6u);
   EXPECT_EQ(model.curves[4].name, "fault");

@@ -1,17 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <fstream>
-#include <random>
-#include <sstream>
-
-#include "delquad/error.h"
 #include "io/cases/case_file.h"
-#include "io/mesh_io.h"
 #include "mesher/runner.h"
 #include "patches/prepared.h"
+#include "tests/support/files.h"
 #include "tests/support/prepare_case.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
@@ -118,7 +109,7 @@ std::vector<Format> formats() {
                              {"off", ".off", off_text(can)},
                              {"msh22", ".msh", msh22_text(box)}};
   for (const std::string extension : {".obj", ".msh"}) {
-    const testing_support::TemporaryFolder folder;
+    const Folder folder;
     write_mesh(folder / ("model" + extension), box);
     std::ifstream in(folder / ("model" + extension), std::ios::binary);
     std::stringstream text;
@@ -131,8 +122,8 @@ std::vector<Format> formats() {
 class ModelFuzz : public ::testing::TestWithParam<Format> {};
 
 TEST_P(ModelFuzz, DamagedFilesAreMeshedOrRefused) {
-  const testing_support::TemporaryFolder folder;
-  const std::filesystem::path file = folder / ("case" + GetParam().extension);
+  const Folder folder;
+  const fs::path file = folder / ("case" + GetParam().extension);
   int refused = 0, meshed = 0;
   for (int trial = 0; trial < trials(); ++trial) {
     std::mt19937 random(static_cast<unsigned>(trial));
@@ -147,7 +138,7 @@ TEST_P(ModelFuzz, DamagedFilesAreMeshedOrRefused) {
       ++meshed;
     } catch (const InputError& error) {
       ++refused;
-      EXPECT_NE(std::string(error.what()).find("case"), std::string::npos) << error.what();
+      EXPECT_TRUE(holds(error.what(), "case"));
     } catch (const std::exception& error) {
       ADD_FAILURE() << "trial " << trial << ": " << error.what();
     }

@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <limits>
-#include <stdexcept>
-
 #include "base/option_table.h"
 #include "io/cases/case_keys.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {

@@ -1,19 +1,11 @@
-#include "io/cases/outline_files.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "delquad/mesher.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/cases/case_file.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "io/cases/outline_files.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::write_text;
 
 class OutlineFiles : public testing::Test {
  protected:
@@ -25,15 +17,15 @@ class OutlineFiles : public testing::Test {
     return read_geojson(write_text(folder_ / "a.geojson",
                                    R"({"type": "FeatureCollection", "features": [)" + features + "]}"));
   }
-  testing_support::TemporaryFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(OutlineFiles, PolygonsWithHolesLinesAndPoints) {
-  const PlanarModel model = read(
-      feature("MultiPolygon",
-              "[[[[0, 0], [1000, 0], [1000, 0], [1000, 1000], [0, 0]], [[500, 200], [600, 300], [600, 200], "
-              "[500, 200]]]]") +
-      "," + feature("LineString", "[[700, 100], [800, 200]]") + "," + feature("Point", "[900, 300]"));
+  const PlanarModel model =
+      read(feature("MultiPolygon",
+                   "[[[[0, 0], [1000, 0], [1000, 0], [1000, 1000], [0, 0]], [[500, 200], [600, 300], [600, "
+                   "200], [500, 200]]]]") +
+           "," + feature("LineString", "[[700, 100], [800, 200]]") + "," + feature("Point", "[900, 300]"));
   ASSERT_EQ(model.curves.size(), 3u);
   EXPECT_EQ(model.curves[0].shape->fixed_parameters().size(), 2u);
   EXPECT_EQ(model.curves[0].name, "lake_outline");
@@ -65,7 +57,7 @@ TEST_F(OutlineFiles, LinesThatJoinAtTheirEndsArePolygons) {
   problem.size.field = make_constant_size(80);
   const Mesh made = mesh(problem, "DB").mesh;
   EXPECT_EQ(made.regions.size(), 1u);
-  EXPECT_EQ(made.curves[0].names, std::vector<std::string>{"sea"});
+  EXPECT_EQ(made.curves[0].names, Strings{"sea"});
   expect_input_error(
       [&] { read(line("sea", "[[0, 0], [900, 0]]") + "," + line("east", "[[900, 9], [0, 9]]")); },
       {"no lines join to one", "curve 'sea'", "ends at (0, 0)", "curve 'east'", "9 from there"});
@@ -82,9 +74,9 @@ TEST_F(OutlineFiles, PropertiesSayBarriersAndBoundaries) {
            line(R"("name": "land", "barrier": "fence")", "[[900, 900], [0, 900], [0, 0]]") + "," +
            line(R"("name": "dam", "barrier": true, "weir": 2.5)", "[[300, 300], [600, 300]]") + "," +
            line(R"("crack": true, "boundary": "administrative")", "[[300, 600], [600, 600]]"));
-  std::vector<std::string> names;
+  Strings names;
   for (const ModelCurve& curve : model.curves) names.push_back(curve.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"sea_open", "open", "land", "dam_weir_2.5", "barrier"}));
+  EXPECT_EQ(names, (Strings{"sea_open", "open", "land", "dam_weir_2.5", "barrier"}));
   EXPECT_EQ(model.loops.size(), 1u);
   EXPECT_EQ(model.loops[0].curves, (std::vector<int>{0, 1, 2}));
   EXPECT_TRUE(model.curves[3].is_crack && model.curves[4].is_crack && !model.curves[2].is_crack);
@@ -93,7 +85,7 @@ TEST_F(OutlineFiles, PropertiesSayBarriersAndBoundaries) {
        {std::pair(0, "feature 1: the property 'barier' is true; did you mean 'barrier'?"),
         {1, "feature 3: the property 'barrier' is \"fence\": expected true or false"},
         {2, "'boundary' is \"administrative\": expected open or land"}})
-    EXPECT_NE(model.notes[static_cast<std::size_t>(note)].find(part), std::string::npos) << model.notes[0];
+    EXPECT_TRUE(holds(model.notes[static_cast<std::size_t>(note)], part)) << model.notes[0];
 }
 
 TEST_F(OutlineFiles, OutlinesThatNearlyTouchAreJoined) {
@@ -114,7 +106,7 @@ TEST_F(OutlineFiles, OutlinesThatNearlyTouchAreJoined) {
   EXPECT_TRUE(made.soundness.sound());
   EXPECT_EQ(made.mesh.regions.size(), 2u);
   EXPECT_EQ(made.surface, std::nullopt);
-  EXPECT_NE(made.warnings[0].text.find("outlines that nearly touch were joined"), std::string::npos);
+  EXPECT_TRUE(holds(made.warnings[0].text, "outlines that nearly touch were joined"));
   double area = 0;
   for (const auto& quad : made.mesh.quads)
     area += 0.5 * norm(cross(made.mesh.points[quad[2]] - made.mesh.points[quad[0]],
@@ -155,7 +147,7 @@ TEST_F(OutlineFiles, AirfoilsInBothOrders) {
   EXPECT_EQ(read_points(selig), points);
   EXPECT_EQ(read_points(lednicer), points);
   write_text(folder_ / "wing.toml",
-             "curve = { name = \"wing\", spline = \"s.dat\" }\nloop = { curves = [\"wing\"] }\nsize = 0.1\n");
+             "curve = { name = 'wing', spline = 's.dat' }\nloop = { curves = ['wing'] }\nsize = 0.1\n");
   const Case c = read_model_case(folder_ / "wing.toml");
   EXPECT_EQ(std::get<PlanarModel>(c.model).curves[0].shape->point(0), points[0]);
 }
@@ -183,11 +175,8 @@ TEST_F(DxfFiles, ArcsAndSplinesStayWhatTheyAre) {
   // spline.
   const PlanarModel model = read(
       "0 LWPOLYLINE 8 rim 90 5 70 1 10 0 20 0 10 10 20 0 10 10 20 8 42 0.41421356237309503 10 8 20 10 10 0 "
-      "20 10 "
-      "0 CIRCLE 8 0 10 5 20 5 40 1 "
-      "0 SPLINE 8 vane 71 2 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 0.70710678118654752 41 1 "
-      "10 3 20 2 10 3 20 3 10 2 20 3 "
-      "0 POINT 8 probe 10 1 20 1");
+      "20 10 0 CIRCLE 8 0 10 5 20 5 40 1 0 SPLINE 8 vane 71 2 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 "
+      "0.70710678118654752 41 1 10 3 20 2 10 3 20 3 10 2 20 3 0 POINT 8 probe 10 1 20 1");
   ASSERT_EQ(model.loops.size(), 2u);
   ASSERT_EQ(model.curves.size(), 5u);
   EXPECT_EQ(model.loops[0].curves, (std::vector<int>{0, 1, 2}));
@@ -220,11 +209,10 @@ TEST_F(DxfFiles, BlocksStandWhereTheyAreInserted) {
   const PlanarModel model = std::get<PlanarModel>(
       read_model("0 SECTION 2 BLOCKS 0 BLOCK 8 0 2 half 10 5 20 5 " + line(5, 25, 5, 5) +
                  "0 LINE 8 0 10 5 20 5 11 25 21 5 " +
-                 "0 ENDBLK 8 0 0 BLOCK 8 0 2 hole 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 1 0 ENDBLK "
-                 "0 BLOCK 8 0 2 holes 10 0 20 0 0 INSERT 8 rim 2 hole 10 4 20 0 41 -1 70 2 44 4 0 ENDBLK 0 "
-                 "BLOCK 2 unused "
-                 "0 CIRCLE 40 -1 0 ENDBLK 0 ENDSEC 0 SECTION 2 ENTITIES 0 INSERT 8 foot 2 half 10 0 20 0 "
-                 "0 INSERT 8 0 2 half 10 20 20 20 50 180 0 INSERT 8 0 2 holes 10 10 20 3 50 90"));
+                 "0 ENDBLK 8 0 0 BLOCK 8 0 2 hole 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 1 0 ENDBLK 0 BLOCK 8 0 "
+                 "2 holes 10 0 20 0 0 INSERT 8 rim 2 hole 10 4 20 0 41 -1 70 2 44 4 0 ENDBLK 0 BLOCK 2 "
+                 "unused 0 CIRCLE 40 -1 0 ENDBLK 0 ENDSEC 0 SECTION 2 ENTITIES 0 INSERT 8 foot 2 half 10 0 "
+                 "20 0 0 INSERT 8 0 2 half 10 20 20 20 50 180 0 INSERT 8 0 2 holes 10 10 20 3 50 90"));
   ASSERT_EQ(model.loops.size(), 3u);
   EXPECT_EQ(model.loops[0].curves, (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(model.curves[0].name, "wall");
@@ -252,7 +240,7 @@ TEST_F(DxfFiles, ThreeDimensionalFacesAreASurface) {
   EXPECT_EQ(model.mesh.quads.size(), 1u);
   EXPECT_EQ(model.mesh.triangles.size(), 1u);
   EXPECT_EQ(model.mesh.points[2], (Vec3{4, 3, 2}));
-  EXPECT_EQ(model.mesh.regions[0].names, std::vector<std::string>{"roof"});
+  EXPECT_EQ(model.mesh.regions[0].names, Strings{"roof"});
 }
 
 TEST_F(DxfFiles, TheOuterOutlineCountsWhereThreeCurvesMeet) {
@@ -272,7 +260,7 @@ TEST_F(DxfFiles, TheOuterOutlineCountsWhereThreeCurvesMeet) {
   const PlanarModel twice = read(square + line(10, 10, 10, 0) + line(10, 0, 10, 10));
   ASSERT_EQ(twice.loops.size(), 1u);
   EXPECT_EQ(twice.loops[0].curves, model.loops[0].curves);
-  EXPECT_NE(apart.notes.at(0).find("1 curve or point outside of all outlines"), std::string::npos);
+  EXPECT_TRUE(holds(apart.notes.at(0), "1 curve or point outside of all outlines"));
 }
 
 TEST_F(DxfFiles, MistakesAreLocated) {

@@ -1,19 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <map>
-
 #include "io/cases/read_record.h"
 #include "io/digest.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/run_program.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-namespace fs = std::filesystem;
-using testing_support::TemporaryFolder;
-using testing_support::write_text;
 
 /// Before other tests add some.
 const std::vector<OptionGroup> kOptionGroups = option_groups();
@@ -187,7 +177,7 @@ const std::vector<Model> kModels = {PlanarModel(), LineModel(),    TriangleModel
                                     CadModel(),    ExampleModel(), ModelFile()};
 
 TEST(ProblemRecord, EveryFieldThatCountsIsInTheDigest) {
-  const TemporaryFolder folder;
+  const Folder folder;
   int parts = 0, ignored = 0, functions = 0;
   ASSERT_EQ(kModels.size(), std::variant_size_v<Model>);
   const auto change_all = [&](const Model& model, const auto& of) {
@@ -250,7 +240,7 @@ TEST(ProblemRecord, CurvesAreReadAsTheyWere) {
 
 /// Where a file lies, what it is called and how a number is spelled change nothing.
 TEST(ProblemRecord, PlacesAndSpellingsDoNotCount) {
-  const TemporaryFolder folder;
+  const Folder folder;
   Case c, moved;
   c.model = ModelFile{write_text(folder / "a.stl", "content")};
   fs::create_directories(folder / "other");
@@ -265,7 +255,7 @@ TEST(ProblemRecord, PlacesAndSpellingsDoNotCount) {
 
 /// A size counts by the content of its file, and the part of it that is read.
 TEST(ProblemRecord, FilesOfSizesCountByContent) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto digest_with = [&](const std::string& content, const std::string& text) {
     Case c;
     write_text(folder / "size.msh", content);
@@ -307,7 +297,7 @@ TEST(ProblemRecord, GivenKeysAreThoseThatDifferFromDefaults) {
   surface.where = "a.toml:1";
   surface.glue = true;
   surface.weld_tolerance = 1e-6;
-  EXPECT_EQ(given_keys(surface), (std::vector<std::string>{"weld_tolerance", "glue"}));
+  EXPECT_EQ(given_keys(surface), (Strings{"weld_tolerance", "glue"}));
   EXPECT_FALSE(are_same(surface, SurfaceSpec()));
 }
 

@@ -1,17 +1,12 @@
-#include <gtest/gtest.h>
-
 #include "io/cases/case_file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
 
-using testing_support::TemporaryFolder;
-using testing_support::write_text;
-
 SurfaceSpec read(const std::string& keys) {
-  const TemporaryFolder folder;
-  const auto file = write_text(folder / "m.toml", "model = \"part.step\"\n[surface]\n" + keys);
+  const Folder folder;
+  const auto file = write_text(folder / "m.toml", "model = 'part.step'\n[surface]\n" + keys);
   return read_model_case(file).surface;
 }
 
@@ -38,9 +33,9 @@ TEST(SurfaceSpecs, AreReadWhole) {
 }
 
 TEST(SurfaceSpecs, HolesAndFilletsHaveRanges) {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto with = [&](const std::string& keys) {
-    return read_model_case(write_text(folder / "m.toml", "model = \"part.step\"\n" + keys));
+    return read_model_case(write_text(folder / "m.toml", "model = 'part.step'\n" + keys));
   };
   const Case c = with(
       "washers = [{ diameter = [5, 12], rows = 2, edges = 16, width = 4 }, { diameter = [12, 20] }]\n"

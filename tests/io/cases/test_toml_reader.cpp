@@ -1,23 +1,18 @@
-#include <gtest/gtest.h>
-
 #include "io/cases/toml_reader.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
 
 class TomlReader : public testing::Test {
  protected:
-  TomlTable read(const std::string& text) {
-    return TomlTable::read(testing_support::write_text(folder_ / "in.toml", text));
-  }
-  testing_support::TemporaryFolder folder_;
+  TomlTable read(const std::string& text) { return TomlTable::read(write_text(folder_ / "in.toml", text)); }
+  Folder folder_;
 };
 
 TEST_F(TomlReader, GivesTypedValues) {
   const TomlTable table = read(
-      "n = 3\nx = 2.5\nt = \"text\"\nf = true\np = [1, 2.5]\nps = [[0, 1], [2, 3]]\nl = [\"a\", \"b\"]\n"
+      "n = 3\nx = 2.5\nt = 'text'\nf = true\np = [1, 2.5]\nps = [[0, 1], [2, 3]]\nl = ['a', 'b']\n"
       "[sub]\ny = 1\n[[many]]\nk = 1\n[[many]]\nk = 2\n");
   EXPECT_EQ(table.integer("n"), 3);
   EXPECT_EQ(table.number("n"), 3);
@@ -27,7 +22,7 @@ TEST_F(TomlReader, GivesTypedValues) {
   EXPECT_TRUE(table.flag("f", false));
   EXPECT_EQ(table.get<Vec2>("p"), (Vec2{1, 2.5}));
   EXPECT_EQ(table.get<std::vector<Vec2>>("ps"), (std::vector<Vec2>{{0, 1}, {2, 3}}));
-  EXPECT_EQ(table.texts("l"), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(table.texts("l"), (Strings{"a", "b"}));
   EXPECT_EQ(table.table("sub").number("y"), 1);
   EXPECT_FALSE(table.optional_table("absent"));
   ASSERT_EQ(table.tables("many").size(), 2u);
@@ -72,7 +67,7 @@ TEST(NearestName, CountsSwapsAsOne) {
   EXPECT_EQ(nearest_name("qqqqqqqq", {"region", "boundary"}), std::nullopt);
   EXPECT_EQ(nearest_name("x", {}), std::nullopt);
   EXPECT_EQ(suggestion("szie", {"cross", "size"}), "; did you mean 'size'?");
-  const std::vector<std::string> entities{"curve_1", "curve_10", "region_10"};
+  const Strings entities{"curve_1", "curve_10", "region_10"};
   EXPECT_EQ(suggestion("face_10", entities), "; did you mean 'region_10'?");
   EXPECT_EQ(suggestion("edge_10", entities), "; did you mean 'curve_10'?");
   EXPECT_EQ(suggestion("1", entities), "; did you mean 'curve_1'?");

@@ -1,26 +1,13 @@
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <sstream>
 
 #include "io/cases/case_file.h"
 #include "io/cases/outline_files.h"
 #include "io/cases/read_problem.h"
 #include "io/gdal/gdal_files.h"
-#include "io/mesh_io.h"
 #include "tests/program/program.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::contains;
-using testing_support::write_text;
 
 constexpr int kUtm31 = 32631, kDegrees4326 = 4326;
 /// Corner of the domain of the tests, metres of UTM.
@@ -37,30 +24,30 @@ std::string sea() {
 
 class GdalFiles : public testing::Test {
  protected:
-  static void run_gdal(std::vector<std::string> words) {
-    const auto result = testing_support::run_program("/usr/bin/env", {std::move(words), 0, {}});
+  static void run_gdal(Strings words) {
+    const auto result = run_program("/usr/bin/env", {std::move(words), 0, {}});
     EXPECT_EQ(result.exit_code, 0) << result.err;
   }
   static std::string system_of(int code) { return fmt::format("EPSG:{}", code); }
 
   /// Adds a layer of one feature.
-  std::filesystem::path write_layer(const std::string& name, const char* driver, const std::string& layer,
-                                    int code, const std::string& wkt) {
-    const std::filesystem::path path = folder_ / name;
+  fs::path write_layer(const std::string& name, const char* driver, const std::string& layer, int code,
+                       const std::string& wkt) {
+    const fs::path path = folder_ / name;
     const auto table = write_text(folder_ / "feature.csv", "WKT,Name\n\"" + wkt + "\",Nordsee\n");
-    std::vector<std::string> words = {"ogr2ogr", "-f", driver, "-nln", layer, "-select", "Name"};
-    if (std::filesystem::exists(path)) words.emplace_back("-update");
+    Strings words = {"ogr2ogr", "-f", driver, "-nln", layer, "-select", "Name"};
+    if (fs::exists(path)) words.emplace_back("-update");
     if (code > 0) words.insert(words.end(), {"-a_srs", system_of(code)});
     words.insert(words.end(), {path, table});
     run_gdal(words);
-    if (code == 0) std::filesystem::remove(std::filesystem::path(path).replace_extension("prj"));
+    if (code == 0) fs::remove(fs::path(path).replace_extension("prj"));
     return path;
   }
 
   /// Rows from the top.
-  std::filesystem::path write_tiff(const std::string& name, int code, std::array<double, 6> place,
-                                   int columns, std::vector<float> values) {
-    const std::filesystem::path path = folder_ / name;
+  fs::path write_tiff(const std::string& name, int code, std::array<double, 6> place, int columns,
+                      std::vector<float> values) {
+    const fs::path path = folder_ / name;
     const int rows = static_cast<int>(values.size()) / columns;
     const auto text = write_text(folder_ / "values.asc",
                                  fmt::format("ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ndx {}\ndy {}\n"
@@ -75,7 +62,7 @@ class GdalFiles : public testing::Test {
     return std::get<PlanarModel>(read_outlines(*outline_file_of(folder_ / name), crs_));
   }
 
-  testing_support::TemporaryFolder folder_;
+  Folder folder_;
   std::string crs_;
 };
 
@@ -89,7 +76,7 @@ TEST_F(GdalFiles, DepthsOfARasterGoIntoMeshesOfCoasts) {
         {"mesh", outline, "-o", folder_ / file, "--size", "2000", "--depth", dem.string() + depth});
   };
   ASSERT_EQ(write("a.gr3", ": -value").exit_code, 0);
-  std::istringstream in(testing_support::read_text(folder_ / "a.gr3"));
+  std::istringstream in(read_text(folder_ / "a.gr3"));
   std::string title;
   std::getline(in, title);
   std::size_t n_elements = 0, n_nodes = 0;
@@ -101,8 +88,8 @@ TEST_F(GdalFiles, DepthsOfARasterGoIntoMeshesOfCoasts) {
     EXPECT_NEAR(depth, std::clamp(5 + (x - kX - 5000) / 1000, 5., 16.), 1e-4);
   }
   EXPECT_EQ(write("a.2dm", "").exit_code, 0);
-  EXPECT_TRUE(contains(write("a.msh", "").err, "no depths are written there"));
-  EXPECT_TRUE(contains(
+  EXPECT_TRUE(holds(write("a.msh", "").err, "no depths are written there"));
+  EXPECT_TRUE(holds(
       testing_support::delquad({"mesh", outline, "-o", folder_ / "a.gr3", "--size", "2000", "--depth", "10"})
           .err,
       "'10' is no raster"));
@@ -127,7 +114,7 @@ TEST_F(GdalFiles, AShapefileIsWhatItsGeoJsonIs) {
   EXPECT_EQ(model.loops[0].region, "Nordsee");
   EXPECT_TRUE(model.loops[1].is_hole && model.loops[2].is_hole);
   EXPECT_EQ(model.curves[2].name, "Nordsee_hole_2");
-  EXPECT_NE(model.curves[2].where.find("sea.shp: feature 1 ('Nordsee'), ring 3"), std::string::npos);
+  EXPECT_TRUE(holds(model.curves[2].where, "sea.shp: feature 1 ('Nordsee'), ring 3"));
   EXPECT_TRUE(model.curves[0].is_data);
   EXPECT_EQ(model.curves[0].shape->point(0), (Vec2{kX, kY}));
 }
@@ -159,7 +146,7 @@ TEST_F(GdalFiles, DegreesAreRefusedOrProjected) {
 
 TEST_F(GdalFiles, DamagedFilesAreRefused) {
   const auto path = write_layer("cut.shp", "ESRI Shapefile", "cut", kUtm31, sea());
-  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  fs::resize_file(path, fs::file_size(path) / 2);
   expect_input_error([&] { read("cut.shp"); }, {"cut.shp: GDAL: "});
   write_text(folder_ / "text.gpkg", "no such file");
   expect_input_error([&] { read("text.gpkg"); }, {"text.gpkg: GDAL"});
@@ -168,12 +155,11 @@ TEST_F(GdalFiles, DamagedFilesAreRefused) {
 
 TEST_F(GdalFiles, WithoutItsProgramsAnErrorNamesThem) {
   const auto shape = write_text(folder_ / "coast.shp", "");
-  const auto result = testing_support::run_program(
+  const auto result = run_program(
       "/usr/bin/env",
       {{"PATH=/nowhere", DELQUAD_PROGRAM, "mesh", shape, "--size", "1", "-o", folder_ / "a.msh"}, 0, {}});
   EXPECT_NE(result.exit_code, 0);
-  for (const char* part : {"coast.shp", "ogrinfo", "install them (Debian: gdal-bin)"})
-    EXPECT_TRUE(contains(result.err, part)) << result.err;
+  EXPECT_TRUE(holds(result.err, "coast.shp", "ogrinfo", "install them (Debian: gdal-bin)"));
 }
 
 TEST_F(GdalFiles, RastersAreBilinearBetweenTheMiddlesOfCells) {
@@ -233,13 +219,13 @@ TEST_F(GdalFiles, ASeaWithIslandsAndDepthsBecomesAUgridFile) {
   EXPECT_GT(west, 2 * east);
   const auto links = testing_support::delquad({"metrics", folder_ / "sea.nc", "--links"});
   EXPECT_EQ(links.exit_code, 0) << links.err;
-  EXPECT_TRUE(contains(links.out, "links of flow"));
+  EXPECT_TRUE(holds(links.out, "links of flow"));
 
   write_tiff("depth.tif", kUtm31, {kX + 1e3, 1e4, 0, kY + 1e4, 0, -1e4}, 2, {1, 100});
-  EXPECT_TRUE(contains(mesh_of("value").err, "the raster does not cover (500"));
+  EXPECT_TRUE(holds(mesh_of("value").err, "the raster does not cover (500"));
   write_tiff("depth.tif", kUtm31, {kX, 5e3, 0, kY + 1e4, 0, -1e4}, 2, {-9999, -9999});
-  EXPECT_TRUE(contains(mesh_of("value").err, "the raster has no data around (50"));
-  EXPECT_TRUE(contains(mesh_of("depth").err, "'depth' is not known (the variables are: x, y, z, value)"));
+  EXPECT_TRUE(holds(mesh_of("value").err, "the raster has no data around (50"));
+  EXPECT_TRUE(holds(mesh_of("depth").err, "'depth' is not known (the variables are: x, y, z, value)"));
 }
 
 }  // namespace

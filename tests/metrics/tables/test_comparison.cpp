@@ -1,18 +1,8 @@
 #include "metrics/tables/comparison.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-
-#include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::TemporaryFolder;
-using testing_support::write_text;
 
 CellRecord cell(const std::string& word, double eta, double seconds = 1) {
   return {"plate", word, "", {{"eta_mean", eta}, {"d_max", 5}, {"seconds", seconds}}};
@@ -28,9 +18,8 @@ TEST(Compare, JudgesByDirectionAndTolerance) {
   EXPECT_EQ(c.changes[2].verdict, Verdict::kUnchanged) << "half a percent";
   EXPECT_EQ(c.changes[3].verdict, Verdict::kNotProven) << "the time of single runs";
   EXPECT_TRUE(c.regressed());
-  EXPECT_NE(to_text(c).find("changed    plate FB: eta_mean 0.8 -> 0.7  (worse; one run)"), std::string::npos)
-      << to_text(c);
-  EXPECT_EQ(to_text(c).find("regressed  "), std::string::npos) << to_text(c);
+  EXPECT_TRUE(holds(to_text(c), "changed    plate FB: eta_mean 0.8 -> 0.7  (worse; one run)"));
+  EXPECT_FALSE(holds(to_text(c), "regressed  "));
   EXPECT_FALSE(compare_records({cell("D", 1, 1)}, {cell("D", 1, 9)}, {"seconds"}, 0.01).regressed());
   EXPECT_FALSE(compare_records(before, before, {"eta_mean", "seconds"}, 0).regressed());
 }
@@ -56,7 +45,7 @@ TEST(Compare, WhatIsSoInEveryRunIsAFact) {
   ASSERT_EQ(up.changes.size(), 1u) << "a row, not twelve cells";
   EXPECT_EQ(up.changes[0].verdict, Verdict::kBetter);
   EXPECT_EQ(up.changes[0].runs, 12u);
-  EXPECT_NE(to_text(up).find("(better; 12 runs)"), std::string::npos) << to_text(up);
+  EXPECT_TRUE(holds(to_text(up), "(better; 12 runs)"));
   const Comparison down = compare_records(better, before, {"eta_mean"}, 0.01);
   EXPECT_EQ(down.changes[0].verdict, Verdict::kWorse);
   EXPECT_TRUE(down.regressed());
@@ -78,7 +67,7 @@ TEST(Compare, DomainsProveChangesOfSingleRuns) {
   EXPECT_EQ(c.over_domains[0].verdict, Verdict::kRegressed);
   EXPECT_EQ(c.over_domains[0].pair.domains.names.size(), 12u);
   EXPECT_NEAR(mean(c.over_domains[0].pair.domains.differences), -0.1 + 0.002 * 5.5, 1e-12);
-  EXPECT_NE(to_text(c).find("regressed  DB over 12 domains: eta_mean -0.0"), std::string::npos) << to_text(c);
+  EXPECT_TRUE(holds(to_text(c), "regressed  DB over 12 domains: eta_mean -0.0"));
   const auto one = [&](int n) { return sweep(n, 1, [](int d, int) { return 0.5 + 0.01 * d; }); };
   EXPECT_TRUE(compare_records(one(5), one(5), {"eta_mean"}, 0.01).over_domains.empty());
 }
@@ -94,7 +83,7 @@ TEST(Compare, CellsThatFailLose) {
   }
   const Comparison c = compare_records(before, after, {"eta_mean"}, 0.01);
   EXPECT_EQ(c.over_domains[0].verdict, Verdict::kNotProven);
-  EXPECT_NE(to_text(c).find("(not proven; 6 runs; after failed on 6)"), std::string::npos) << to_text(c);
+  EXPECT_TRUE(holds(to_text(c), "(not proven; 6 runs; after failed on 6)"));
 }
 
 TEST(Compare, TellsWhatIsMissingFailedAndNew) {
@@ -103,12 +92,11 @@ TEST(Compare, TellsWhatIsMissingFailedAndNew) {
   broken.reason = "no size";
   const std::vector<CellRecord> before = {cell("D", 0.8), cell("F", 0.8)};
   const Comparison c = compare_records(before, {broken, cell("DB", 1)}, {"eta_mean"}, 0.01);
-  EXPECT_EQ(c.missing, std::vector<std::string>{"plate F"});
-  EXPECT_EQ(c.failed, std::vector<std::string>{"plate D: no size"});
-  EXPECT_EQ(c.added, std::vector<std::string>{"plate DB"});
+  EXPECT_EQ(c.missing, Strings{"plate F"});
+  EXPECT_EQ(c.failed, Strings{"plate D: no size"});
+  EXPECT_EQ(c.added, Strings{"plate DB"});
   EXPECT_TRUE(c.regressed());
-  EXPECT_EQ(compare_records({broken}, {cell("D", 1)}, {"eta_mean"}, 0.01).recovered,
-            std::vector<std::string>{"plate D"});
+  EXPECT_EQ(compare_records({broken}, {cell("D", 1)}, {"eta_mean"}, 0.01).recovered, Strings{"plate D"});
   EXPECT_FALSE(compare_records({broken}, {broken}, {"eta_mean"}, 0.01).regressed());
 }
 
@@ -124,10 +112,10 @@ TEST(Compare, RefusesMetricsWithoutADirection) {
 }
 
 TEST(ReadRecords, NameWhatIsNoRecord) {
-  const TemporaryFolder folder;
+  const Folder folder;
   expect_input_error([&] { read_records(folder / "nowhere"); }, {"nowhere"});
   expect_input_error([&] { read_records(folder / ""); }, {"no record.json"});
-  std::filesystem::create_directories(folder / "a" / "b");
+  fs::create_directories(folder / "a" / "b");
   const std::string good =
       R"({"record": 3, "case": "a", "pipeline": "D", "status": "ok", "metrics": {"tau": null, "d4": 90}, "meshing_seconds": 2})";
   write_text(folder / "a" / "record.json", good);

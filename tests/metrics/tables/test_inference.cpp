@@ -1,23 +1,15 @@
 #include "metrics/tables/inference.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <map>
-#include <random>
-
 #include "metrics/tables/tables.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
 
 /// A study made up: what each pipeline has on a domain, with a seed. No meshes.
 struct Shape {
-  std::vector<std::string> words;
+  Strings words;
   int domains, seeds;
-  std::vector<std::string> measures = {"eta_mean", "eta_worst", "d4", "tau"};
+  Strings measures = {"eta_mean", "eta_worst", "d4", "tau"};
   int copies = 1;  ///< cases of each domain, with its values
   bool has_ties = false;
   std::vector<Hypothesis> hypotheses = {};
@@ -182,22 +174,21 @@ TEST(Hypotheses, AreAllThatIsClaimed) {
   // The rest would be proven a hundred times over.
   EXPECT_EQ(claims_of(outcome.table) + claims_of(outcome.pairs), 0);
   for (const TableRow& row : outcome.pairs.rows) EXPECT_EQ(row.texts.at("first_is"), "exploratory");
-  EXPECT_NE(to_markdown(outcome.pairs).find("Exploratory: "), std::string::npos)
-      << to_markdown(outcome.pairs);
-  EXPECT_EQ(to_markdown(outcome.hypotheses).find("Not planned"), std::string::npos);
+  EXPECT_TRUE(holds(to_markdown(outcome.pairs), "Exploratory: "));
+  EXPECT_FALSE(holds(to_markdown(outcome.hypotheses), "Not planned"));
   results.study.plan_changed = true;
   const Outcome changed = make_tables(results);
-  EXPECT_NE(to_markdown(changed.hypotheses).find("Not planned"), std::string::npos);
+  EXPECT_TRUE(holds(to_markdown(changed.hypotheses), "Not planned"));
   EXPECT_EQ(claims_of(changed.hypotheses), 0);
   EXPECT_EQ(changed.hypotheses.rows[0].texts.at("first_is"), "exploratory");
-  EXPECT_NE(changed.files.at("tables.tex").find("\\textbf{Not planned: "), std::string::npos);
+  EXPECT_TRUE(holds(changed.files.at("tables.tex"), "\\textbf{Not planned: "));
   results.study.plan_changed = false;
   for (CellRecord& record : results.records) record.values["d4"] = 90;
   EXPECT_EQ(make_tables(results).hypotheses.rows[1].texts.at("first_is"), "no difference");
 }
 
 TEST(Hypotheses, CountWhateverCameOfThem) {
-  const auto table_of = [](int domains, std::vector<std::string> measures) {
+  const auto table_of = [](int domains, Strings measures) {
     return make_tables(
                make_study({{"A", "B"}, domains, 1, {"eta_mean"}, 1, false, {{"", "B", "A", measures}}},
                           [](int word, int domain, int) { return word + 0.1 * domain; }))
@@ -249,7 +240,7 @@ TEST(Inference, SeedsOfOneDomainAreNoSampleOfDomains) {
   EXPECT_EQ(row.values.at("runs"), 60);
   EXPECT_EQ(row.values.at("better"), 1) << "the second; first minus second is B - A";
   EXPECT_TRUE(row.bold.empty());
-  EXPECT_NE(to_markdown(outcome.pairs).find("fewer than 6 domains nothing can be proven"), std::string::npos);
+  EXPECT_TRUE(holds(to_markdown(outcome.pairs), "fewer than 6 domains nothing can be proven"));
 }
 
 TEST(Inference, PairsSayWhatIsProvenWithEffectAndInterval) {
@@ -360,14 +351,12 @@ TEST(Failures, ClaimsSayHowManyAndAreNeverBold) {
     const Table& table = is_planned ? outcome.hypotheses : outcome.pairs;
     const std::string failures = "A failed on 1, B failed on 2";
     EXPECT_EQ(table.rows.at(0).texts.at("first_is"), (is_planned ? "proven (" : "better (") + failures + ")");
-    EXPECT_NE(to_markdown(outcome.summary).find("B (" + failures + ")"), std::string::npos)
-        << to_markdown(outcome.summary);
+    EXPECT_TRUE(holds(to_markdown(outcome.summary), "B (" + failures + ")"));
     for (const Table* one : {&table, &outcome.summary})
       for (const TableRow& row : one->rows) EXPECT_TRUE(row.bold.empty()) << row.name;
     const std::string& tex = outcome.files.at("tables.tex");
-    EXPECT_EQ(tex.find("\\textbf"), std::string::npos) << tex;
-    EXPECT_NE(tex.find("B (A failed on 1, B failed on 2)"), std::string::npos) << tex;
-    EXPECT_NE(tex.find("1/2"), std::string::npos) << tex;
+    EXPECT_FALSE(holds(tex, "\\textbf"));
+    EXPECT_TRUE(holds(tex, "B (A failed on 1, B failed on 2)", "1/2"));
   }
 }
 
@@ -376,8 +365,8 @@ TEST(Failures, DomainsOnWhichBothFailAreLeftOutAndNamed) {
   EXPECT_EQ(outcome.pairs.rows.at(0).values.at("domains"), 10);
   EXPECT_EQ(outcome.pairs.rows[0].texts.at("first_is"), "better (B failed on 1)");
   const std::string note = "A and B both failed on domain2, domain4: left out";
-  EXPECT_NE(to_markdown(outcome.pairs).find(note), std::string::npos) << to_markdown(outcome.pairs);
-  EXPECT_NE(outcome.files.at("tables.tex").find(note), std::string::npos);
+  EXPECT_TRUE(holds(to_markdown(outcome.pairs), note));
+  EXPECT_TRUE(holds(outcome.files.at("tables.tex"), note));
 }
 
 /// A measure that the case has not, and a mesh that nobody made yet, are no failures.
@@ -432,8 +421,6 @@ TEST(Pairs, WordsThatLeaveTrianglesDoNotCompeteInMeasuresOfQuads) {
     EXPECT_FALSE(row.group.find('G') != row.group.npos && row.name == "eta mean") << row.group;
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
-
 TEST(Notes, SayThatFewDomainsProveNothing) {
   const auto pairs_of = [](int domains, int seeds) {
     return to_markdown(
@@ -443,10 +430,10 @@ TEST(Notes, SayThatFewDomainsProveNothing) {
   };
   const std::string few = "fewer than 6 domains nothing can be proven", seeds = pairs_of(2, 20),
                     cases = pairs_of(12, 1);
-  EXPECT_TRUE(says(seeds, few)) << seeds;
-  EXPECT_FALSE(says(seeds, "Holm")) << seeds;
-  EXPECT_TRUE(says(cases, "Corrected (Holm) over 1 test,")) << cases;
-  EXPECT_FALSE(says(cases, few)) << cases;
+  EXPECT_TRUE(holds(seeds, few));
+  EXPECT_FALSE(holds(seeds, "Holm"));
+  EXPECT_TRUE(holds(cases, "Corrected (Holm) over 1 test,"));
+  EXPECT_FALSE(holds(cases, few));
 }
 
 TEST(Notes, SayWhichWordLeavesTrianglesAndWhere) {
@@ -463,14 +450,13 @@ TEST(Notes, SayWhichWordLeavesTrianglesAndWhere) {
   const std::string h = "H leaves triangles in 1 of 11 cases (domain11): ";
   for (const auto print : {to_markdown, to_json}) {
     const std::string table = print(outcome.table), pairs = print(outcome.pairs);
-    EXPECT_TRUE(says(table, g + "measures of quads (eta, d4 and the like) leave these triangles out"))
-        << table;
-    EXPECT_TRUE(says(table, h + "measures of quads")) << table;
-    EXPECT_TRUE(says(pairs, g + "no pair with it is compared in measures of quads (eta, d4")) << pairs;
-    EXPECT_TRUE(says(pairs, h + "no pair with it")) << pairs;
-    EXPECT_TRUE(says(pairs, "H made no quads on one case (domain3): it failed there in pairs")) << pairs;
-    EXPECT_FALSE(says(pairs, "A made no quads")) << pairs;
-    EXPECT_FALSE(says(table, "A leaves")) << table;
+    EXPECT_TRUE(holds(table, g + "measures of quads (eta, d4 and the like) leave these triangles out",
+                      h + "measures of quads"));
+    EXPECT_TRUE(holds(pairs, g + "no pair with it is compared in measures of quads (eta, d4",
+                      h + "no pair with it",
+                      "H made no quads on one case (domain3): it failed there in pairs"));
+    EXPECT_FALSE(holds(pairs, "A made no quads"));
+    EXPECT_FALSE(holds(table, "A leaves"));
   }
 }
 
@@ -498,10 +484,7 @@ TEST(Rows, SayHowManyRunsTheyAreOfAndHowManyFailed) {
     if (record.pipeline == "B") record.reason = "neither";
   const Outcome outcome = make_tables(results);
   for (const std::string& text : {to_markdown(outcome.table), to_tex(outcome.table)}) {
-    EXPECT_NE(text.find("A (1 of 4 failed)"), std::string::npos) << text;
-    EXPECT_NE(text.find("failed"), std::string::npos) << text;
-    EXPECT_NE(text.find("neither"), std::string::npos) << text;
-    EXPECT_NE(text.find("no way"), std::string::npos) << text;
+    EXPECT_TRUE(holds(text, "A (1 of 4 failed)", "failed", "neither", "no way"));
   }
   EXPECT_EQ(outcome.table.rows[0].values.at(kRuns), 3);
   EXPECT_EQ(outcome.table.rows[1].values.at(kRuns), 0);

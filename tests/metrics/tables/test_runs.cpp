@@ -1,15 +1,7 @@
 #include "metrics/tables/runs.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "metrics/tables/summary.h"
 #include "metrics/tables/tables.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
@@ -37,8 +29,8 @@ StudyResults study_of(int domains, Eta eta) {
   return results;
 }
 
-std::vector<std::vector<std::string>> fields_of(const std::string& csv) {
-  std::vector<std::vector<std::string>> lines;
+std::vector<Strings> fields_of(const std::string& csv) {
+  std::vector<Strings> lines;
   std::istringstream in(csv);
   for (std::string line; std::getline(in, line);) {
     lines.emplace_back();
@@ -88,11 +80,9 @@ TEST(RunsCsv, HasALineForEachCellAndOneForEachColumn) {
   EXPECT_EQ(std::stod(at(3, "eta_mean")), 0.1 + 0 + 1 / 3.0) << "every digit";
   EXPECT_EQ(at(4, "kind"), "peer");
   EXPECT_EQ(at(5, "status"), "not applicable");
-  EXPECT_NE(csv.columns.find(
-                "\neta_mean,eta mean,\"paper 6.1, equation (4), mean over quads\",,number,0,1,higher,yes,"
-                "pairs\n"),
-            std::string::npos)
-      << csv.columns;
+  EXPECT_TRUE(holds(
+      csv.columns,
+      "\neta_mean,eta mean,\"paper 6.1, equation (4), mean over quads\",,number,0,1,higher,yes,pairs\n"));
   EXPECT_EQ(std::ranges::count(lines[0], "seed"), 1);
 }
 

@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "metrics/tables/table.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
@@ -19,17 +15,10 @@ Table example() {
   return table;
 }
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 TEST(Tables, MarkdownShowsPublishedAndDifference) {
   const std::string text = to_markdown(example());
-  EXPECT_TRUE(holds(text, "| 0.875 (0.75, +0.125) |")) << text;
-  EXPECT_TRUE(holds(text, "88.3 |")) << text;
-  EXPECT_TRUE(holds(text, " - |")) << text;
-  EXPECT_TRUE(holds(text, "case\\|2")) << text;
-  EXPECT_TRUE(holds(text, " failed |")) << text;
-  EXPECT_TRUE(holds(text, "- case|2 DB failed: size, \"x\", is < 0\n")) << text;
-  EXPECT_TRUE(holds(text, "- a note\n")) << text;
+  EXPECT_TRUE(holds(text, "| 0.875 (0.75, +0.125) |", "88.3 |", " - |", "case\\|2", " failed |",
+                    "- case|2 DB failed: size, \"x\", is < 0\n", "- a note\n"));
 }
 
 TEST(Tables, CsvQuotesAndKeepsDigits) {
@@ -47,33 +36,28 @@ TEST(Tables, TexIsEscapedBooktabs) {
   const std::string text = to_tex(table);
   EXPECT_TRUE(holds(text,
                     "\\begin{longtable}[l]{@{}lrr@{}}\n\\toprule\npipeline & eta mean & d\\_4 \\% "
-                    "\\tabularnewline\n\\midrule\n\\endhead\n\\bottomrule\n\\endfoot\n"))
-      << text;
-  EXPECT_TRUE(holds(text,
+                    "\\tabularnewline\n\\midrule\n\\endhead\n\\bottomrule\n\\endfoot\n",
                     "\\multicolumn{3}{@{}l@{}}{\\emph{case\\_1}} \\tabularnewline\n"
-                    "DB & 0.875 (0.75, +0.125) & 88.3 \\tabularnewline\n"))
-      << text;
-  EXPECT_TRUE(holds(text, "\\end{longtable}")) << text;
+                    "DB & 0.875 (0.75, +0.125) & 88.3 \\tabularnewline\n",
+                    "\\end{longtable}"));
 }
 
 /// What a reader of the paper has to know stands in the paper, not in comments.
 TEST(Tables, TexSaysWhatFailed) {
   const std::string text = to_tex(example());
-  EXPECT_TRUE(holds(text, "case$|$2}} \\tabularnewline\nDB & failed &  \\tabularnewline\n")) << text;
+  EXPECT_TRUE(holds(text, "case$|$2}} \\tabularnewline\nDB & failed &  \\tabularnewline\n"));
   const auto notes = text.substr(text.find("\\end{longtable}"));
-  for (const char* part : {"is $<$", "Table", "note", "In brackets"})
-    EXPECT_TRUE(holds(notes, part)) << notes;
-  EXPECT_FALSE(holds(notes, "\n%")) << notes;
+  EXPECT_TRUE(holds(notes, "is $<$", "Table", "note", "In brackets"));
+  EXPECT_FALSE(holds(notes, "\n%"));
 }
 
 TEST(Tables, ColumnsCanBeChosenAndOrdered) {
   Table table = example();
   table.shown = {"d4", "eta_mean"};
-  EXPECT_TRUE(holds(to_markdown(table), "| case    | pipeline |     d4 |             eta mean |"))
-      << to_markdown(table);
-  EXPECT_TRUE(holds(to_tex(table), "pipeline & d4 & eta mean \\tabularnewline")) << to_tex(table);
+  EXPECT_TRUE(holds(to_markdown(table), "| case    | pipeline |     d4 |             eta mean |"));
+  EXPECT_TRUE(holds(to_tex(table), "pipeline & d4 & eta mean \\tabularnewline"));
   table.shown = {"d4"};
-  EXPECT_FALSE(holds(to_markdown(table), "eta mean")) << to_markdown(table);
+  EXPECT_FALSE(holds(to_markdown(table), "eta mean"));
   EXPECT_EQ(to_csv(table), to_csv(example())) << "has all";
   EXPECT_TRUE(holds(to_json(table), "\"eta_mean\": 0.875"));
 }
@@ -106,13 +90,10 @@ TEST(Tables, FloatsHaveGroupsAndGoOn) {
       "one_two three four five six seven eight nine ten eleven twelve thirteen fourteen";
   const std::string text = to_tex_floats(table, "tab:x", "Of it");
   EXPECT_TRUE(text.starts_with("\\begin{table*}[tbp]\n\\caption{")) << text;
-  EXPECT_TRUE(holds(text, ". Of it}\\label{tab:x}\n")) << text;
-  EXPECT_TRUE(holds(text, ", continued.}\n")) << text;
   EXPECT_TRUE(holds(
-      text,
-      "\\multicolumn{4}{@{}l@{}}{\\emph{case\\_1}} \\tabularnewline\nDB & 0.875 (0.75, +0.125) & 88.3 & "))
-      << text;
-  EXPECT_TRUE(holds(text, "\\raggedright one\\_two three")) << text;
+      text, ". Of it}\\label{tab:x}\n", ", continued.}\n",
+      "\\multicolumn{4}{@{}l@{}}{\\emph{case\\_1}} \\tabularnewline\nDB & 0.875 (0.75, +0.125) & 88.3 & ",
+      "\\raggedright one\\_two three"));
   EXPECT_FALSE(holds(text, "longtable"));
   std::size_t rows = 0;
   for (std::size_t at = 0; (at = text.find("\nDB & ", at)) != text.npos; ++at) ++rows;
@@ -124,17 +105,13 @@ TEST(Tables, WordsOfNotesAreNotBrokenInTex) {
   table.notes = {"Wilcoxon's signed-rank test over administratively-named (see `a_b`) seeds.",
                  "/home/of/somebody/with/a_long/path/to/the/model.step is missing"};
   const std::string text = to_tex(table);
-  EXPECT_TRUE(holds(text, "Wilcoxon's signed-rank test over administratively-named (see `a\\_b`) seeds."))
-      << text;
-  EXPECT_TRUE(holds(text, "/\\allowbreak{}home/\\allowbreak{}of/\\allowbreak{}somebody/")) << text;
-  EXPECT_TRUE(holds(text, " is missing")) << text;
+  EXPECT_TRUE(holds(text, "Wilcoxon's signed-rank test over administratively-named (see `a\\_b`) seeds.",
+                    "/\\allowbreak{}home/\\allowbreak{}of/\\allowbreak{}somebody/", " is missing"));
 }
 
 TEST(Tables, JsonHoldsValuesAndReasons) {
   const std::string text = to_json(example());
-  EXPECT_TRUE(holds(text, "\"difference\": {")) << text;
-  EXPECT_TRUE(holds(text, "\"d4\": null")) << text;
-  EXPECT_TRUE(holds(text, "\"reason\": \"size, \\\"x\\\", is < 0\"")) << text;
+  EXPECT_TRUE(holds(text, "\"difference\": {", "\"d4\": null", "\"reason\": \"size, \\\"x\\\", is < 0\""));
 }
 
 TEST(Tables, ProofsAndSpreadsAreShown) {
@@ -142,11 +119,11 @@ TEST(Tables, ProofsAndSpreadsAreShown) {
   table.rows[0].half_widths["d4"] = 1.25;
   table.rows[0].bold = {"d4"};
   const std::string markdown = to_markdown(table), tex = to_tex(table), json = to_json(table);
-  EXPECT_TRUE(holds(markdown, "**88.3** ± 1.3 |")) << markdown;
-  EXPECT_TRUE(holds(tex, "\\textbf{88.3} $\\pm$ 1.3")) << tex;
-  EXPECT_TRUE(holds(to_csv(table), "88.25,1.25,,")) << to_csv(table);
-  EXPECT_TRUE(holds(json, "\"bold\": [\n        \"d4\"\n      ]")) << json;
-  EXPECT_TRUE(holds(json, "\"half_widths\": {\n        \"d4\": 1.25\n      }")) << json;
+  EXPECT_TRUE(holds(markdown, "**88.3** ± 1.3 |"));
+  EXPECT_TRUE(holds(tex, "\\textbf{88.3} $\\pm$ 1.3"));
+  EXPECT_TRUE(holds(to_csv(table), "88.25,1.25,,"));
+  EXPECT_TRUE(holds(json, "\"bold\": [\n        \"d4\"\n      ]",
+                    "\"half_widths\": {\n        \"d4\": 1.25\n      }"));
 }
 
 TEST(Tables, RoundingHidesNoInterval) {
@@ -154,8 +131,8 @@ TEST(Tables, RoundingHidesNoInterval) {
   table.columns.push_back({"d_max", "dmax", 0});
   table.rows[0].values["d_max"] = 5.375;
   table.rows[0].half_widths["d_max"] = 0.43;
-  EXPECT_TRUE(holds(to_markdown(table), "5.38 ± 0.43")) << to_markdown(table);
-  EXPECT_TRUE(holds(to_tex(table), "5.38 $\\pm$ 0.43")) << to_tex(table);
+  EXPECT_TRUE(holds(to_markdown(table), "5.38 ± 0.43"));
+  EXPECT_TRUE(holds(to_tex(table), "5.38 $\\pm$ 0.43"));
 }
 
 TEST(Tables, IntervalsEndWhereTheMeasureDoes) {
@@ -166,9 +143,7 @@ TEST(Tables, IntervalsEndWhereTheMeasureDoes) {
   table.rows[1].half_widths = {{"eta_mean", 1e-16}};
   table.rows[1].values["eta_mean"] = 1;
   const std::string text = to_markdown(table);
-  EXPECT_TRUE(holds(text, "0.88 [0.63, 1.00]")) << text;
-  EXPECT_TRUE(holds(text, "88.3 ± 1.3")) << text;
-  EXPECT_TRUE(holds(text, "1.000 ± < 0.001")) << text;
+  EXPECT_TRUE(holds(text, "0.88 [0.63, 1.00]", "88.3 ± 1.3", "1.000 ± < 0.001"));
   EXPECT_TRUE(holds(to_csv(table), "0.875,0.25,")) << "has the half-width";
 }
 
