@@ -129,7 +129,7 @@ TEST_F(Records, CellsAreAddressedByWhatTheyAre) {
   std::string more = kSizes;
   replace(more, "[0.3, 0.25]", "[0.5, 0.3, 0.4, 0.25]");
   replace(more, "[1, 2]", "[7, 1, 2]");
-  replace(more, "[\"D\", \"DB\"]", "[\"F\", \"D\", \"DB\"]");
+  replace(more, "['D', 'DB']", "['F', 'D', 'DB']");
   replace(more, kRecordSquare,
           "[[case]]\nname = 'first'\nloop = { rectangle = [[0, 0], [2, 1]] }\n" + kRecordSquare);
   const auto before = fs::last_write_time(cell() / "record.json");
