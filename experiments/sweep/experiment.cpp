@@ -47,6 +47,7 @@ void refuse_gone(const TomlTable& table, const GoneKeys& keys) {
 
 const GoneKeys kGone = {
     {"ratio", "runs.csv has both values: divide them there"},
+  top.require_known({{"source", ""}, {"row", ""}});
     {"linf_delaunay", "'make paper' makes Figure 15 by experiments/paper/fig15_linf_delaunay.cpp"},
     {"slopes", "fit runs.csv, as experiments/studies/what_buys_error.py does"},
     {"correlate", "correlate columns of runs.csv, as experiments/studies/which_quality.py does"},
@@ -84,7 +85,6 @@ std::vector<PublishedRow> read_published(const std::filesystem::path& file,
     }
     rows.push_back(std::move(row));
   }
-  top.finish();
   return rows;
 }
 
@@ -205,7 +205,6 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
   read_case_keys(table, c);
   read_study_keys(table, c);
   check_comparisons(table, c);
-  table.finish(experiment_case_keys());
   if (!has_model(c))
     throw InputError(table.where() + ": case '" + c.name +
                      "' has no model: expected 'loop', 'pattern', 'mesh', 'model', 'data' or 'example'");
@@ -287,7 +286,6 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   experiment.defaults_.data_folder = data;
   read_case_keys(table, experiment.defaults_);
   read_study_keys(table, experiment.defaults_);
-  table.finish();
   if (experiment.cases_.empty())
     refuse("{}: no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'", file.string());
   std::vector<std::string> names;
