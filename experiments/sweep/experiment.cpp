@@ -38,9 +38,8 @@ void check_known(const TomlTable& table, const std::string& key, const std::stri
 /// Columns are measures and times.
 void check_columns(const TomlTable& table, const std::vector<std::string>& columns,
                    std::vector<std::string> known) {
-  for (const char* key : {kRuns, "seconds"}) known.push_back(key);
+  known.emplace_back(kRuns);
   for (const Metric& one : columns_of_records()) known.push_back(one.key);
-  for (const StepTime& time : step_times_of_tables()) known.push_back(time.key);
   for (const std::string& key : columns) check_known(table, "columns", key, known);
 }
 
@@ -49,7 +48,7 @@ std::vector<PublishedRow> read_published(const std::filesystem::path& file,
   const TomlTable top = TomlTable::read(file);
   top.require_known({{"source", ""}, {"row", ""}});
   const std::string source = top.text("source");
-  for (const StepTime& time : step_times_of_tables()) columns.push_back(time.key);
+  for (const Metric& one : columns_of_records()) columns.push_back(one.key);
   std::vector<PublishedRow> rows;
   for (const TomlTable& table : top.tables("row")) {
     PublishedRow row{table.text("name"), source, {}};

@@ -186,6 +186,13 @@ const std::vector<Metric>& columns_of_records() {
   static const std::vector<Metric> all = [] {
     std::vector<Metric> columns;
     for (const Derived& one : derived()) columns.push_back(one.column);
+    columns.push_back({"seconds", "s", "s", Better::kLower, HUGE_VAL,
+                       "from insertion to projection, by the clock; not of peers", 2});
+    for (const auto& [key, title, step] : step_times_of_tables())
+      columns.push_back({key, title, "s", Better::kLower, HUGE_VAL,
+                         *step == 0 ? "processor time from the start of the program to the written mesh"
+                                    : fmt::format("processor time of the step '{}'", step),
+                         2});
     return columns;
   }();
   return all;
