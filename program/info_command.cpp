@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/box.h"
@@ -23,12 +24,6 @@ namespace {
 struct InfoArguments : KeyArguments {
   std::filesystem::path model, json, output;
   std::optional<std::string> size;
-};
-
-/// What a size (length) is too coarse for, as indices.
-struct SmallFeatures {
-  std::vector<int> curves;  ///< shorter than the size
-  std::vector<int> faces;   ///< narrower, see FaceReport::width
 };
 
 using Json = nlohmann::ordered_json;
@@ -81,12 +76,11 @@ Json corner_json(const ModelInfo& info, const CornerReport& corner) {
           {"angle", corner.angle}};
 }
 
-SmallFeatures smaller_than(const ModelReport& report, double size) {
-  SmallFeatures small;
-  for (std::size_t c = 0; c < report.curves.size(); ++c)
-    if (report.curves[c].length < size) small.curves.push_back(static_cast<int>(c));
-  for (std::size_t f = 0; f < report.faces.size(); ++f)
-    if (report.faces[f].width < size) small.faces.push_back(static_cast<int>(f));
+/// Tags of those whose length or width is less than the size.
+Json smaller_than(double size, const Json& parts, const char* measure) {
+  Json small = Json::array();
+  for (const Json& part : parts)
+    if (!part[measure].is_null() && part[measure] < size) small.push_back(part["tag"]);
   return small;
 }
 
@@ -116,8 +110,8 @@ std::vector<std::array<Vec3, 2>> boxes_of_faces(const Mesh& mesh) {
   return boxes;
 }
 
-/// The report as JSON; `size` 0: not given.
-std::string info_record(const ModelInfo& info, double size) {
+/// The report; `size` 0: not given.
+Json info_json(const ModelInfo& info, double size) {
   const ModelReport& report = info.report;
   const Mesh& mesh = info.fine;
   Json json = {{"model", info.source},
@@ -127,30 +121,28 @@ std::string info_record(const ModelInfo& info, double size) {
                {"area", report.area},
                {"free_length", report.free_length},
                {"vertices", report.vertices},
-               {"fine_triangles", mesh.triangles.size()}};
-  json["shells"] = Json::array();
+               {"fine_triangles", mesh.triangles.size()},
+               {"shells", Json::array()},
+               {"faces", Json::array()},
+               {"curves", Json::array()},
+               {"sharp_corners", Json::array()}};
   for (const ShellReport& shell : report.shells)
     json["shells"].push_back({{"faces", tags(mesh.regions, shell.faces)},
                               {"area", shell.area},
                               {"closed", shell.closed},
                               {"euler_characteristic", shell.euler_characteristic}});
-  json["faces"] = Json::array();
   const auto boxes = boxes_of_faces(mesh);
   for (std::size_t f = 0; f < report.faces.size(); ++f) json["faces"].push_back(face_json(info, f, boxes[f]));
-  json["curves"] = Json::array();
   for (std::size_t c = 0; c < report.curves.size(); ++c) json["curves"].push_back(curve_json(info, c));
-  json["sharp_corners"] = Json::array();
   for (const CornerReport& corner : sharp_corners(report))
     json["sharp_corners"].push_back(corner_json(info, corner));
   if (size > 0) {
-    const SmallFeatures small = smaller_than(report, size);
     json["size"] = size;
-    json["smaller_than_size"] = {{"curves", tags(mesh.curves, small.curves)},
-                                 {"faces", tags(mesh.regions, small.faces)}};
+    json["smaller_than_size"] = {{"curves", smaller_than(size, json["curves"], "length")},
+                                 {"faces", smaller_than(size, json["faces"], "width")}};
   }
   json["warnings"] = texts(info.warnings);
-  // A name need not be UTF-8; JSON must be.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json;
 }
 
 /// Rows of a list, and numbers in a row, that fit a terminal.
@@ -164,98 +156,83 @@ double read_size(const std::optional<std::string>& text) {
   return *size;
 }
 
-std::string list_tags(const std::vector<Entity>& entities, const std::vector<int>& indices) {
+double number(const Json& value) { return value.is_null() ? HUGE_VAL : value.get<double>(); }
+
+std::string show(const Json& point) { return show_point(Vec3{point[0], point[1], point[2]}); }
+
+const char* yes_or_no(const Json& flag) { return flag.get<bool>() ? "yes" : "no"; }
+
+std::string list(const Json& tags) {
   std::string text;
-  for (std::size_t k = 0; k < std::min(indices.size(), kMostTags); ++k)
-    text += fmt::format("{}{}", k > 0 ? ", " : "", entities[indices[k]].tag);
-  return indices.size() > kMostTags ? fmt::format("{}, ... ({})", text, indices.size()) : text;
+  for (std::size_t k = 0; k < std::min(tags.size(), kMostTags); ++k)
+    text += fmt::format("{}{}", k > 0 ? ", " : "", tags[k].get<int>());
+  return tags.size() > kMostTags ? fmt::format("{}, ... ({})", text, tags.size()) : text;
 }
 
-/// Prints the first rows of a list by print(row).
+/// Prints the first rows of a list by print(row, its number from 1).
 template <class Print>
-void print_rows(std::size_t n, Print print) {
-  for (std::size_t i = 0; i < std::min(n, kMostRows); ++i) print(i);
-  if (n > kMostRows) fmt::print("  ... and {} more (--json has all)\n", n - kMostRows);
+void print_rows(const Json& rows, Print print) {
+  for (std::size_t i = 0; i < std::min(rows.size(), kMostRows); ++i) print(rows[i], i + 1);
+  if (rows.size() > kMostRows) fmt::print("  ... and {} more (--json has all)\n", rows.size() - kMostRows);
 }
 
-template <class Wanted>
-std::vector<int> curves_that(const ModelReport& report, Wanted wanted) {
-  std::vector<int> curves;
-  for (std::size_t c = 0; c < report.curves.size(); ++c)
-    if (wanted(report.curves[c])) curves.push_back(static_cast<int>(c));
-  return curves;
-}
-
-void print_overview(const ModelInfo& info) {
-  const ModelReport& r = info.report;
-  const Mesh& mesh = info.fine;
-  fmt::print("{}\n", info.source);
-  fmt::print("  lengths in   {}\n", mesh.unit.empty() ? "the file's own unit" : mesh.unit);
-  fmt::print("  box          {} to {}\n  diagonal     {:.6g}\n", show_point(r.low), show_point(r.high),
-             r.diagonal);
-  fmt::print("  area         {:.6g}\n", r.area);
-  fmt::print("  parts        {}, {}, {}, {}\n", counted(r.shells.size(), "shell"),
-             counted(r.faces.size(), "face"), counted(r.curves.size(), "curve"),
-             r.vertices == 1 ? "1 vertex" : fmt::format("{} vertices", r.vertices));
-  const auto free = curves_that(r, [](const CurveReport& c) { return c.faces.size() < 2; });
-  const auto branching = curves_that(r, [](const CurveReport& c) { return c.faces.size() > 2; });
-  if (free.empty())
+void print_overview(const Json& json) {
+  fmt::print("{}\n", json["model"].get<std::string>());
+  fmt::print("  lengths in   {}\n",
+             json["unit"].is_null() ? "the file's own unit" : json["unit"].get<std::string>());
+  fmt::print("  box          {} to {}\n  diagonal     {:.6g}\n", show(json["box"][0]), show(json["box"][1]),
+             number(json["diagonal"]));
+  fmt::print("  area         {:.6g}\n", number(json["area"]));
+  const int vertices = json["vertices"];
+  fmt::print("  parts        {}, {}, {}, {}\n", counted(json["shells"].size(), "shell"),
+             counted(json["faces"].size(), "face"), counted(json["curves"].size(), "curve"),
+             vertices == 1 ? "1 vertex" : fmt::format("{} vertices", vertices));
+  std::map<std::string, Json> curves;  // by kind
+  for (const Json& curve : json["curves"]) curves[curve["kind"]].push_back(curve["tag"]);
+  if (!curves.contains("free"))
     fmt::print("  outline      none\n");
   else
-    fmt::print("  outline      {:.6g} long, curves {}\n", r.free_length, list_tags(mesh.curves, free));
-  if (!branching.empty())
-    fmt::print("  branching    more than two faces at curves {}\n", list_tags(mesh.curves, branching));
+    fmt::print("  outline      {:.6g} long, curves {}\n", number(json["free_length"]), list(curves["free"]));
+  if (curves.contains("branching"))
+    fmt::print("  branching    more than two faces at curves {}\n", list(curves["branching"]));
 }
 
-void print_parts(const ModelInfo& info) {
-  const ModelReport& r = info.report;
-  const Mesh& mesh = info.fine;
+void print_parts(const Json& json) {
   fmt::print("\nshells{:>9} {:>12} {:>8} {:>6}\n", "faces", "area", "closed", "Euler");
-  print_rows(r.shells.size(), [&](std::size_t s) {
-    const ShellReport& shell = r.shells[s];
-    fmt::print("  {:>4} {:>8} {:>12.6g} {:>8} {:>6}\n", s + 1, shell.faces.size(), shell.area,
-               shell.closed ? "yes" : "no", shell.euler_characteristic);
+  print_rows(json["shells"], [&](const Json& shell, std::size_t i) {
+    fmt::print("  {:>4} {:>8} {:>12.6g} {:>8} {:>6}\n", i, shell["faces"].size(), number(shell["area"]),
+               yes_or_no(shell["closed"]), shell["euler_characteristic"].get<int>());
   });
   fmt::print("\nfaces{:>12} {:>10}  {:<20} {:<28} {}\n", "area", "width", "topology", "curves", "names");
-  print_rows(r.faces.size(), [&](std::size_t f) {
-    const FaceReport& face = r.faces[f];
-    fmt::print("  {:>4} {:>10.4g} {:>10.4g}  {:<20} {:<28} {}\n", mesh.regions[f].tag, face.area, face.width,
-               topology(face), list_tags(mesh.curves, face.curves), fmt::join(mesh.regions[f].names, ", "));
+  print_rows(json["faces"], [&](const Json& face, std::size_t) {
+    fmt::print("  {:>4} {:>10.4g} {:>10.4g}  {:<20} {:<28} {}\n", face["tag"].get<int>(),
+               number(face["area"]), number(face["width"]), face["topology"].get<std::string>(),
+               list(face["curves"]), fmt::join(face["names"].get<std::vector<std::string>>(), ", "));
   });
-  const auto boxes = boxes_of_faces(mesh);
   fmt::print("\nboxes of faces\n");
-  print_rows(boxes.size(), [&](std::size_t f) {
-    fmt::print("  {:>4} {} to {}\n", mesh.regions[f].tag, show_point(boxes[f][0]), show_point(boxes[f][1]));
+  print_rows(json["faces"], [&](const Json& face, std::size_t) {
+    fmt::print("  {:>4} {} to {}\n", face["tag"].get<int>(), show(face["box"][0]), show(face["box"][1]));
   });
   fmt::print("\ncurves{:>11} {:>10} {:>8}  {}\n", "length", "kind", "closed", "faces");
-  print_rows(r.curves.size(), [&](std::size_t c) {
-    const CurveReport& curve = r.curves[c];
-    const std::size_t n = curve.faces.size();
-    fmt::print("  {:>4} {:>10.4g} {:>10} {:>8}  {}\n", mesh.curves[c].tag, curve.length,
-               n < 2    ? "free"
-               : n == 2 ? "inner"
-                        : "branching",
-               curve.closed ? "yes" : "no", list_tags(mesh.regions, curve.faces));
+  print_rows(json["curves"], [&](const Json& curve, std::size_t) {
+    fmt::print("  {:>4} {:>10.4g} {:>10} {:>8}  {}\n", curve["tag"].get<int>(), number(curve["length"]),
+               curve["kind"].get<std::string>(), yes_or_no(curve["closed"]), list(curve["faces"]));
   });
 }
 
-void print_difficulties(const ModelInfo& info, double size) {
-  const Mesh& mesh = info.fine;
-  if (size > 0) {
-    const SmallFeatures small = smaller_than(info.report, size);
-    fmt::print("\nsmaller than the size {:.6g}\n", size);
-    fmt::print("  curves  {}\n", small.curves.empty() ? "none" : list_tags(mesh.curves, small.curves));
-    fmt::print("  faces   {}\n", small.faces.empty() ? "none" : list_tags(mesh.regions, small.faces));
+void print_difficulties(const Json& json, const std::vector<Warning>& warnings) {
+  if (json.contains("size")) {
+    fmt::print("\nsmaller than the size {:.6g}\n", number(json["size"]));
+    for (const auto& [what, tags] : json["smaller_than_size"].items())
+      fmt::print("  {:<7} {}\n", what, tags.empty() ? "none" : list(tags));
   }
-  const std::vector<CornerReport> sharp = sharp_corners(info.report);
-  if (!sharp.empty()) fmt::print("\nsharp corners (degrees)\n");
-  print_rows(sharp.size(), [&](std::size_t i) {
-    const CornerReport& corner = sharp[i];
-    fmt::print("  {:>6.2f}  face {}, between curves {} and {} at {}\n", corner.angle,
-               mesh.regions[corner.face].tag, mesh.curves[corner.curves[0]].tag,
-               mesh.curves[corner.curves[1]].tag, show_point(corner.at));
+  if (!json["sharp_corners"].empty()) fmt::print("\nsharp corners (degrees)\n");
+  print_rows(json["sharp_corners"], [&](const Json& corner, std::size_t) {
+    fmt::print("  {:>6.2f}  face {}, between curves {} and {} at {}\n", number(corner["angle"]),
+               corner["face"].get<int>(), corner["curves"][0].get<int>(), corner["curves"][1].get<int>(),
+               show(corner["at"]));
   });
-  const std::vector<std::string> lines = lines_of(info.warnings);
+  const std::vector<std::string> lines = lines_of(warnings);
   if (!lines.empty()) fmt::print("\nrepaired or suspicious\n");
   for (const std::string& line : lines) fmt::print("  {}\n", line);
 }
@@ -272,11 +249,14 @@ int info_command(const InfoArguments& arguments) {
     check_output(arguments.output);
   }
   const ModelInfo info = model_info(c, size);
-  if (!arguments.json.empty()) write_text_file(arguments.json, info_record(info, size));
+  const Json json = info_json(info, size);
+  // A name need not be UTF-8; JSON must be.
+  if (!arguments.json.empty())
+    write_text_file(arguments.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   if (!arguments.output.empty()) write_mesh(arguments.output, info.fine);
-  print_overview(info);
-  print_parts(info);
-  print_difficulties(info, size);
+  print_overview(json);
+  print_parts(json);
+  print_difficulties(json, info.warnings);
   for (const std::string& reason : info.left_out) fmt::print(stderr, "error: left out: {}\n", reason);
   return info.left_out.empty() ? kDone : kFacesLeftOut;
 }

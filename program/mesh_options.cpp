@@ -233,7 +233,6 @@ void set_keys(const KeyArguments& arguments, Case& c) {
   const TomlTable table = TomlTable::of_options(lines);
   table.require_known(case_keys());
   read_case_keys(table, c);
-  table.finish();
 }
 
 void add_msh(CLI::App& command, MshOptions& msh) {

@@ -26,8 +26,7 @@ struct RunArguments : SweepArguments {
   std::optional<std::string> pipelines;      ///< words separated by commas; else those of the file
   std::vector<std::filesystem::path> peers;  ///< files of further meshers, which are run, too
   long long max_elements = 50'000'000;
-  bool dry_run = false;          ///< only say what would be done
-  std::optional<double> effect;  ///< whose power is told then
+  bool dry_run = false;  ///< only say what would be done
   bool allow_triangles = false;
 };
 
@@ -158,7 +157,7 @@ int run_command(const RunArguments& arguments) {
   if (arguments.dry_run) {
     for (const Experiment& experiment : experiments) {
       if (experiments.size() > 1) fmt::print("{}:\n", experiment.file.string());
-      fmt::print("{}", dry_run(experiment, folder_of(arguments, experiment), arguments.effect));
+      fmt::print("{}", dry_run(experiment, folder_of(arguments, experiment)));
     }
     return kDone;
   }
@@ -246,16 +245,9 @@ void add_run(CLI::App& app, Commands& commands) {
   run->add_option("--pictures", arguments.options.pictures,
                   "'svg' (the default): a picture of each mesh, and its fields as .vtu; or 'none'")
       ->transform(CLI::CheckedTransformer(pictures).description("none or svg"));
-  CLI::Option* dry =
-      run->add_flag("--dry-run", arguments.dry_run,
-                    "list the cells and which of them are done, about how long the rest takes, "
-                    "and what could be proven");
-  run->add_option(
-         "--effect", arguments.effect,
-         "for --dry-run: a difference in standard deviations of those of the domains, such as 0.5, whose "
-         "power is told")
-      ->check(kLength)
-      ->needs(dry);
+  run->add_flag("--dry-run", arguments.dry_run,
+                "list the cells and which of them are done, about how long the rest takes, "
+                "and what could be proven");
   commands.back().only_prints = [&given = arguments] { return given.dry_run; };
 }
 

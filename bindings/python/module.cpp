@@ -166,7 +166,6 @@ void set_keys(const KeyLines& lines, Case& c) {
   const TomlTable table = TomlTable::of_options(lines);
   table.require_known(case_keys());
   read_case_keys(table, c);
-  table.finish();
 }
 
 /// (keyword, key of model files, its JSON Schema) of all that a problem is told by keys.

@@ -10,6 +10,7 @@
 #include "geometry/mesh/half_edges.h"
 #include "io/cases/read_problem.h"
 #include "io/digest.h"
+#include "metrics/shape.h"
 
 namespace delquad {
 namespace {
@@ -164,15 +165,10 @@ void add(const Mesh& mesh, Samples3D& samples) {
     });
   else {
     std::vector<Vec3> areas;
-    for (const auto& v : mesh.triangles) {
-      samples.add_triangle(p[v[0]], p[v[1]], p[v[2]]);
-      areas.push_back(0.5 * cross(p[v[1]] - p[v[0]], p[v[2]] - p[v[0]]));
-    }
-    for (const auto& v : mesh.quads) {
-      samples.add_triangle(p[v[0]], p[v[1]], p[v[2]]);
-      samples.add_triangle(p[v[2]], p[v[3]], p[v[0]]);
-      areas.push_back(0.5 * cross(p[v[2]] - p[v[0]], p[v[3]] - p[v[1]]));
-    }
+    for_each_element(mesh, [&](int, const auto& v) {
+      for (std::size_t k = 2; k < v.size(); ++k) samples.add_triangle(p[v[0]], p[v[k - 1]], p[v[k]]);
+      areas.push_back(0.5 * area_vector(corners_of(mesh, v)));
+    });
     for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
       if (edge.size() != 2) return;
       const Vec3& a = areas[edge[0].element];

@@ -135,7 +135,7 @@ class TestDesign {
   TestDesign(const StudyFile& study, const std::vector<CellRecord>& cells)
       : inference_(study, cells), is_planned_(!study.hypotheses.empty()) {}
 
-  std::string text(std::optional<double> effect) const {
+  std::string text() const {
     const ClaimFamily now = at_best(0);
     std::string text = is_planned_ ? fmt::format("tests of hypotheses: {}\n", now.size())
                                    : fmt::format("tests: at most {}, of which {} could prove something\n",
@@ -145,8 +145,7 @@ class TestDesign {
     for (const PairComparison& pair : is_planned_ ? inference_.hypotheses() : inference_.pairs())
       by_domains[pair.domains.names.size()].push_back(pair.test);
     for (const auto& [domains, tests] : by_domains)
-      text += fmt::format("  {} over {} domains: {}\n", tests.size(), domains,
-                          line(domains, tests[0], now, effect));
+      text += fmt::format("  {} over {} domains: {}\n", tests.size(), domains, line(domains, tests[0], now));
     return text;
   }
 
@@ -164,19 +163,14 @@ class TestDesign {
   }
 
   /// Tells about tests that have as many domains.
-  std::string line(std::size_t domains, std::size_t test, const ClaimFamily& now,
-                   std::optional<double> effect) const {
+  std::string line(std::size_t domains, std::size_t test, const ClaimFamily& now) const {
     if (now.finding(test) != Finding::kProven) {
       int more = 1;
       while (at_best(more).finding(test) != Finding::kProven) ++more;
       return fmt::format("nothing can be proven; it takes {} domains",
                          domains + static_cast<std::size_t>(more));
     }
-    const std::string text = fmt::format("p corrected {} at the least", p_text(now.adjusted_p(test)));
-    if (!effect) return text;
-    const double level = kSignificance / static_cast<double>(now.counted());
-    return text + fmt::format("; power {:.2f} for {:g} deviations", wilcoxon_power(domains, *effect, level),
-                              *effect);
+    return fmt::format("p corrected {} at the least", p_text(now.adjusted_p(test)));
   }
 
   Inference inference_;
@@ -198,7 +192,7 @@ std::string list_cells(const Experiment& experiment, const fs::path& folder) {
   return text_of_cells(planned_cells(experiment, describe(experiment), folder));
 }
 
-std::string dry_run(const Experiment& experiment, const fs::path& folder, std::optional<double> effect) {
+std::string dry_run(const Experiment& experiment, const fs::path& folder) {
   experiment.check_hypotheses();
   const std::string refusal = why_folder_is_refused(experiment, folder);
   const StudyFile study = describe(experiment);
@@ -208,7 +202,7 @@ std::string dry_run(const Experiment& experiment, const fs::path& folder, std::o
   return text_of_cells(cells) + (warning.empty() ? "" : "warning: " + warning + "\n") +
          fmt::format("cells: {}, of which {} are done\n", cells.size(),
                      std::ranges::count_if(cells, needs_no_run)) +
-         time_text(experiment, cells, folder) + domains_text(cells) + TestDesign(study, cells).text(effect);
+         time_text(experiment, cells, folder) + domains_text(cells) + TestDesign(study, cells).text();
 }
 
 }  // namespace delquad

@@ -35,45 +35,20 @@ void check_known(const TomlTable& table, const std::string& key, const std::stri
   throw InputError(table.where(key) + ": unknown metric '" + metric + "'" + suggestion(metric, known));
 }
 
-/// Keys that experiments had once, and what stands in for them.
-using GoneKeys = std::vector<std::pair<const char*, const char*>>;
-
-void refuse_gone(const TomlTable& table, const GoneKeys& keys) {
-  const std::vector<std::string> present = table.keys();
-  for (const auto& [key, way] : keys)
-    if (std::ranges::find(present, key) != present.end())
-      refuse("{}: there is no '{}' any longer: {}", table.where(key), key, way);
-}
-
-const GoneKeys kGone = {
-    {"ratio", "runs.csv has both values: divide them there"},
-    {"linf_delaunay", "'make paper' makes Figure 15 by experiments/paper/fig15_linf_delaunay.cpp"},
-    {"slopes", "fit runs.csv, as experiments/studies/what_buys_error.py does"},
-    {"correlate", "correlate columns of runs.csv, as experiments/studies/which_quality.py does"},
-    {"repeat_times", "vary 'seed' in [matrix], and take the times from runs.csv"}};
-const GoneKeys kGoneOfHypotheses = {
-    {"secondary", "all hypotheses are one family: leave the others out, and pairs.* explores them"},
-    {"two_sided", "every hypothesis is tested two-sided: remove the key"}};
-
 /// Columns are measures and times.
 void check_columns(const TomlTable& table, const std::vector<std::string>& columns,
                    std::vector<std::string> known) {
-  for (const char* key : {kRuns, "seconds"}) known.push_back(key);
+  known.emplace_back(kRuns);
   for (const Metric& one : columns_of_records()) known.push_back(one.key);
-  for (const StepTime& time : step_times_of_tables()) known.push_back(time.key);
-  for (const std::string& key : columns) {
-    if (key == "finish_eta")
-      refuse("{}: there is no column '{}' any longer: compare eta_mean of variants without finish steps",
-             table.where("columns"), key);
-    check_known(table, "columns", key, known);
-  }
+  for (const std::string& key : columns) check_known(table, "columns", key, known);
 }
 
 std::vector<PublishedRow> read_published(const std::filesystem::path& file,
                                          std::vector<std::string> columns) {
   const TomlTable top = TomlTable::read(file);
+  top.require_known({{"source", ""}, {"row", ""}});
   const std::string source = top.text("source");
-  for (const StepTime& time : step_times_of_tables()) columns.push_back(time.key);
+  for (const Metric& one : columns_of_records()) columns.push_back(one.key);
   std::vector<PublishedRow> rows;
   for (const TomlTable& table : top.tables("row")) {
     PublishedRow row{table.text("name"), source, {}};
@@ -84,7 +59,6 @@ std::vector<PublishedRow> read_published(const std::filesystem::path& file,
     }
     rows.push_back(std::move(row));
   }
-  top.finish();
   return rows;
 }
 
@@ -205,7 +179,6 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
   read_case_keys(table, c);
   read_study_keys(table, c);
   check_comparisons(table, c);
-  table.finish(experiment_case_keys());
   if (!has_model(c))
     throw InputError(table.where() + ": case '" + c.name +
                      "' has no model: expected 'loop', 'pattern', 'mesh', 'model', 'data' or 'example'");
@@ -258,8 +231,6 @@ std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& tex
 
 Experiment Experiment::read(const std::filesystem::path& file, const std::filesystem::path& data) {
   const TomlTable table = TomlTable::read(file);
-  refuse_gone(table, kGone);
-  for (const TomlTable& hypothesis : table.tables("hypotheses")) refuse_gone(hypothesis, kGoneOfHypotheses);
   table.require_known(experiment_keys());
   Experiment experiment;
   experiment.table_ = table;
@@ -287,7 +258,6 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   experiment.defaults_.data_folder = data;
   read_case_keys(table, experiment.defaults_);
   read_study_keys(table, experiment.defaults_);
-  table.finish();
   if (experiment.cases_.empty())
     refuse("{}: no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'", file.string());
   std::vector<std::string> names;

@@ -183,8 +183,6 @@ void finish_reading(const TomlTable& table, Peer& peer) {
 void Experiment::check_metrics(const TomlTable& table) const {
   std::vector<std::string> taken = keys_of_metrics();
   taken.resize(taken.size() - metrics.size());
-  taken.emplace_back("seconds");
-  for (const StepTime& time : step_times_of_tables()) taken.push_back(time.key);
   for (const Metric& one : columns_of_records()) taken.push_back(one.key);
   for (const TomlTable& one : table.tables("metric")) {
     const std::string name = one.text("name");

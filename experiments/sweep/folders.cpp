@@ -33,11 +33,11 @@ struct UnfinishedFolder {
   }
 };
 
-/// The files of a cell by its record; none where that cannot be read.
-std::vector<fs::path> recorded_files(const fs::path& folder) {
+/// The files of a cell: what all cells have, and what its record says.
+std::vector<fs::path> files_of_cell(const fs::path& folder) {
+  std::vector<fs::path> files = {"mesh.msh", "mesh.vtu", "fields.vtu", "picture.svg"};
   std::ifstream in(folder / kRecord);
   const auto record = nlohmann::json::parse(in, nullptr, false);
-  std::vector<fs::path> files;
   if (!record.is_object() || !record.contains("files")) return files;
   for (const auto& [name, mark] : record["files"].items())
     if (const fs::path file = fs::path(name).lexically_normal(); *file.begin() != ".." && file.is_relative())
@@ -71,19 +71,10 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 // The record first: it says that the rest is whole.
 void remove_cell(const fs::path& folder) {
-  const std::vector<fs::path> recorded = recorded_files(folder);
-  for (const char* name :
-       {kRecord,      "mesh.msh",   "mesh.vtu",   "fields.vtu",  "picture.svg", "convergence.svg",
-        "peer.log",   "input.geo",  "input.msh",  "input.obj",   "input.inp",   "input.mesh",
-        "size.pos",   "size.sol",   "size.mesh",  "size.points", "model.step",  "model.msh",
-        "output.msh", "output.obj", "output.off", "output.stl"}) {
-    std::error_code nothing_there;
-    fs::remove(folder / name, nothing_there);
-  }
-  std::error_code no_folder;
-  for (const fs::path& file : recorded) fs::remove(folder / file, no_folder);
-  for (const auto& entry : fs::directory_iterator(folder, no_folder))
-    if (entry.path().filename().string().starts_with("metric-")) fs::remove(entry.path(), no_folder);
+  const std::vector<fs::path> files = files_of_cell(folder);
+  std::error_code nothing_there;
+  fs::remove(folder / kRecord, nothing_there);
+  for (const fs::path& file : files) fs::remove(folder / file, nothing_there);
 }
 
 void write_cell(const fs::path& folder, const std::function<void(const fs::path&)>& write) {

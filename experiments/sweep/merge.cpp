@@ -111,9 +111,6 @@ void check_sound(const CellsToUnite& cells) {
 void copy_cell(const CellRecord& cell, const fs::path& output) {
   const fs::path variant = cell.folder.parent_path(), to = output / variant.filename();
   fs::create_directories(to);
-  for (const auto& entry : fs::directory_iterator(variant))
-    if (entry.is_regular_file() && entry.path().extension() == ".svg")
-      fs::copy_file(entry.path(), to / entry.path().filename(), fs::copy_options::skip_existing);
   fs::copy(cell.folder, to / cell.folder.filename(), fs::copy_options::recursive);
 }
 

@@ -26,26 +26,10 @@ namespace fs = std::filesystem;
 /// Of what a program printed: as much as is read, and as much as is shown in a message.
 constexpr std::size_t kMostRead = std::size_t{1} << 20, kMostShown = 200;
 
-std::vector<std::string> fill_in(const MetricCommand& metric, const Case& c, const std::string& pipeline,
-                                 const fs::path& folder) {
-  std::vector<std::string> words = metric.command;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (const fs::path file = file_of_word(metric.folder, words, i); !file.empty()) {
-      words[i] = file.string();
-      continue;
-    }
-    if (words[i].find("{size}") != std::string::npos) {
-      const auto size = uniform_size(c);
-      if (!size) throw InputError("it is told one number for the size, which varies here");
-      words[i] = replace_all(words[i], "{size}", fmt::format("{}", *size));
-    }
-    words[i] = replace_all(words[i], "{mesh}", (folder / "mesh.msh").string());
-    words[i] = replace_all(words[i], "{folder}", folder.string());
-    words[i] = replace_all(words[i], "{case}", c.name);
-    words[i] = replace_all(words[i], "{pipeline}", pipeline);
-    words[i] = replace_all(words[i], "{seed}", std::to_string(c.seed));
-  }
-  return words;
+std::string told_size(const Case& c) {
+  const auto size = uniform_size(c);
+  if (!size) throw InputError("it is told one number for the size, which varies here");
+  return fmt::format("{}", *size);
 }
 
 std::string read_start(const fs::path& file) {
@@ -59,18 +43,7 @@ std::string read_start(const fs::path& file) {
 std::string last_line(const std::string& text) {
   return std::string(trimmed(text.substr(text.rfind('\n') + 1)));
 }
-std::string first_line(const std::string& text) {
-  return std::string(trimmed(text.substr(0, text.find('\n'))));
-}
-
-/// What it says went wrong: its first line, but of a Python traceback the last one.
-std::string complaint(const std::string& errors) {
-  const std::string text(trimmed(errors));
-  if (text.empty()) return "";
-  return ": " + (text.starts_with("Traceback") ? last_line(text) : first_line(text)).substr(0, kMostShown);
-}
-
-std::string how_it_failed(const MetricCommand& metric, const ProgramRun& run, const std::string& errors) {
+std::string how_it_failed(const MetricCommand& metric, const ProgramRun& run, const fs::path& errors) {
   if (metric.timeout > 0 && run.error == 0 && run.seconds >= metric.timeout && run.status != 0)
     return fmt::format("{}: ran longer than its timeout of {} s", metric.command[0], metric.timeout);
   const std::string end = how_it_ended(run);
@@ -129,12 +102,17 @@ MetricOutcome run_metric(const MetricCommand& metric, const Case& c, const std::
   const std::string name = "metric-" + metric.metric.key;
   const fs::path out = at / (name + ".out"), err = at / (name + ".err");
   try {
-    const ProgramRun run =
-        run_program(fill_in(metric, c, pipeline, at), at, out, static_cast<unsigned>(metric.timeout), err);
-    const std::string printed = read_start(out);
-    if (std::string failure = how_it_failed(metric, run, read_start(err)); !failure.empty())
+    const std::vector<std::string> words = filled_in(metric.folder, metric.command,
+                                                     {{"{size}", [&] { return told_size(c); }},
+                                                      {"{mesh}", [&] { return (at / "mesh.msh").string(); }},
+                                                      {"{folder}", [&] { return at.string(); }},
+                                                      {"{case}", [&] { return c.name; }},
+                                                      {"{pipeline}", [&] { return pipeline; }},
+                                                      {"{seed}", [&] { return std::to_string(c.seed); }}});
+    const ProgramRun run = run_program(words, at, out, static_cast<unsigned>(metric.timeout), err);
+    if (std::string failure = how_it_failed(metric, run, err); !failure.empty())
       return failed(std::move(failure));
-    MetricOutcome outcome = parse_metric_output(metric.metric.key, printed);
+    MetricOutcome outcome = parse_metric_output(metric.metric.key, read_start(out));
     if (!outcome.failure.empty()) outcome.failure = metric.command[0] + ": " + outcome.failure;
     return outcome;
   } catch (const InputError& error) {

@@ -23,6 +23,7 @@
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/mesh_io.h"
+#include "metrics/shape.h"
 #include "metrics/surface/surface_report.h"
 #include "metrics/tables/result_records.h"
 
@@ -83,32 +84,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr unsigned kVersionSeconds = 30;   // after which a program that only tells its version hangs
-constexpr std::size_t kLongestLine = 200;  // of a program's output, in a message
+constexpr unsigned kVersionSeconds = 30;  // after which a program that only tells its version hangs
 /// With which a program ends that cannot be told the case, the reason in its last line.
 constexpr int kCannotBeTold = 77;
 constexpr CalibrationLimits kCalibration = {.tolerance = kEquallyMany, .most_runs = 8};
 constexpr const char* kKept = "kept";  // folder of the closest run so far, beside that of the last
-
-/// What a program said went wrong: its first line with "error" in it, else its last.
-std::string complaint(const fs::path& log) {
-  std::ifstream in(log);
-  std::string line, last;
-  while (std::getline(in, line)) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    last = line.substr(0, kLongestLine);
-    if (last.find("rror") != std::string::npos) break;
-  }
-  return last.empty() ? "" : ": " + last;
-}
-
-std::string last_line(const fs::path& log) {
-  std::ifstream in(log);
-  std::string line, last;
-  while (std::getline(in, line))
-    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line.substr(0, kLongestLine);
-  return last;
-}
 
 /// `good`: exit codes.
 void check_run(const std::string& program, const ProgramRun& run, const std::vector<int>& good,
@@ -117,27 +97,11 @@ void check_run(const std::string& program, const ProgramRun& run, const std::vec
   if (!end.empty()) throw PeerError(program + ": " + end + (run.error == 0 ? complaint(log) : ""));
 }
 
-/// A program with a slash in it counts from the peer's folder, and so do files that lie there.
-std::vector<std::string> located_command(const Peer& peer, std::vector<std::string> words) {
-  if (words[0].find('/') != std::string::npos)
-    words[0] = fs::absolute(peer.folder / words[0]).lexically_normal().string();
-  for (std::size_t i = 1; i < words.size(); ++i)
-    if (const fs::path file = file_of_word(peer.folder, words, i); !file.empty()) words[i] = file.string();
-  return words;
-}
-
-Vec3 area_vector(const Mesh& mesh, std::span<const int> v) {
-  Vec3 twice{0, 0, 0};
-  for (std::size_t k = 1; k + 1 < v.size(); ++k)
-    twice = twice + cross(mesh.points[v[k]] - mesh.points[v[0]], mesh.points[v[k + 1]] - mesh.points[v[0]]);
-  return 0.5 * twice;
-}
-
 /// By `part` of each element's area vector.
 template <class Part>
 double sum_areas(const Mesh& mesh, Part part) {
   double sum = 0;
-  for_each_element(mesh, [&](int, const auto& v) { sum += part(area_vector(mesh, v)); });
+  for_each_element(mesh, [&](int, const auto& v) { sum += part(0.5 * area_vector(corners_of(mesh, v))); });
   return sum;
 }
 
@@ -245,8 +209,10 @@ void check_end(const Peer& peer, const std::string& program, const ProgramRun& r
   const auto is_good = [&](int code) {
     return std::ranges::find(peer.exit_codes, code) != peer.exit_codes.end();
   };
-  if (run.error == 0 && run.exit_code() == kCannotBeTold && !is_good(kCannotBeTold))
-    throw NotApplicable(last_line(log));
+  if (run.error == 0 && run.exit_code() == kCannotBeTold && !is_good(kCannotBeTold)) {
+    const std::vector<std::string> said = lines_printed(log);
+    throw NotApplicable(said.empty() ? "" : said.back());
+  }
   check_run(program, run, peer.exit_codes, log);
 }
 
@@ -377,24 +343,17 @@ PeerRun run_calibrated(const Peer& peer, const Case& c, const Prepared& prepared
 std::vector<std::string> peer_command(const PeerTask& task, const fs::path& input, const std::string& output,
                                       const fs::path& size_field) {
   const Peer& peer = task.peer;
-  std::vector<std::string> words = located_command(peer, command_of_case(peer, task.c.name));
-  for (std::string& word : words) {
-    if (word.find("{size}") != std::string::npos)
-      word = replace_all(word, "{size}", fmt::format("{}", told_size(task)));
-    if (word.find("{quads}") != std::string::npos)
-      word = replace_all(
-          word, "{quads}",
-          fmt::format("{:.0f}", task.prepared->size.expected_quads / (task.field_scale * task.field_scale)));
-    word = replace_all(word, "{size_field}", size_field.string());
-    word = replace_all(word, "{input}", input.string());
-    word = replace_all(word, "{output}", output);
-    word = replace_all(word, "{seed}", std::to_string(task.c.seed));
-    if (word.find("{version}") != std::string::npos)
-      word = replace_all(word, "{version}", told_version(peer));
-    if (word.find("{data}") != std::string::npos)
-      word = replace_all(word, "{data}", fs::absolute(task.c.data_folder).lexically_normal().string());
-  }
-  return words;
+  const double factor = task.field_scale * task.field_scale;
+  return filled_in(
+      peer.folder, command_of_case(peer, task.c.name),
+      {{"{size}", [&] { return fmt::format("{}", told_size(task)); }},
+       {"{quads}", [&] { return fmt::format("{:.0f}", task.prepared->size.expected_quads / factor); }},
+       {"{size_field}", [&] { return size_field.string(); }},
+       {"{input}", [&] { return input.string(); }},
+       {"{output}", [&] { return output; }},
+       {"{seed}", [&] { return std::to_string(task.c.seed); }},
+       {"{version}", [&] { return told_version(peer); }},
+       {"{data}", [&] { return fs::absolute(task.c.data_folder).lexically_normal().string(); }}});
 }
 
 std::vector<std::string> command_of_case(const Peer& peer, const std::string& name) {
@@ -415,11 +374,10 @@ std::string peer_version(const Peer& peer) {
   if (!version.empty()) return version;
   const TemporaryFolder scratch;
   const fs::path log = scratch.path() / "version";
-  const auto words = located_command(peer, peer.version);
+  const auto words = filled_in(peer.folder, peer.version, {});
   check_run(words[0], run_program(words, scratch.path(), log, kVersionSeconds), {0}, log);
-  std::ifstream in(log);
-  for (std::string line; std::getline(in, line);)
-    if (line.find_first_not_of(" \t\r") != std::string::npos) return version = line;
+  const std::vector<std::string> said = lines_printed(log);
+  if (!said.empty()) return version = said[0];
   refuse<PeerError>("{}: prints no version", fmt::join(words, " "));
 }
 

@@ -313,13 +313,11 @@ bool may_come_out_otherwise(const MeshMetrics& metrics) {
 Json start_record(const Case& c, const Word& word, const std::string& status, const CellIdentity* cell,
                   const std::string& metrics = "ok") {
   Json json = Json::object();
-  // First: they are looked for without reading the rest.
   const auto mesh = cell != nullptr ? cell->files.find("mesh.msh") : decltype(cell->files.end()){};
   const bool has_mesh = cell != nullptr && mesh != cell->files.end();
   json["record"] = kRecordVersion;
   if (cell != nullptr) json["key"] = cell->key;
   if (cell != nullptr && metrics != "ok") json["metrics_status"] = metrics;
-  if (has_mesh) json["mesh_bytes"] = mesh->second.bytes;
   json["case"] = c.name;
   json["pipeline"] = word.text;
   json["status"] = status;

@@ -55,11 +55,9 @@ std::optional<double> expected_seconds(const Experiment& experiment, const std::
 /// The cells in their order, a line each, and what there is of them: as in state_of_cell(), or "data not
 /// found".
 std::string list_cells(const Experiment& experiment, const std::filesystem::path& folder);
-/// The same, then what the run would take, by records in the folder (of another experiment, where a warning
-/// says that the run would refuse it), and what it could prove, with which power for an effect in standard
-/// deviations of domains' differences. An empty folder has none. Throws InputError as check_hypotheses()
-/// does.
-std::string dry_run(const Experiment& experiment, const std::filesystem::path& folder,
-                    std::optional<double> effect);
+/// Adds the time that the run would take, by records in the folder, and what it could prove. An empty folder
+/// has no records; a warning says if the folder is of another experiment. Throws InputError as
+/// check_hypotheses() does.
+std::string dry_run(const Experiment& experiment, const std::filesystem::path& folder);
 
 }  // namespace delquad

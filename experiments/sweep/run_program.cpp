@@ -10,11 +10,14 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <system_error>
 
 #include "base/process.h"
 #include "base/stopwatch.h"
+#include "base/text.h"
 #include "io/digest.h"
+#include "metrics/tables/table.h"
 
 namespace delquad {
 namespace {
@@ -133,6 +136,37 @@ fs::path file_of_word(const fs::path& folder, const std::vector<std::string>& wo
   std::error_code nothing_there;
   const fs::path file = fs::absolute(folder / word).lexically_normal();
   return fs::is_regular_file(file, nothing_there) ? file : fs::path();
+}
+
+std::vector<std::string> filled_in(const fs::path& folder, const std::vector<std::string>& words,
+                                   const std::vector<Filling>& fillings) {
+  std::vector<std::string> filled = words;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool is_path = words[i].find('/') != std::string::npos && words[i].find('{') == std::string::npos;
+    if (const fs::path file = file_of_word(folder, words, i); !file.empty() || (i == 0 && is_path))
+      filled[i] = fs::absolute(folder / words[i]).lexically_normal().string();
+    for (const auto& [placeholder, text] : fillings)
+      if (filled[i].find(placeholder) != std::string::npos)
+        filled[i] = replace_all(filled[i], placeholder, text());
+  }
+  return filled;
+}
+
+std::vector<std::string> lines_printed(const fs::path& file) {
+  constexpr std::size_t kLongestLine = 200;  // in a message
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);)
+    if (!trimmed(line).empty()) lines.push_back(line.substr(0, kLongestLine));
+  return lines;
+}
+
+std::string complaint(const fs::path& file) {
+  const std::vector<std::string> lines = lines_printed(file);
+  const auto at = std::ranges::find_if(lines, [](const std::string& line) {
+    return line[0] != ' ' && line.find("rror") != std::string::npos;
+  });
+  return lines.empty() ? "" : ": " + (at == lines.end() ? lines.back() : *at);
 }
 
 std::map<std::string, std::string> command_files(const fs::path& folder,

@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace delquad {
@@ -33,6 +35,19 @@ ProgramRun run_program(const std::vector<std::string>& words, const std::filesys
 /// without a slash is one of the PATH, whatever lies beside the experiment.
 std::filesystem::path file_of_word(const std::filesystem::path& folder, const std::vector<std::string>& words,
                                    std::size_t i);
+
+/// A placeholder, such as "{mesh}", and what stands for it.
+using Filling = std::pair<const char*, std::function<std::string()>>;
+/// The words of a command with files in `folder`, where they name some, and fillings in place of
+/// placeholders. A program with a slash counts from `folder`, too.
+std::vector<std::string> filled_in(const std::filesystem::path& folder, const std::vector<std::string>& words,
+                                   const std::vector<Filling>& fillings);
+
+/// Returns the starts of the lines that a program printed to a file, without blank lines.
+std::vector<std::string> lines_printed(const std::filesystem::path& file);
+/// Returns the error that a program printed, for the end of a message. It is the first line with "error" in
+/// it that is not indented, else the last line. Empty: it printed nothing.
+std::string complaint(const std::filesystem::path& file);
 
 /// The words of a command that stand for files, with the digests of these.
 std::map<std::string, std::string> command_files(const std::filesystem::path& folder,

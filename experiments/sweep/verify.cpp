@@ -44,10 +44,11 @@ using Json = nlohmann::ordered_json;
 /// Parts of a record that are no values: what determines them (compared apart), and what no two runs have in
 /// common.
 const std::vector<std::string> kNoValues = {
-    "digest",  "key",     "mesh_bytes",        "metrics_status", "case",      "pipeline",    "status",
-    "model",   "seed",    "variant",           "peer",           "peer_file", "own_metrics", "experiment",
-    "digests", "files",   "problem",           "not_repeatable", "record",    "versions",    "machine",
-    "started", "threads", "peak_memory_bytes", "warnings",       "solvers"};
+    "digest",     "key",     "metrics_status", "case",    "pipeline",          "status",
+    "model",      "seed",    "variant",        "peer",    "peer_file",         "own_metrics",
+    "experiment", "digests", "files",          "problem", "not_repeatable",    "record",
+    "versions",   "machine", "started",        "threads", "peak_memory_bytes", "warnings",
+    "solvers"};
 
 bool is_time(const std::string& key) { return key.starts_with("seconds") || key.ends_with("seconds"); }
 

@@ -48,10 +48,8 @@ Criteria read_table(const TomlTable& table) {
   for (const TomlTable& part : table.tables("on")) {
     part.require_known(named_criteria_keys());
     read_limits(part, part.text("name"), criteria);
-    part.finish(named_criteria_keys());
   }
   read_fields(table, criteria);
-  table.finish(criteria_keys());
   if (criteria.empty()) throw InputError(table.where() + ": no criteria: expected a preset or limits");
   check_criteria(criteria);
   return criteria;
@@ -92,89 +90,27 @@ std::string list_type(const std::string& item, const Rule& rule) {
                      rule.unique ? R"(, "uniqueItems": true)" : "");
 }
 
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, std::string& value) {
-  value = rule.form == Form::kFormula ? table.expression(key) : table.text(key);
-  check_value(value, rule, {table.where(key), key});
-}
-
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, bool& value) {
-  value = rule.words == nullptr ? table.get<bool>(key) : read_word(table, key, rule) != 0;
-}
-
-std::size_t read_word(const TomlTable& table, const std::string& key, const Rule& rule) {
+std::size_t described::read_word(const TomlTable& table, const std::string& key, const Rule& rule) {
   const std::string word = table.text(key);
   check_text(word, {.required = true, .words = rule.words}, {table.where(key), key});
   const std::vector<std::string> words = words_of(rule.words);
   return static_cast<std::size_t>(std::ranges::find(words, word) - words.begin());
 }
 
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, double& value) {
-  const bool is_first = rule.form == Form::kLeast;
-  value = is_first || rule.form == Form::kMost ? table.get<std::array<double, 2>>(key)[is_first ? 0 : 1]
-                                               : table.number(key);
-  check_value(value, rule, {table.where(key), key});
-  if (rule.form == Form::kDegrees) value *= std::numbers::pi / 180;
-}
-
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, Vec3& value) {
-  if (rule.form == Form::kVector) {
-    const auto [x, y, z] = table.get<std::array<double, 3>>(key);
-    value = {x, y, z};
-  } else {
-    value = table.get<Vec3>(key);
-  }
-  check_value(value, rule, {table.where(key), key});
-}
-
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
-                std::vector<std::string>& value) {
-  value = rule.form == Form::kTexts && table.kind(key) == TomlKind::kText ? std::vector{table.text(key)}
-                                                                          : table.texts(key);
-  const ValueName name = {table.where(key), key};
-  if (rule.least && value.empty()) refuse_empty(name);
-  check_value(value, rule, name);
-}
-
-void read_value(const TomlTable& table, const std::string& key, const Rule&,
-                std::map<std::string, std::string>& value) {
-  const TomlTable texts = table.table(key);
-  for (const std::string& word : texts.keys()) value[word] = texts.text(word);
-}
-
-void read_value(const TomlTable& table, const std::string& key, const Rule&, std::filesystem::path& value) {
-  value = table.file().parent_path() / table.text(key);
-}
-
-void read_value(const TomlTable& table, const std::string& key, const Rule&,
-                std::vector<std::filesystem::path>& value) {
-  for (const std::string& text : table.texts(key)) value.push_back(table.file().parent_path() / text);
-}
-
 namespace {
 
-OptionValue read_value(const TomlTable& table, const OptionKey& key) {
-  if (std::holds_alternative<bool>(key.value)) return table.flag(key.name, false);
-  if (std::holds_alternative<double>(key.value)) return table.number(key.name);
-  if (std::holds_alternative<std::string>(key.value)) return table.text(key.name);
-  return table.integer(key.name);
-}
-
 void read_options(const TomlTable& table, const OptionGroup& group, Options& options) {
-  const std::vector<std::string> present = table.keys();
-  if (group.name == "smoothing" && std::ranges::find(present, "method") != present.end())
-    refuse("{}: there is no 'smoothing.method' any longer: L takes the exact gradient, so remove the key",
-           table.where("method"));
-  for (const OptionKey& key : group.keys)
+  table.require_known(keys_of(group));
+  for (const OptionKey& key : group.keys) {
+    const auto read = [&](const auto& like) { return OptionValue(table.get(key.name, like)); };
     if (table.has(key.name))
       located(table.where(key.name),
-              [&] { return options.set(group.name + "." + key.name, read_value(table, key)); });
-  table.finish(keys_of(group));
+              [&] { return options.set(group.name + "." + key.name, std::visit(read, key.value)); });
+  }
 }
 
 MappedSpec read_mapped(const TomlTable& table) {
   MappedSpec mapped{.names = {}, .automatic = false, .where = table.where("mapped"), .corners = {}};
-  if (table.kind("mapped") == TomlKind::kFlag)
-    throw InputError(mapped.where + ": 'mapped' must be names of regions, or \"auto\"");
   auto [names, tables] = table.texts_and_tables("mapped");
   mapped.names = std::move(names);
   mapped.automatic = std::erase(mapped.names, "auto") > 0;
@@ -183,17 +119,12 @@ MappedSpec read_mapped(const TomlTable& table) {
 }
 
 SymmetrySpec read_symmetry(const TomlTable& table) {
-  SymmetrySpec symmetry{.planes = {}, .automatic = false, .where = table.where("symmetry")};
-  if (table.kind("symmetry") == TomlKind::kFlag)
-    throw InputError(symmetry.where + ": 'symmetry' must be planes, or \"auto\"");
-  if (table.kind("symmetry") == TomlKind::kText) {
-    if (const std::string text = table.text("symmetry"); text != "auto")
-      throw InputError(symmetry.where + ": '" + text + "': expected \"auto\" or planes");
-    symmetry.automatic = true;
-    return symmetry;
-  }
-  for (const TomlTable& plane : table.tables("symmetry"))
-    read_described(plane, symmetry.planes.emplace_back());
+  const auto [texts, planes] = table.texts_and_tables("symmetry");
+  SymmetrySpec symmetry{.planes = {}, .automatic = !texts.empty(), .where = table.where("symmetry")};
+  for (const std::string& text : texts)
+    if (text != "auto" || !planes.empty())
+      refuse("{}: '{}': expected \"auto\" or planes", symmetry.where, text);
+  for (const TomlTable& plane : planes) read_described(plane, symmetry.planes.emplace_back());
   return symmetry;
 }
 
@@ -219,23 +150,21 @@ bool set_model_file(const std::filesystem::path& file, Case& target) {
 
 void read_data(const TomlTable& table, Case& target) {
   if (target.data_folder.empty())
-    throw InputError(table.where("data") + ": 'data' is for cases of experiments: expected 'model'");
+    refuse("{}: 'data' is for cases of experiments: expected 'model'", table.where("data"));
   const std::filesystem::path file = target.data_folder / table.text("data");
   if (!set_model_file(file, target))
-    throw InputError(table.where("data") + ": '" + file.string() + "' is no data: expected a .msh, " +
-                     surface_files() + " file");
+    refuse("{}: '{}' is no data: expected a .msh, {} file", table.where("data"), file.string(),
+           surface_files());
   target.may_be_absent = true;
 }
 
 void read_model_keys(const TomlTable& table, Case& target) {
   const std::filesystem::path folder = table.file().parent_path();
   const bool drawn = has_planar_model(table);
-  if (table.has("mesh") && drawn)
-    throw InputError(table.where("mesh") + ": 'mesh' and curves or loops exclude each other");
   if (table.has("start") && !table.has("mesh"))
-    throw InputError(table.where("start") + ": 'start' is for a mesh: expected 'mesh', too");
-  int models = (drawn || table.has("mesh")) ? 1 : 0;
-  for (const char* key : {"model", "data", "example"})
+    refuse("{}: 'start' is for a mesh: expected 'mesh', too", table.where("start"));
+  int models = drawn ? 1 : 0;
+  for (const char* key : {"mesh", "model", "data", "example"})
     if (table.has(key) && ++models > 1)
       refuse("{}: '{}' and another model exclude each other", table.where(key), key);
   if (table.has("data")) {
@@ -250,9 +179,9 @@ void read_model_keys(const TomlTable& table, Case& target) {
     set_model(ExampleModel{table.text("example")}, target);
     located(table.where("example"), [&] { check_example(example_of(target)); });
   } else if (table.has("mesh")) {
-    const ModelFile file{folder / table.text("mesh"), table.flag("start", false)};
+    const ModelFile file{folder / table.text("mesh"), table.get("start", false)};
     if (kind_of_file(file.path) != ".msh" && !file.given)
-      throw InputError(table.where("mesh") + ": '" + file.path.string() + "' is not a .msh file");
+      refuse("{}: '{}' is not a .msh file", table.where("mesh"), file.path.string());
     set_model(file, target);
   } else if (drawn) {
     set_model(read_planar_model(table), target);
@@ -328,8 +257,7 @@ void read_case_keys(const TomlTable& table, Case& target) {
     // At the top of an experiment [[metric]] is a measure.
     if (info.rule.form != Form::kPlain || table.kind(info.key) == TomlKind::kNone) return;
     if (info.key == std::string("metric") && table.kind(info.key) != TomlKind::kTable) return;
-    if constexpr (requires { read_value(table, info.key, info.rule, member); })
-      read_value(table, info.key, info.rule, member);
+    read_value(table, info.key, info.rule, member);
   });
   target.surface.embed = std::move(embed);
   if (table.has("embed") && !has_planar_model(table)) target.surface.embed = read_embedded_lines(table);
@@ -363,7 +291,6 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
     throw InputError(table.where("model") + ": a model file cannot take its model from another one");
   read_case_keys(table, result);
   result.model_file = file;
-  table.finish();
   if (!has_model(result))
     throw InputError(file.string() + ": no model: expected 'loop', 'pattern', 'mesh', 'model' or 'example'");
   return result;

@@ -16,12 +16,9 @@ namespace delquad {
 
 namespace toml_types {
 
-std::string between(const std::string& type, double least, double most) {
-  return fmt::format(R"({{"type": "{}", "minimum": {}, "maximum": {}}})", type, least, most);
-}
-
-std::string points(int least, const std::string& point) {
-  return fmt::format(R"({{"type": "array", "items": {}, "minItems": {}}})", point, least);
+std::string points(const std::string& point, double least, std::optional<double> most) {
+  return fmt::format(R"({{"type": "array", "items": {}, "minItems": {}{}}})", point, least,
+                     most ? fmt::format(R"(, "maxItems": {})", *most) : "");
 }
 
 std::string one_of(const std::vector<std::string>& texts) {
@@ -34,27 +31,6 @@ namespace {
 
 using namespace toml_types;
 
-const std::string& kPoint = kRange;
-
-std::string points_or_file() {
-  return fmt::format(R"({{"anyOf": [{}, {{"type": "string"}}]}})", points(2, kPoint));
-}
-
-std::string two_points() {
-  return fmt::format(R"({{"type": "array", "items": {}, "minItems": 2, "maxItems": 2}})", kPoint);
-}
-
-/// Shapes that are closed by themselves, and what may stand beside each.
-TomlKeys closed_shapes() {
-  return {
-      {"rectangle", "two opposite corners", two_points()},
-      {"polygon", "corners, in either direction", points(3, kPoint)},
-      {"circle", "a circle", "", keys_of<CircleShape>},
-      {"boundary", "name of its curves, or one for each; not with 'curves', which have names", kTextOrTexts},
-      {"region", "name of what is inside", kText},
-      {"hole", "whether it must be a hole", kFlag}};
-}
-
 /// The type of an option's value, as JSON Schema.
 std::string type_of(const OptionKey& key) {
   if (const std::vector<OptionValue> allowed = allowed_values(key); !allowed.empty()) {
@@ -65,49 +41,6 @@ std::string type_of(const OptionKey& key) {
   const char* types[] = {R"("boolean")", R"("integer")", R"("number")", R"("string")"};
   return limited_type(types[key.value.index()], {.least = key.least, .above = key.above, .most = key.most});
 }
-
-/// Those that begin, then the shapes.
-TomlKeys with_shapes(TomlKeys keys) {
-  for (const TomlKey& shape :
-       TomlKeys{{"segment", "two points", two_points()},
-                {"polyline", "points, each of which gets a node, or a file of them", points_or_file()},
-                {"spline", "points that a smooth curve goes through, or a file", points_or_file()},
-                {"arc", "a part of a circle", "", keys_of<ArcShape>},
-                {"circle", "a circle", "", keys_of<CircleShape>},
-                {"expression", "formulas", "", keys_of<ExpressionShape>}})
-    keys.push_back(shape);
-  return keys;
-}
-
-}  // namespace
-
-TomlKeys curve_keys() {
-  return with_shapes({{"name", "what loops call it", kText, nullptr, false, true},
-                      {"boundary", "its name in all but loops; else 'name'", kText}});
-}
-
-TomlKeys embed_keys() {
-  TomlKeys all = with_shapes({{"name", "its physical group", kText},
-                              {"crack", "whether the mesh comes apart along it", kFlag},
-                              {"point", "a point that becomes a node", kSpacePoint}});
-  std::ranges::find(all, "polyline", &TomlKey::name)->type = points(2, kSpacePoint);
-  return all;
-}
-
-TomlKeys loop_keys() {
-  TomlKeys all = closed_shapes();
-  all.push_back({"curves", "names of curves that close up", kTexts});
-  return all;
-}
-
-TomlKeys pattern_keys() {
-  TomlKeys all = closed_shapes();
-  all.push_back({"count", "how many, [nx, ny]", kPoint, nullptr, false, true});
-  all.push_back({"step", "from one to the next, [dx, dy]", kPoint, nullptr, false, true});
-  return all;
-}
-
-namespace {
 
 /// Those that begin, then the limits.
 TomlKeys with_criteria(TomlKeys keys) {
@@ -138,13 +71,13 @@ TomlKeys keys_of(const OptionGroup& group) {
 }
 
 TomlKeys case_keys() {
-  TomlKeys keys = {{"loop", "closed loops", "", loop_keys, true},
-                   {"pattern", "a loop repeated on a grid", "", pattern_keys, true},
-                   {"curve", "curves that loops are made of", "", curve_keys, true},
+  TomlKeys keys = {{"loop", "closed loops", "", keys_of<LoopShape>, true},
+                   {"pattern", "a loop repeated on a grid", "", keys_of<PatternShape>, true},
+                   {"curve", "curves that loops are made of", "", keys_of<NamedShape>, true},
                    {"embed",
                     "curves and points inside of regions, polylines and points on surfaces; at the top of an "
                     "experiment on surfaces alone",
-                    "", embed_keys, true},
+                    "", keys_of<EmbeddedShape>, true},
                    {"example", "a surface that the program makes itself", kText},
                    {"mesh", "an MSH file; with 'start' of any format", kText},
                    {"start", "words may begin from the elements of that mesh", kFlag},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,7 @@ namespace delquad {
 /// The keys of a model, which are those of a case but for its name. Throws std::logic_error where options
 /// from outside have the name of another key.
 TomlKeys case_keys();
-/// Of the tables inside.
-TomlKeys curve_keys();
-TomlKeys embed_keys();
-TomlKeys loop_keys();
-TomlKeys pattern_keys();
+/// The keys of criteria, and of the limits of a part.
 TomlKeys criteria_keys();
 TomlKeys named_criteria_keys();
 /// The options of a group.
@@ -30,8 +27,6 @@ nlohmann::ordered_json schema_of(const TomlKeys& keys);
 namespace toml_types {
 inline const std::string kText = R"({"type": "string"})";
 inline const std::string kFlag = R"({"type": "boolean"})";
-inline const std::string kNumber = R"({"type": "number"})";
-inline const std::string kPositive = R"({"type": "number", "exclusiveMinimum": 0})";
 inline const std::string kExpression = R"({"type": ["number", "string"]})";
 inline const std::string kTexts = R"({"type": "array", "items": {"type": "string"}})";
 inline const std::string kTextOrTexts = R"({"type": ["string", "array"], "items": {"type": "string"}})";
@@ -42,10 +37,8 @@ inline const std::string kSpacePoint =
     R"({"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 3})";
 inline const std::string kVector =
     R"({"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3})";
-/// A list of at least so many points.
-std::string points(int least, const std::string& point);
-/// A number, or integer, within limits.
-std::string between(const std::string& type, double least, double most);
+/// A list of so many points.
+std::string points(const std::string& point, double least, std::optional<double> most = {});
 std::string one_of(const std::vector<std::string>& texts);
 }  // namespace toml_types
 

@@ -8,7 +8,9 @@
 
 #include "base/located.h"
 #include "base/nearest_name.h"
+#include "base/text.h"
 #include "fields/fields.h"
+#include "io/mesh_io.h"
 
 namespace delquad {
 namespace {
@@ -48,6 +50,8 @@ void check_number(double value, const Rule& rule, const ValueName& name, std::op
 
 void check_text(const std::string& text, const Rule& rule, const ValueName& name) {
   if (text.empty() && rule.required) refuse_empty(name);
+  if (rule.form == Form::kGroup && !fits_msh(text))
+    refuse("{} is a name of a mesh file: expected one without double quotes and line breaks", name.text());
   if (text.empty() || rule.words == nullptr) return;
   const std::vector<std::string> words = words_of(rule.words);
   if (std::ranges::find(words, text) == words.end())
@@ -65,6 +69,12 @@ void check_unique(const std::vector<std::string>& texts, const ValueName& name) 
   for (const std::string& text : texts)
     if (std::ranges::count(texts, text) > 1)
       refuse("{} has '{}' twice: expected each text once", name.text(), text);
+}
+
+void check_length(std::size_t length, double least, const ValueName& name) {
+  if (length == 0) refuse_empty(name);
+  if (static_cast<double>(length) < least)
+    refuse("{} has {}: expected at least {}", name.text(), counted(length, "value"), least);
 }
 
 void refuse_empty(const ValueName& name) { refuse("{} is empty: expected a value", name.text()); }

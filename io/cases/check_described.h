@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -23,6 +24,8 @@ void check_text(const std::string& text, const Rule& rule, const ValueName& name
 void check_vector(const Vec3& vector, const Rule& rule, const ValueName& name);
 void check_unique(const std::vector<std::string>& texts, const ValueName& name);
 [[noreturn]] void refuse_empty(const ValueName& name);
+/// `least`: how many values a list has at least.
+void check_length(std::size_t length, double least, const ValueName& name);
 
 /// These throw InputError for fields that contradict each other.
 template <class T>
@@ -36,10 +39,16 @@ void check_together(const SurfaceSpec& surface, const std::string& where);
 void check_together(const WasherSpec& washer, const std::string& where);
 void check_together(const FilletRows& rows, const std::string& where);
 
+template <class T, class... Others>
+concept OneOf = (std::is_same_v<T, Others> || ...);
 template <class T>
 inline constexpr bool kIsList = false;
 template <class T>
 inline constexpr bool kIsList<std::vector<T>> = true;
+template <class T>
+inline constexpr bool kIsListOfDescribed = false;
+template <Described T>
+inline constexpr bool kIsListOfDescribed<std::vector<T>> = true;
 template <class T>
 inline constexpr bool kIsOptional = false;
 template <class T>

@@ -17,6 +17,7 @@ enum class Form {
   kPlain,    ///< as its type says: a number, a text, true or false, a list, a table
   kFormula,  ///< a text, or a number in its place
   kTexts,    ///< a list of texts, or one text alone
+  kGroup,    ///< the same, or a text, each the name of a physical group
   kVector,   ///< three numbers
   kDegrees,  ///< degrees; the struct and records have radians
   kBytes,    ///< bytes, which records have by their digest
@@ -29,7 +30,8 @@ enum class Form {
 /// The rules for the value of a field.
 struct Rule {
   Form form = Form::kPlain;
-  /// Limits of numbers, and of lengths of vectors; `least` of lists of texts: how many there are at least.
+  /// Limits of numbers, and of lengths of vectors; `least` of lists of texts and points: how many there are
+  /// at least.
   std::optional<double> least = {}, above = {}, most = {};
   bool required = false;        ///< its table is refused without it
   bool unique = false;          ///< a list of texts, each of which stands there once

@@ -1,18 +1,23 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstddef>
 #include <filesystem>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "base/located.h"
 #include "io/cases/case_keys.h"
 #include "io/cases/check_described.h"
+#include "io/cases/outline_files.h"
 #include "io/cases/toml_reader.h"
 
 // Tables of files by the descriptions of structs: their keys, and reading them.
@@ -60,9 +65,17 @@ void add_type(const T*, const Rule& rule, TomlKey& key) {
   else if constexpr (std::is_same_v<T, Vec3>)
     key.type = rule.form == Form::kVector ? kVector : kSpacePoint;
   else if constexpr (std::is_same_v<T, std::array<Vec3, 2>>)
-    key.type = points(2, kVector);
+    key.type = points(kVector, 2);
+  else if constexpr (std::is_same_v<T, std::array<Vec2, 2>>)
+    key.type = points(kRange, 2, 2);
+  else if constexpr (std::is_same_v<T, std::array<int, 2>>)
+    key.type = points(R"({"type": "integer"})", 2, 2);
+  else if constexpr (std::is_same_v<T, std::vector<Vec2>>)
+    key.type = points(kRange, *rule.least);
+  else if constexpr (std::is_same_v<T, std::vector<Vec3>>)
+    key.type = fmt::format(R"({{"anyOf": [{}, {}]}})", points(kSpacePoint, *rule.least), kText);
   else if constexpr (std::is_same_v<T, std::vector<std::string>>)
-    key.type = rule.form == Form::kTexts
+    key.type = rule.form == Form::kTexts || rule.form == Form::kGroup
                    ? kTextOrTexts
                    : list_type(rule.words != nullptr ? one_of(words_of(rule.words)) : kText,
                                {.required = rule.required || rule.least, .unique = rule.unique});
@@ -108,71 +121,94 @@ void finish_reading(const TomlTable& table, SurfaceSpec& surface);
 template <Described T>
 void read_described(const TomlTable& table, T& value);
 
-/// Reads one value. Throws InputError with file and line for other types, and beyond the limits.
-template <class T>
-requires(std::is_integral_v<T> || std::is_same_v<T, Vec2> || std::is_same_v<T, std::array<Vec3, 2>> ||
-         std::is_same_v<T, std::vector<int>>) void read_value(const TomlTable& table, const std::string& key,
-                                                              const Rule& rule, T& value) {
-  value = table.get<T>(key);
-  check_value(value, rule, {table.where(key), key});
-}
+namespace described {
+
 /// The number of the text among Rule::words.
 std::size_t read_word(const TomlTable& table, const std::string& key, const Rule& rule);
+
 template <class T>
-requires std::is_enum_v<T>
 void read_value(const TomlTable& table, const std::string& key, const Rule& rule, T& value) {
-  value = static_cast<T>(read_word(table, key, rule));
+  const bool is_text = table.kind(key) == TomlKind::kText;
+  const auto in_folder = [&](const std::string& name) { return table.file().parent_path() / name; };
+  if constexpr (std::is_enum_v<T>) {
+    value = static_cast<T>(read_word(table, key, rule));
+  } else if constexpr (std::is_same_v<T, bool>) {
+    value = rule.words == nullptr ? table.get<bool>(key) : read_word(table, key, rule) != 0;
+  } else if constexpr (std::is_same_v<T, double>) {
+    const bool is_pair = rule.form == Form::kLeast || rule.form == Form::kMost;
+    value = is_pair ? table.get<std::array<double, 2>>(key)[rule.form == Form::kMost] : table.number(key);
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    value = rule.form == Form::kFormula ? table.expression(key) : table.text(key);
+  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    value = in_folder(table.text(key));
+  } else if constexpr (std::is_same_v<T, std::vector<std::filesystem::path>>) {
+    for (const std::string& text : table.texts(key)) value.push_back(in_folder(text));
+  } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+    const bool may_be_one = rule.form == Form::kTexts || rule.form == Form::kGroup;
+    value = may_be_one && is_text ? T{table.text(key)} : table.texts(key);
+  } else if constexpr (std::is_same_v<T, std::map<std::string, std::string>>) {
+    // They take the place of some of those before.
+    const TomlTable texts = table.table(key);
+    for (const std::string& word : texts.keys()) value[word] = texts.text(word);
+  } else if constexpr (std::is_same_v<T, Vec3>) {
+    if (rule.form != Form::kVector) return void(value = table.get<Vec3>(key));
+    const auto [x, y, z] = table.get<std::array<double, 3>>(key);
+    value = {x, y, z};
+  } else if constexpr (std::is_same_v<T, std::vector<Vec3>>) {
+    if (!is_text) return void(value = table.get<T>(key));
+    for (const Vec2 p : located(table.where(key), [&] { return read_points(in_folder(table.text(key))); }))
+      value.push_back({p.x, p.y, 0});
+  } else if constexpr (std::is_constructible_v<TomlTarget, T*>) {
+    value = table.get<T>(key);
+  } else {
+    throw std::logic_error("'" + key + "' has no form in files");
+  }
 }
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, bool& value);
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, double& value);
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, std::string& value);
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule, Vec3& value);
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
-                std::vector<std::string>& value);
-/// Texts that take the place of some of those before.
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
-                std::map<std::string, std::string>& value);
-/// Files count from the folder of the table's file.
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
-                std::filesystem::path& value);
-void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
-                std::vector<std::filesystem::path>& value);
+
+}  // namespace described
+
+/// Reads one value. Throws InputError with file and line for other types, and beyond the limits.
 template <class T>
-requires(!std::is_enum_v<T>) void read_value(const TomlTable& table, const std::string& key, const Rule& rule,
-                                             std::optional<T>& value) {
-  T one = value.value_or(T{});
-  if constexpr (Described<T>)
-    read_described(table.table(key), one);
-  else
-    read_value(table, key, rule, one);
-  value = std::move(one);
-}
-template <Described T>
-void read_value(const TomlTable& table, const std::string& key, const Rule&, T& value) {
-  if (!table.is_of_options()) value = T();
-  read_described(table.table(key), value);
-}
-template <Described T>
-void read_value(const TomlTable& table, const std::string& key, const Rule&, std::vector<T>& value) {
-  if (!table.is_of_options()) value.clear();
-  for (const TomlTable& one : table.tables(key)) read_described(one, value.emplace_back());
+void read_value(const TomlTable& table, const std::string& key, const Rule& rule, T& value) {
+  const bool is_new = !table.is_of_options();
+  if constexpr (kIsOptional<T>) {
+    auto one = value.value_or(typename T::value_type());
+    if constexpr (Described<typename T::value_type>)
+      read_described(table.table(key), one);
+    else
+      read_value(table, key, rule, one);
+    value = std::move(one);
+  } else if constexpr (Described<T>) {
+    if (is_new) value = T();
+    read_described(table.table(key), value);
+  } else if constexpr (kIsListOfDescribed<T>) {
+    if (is_new) value.clear();
+    for (const TomlTable& one : table.tables(key)) read_described(one, value.emplace_back());
+  } else {
+    described::read_value(table, key, rule, value);
+    const ValueName name = {table.where(key), key};
+    if constexpr (OneOf<T, std::vector<std::string>, std::vector<Vec2>, std::vector<Vec3>>)
+      if (rule.least) check_length(value.size(), *rule.least, name);
+    check_value(value, rule, name);
+    if constexpr (std::is_same_v<T, double>)
+      if (rule.form == Form::kDegrees) value *= std::numbers::pi / 180;
+  }
 }
 
 /// Reads the fields of a struct among other keys of a table.
 template <Described T>
 void read_fields(const TomlTable& table, T& value) {
   for_each_field(value, [&](const FieldInfo& info, auto& member) {
-    if constexpr (requires { read_value(table, info.key, info.rule, member); }) {
-      const Form form = info.rule.form;
-      if (form == Form::kNone || form == Form::kOwn) return;
-      if (table.has(info.key) || info.rule.required) read_value(table, info.key, info.rule, member);
-    }
+    const Form form = info.rule.form;
+    if (form == Form::kNone || form == Form::kOwn) return;
+    if (table.has(info.key) || info.rule.required) read_value(table, info.key, info.rule, member);
   });
 }
 
 template <Described T>
 void read_described(const TomlTable& table, T& value) {
-  table.require_known(keys_of<T>());
+  static const TomlKeys keys = keys_of<T>();
+  table.require_known(keys);
   const bool is_new = !table.is_of_options();
   if constexpr (requires { value.where = table.where(); })
     if (is_new || value.where.empty()) value.where = table.where();
@@ -181,7 +217,6 @@ void read_described(const TomlTable& table, T& value) {
   read_fields(table, value);
   finish_reading(table, value);
   check_described(value, table.where());
-  table.finish(keys_of<T>());
 }
 
 }  // namespace delquad

@@ -10,7 +10,6 @@
 #include <fstream>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <system_error>
 
 #include "base/located.h"
@@ -65,7 +64,6 @@ struct TomlTable::Data {
   const toml::table* table;
   std::filesystem::path file = {};
   std::string path = {};  // of the table inside the file, for messages; empty at the top
-  std::set<std::string> asked = {};
   std::shared_ptr<const TomlChoices> choices = nullptr;  // null: none
   std::string below = {};  // dotted path from the table with choices, with its dot at the end
   std::shared_ptr<const std::vector<std::string>> options = nullptr;  // by line, in place of a file
@@ -84,8 +82,7 @@ struct TomlTable::Data {
   }
   std::string own_name(const std::string& key) const { return path.empty() ? key : path + "." + key; }
 
-  const toml::node* find(const std::string& key) {
-    asked.insert(key);
+  const toml::node* find(const std::string& key) const {
     const toml::node* node = table->get(key);
     const auto* choice = chosen(key);
     if (!choice) return node;
@@ -108,7 +105,7 @@ struct TomlTable::Data {
   [[noreturn]] void expected(const toml::node& node, const std::string& key, const std::string& what) const {
     throw InputError(place(node) + ": '" + name(key) + "' must be " + what);
   }
-  const toml::node& need(const std::string& key, const std::string& what) {
+  const toml::node& need(const std::string& key, const std::string& what) const {
     const toml::node* node = find(key);
     if (!node) refuse("{}: '{}' is missing: expected {}", place(line()), name(key), what);
     return *node;
@@ -254,9 +251,10 @@ const char* expected_of(Vec2) { return "a point [x, y]"; }
 const char* expected_of(Vec3) { return "a point [x, y] or [x, y, z]"; }
 const char* expected_of(const std::array<double, 2>&) { return "two numbers [least, most]"; }
 const char* expected_of(const std::array<double, 3>&) { return "three numbers [x, y, z]"; }
+const char* expected_of(const std::array<int, 2>&) { return "two integers [nx, ny]"; }
+const char* expected_of(const std::array<Vec2, 2>&) { return "two points [[x, y], [x, y]]"; }
 const char* expected_of(const std::array<Vec3, 2>&) { return "two opposite corners [[x, y, z], [x, y, z]]"; }
 const char* expected_of(const std::vector<int>&) { return "a list of integers"; }
-const char* expected_of(const std::vector<double>&) { return "a list of finite numbers"; }
 const char* expected_of(const std::vector<std::string>&) { return "a list of texts in quotes"; }
 const char* expected_of(const std::vector<Vec2>&) { return "a list of points [[x, y], ...]"; }
 const char* expected_of(const std::vector<Vec3>&) { return "a list of points [[x, y, z], ...]"; }
@@ -310,8 +308,8 @@ std::pair<std::vector<std::string>, std::vector<TomlTable>> TomlTable::texts_and
     const std::string& key, bool may_be_texts) const {
   const toml::node* node = data_->find(key);
   if (!node) return {};
-  const char* what =
-      may_be_texts ? "a text in quotes, a table, or a list of these" : "a table or a list of tables";
+  const char* what = may_be_texts ? "a text in quotes such as \"auto\", a table, or a list of these"
+                                  : "a table or a list of tables";
   std::pair<std::vector<std::string>, std::vector<TomlTable>> result;
   const auto add = [&](const toml::node& item) {
     if (may_be_texts && item.is_string())
@@ -391,37 +389,23 @@ TomlTable TomlTable::with_choice(const TomlTable& lists, const std::vector<std::
     choices->values.push_back(
         {leaves[k], &element(*lists.data_->table, leaves[k], choice[k]), lists.data_->path});
   auto data = std::make_shared<Data>(*data_);
-  data->asked.clear();
   data->choices = std::move(choices);
   return TomlTable(std::move(data));
 }
 
-void TomlTable::require_among(const std::vector<std::string>& known) const {
+void TomlTable::require_known(const TomlKeys& keys) const {
   for (const std::string& name : data_->keys()) {
-    if (std::ranges::find(known, name) != known.end()) continue;
+    if (std::ranges::find(keys, name, &TomlKey::name) != keys.end()) continue;
     const auto key = data_->table->find(name);
     const std::string place = key != data_->table->end() ? data_->place(key->first.source().begin.line)
                                                          : data_->place(*data_->chosen(name)->node);
+    std::vector<std::string> known;
+    for (const TomlKey& one : keys) known.push_back(one.name);
+    std::ranges::sort(known);
     const std::string near = suggestion(name, known);
     refuse("{}: unknown key '{}'{}", place, data_->name(name),
            near.empty() ? fmt::format("; known here: {}", fmt::join(known, " ")) : near);
   }
-}
-
-void TomlTable::finish() const { require_among({data_->asked.begin(), data_->asked.end()}); }
-
-void TomlTable::require_known(const TomlKeys& keys) const {
-  std::vector<std::string> known;
-  for (const TomlKey& key : keys) known.push_back(key.name);
-  std::ranges::sort(known);
-  require_among(known);
-}
-
-void TomlTable::finish(const TomlKeys& keys) const {
-  for (const std::string& name : data_->asked)
-    if (std::ranges::find(keys, name, &TomlKey::name) == keys.end())
-      throw std::logic_error("the key '" + data_->name(name) + "' is read but not listed");
-  finish();
 }
 
 }  // namespace delquad

@@ -36,13 +36,12 @@ enum class TomlKind { kNone, kNumber, kText, kFlag, kArray, kTable };
 /// The place that a value is read into.
 using TomlTarget =
     std::variant<bool*, int*, long long*, double*, std::string*, Vec2*, Vec3*, std::array<double, 2>*,
-                 std::array<double, 3>*, std::array<Vec3, 2>*, std::vector<int>*, std::vector<double>*,
-                 std::vector<std::string>*, std::vector<Vec2>*, std::vector<Vec3>*,
+                 std::array<double, 3>*, std::array<int, 2>*, std::array<Vec2, 2>*, std::array<Vec3, 2>*,
+                 std::vector<int>*, std::vector<std::string>*, std::vector<Vec2>*, std::vector<Vec3>*,
                  std::vector<std::vector<int>>*, std::vector<std::variant<std::string, Vec3>>*>;
 
 /// A checked view of one table of a TOML file. Every getter throws InputError "file:line: ..." which names
-/// the key and says what was expected; copies share the record of the keys that were asked for, against which
-/// finish() checks.
+/// the key and says what was expected.
 class TomlTable {
  public:
   /// Throws InputError when the file cannot be read or is not TOML.
@@ -79,13 +78,8 @@ class TomlTable {
     return has(key) ? get<T>(key) : absent;
   }
   double number(const std::string& key) const { return get<double>(key); }
-  double number(const std::string& key, double absent) const { return get(key, absent); }
-  long long integer(const std::string& key) const { return get<long long>(key); }
-  long long integer(const std::string& key, long long absent) const { return get(key, absent); }
-  bool flag(const std::string& key, bool absent) const { return get(key, absent); }
   std::string text(const std::string& key) const { return get<std::string>(key); }
   std::string text(const std::string& key, const std::string& absent) const { return get(key, absent); }
-  std::vector<double> numbers(const std::string& key) const { return get<std::vector<double>>(key); }
   std::vector<std::string> texts(const std::string& key) const { return get<std::vector<std::string>>(key); }
   /// A text, or a number as it would be written in an expression.
   std::string expression(const std::string& key) const;
@@ -111,22 +105,16 @@ class TomlTable {
   TomlTable with_choice(const TomlTable& lists, const std::vector<std::string>& leaves,
                         const std::vector<std::size_t>& choice) const;
 
-  /// Throws InputError for a key that is present but was never asked for, suggesting the nearest known one.
-  void finish() const;
   /// Throws InputError for a key that is present and none of these, suggesting the nearest of them: to be
   /// called first, before the key that was meant is missed.
   void require_known(const TomlKeys& keys) const;
-  /// The same for a table with these keys; a std::logic_error when another one was asked for, so that the
-  /// list is what is read.
-  void finish(const TomlKeys& keys) const;
 
  private:
   void read(const std::string& key, const TomlTarget& target) const;
-  void require_among(const std::vector<std::string>& known) const;
 
   struct Data;
-  explicit TomlTable(std::shared_ptr<Data> data) : data_(std::move(data)) {}
-  std::shared_ptr<Data> data_;
+  explicit TomlTable(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  std::shared_ptr<const Data> data_;
 };
 
 }  // namespace delquad

@@ -287,12 +287,9 @@ std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector
   }
   for (const std::string& key : study.columns) {
     if (std::ranges::find(columns, key, &TableColumn::key) != columns.end()) continue;
-    if (key == kSeconds) columns.push_back({key, "s", kTimeDigits});
     for (const Metric& metric : columns_of_records())
       if (key == metric.key) columns.push_back({key, metric.title, metric.digits});
     if (const auto metric = metric_of(key, own)) columns.push_back({key, metric->title, metric->digits});
-    for (const StepTime& step : step_times_of_tables())
-      if (key == step.key) columns.push_back({key, step.title, kTimeDigits});
   }
   for (TableColumn& column : columns)
     if (std::ranges::find(own, column.key, &Metric::key) == own.end()) column.range = range_of(column.key);

@@ -180,26 +180,19 @@ CellRecord read_record(const fs::path& file, const std::optional<StudyFile>& stu
   return record;
 }
 
-constexpr std::size_t kHeadLength = 1024;  // of a record: what is looked for stands in it
-
-/// The text or number of a key of a record's first lines.
-std::string head_value(std::string_view head, const std::string& key) {
-  const std::string opening = "\n  \"" + key + "\": ";
-  const auto at = head.find(opening);
-  if (at == std::string_view::npos) return "";
-  auto begin = at + opening.size();
-  const bool is_text = head.substr(begin).starts_with('"');
-  if (is_text) ++begin;
-  const auto end = head.find(is_text ? '"' : ',', begin);
-  return end == std::string_view::npos ? "" : std::string(head.substr(begin, end - begin));
-}
-
 }  // namespace
 
 const std::vector<Metric>& columns_of_records() {
   static const std::vector<Metric> all = [] {
     std::vector<Metric> columns;
     for (const Derived& one : derived()) columns.push_back(one.column);
+    columns.push_back({"seconds", "s", "s", Better::kLower, HUGE_VAL,
+                       "from insertion to projection, by the clock; not of peers", 2});
+    for (const auto& [key, title, step] : step_times_of_tables())
+      columns.push_back({key, title, "s", Better::kLower, HUGE_VAL,
+                         *step == 0 ? "processor time from the start of the program to the written mesh"
+                                    : fmt::format("processor time of the step '{}'", step),
+                         2});
     return columns;
   }();
   return all;
@@ -279,14 +272,14 @@ std::string state_of_cell(const fs::path& folder, const std::string& key) {
   if (!fs::exists(folder / "record.json")) return "to do";
   const std::string text = file_bytes(folder / "record.json");
   if (!is_sealed(text)) return "damaged";
-  const std::string_view head = std::string_view(text).substr(0, kHeadLength);
-  if (head_value(head, "key") != key) return "outdated";
-  if (!head_value(head, "metrics_status").empty()) return "metric failed";
-  const std::string status = head_value(head, "status");
+  const Json record = Json::parse(text);
+  if (record.value("key", "") != key) return "outdated";
+  if (record.contains("metrics_status")) return "metric failed";
+  const std::string status = record.value("status", "");
   if (status != "ok") return status;
   std::error_code missing;
-  const auto bytes = fs::file_size(folder / "mesh.msh", missing);
-  return !missing && std::to_string(bytes) == head_value(head, "mesh_bytes") ? "done" : "damaged";
+  const std::uintmax_t bytes = fs::file_size(folder / "mesh.msh", missing);
+  return !missing && bytes == record.value("/files/mesh.msh/bytes"_json_pointer, 0U) ? "done" : "damaged";
 }
 
 }  // namespace delquad

@@ -63,7 +63,7 @@ std::vector<std::filesystem::path> record_files(const std::filesystem::path& fol
 /// The measures of records that the project itself does not have, each once, in the order of records: with a
 /// measure for each of the values that a command gave, "name.part".
 std::vector<Metric> own_metrics_of(const std::vector<CellRecord>& records);
-/// What records say beside measures and times: tables have it where an experiment asks for it.
+/// Columns beside measures: what records say, and times. Tables have those that an experiment asks for.
 const std::vector<Metric>& columns_of_records();
 
 /// The records of an experiment below a folder, in the order of its study.json, if there is one, and by path.

@@ -46,12 +46,6 @@ class RunColumns {
     for (const Metric& metric : metric_registry()) add(metric);
     for (const Metric& metric : own_metrics_of(records)) add(metric);
     for (const Metric& metric : columns_of_records()) add(metric);
-    using enum Better;
-    add({"seconds", "s", "s", kLower, HUGE_VAL, "from insertion to projection, by the clock; not of peers"});
-    for (const StepTime& time : step_times_of_tables())
-      add({time.key, time.title, "s", kLower, HUGE_VAL,
-           *time.step == 0 ? "processor time from the start of the program to the written mesh"
-                           : fmt::format("processor time of the step '{}'", time.step)});
   }
 
   RunsCsv csv(const std::vector<CellRecord>& records) const {

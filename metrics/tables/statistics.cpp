@@ -116,31 +116,6 @@ RankTest wilcoxon(std::span<const double> differences) {
   return {std::min(1.0, 2 * tail), std::min(1.0, least), double(positive) - negative};
 }
 
-double wilcoxon_power(std::size_t n, double effect, double level) {
-  constexpr int kDraws = 10'000;
-  std::vector<int> ranks(n);
-  for (std::size_t i = 0; i < n; ++i) ranks[i] = 2 * static_cast<int>(i + 1);
-  const int half = std::accumulate(ranks.begin(), ranks.end(), 0) / 2;
-  int most = -2;  // of the doubled ranks of differences below 0
-  while (most + 2 <= half && tail_of(ranks, most + 2) <= level / 2) most += 2;
-  std::mt19937_64 random(20130903);  // any seed will do, as long as it stays
-  std::vector<double> values(n), sizes(n);
-  int proofs = 0;
-  for (int i = 0; i < kDraws; ++i) {
-    for (std::size_t k = 0; k < n; ++k) {
-      // Unlike the standard's distributions the same with every library.
-      const double part = std::ldexp(static_cast<double>(random() >> 12) + 0.5, -52);
-      values[k] = effect + quantile(boost::math::normal(), part);
-      sizes[k] = std::abs(values[k]);
-    }
-    const std::vector<int> drawn = double_ranks(sizes);
-    int negative = 0;
-    for (std::size_t k = 0; k < n; ++k) negative += values[k] < 0 ? drawn[k] : 0;
-    proofs += negative <= most ? 1 : 0;
-  }
-  return double(proofs) / kDraws;
-}
-
 std::vector<double> holm(std::span<const double> p) {
   std::vector<std::size_t> order(p.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -26,9 +26,6 @@ struct RankTest {
 /// their mean rank; differences may be infinite. Exact up to 60 differences, by the normal distribution
 /// beyond. p = 1 of none.
 RankTest wilcoxon(std::span<const double> differences);
-/// How likely Wilcoxon's test of `n` differences proves at `level` that the first is larger, where they are
-/// normal with a mean of `effect` standard deviations: by 10 000 draws, the same every time.
-double wilcoxon_power(std::size_t n, double effect, double level);
 /// Holm's step-down adjustment [holm1979]: a hypothesis may be rejected at a level when its adjusted p-value
 /// is at most that level; then the probability of any false rejection is at most the level, however the tests
 /// depend on each other.

@@ -69,8 +69,6 @@ std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::form
 
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 /// Of UTF-8.
 std::size_t characters(const std::string& text) {
   return static_cast<std::size_t>(

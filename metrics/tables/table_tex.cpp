@@ -38,28 +38,13 @@ bool is_in_every_font(char32_t code) {
 }
 
 std::string tex_character(char c) {
-  switch (c) {
-    case '\\':
-      return "\\textbackslash{}";
-    case '^':
-      return "\\^{}";
-    case '~':
-      return "$\\sim$";
-    case '<':
-    case '>':
-    case '|':
-      return fmt::format("${}$", c);
-    case '&':
-    case '%':
-    case '$':
-    case '#':
-    case '_':
-    case '{':
-    case '}':
-      return fmt::format("\\{}", c);
-    default:
-      return static_cast<unsigned char>(c) < ' ' || c == 0x7F ? " " : std::string(1, c);
-  }
+  constexpr std::string_view kOfMath = "<>|", kOfTex = "&%$#_{}";
+  if (c == '\\') return "\\textbackslash{}";
+  if (c == '^') return "\\^{}";
+  if (c == '~') return "$\\sim$";
+  if (kOfMath.find(c) != kOfMath.npos) return fmt::format("${}$", c);
+  if (kOfTex.find(c) != kOfTex.npos) return fmt::format("\\{}", c);
+  return static_cast<unsigned char>(c) < ' ' || c == 0x7F ? " " : std::string(1, c);
 }
 
 std::string tex_escaped(const std::string& text) {

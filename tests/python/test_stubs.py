@@ -5,6 +5,8 @@ import inspect
 import json
 import pathlib
 import re
+import subprocess
+import sys
 
 import pytest
 
@@ -107,6 +109,23 @@ def type_of(schema):
     if types == ["Mapping[str, Any]"]:
         types.append("tuple[Any, ...]")
     return " | ".join(dict.fromkeys([*types, "None"]))
+
+
+# Keys of cases that no keyword is for: models are values in Python, and the rest is for experiments.
+OF_FILES = "name loop pattern curve embed example mesh start model data domain solution adapt compare".split()
+
+
+def said(*arguments):
+    code = f"import delquad, sys; sys.exit(delquad.run({arguments!r}))"
+    return subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout
+
+
+def test_keywords_are_the_keys_of_the_schema():
+    keys = _keywords.keys_of_table(json.loads(said("schema"))["properties"]["case"])
+    groups = {line.split("`")[1].split(".")[0] for line in said("schema", "--options").splitlines()[2:]}
+    for table in ("size", "surface", "limits"):
+        keys |= {f"{table}.{key}": schema for key, schema in _keywords.keys_of_table(keys.pop(table)).items()}
+    assert dict(_mesh._KEYS.values()) == {key: keys[key] for key in keys.keys() - groups - set(OF_FILES)}
 
 
 # These may be functions, values at points or paths, too.

@@ -28,8 +28,9 @@ def words(schema):
             said.append(_number(schema, "a number" if kind == "number" else "a whole number"))
         elif kind == "array":
             least, most = schema.get("minItems"), schema.get("maxItems")
-            if most and schema["items"].get("type") == "number":
-                said.append(f"{most} numbers" if least == most else f"{least} or {most} numbers")
+            numbers = {"number": "numbers", "integer": "whole numbers"}.get(str(schema["items"].get("type")))
+            if most and numbers:
+                said.append(f"{most} {numbers}" if least == most else f"{least} or {most} {numbers}")
             else:
                 said.append("a list: " + words(schema["items"]))
         else:

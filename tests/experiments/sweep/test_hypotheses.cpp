@@ -21,9 +21,7 @@ class Planned : public testing::Test {
  protected:
   Experiment read(const std::string& text) { return Experiment::read(write_text(folder_ / "e.toml", text)); }
   std::string claim(const std::string& keys) { return kHead + "[[hypotheses]]\n" + keys + kRectangles; }
-  std::string plan(const std::string& keys, std::optional<double> effect = {}) {
-    return dry_run(read(claim(keys)), "", effect);
-  }
+  std::string plan(const std::string& keys) { return dry_run(read(claim(keys)), ""); }
   static void expect_part(const std::string& text, const std::string& part) {
     EXPECT_TRUE(holds(text, part)) << part << "\nis not in\n" << text;
   }
@@ -48,10 +46,10 @@ TEST_F(Planned, ADryRunSaysWhatCanBeProven) {
   expect_part(five, "domains (geometries): 5\n  one domain: r1, large\n");
   expect_part(five,
               "tests of hypotheses: 1\n  1 over 5 domains: nothing can be proven; it takes 6 domains\n");
-  // Six have 2 * 2^-6, and the power of all six to agree is P(Z > -0.5)^6, by hand.
+  // Six have 2 * 2^-6.
   const std::string sixth = "[[case]]\nname = 'r6'\nsize = 0.4\nloop = { rectangle = [[0, 0], [1, 6]] }\n";
-  expect_part(dry_run(read(claim(keys) + sixth), "", 0.5),
-              "  1 over 6 domains: p corrected 0.0312 at the least; power 0.11 for 0.5 deviations\n");
+  expect_part(dry_run(read(claim(keys) + sixth), ""),
+              "  1 over 6 domains: p corrected 0.0312 at the least\n");
   // Seven: 7 * 2 * 2^-n is at most 0.05 from nine on.
   std::string many = keys;
   many.replace(
@@ -61,14 +59,14 @@ TEST_F(Planned, ADryRunSaysWhatCanBeProven) {
   // Without hypotheses DB and DBC are one pair, in eta mean, eta worst, d4, tau and four measures of the
   // solver.
   expect_part(
-      dry_run(read(kHead + kRectangles), "", {}),
+      dry_run(read(kHead + kRectangles), ""),
       "tests: at most 8, of which 0 could prove something\n  8 over 5 domains: nothing can be proven");
 }
 
 /// The first command of docs/experiments.md.
 TEST_F(Planned, ADryRunNeedsNoResultsInTheFolder) {
   const std::string experiment = claim("better = 'DBC'\nthan = 'DB'\nmeasures = ['eta_mean']\n");
-  expect_part(dry_run(read(experiment), folder_ / "results", 1), "cells: 36, of which 0 are done\n");
+  expect_part(dry_run(read(experiment), folder_ / "results"), "cells: 36, of which 0 are done\n");
   EXPECT_FALSE(fs::exists(folder_ / "results"));
 }
 
@@ -85,16 +83,16 @@ TEST_F(Planned, PlansThatWereChangedAfterwardsSaySo) {
   };
   EXPECT_FALSE(note_after(text("d4")));
   EXPECT_FALSE(note_after(text("d4"))) << "again";
-  expect_part(dry_run(read(text("d4")), out, {}), "cells: 2, of which 2 are done\ntime: about 0 s");
+  expect_part(dry_run(read(text("d4")), out), "cells: 2, of which 2 are done\ntime: about 0 s");
   Experiment other = read(text("d4"));
   other.file = "other.toml";
-  const std::string refused = dry_run(other, out, {});
+  const std::string refused = dry_run(other, out);
   expect_part(refused, "not of 'other': give another folder\ncells: 2, of which 0 are done\n");
   EXPECT_FALSE(holds(refused, "guessed")) << "the same case";
   EXPECT_EQ(read_study(out)->hypotheses, read(text("d4")).hypotheses);
   EXPECT_TRUE(note_after(text("tau")));
   EXPECT_TRUE(note_after(text("d4"))) << "it stays said";
-  expect_part(dry_run(read(text("d4")), out, {}), "warning: Not planned");
+  expect_part(dry_run(read(text("d4")), out), "warning: Not planned");
   expect_part(read_text(out / "runs_columns.csv"), ",hypotheses\n");
   std::string without = text("d4");
   run_experiment(read(without.erase(without.find("[[hyp"), without.find("[[case") - without.find("[[hyp"))),

@@ -91,7 +91,7 @@ TEST_F(MetricCommands, AreColumnsLikeOthers) {
 
 TEST_F(MetricCommands, FailuresAreNamedAndTheMeshIsThere) {
   const Outcome outcome =
-      run(write(metric("broken", "echo first >&2; echo second >&2; exit 3") + metric("silent", "true") +
+      run(write(metric("broken", "echo error: first >&2; echo second >&2; exit 3") + metric("silent", "true") +
                     metric("chatty", "echo hello") + metric("none", "echo nan") +
                     metric("slow", "sleep 60", "timeout = 1") + metric("killed", "kill -9 $$") +
                     "[[metric]]\nname = 'absent'\ncommand = ['no-such-program', '{mesh}']\n" +
@@ -110,7 +110,7 @@ TEST_F(MetricCommands, FailuresAreNamedAndTheMeshIsThere) {
     EXPECT_TRUE(notes(outcome, "no '" + std::string(name) + "' of square DB: ")) << name;
     EXPECT_FALSE(db["metrics"].contains(name)) << name;
   };
-  expect("broken", "ended with exit code 3: first");
+  expect("broken", "ended with exit code 3: error: first");
   expect("silent", "printed nothing");
   expect("chatty", "neither a number nor a JSON object of numbers: hello");
   expect("slow", "timeout of 1 s");

@@ -2,6 +2,7 @@
 #include "experiments/sweep/schema.h"
 #include "io/cases/problem_record.h"
 #include "io/cases/read_described.h"
+#include "io/cases/shapes.h"
 #include "tests/support/files.h"
 
 namespace delquad {
@@ -182,8 +183,9 @@ void expect_all_everywhere() {
 TEST_F(Schema, DescribedKeysAreEverywhere) {
   expect_all_everywhere<MeshProblem, SurfaceSpec, MirrorPlane, NamedPart, LayerSpec, SizeSpec, SizeSource,
                         NamedSize, MetricSpec, CurveDivision, PeriodicPair, SymmetryPlane, GridCorners,
-                        WasherSpec, FilletRows, Criteria, Material, CaseOfStudy, AdaptLoop, TablePlan,
-                        ExperimentKeys, Peer, MetricCommand, Hypothesis, MayFail>();
+                        WasherSpec, FilletRows, CircleShape, ArcShape, ExpressionShape, NamedShape,
+                        EmbeddedShape, LoopShape, PatternShape, Criteria, Material, CaseOfStudy, AdaptLoop,
+                        TablePlan, ExperimentKeys, Peer, MetricCommand, Hypothesis, MayFail>();
 }
 
 /// An independent checker of schemas: Python's jsonschema. Prints "file: good" or "file: bad".

@@ -1,4 +1,5 @@
 #include "io/cases/case_file.h"
+#include "io/cases/case_keys.h"
 #include "io/cases/model_file.h"
 #include "tests/support/files.h"
 
@@ -9,9 +10,8 @@ class ModelFiles : public testing::Test {
  protected:
   PlanarModel read(const std::string& text) {
     const TomlTable table = TomlTable::read(write_text(folder_ / "m.toml", text));
-    PlanarModel model = read_planar_model(table);
-    table.finish();
-    return model;
+    table.require_known(case_keys());
+    return read_planar_model(table);
   }
   Folder folder_;
 };
@@ -88,6 +88,9 @@ TEST_F(ModelFiles, EmbeddedCurvesAndPoints) {
   ASSERT_EQ(model.points.size(), 1u);
   EXPECT_EQ(model.points[0].at, (Vec2{1.5, 0.5}));
   EXPECT_EQ(model.points[0].name, "sensor");
+  write_text(folder_ / "way.txt", "0.5 0.5\n1 1\n");
+  const PlanarModel way = read("loop = { rectangle = [[0, 0], [2, 2]] }\nembed = { polyline = \"way.txt\" }");
+  EXPECT_EQ(way.curves.back().shape->point(1), (Vec2{1, 1}));
 }
 
 }  // namespace

@@ -92,17 +92,6 @@ TEST(Claims, TestsThatCannotProveAnythingDoNotCount) {
   EXPECT_TRUE(holds(family.note(), "over 1 test,", "100 more could not"));
 }
 
-/// By 200 000 draws with NumPy.
-TEST(Power, IsThatOfAnIndependentComputation) {
-  constexpr double kErrors = 0.015;  // three standard errors of 10 000 draws
-  EXPECT_NEAR(wilcoxon_power(12, 0.8, 0.05), 0.669, kErrors);
-  // One-sided at half of the level, but for the other side, which is as good as never.
-  EXPECT_NEAR(wilcoxon_power(12, 0.8, 0.1), 0.802, kErrors);
-  EXPECT_NEAR(wilcoxon_power(20, 0.5, 0.1 / 6), 0.347, kErrors);
-  EXPECT_NEAR(wilcoxon_power(70, 0.3, 0.1), 0.783, kErrors);
-  EXPECT_EQ(wilcoxon_power(5, 9, 0.05), 0) << "p = 0.0625 at best";
-}
-
 TEST(Claims, AsManyAsCanProveSomethingCount) {
   ClaimFamily family;
   for (int i = 0; i < 6; ++i) family.add({0.0078125, 0.0078125, 1});  // 6 * .0078 < .05
