@@ -35,12 +35,28 @@ void check_known(const TomlTable& table, const std::string& key, const std::stri
   throw InputError(table.where(key) + ": unknown metric '" + metric + "'" + suggestion(metric, known));
 }
 
+/// Keys that experiments had once, and the way to do the same now.
+const TomlTable::GoneKeys kGone = {
+    {"ratio", "runs.csv has both values: divide them there"},
+    {"linf_delaunay", "'make paper' makes Figure 15 by experiments/paper/fig15_linf_delaunay.cpp"},
+    {"slopes", "fit runs.csv, as experiments/studies/what_buys_error.py does"},
+    {"correlate", "correlate columns of runs.csv, as experiments/studies/which_quality.py does"},
+    {"repeat_times", "vary 'seed' in [matrix], and take the times from runs.csv"}};
+const TomlTable::GoneKeys kGoneOfHypotheses = {
+    {"secondary", "all hypotheses are one family: leave the others out, and pairs.* explores them"},
+    {"two_sided", "every hypothesis is tested two-sided: remove the key"}};
+
 /// Columns are measures and times.
 void check_columns(const TomlTable& table, const std::vector<std::string>& columns,
                    std::vector<std::string> known) {
   known.emplace_back(kRuns);
   for (const Metric& one : columns_of_records()) known.push_back(one.key);
-  for (const std::string& key : columns) check_known(table, "columns", key, known);
+  for (const std::string& key : columns) {
+    if (key == "finish_eta")
+      refuse("{}: there is no column '{}' any longer: compare eta_mean of variants without finish steps",
+             table.where("columns"), key);
+    check_known(table, "columns", key, known);
+  }
 }
 
 std::vector<PublishedRow> read_published(const std::filesystem::path& file,
@@ -231,6 +247,8 @@ std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& tex
 
 Experiment Experiment::read(const std::filesystem::path& file, const std::filesystem::path& data) {
   const TomlTable table = TomlTable::read(file);
+  table.refuse_gone(kGone);
+  for (const TomlTable& one : table.tables("hypotheses")) one.refuse_gone(kGoneOfHypotheses);
   table.require_known(experiment_keys());
   Experiment experiment;
   experiment.table_ = table;

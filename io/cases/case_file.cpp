@@ -100,6 +100,8 @@ std::size_t described::read_word(const TomlTable& table, const std::string& key,
 namespace {
 
 void read_options(const TomlTable& table, const OptionGroup& group, Options& options) {
+  if (group.name == "smoothing")
+    table.refuse_gone({{"method", "L takes the exact gradient, so remove the key"}});
   table.require_known(keys_of(group));
   for (const OptionKey& key : group.keys) {
     const auto read = [&](const auto& like) { return OptionValue(table.get(key.name, like)); };

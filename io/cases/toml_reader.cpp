@@ -393,6 +393,13 @@ TomlTable TomlTable::with_choice(const TomlTable& lists, const std::vector<std::
   return TomlTable(std::move(data));
 }
 
+void TomlTable::refuse_gone(const GoneKeys& keys) const {
+  const std::set<std::string> present = data_->keys();
+  for (const auto& [key, way] : keys)
+    if (present.contains(key))
+      refuse("{}: there is no '{}' any longer: {}", where(key), data_->name(key), way);
+}
+
 void TomlTable::require_known(const TomlKeys& keys) const {
   for (const std::string& name : data_->keys()) {
     if (std::ranges::find(keys, name, &TomlKey::name) != keys.end()) continue;

@@ -109,6 +109,11 @@ class TomlTable {
   /// called first, before the key that was meant is missed.
   void require_known(const TomlKeys& keys) const;
 
+  /// Keys that went, each with the way to do the same now.
+  using GoneKeys = std::vector<std::pair<const char*, const char*>>;
+  /// Throws InputError for a key that went.
+  void refuse_gone(const GoneKeys& keys) const;
+
  private:
   void read(const std::string& key, const TomlTarget& target) const;
 
