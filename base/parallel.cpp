@@ -30,71 +30,11 @@ std::vector<std::size_t> by_cost(std::size_t n, const std::function<double(std::
   return order;
 }
 
-/// What the clocks say, as if this thread had worked all the time and no other for it.
-TimeSpent clocks() {
-  const double cpu = 1e-9 * static_cast<double>(nanoseconds_of_this_thread());
-  if (Run* run = current_run()) {
-    const Load::Shares shares = run->load().shares();
-    return {shares.now, cpu, shares.clock, shares.alone};
-  }
-  const double now =
-      std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  return {now, cpu, now, now};
-}
+/// Processor time that others spent for this thread, less its own while it waited for them.
+thread_local double cpu_of_others = 0;
 
-/// What others spent for this thread, without its own clocks while it waited for them.
-thread_local TimeSpent by_others;
+double own_cpu() { return 1e-9 * static_cast<double>(nanoseconds_of_this_thread()); }
 
-/// Adds up what the threads spend that work in a parallel_for() call of this one. In the run's load they take
-/// its place: while none is at work, as before the first begins, they count as one that waits.
-class Team {
- public:
-  Team() : run_(current_run()), by_others_before_(by_others), begin_(clocks()), idle_since_(begin_) {}
-  ~Team() {
-    const TimeSpent end = clocks();
-    add_waiting(end);
-    by_others = by_others_before_ + spent_ - (end - begin_);
-  }
-  Team(const Team&) = delete;
-  Team& operator=(const Team&) = delete;
-
-  /// Calls work() on a thread of the team; it throws nothing.
-  template <class Work>
-  void add(const Work& work) {
-    const TimeSpent before = begin_thread();
-    work();
-    end_thread(before);
-  }
-
- private:
-  // The clocks are read once where one thing ends and another begins, so that nothing is lost between.
-  TimeSpent begin_thread() {
-    const std::scoped_lock lock(mutex_);
-    const TimeSpent now = clocks();
-    if (at_work_++ == 0)
-      add_waiting(now);
-    else if (run_ != nullptr)
-      run_->load().begin_thread();
-    return now + by_others;
-  }
-  void end_thread(const TimeSpent& before) {
-    const std::scoped_lock lock(mutex_);
-    idle_since_ = clocks();
-    spent_ = spent_ + (idle_since_ + by_others - before);
-    if (--at_work_ > 0 && run_ != nullptr) run_->load().end_thread();
-  }
-  /// On whichever thread that was: the processor time of two of them has no difference.
-  void add_waiting(const TimeSpent& end) {
-    TimeSpent waited = end - idle_since_;
-    waited.cpu = 0;
-    spent_ = spent_ + waited;
-  }
-
-  Run* run_;
-  TimeSpent by_others_before_, begin_, idle_since_, spent_;
-  std::mutex mutex_;
-  int at_work_ = 0;
-};
 /// In the process: finish_threads() has nothing to do without them.
 std::atomic<bool> threads_started = false;
 
@@ -125,7 +65,10 @@ void work_together(int workers, const std::function<void()>& run) {
 
 }  // namespace
 
-TimeSpent time_spent() { return clocks() + by_others; }
+TimeSpent time_spent() {
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(),
+          own_cpu() + cpu_of_others};
+}
 
 void finish_threads() {
   if (!threads_started.exchange(false)) return;
@@ -159,8 +102,16 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
   if (workers <= 1) {
     run();
   } else {
-    Team team;
-    work_together(workers, [&] { team.add(run); });
+    const double of_others = cpu_of_others, begin = own_cpu();
+    std::mutex mutex;
+    double spent = 0;
+    work_together(workers, [&] {
+      const double before = own_cpu() + cpu_of_others;
+      run();
+      const std::scoped_lock lock(mutex);
+      spent += own_cpu() + cpu_of_others - before;
+    });
+    cpu_of_others = of_others + spent - (own_cpu() - begin);
   }
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);

@@ -28,9 +28,8 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
 /// Calls work(begin, end) for ranges of a fixed length, the last one excepted, that make up [0, n).
 void parallel_ranges(std::size_t n, const std::function<void(std::size_t begin, std::size_t end)>& work);
 
-/// What this thread, and others while they worked in its parallel_for() calls (nested ones included), have
-/// spent so far: differences mean something. Outside of runs `clock` and `alone` know nothing of other
-/// threads. For measuring: see Stopwatch.
+/// The clock, and the processor time of this thread and of others while they worked in its parallel_for()
+/// calls (nested ones included): differences mean something. For measuring: see Stopwatch.
 TimeSpent time_spent();
 
 }  // namespace delquad

@@ -2,11 +2,9 @@
 """Time a quad of every step of DBCO, how that of treatment, C and O grows, and what a second thread is worth.
 
 Runs `delquad mesh` with DBCO (or --words) on a plane and on a CAD model, over a range of sizes, with one thread and with two. Times of the
-steps are processor microseconds a quad on one thread, and come from one run: their ratio to insertion's, in the row below, means something on
-a busy machine, too. The third row has what two threads are worth: one thread's seconds on the clock over theirs, on a quiet machine only. The
-fourth is what it can be at most, by the part of the step that one of two threads does alone (Amdahl); where a step has many short loops (L, O in
-one block) a busy machine makes it less, for the other thread comes too late. The last line of each model has the power of
-the number of quads by which steps grow. "meshing" is seconds on the clock from the boundary to the mesh. A model that is missing is skipped with a reason.
+steps are processor microseconds a quad on one thread, and come from one run. Their ratio to insertion's, in the row below, means something on
+a busy machine, too. The third row has what two threads are worth: one thread's seconds on the clock over theirs, on a quiet machine only. It
+means something of the plane, which is one patch. The last line of each model has the power of the number of quads by which steps grow. "meshing" is seconds on the clock from the boundary to the mesh. A model that is missing is skipped with a reason.
 """
 
 import argparse
@@ -38,17 +36,10 @@ def power(rows, column):
     return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x)
 
 
-def at_most(step, two):
-    """What two threads can be worth to a step, of which one of them does a part alone."""
-    alone = two["alone_seconds"].get(step, 0) / (two["seconds"].get(step, 0) or math.inf)
-    return 2 / (1 + min(alone, 1))
-
-
 def print_ratios(name, one, two):
-    """Below the times of a mesh: over insertion's, of one thread over those of two, and what that can be at most."""
-    cpu, clock, clock_two = one["cpu_seconds"], one["clock_seconds"], two["clock_seconds"]
-    rows = [("/ insertion", lambda s: cpu[s] / cpu["insertion"]), ("two threads", lambda s: clock[s] / max(clock_two[s], 1e-9)),
-            ("at most", lambda s: at_most(s, two))]
+    """Below the times of a mesh: over insertion's, and times of one thread over times of two."""
+    cpu, clock, clock_two = one["cpu_seconds"], one["seconds"], two["seconds"]
+    rows = [("/ insertion", lambda s: cpu[s] / cpu["insertion"]), ("two threads", lambda s: clock[s] / max(clock_two[s], 1e-9))]
     for title, ratio in rows:
         cells = (f" {ratio(s):.2f} |" if s in cpu and s in clock_two else " |" for s in STEPS)
         print(f"| {name} | {title} |" + "".join(cells) + " | | |", flush=True)

@@ -40,7 +40,7 @@ def delquad(program, word, size, threads, folder):
     if done is None:
         return None
     result = json.loads(record.read_text())
-    clock, cpu = result["clock_seconds"] | {"whole": done[0]}, result["cpu_seconds"] | {"whole": done[1]}
+    clock, cpu = result["seconds"] | {"whole": done[0]}, result["cpu_seconds"] | {"whole": done[1]}
     return clock, cpu, done[2], result["recombination"]["triangles"]
 
 

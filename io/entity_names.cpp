@@ -155,23 +155,16 @@ std::vector<MeshGroup> with_labels(std::vector<MeshGroup> groups, const UniqueLa
 
 }  // namespace
 
-std::vector<MeshGroup> hex_groups(const HexMesh& mesh, const UniqueLabels::Rules& rules) {
-  std::vector<MeshGroup> groups;
-  add_groups(3, mesh.volumes, mesh.hex_volume, groups);
-  add_groups(2, mesh.faces, mesh.quad_face, groups);
-  add_groups(1, mesh.curves, mesh.line_curve, groups);
-  return with_labels(std::move(groups), rules);
-}
-
 std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& rules) {
   std::vector<MeshGroup> groups;
+  add_groups(3, mesh.volumes, mesh.hex_volume, groups);
   std::vector<int> regions = mesh.triangle_region;
   regions.insert(regions.end(), mesh.quad_region.begin(), mesh.quad_region.end());
   add_groups(2, mesh.regions, regions, groups);
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   std::vector<int> curves = mesh.line_curve;
   for (std::size_t l = 0; l < curves.size(); ++l)
-    if (mesh.curves[curves[l]].names.empty() &&
+    if (mesh.hexahedra.empty() && mesh.curves[curves[l]].names.empty() &&
         sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).size() > 1)
       curves[l] = -1;
   add_groups(1, mesh.curves, curves, groups);
@@ -190,17 +183,11 @@ std::vector<int> nodes_of_group(const Mesh& mesh, const MeshGroup& group) {
   for (const int i : group.items) {
     if (group.dim == 0)
       nodes.push_back(i);
+    else if (group.dim == 2)
+      nodes.insert(nodes.end(), mesh.quads[i].begin(), mesh.quads[i].end());
     else
       for (const int v : nodes_of_line(mesh, static_cast<std::size_t>(i))) nodes.push_back(v);
   }
-  sort_unique(nodes);
-  return nodes;
-}
-
-std::vector<int> nodes_of_group(const HexMesh& mesh, const MeshGroup& group) {
-  std::vector<int> nodes;
-  const auto add = [&](const auto& element) { nodes.insert(nodes.end(), element.begin(), element.end()); };
-  for (const int i : group.items) group.dim == 2 ? add(mesh.quads[i]) : add(mesh.lines[i]);
   sort_unique(nodes);
   return nodes;
 }
@@ -278,7 +265,9 @@ void require_fits(const std::filesystem::path& path, const std::string& format, 
 void require_numbers(const std::filesystem::path& path, const std::string& format, const Mesh& mesh,
                      std::size_t most) {
   require_fits(path, format, mesh.points.size(), "nodes", most);
-  require_fits(path, format, mesh.lines.size() + mesh.triangles.size() + mesh.quads.size(), "elements", most);
+  require_fits(path, format,
+               mesh.lines.size() + mesh.triangles.size() + mesh.quads.size() + mesh.hexahedra.size(),
+               "elements", most);
 }
 
 std::string one_line_label(const std::string& name) { return one_line(name); }

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "delquad/hexahedra.h"
 #include "delquad/mesh.h"
 #include "geometry/mesh/half_edges.h"
 
@@ -92,15 +91,11 @@ struct MeshGroup {
   std::vector<int> items;
 };
 
-/// All named points, the lines on the boundary and the named ones inside, all elements; those of dimension 2
-/// first. Entities have the names of group_names().
+/// All named points, the lines on the boundary and the named ones inside (of hexahedra all), all elements.
+/// Groups of the highest dimension come first. Entities have the names of group_names().
 std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& rules);
-/// The same of hexahedra (dimension 3), quads and lines of a swept mesh, in this order.
-std::vector<MeshGroup> hex_groups(const HexMesh& mesh, const UniqueLabels::Rules& rules);
-/// The nodes of a group of points or lines (dimensions 0 and 1), ascending, each once.
+/// The nodes of a group of points, lines or, of hexahedra, quads, ascending, each once.
 std::vector<int> nodes_of_group(const Mesh& mesh, const MeshGroup& group);
-/// The same of a group of quads or lines (dimensions 2 and 1).
-std::vector<int> nodes_of_group(const HexMesh& mesh, const MeshGroup& group);
 /// The groups' numbers of all items of a dimension; 0: in none.
 std::vector<int> group_numbers(const std::vector<MeshGroup>& groups, int dim, std::size_t n_items);
 

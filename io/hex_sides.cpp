@@ -5,7 +5,7 @@
 
 namespace delquad {
 
-std::vector<HexSide> sorted_hex_sides(const HexMesh& mesh) {
+std::vector<HexSide> sorted_hex_sides(const Mesh& mesh) {
   constexpr int kSides[6][4] = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
                                 {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
   std::vector<HexSide> sides;
@@ -21,7 +21,7 @@ std::vector<HexSide> sorted_hex_sides(const HexMesh& mesh) {
   return sides;
 }
 
-std::vector<HexSide> sides_at_quad(const HexMesh& mesh, const std::vector<HexSide>& sorted, int quad) {
+std::vector<HexSide> sides_at_quad(const Mesh& mesh, const std::vector<HexSide>& sorted, int quad) {
   std::array<int, 4> nodes = mesh.quads[quad];
   std::ranges::sort(nodes);
   const auto at = std::ranges::equal_range(sorted, nodes, {}, &HexSide::nodes);

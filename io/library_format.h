@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "delquad/hexahedra.h"
+#include "delquad/mesh.h"
 #include "io/mesh_io.h"
 
 namespace delquad {
@@ -12,7 +12,6 @@ namespace delquad {
 struct LibraryFormat {
   Mesh (*read)(const std::filesystem::path&, ReadNotes*, Strays) = nullptr;  ///< null: it is not read
   void (*write)(const std::filesystem::path&, const Mesh&) = nullptr;
-  void (*write_hexahedra)(const std::filesystem::path&, const HexMesh&) = nullptr;  ///< null: it has none
 };
 
 }  // namespace delquad

@@ -26,10 +26,6 @@ template <const char* name>
 void write_loaded(const std::filesystem::path& path, const Mesh& mesh) {
   loaded<name>().write(path, mesh);
 }
-template <const char* name>
-void write_loaded_hexahedra(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions&) {
-  loaded<name>().write_hexahedra(path, mesh);
-}
 
 constexpr UniqueLabels::Rules kUgridLabels{word_label};
 
@@ -42,7 +38,7 @@ MeshFormat exodus_format() {
                     .package = "libexodusii-dev",
                     .labels = &kExodusLabels};
 #ifdef DELQUAD_HAS_EXODUS
-  format.write = write_by<write_loaded<kExodus>>, format.write_hexahedra = write_loaded_hexahedra<kExodus>;
+  format.write = write_by<write_loaded<kExodus>>, format.has_hexahedra = true;
   format.package = "";
 #endif
   return format;
@@ -55,7 +51,7 @@ MeshFormat cgns_format() {
                     .package = "libcgns-dev",
                     .labels = &kCgnsLabels};
 #ifdef DELQUAD_HAS_CGNS
-  format.write = write_by<write_loaded<kCgns>>, format.write_hexahedra = write_loaded_hexahedra<kCgns>;
+  format.write = write_by<write_loaded<kCgns>>, format.has_hexahedra = true;
   format.package = "";
 #endif
   return format;
@@ -68,7 +64,7 @@ MeshFormat med_format() {
                     .package = "libmedc-dev",
                     .labels = &kMedLabels};
 #ifdef DELQUAD_HAS_MED
-  format.write = write_by<write_loaded<kMed>>, format.write_hexahedra = write_loaded_hexahedra<kMed>;
+  format.write = write_by<write_loaded<kMed>>, format.has_hexahedra = true;
   format.package = "";
 #endif
   return format;

@@ -175,15 +175,15 @@ void check_depths(const std::filesystem::path& path) {
            extensions_of([](const MeshFormat& f) { return f.has_depths; }));
 }
 
-void check_hex_format(const std::filesystem::path& path, const HexFileOptions& options) {
+void check_hex_format(const std::filesystem::path& path, const MshOptions& options) {
   const std::string kind = kind_to_write(path);
   const MeshFormat* format = find_format(kind);
-  const auto can = [](const MeshFormat& f) { return f.write_hexahedra != nullptr; };
+  const auto can = [](const MeshFormat& f) { return f.has_hexahedra; };
   if (format == nullptr) unknown(path, extensions_of(can));
   if (!can(*format))
     refuse("{}: '{}' is not written with hexahedra here: expected {}", path.string(), kind,
            extensions_of(can));
-  check_mesh_format(path, {options.binary, MshCurves::kAll});
+  check_mesh_format(path, options);
   if (options.element.empty()) return;
   if (kind != ".inp")
     refuse("{}: '{}' has no kinds of hexahedra: expected .inp with --element", path.string(), kind);
@@ -192,13 +192,11 @@ void check_hex_format(const std::filesystem::path& path, const HexFileOptions& o
            fmt::join(inp_hexahedra(), ", "), suggestion(options.element, inp_hexahedra()));
 }
 
-void write_hexahedra(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions& options) {
-  check_hex_format(path, options);
-  find_format(kind_to_write(path))->write_hexahedra(path, mesh, options);
-}
-
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
-  check_mesh_format(path, options, mesh.order);
+  if (mesh.hexahedra.empty())
+    check_mesh_format(path, options, mesh.order);
+  else
+    check_hex_format(path, options);
   find_format(kind_to_write(path))->write(path, mesh, options, QuadNodes::kAll);
 }
 
@@ -291,13 +289,8 @@ std::vector<std::string> renamed_in_file(const std::filesystem::path& path, cons
       std::erase_if(groups, [](const MeshGroup& g) { return g.dim == 0; });
     return renamed_groups(groups);
   }
-  return format->renamed == nullptr ? std::vector<std::string>() : format->renamed(mesh);
-}
-
-std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const HexMesh& mesh) {
-  const MeshFormat* format = find_format(kind_to_write(path));
-  if (format == nullptr || format->labels == nullptr) return {};
-  return renamed_groups(hex_groups(mesh, *format->labels));
+  const bool tells = format->renamed != nullptr && mesh.hexahedra.empty();
+  return tells ? format->renamed(mesh) : std::vector<std::string>();
 }
 
 }  // namespace delquad

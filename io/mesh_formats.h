@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "delquad/hexahedra.h"
+#include "delquad/mesh.h"
 #include "io/entity_names.h"
 #include "io/mesh_io.h"
 
@@ -35,7 +35,7 @@ struct MeshFormat {
   int most_order = 1;  ///< of elements that are written
   std::string package =
       {};  ///< of Debian, whose library this program was built without; empty: it has all it needs
-  void (*write_hexahedra)(const std::filesystem::path&, const HexMesh&, const HexFileOptions&) = nullptr;
+  bool has_hexahedra = false;
   EightNodes eight_nodes = EightNodes::kNever;
   bool has_binary = false;
   bool has_depths = false;  ///< z of a planar mesh may be heights of the ground
@@ -63,7 +63,7 @@ void write_by(const std::filesystem::path& path, const Mesh& mesh, const MshOpti
   write(path, mesh);
 }
 
-/// What HexFileOptions::element may be.
+/// Returns the values that MshOptions::element may have.
 const std::vector<std::string>& inp_hexahedra();
 
 /// By this program, or by one with its library.

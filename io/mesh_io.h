@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "delquad/hexahedra.h"
 #include "delquad/mesh.h"
 #include "delquad/model.h"
 
@@ -110,8 +109,8 @@ enum class QuadNodes { kAll, kNoMiddle };
 /// has no such option, or no elements of that order.
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {}, int order = 1);
 
-/// InputError when write_hexahedra() knows no format for the path's extension, naming those known.
-void check_hex_format(const std::filesystem::path& path, const HexFileOptions& options);
+/// InputError when no hexahedra are written there, naming the formats that have them.
+void check_hex_format(const std::filesystem::path& path, const MshOptions& options);
 
 /// InputError when write_mesh() takes no depths there, naming the formats that do.
 void check_depths(const std::filesystem::path& path);
@@ -124,6 +123,5 @@ void check_serendipity(const std::filesystem::path& path, const MshOptions& opti
 /// Names that write_mesh() changes without telling in the file, whose format has no comments: "curve "a/b" is
 /// a_b", one line each.
 std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const Mesh& mesh);
-std::vector<std::string> renamed_in_file(const std::filesystem::path& path, const HexMesh& mesh);
 
 }  // namespace delquad

@@ -198,7 +198,7 @@ void run(const FinishStep& step, Finishing& on) {
   const TimeSpent time = watch.time();
   if (step.at == FinishAt::kMeasured) on.result.seconds += watch.seconds();
   on.result.log.add_time(step.time, time);
-  note_seconds(step.name, time.work, on.result.log.summaries);
+  note_seconds(step.name, time.seconds, on.result.log.summaries);
 }
 
 }  // namespace

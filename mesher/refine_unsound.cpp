@@ -159,7 +159,7 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& quads
   result.seconds = seconds;
   add_times(lost.times, result.log);
   double lost_seconds = 0;
-  for (const auto& [step, time] : lost.times) lost_seconds += time.work;
+  for (const auto& [step, time] : lost.times) lost_seconds += time.seconds;
   note_seconds(kRefining, lost_seconds, result.log.summaries);
   if (!result.soundness.sound()) result.warnings.push_back(warning_of_end(result, prepared, rounds, why));
 }

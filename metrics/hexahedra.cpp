@@ -106,7 +106,7 @@ bool is_positive(const HexCorners& at) {
          is_above(bernstein(jacobian_values(at)), kLeastHexJacobian * scale, 0);
 }
 
-HexMeasures measure(const HexMesh& mesh) {
+HexMeasures measure(const Mesh& mesh) {
   HexMeasures measures;
   const std::size_t n = mesh.hexahedra.size();
   measures.jacobian.resize(n);

@@ -118,7 +118,7 @@ struct ExtrudeArguments {
   double growth = 1;
   long long max_elements = 50'000'000;
   int threads = thread_count();
-  HexFileOptions file;
+  MshOptions file;
 };
 
 /// Numbers separated by commas.
@@ -183,7 +183,7 @@ Json entities_json(const std::vector<Entity>& entities, const std::vector<int>& 
   return all;
 }
 
-std::string extrusion_record(const ExtrudeArguments& arguments, const HexMesh& mesh,
+std::string extrusion_record(const ExtrudeArguments& arguments, const Mesh& mesh,
                              const HexMeasures& measures) {
   const Json json = {{"mesh", arguments.mesh.string()},
                      {"points", mesh.points.size()},
@@ -193,7 +193,7 @@ std::string extrusion_record(const ExtrudeArguments& arguments, const HexMesh& m
                      {"volume", measures.volume},
                      {"unit", mesh.unit.empty() ? Json() : Json(mesh.unit)},
                      {"volumes", entities_json(mesh.volumes, mesh.hex_volume, "hexahedra")},
-                     {"faces", entities_json(mesh.faces, mesh.quad_face, "quads")},
+                     {"faces", entities_json(mesh.regions, mesh.quad_region, "quads")},
                      {"curves", entities_json(mesh.curves, mesh.line_curve, "lines")}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
@@ -210,14 +210,14 @@ int extrude_command(const ExtrudeArguments& arguments) {
   ReadNotes notes;
   const Mesh mesh = read_mesh(arguments.mesh, &notes);
   const SweepPath path = path_of(arguments, mesh);
-  const HexMesh hexahedra = located(arguments.mesh.string(), [&] {
+  const Mesh hexahedra = located(arguments.mesh.string(), [&] {
     return extrude(mesh, path, {arguments.layers, arguments.growth, arguments.max_elements}, &notes);
   });
   for (const std::string& name : renamed_in_file(arguments.output, hexahedra))
     notes.push_back(arguments.output.string() + " cannot hold all names as they are: " + name);
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
   const HexMeasures measures = measure(hexahedra);
-  write_hexahedra(arguments.output, hexahedra, arguments.file);
+  write_mesh(arguments.output, hexahedra, arguments.file);
   if (!arguments.json.empty())
     write_text_file(arguments.json, extrusion_record(arguments, hexahedra, measures));
   fmt::print("{}\n", arguments.output.string());

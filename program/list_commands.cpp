@@ -25,7 +25,7 @@ int formats_command() {
   for (const MeshFormat& format : mesh_formats()) {
     const bool written = can_write(format);
     std::string what = format.description;
-    if (format.write_hexahedra != nullptr) what += "; hexahedra, too";
+    if (format.has_hexahedra) what += "; hexahedra, too";
     if (!format.package.empty())
       what += fmt::format(" (not in this program: install {} and build it again)", format.package);
     fmt::print(kRow, fmt::format("{}", fmt::join(format.extensions, " ")), format.read ? "yes" : "-",

@@ -142,20 +142,14 @@ void print_criteria(const CriteriaReport& report, const Mesh& mesh) {
 }
 
 void print_seconds(const StepTimes& times) {
-  std::string work, clock;
-  TimeSpent all;
+  std::string each;
+  double all = 0;
   for (const auto& [step, time] : times) {
-    const char* comma = work.empty() ? "" : ", ";
-    work += fmt::format("{}{} {:.2f}", comma, step, time.work);
-    clock += fmt::format("{}{} {:.2f} ({:.2f})", comma, step, time.clock, time.alone);
-    all = all + time;
+    each += fmt::format("{}{} {:.2f}", each.empty() ? "" : ", ", step, time.seconds);
+    all += time.seconds;
   }
-  const int threads = thread_count();
-  fmt::print("  seconds: {}; all {:.2f}{}\n", work, all.work,
-             threads > 1 ? fmt::format(" (of {} threads, added up)", threads) : "");
-  if (threads > 1)
-    fmt::print("  on the clock (while one thread worked alone): {}; all {:.2f} ({:.2f})\n", clock, all.clock,
-               all.alone);
+  fmt::print("  seconds: {}; all {:.2f}{}\n", each, all,
+             thread_count() > 1 ? " (of patches side by side, added up)" : "");
 }
 
 void print_surface_report(const Prepared& prepared, const SurfaceReport& report) {

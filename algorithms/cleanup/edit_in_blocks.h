@@ -23,7 +23,7 @@ QuadPatch edit_in_blocks(const QuadPatch& mesh, const ParametricSize& size, cons
   *summary = total;
   summary->irregular_before = count_irregular(mesh);
   summary->irregular_after = count_irregular(result);
-  summary->seconds = watch.work_seconds();
+  summary->seconds = watch.seconds();
   return result;
 }
 

@@ -363,7 +363,7 @@ class Together {
 TogetherSummary lay_out_together(LayoutNetwork& network, const LayoutOptions& options) {
   const Stopwatch watch;
   TogetherSummary summary = Together(network, options).run();
-  summary.seconds = watch.work_seconds();
+  summary.seconds = watch.seconds();
   return summary;
 }
 

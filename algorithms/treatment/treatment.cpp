@@ -401,7 +401,7 @@ QuadPatch treat_paper(QuadPatch mesh, const ParametricSize& size, const Treatmen
     part = treatment.summary();
     return treatment.result();
   });
-  total.seconds = watch.work_seconds();
+  total.seconds = watch.seconds();
   if (summary != nullptr) *summary = total;
   return mesh;
 }

@@ -13,17 +13,17 @@ using py::arg;
 
 /// With what is measured of it.
 struct Hexahedra {
-  HexMesh mesh;
+  Mesh mesh;
   HexMeasures measures;
 };
 
 /// A list of the hexahedra as a property: a view that keeps them.
 template <class List>
-auto hex_view(List HexMesh::*member) {
+auto hex_view(List Mesh::*member) {
   return [member](const py::object& self) { return view(self.cast<const Hexahedra&>().mesh.*member, self); };
 }
 
-auto hex_entities(std::vector<Entity> HexMesh::*member) {
+auto hex_entities(std::vector<Entity> Mesh::*member) {
   return [member](const Hexahedra& self) { return list_of(self.mesh.*member); };
 }
 
@@ -50,17 +50,17 @@ void define_way(py::module_& m, const char* name, SweepPath (*path)(const py::ob
 
 void define_hexahedra(py::module_& m) {
   py::class_<Hexahedra>(m, "HexMesh", "Hexahedra, quads on their named faces; indices count from 0.")
-      .def_property_readonly("points", hex_view(&HexMesh::points), "(n, 3) coordinates")
-      .def_property_readonly("hexahedra", hex_view(&HexMesh::hexahedra), "(n, 8) points")
-      .def_property_readonly("hex_volume", hex_view(&HexMesh::hex_volume),
+      .def_property_readonly("points", hex_view(&Mesh::points), "(n, 3) coordinates")
+      .def_property_readonly("hexahedra", hex_view(&Mesh::hexahedra), "(n, 8) points")
+      .def_property_readonly("hex_volume", hex_view(&Mesh::hex_volume),
                              "index into volumes of each hexahedron")
-      .def_property_readonly("quads", hex_view(&HexMesh::quads), "(n, 4) points of quads on faces")
-      .def_property_readonly("quad_face", hex_view(&HexMesh::quad_face), "index into faces of each quad")
-      .def_property_readonly("lines", hex_view(&HexMesh::lines), "(n, 2) points of edges on curves")
-      .def_property_readonly("line_curve", hex_view(&HexMesh::line_curve), "index into curves of each line")
-      .def_property_readonly("volumes", hex_entities(&HexMesh::volumes), "(tag, names)")
-      .def_property_readonly("faces", hex_entities(&HexMesh::faces), "(tag, names)")
-      .def_property_readonly("curves", hex_entities(&HexMesh::curves), "(tag, names)")
+      .def_property_readonly("quads", hex_view(&Mesh::quads), "(n, 4) points of quads on faces")
+      .def_property_readonly("quad_face", hex_view(&Mesh::quad_region), "index into faces of each quad")
+      .def_property_readonly("lines", hex_view(&Mesh::lines), "(n, 2) points of edges on curves")
+      .def_property_readonly("line_curve", hex_view(&Mesh::line_curve), "index into curves of each line")
+      .def_property_readonly("volumes", hex_entities(&Mesh::volumes), "(tag, names)")
+      .def_property_readonly("faces", hex_entities(&Mesh::regions), "(tag, names)")
+      .def_property_readonly("curves", hex_entities(&Mesh::curves), "(tag, names)")
       .def_property_readonly(
           "unit", [](const Hexahedra& self) { return self.mesh.unit; }, "of lengths; empty: not known")
       .def_property_readonly(
@@ -76,7 +76,7 @@ void define_hexahedra(py::module_& m) {
           "_write_file",
           [](const Hexahedra& self, const std::string& path, bool binary, const std::string& element) {
             const py::gil_scoped_release released;
-            write_hexahedra(path, self.mesh, {binary, element});
+            write_mesh(path, self.mesh, {.binary = binary, .element = element});
           },
           arg("path"), arg("binary") = false, arg("element") = "");
   define_way(

@@ -135,7 +135,7 @@ py::dict dict_of(const Summaries& summaries) {
 
 py::dict dict_of(const StepTimes& times) {
   py::dict all;
-  for (const auto& [step, time] : times) all[py::str(step)] = time.work;
+  for (const auto& [step, time] : times) all[py::str(step)] = time.seconds;
   return all;
 }
 
@@ -211,7 +211,7 @@ void define_result(py::module_& m) {
       .def_property_readonly("summaries", [](const Result& r) { return dict_of(r.rest.log.summaries); })
       .def_property_readonly(
           "seconds", [](const Result& r) { return dict_of(r.rest.log.times); },
-          "by step, of all threads added up")
+          "by step, on the clock; of patches side by side, added up")
       .def_property_readonly("wall_seconds", [](const Result& r) { return r.rest.seconds; })
       .def_property_readonly("expected_quads", [](const Result& r) { return r.expected_quads; })
       .def_property_readonly("warnings",

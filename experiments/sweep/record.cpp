@@ -24,22 +24,14 @@ using Json = nlohmann::ordered_json;
 
 Json point_json(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-/// Where only the clock was read, nothing but the work is known.
-bool is_known(const TimeSpent& time) { return time.cpu > 0 || time.clock > 0; }
-
 void add_times(Json& json, const StepTimes& times) {
-  Json work = Json::object(), cpu = Json::object(), clock = Json::object(), alone = Json::object();
+  Json seconds = Json::object(), cpu = Json::object();
   for (const auto& [step, time] : times) {
-    work[step] = time.work;
-    if (!is_known(time)) continue;
-    cpu[step] = time.cpu;
-    clock[step] = time.clock;
-    alone[step] = time.alone;
+    seconds[step] = time.seconds;
+    if (time.cpu > 0) cpu[step] = time.cpu;
   }
-  json["seconds"] = work;
+  json["seconds"] = seconds;
   json["cpu_seconds"] = cpu;
-  json["clock_seconds"] = clock;
-  json["alone_seconds"] = alone;
 }
 
 Json domain_json(const Prepared& p) {

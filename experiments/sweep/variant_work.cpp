@@ -89,7 +89,7 @@ namespace {
 /// ours.
 const TimeSpent kStart = [] {
   const double seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-  return TimeSpent{seconds, seconds, seconds, seconds};
+  return TimeSpent{seconds, seconds};
 }();
 
 /// eta of every cell in the order of VTU files (lines, triangles, quads); 0 where it has no meaning.

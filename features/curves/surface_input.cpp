@@ -119,7 +119,6 @@ SurfaceModel make_compounds(const MeshProblem& problem, const std::vector<Featur
     model = close_small_holes(std::move(model), {std::numbers::pi * spec.fill_holes, keep, kept});
   if (const double length = length_of_small(problem, model.fine.points); length > 0)
     model = ignore_small(std::move(model), {length, keep, kept}, options);
-  if (spec.merge_curves > 0) model = merge_short_curves(std::move(model), spec.merge_curves, options);
   return model;
 }
 
@@ -129,8 +128,7 @@ void check_for_cad(const SurfaceSpec& spec) {
                                  spec.where, what));
   };
   if (spec.mirror) refuse("a mirror");
-  if (spec.feature_angle && spec.compounds == Compounds::kNone && spec.merge_curves == 0 &&
-      spec.ignore_below == 0 && !spec.idealize)
+  if (spec.feature_angle && spec.compounds == Compounds::kNone && spec.ignore_below == 0 && !spec.idealize)
     refuse("a feature angle without compounds");
 }
 
@@ -262,8 +260,8 @@ SurfaceModel make_from_cad(const MeshProblem& problem) {
                                           : read_cad(std::get<CadModel>(problem.model), options);
   name_parts(problem.surface.names, model);
   const bool changes_faces = problem.surface.compounds != Compounds::kNone ||
-                             problem.surface.merge_curves > 0 || problem.surface.ignore_below > 0 ||
-                             problem.surface.idealize || problem.surface.fill_holes > 0;
+                             problem.surface.ignore_below > 0 || problem.surface.idealize ||
+                             problem.surface.fill_holes > 0;
   const auto unusable =
       std::ranges::find_if(model.left_out, [](const LeftOutFace& f) { return f.face >= 0; });
   if (unusable != model.left_out.end() && changes_faces)
@@ -327,8 +325,7 @@ SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size
   const double length = kBelowRound * part * least_at_corners(size, model);
   const std::vector<char> named = named_curves(problem, model.fine.curves);
   const std::size_t n_warnings = model.warnings.size();
-  model =
-      merge_short_curves(std::move(model), length, {.feature_angle = kSmoothTurn}, ShortRest::kSilent, named);
+  model = merge_short_curves(std::move(model), length, {.feature_angle = kSmoothTurn}, named);
   for (std::size_t i = n_warnings; i < model.warnings.size(); ++i)
     model.warnings[i].text += " (curves.join_below = 0 keeps them)";
   return model;

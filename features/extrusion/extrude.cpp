@@ -152,31 +152,31 @@ void require_no_crossing(const Section& section, const LayeredPoints& layered) {
     throw InputError(fmt::format("the swept body meets itself at {}", show_point(crossing->at)));
 }
 
-void add_walls(const Section& section, const LayeredPoints& layered, HexMesh& result) {
+void add_walls(const Section& section, const LayeredPoints& layered, Mesh& result) {
   const Levels at(section, layered);
   std::vector<Entity> curves = section.mesh.curves;
   const int nameless = static_cast<int>(curves.size());
   if (std::ranges::any_of(section.walls, [](const WallEdge& wall) { return wall.curve < 0; }))
     curves.push_back({FreeTags(curves).take(), {}});
-  result.faces = with_names(std::move(curves), 1);
+  result.regions = with_names(std::move(curves), 1);
   for (int layer = 0; layer < layered.n_layers; ++layer)
     for (const WallEdge& wall : section.walls) {
       result.quads.push_back({at.point(wall.a, layer), at.point(wall.b, layer), at.point(wall.b, layer + 1),
                               at.point(wall.a, layer + 1)});
-      result.quad_face.push_back(wall.curve < 0 ? nameless : wall.curve);
+      result.quad_region.push_back(wall.curve < 0 ? nameless : wall.curve);
     }
 }
 
 /// Faces where the sweep starts and ends, after those of the walls.
-void add_caps(const Section& section, const LayeredPoints& layered, HexMesh& result) {
+void add_caps(const Section& section, const LayeredPoints& layered, Mesh& result) {
   const Levels at(section, layered);
-  FreeTags tags(result.faces);
+  FreeTags tags(result.regions);
   for (const bool is_end : {false, true}) {
-    const int first = static_cast<int>(result.faces.size());
+    const int first = static_cast<int>(result.regions.size());
     for (Entity face : result.volumes) {
       face.tag = tags.take();
       for (std::string& name : face.names) name += is_end ? " end" : " start";
-      result.faces.push_back(std::move(face));
+      result.regions.push_back(std::move(face));
     }
     const int level = is_end ? layered.n_layers : 0;
     for (std::size_t q = 0; q < section.mesh.quads.size(); ++q) {
@@ -184,12 +184,12 @@ void add_caps(const Section& section, const LayeredPoints& layered, HexMesh& res
       if (!is_end) std::swap(quad[1], quad[3]);
       for (int& v : quad) v = at.point(v, level);
       result.quads.push_back(quad);
-      result.quad_face.push_back(first + section.mesh.quad_region[q]);
+      result.quad_region.push_back(first + section.mesh.quad_region[q]);
     }
   }
 }
 
-void add_point_curves(const Section& section, const LayeredPoints& layered, HexMesh& result) {
+void add_point_curves(const Section& section, const LayeredPoints& layered, Mesh& result) {
   const Levels at(section, layered);
   for (const NamedPoint& named : section.mesh.named_points) result.curves.push_back(named.entity);
   result.curves = with_names(std::move(result.curves), 0);
@@ -203,11 +203,11 @@ void add_point_curves(const Section& section, const LayeredPoints& layered, HexM
 
 }  // namespace
 
-HexMesh extrude(const Mesh& mesh, const SweepPath& path, const SweepLayers& layers, ReadNotes* notes) {
+Mesh extrude(const Mesh& mesh, const SweepPath& path, const SweepLayers& layers, ReadNotes* notes) {
   Section section = make_section(mesh, notes);
   LayeredPoints layered = place_layers(section, path, layers);
   turn_towards_path(section, layered);
-  HexMesh result;
+  Mesh result;
   result.unit = mesh.unit;
   result.hexahedra = make_hexahedra(section, layered);
   result.volumes = with_names(mesh.regions, 2);

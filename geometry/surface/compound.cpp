@@ -196,9 +196,9 @@ Vec3 way_into(const SurfaceModel& model, int curve, const HalfEdge& side, const 
   return way - (dot(way, along) / dot(along, along)) * along;
 }
 
-/// What became of curves shorter than `length`. `members`: the former curves of each curve.
+/// Which curves shorter than `length` became one with others. `members`: the former curves of each curve.
 void report_short_curves(const std::vector<Entity>& old, const std::vector<double>& lengths, double length,
-                         const Groups& members, ShortRest rest, std::vector<Warning>& warnings) {
+                         const Groups& members, std::vector<Warning>& warnings) {
   for (const auto& curves : members) {
     for (const int curve : curves) {
       if (!(lengths[curve] < length)) continue;
@@ -206,14 +206,10 @@ void report_short_curves(const std::vector<Entity>& old, const std::vector<doubl
       for (const int other : curves) {
         if (other != curve) others += fmt::format("{}{}", others.empty() ? "" : ", ", old[other].tag);
       }
-      const std::string name = fmt::format("curve {}, {:.3g} long,", old[curve].tag, lengths[curve]);
-      if (others.empty() && rest == ShortRest::kSilent) continue;
-      if (others.empty())
-        warnings.push_back({"short curves that continue no other smoothly", 1 / lengths[curve],
-                            name + " is a short one, but continues no other smoothly"});
-      else
+      if (!others.empty())
         warnings.push_back({"short curves that became one with others", 1 / lengths[curve],
-                            name + " became one with curve " + others});
+                            fmt::format("curve {}, {:.3g} long, became one with curve {}", old[curve].tag,
+                                        lengths[curve], others)});
     }
   }
 }
@@ -280,7 +276,7 @@ Groups tangent_groups(const SurfaceModel& model, double angle) {
 }
 
 SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options,
-                                ShortRest rest, const std::vector<char>& kept) {
+                                const std::vector<char>& kept) {
   const Mesh& mesh = model.fine;
   struct LineFrom {
     int line, from;  ///< its other point
@@ -310,7 +306,7 @@ SurfaceModel merge_short_curves(SurfaceModel model, double length, const Compoun
   }
   const std::vector<Entity> old = mesh.curves;
   Groups curves = joins ? rechain(model, corner) : each_alone(old.size());
-  report_short_curves(old, lengths, length, curves, rest, model.warnings);
+  report_short_curves(old, lengths, length, curves, model.warnings);
   if (joins) {
     Mesh former = model.fine;
     former.curves = old;

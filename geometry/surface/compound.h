@@ -28,14 +28,10 @@ std::vector<char> tangent_curves(const SurfaceModel& model, double angle = 5);
 /// group.
 std::vector<std::vector<int>> tangent_groups(const SurfaceModel& model, double angle = 5);
 
-/// Whether merge_short_curves names the short curves that continue no other.
-enum class ShortRest { kNamed, kSilent };
-
-/// Makes each curve shorter than `length` one with those that it continues: where only two curves meet, with
-/// the same names, and turn by less than the feature angle. Those that are `kept` (by curve; empty: none)
-/// stay as they are. The model's warnings name what became one, and, as `rest` says, the short curves that
-/// continue no other.
+/// Makes each curve shorter than `length` one with the curves that it continues. Only two curves meet there,
+/// with the same names, and turn by less than the feature angle. Curves that are `kept` (by curve; empty:
+/// none) stay as they are. The model's warnings name what became one.
 SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options = {},
-                                ShortRest rest = ShortRest::kNamed, const std::vector<char>& kept = {});
+                                const std::vector<char>& kept = {});
 
 }  // namespace delquad

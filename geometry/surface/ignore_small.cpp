@@ -360,8 +360,7 @@ SurfaceModel ignore_small(SurfaceModel model, const NarrowOptions& narrow, const
   for (const auto& group : groups)
     for (const int face : group) model.fine.regions[face] = model.fine.regions[group[0]];
   model = make_compound(std::move(model), groups, options);
-  model = contract_short_curves(merge_short_curves(std::move(model), length, options, ShortRest::kSilent),
-                                narrow);
+  model = contract_short_curves(merge_short_curves(std::move(model), length, options), narrow);
   report_lost_names("face", model.before->regions, model.fine.regions, model.warnings);
   report_lost_names("curve", model.before->curves, model.fine.curves, model.warnings);
   return model;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <filesystem>
 #include <string>
 #include <variant>
 #include <vector>
@@ -11,22 +9,6 @@
 // Hexahedra, by sweeping a mesh of quads.
 
 namespace delquad {
-
-/// A mesh of hexahedra, with quads on its named faces. Indices count from 0.
-struct HexMesh {
-  std::vector<Vec3> points;
-  /// Corners: four around one side, counterclockwise seen from the side opposite, then the four opposite of
-  /// these.
-  std::vector<std::array<int, 8>> hexahedra;
-  std::vector<int> hex_volume;  ///< index into `volumes` of each hexahedron
-  /// The boundary, counterclockwise seen from outside, and faces inside that have a name.
-  std::vector<std::array<int, 4>> quads;
-  std::vector<int> quad_face;  ///< index into `faces` of each quad
-  std::vector<std::array<int, 2>> lines;
-  std::vector<int> line_curve;  ///< index into `curves` of each line
-  std::vector<Entity> volumes, faces, curves;
-  std::string unit;  ///< of lengths, such as "mm"; empty: not known
-};
 
 /// Along a straight line.
 struct AlongVector {
@@ -66,8 +48,7 @@ struct SweepLayers {
 /// curves. Quads may run either way round. `notes` learns what was left out. Throws InputError, which names
 /// the place, for triangles, elements of higher order, edges of three quads, surfaces with one side, a
 /// section that touches its axis, hexahedra that are not positive, and a body that meets itself.
-HexMesh extrude(const Mesh& mesh, const SweepPath& path, const SweepLayers& layers,
-                ReadNotes* notes = nullptr);
+Mesh extrude(const Mesh& mesh, const SweepPath& path, const SweepLayers& layers, ReadNotes* notes = nullptr);
 
 /// Measures of hexahedra.
 struct HexMeasures {
@@ -77,17 +58,6 @@ struct HexMeasures {
   double volume = 0;
   std::vector<double> jacobian;  ///< of each hexahedron
 };
-HexMeasures measure(const HexMesh& mesh);
-
-struct HexFileOptions {
-  bool binary = false;  ///< .msh as bytes
-  /// Of .inp: C3D8, C3D8I, C3D8R or, with nodes in the middles of the straight edges, C3D20 or C3D20R; for
-  /// heat DC3D8 or DC3D20. Empty: C3D8.
-  std::string element = {};
-};
-/// Writes hexahedra by extension, .msh (4.1), .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv; whole or not
-/// at all. Volumes and faces are groups with their names. Throws InputError that names the path.
-void write_hexahedra(const std::filesystem::path& path, const HexMesh& mesh,
-                     const HexFileOptions& options = {});
+HexMeasures measure(const Mesh& hexahedra);
 
 }  // namespace delquad

@@ -91,7 +91,8 @@ struct PeriodicFaces {
 inline constexpr int kMostOrder = 4;
 
 /// A mesh in space: line elements on curves, triangles and quads in regions. Planar meshes have z = 0.
-/// Indices count from 0.
+/// Indices count from 0. With hexahedra, see extrude(), it has no triangles, and its quads are the boundary,
+/// counterclockwise seen from outside, and faces inside that have a name.
 struct Mesh {
   std::vector<Vec3> points;
   std::vector<std::array<int, 2>> lines;
@@ -113,6 +114,11 @@ struct Mesh {
   std::vector<PeriodicNodes> periodic;
   std::vector<PeriodicFaces> periodic_faces;
   std::string unit;  ///< of lengths, such as "mm"; empty: not known
+  /// Corners: four around one side, counterclockwise seen from the side opposite, then the four opposite of
+  /// these.
+  std::vector<std::array<int, 8>> hexahedra = {};
+  std::vector<int> hex_volume = {};  ///< index into `volumes` of each hexahedron
+  std::vector<Entity> volumes = {};
 };
 
 /// Length of the diagonal of the bounding box; 0 without points.
@@ -148,10 +154,14 @@ enum class MshCurves {
 struct MshOptions {
   bool binary = false;
   MshCurves curves = MshCurves::kAll;
+  /// The kind of hexahedra in .inp. C3D8, C3D8I, C3D8R; with nodes in the middles of the straight edges
+  /// C3D20, C3D20R; for heat DC3D8, DC3D20. Empty: C3D8.
+  std::string element = {};
 };
 
 /// Writes by extension: .msh, .vtu (with eta per quad), .obj, .inp, .mesh, .svg (a picture); whole or not at
-/// all. Throws InputError that names the path, and for a format that has no such option.
+/// all. Hexahedra go to .msh (4.1), .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv. Throws InputError that
+/// names the path, and for a format that has no such option.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
 
 /// The closed boundary of one patch, discretised, in the patch's parameter plane.

@@ -274,8 +274,7 @@ struct MeshResult {
   Mesh mesh;
   MeshMetrics metrics;
   Soundness soundness;
-  /// What the steps did, added up over patches, and how long each took, preparation included: TimeSpent::work
-  /// can be compared whatever the number of threads.
+  /// The log of all steps with their times, preparation included, added up over patches.
   StageLog log;
   std::vector<Warning> warnings;  ///< those of the preparation, then those on the mesh
   /// Quads with an eta below kBadEta: in corners of the model that forbid more, and others.

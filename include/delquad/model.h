@@ -296,7 +296,6 @@ struct NamedPart {
 struct SurfaceSpec {
   Compounds compounds = Compounds::kNone;
   std::vector<std::vector<int>> groups;  ///< of kGroups: tags of faces
-  double merge_curves = 0;               ///< curves shorter than this length become one with a neighbour
   /// Faces narrower than this length become part of a neighbour, curves shorter than it one with a neighbour
   /// or a point; of planar models see leave_out_small(); 0: none.
   double ignore_below = 0;

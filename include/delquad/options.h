@@ -128,21 +128,17 @@ class Summaries {
   std::vector<SummaryStep> steps_;
 };
 
-/// What a step took, in seconds. Of steps that follow or overlap each other, on one thread or many, `clock`
-/// adds up to the time on the wall, and `alone` to that part of it which a further thread would not have
-/// shortened.
+/// The time of a step, in seconds.
 struct TimeSpent {
-  double work = 0;   ///< on the clock, of all threads that worked for it, added up
-  double cpu = 0;    ///< processor time of these threads
-  double clock = 0;  ///< on the clock: where N threads of the run are at work, each has an Nth of the time
-  double alone = 0;  ///< of `clock`: while one thread was at work in the whole run
+  double seconds = 0;  ///< on the clock; of parts that are done side by side, added up
+  double cpu = 0;      ///< processor time of all threads that worked for it
 };
 
 inline TimeSpent operator+(const TimeSpent& a, const TimeSpent& b) {
-  return {a.work + b.work, a.cpu + b.cpu, a.clock + b.clock, a.alone + b.alone};
+  return {a.seconds + b.seconds, a.cpu + b.cpu};
 }
 inline TimeSpent operator-(const TimeSpent& a, const TimeSpent& b) {
-  return {a.work - b.work, a.cpu - b.cpu, a.clock - b.clock, a.alone - b.alone};
+  return {a.seconds - b.seconds, a.cpu - b.cpu};
 }
 
 /// By step, in order of first use.
@@ -153,8 +149,8 @@ struct StageLog {
   StepTimes times = {};
   Summaries summaries = {};
   void add_time(const std::string& step, const TimeSpent& time);
-  /// Where only the clock was read, by one thread.
-  void add_seconds(const std::string& step, double s) { add_time(step, TimeSpent{s, 0, 0, 0}); }
+  /// Where only the clock was read.
+  void add_seconds(const std::string& step, double s) { add_time(step, {s, 0}); }
   /// Adds what was done on another patch.
   void add(const StageLog& other);
 };

@@ -98,8 +98,6 @@ inline constexpr auto kFields<SurfaceSpec> = std::tuple(
            .option = "--compound",
            .keyword = "compounds"}),
     inner("groups", &SurfaceSpec::groups),
-    field("merge_curves", &SurfaceSpec::merge_curves, "length below which curves become one with a neighbor",
-          {.above = 0}),
     field("ignore_below", &SurfaceSpec::ignore_below,
           "length: narrower faces become part of neighbors, shorter curves points",
           {.above = 0, .option = "--ignore-below"}),

@@ -113,14 +113,14 @@ void write_inp_sets(TextWriter& out, const char* keyword, Sets& sets) {
 enum HexNameKind { kHexSet, kHexCurve, kHexFace, kHexVolume };
 constexpr const char* kHexKinds[] = {"set", "curve", "face", "volume"};
 
-UniqueLabels make_hex_labels(const HexMesh& mesh) {
+UniqueLabels make_hex_labels(const Mesh& mesh) {
   std::vector<UniqueLabels::Key> keys;
   const auto add = [&](const std::vector<Entity>& entities, HexNameKind kind) {
     for (const Entity& entity : entities)
       for (const std::string& name : entity.names) keys.emplace_back(kind, name);
   };
   add(mesh.volumes, kHexVolume);
-  add(mesh.faces, kHexFace);
+  add(mesh.regions, kHexFace);
   add(mesh.curves, kHexCurve);
   for (const char* all : {kAllElements, kAllNodes}) keys.emplace_back(kHexSet, all);
   return UniqueLabels(keys, {plain_label, true, kLongestInpName});
@@ -128,7 +128,7 @@ UniqueLabels make_hex_labels(const HexMesh& mesh) {
 
 class HexInpWriter {
  public:
-  HexInpWriter(TextWriter& out, const HexMesh& mesh, const std::string& element)
+  HexInpWriter(TextWriter& out, const Mesh& mesh, const std::string& element)
       : out_(out),
         mesh_(mesh),
         labels_(make_hex_labels(mesh)),
@@ -196,7 +196,7 @@ class HexInpWriter {
 
   void collect() {
     collect_nodes(mesh_.hexahedra, mesh_.hex_volume, mesh_.volumes, kHexVolume);
-    collect_nodes(mesh_.quads, mesh_.quad_face, mesh_.faces, kHexFace);
+    collect_nodes(mesh_.quads, mesh_.quad_region, mesh_.regions, kHexFace);
     collect_nodes(mesh_.lines, mesh_.line_curve, mesh_.curves, kHexCurve);
     for (std::size_t i = 0; i < mesh_.hexahedra.size(); ++i)
       for (const std::string& name : mesh_.volumes[mesh_.hex_volume[i]].names)
@@ -205,7 +205,7 @@ class HexInpWriter {
     for (std::size_t i = 0; i < mesh_.quads.size(); ++i) {
       const auto at = sides_at_quad(mesh_, sides, static_cast<int>(i));
       if (at.size() != 1) continue;
-      for (const std::string& name : mesh_.faces[mesh_.quad_face[i]].names) {
+      for (const std::string& name : mesh_.regions[mesh_.quad_region[i]].names) {
         const std::string label = labels_.of({kHexFace, name});
         element_sets_[side_set(label, at[0].side)].push_back(at[0].hexahedron + 1);
         sides_of_[label].insert(at[0].side);
@@ -214,7 +214,7 @@ class HexInpWriter {
   }
 
   TextWriter& out_;
-  const HexMesh& mesh_;
+  const Mesh& mesh_;
   const UniqueLabels labels_;
   const std::string element_;
   std::vector<std::pair<int, int>> edges_;  ///< with a node in the middle; sorted
@@ -224,7 +224,7 @@ class HexInpWriter {
 
 /// Every name of volumes is an ELSET and an NSET, of faces an NSET and, on the boundary, a SURFACE, of
 /// curves an NSET.
-void write_hex_inp(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions& options) {
+void write_hex_inp(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
   write_text_file(path, [&](TextWriter& out) { HexInpWriter(out, mesh, options.element).write(); });
 }
 
@@ -443,9 +443,15 @@ MeshFormat inp_format() {
                     notes->push_back(other + " is not read");
                 return std::move(deck.mesh);
               },
-          .write = write_by<write_inp>,
+          .write =
+              [](const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options, QuadNodes) {
+                if (mesh.hexahedra.empty())
+                  write_inp(path, mesh);
+                else
+                  write_hex_inp(path, mesh, options);
+              },
           .most_order = 2,
-          .write_hexahedra = write_hex_inp,
+          .has_hexahedra = true,
           .eight_nodes = EightNodes::kAlways,
           .names = kAllNames | kFurtherNames | kPeriodicPairs,
           .read_given = [](const std::filesystem::path& path,

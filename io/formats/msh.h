@@ -4,7 +4,7 @@
 #include <ostream>
 #include <vector>
 
-#include "delquad/hexahedra.h"
+#include "delquad/mesh.h"
 #include "delquad/model.h"
 #include "io/mesh_io.h"
 
@@ -17,17 +17,14 @@ namespace delquad {
 /// file and line, or byte.
 Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nullptr,
               ReadNotes* notes = nullptr);
-/// MSH 4.1 with $PhysicalNames and $Entities. Coordinates read back exactly. Each entity is in exactly one
-/// physical group, for meshio, dolfinx and deal.II take no other files: that of group_names(). Names beside
-/// it follow the elements in a section $MoreNames, which other programs skip. A group whose name is a number
-/// gets that number as its tag. The unit of lengths, where it is known, is a section $Unit after these.
+/// MSH 4.1 with $PhysicalNames and $Entities, volumes with dimension 3. Coordinates read back exactly. Each
+/// entity is in exactly one physical group, for meshio, dolfinx and deal.II take no other files: the group of
+/// group_names(). Names beside it follow the elements in a section $MoreNames, which other programs skip. A
+/// group whose name is a number gets that number as its tag. The unit of lengths, where it is known, is a
+/// section $Unit after these.
 void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {},
                QuadNodes nodes = QuadNodes::kAll);
 /// `fields`: become views ($NodeData, $ElementData).
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {},
                QuadNodes nodes = QuadNodes::kAll, const std::vector<MeshField>& fields = {});
-/// As write_msh() does: volumes, faces and curves are entities of dimension 3, 2 and 1, each in one physical
-/// group.
-void write_hex_msh(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions& options);
-
 }  // namespace delquad

@@ -326,22 +326,18 @@ void write_views(MshNumbers& out, const std::vector<MshBlock>& blocks, const std
   }
 }
 
-/// `mesh`: with pairs of periodic entities; null: of hexahedra, which have none.
-void write_blocks(std::ostream& stream, bool binary, const std::vector<Vec3>& points,
-                  std::vector<MshBlock> blocks, const std::string& unit, const Mesh* mesh,
-                  const std::vector<MeshField>& fields = {}) {
+void write_blocks(std::ostream& stream, bool binary, const Mesh& mesh, std::vector<MshBlock> blocks,
+                  const std::vector<MeshField>& fields) {
   MshNumbers out(stream, binary);
   write_head(out, binary, number_groups(blocks));
   write_entities(out, blocks);
-  write_nodes(out, points, blocks);
+  write_nodes(out, mesh.points, blocks);
   write_elements(out, blocks);
-  if (mesh != nullptr) {
-    write_periodic(out, *mesh, blocks);
-    write_views(out, blocks, fields, mesh->triangles.size());
-  }
+  write_periodic(out, mesh, blocks);
+  write_views(out, blocks, fields, mesh.triangles.size());
   out.flush();
   write_more_names(stream, blocks);
-  if (!unit.empty()) stream << "$Unit\n" << unit << "\n$EndUnit\n";
+  if (!mesh.unit.empty()) stream << "$Unit\n" << mesh.unit << "\n$EndUnit\n";
 }
 
 /// Whether each line is written.
@@ -367,7 +363,7 @@ std::vector<Entity> entities_of(const std::vector<NamedPoint>& points) {
 template <class Visit>
 void with_blocks(const Mesh& mesh, MshCurves curves, QuadNodes nodes, const Visit& visit) {
   constexpr std::array kLines = {1, 8, 26, 27}, kQuads = {3, 10, 36, 37};  // Gmsh's types, by order
-  constexpr int kPoint = 15, kTriangle = 2, kEightNodes = 16;
+  constexpr int kPoint = 15, kTriangle = 2, kEightNodes = 16, kHexahedron = 5;
   const size_t order = static_cast<size_t>(mesh.order) - 1;
   const bool eight = nodes == QuadNodes::kNoMiddle;
   std::vector<int> places = gmsh_places(mesh.order), point_entity(mesh.named_points.size());
@@ -381,8 +377,10 @@ void with_blocks(const Mesh& mesh, MshCurves curves, QuadNodes nodes, const Visi
       {2, kTriangle, mesh.triangle_region,
        [&](size_t i) { return std::vector(mesh.triangles[i].begin(), mesh.triangles[i].end()); }},
       {2, eight ? kEightNodes : kQuads[order], mesh.quad_region,
-       [&](size_t i) { return nodes_of_quad(mesh, i, places); }}};
-  visit(make_blocks(mesh.points, {&point_entities, &mesh.curves, &mesh.regions}, kinds));
+       [&](size_t i) { return nodes_of_quad(mesh, i, places); }},
+      {3, kHexahedron, mesh.hex_volume,
+       [&](size_t i) { return std::vector(mesh.hexahedra[i].begin(), mesh.hexahedra[i].end()); }}};
+  visit(make_blocks(mesh.points, {&point_entities, &mesh.curves, &mesh.regions, &mesh.volumes}, kinds));
 }
 
 std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
@@ -405,28 +403,13 @@ std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options, QuadNodes nodes,
                const std::vector<MeshField>& fields) {
   with_blocks(mesh, options.curves, nodes, [&](std::vector<MshBlock> blocks) {
-    write_blocks(stream, options.binary, mesh.points, std::move(blocks), mesh.unit, &mesh, fields);
+    write_blocks(stream, options.binary, mesh, std::move(blocks), fields);
   });
 }
 
 void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options,
                QuadNodes nodes) {
   write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options, nodes); });
-}
-
-void write_hex_msh(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions& options) {
-  constexpr int kLine = 1, kQuad = 3, kHexahedron = 5;
-  const auto nodes = [](const auto& elements) {
-    return [&elements](size_t i) { return std::vector(elements[i].begin(), elements[i].end()); };
-  };
-  const std::vector<Entity> no_points;
-  const std::vector<MshKind> kinds = {{1, kLine, mesh.line_curve, nodes(mesh.lines)},
-                                      {2, kQuad, mesh.quad_face, nodes(mesh.quads)},
-                                      {3, kHexahedron, mesh.hex_volume, nodes(mesh.hexahedra)}};
-  auto blocks = make_blocks(mesh.points, {&no_points, &mesh.curves, &mesh.faces, &mesh.volumes}, kinds);
-  write_file_atomically(path, [&](std::ostream& stream) {
-    write_blocks(stream, options.binary, mesh.points, std::move(blocks), mesh.unit, nullptr);
-  });
 }
 
 MeshFormat msh_format() {
@@ -436,7 +419,7 @@ MeshFormat msh_format() {
                      Strays) { return read_msh(path, nullptr, notes); },
           .write = write_msh,
           .most_order = kMostOrder,
-          .write_hexahedra = write_hex_msh,
+          .has_hexahedra = true,
           .eight_nodes = EightNodes::kWhenAsked,
           .has_binary = true,
           .renamed = renamed_in_msh,

@@ -39,11 +39,9 @@ void write_grid(TextWriter& out, std::size_t i, const Vec3& p) {
 }
 
 /// Comments that tell names: a property for each group of the highest dimension, SETs of the nodes of others.
-template <class AnyMesh>
-void write_names(TextWriter& out, const char* title, const AnyMesh& mesh,
-                 const std::vector<MeshGroup>& groups) {
+void write_names(TextWriter& out, const Mesh& mesh, const std::vector<MeshGroup>& groups) {
   constexpr const char* kKinds[] = {"point ", "curve ", "face "};
-  out << "$ " << title << " by Delquad\n";
+  out << (mesh.hexahedra.empty() ? "$ quad mesh by Delquad\n" : "$ mesh of hexahedra by Delquad\n");
   if (!mesh.unit.empty()) out << "$ lengths in " << mesh.unit << '\n';
   std::size_t set = 0;
   for (const MeshGroup& group : groups) {
@@ -59,17 +57,20 @@ void write_names(TextWriter& out, const char* title, const AnyMesh& mesh,
   out << "BEGIN BULK\n";
 }
 
-/// Nastran's bulk data: CQUAD4, CQUAD8 and CTRIA3, a property for each name of regions, SETs of the nodes of
-/// curves and points; comments tell the names.
+/// Writes bulk data: CHEXA, or CQUAD4, CQUAD8 and CTRIA3, with a property for each name of elements. SETs
+/// hold the nodes of other names; comments tell the names.
 void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
   require_numbers(path, "Nastran", mesh, kMostNastran);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
-  const std::vector<int> property = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
+  const bool is_solid = !mesh.hexahedra.empty();
+  const std::vector<int> property = is_solid
+                                        ? group_numbers(groups, 3, mesh.hexahedra.size())
+                                        : group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
   std::vector<char> inside(mesh.points.size(), 0);
   for (std::size_t q = 0; q < mesh.quads.size() && mesh.order == 2; ++q)
     inside[nodes_of_quad(mesh, q)[4]] = 1;
   write_text_file(path, [&](TextWriter& out) {
-    write_names(out, "quad mesh", mesh, groups);
+    write_names(out, mesh, groups);
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
       if (inside[i]) continue;
       write_grid(out, i, mesh.points[i]);
@@ -81,30 +82,12 @@ void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
       write_card(out, name, numbers);
       ++n;
     };
+    for (const auto& v : mesh.hexahedra) write("CHEXA", v);
     for (const auto& v : mesh.triangles) write("CTRIA3", v);
-    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    for (std::size_t q = 0; q < mesh.quads.size() && !is_solid; ++q) {
       std::vector<int> nodes = nodes_of_quad(mesh, q, gmsh_places(mesh.order));
       if (mesh.order == 2) nodes.pop_back();
       write(mesh.order == 2 ? "CQUAD8" : "CQUAD4", nodes);
-    }
-    out << "ENDDATA\n";
-  });
-}
-
-/// CHEXA, a property for each name of volumes, SETs of the nodes of faces and curves.
-void write_hex_nastran(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions&) {
-  for (const auto& [n, what] :
-       {std::pair(mesh.points.size(), "nodes"), std::pair(mesh.hexahedra.size(), "elements")})
-    require_fits(path, "Nastran", n, what, kMostNastran);
-  const std::vector<MeshGroup> groups = hex_groups(mesh, {one_line_label});
-  const std::vector<int> property = group_numbers(groups, 3, mesh.hexahedra.size());
-  write_text_file(path, [&](TextWriter& out) {
-    write_names(out, "mesh of hexahedra", mesh, groups);
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) write_grid(out, i, mesh.points[i]);
-    for (std::size_t h = 0; h < mesh.hexahedra.size(); ++h) {
-      std::vector<std::size_t> numbers{h + 1, static_cast<std::size_t>(property[h])};
-      for (const int v : mesh.hexahedra[h]) numbers.push_back(static_cast<std::size_t>(v) + 1);
-      write_card(out, "CHEXA", numbers);
     }
     out << "ENDDATA\n";
   });
@@ -124,7 +107,7 @@ MeshFormat nastran_format() {
               },
           .write = write_by<write_nastran>,
           .most_order = 2,
-          .write_hexahedra = write_hex_nastran,
+          .has_hexahedra = true,
           .eight_nodes = EightNodes::kAlways,
           .read_given = [](const std::filesystem::path& path,
                            ReadNotes* notes) { return given_mesh(read_nastran_deck(path, true), notes); },

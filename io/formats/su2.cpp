@@ -19,10 +19,11 @@ namespace {
 
 /// Writes elements of the dimension by `each_element`, and a marker for each group of sides, of type
 /// `side_type`. The solver takes no sides inside: `is_outside` says which are around the mesh.
-template <class M, class EachElement, class Sides, class IsOutside, class WriteComments>
-void write_elements(const std::filesystem::path& path, const M& mesh, std::vector<MeshGroup> groups, int dim,
-                    const char* title, std::size_t n_elements, const EachElement& each_element, int side_type,
+template <class EachElement, class Sides, class IsOutside, class WriteComments>
+void write_elements(const std::filesystem::path& path, const Mesh& mesh, int dim, const char* title,
+                    std::size_t n_elements, const EachElement& each_element, int side_type,
                     const Sides& sides, const IsOutside& is_outside, const WriteComments& write_comments) {
+  std::vector<MeshGroup> groups = mesh_groups(mesh, {plain_label});
   write_text_file(path, [&](TextWriter& out) {
     out << "% " << title << " by Delquad\n";
     if (!mesh.unit.empty()) out << "% lengths in " << mesh.unit << '\n';
@@ -77,7 +78,19 @@ void write_periodic(TextWriter& out, const Mesh& mesh, const std::vector<MeshGro
 
 constexpr int kVtkLine = 3, kVtkTriangle = 5, kVtkQuad = 9, kVtkHexahedron = 12;
 
+void write_hex_su2(const std::filesystem::path& path, const Mesh& mesh) {
+  const std::vector<HexSide> sides = sorted_hex_sides(mesh);
+  const auto each = [&](const auto& write) {
+    for (const auto& v : mesh.hexahedra) write(kVtkHexahedron, v);
+  };
+  write_elements(
+      path, mesh, 3, "mesh of hexahedra", mesh.hexahedra.size(), each, kVtkQuad, mesh.quads,
+      [&](int q) { return sides_at_quad(mesh, sides, q).size() == 1; },
+      [](TextWriter&, const std::vector<MeshGroup>&) {});
+}
+
 void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
+  if (!mesh.hexahedra.empty()) return write_hex_su2(path, mesh);
   if (!is_planar(mesh))
     refuse("{}: SU2 computes in planar meshes or in volumes: this is a surface in space", path.string());
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
@@ -86,23 +99,9 @@ void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
     for (const auto& v : mesh.quads) write(kVtkQuad, v);
   };
   write_elements(
-      path, mesh, mesh_groups(mesh, {plain_label}), 2, "quad mesh", mesh.triangles.size() + mesh.quads.size(),
-      each, kVtkLine, mesh.lines,
+      path, mesh, 2, "quad mesh", mesh.triangles.size() + mesh.quads.size(), each, kVtkLine, mesh.lines,
       [&](int l) { return sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).size() == 1; },
       [&](TextWriter& out, const std::vector<MeshGroup>& groups) { write_periodic(out, mesh, groups); });
-}
-
-void write_hex_su2(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions&) {
-  std::vector<MeshGroup> groups = hex_groups(mesh, {plain_label});
-  std::erase_if(groups, [](const MeshGroup& group) { return group.dim != 2; });
-  const std::vector<HexSide> sides = sorted_hex_sides(mesh);
-  const auto each = [&](const auto& write) {
-    for (const auto& v : mesh.hexahedra) write(kVtkHexahedron, v);
-  };
-  write_elements(
-      path, mesh, groups, 3, "mesh of hexahedra", mesh.hexahedra.size(), each, kVtkQuad, mesh.quads,
-      [&](int q) { return sides_at_quad(mesh, sides, q).size() == 1; },
-      [](TextWriter&, const std::vector<MeshGroup>&) {});
 }
 
 }  // namespace
@@ -111,7 +110,7 @@ MeshFormat su2_format() {
   return {.extensions = {".su2"},
           .description = "SU2",
           .write = write_by<write_su2>,
-          .write_hexahedra = write_hex_su2,
+          .has_hexahedra = true,
           .names = kBoundaryNames | kPeriodicPairs};
 }
 

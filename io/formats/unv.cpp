@@ -83,26 +83,15 @@ class UnvWriter {
       first_{};  ///< elements before those of a dimension; nodes have numbers of their own
 };
 
-/// I-DEAS universal: thin shells, a group for each name.
+/// I-DEAS universal: thin shells or bricks, a group for each name.
 void write_unv(const std::filesystem::path& path, const Mesh& mesh) {
   const std::vector<MeshGroup> groups = mesh_groups(mesh, kUnvLabels);
   write_text_file(path, [&](TextWriter& text) {
     UnvWriter out(text, groups);
     out.write_nodes(mesh.points);
+    out.write_elements(3, kUnvBrick, mesh.hexahedra);
     out.write_elements(2, kUnvTriangle, mesh.triangles, 0, mesh.quads.size());
     out.write_elements(2, kUnvQuad, mesh.quads, mesh.triangles.size());
-    out.write_elements(1, kUnvRod, mesh.lines);
-    out.write_groups();
-  });
-}
-
-void write_hex_unv(const std::filesystem::path& path, const HexMesh& mesh, const HexFileOptions&) {
-  const std::vector<MeshGroup> groups = hex_groups(mesh, kUnvLabels);
-  write_text_file(path, [&](TextWriter& text) {
-    UnvWriter out(text, groups);
-    out.write_nodes(mesh.points);
-    out.write_elements(3, kUnvBrick, mesh.hexahedra);
-    out.write_elements(2, kUnvQuad, mesh.quads);
     out.write_elements(1, kUnvRod, mesh.lines);
     out.write_groups();
   });
@@ -114,7 +103,7 @@ MeshFormat unv_format() {
   return {.extensions = {".unv"},
           .description = "I-DEAS universal: Salome, Elmer, OpenFOAM",
           .write = write_by<write_unv>,
-          .write_hexahedra = write_hex_unv,
+          .has_hexahedra = true,
           .labels = &kUnvLabels};
 }
 

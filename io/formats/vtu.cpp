@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "delquad/hexahedra.h"
 #include "geometry/mesh/element_nodes.h"
 #include "io/entity_names.h"
 #include "io/mesh_formats.h"
@@ -108,7 +109,30 @@ NumbersOfNames points_of_names(const Mesh& mesh) {
   return points;
 }
 
+/// Hexahedra first, then quads and lines, with the numbers of their volumes, faces and curves (arrays
+/// `volume`, `face`, `curve`; 0: none) and of hexahedra the least scaled Jacobian.
+void write_hex_vtu(const std::filesystem::path& path, const Mesh& mesh) {
+  constexpr std::uint8_t kLine = 3, kQuad = 9, kHexahedron = 12;  // VTK's cell types
+  VtuContent content{mesh.points,
+                     mesh.unit,
+                     {{"volume", tags_of_names(mesh.volumes)},
+                      {"face", tags_of_names(mesh.regions)},
+                      {"curve", tags_of_names(mesh.curves)}},
+                     {{"volume", {}}, {"face", {}}, {"curve", {}}}};
+  for (std::size_t i = 0; i < mesh.hexahedra.size(); ++i)
+    content.add(mesh.hexahedra[i], kHexahedron, {mesh.volumes[mesh.hex_volume[i]].tag, 0, 0});
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i)
+    content.add(mesh.quads[i], kQuad, {0, mesh.regions[mesh.quad_region[i]].tag, 0});
+  for (std::size_t i = 0; i < mesh.lines.size(); ++i)
+    content.add(mesh.lines[i], kLine, {0, 0, mesh.curves[mesh.line_curve[i]].tag});
+  std::vector<double> jacobian = measure(mesh).jacobian;
+  jacobian.resize(content.types.size(), std::numeric_limits<double>::quiet_NaN());
+  content.fields.push_back({"scaled Jacobian", false, 1, std::move(jacobian)});
+  write_text_file(path, [&](TextWriter& out) { write_content(out, content); });
+}
+
 void write_with_eta(const std::filesystem::path& path, const Mesh& mesh, const MshOptions&, QuadNodes nodes) {
+  if (!mesh.hexahedra.empty()) return write_hex_vtu(path, mesh);
   std::vector<double> eta(mesh.lines.size() + mesh.triangles.size(),
                           std::numeric_limits<double>::quiet_NaN());
   const std::vector<double> of_quads = quad_etas(mesh);
@@ -156,34 +180,13 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
   write_text_file(path, [&](TextWriter& out) { write_content(out, content); });
 }
 
-void write_hex_vtu(const std::filesystem::path& path, const HexMesh& mesh) {
-  constexpr std::uint8_t kLine = 3, kQuad = 9, kHexahedron = 12;  // VTK's cell types
-  VtuContent content{mesh.points,
-                     mesh.unit,
-                     {{"volume", tags_of_names(mesh.volumes)},
-                      {"face", tags_of_names(mesh.faces)},
-                      {"curve", tags_of_names(mesh.curves)}},
-                     {{"volume", {}}, {"face", {}}, {"curve", {}}}};
-  for (std::size_t i = 0; i < mesh.hexahedra.size(); ++i)
-    content.add(mesh.hexahedra[i], kHexahedron, {mesh.volumes[mesh.hex_volume[i]].tag, 0, 0});
-  for (std::size_t i = 0; i < mesh.quads.size(); ++i)
-    content.add(mesh.quads[i], kQuad, {0, mesh.faces[mesh.quad_face[i]].tag, 0});
-  for (std::size_t i = 0; i < mesh.lines.size(); ++i)
-    content.add(mesh.lines[i], kLine, {0, 0, mesh.curves[mesh.line_curve[i]].tag});
-  std::vector<double> jacobian = measure(mesh).jacobian;
-  jacobian.resize(content.types.size(), std::numeric_limits<double>::quiet_NaN());
-  content.fields.push_back({"scaled Jacobian", false, 1, std::move(jacobian)});
-  write_text_file(path, [&](TextWriter& out) { write_content(out, content); });
-}
-
 MeshFormat vtu_format() {
   return {.extensions = {".vtu"},
           .description = "VTK XML, ParaView",
           .read = read_by<read_vtu>,
           .write = write_with_eta,
           .most_order = kMostOrder,
-          .write_hexahedra = [](const std::filesystem::path& path, const HexMesh& mesh,
-                                const HexFileOptions&) { write_hex_vtu(path, mesh); },
+          .has_hexahedra = true,
           .eight_nodes = EightNodes::kWhenAsked,
           .names = kAllNames | kFurtherNames};
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "delquad/hexahedra.h"
+#include "delquad/mesh.h"
 #include "io/mesh_io.h"
 
 namespace delquad {
@@ -21,8 +21,4 @@ Mesh read_vtu(const std::filesystem::path& path);
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data = {},
                QuadNodes nodes = QuadNodes::kAll, const std::vector<MeshField>& fields = {});
-/// Hexahedra first, then quads and lines, with the numbers of their volumes, faces and curves (arrays
-/// `volume`, `face`, `curve`; 0: none) and of hexahedra the least scaled Jacobian.
-void write_hex_vtu(const std::filesystem::path& path, const HexMesh& mesh);
-
 }  // namespace delquad

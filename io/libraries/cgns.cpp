@@ -116,14 +116,22 @@ void put_region(CgnsFile& file, const Mesh& mesh, const MeshGroup& group) {
     file.put_section(group.label, mesh.order == 2 ? CGNS_ENUMV(QUAD_9) : CGNS_ENUMV(QUAD_4), count[1], quads);
 }
 
-/// CGNS: one zone, a section for each name of regions and curves, boundary conditions on curves and points.
+/// CGNS: one zone, a section for each name, boundary conditions on all names below the highest dimension.
 void write_cgns(const std::filesystem::path& path, const Mesh& mesh) {
   write_by_library(path, [&](const std::filesystem::path& temporary) {
     CgnsFile file(path, temporary);
-    file.put_head(2, is_planar(mesh), mesh.points, mesh.triangles.size() + mesh.quads.size());
+    const bool is_solid = !mesh.hexahedra.empty();
+    file.put_head(is_solid ? 3 : 2, !is_solid && is_planar(mesh), mesh.points,
+                  is_solid ? mesh.hexahedra.size() : mesh.triangles.size() + mesh.quads.size());
     for (const MeshGroup& group : mesh_groups(mesh, kCgnsLabels)) {
       std::vector<cgsize_t> nodes;
-      if (group.dim == 2) {
+      if (group.dim == 3) {
+        for (const int h : group.items) add_cgns_nodes(mesh.hexahedra[h], nodes);
+        file.put_section(group.label, CGNS_ENUMV(HEXA_8), group.items.size(), nodes);
+      } else if (group.dim == 2 && is_solid) {
+        for (const int q : group.items) add_cgns_nodes(mesh.quads[q], nodes);
+        file.put_boundary(group.label, CGNS_ENUMV(QUAD_4), group.items.size(), nodes, CGNS_ENUMV(FaceCenter));
+      } else if (group.dim == 2) {
         put_region(file, mesh, group);
       } else if (group.dim == 1) {
         for (const int l : group.items)
@@ -139,32 +147,8 @@ void write_cgns(const std::filesystem::path& path, const Mesh& mesh) {
   });
 }
 
-/// A section for each name, boundary conditions on faces and curves.
-void write_hex_cgns(const std::filesystem::path& path, const HexMesh& mesh) {
-  write_by_library(path, [&](const std::filesystem::path& temporary) {
-    CgnsFile file(path, temporary);
-    file.put_head(3, false, mesh.points, mesh.hexahedra.size());
-    for (const MeshGroup& group : hex_groups(mesh, kCgnsLabels)) {
-      std::vector<cgsize_t> nodes;
-      for (const int i : group.items)
-        if (group.dim == 3)
-          add_cgns_nodes(mesh.hexahedra[i], nodes);
-        else
-          group.dim == 2 ? add_cgns_nodes(mesh.quads[i], nodes) : add_cgns_nodes(mesh.lines[i], nodes);
-      if (group.dim == 3)
-        file.put_section(group.label, CGNS_ENUMV(HEXA_8), group.items.size(), nodes);
-      else
-        file.put_boundary(group.label, group.dim == 2 ? CGNS_ENUMV(QUAD_4) : CGNS_ENUMV(BAR_2),
-                          group.items.size(), nodes,
-                          group.dim == 2 ? CGNS_ENUMV(FaceCenter) : CGNS_ENUMV(EdgeCenter));
-    }
-    file.close();
-  });
-}
-
 }  // namespace
 
 }  // namespace delquad
 
-extern "C" const delquad::LibraryFormat delquad_format = {nullptr, delquad::write_cgns,
-                                                          delquad::write_hex_cgns};
+extern "C" const delquad::LibraryFormat delquad_format = {nullptr, delquad::write_cgns};

@@ -112,15 +112,21 @@ class ExodusFile {
 class ExodusWriter {
  public:
   ExodusWriter(ExodusFile& file, const Mesh& mesh)
-      : file_(file), mesh_(mesh), groups_(mesh_groups(mesh, kExodusLabels)) {}
+      : file_(file),
+        mesh_(mesh),
+        groups_(mesh_groups(mesh, kExodusLabels)),
+        dim_(mesh.hexahedra.empty() ? 2 : 3) {}
 
   void write() {
     make_blocks();
-    const auto n_sets = [&](int dim) { return std::ranges::count(groups_, dim, &MeshGroup::dim); };
-    file_.put_head("Quad mesh by Delquad", is_planar(mesh_) ? 2 : 3, mesh_.points, number_of_.size(),
-                   blocks_.size(), n_sets(0) + n_sets(1), n_sets(1));
+    const auto n_sets = [&](int most) {
+      return std::ranges::count_if(groups_, [&](const MeshGroup& g) { return g.dim <= most; });
+    };
+    file_.put_head(dim_ == 3 ? "Mesh of hexahedra by Delquad" : "Quad mesh by Delquad",
+                   dim_ == 2 && is_planar(mesh_) ? 2 : 3, mesh_.points, number_of_.size(), blocks_.size(),
+                   n_sets(dim_ - 1), n_sets(dim_ - 1) - n_sets(dim_ - 2));
     write_blocks();
-    write_sets(sorted_half_edges(mesh_));
+    write_sets(sorted_half_edges(mesh_), sorted_hex_sides(mesh_));
     file_.close();
   }
 
@@ -128,7 +134,11 @@ class ExodusWriter {
   void make_blocks() {
     const int n_triangles = static_cast<int>(mesh_.triangles.size());
     for (const MeshGroup& group : groups_) {
-      if (group.dim != 2) continue;
+      if (group.dim != dim_) continue;
+      if (dim_ == 3) {
+        blocks_.push_back({group.label, "HEX8", group.items, 8U});
+        continue;
+      }
       for (const bool triangles : {true, false}) {
         ExodusBlock block{group.label,
                           triangles          ? "TRI3"
@@ -145,7 +155,7 @@ class ExodusWriter {
         blocks_.push_back(std::move(block));
       }
     }
-    number_of_.resize(mesh_.triangles.size() + mesh_.quads.size());
+    number_of_.resize(dim_ == 3 ? mesh_.hexahedra.size() : mesh_.triangles.size() + mesh_.quads.size());
     int n = 0;
     for (const ExodusBlock& block : blocks_)
       for (const int e : block.elements) number_of_[e] = ++n;
@@ -160,7 +170,9 @@ class ExodusWriter {
         for (const int v : of_element) nodes.push_back(v + 1);
       };
       for (const int e : block.elements)
-        if (static_cast<std::size_t>(e) < n_triangles)
+        if (dim_ == 3)
+          add(mesh_.hexahedra[e]);
+        else if (static_cast<std::size_t>(e) < n_triangles)
           add(mesh_.triangles[e]);
         else
           add(nodes_of_quad(mesh_, static_cast<std::size_t>(e) - n_triangles, places));
@@ -168,18 +180,24 @@ class ExodusWriter {
     }
   }
 
-  /// Node sets of curves and points, side sets of curves.
-  void write_sets(std::span<const HalfEdge> sides) {
+  /// Node sets of all below the highest dimension, side sets of those next to it.
+  void write_sets(std::span<const HalfEdge> sides, const std::vector<HexSide>& hex_sides) {
+    constexpr std::array kSideOf = {5, 6, 1, 2, 3, 4};  // of Abaqus's S1, S2, ...
     for (const MeshGroup& group : groups_) {
-      if (group.dim == 2) continue;
+      if (group.dim == dim_) continue;
       file_.put_node_set(group.label, nodes_of_group(mesh_, group));
-      if (group.dim == 0) continue;
+      if (group.dim < dim_ - 1) continue;
       std::vector<int> elements, which;
-      for (const int line : group.items)
-        for (const ElementSide& side : sides_at_line(mesh_, sides, line)) {
-          elements.push_back(number_of_[side.element]);
-          which.push_back(side.side + 1);
-        }
+      const auto add = [&](int element, int side) {
+        elements.push_back(number_of_[element]);
+        which.push_back(side);
+      };
+      for (const int i : group.items)
+        if (dim_ == 3)
+          for (const HexSide& side : sides_at_quad(mesh_, hex_sides, i))
+            add(side.hexahedron, kSideOf[side.side - 1]);
+        else
+          for (const ElementSide& side : sides_at_line(mesh_, sides, i)) add(side.element, side.side + 1);
       file_.put_side_set(group.label, elements, which);
     }
   }
@@ -187,11 +205,12 @@ class ExodusWriter {
   ExodusFile& file_;
   const Mesh& mesh_;
   const std::vector<MeshGroup> groups_;
+  const int dim_;  ///< of the elements
   std::vector<ExodusBlock> blocks_;
   std::vector<int> number_of_;  ///< in the file, of each element
 };
 
-/// Exodus II: a block for each name of regions, node and side sets of curves, node sets of points.
+/// Exodus II: a block for each name of the highest dimension, node and side sets of others.
 void write_exodus(const std::filesystem::path& path, const Mesh& mesh) {
   write_by_library(path, [&](const std::filesystem::path& temporary) {
     ExodusFile file(path, temporary);
@@ -199,48 +218,8 @@ void write_exodus(const std::filesystem::path& path, const Mesh& mesh) {
   });
 }
 
-/// A block for each name of volumes, node and side sets of faces, node sets of curves.
-void write_hex(ExodusFile& file, const HexMesh& mesh) {
-  const std::vector<MeshGroup> groups = hex_groups(mesh, kExodusLabels);
-  const auto n = [&](int dim) { return std::ranges::count(groups, dim, &MeshGroup::dim); };
-  file.put_head("Mesh of hexahedra by Delquad", 3, mesh.points, mesh.hexahedra.size(),
-                static_cast<std::size_t>(n(3)), n(2) + n(1), n(2));
-  std::vector<int> number(mesh.hexahedra.size());
-  int last = 0;
-  const std::vector<HexSide> sides = sorted_hex_sides(mesh);
-  for (const MeshGroup& group : groups) {
-    std::vector<int> entries, which;
-    if (group.dim == 3) {
-      for (const int h : group.items) {
-        number[h] = ++last;
-        for (const int v : mesh.hexahedra[h]) entries.push_back(v + 1);
-      }
-      file.put_block(group.label, "HEX8", 8, entries);
-      continue;
-    }
-    file.put_node_set(group.label, nodes_of_group(mesh, group));
-    if (group.dim == 1) continue;
-    constexpr std::array kSideOf = {5, 6, 1, 2, 3, 4};  // of Abaqus's S1, S2, ...
-    for (const int quad : group.items)
-      for (const HexSide& side : sides_at_quad(mesh, sides, quad)) {
-        entries.push_back(number[side.hexahedron]);
-        which.push_back(kSideOf[side.side - 1]);
-      }
-    file.put_side_set(group.label, entries, which);
-  }
-  file.close();
-}
-
-void write_hex_exodus(const std::filesystem::path& path, const HexMesh& mesh) {
-  write_by_library(path, [&](const std::filesystem::path& temporary) {
-    ExodusFile file(path, temporary);
-    write_hex(file, mesh);
-  });
-}
-
 }  // namespace
 
 }  // namespace delquad
 
-extern "C" const delquad::LibraryFormat delquad_format = {nullptr, delquad::write_exodus,
-                                                          delquad::write_hex_exodus};
+extern "C" const delquad::LibraryFormat delquad_format = {nullptr, delquad::write_exodus};

@@ -129,7 +129,9 @@ void write_med(const std::filesystem::path& path, const Mesh& mesh) {
   const std::vector<MeshGroup> groups = mesh_groups(mesh, kMedLabels);
   write_by_library(path, [&](const std::filesystem::path& temporary) {
     MedFile file(path, temporary, groups);
-    file.put_head("Quad mesh by Delquad", 2, is_planar(mesh), mesh.points, mesh.unit);
+    const bool is_solid = !mesh.hexahedra.empty();
+    file.put_head(is_solid ? "Mesh of hexahedra by Delquad" : "Quad mesh by Delquad", is_solid ? 3 : 2,
+                  !is_solid && is_planar(mesh), mesh.points, mesh.unit);
     std::vector<std::size_t> lines;  // with a group
     std::vector<med_int> of_lines;
     const std::vector<med_int> of_all = file.families_of(1, mesh.lines.size());
@@ -145,19 +147,6 @@ void write_med(const std::filesystem::path& path, const Mesh& mesh) {
     file.put_elements(mesh.order == 2 ? MED_QUAD9 : MED_QUAD4,
                       {of_elements.begin() + n_triangles, of_elements.end()},
                       [&](std::size_t i) { return nodes_of_quad(mesh, i, places); });
-    file.close();
-  });
-}
-
-void write_hex_med(const std::filesystem::path& path, const HexMesh& mesh) {
-  const std::vector<MeshGroup> groups = hex_groups(mesh, kMedLabels);
-  write_by_library(path, [&](const std::filesystem::path& temporary) {
-    MedFile file(path, temporary, groups);
-    file.put_head("Mesh of hexahedra by Delquad", 3, false, mesh.points, mesh.unit);
-    file.put_elements(MED_SEG2, file.families_of(1, mesh.lines.size()),
-                      [&](std::size_t i) { return mesh.lines[i]; });
-    file.put_elements(MED_QUAD4, file.families_of(2, mesh.quads.size()),
-                      [&](std::size_t i) { return mesh.quads[i]; });
     // The first side counterclockwise seen from outside.
     file.put_elements(MED_HEXA8, file.families_of(3, mesh.hexahedra.size()), [&](std::size_t i) {
       const std::array<int, 8>& v = mesh.hexahedra[i];
@@ -171,5 +160,4 @@ void write_hex_med(const std::filesystem::path& path, const HexMesh& mesh) {
 
 }  // namespace delquad
 
-extern "C" const delquad::LibraryFormat delquad_format = {nullptr, delquad::write_med,
-                                                          delquad::write_hex_med};
+extern "C" const delquad::LibraryFormat delquad_format = {nullptr, delquad::write_med};

@@ -1,4 +1,3 @@
-#include "delquad/hexahedra.h"
 #include "io/mesh_formats.h"
 #include "tests/support/failing_disk.h"
 #include "tests/support/files.h"
@@ -113,9 +112,9 @@ std::vector<Writer> writers() {
       add("flat" + extension, [](const auto& path) { write_mesh(path, quad_grid(kAcross, kAcross)); });
     if (can_write(format) && format.most_order > 1)
       add("curved" + extension, [](const auto& path) { write_mesh(path, curved_grid(8, 8, 2, false)); });
-    if (format.write_hexahedra != nullptr)
+    if (format.has_hexahedra)
       add("hexahedra" + extension, [](const auto& path) {
-        HexMesh mesh;
+        Mesh mesh;
         for (int i = 0; i <= kAcross; ++i)
           for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
             mesh.points.push_back({double(x), double(y), double(i)});
@@ -124,7 +123,7 @@ std::vector<Writer> writers() {
               {4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4, 4 * i + 5, 4 * i + 6, 4 * i + 7});
         mesh.hex_volume.assign(mesh.hexahedra.size(), 0);
         mesh.volumes = {{1, {"bar"}}};
-        write_hexahedra(path, mesh);
+        write_mesh(path, mesh);
       });
   }
   add("bytes.msh", [](const auto& path) { write_mesh(path, quad_grid(kAcross, kAcross), {.binary = true}); });

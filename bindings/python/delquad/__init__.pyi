@@ -201,7 +201,6 @@ def mesh(
     time_limit: float = 0,
     progress: bool | Callable[[str, float], object] | None = None,
     compounds: Literal["all", "tangent"] | Iterable[Any] | None = None,
-    merge_curves: float | None = None,
     ignore_below: float | None = None,
     idealize: bool | None = None,
     keep: str | Sequence[str] | None = None,

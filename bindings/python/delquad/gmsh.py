@@ -90,7 +90,7 @@ def mesh(size=None, **settings):
     Quads are made of the mesh that is on the surfaces, of Gmsh's triangles where there is none yet. Nodes are moved onto the
     geometry, where there is one. Entities and physical groups stay, elements of volumes go. Raises what delquad.mesh() raises.
     """
-    for joined in ("compounds", "merge_curves", "ignore_below", "idealize", "mirror", "symmetry"):
+    for joined in ("compounds", "ignore_below", "idealize", "mirror", "symmetry"):
         if settings.get(joined):
             raise _core.InputError(f"{joined}: expected nothing: entities of Gmsh's model cannot become one, or more")
     if "order" in settings:

@@ -30,9 +30,9 @@ inline std::array<int, 4> turned(std::array<int, 4> quad) {
 
 /// Hexahedra are positive and conforming; their boundary is all there as quads, each once, that look
 /// outwards.
-inline void expect_sound(const HexMesh& mesh) {
+inline void expect_sound(const Mesh& mesh) {
   ASSERT_EQ(mesh.hex_volume.size(), mesh.hexahedra.size());
-  ASSERT_EQ(mesh.quad_face.size(), mesh.quads.size());
+  ASSERT_EQ(mesh.quad_region.size(), mesh.quads.size());
   ASSERT_EQ(mesh.line_curve.size(), mesh.lines.size());
   EXPECT_GT(measure(mesh).least_jacobian, 0);
   std::map<std::array<int, 4>, int> uses;
@@ -64,10 +64,10 @@ inline void expect_sound(const HexMesh& mesh) {
 }
 
 /// Numbers of quads by the names of their faces.
-inline std::map<std::string, int> quads_by_name(const HexMesh& mesh) {
+inline std::map<std::string, int> quads_by_name(const Mesh& mesh) {
   std::map<std::string, int> counts;
-  for (const int face : mesh.quad_face)
-    for (const std::string& name : mesh.faces[face].names) ++counts[name];
+  for (const int face : mesh.quad_region)
+    for (const std::string& name : mesh.regions[face].names) ++counts[name];
   return counts;
 }
 

@@ -9,13 +9,13 @@ double power3(double x) { return x * x * x; }
 TEST(Normals, BoxesGetWallsOfTheThickness) {
   const Mesh box = cube_surface(4, [](const Vec3& p) { return p; });
   for (const double t : {0.3, -0.3}) {
-    const HexMesh mesh = extrude(box, AlongNormals{t}, {2});
+    const Mesh mesh = extrude(box, AlongNormals{t}, {2});
     expect_sound(mesh);
     EXPECT_NEAR(measure(mesh).volume, std::abs(power3(2 + 2 * t) - 8), 1e-12);
     EXPECT_EQ(quads_by_name(mesh),
               (std::map<std::string, int>{{"region_1 start", 96}, {"region_1 end", 96}}));
   }
-  const HexMesh mesh = extrude(box, AlongNormals{0.3, true}, {2});
+  const Mesh mesh = extrude(box, AlongNormals{0.3, true}, {2});
   EXPECT_NEAR(measure(mesh).volume, power3(2.3) - power3(1.7), 1e-12);
   // Through the middle: more than the distance to the opposite side.
   expect_not_extruded(box, AlongNormals{-2.5}, {1}, {"inverted or flat"});
@@ -26,7 +26,7 @@ TEST(Normals, SphereShellsConverge) {
   double before = 0;
   for (const int n : {4, 8, 16}) {
     for (const double thickness : {t, -t}) {
-      const HexMesh mesh = extrude(sphere(n, radius), AlongNormals{thickness}, {3, 1.2});
+      const Mesh mesh = extrude(sphere(n, radius), AlongNormals{thickness}, {3, 1.2});
       expect_sound(mesh);
       const double exact = 4 * kPi / 3 * std::abs(power3(radius + thickness) - power3(radius));
       const double error = std::abs(measure(mesh).volume - exact) / exact;
@@ -58,7 +58,7 @@ TEST(Normals, EachPlaneMovesByTheThickness) {
       return Vec3{s * std::cos(a), y, -s * std::sin(a)};
     });
     const double thickness = 0.01;
-    const HexMesh shell = extrude(mesh, AlongNormals{thickness}, {1});
+    const Mesh shell = extrude(mesh, AlongNormals{thickness}, {1});
     const std::size_t n = mesh.points.size();
     for (std::size_t i = 0; i < n; ++i) {
       const Vec3 step = shell.points[n + i] - shell.points[i];

@@ -25,7 +25,7 @@ std::vector<Vec3> half_circle(double radius, int segments) {
 
 TEST(Extrude, AlongAVectorVolumeIsAreaTimesHeight) {
   for (const Vec3& shift : {Vec3{0, 2, 0}, Vec3{0, -2, 0}, Vec3{1.5, 2, -0.7}}) {
-    const HexMesh mesh = extrude(holed_plate(), AlongVector{shift}, {5});
+    const Mesh mesh = extrude(holed_plate(), AlongVector{shift}, {5});
     expect_sound(mesh);
     EXPECT_EQ(mesh.hexahedra.size(), 40u);
     EXPECT_EQ(mesh.points.size(), 96u);
@@ -38,7 +38,7 @@ TEST(Extrude, AlongAVectorVolumeIsAreaTimesHeight) {
 
 TEST(Extrude, LayersGrow) {
   for (const double growth : {1.0, 1.5, 0.25, 3.0}) {
-    const HexMesh mesh = extrude(quad_grid(1, 1), AlongVector{{0, 0, 7}}, {6, growth});
+    const Mesh mesh = extrude(quad_grid(1, 1), AlongVector{{0, 0, 7}}, {6, growth});
     double before = 0, last = 0;
     for (int layer = 0; layer < 6; ++layer) {
       const double height = mesh.points[4 * (layer + 1)].z - mesh.points[4 * layer].z;
@@ -63,7 +63,7 @@ TEST(Extrude, AroundAnAxisVolumeIsThatOfPappus) {
   const double pappus = 2 * kPi * (4 + 1.5) * 8;
   double error_before = 0;
   for (const int n : {8, 16, 32}) {
-    const HexMesh ring = extrude(plate, AroundAxis{{0, 0, -5}, {0, 0, 2}}, {n});
+    const Mesh ring = extrude(plate, AroundAxis{{0, 0, -5}, {0, 0, 2}}, {n});
     expect_sound(ring);
     EXPECT_EQ(ring.points.size(), 16u * n);
     const double volume = measure(ring).volume;
@@ -77,7 +77,7 @@ TEST(Extrude, AroundAnAxisVolumeIsThatOfPappus) {
               (std::map<std::string, int>{
                   {"south", 3 * n}, {"east", 3 * n}, {"north", 3 * n}, {"west", 3 * n}, {"curve_5", 4 * n}}));
     for (const double degrees : {90.0, -90.0}) {
-      const HexMesh part = extrude(plate, AroundAxis{{}, {0, 0, 1}, degrees}, {n / 4});
+      const Mesh part = extrude(plate, AroundAxis{{}, {0, 0, 1}, degrees}, {n / 4});
       expect_sound(part);
       EXPECT_NEAR(measure(part).volume, volume / 4, 1e-10);
       EXPECT_NEAR(part.points.back().x, 0, 1e-12);
@@ -104,7 +104,7 @@ TEST(Extrude, AlongACurveVolumeIsThatOfPappus) {
   // The section lies at the curve's start, at right angles to it.
   Mesh plate = holed_plate(4);
   for (const int n : {8, 16, 32}) {
-    const HexMesh mesh = extrude(plate, AlongCurve{half_circle(5, n)}, {});
+    const Mesh mesh = extrude(plate, AlongCurve{half_circle(5, n)}, {});
     expect_sound(mesh);
     EXPECT_NEAR(measure(mesh).volume, kPi * 5.5 * 8 * std::sin(kPi / n) * n / kPi, 1e-10);
     // Ends as the turn by half a circle does.
@@ -114,15 +114,14 @@ TEST(Extrude, AlongACurveVolumeIsThatOfPappus) {
     }
   }
   // Many short segments under few layers.
-  const HexMesh mesh = extrude(plate, AlongCurve{half_circle(5, 4000)}, {20});
+  const Mesh mesh = extrude(plate, AlongCurve{half_circle(5, 4000)}, {20});
   EXPECT_EQ(mesh.hexahedra.size(), 160u);
   EXPECT_NEAR(measure(mesh).volume, kPi * 5.5 * 8 * std::sin(kPi / 20) * 20 / kPi, 1e-3);
 }
 
 TEST(Extrude, AlongAStraightCurveIsAlongItsVector) {
-  const HexMesh by_curve =
-      extrude(quad_grid(3, 2), AlongCurve{{{5, 5, 5}, {5.5, 5, 6}, {7, 5, 9}}}, {4, 1.3});
-  const HexMesh by_vector = extrude(quad_grid(3, 2), AlongVector{{2, 0, 4}}, {4, 1.3});
+  const Mesh by_curve = extrude(quad_grid(3, 2), AlongCurve{{{5, 5, 5}, {5.5, 5, 6}, {7, 5, 9}}}, {4, 1.3});
+  const Mesh by_vector = extrude(quad_grid(3, 2), AlongVector{{2, 0, 4}}, {4, 1.3});
   ASSERT_EQ(by_curve.points.size(), by_vector.points.size());
   for (std::size_t i = 0; i < by_curve.points.size(); ++i)
     EXPECT_NEAR(norm(by_curve.points[i] - by_vector.points[i]), 0, 1e-12);
@@ -153,7 +152,7 @@ TEST(Extrude, SectionsDoNotTurnAboutTheirCurve) {
 TEST(Extrude, LegsKeepTheirProfile) {
   Mesh plate = holed_plate(-1.5);
   for (Vec3& p : plate.points) p.z -= 1.5;
-  const HexMesh pipe =
+  const Mesh pipe =
       extrude(plate, AlongCurve{{{0, 0, 0}, {0, 9, 0}, {20, 9, 0}, {25, 14, 0}, {25, 14, 30}}}, {});
   expect_sound(pipe);
   EXPECT_NEAR(measure(pipe).volume, 8 * (9 + 20 + std::sqrt(50) + 30), 1e-9);
@@ -165,7 +164,7 @@ TEST(Extrude, LegsKeepTheirProfile) {
   // Layers end at corners, wherever they would have been.
   const std::vector<Vec3> bent = {{0, 0, 0}, {0, 9, 0}, {20, 9, 0}, {25, 14, 0}, {25, 14, 30}};
   for (const int layers : {4, 5, 17}) {
-    const HexMesh mesh = extrude(plate, AlongCurve{bent}, {layers, 0.97});
+    const Mesh mesh = extrude(plate, AlongCurve{bent}, {layers, 0.97});
     expect_sound(mesh);
     EXPECT_EQ(mesh.hexahedra.size(), 8u * layers);
     EXPECT_NEAR(measure(mesh).volume, measure(pipe).volume, 1e-9);

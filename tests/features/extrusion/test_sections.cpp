@@ -27,7 +27,7 @@ Mesh two_regions() {
 
 TEST(Sections, NamesBecomeThoseOfVolumesFacesAndCurves) {
   ReadNotes notes;
-  const HexMesh mesh = extrude(two_regions(), AlongVector{{0, 0, 3}}, {3}, &notes);
+  const Mesh mesh = extrude(two_regions(), AlongVector{{0, 0, 3}}, {3}, &notes);
   expect_sound(mesh);
   EXPECT_TRUE(notes.empty());
   EXPECT_EQ(mesh.unit, "mm");
@@ -49,14 +49,14 @@ TEST(Sections, NamesBecomeThoseOfVolumesFacesAndCurves) {
                                                              {"metal end", 4},
                                                              {"region_7 end", 4}}));
   std::set<int> tags;
-  for (const Entity& face : mesh.faces) EXPECT_TRUE(tags.insert(face.tag).second);
+  for (const Entity& face : mesh.regions) EXPECT_TRUE(tags.insert(face.tag).second);
   ASSERT_EQ(mesh.curves.size(), 1u);
   EXPECT_EQ(mesh.curves[0].names, std::vector<std::string>{"sensor"});
   ASSERT_EQ(mesh.lines.size(), 3u);
   EXPECT_EQ(mesh.points[mesh.lines[2][1]], (Vec3{1, 1, 3}));
   for (std::size_t q = 0; q < mesh.quads.size(); ++q)
     for (const int v : mesh.quads[q]) {
-      const std::string& name = mesh.faces[mesh.quad_face[q]].names[0];
+      const std::string& name = mesh.regions[mesh.quad_region[q]].names[0];
       if (name == "weld") {
         EXPECT_EQ(mesh.points[v].x, 2);
       }
@@ -74,7 +74,7 @@ TEST(Sections, QuadsMayRunEitherWayRound) {
   Mesh mixed = plain;
   for (std::size_t q = 0; q < mixed.quads.size(); q += 3) std::swap(mixed.quads[q][0], mixed.quads[q][2]);
   for (const SweepPath& path : {SweepPath(AlongVector{{0, 0, 1}}), SweepPath(AlongVector{{0, 0, -1}})}) {
-    const HexMesh mesh = extrude(mixed, path, {2});
+    const Mesh mesh = extrude(mixed, path, {2});
     expect_sound(mesh);
     EXPECT_NEAR(measure(mesh).volume, 8, 1e-13);
   }
@@ -89,7 +89,7 @@ TEST(Sections, WhatIsNoEdgeOrCornerOfQuadsIsLeftOut) {
   mesh.line_curve.push_back(0);
   mesh.named_points.push_back({16, {5, {"far"}}});
   ReadNotes notes;
-  const HexMesh swept = extrude(mesh, AlongVector{{0, 0, 1}}, {1}, &notes);
+  const Mesh swept = extrude(mesh, AlongVector{{0, 0, 1}}, {1}, &notes);
   expect_sound(swept);
   ASSERT_EQ(notes.size(), 2u);
   EXPECT_EQ(notes[0], "1 lines are no edges of quads and were left out");
@@ -161,7 +161,7 @@ TEST(Sections, CracksStay) {
   for (const SweepPath& path :
        {SweepPath(AlongVector{{0.3, 0.1, 1}}), SweepPath(AroundAxis{{-1, 0, 0}, {0.1, 1, 0}, 200}),
         SweepPath(AlongCurve{{{0, 0, 0}, {0, 0.3, 1}, {0, 1, 2}}})}) {
-    const HexMesh swept = extrude(mesh, path, {8});
+    const Mesh swept = extrude(mesh, path, {8});
     expect_sound(swept);
   }
 }
@@ -170,24 +170,23 @@ TEST(Sections, TheSameBytesForEveryNumberOfThreads) {
   const TemporaryFolder folder;
   for (const char* name : {"a.msh", "a.vtu", "a.inp"}) {
     const std::string text = on_threads({1, 1, 4}, [&] {
-      write_hexahedra(folder / name, extrude(sphere(8, 2), AlongNormals{0.3, true}, {3, 1.5}));
+      write_mesh(folder / name, extrude(sphere(8, 2), AlongNormals{0.3, true}, {3, 1.5}));
       return read_text(folder / name);
     });
     EXPECT_FALSE(text.empty());
   }
-  HexMesh named = extrude(sphere(8, 2), AlongNormals{0.3, true}, {1});
-  named.faces[0].names = {std::string(90, 'x')};
+  Mesh named = extrude(sphere(8, 2), AlongNormals{0.3, true}, {1});
+  named.regions[0].names = {std::string(90, 'x')};
   EXPECT_EQ(renamed_in_file("a.e", named),
             std::vector{"face \"" + std::string(90, 'x') + "\" is " + std::string(70, 'x')});
   EXPECT_TRUE(renamed_in_file("a.vtu", named).empty());
-  expect_input_error([&] { write_hexahedra(folder / "a.obj", HexMesh{}); },
+  expect_input_error([&] { write_mesh(folder / "a.obj", named); },
                      {"a.obj", "not written with hexahedra", ".msh, .vtu, .inp, "});
-  expect_input_error([&] { write_hexahedra(folder / "a.what", HexMesh{}); }, {"unknown kind", ".what"});
-  expect_input_error([&] { write_hexahedra(folder / "a.vtu", HexMesh{}, {.binary = true}); },
-                     {"no binary form"});
-  expect_input_error([&] { write_hexahedra(folder / "a.vtu", HexMesh{}, {.element = "C3D8"}); },
+  expect_input_error([&] { write_mesh(folder / "a.what", named); }, {"unknown kind", ".what"});
+  expect_input_error([&] { write_mesh(folder / "a.vtu", named, {.binary = true}); }, {"no binary form"});
+  expect_input_error([&] { write_mesh(folder / "a.vtu", named, {.element = "C3D8"}); },
                      {"expected .inp with --element"});
-  expect_input_error([&] { write_hexahedra(folder / "a.inp", HexMesh{}, {.element = "C3D21"}); },
+  expect_input_error([&] { write_mesh(folder / "a.inp", named, {.element = "C3D21"}); },
                      {"unknown kind of hexahedra", "did you mean"});
 }
 

@@ -12,13 +12,12 @@ SurfaceSpec read(const std::string& keys) {
 
 TEST(SurfaceSpecs, AreReadWhole) {
   const SurfaceSpec spec = read(
-      "compound = [[1, 2, 5], [7, 8]]\nmerge_curves = 2.5\nignore_below = 0.5\nfeature_angle = "
+      "compound = [[1, 2, 5], [7, 8]]\nignore_below = 0.5\nfeature_angle = "
       "30\nweld_tolerance = 1e-5\n"
       "glue = true\n"
       "mirror = { point = [1, 2, 3], normal = [0, 0, 2], tolerance = 1e-4, join = false }\n");
   EXPECT_EQ(spec.compounds, Compounds::kGroups);
   EXPECT_EQ(spec.groups, (std::vector<std::vector<int>>{{1, 2, 5}, {7, 8}}));
-  EXPECT_EQ(spec.merge_curves, 2.5);
   EXPECT_EQ(spec.ignore_below, 0.5);
   EXPECT_EQ(spec.feature_angle, 30);
   EXPECT_EQ(spec.weld_tolerance, 1e-5);
