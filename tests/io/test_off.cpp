@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <random>
 
@@ -87,6 +88,15 @@ TEST_F(Off, ReadsBytes) {
             (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   const std::string whole = "OFF BINARY\n" + points + faces;
   for (size_t n = 0; n < whole.size(); ++n) EXPECT_FALSE(reads(whole.substr(0, n))) << n;
+}
+
+TEST_F(Off, ReadsLittleEndianBytesWithoutColors) {
+  std::string bytes =
+      words({4, 2, 5, 0, 0, 0, kOne, 0, 0, kOne, kOne, 0, 0, kOne, 0, 3, 0, 1, 2, 3, 0, 2, 3});
+  for (size_t i = 0; i < bytes.size(); i += 4) std::reverse(bytes.begin() + i, bytes.begin() + i + 4);
+  const Mesh plain = read(kSquare), mesh = read("OFF BINARY\n" + bytes);
+  EXPECT_EQ(mesh.points, plain.points);
+  EXPECT_EQ(mesh.triangles, plain.triangles);
 }
 
 TEST_F(Off, NamesTheByteOfWhatIsWrong) {
