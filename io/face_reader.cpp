@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/split_polygon.h"
@@ -25,12 +26,11 @@ void FaceReader::add_face(const std::vector<int>& corners, int region) {
     std::vector<Vec3> points;
     for (const int v : corners) points.push_back(mesh_.points[v]);
     auto parts = split_polygon(points);
-    if (!parts)
-      in_.fail(
-          "face of {} vertices: expected a polygon that does not cross itself, to split it "
-          "into triangles",
-          n);
-    triangles = std::move(*parts);
+    for (int k = 2; !parts && k + 1 < static_cast<int>(n); ++k) triangles.push_back({0, k, k + 1});
+    if (parts)
+      triangles = std::move(*parts);
+    else
+      ++n_odd_;
     ++n_polygons_;
     n_triangles_ += static_cast<long long>(triangles.size());
   }
@@ -87,9 +87,12 @@ double FaceReader::coordinate() {
 
 Mesh FaceReader::finished(ReadNotes* notes) {
   if (notes && n_polygons_ > 0)
-    notes->push_back(fmt::format("{} of more than four vertices {} split into {} triangles",
-                                 n_polygons_ == 1 ? "1 face" : fmt::format("{} faces", n_polygons_),
-                                 n_polygons_ == 1 ? "was" : "were", n_triangles_));
+    notes->push_back(fmt::format(
+        "{} of more than four vertices {} split into {} triangles{}", counted(n_polygons_, "face"),
+        n_polygons_ == 1 ? "was" : "were", n_triangles_,
+        n_odd_ == 0 ? ""
+                    : fmt::format("; from the first vertex where they cross themselves or have no area ({})",
+                                  n_odd_)));
   check_strays(mesh_, strays_, [&](int i) { return in_.place(places_[static_cast<size_t>(i)]); });
   drop_unused_points(mesh_);
   return std::move(mesh_);

@@ -55,6 +55,7 @@ class FaceReader {
  private:
   std::vector<size_t> places_;                  ///< of the points in the file
   long long n_polygons_ = 0, n_triangles_ = 0;  ///< that were split, and what they became
+  long long n_odd_ = 0;                         ///< of them, those that cross themselves or have no area
 };
 
 /// Regions of faces by their colour, as scans and prints have their parts.

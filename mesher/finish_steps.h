@@ -82,9 +82,9 @@ using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;
 /// places and meshes anew, as long as there get fewer such places, within a budget of quads. If that does not
 /// help, sharp edges there become features. `prepared` and `result` become the best mesh, with a warning and
 /// the time of all tries. If it is not sound, a warning says why there are no more tries. Then what is
-/// narrower than a tenth of the size is left out. Last, another size or fewer stages are tried. Each is taken
-/// if the mesh is sound, with a warning. If the problem says keep_going, faces with such places are left out
-/// if others remain.
+/// narrower than a tenth of the size is left out. Last, another size, fewer stages or, of triangulations,
+/// another feature angle are tried. Each is taken if the mesh is sound, with a warning. If the problem says
+/// keep_going, faces with such places are left out if others remain.
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     MeshResult& result);
 

@@ -75,10 +75,15 @@ void make_sound(const Word& word, Prepared& prepared, MeshResult& result) {
   PreparedProblem best = prepared.inside();
   const auto anew = [&](const Refinement& r) {
     if (r.size_part != 1) return prepare_problem(with_scaled_sizes(*problem, r.size_part), r);
-    if (r.ignore_below == 0) return prepare_problem(*problem, r);
+    if (r.ignore_below == 0 && r.feature_angle == 0) return prepare_problem(*problem, r);
     MeshProblem other = *problem;
-    other.surface.ignore_below = r.ignore_below;
-    other.options.set("curves.keep_named", true);
+    if (r.feature_angle > 0) {
+      if (other.surface.feature_angle) throw InputError(other.name + ": the feature angle is given");
+      other.surface.feature_angle = r.feature_angle;
+    } else {
+      other.surface.ignore_below = r.ignore_below;
+      other.options.set("curves.keep_named", true);
+    }
     return prepare_problem(other, r);
   };
   refine_unsound(anew, word, best, result);

@@ -19,8 +19,9 @@ struct Refinement {
   /// In the spots: of triangulations, see TriangulatedOptions::kept_features, and what is small, see
   /// NarrowOptions::kept.
   bool keep_features = false;
-  double ignore_below = 0;  ///< of surfaces, in place of that of the problem, names stay; 0: as that has it
-  double size_part = 1;     ///< all sizes become this part of what they are
+  double ignore_below = 0;                       ///< of surfaces, names stay; 0: as the problem has it
+  double size_part = 1;                          ///< all sizes become this part of what they are
+  double feature_angle = 0;                      ///< of triangulations, degrees; 0: as the problem has it
   std::shared_ptr<const SurfaceModel> cad = {};  ///< PreparedSurface::cad of before; null: it is read
 };
 

@@ -29,10 +29,9 @@ constexpr int kMostRounds = 8, kMostIdle = 2;
 constexpr int kFirstWithFeatures = 4;
 /// The size becomes this part of what it was, so many of these sizes around.
 constexpr double kPart = 0.5, kReach = 3;
-/// Quads of all meshes that are made, each with what lifting it took (see LiftingSummary::cost), a quad being
-/// about as long, and with the steps that its curves took: at least so many, some 30 seconds; of large meshes
-/// so many times those of the first; a third more for meshes without what is small, if one of them is likely
-/// not to need more.
+/// Budget in quads of all meshes, with the cost of lifting (LiftingSummary::cost) and the steps of curves.
+/// Two thirds of it, some 20 seconds, are for smaller sizes, or a multiple of a large mesh. One third is for
+/// meshes without small parts, if one of these is likely not to need more.
 constexpr long long kLeastQuads = 120'000, kMostTimes = 2, kCostPerQuad = 300, kStepsPerQuad = 7500;
 /// Larger ones would ask for little else than the whole model.
 constexpr std::size_t kMostSpots = 1000;
@@ -202,13 +201,22 @@ void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& 
 }
 
 /// A last try, which may be sound by chance: other sizes, as a part of all sizes, or the stages alone that
-/// make quads.
+/// make quads. A triangulation has other curves by another feature angle (0: as asked).
 struct LastTry {
   double size_part;
   bool makes_quads_only;
+  double feature_angle = 0;
 };
 constexpr std::size_t kMostByChance = 20;  // places that are not sound
-constexpr std::array kLastTries = {LastTry{0.8, false}, LastTry{1, true}, LastTry{0.5, false}};
+constexpr std::array kLastTries = {LastTry{0.8, false}, LastTry{1, true}, LastTry{0.5, false},
+                                   LastTry{1, false, 60}, LastTry{1, false, 25}};
+
+/// "by the stages DB alone".
+std::string way_of(const LastTry& last, const Word& first) {
+  if (last.makes_quads_only) return fmt::format("by the stages {} alone", first.text);
+  if (last.feature_angle > 0) return fmt::format("with a feature angle of {:g} degrees", last.feature_angle);
+  return fmt::format("with all sizes times {:g}", last.size_part);
+}
 
 /// The stages of a word up to its first quads.
 Word until_quads(const Word& word) {
@@ -229,14 +237,17 @@ void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& qu
     return;
   const double once = static_cast<double>(result.mesh.quads.size());
   const Word first = until_quads(word);
-  for (const auto& [part, makes_quads_only] : kLastTries) {
-    if (makes_quads_only && first.text == word.text) continue;
+  for (const LastTry& last : kLastTries) {
+    const double part = last.size_part;
+    if (last.makes_quads_only && first.text == word.text) continue;
+    if (last.feature_angle > 0 && prepared.surface->cad) continue;
     if (once / (part * part) > static_cast<double>(quads.left())) continue;
     try {
       Refinement refinement = as_read(prepared);
       refinement.size_part = part;
+      refinement.feature_angle = last.feature_angle;
       PreparedProblem other = prepare_anew(refinement);
-      MeshResult run = run_word(other, makes_quads_only ? first : word);
+      MeshResult run = run_word(other, last.makes_quads_only ? first : word);
       quads.spend(quads_of(other, run));
       add_times(other.times, result.log);
       add_times(run.log.times, result.log);
@@ -245,18 +256,18 @@ void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& qu
       run.warnings.emplace_back(fmt::format(
           "{}: the mesh is made {}, as it would not be sound: {}; --set repair.refine_unsound=false does not "
           "try this",
-          prepared.settings.name,
-          makes_quads_only ? fmt::format("by the stages {} alone", first.text)
-                           : fmt::format("with all sizes times {:g}", part),
-          result.soundness.text()));
-      run.log.summaries.add(kRefining, {{"size_part", part}});
+          prepared.settings.name, way_of(last, first), result.soundness.text()));
+      if (last.feature_angle > 0)
+        run.log.summaries.add(kRefining, {{"feature_angle", last.feature_angle}});
+      else
+        run.log.summaries.add(kRefining, {{"size_part", part}});
       run.log.times = std::move(result.log.times);
       run.seconds = result.seconds;
       std::swap(prepared, other);
       result = std::move(run);
       return;
     } catch (const InputError&) {
-      // Too many elements, or a boundary that cannot be.
+      // Too many elements, a boundary that cannot be, or a feature angle that was asked for.
     }
   }
 }
@@ -314,7 +325,7 @@ void undo_across_curves(const Word& word, PreparedProblem& prepared, MeshResult&
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     MeshResult& result) {
   const long long once = quads_of(prepared, result), most = std::max(kLeastQuads, kMostTimes * once);
-  Budget finer(most), without_small(most / 3);
+  Budget finer(std::max(kLeastQuads * 2 / 3, kMostTimes * once)), without_small(most / 3);
   finer.spend(once);
   undo_across_curves(word, prepared, result);
   const auto within_patches = [&prepare_anew](const Refinement& refinement) {

@@ -73,14 +73,19 @@ class OffReader : FaceReader {
   std::uint32_t word32(std::string_view what) {
     std::uint32_t value = 0;
     for (const char byte : in_.bytes(4, what)) value = value << 8 | static_cast<unsigned char>(byte);
-    return value;
+    return is_little_ ? swapped(value) : value;
+  }
+
+  static std::uint32_t swapped(std::uint32_t value) {
+    return value << 24 | (value & 0xff00) << 8 | (value >> 8 & 0xff00) | value >> 24;
   }
 
   /// A number of things that take at least so many bytes each.
   std::uint32_t count(std::string_view what, std::size_t bytes_each) {
-    const std::uint32_t n = word32(what);
-    if (n > in_.bytes_left() / bytes_each)
-      in_.fail("{}: {} do not fit in the {} bytes that follow", what, n, in_.bytes_left());
+    std::uint32_t n = word32(what);
+    const std::size_t most = in_.bytes_left() / bytes_each;
+    if (mesh_.points.empty() && n > most && swapped(n) <= most) is_little_ = true, n = swapped(n);
+    if (n > most) in_.fail("{}: {} do not fit in the {} bytes that follow", what, n, in_.bytes_left());
     return n;
   }
 
@@ -89,8 +94,8 @@ class OffReader : FaceReader {
     return in_.finite(double{value}, strays_);
   }
 
-  /// Big-endian words of four bytes, as Geomview writes them: each face ends with how many parts its colour
-  /// has, and these.
+  /// Big-endian words of four bytes, as Geomview writes them: each face ends with how many parts its color
+  /// has, and these. PMP writes little-endian words and no colors.
   Mesh read_bytes(ReadNotes* notes) {
     const std::size_t beside = 4 * static_cast<std::size_t>(numbers_beside_);
     const std::uint32_t n_points = count("the number of vertices", 12 + beside);
@@ -109,7 +114,7 @@ class OffReader : FaceReader {
         vertex = static_cast<int>(index);
       }
       add_face(v, 0);
-      in_.bytes(4 * std::size_t{count("the number of a colour's parts", 4)}, "a colour");
+      if (!is_little_) in_.bytes(4 * std::size_t{count("the number of a color's parts", 4)}, "a color");
     }
     if (in_.bytes_left() > 0)
       in_.fail("{} bytes follow the {} vertices and {} faces that the header announces", in_.bytes_left(),
@@ -144,6 +149,7 @@ class OffReader : FaceReader {
   }
 
   int numbers_beside_ = 0;  ///< of each vertex, beside its coordinates
+  bool is_little_ = false;  ///< words are little-endian
 };
 
 /// Reads Object File Format, text or binary, with or without colours and normals, which are ignored. Faces of

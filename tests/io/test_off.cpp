@@ -77,6 +77,15 @@ TEST_F(Off, ReadsBytes) {
   expect_whole(whole);
 }
 
+TEST_F(Off, ReadsLittleEndianBytesWithoutColors) {
+  std::string bytes =
+      words({4, 2, 5, 0, 0, 0, kOne, 0, 0, kOne, kOne, 0, 0, kOne, 0, 3, 0, 1, 2, 3, 0, 2, 3});
+  for (size_t i = 0; i < bytes.size(); i += 4) std::reverse(bytes.begin() + i, bytes.begin() + i + 4);
+  const Mesh plain = read(kSquare), mesh = read("OFF BINARY\n" + bytes);
+  EXPECT_EQ(mesh.points, plain.points);
+  EXPECT_EQ(mesh.triangles, plain.triangles);
+}
+
 TEST_F(Off, NamesTheByteOfWhatIsWrong) {
   const std::string head = "OFF BINARY\n";
   expect_error(head + words({2000000000, 1, 0}), {"case.off: byte 15: ", "2000000000", "8 bytes"});

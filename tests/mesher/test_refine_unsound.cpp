@@ -131,5 +131,25 @@ TEST(RefineUnsound, KeepsTheBestMeshAndSaysWhyItEnds) {
   EXPECT_EQ(after.mesh.quads.size() == before.mesh.quads.size(), !after.log.summaries.has("refine_unsound"));
 }
 
+TEST(RefineUnsound, TriesFeatureAnglesLast) {
+  const MeshProblem problem = ridge(0.2);
+  PreparedProblem prepared = prepare_problem(problem);
+  const Word word = parse_word("DB");
+  MeshResult result = run_word(prepared, word);
+  result.soundness.reasons = {"a test"};
+  std::vector<double> tried;
+  const auto anew = [&](const Refinement& refinement) {
+    tried.push_back(refinement.feature_angle);
+    if (tried.back() != 25) throw InputError("no mesh");
+    MeshProblem other = problem;
+    other.surface.feature_angle = tried.back();
+    return prepare_problem(other, refinement);
+  };
+  refine_unsound(anew, word, prepared, result);
+  EXPECT_EQ(tried, (std::vector<double>{0, 0, 60, 25}));
+  EXPECT_TRUE(result.soundness.sound());
+  EXPECT_TRUE(says(result, "with a feature angle of 25 degrees"));
+}
+
 }  // namespace
 }  // namespace delquad
