@@ -1,3 +1,6 @@
+#include "mesher/finish_steps.h"
+#include "mesher/prepare.h"
+#include "mesher/runner.h"
 #include "tests/support/meshing.h"
 
 namespace delquad {
@@ -148,7 +151,7 @@ TEST(RefineUnsound, TriesFeatureAnglesLast) {
   refine_unsound(anew, word, prepared, result);
   EXPECT_EQ(tried, (std::vector<double>{0, 0, 60, 25}));
   EXPECT_TRUE(result.soundness.sound());
-  EXPECT_TRUE(says(result, "with a feature angle of 25 degrees"));
+  EXPECT_TRUE(is_told(result.warnings, "with a feature angle of 25 degrees"));
 }
 
 }  // namespace

@@ -91,8 +91,8 @@ TEST_F(MetricCommands, AreColumnsLikeOthers) {
 
 TEST_F(MetricCommands, FailuresAreNamedAndTheMeshIsThere) {
   const Outcome outcome =
-      run(write(metric("broken", "echo error: first >&2; echo second >&2; exit 3") + metric("silent", "true") +
-                    metric("chatty", "echo hello") + metric("none", "echo nan") +
+      run(write(metric("broken", "echo error: first >&2; echo second >&2; exit 3") +
+                    metric("silent", "true") + metric("chatty", "echo hello") + metric("none", "echo nan") +
                     metric("slow", "sleep 60", "timeout = 1") + metric("killed", "kill -9 $$") +
                     "[[metric]]\nname = 'absent'\ncommand = ['no-such-program', '{mesh}']\n" +
                     "[[metric]]\nname = \"python\"\ncommand = [\"python3\", \"-c\", \"raise "
