@@ -26,6 +26,8 @@ void FaceReader::add_face(const std::vector<int>& corners, int region) {
     std::vector<Vec3> points;
     for (const int v : corners) points.push_back(mesh_.points[v]);
     auto parts = split_polygon(points);
+    if (!parts && std::set<int>(corners.begin(), corners.end()).size() < n)
+      in_.fail("face of {} vertices: expected each vertex once, to split it into triangles", n);
     for (int k = 2; !parts && k + 1 < static_cast<int>(n); ++k) triangles.push_back({0, k, k + 1});
     if (parts)
       triangles = std::move(*parts);

@@ -139,6 +139,7 @@ TEST(RefineUnsound, TriesFeatureAnglesLast) {
   PreparedProblem prepared = prepare_problem(problem);
   const Word word = parse_word("DB");
   MeshResult result = run_word(prepared, word);
+  result.soundness = {};
   result.soundness.reasons = {"a test"};
   std::vector<double> tried;
   const auto anew = [&](const Refinement& refinement) {
