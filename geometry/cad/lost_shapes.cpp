@@ -57,6 +57,11 @@ bool is_surface_or_body(const Transient& entity) {
          (!iges.IsNull() && IGESToBRep::IsTopoSurface(iges));
 }
 
+/// Whether no shape depends on the entity: text, colors and leaders of a drawing.
+bool is_drawn(const Transient& entity) {
+  return std::string_view(entity->DynamicType()->Name()).starts_with("StepVisual_");
+}
+
 /// Complaints about what no shape depends on: names, and what a curve claims to be.
 bool is_harmless(const std::string& complaint) {
   constexpr std::array kFields = {"name)",      "description)",    "form)",
@@ -109,7 +114,7 @@ class LossFinder {
     std::vector<Transient> open;
     const auto meet = [&](const Transient& entity) {
       const int number = entity.IsNull() ? 0 : model_->Number(entity);
-      if (number == 0 || met[number]) return;
+      if (number == 0 || met[number] || is_drawn(entity)) return;
       met[number] = 1;
       open.push_back(entity);
     };
@@ -128,7 +133,7 @@ class LossFinder {
     std::map<int, std::string> found;
     for (int i = 1; i <= model_->NbEntities(); ++i) {
       const Handle(Interface_Check) check = model_->Check(i, /*syntactic=*/true);
-      if (!check->HasFailed() || is_harmless(check->CFail(1))) continue;
+      if (!check->HasFailed() || is_harmless(check->CFail(1)) || is_drawn(model_->Value(i))) continue;
       is_damaged_ = true;
       if (met[i]) found.emplace(i, complaint(*check));
     }

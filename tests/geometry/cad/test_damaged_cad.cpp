@@ -45,6 +45,16 @@ TEST_F(DamagedCad, StepFilesAreRefusedWithTheEntity) {
                  {"cannot be read", "ClosedShell", "AdvancedFace"}, faces - 1);
 }
 
+TEST_F(DamagedCad, TextOfADrawingMayBeUnreadable) {
+  std::string text = read_text(write_step(folder_ / "box.step", BRepPrimAPI_MakeBox(1, 2, 3).Shape()));
+  text = changed(std::move(text), "ADVANCED_BREP_SHAPE_REPRESENTATION('',(",
+                 "ADVANCED_BREP_SHAPE_REPRESENTATION('',(#9000,");
+  text.insert(text.rfind("ENDSEC;"),
+              "#9000=TEXT_LITERAL('','note',#11,'baseline left',.RIGHT.,#9001);\n"
+              "#9001=DRAUGHTING_PRE_DEFINED_TEXT_FONT('font');\n");
+  EXPECT_EQ(read_cad(CadModel{{}, text}).fine.regions.size(), 6u);
+}
+
 TEST_F(DamagedCad, MissingEntitiesAreNamed) {
   const std::string text = read_text(write_step(folder_ / "box.step", BRepPrimAPI_MakeBox(1, 2, 3).Shape()));
   // The number of faces that are left: shells alone do without faces.
