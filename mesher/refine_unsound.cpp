@@ -29,9 +29,9 @@ constexpr int kMostRounds = 8, kMostIdle = 2;
 constexpr int kFirstWithFeatures = 4;
 /// The size becomes this part of what it was, so many of these sizes around.
 constexpr double kPart = 0.5, kReach = 3;
-/// Budget in quads of all meshes, with the cost of lifting (LiftingSummary::cost) and the steps of curves.
-/// Two thirds of it, some 20 seconds, are for smaller sizes, or a multiple of a large mesh. One third is for
-/// meshes without small parts, if one of these is likely not to need more.
+/// Budget in quads of all meshes, with the cost of lifting (LiftingSummary::cost) and the steps of curves:
+/// some 30 seconds, or a multiple of a large mesh. One third more is for meshes without small parts, if one
+/// of these is likely not to need more.
 constexpr long long kLeastQuads = 120'000, kMostTimes = 2, kCostPerQuad = 300, kStepsPerQuad = 7500;
 /// Larger ones would ask for little else than the whole model.
 constexpr std::size_t kMostSpots = 1000;
@@ -325,7 +325,7 @@ void undo_across_curves(const Word& word, PreparedProblem& prepared, MeshResult&
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     MeshResult& result) {
   const long long once = quads_of(prepared, result), most = std::max(kLeastQuads, kMostTimes * once);
-  Budget finer(std::max(kLeastQuads * 2 / 3, kMostTimes * once)), without_small(most / 3);
+  Budget finer(most), without_small(most / 3);
   finer.spend(once);
   undo_across_curves(word, prepared, result);
   const auto within_patches = [&prepare_anew](const Refinement& refinement) {
