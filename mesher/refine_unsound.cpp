@@ -29,9 +29,9 @@ constexpr int kMostRounds = 8, kMostIdle = 2;
 constexpr int kFirstWithFeatures = 4;
 /// The size becomes this part of what it was, so many of these sizes around.
 constexpr double kPart = 0.5, kReach = 3;
-/// Budget in quads of all meshes, with the cost of lifting (LiftingSummary::cost) and the steps of curves:
-/// some 30 seconds, or a multiple of a large mesh. One third more is for meshes without small parts, if one
-/// of these is likely not to need more.
+/// Budget in quads of all meshes, with the cost of lifting (LiftingSummary::cost) and the steps of curves. It
+/// takes some 30 seconds, or a multiple of a large mesh. One third more is for meshes without small parts, if
+/// one of these is likely not to need more.
 constexpr long long kLeastQuads = 120'000, kMostTimes = 2, kCostPerQuad = 300, kStepsPerQuad = 7500;
 /// Larger ones would ask for little else than the whole model.
 constexpr std::size_t kMostSpots = 1000;

@@ -276,4 +276,4 @@ void write_ugrid(const std::filesystem::path& path, const Mesh& mesh) {
 
 }  // namespace delquad
 
-extern "C" const delquad::LibraryFormat delquad_format = {delquad::read_ugrid, delquad::write_ugrid, nullptr};
+extern "C" const delquad::LibraryFormat delquad_format = {delquad::read_ugrid, delquad::write_ugrid};

@@ -145,4 +145,4 @@ void write_xdmf(const std::filesystem::path& path, const Mesh& mesh) {
 
 }  // namespace delquad
 
-extern "C" const delquad::LibraryFormat delquad_format = {nullptr, delquad::write_xdmf, nullptr};
+extern "C" const delquad::LibraryFormat delquad_format = {nullptr, delquad::write_xdmf};
