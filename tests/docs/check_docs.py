@@ -105,7 +105,8 @@ class Block:
         if "slow" in self.marks and not slow:
             return "slow: " + self.marks["slow"]
         for need in self.marks.get("needs", "").split():
-            if shutil.which(need) is None and importlib.util.find_spec(need) is None:
+            is_imported = re.search(rf"^import .*\b{need}\b", self.text, re.MULTILINE)
+            if importlib.util.find_spec(need) is None and (is_imported or shutil.which(need) is None):
                 return f"needs {need}"
         return None
 
