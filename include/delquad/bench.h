@@ -1,12 +1,11 @@
 #pragma once
 
-// The bench: experiments, reports and the program, on top of the library. Component "bench" of the
-// package, target delquad::bench.
+// This header runs the bench: experiments, reports and the program, above the library. Programs that link
+// delquad::bench (package component "bench") use it.
 
 namespace delquad {
 
-/// The `delquad` program with what was added, see extend.h: what its arguments ask for. Returns its exit
-/// code; errors are printed.
+/// Runs the `delquad` program with all additions, see extend.h. Returns its exit code; it prints errors.
 int run_program(int argc, char** argv);
 
 }  // namespace delquad

@@ -7,14 +7,16 @@
 
 namespace delquad {
 
+// Piece of a curve of a planar domain between two nodes, where it ends or other curves meet it.
+
 /// A curve of a planar domain from a node to another one. At these it ends, or others meet it.
 struct DomainCurve {
   std::shared_ptr<const Curve> shape;
   double from = 0, to = 1;  ///< parameters at the ends
-  std::vector<int> nodes;   ///< along it, ends included: indices of points of Preparation::boundary
+  std::vector<int> nodes;   ///< indices of points of Preparation::boundary along it, ends included
 };
 
-/// The curves of a planar model. There are none if lines were given, and in the plane of a metric.
+/// Returns the curves of a planar model; none if lines were given, or in the plane of a metric.
 std::vector<DomainCurve> domain_curves(const Prepared& prepared);
 
 }  // namespace delquad

@@ -4,23 +4,23 @@
 #include <string>
 #include <utility>
 
-// What functions of this library throw, and what they warn of.
+// This header has the exceptions and warnings of the library. All callers use it.
 
 namespace delquad {
 
-/// All that is thrown on purpose, for people to read, but misuse by a program: that is std::logic_error.
+/// Base of all exceptions with messages for people. Misuse by a program is a std::logic_error instead.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Input that cannot be meshed: the message names the file, line or entity and says what was expected.
+/// The input cannot be meshed. The message names the file, line or entity and the expected input.
 class InputError : public Error {
  public:
   using Error::Error;
 };
 
-/// A face of a surface that cannot be meshed, where others perhaps can.
+/// A face of a surface cannot be meshed, but other faces perhaps can.
 class FaceError : public InputError {
  public:
   /// `face`: index of the region; the message names it by its tag.
@@ -31,25 +31,25 @@ class FaceError : public InputError {
   int face_;
 };
 
-/// Work was given up, because it was cancelled. The message says at what it was.
+/// The work was cancelled. The message names the step.
 class Cancelled : public Error {
  public:
   using Error::Error;
 };
 
-/// The same, because its time was up.
+/// The time limit was reached.
 class TimeIsUp : public Cancelled {
  public:
   using Cancelled::Cancelled;
 };
 
-/// Something suspicious about a model or a mesh, for people.
+/// A suspicious property of a model or a mesh, for people.
 struct Warning {
-  /// One that stands alone.
+  /// A warning that stands alone.
   Warning(std::string text_) : text(std::move(text_)) {}
   Warning(const char* text_) : text(text_) {}
-  /// One of a kind, named in the plural: "curves shorter than the size". The larger `severity_`, in whatever
-  /// unit the kind has, the worse.
+  /// A warning of a kind, named in the plural: "curves shorter than the size". A larger `severity_`, in any
+  /// unit of the kind, is worse.
   Warning(std::string kind_, double severity_, std::string text_)
       : kind(std::move(kind_)), severity(severity_), text(std::move(text_)) {}
 

@@ -8,7 +8,8 @@
 
 #include "delquad/options.h"
 
-// Perfect matching of minimum cost: what makes quads of triangles, and counts on curves even. Valid C++17.
+// This header has perfect matching of minimum cost. Recombination, even counts on curves and added solvers
+// use it. It is valid C++17.
 
 namespace delquad {
 
@@ -22,8 +23,7 @@ struct MatchingGraph {
   std::vector<Edge> edges;
 };
 
-/// An integer of 128 bits, as two's complement: `low` has all of it where `high` is 0, or -1 for negative
-/// ones.
+/// Integer of 128 bits, as two's complement. `low` holds a number whose `high` is 0, or -1 if it is negative.
 struct WideInteger {
   std::uint64_t low = 0;
   std::int64_t high = 0;
@@ -35,25 +35,25 @@ struct WideInteger {
 
 /// A solution of the dual problem (docs/matching.md), or a witness that there is no perfect matching.
 ///
-/// Blossoms are odd sets of nodes, nested or apart; a blossom comes after the one around it. An edge's slack
-/// is its cost less the dual values of its ends and of all blossoms that it leaves. If no slack and no
-/// blossom's dual value is negative, no perfect matching costs less than the sum of all dual values.
+/// Blossoms are odd sets of nodes, nested or disjoint; an outer blossom precedes its inner ones. The slack of
+/// an edge is its cost minus the duals of its ends and of all blossoms that it leaves. If no slack and no
+/// blossom dual is negative, no perfect matching costs less than the sum of all duals.
 struct MatchingCertificate {
   static constexpr int kUnits = 4;  ///< dual values count quarters of the unit of costs
   std::vector<WideInteger> node_dual;
-  std::vector<int> node_blossom;  ///< the innermost one around a node; -1: none
+  std::vector<int> node_blossom;  ///< innermost blossom around a node; -1: none
   std::vector<WideInteger> blossom_dual;
-  std::vector<int> blossom_parent;  ///< the next one around it; -1: none
-  /// Nodes without which the graph has more components of an odd number of nodes than these are.
+  std::vector<int> blossom_parent;  ///< next blossom around it; -1: none
+  /// Set of nodes; without it the graph has more components of odd size than the set has nodes.
   std::vector<int> witness;
 };
 
-/// Whether the mates are a perfect matching and the certificate proves that none is cheaper, by exact
-/// arithmetic that shares nothing with a solver. Else `why` says what is wrong.
+/// Returns whether the mates are a perfect matching and the certificate proves that none is cheaper. The
+/// exact arithmetic shares nothing with a solver. A failure is explained in `why`.
 bool proves_optimal(const MatchingGraph& graph, const std::vector<int>& mate,
                     const MatchingCertificate& certificate, std::string* why = nullptr);
 
-/// Whether the witness proves that the graph has no perfect matching [tutte1947].
+/// Returns whether the witness proves that the graph has no perfect matching [tutte1947].
 bool proves_not_perfect(const MatchingGraph& graph, const MatchingCertificate& certificate);
 
 enum class MatchingStatus {
@@ -63,16 +63,16 @@ enum class MatchingStatus {
 
 struct MatchingResult {
   MatchingStatus status = MatchingStatus::kNotPerfect;
-  std::vector<int> mate = {};  ///< node -> its partner; empty unless perfect
+  std::vector<int> mate = {};  ///< partner of each node; empty unless perfect
   long long cost = 0;
-  /// Why no matching is cheaper, or why none is perfect. Empty where the solver has no proof.
+  /// Proof that no matching is cheaper, or that none is perfect. Empty if the solver has no proof.
   MatchingCertificate certificate = {};
-  long long contractions = 0, expansions = 0;  ///< of blossoms, where the solver counts them
-  /// What else the solver has to say, for the step "recombination" of records.
+  long long contractions = 0, expansions = 0;  ///< number of blossoms, if the solver counts them
+  /// More values of the solver, for the step "recombination" of records.
   std::vector<SummaryField> fields = {};
 };
 
-/// Minimum-cost perfect matching. One file a solver; nothing here knows of meshes.
+/// A solver of minimum-cost perfect matching. Each has its own file and knows nothing of meshes.
 class MatchingSolver {
  public:
   virtual ~MatchingSolver() = default;
@@ -80,16 +80,16 @@ class MatchingSolver {
   virtual MatchingResult solve(const MatchingGraph& graph) const = 0;
 };
 
-/// Solvers may be made, and asked, in several threads at once.
+/// Makes a solver. Several threads make and ask solvers at once.
 using MatchingSolverFactory = std::function<std::unique_ptr<MatchingSolver>(const Options&)>;
 
-/// Adds one from outside, before anything is read or meshed: what `recombination.solver` may be. Throws
-/// std::invalid_argument for a name that is taken or empty.
+/// Adds a value of `recombination.solver`, before anything is read or meshed. Throws std::invalid_argument
+/// for a name that is taken or empty.
 void add_matching_solver(const std::string& name, MatchingSolverFactory factory);
-/// The solver of that name; what it returns is checked: a result that is no perfect matching of the graph is
-/// an Error that names the solver. Throws InputError, naming those known.
+/// Returns the solver of a name, with a check of its results. A result that is no perfect matching is an
+/// Error that names the solver. Throws InputError, with all known names, for an unknown name.
 std::unique_ptr<MatchingSolver> matching_solver(const std::string& name, const Options& options = {});
-/// The project's own first.
+/// Returns the names of solvers, built-in ones first.
 std::vector<std::string> matching_solver_names();
 
 }  // namespace delquad

@@ -7,11 +7,12 @@
 #include <string_view>
 #include <vector>
 
-// Points, meshes in space, and meshes of one patch in its parameter plane.
+// This header has points, meshes in space, and meshes of one patch in its parameter plane. All modules use
+// it.
 
 namespace delquad {
 
-/// A point or vector of a plane (physical or parameter plane).
+/// A point or vector of a plane, physical or parametric.
 struct Vec2 {
   double x = 0, y = 0;
   friend bool operator==(const Vec2&, const Vec2&) = default;
@@ -23,7 +24,7 @@ inline Vec2 operator-(Vec2 a) { return {-a.x, -a.y}; }
 inline Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
 inline Vec2& operator+=(Vec2& a, Vec2 b) { return a = a + b; }
 inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-/// z component of a x b: positive when b lies counterclockwise of a.
+/// Returns the z component of a x b: positive if b lies counterclockwise of a.
 inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
 inline Vec2 perp(Vec2 a) { return {-a.y, a.x}; }
@@ -46,13 +47,13 @@ inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
 /// A named part of a model: a point, a curve or a region.
 struct Entity {
   int tag = 0;                     ///< number in files, > 0
-  std::vector<std::string> names;  ///< physical groups that hold it; may be empty
+  std::vector<std::string> names;  ///< physical groups that contain it; may be empty
 };
 
-/// How the names begin that CAD faces have from their colours.
+/// Prefix of the names that CAD faces get from their colors.
 inline constexpr std::string_view kColourName = "colour #";
 
-/// A point of a mesh that stands for a point of the model.
+/// A mesh point that stands for a point of the model.
 struct NamedPoint {
   int point;  ///< index into Mesh::points
   Entity entity;
@@ -61,38 +62,38 @@ struct NamedPoint {
 /// A turn about an axis, then a shift.
 struct Motion {
   Vec3 shift = {};
-  double angle = 0;  ///< radians, counterclockwise seen from where the axis points to
+  double angle = 0;  ///< radians, counterclockwise seen from the tip of the axis
   Vec3 centre = {};
   Vec3 axis = {0, 0, 1};  ///< need not have unit length
   Vec3 operator()(const Vec3& x) const;
-  /// As a matrix of four rows for points (x, y, z, 1).
+  /// Returns a matrix of four rows for points (x, y, z, 1).
   std::array<double, 16> matrix() const;
-  /// That takes everything back.
+  /// Returns the motion that undoes this one.
   Motion inverse() const;
 };
 
-/// Nodes of a curve that are images of those of another.
+/// Nodes of a curve that are images of the nodes of another curve.
 struct PeriodicNodes {
   int curve, master;                      ///< indices into Mesh::curves
-  Motion motion;                          ///< that takes the master there
-  std::vector<std::array<int, 2>> nodes;  ///< each beside that of which it is the image
+  Motion motion;                          ///< maps the master to `curve`
+  std::vector<std::array<int, 2>> nodes;  ///< pairs: a node, and the node whose image it is
 };
 
-/// A face that is the image of another: its elements are those of the master, in the same order.
+/// A face that is the image of another one: its elements are images of the master's, in the same order.
 struct PeriodicFaces {
   int face, master;  ///< indices into Mesh::regions
-  Motion motion;     ///< that takes the master there
-  bool is_reversed;  ///< its elements run the other way round, as on opposite faces of a body
+  Motion motion;     ///< maps the master to `face`
+  bool is_reversed;  ///< its elements have the opposite orientation, as on opposite faces of a body
   std::vector<std::array<int, 2>>
-      nodes;  ///< each beside that of which it is the image; those on curves first
+      nodes;  ///< pairs: a node, and the node whose image it is; nodes on curves first
 };
 
 /// The highest polynomial degree of elements.
 inline constexpr int kMostOrder = 4;
 
-/// A mesh in space: line elements on curves, triangles and quads in regions. Planar meshes have z = 0.
-/// Indices count from 0. With hexahedra, see extrude(), it has no triangles, and its quads are the boundary,
-/// counterclockwise seen from outside, and faces inside that have a name.
+/// A mesh in space: line elements on curves, triangles and quads in regions. Planar meshes have z = 0, and
+/// indices count from 0. A mesh of hexahedra (extrude()) has no triangles. Its quads are the boundary,
+/// counterclockwise seen from outside, and named faces inside.
 struct Mesh {
   std::vector<Vec3> points;
   std::vector<std::array<int, 2>> lines;
@@ -101,11 +102,10 @@ struct Mesh {
   std::vector<int> triangle_region;  ///< index into `regions` of each triangle
   std::vector<std::array<int, 4>> quads;
   std::vector<int> quad_region;
-  /// Polynomial degree of the elements, 1 to 4. Above 1 they are curved: `lines` and `quads` are their
-  /// corners, and these are their further nodes, one element after the other. Of a line order - 1, from its
-  /// first end to its second; of a quad order - 1 for each side, as the quad runs round, then (order - 1)^2
-  /// inside, in rows along the first side. They lie at equal distances of the element's parameters. Such
-  /// meshes have no triangles.
+  /// Polynomial degree of the elements, 1 to 4; above 1 they are curved and have no triangles. `lines` and
+  /// `quads` are the corners, and these are the further nodes, element by element. A line has order - 1, from
+  /// its first end to its second. A quad has order - 1 for each side, in its orientation. Then (order - 1)^2
+  /// inside follow, in rows along the first side. All lie at equal parameter distances.
   int order = 1;
   std::vector<int> line_nodes = {}, quad_nodes = {};
   std::vector<Entity> curves;
@@ -113,86 +113,84 @@ struct Mesh {
   std::vector<NamedPoint> named_points;
   std::vector<PeriodicNodes> periodic;
   std::vector<PeriodicFaces> periodic_faces;
-  std::string unit;  ///< of lengths, such as "mm"; empty: not known
-  /// Corners: four around one side, counterclockwise seen from the side opposite, then the four opposite of
-  /// these.
+  std::string unit;  ///< unit of lengths, such as "mm"; empty: not known
+  /// Corners: four around one side, counterclockwise seen from the opposite side, then the four opposite
+  /// ones.
   std::vector<std::array<int, 8>> hexahedra = {};
   std::vector<int> hex_volume = {};  ///< index into `volumes` of each hexahedron
   std::vector<Entity> volumes = {};
 };
 
-/// Length of the diagonal of the bounding box; 0 without points.
+/// Returns the diagonal of the bounding box; 0 without points.
 double diagonal(const Mesh& mesh);
 
-/// What is wrong with the mesh, one line each; empty when it is sound: indices in range, no repeated vertex
-/// in an element, each edge in at most two elements which run along it in opposite directions, no element
-/// used twice, every line an edge of some element (when there are elements), no vertex that nothing uses.
+/// Returns the defects of a mesh, one line each; empty if it is sound. Indices are in range, elements have
+/// distinct vertices, and no element is repeated. An edge has at most two elements, in opposite directions.
+/// Every vertex is used. Every line is an edge of an element, if there are any.
 std::vector<std::string> check_invariants(const Mesh& mesh);
 
-/// The greatest difference of the numbers of two nodes of one element; 0 without elements.
+/// Returns the largest difference of node numbers in an element; 0 without elements.
 int bandwidth(const Mesh& mesh);
-/// Numbers the nodes anew by the reversed order of Cuthill and McKee [1969], so that matrices have their
-/// entries near the diagonal. All else keeps its order. Nothing changes where the bandwidth would not become
-/// less.
+/// Renumbers the nodes by the reversed order of Cuthill and McKee [1969], so that matrices have entries near
+/// the diagonal. Everything else keeps its order. Nothing changes unless the bandwidth falls.
 void reduce_bandwidth(Mesh& mesh);
 
-/// What a reader did to the file's content that its user should know, one sentence each.
+/// Notes for users on changes by a reader, one sentence each.
 using ReadNotes = std::vector<std::string>;
 
-/// Reads a file by its extension: .msh, .vtu, .obj, .inp, .mesh, .mfem, .bdf, .off, .stl, .ply or .3mf. The
-/// file may be packed (.gz). Throws InputError with file and line or byte. For any other extension the
-/// message names the known ones.
+/// Reads a file by its extension: .msh, .vtu, .obj, .inp, .mesh, .mfem, .bdf, .off, .stl, .ply or .3mf, also
+/// .gz. Throws InputError with file and line or byte. The message for another extension names the known ones.
 Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 
-/// Which line elements an MSH file has. deal.II refuses all that lie inside the mesh.
+/// Line elements of an MSH file. deal.II refuses all lines inside the mesh.
 enum class MshCurves {
   kAll,
-  kNamed,     ///< those on the boundary of the mesh, and those inside it that have a name
-  kBoundary,  ///< those on the boundary of the mesh
+  kNamed,     ///< lines on the boundary of the mesh, and named lines inside
+  kBoundary,  ///< lines on the boundary of the mesh
 };
 
 struct MshOptions {
   bool binary = false;
   MshCurves curves = MshCurves::kAll;
-  /// The kind of hexahedra in .inp. C3D8, C3D8I, C3D8R; with nodes in the middles of the straight edges
-  /// C3D20, C3D20R; for heat DC3D8, DC3D20. Empty: C3D8.
+  /// Kind of hexahedra in .inp: C3D8, C3D8I or C3D8R; with nodes in the middle of straight edges C3D20 or
+  /// C3D20R; for heat DC3D8 or DC3D20. Empty: C3D8.
   std::string element = {};
 };
 
-/// Writes by extension: .msh, .vtu (with eta per quad), .obj, .inp, .mesh, .svg (a picture); whole or not at
-/// all. Hexahedra go to .msh (4.1), .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv. Throws InputError that
-/// names the path, and for a format that has no such option.
+/// Writes a mesh by extension: .msh, .vtu (with eta per quad), .obj, .inp, .mesh or .svg (a picture).
+/// Hexahedra go to .msh (4.1), .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv. The file is written
+/// completely or not at all. Throws InputError with the path, also for a format without the given option.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
 
-/// The closed boundary of one patch, discretised, in the patch's parameter plane.
+/// The closed boundary of one patch, discretized, in its parameter plane.
 struct PatchBoundary {
   std::vector<Vec2> points;
-  /// Indices into `points`; the patch lies on the left of each edge, and every point has one edge in, one
+  /// Indices into `points`. The patch lies on the left of each edge, and every point has one edge in and one
   /// out.
   std::vector<std::array<int, 2>> edges;
-  /// Curve of each edge (index into Mesh::curves); -1: an edge that is no line.
+  /// Curve of each edge, an index into Mesh::curves; -1: the edge is no line.
   std::vector<int> edge_curve;
-  /// Node of the boundary mesh that each point stands for. Two points may share a node (a seam).
+  /// Node of the boundary mesh for each point. Two points may share a node (a seam).
   std::vector<int> point_node;
-  /// Points inside from which insertion starts, besides the boundary; mostly none.
+  /// Points inside at which insertion starts, besides the boundary; usually none.
   std::vector<Vec2> seeds;
 };
 
 /// A triangulation of one patch in its parameter plane.
 struct TriPatch {
-  /// The boundary's points first, in their order, then the inserted ones.
+  /// The points of the boundary in their order, then the inserted ones.
   std::vector<Vec2> points;
   std::vector<std::array<int, 3>> triangles;  ///< counterclockwise
   std::vector<std::array<int, 3>>
-      neighbours;      ///< neighbours[t][k] lies across the side opposite to vertex k; -1: boundary
-  int n_boundary = 0;  ///< how many of the points are the boundary's
+      neighbours;      ///< `neighbours[t][k]` lies across the side opposite to vertex k; -1: boundary
+  int n_boundary = 0;  ///< number of points on the boundary
 };
 
 /// A quadrilateral mesh of one patch in its parameter plane.
 struct QuadPatch {
-  std::vector<Vec2> points;                   ///< the boundary's points first, in their order
+  std::vector<Vec2> points;                   ///< points of the boundary first, in their order
   std::vector<std::array<int, 4>> quads;      ///< counterclockwise
-  std::vector<std::array<int, 3>> triangles;  ///< leftovers; empty when the boundary is even
+  std::vector<std::array<int, 3>> triangles;  ///< leftovers; empty if the boundary is even
   int n_boundary = 0;
 };
 

@@ -13,308 +13,307 @@
 
 #include "delquad/mesh.h"
 
-// What can be meshed: planar domains by curves or by lines, surfaces by triangles or by CAD.
+// This header has models: planar domains of curves or lines, surfaces of triangles or CAD. Problems hold
+// them.
 
 namespace delquad {
 
-/// A regular curve of the plane z = 0, t in [0, 1].
+/// A regular curve in the plane z = 0, with t in [0, 1].
 class Curve {
  public:
   virtual ~Curve() = default;
   virtual Vec2 point(double t) const = 0;
-  /// Parameters strictly between 0 and 1, ascending, at which a mesh node is compulsory (a polyline's
-  /// corners).
+  /// Returns ascending parameters, strictly between 0 and 1, with a compulsory mesh node (corners of a
+  /// polyline).
   virtual std::vector<double> fixed_parameters() const { return {}; }
 };
 
-// The curves a model can be made of. Each begins and ends exactly at the points it is given. All throw
-// InputError for coordinates that are not finite and for curves without length; the message says which
-// argument.
+// Makers of curves. Each curve begins and ends exactly at its given points. All throw InputError, with the
+// argument, for coordinates that are not finite and for curves without length.
 
 std::shared_ptr<const Curve> make_segment(Vec2 a, Vec2 b);
 
-/// At least two points, none equal to the one before; the last may equal the first. Every corner gets a node.
+/// Takes at least two points, consecutive ones distinct; the last may equal the first. Every corner gets a
+/// node.
 std::shared_ptr<const Curve> make_polyline(std::vector<Vec2> points);
 
-/// The cubic spline through two points or more, none equal to the one before, twice differentiable by the
-/// length of chords; natural at its ends, periodic if the last point equals the first. Where chords turn by
-/// more than `corner` (radians) it has a corner, with a node, and ends there as at its ends.
+/// Makes the cubic spline through at least two points, consecutive ones distinct, parametrized by chord
+/// length. It is natural at its ends, or periodic if the last point equals the first. A turn of chords by
+/// more than `corner` (radians) makes a corner with a node, and ends of the spline there.
 std::shared_ptr<const Curve> make_spline(std::vector<Vec2> points, double corner = std::numbers::pi / 3);
 
-/// From angle0 to angle1 (radians), counterclockwise when angle1 > angle0; at most one turn. A full turn, to
-/// rounding, ends at the very point where it began.
+/// Makes an arc from angle0 to angle1 (radians), counterclockwise if angle1 > angle0, of at most one turn. A
+/// full turn, to rounding, ends exactly at its start.
 std::shared_ptr<const Curve> make_arc(Vec2 centre, double radius, double angle0, double angle1);
 
-/// Counterclockwise from the point at angle 0.
+/// Makes a circle, counterclockwise from the point at angle 0.
 std::shared_ptr<const Curve> make_circle(Vec2 centre, double radius);
 
-/// point(t) for t from t0 to t1, either direction. Safe to call from several threads.
+/// Makes point(t) for t from t0 to t1, in either direction. Several threads call `point`.
 std::shared_ptr<const Curve> make_parametric_curve(std::function<Vec2(double)> point, double t0, double t1);
 
-/// (x(t), y(t)) for t from t0 to t1, either direction: formulas in t, as those of make_expression_size().
+/// Makes (x(t), y(t)) for t from t0 to t1, in either direction, from formulas as in make_expression_size().
 std::shared_ptr<const Curve> make_expression_curve(const std::string& x, const std::string& y, double t0,
                                                    double t1);
 
 struct ModelCurve {
   std::shared_ptr<const Curve> shape;
   std::string name;       ///< physical group of the boundary; may be empty
-  std::string where;      ///< file and line (or entity) it was read from, for messages
-  bool is_crack = false;  ///< its nodes are doubled, except where it ends inside: the mesh comes apart there
-  bool is_gone = false;   ///< it only keeps its number, and no loop has it
-  bool is_data = false;   ///< its points were measured: they need not all be nodes, see SurfaceSpec::simplify
+  std::string where;      ///< file and line (or entity) of the curve, for messages
+  bool is_crack = false;  ///< nodes are doubled, except at ends inside: the mesh opens there
+  bool is_gone = false;   ///< it only keeps its number and is in no loop
+  bool is_data = false;   ///< measured points: some may get no node, see SurfaceSpec::simplify
 };
 
-/// How curves are divided into edges, whatever the size asks for.
+/// Numbers of edges on curves, independent of size.
 struct CurveDivision {
-  std::string name;        ///< of the curves; those without go by their number, as in files: "curve_7"
-  int edges = 0;           ///< of each of them, at least 1
-  double progression = 1;  ///< length of each edge, of that before it, along the curve as it was given; > 0
-  double bump = 1;         ///< length of the edges at the ends, of those in the middle; > 0
-  std::string where = "division";  ///< who asked for it, for messages
+  std::string name;        ///< name or number of the curves, as in files: "curve_7"
+  int edges = 0;           ///< for each curve, at least 1
+  double progression = 1;  ///< length of an edge over the length of the previous one, in the direction of the
+                           ///< curve; > 0
+  double bump = 1;         ///< length of edges at the ends over length in the middle; > 0
+  std::string where = "division";  ///< origin of the request, for messages
 };
 
-/// Curves that get the images of the nodes of others, or faces of a surface that get their meshes.
+/// Curves that get images of the nodes of other curves, or faces that get images of meshes.
 struct PeriodicPair {
-  std::string from, to;  ///< names, or numbers: "curve_7", "region_2"; both of faces: those are meant
-  Motion motion;         ///< that takes those of `from` to those of `to`
-  std::string where = "periodic";  ///< who asked for it, for messages
+  std::string from, to;            ///< names, or numbers: "curve_7", "region_2"; faces win if both name some
+  Motion motion;                   ///< maps `from` to `to`
+  std::string where = "periodic";  ///< origin of the request, for messages
 };
 
-/// A line of the plane, or a plane of space, at which a model is symmetric.
+/// Symmetry line of a planar model, or symmetry plane in space.
 struct SymmetryPlane {
   Vec3 point, normal;  ///< the normal need not have unit length
 };
 
-/// What is meshed on the positive side of planes only, and mirrored to the others.
+/// Planes of symmetry. Only their positive side is meshed, and then mirrored.
 struct SymmetrySpec {
-  std::vector<SymmetryPlane> planes = {};  ///< one, or two that are perpendicular; of surfaces up to three
-  bool automatic = false;                  ///< those that are found
-  std::string where = "symmetry";          ///< who asked for it, for messages
+  std::vector<SymmetryPlane> planes = {};  ///< one or two perpendicular planes, for surfaces up to three
+  bool automatic = false;                  ///< use all planes that are found
+  std::string where = "symmetry";          ///< origin of the request, for messages
 };
 
 /// A corner of a grid.
 struct GridCorner {
-  std::string name = {};  ///< of a point of the model; empty: the place counts
-  Vec3 at = {};           ///< within a thousandth of the outline's diagonal of a node that the outline has
+  std::string name = {};  ///< name of a point of the model; empty: the place counts
+  Vec3 at = {};           ///< within 0.001 outline diagonals of a node of the outline
 };
 
-/// Where the sides of a region's grid begin.
+/// Corners of the grid in a region.
 struct GridCorners {
   std::string region;               ///< name or number, as in MappedSpec
   std::vector<GridCorner> corners;  ///< three or four, in any order
-  std::string where = "mapped";     ///< who asked for it, for messages
+  std::string where = "mapped";     ///< origin of the request, for messages
 };
 
-/// Regions, or faces of a surface, that become grids, as fine as their sides.
+/// Regions or faces of a surface that become grids, as fine as their sides.
 struct MappedSpec {
-  std::vector<std::string> names = {};  ///< of the regions, or numbers: "region_2"
-  bool automatic = false;        ///< and all where that pays: four nearly right angles, sides that match
-  std::string where = "mapped";  ///< who asked for it, for messages
-  std::vector<GridCorners> corners = {};  ///< of regions whose corners are told, named above or not
-  /// Numbers of regions of surfaces ("region_2") that become rings of so many rows where they can; -1: any
-  /// grids, where their quads are no worse than a sheet allows.
+  std::vector<std::string> names = {};    ///< names of regions, or numbers: "region_2"
+  bool automatic = false;                 ///< also all with four nearly right angles and matching sides
+  std::string where = "mapped";           ///< origin of the request, for messages
+  std::vector<GridCorners> corners = {};  ///< corners of regions, named above or not
+  /// Surface regions by number ("region_2") that become rings of so many rows if possible. The number -1
+  /// allows any grid with quads no worse than the criteria allow.
   std::vector<std::pair<std::string, int>> rings = {};
 
   bool asks() const { return automatic || !names.empty() || !corners.empty() || !rings.empty(); }
 };
 
-/// A closed chain of curves. Loops may share curves and points, and lie in each other; none may cross
-/// another.
+/// A closed chain of curves. Loops may share curves and points, and may be nested; they must not cross.
 struct ModelLoop {
-  std::vector<int> curves;  ///< indices into PlanarModel::curves, end to start, closed; either orientation
-  std::string region;  ///< name of the region inside; on a hole: the hole is filled by a region of that name
+  std::vector<int> curves;  ///< indices into PlanarModel::curves, end to start; either orientation
+  std::string region;       ///< name of the region inside; a named hole is filled by a region of that name
   std::string where;
-  bool is_hole = false;  ///< it must bound no region from outside
+  bool is_hole = false;  ///< it must not bound a region from outside
 };
 
 /// A point that becomes a node of the mesh.
 struct ModelPoint {
   Vec2 at;
   std::string name;   ///< physical group; may be empty
-  std::string where;  ///< as that of a curve
+  std::string where;  ///< as ModelCurve::where
 };
 
 /// A planar model bounded by analytic curves.
 ///
-/// Curves that touch another with an end share a node with it, and those that lie on each other are one
-/// there. Those that no loop has stand in the regions: they may cross any others and end anywhere in a
-/// region, and become chains of edges of the mesh.
+/// A curve that touches another one with an end shares a node with it; overlaps of curves are merged. Curves
+/// outside of all loops are embedded in the regions as chains of mesh edges. They may cross any curve and end
+/// anywhere in a region.
 struct PlanarModel {
-  std::string source;  ///< file it was read from, for messages
+  std::string source;  ///< file of the model, for messages
   std::vector<ModelCurve> curves;
   std::vector<ModelLoop> loops;
   std::vector<ModelPoint> points = {};  ///< in regions or on curves
-  std::vector<std::string> notes = {};  ///< of its reader, for warnings
+  std::vector<std::string> notes = {};  ///< notes of the reader, for warnings
 };
 
-/// A domain bounded by polygons, each a loop of at least three corners without the first repeated. Loops
-/// inside others are holes. Every corner gets a node.
+/// Makes a domain bounded by polygons, each a loop of at least three corners without repetition of the first.
+/// Nested loops are holes. Every corner gets a node.
 PlanarModel polygons(const std::vector<std::vector<Vec2>>& loops);
 
-/// What a mesh file says of surfaces, whether it has elements on them or not.
+/// Surfaces that a mesh file declares, with or without elements.
 struct DeclaredSurfaces {
-  std::vector<std::string> group_names;  ///< of the named groups of dimension 2
+  std::vector<std::string> group_names;  ///< names of the named groups of dimension 2
   struct Surface {
     Entity entity;
-    std::vector<int> curves;  ///< tags of the curves that bound it, ascending
+    std::vector<int> curves;  ///< tags of its boundary curves, ascending
   };
   std::vector<Surface> surfaces;
 };
 
-/// Thin quads along curves of a planar model, as flow solvers want them at walls. Each edge of the curves is
-/// the foot of a column of quads that stand on each other.
+/// Thin quads along curves of a planar model, for flow solvers at walls. Each edge of the curves is the foot
+/// of a column of stacked quads.
 struct LayerSpec {
   std::vector<std::string> on;         ///< names of curves that bound regions
   double first = 0;                    ///< height of the quads at the curve
-  double growth = 1.2;                 ///< height of a quad over that of the one below it, at least 1
-  int number = 0;                      ///< quads in a column; 0: as many as reach `thickness`
-  double thickness = 0;                ///< height of a column; 0: `number` says it. One of both is given
-  double fan = 60;                     ///< degrees in (0, 120]: corners that turn away by more get a fan
-  std::vector<std::string> into = {};  ///< names of the regions that get them; empty: on both sides
-  std::string where = "layer";         ///< who asked for it, for messages
+  double growth = 1.2;                 ///< height of a quad over the height of the quad below, at least 1
+  int number = 0;                      ///< quads in a column; 0: enough to reach `thickness`
+  double thickness = 0;                ///< height of a column; 0: `number` sets it. Exactly one is given
+  double fan = 60;                     ///< degrees in (0, 120]; corners that turn away by more get a fan
+  std::vector<std::string> into = {};  ///< names of regions that get layers; empty: both sides
+  std::string where = "layer";         ///< origin of the request, for messages
 };
 
-/// How far the layers of a column reach from their curve: the first, the second, ..., the whole. Throws
-/// InputError for numbers that make no layers.
+/// Returns the distance of each layer of a column from the curve, in ascending order. Throws InputError for
+/// numbers that make no layers.
 std::vector<double> layer_heights(const LayerSpec& layer);
 
-/// Rows of quads around round and slotted holes of planar models of curves, and in faces of surfaces.
+/// Rows of quads around round and slotted holes of planar models of curves and of surface faces.
 struct WasherSpec {
-  double least = 0, most = 0;     ///< diameters of the holes; of slots and ovals their width
-  int rows = 1;                   ///< where there is room
-  int edges = 0;                  ///< around, even; 0: as the size asks for, 6 at least
-  double width = 0;               ///< of all rows; 0: they are about as high as edges are long
-  std::string where = "washers";  ///< who asked for it, for messages
+  double least = 0, most = 0;     ///< diameters of the holes; width of slots and ovals
+  int rows = 1;                   ///< number of rows, if space allows
+  int edges = 0;                  ///< number of edges around, even; 0: by size, at least 6
+  double width = 0;               ///< width of all rows; 0: rows are about as high as edges are long
+  std::string where = "washers";  ///< origin of the request, for messages
 };
 
-/// Rows of quads across fillets of CAD models: faces of one radius that go on smoothly on two opposite sides.
+/// Rows of quads across fillets of CAD models: faces of one radius with two smooth opposite sides.
 struct FilletRows {
   double least = 0, most = 0;  ///< radii
   int rows = 1;
-  std::string where = "fillet_rows";  ///< who asked for it, for messages
+  std::string where = "fillet_rows";  ///< origin of the request, for messages
 };
 
-/// A planar domain bounded by lines, which are kept: each becomes an edge of the mesh.
+/// A planar domain bounded by lines; each becomes an edge of the mesh.
 ///
-/// Regions get their names where that is plain: from the elements of the mesh just inside of a loop; else
-/// from the declared surface with just these curves; else, for a single region, from the only group that has
-/// a name. A loop in a region that holds such a surface is no hole.
+/// Regions take names from the elements just inside a loop, or from the declared surface with exactly these
+/// curves. Otherwise a single region takes the name of the only named group. A loop in a region with such a
+/// surface is no hole.
 struct LineModel {
-  Mesh mesh;  ///< its lines count; points with the same z
+  Mesh mesh;  ///< its lines; all points have the same z
   DeclaredSurfaces surfaces = {};
   std::string source = "lines";  ///< for messages
 };
 
-/// A triangulated surface. Quads are split. Each region is at least one face; lines, regions' borders and
-/// sharp edges are curves.
+/// A triangulated surface; its quads are split. Each region has one face or more. Lines, borders of regions
+/// and sharp edges are curves.
 struct TriangleModel {
   Mesh mesh;
   std::string source = "triangles";     ///< for messages
-  std::vector<std::string> notes = {};  ///< of its reader, for warnings
+  std::vector<std::string> notes = {};  ///< notes of the reader, for warnings
 };
 
-/// A mesh to improve: words may begin from its triangles (B, G, T, L) or quads (C, O). Its nodes on the
-/// outline, on lines and between regions stay, in space also those on sharp edges and where more than two
-/// elements meet, and so do all names. In space its elements, quads as two triangles, are the surface. Quads
-/// are halved where a word begins from triangles; triangles among quads stay where it begins from quads.
-/// Where nothing is said, the size is that of the elements.
+/// A mesh to improve. Pipelines begin from its triangles (B, G, T, L) or quads (C, O). All names stay, and
+/// nodes on the outline, on lines and between regions stay. In space, nodes on sharp edges and at more than
+/// two elements stay, too; elements are the surface, with quads as two triangles. A pipeline from triangles
+/// halves quads; a pipeline from quads keeps triangles. The default size is the size of the elements.
 struct GivenMesh {
   Mesh mesh;                            ///< conforming
   std::string source = "mesh";          ///< for messages
-  std::vector<std::string> notes = {};  ///< of its reader, for warnings
+  std::vector<std::string> notes = {};  ///< notes of the reader, for warnings
 };
 
-/// A STEP, IGES or BREP file, or one's bytes.
+/// A STEP, IGES or BREP file, or its bytes.
 struct CadModel {
   std::filesystem::path file;
-  std::string bytes = {};  ///< counts where there is no file
+  std::string bytes = {};  ///< used if there is no file
 };
 
-/// The program delquad-cad, which reads CAD files for all of this process; else it is looked for beside the
-/// running program and where it was installed. The environment variable DELQUAD_CAD_WORKER, where it is set,
-/// counts more.
+/// Sets the program delquad-cad, which reads CAD files for this process. By default it is beside the running
+/// program or where it was installed. The environment variable DELQUAD_CAD_WORKER overrides both.
 void set_cad_worker(const std::filesystem::path& program);
 
-/// A model that the library makes itself, see example_models().
+/// Built-in model, see example_models().
 struct ExampleModel {
   std::string name;
 };
 
-/// A mesh or CAD in a file of any format that the program reads, by its extension: a LineModel, TriangleModel
-/// or CadModel, which is read when it is meshed.
+/// A file of any readable format, chosen by extension: a LineModel, TriangleModel or CadModel. Meshing reads
+/// it.
 struct ModelFile {
   std::filesystem::path path;
-  bool given = false;  ///< a GivenMesh
+  bool given = false;  ///< read it as a GivenMesh
 };
 
 using Model =
     std::variant<PlanarModel, LineModel, TriangleModel, GivenMesh, CadModel, ExampleModel, ModelFile>;
 
-/// The examples' names and what they are.
+/// Name and description of a built-in model.
 struct Example {
   std::string name, description;
 };
 const std::vector<Example>& example_models();
 
-/// Which faces of a surface are meshed as one.
+/// Faces of a surface that are meshed as one.
 enum class Compounds { kNone, kTangent, kAll, kGroups };
 
-/// A surface that is one half of a model.
+/// Plane that completes a half model.
 struct MirrorPlane {
   Vec3 point, normal;  ///< the normal need not have unit length
   double tolerance =
-      0;  ///< how far open edges may lie from the plane; a part of the model's diagonal, from 0
-  /// Both images of a triangle are in its region, so that faces run on through the plane; else the other half
-  /// has regions of its own, of the same names, and curves run along the plane.
+      0;  ///< largest distance of open edges from the plane, in diagonals of the model; at least 0
+  /// Both images of a triangle share its region, so that faces continue through the plane. Otherwise the
+  /// other half has its own regions of the same names, and curves run along the plane.
   bool join = true;
 };
 
-/// A polyline on a surface, which becomes edges of the mesh, or a single point, which becomes a node.
+/// A polyline on a surface, which becomes edges of the mesh, or one point, which becomes a node.
 struct EmbeddedLine {
-  /// At most a thousandth of the model's diagonal away from the surface, in the unit of the mesh; one: a
-  /// point. All become nodes. Edges between two of them follow the surface in the plane through both and the
-  /// mean of its normals there.
+  /// All points become nodes; a single one stands for a point. They lie within 0.001 model diagonals of the
+  /// surface, in the unit of the mesh. An edge between two points follows the surface in the plane of both
+  /// points and the mean of its normals there.
   std::vector<Vec3> points;
-  std::string name;   ///< physical group; may be empty, and that of several
-  std::string where;  ///< as that of a curve
+  std::string name;   ///< physical group; may be empty, and several lines may share it
+  std::string where;  ///< as ModelCurve::where
 };
 
-/// Faces or curves of a surface that get a name, before compounds are made. All that is given must fit; what
-/// has names keeps them, and has this one, too.
+/// Selects faces or curves of a surface that get a name, before compounds are made. All given rules must
+/// match. Other names are kept.
 struct NamedPart {
   std::string name;               ///< physical group
-  bool curves = false;            ///< else faces
+  bool curves = false;            ///< select curves instead of faces
   std::vector<int> numbers = {};  ///< as `delquad info` lists them
-  std::string like = {};          ///< of the names that they have one: * stands for any text, ? for a letter
-  std::optional<std::array<Vec3, 2>> box = {};  ///< two opposite corners: it holds them whole
-  std::optional<Vec3> normal = {};              ///< faces look this way everywhere, within 5 degrees
-  std::optional<Vec3> at = {};                  ///< the one that is nearest to it
-  std::string where = "name";                   ///< who asked for it, for messages
+  std::string like = {};          ///< pattern for one of their names: * matches any text, ? one character
+  std::optional<std::array<Vec3, 2>> box = {};  ///< two opposite corners of a box that contains them
+  std::optional<Vec3> normal = {};              ///< direction of all normals, within 5 degrees
+  std::optional<Vec3> at = {};                  ///< selects the nearest one
+  std::string where = "name";                   ///< origin of the request, for messages
 };
 
-/// How the faces of a surface are made from what its model holds.
+/// Options for the faces of a surface.
 struct SurfaceSpec {
   Compounds compounds = Compounds::kNone;
-  std::vector<std::vector<int>> groups;  ///< of kGroups: tags of faces
-  /// Faces narrower than this length become part of a neighbour, curves shorter than it one with a neighbour
-  /// or a point; of planar models see leave_out_small(); 0: none.
+  std::vector<std::vector<int>> groups;  ///< for kGroups: tags of faces
+  /// Faces narrower than this length join a neighbor. Shorter curves join a neighbor or become a point.
+  /// Planar models use leave_out_small(). 0: none.
   double ignore_below = 0;
-  bool idealize = false;  ///< ignore_below is min_length of the criteria, where nothing else is said
-  std::vector<std::string> keep = {};  ///< what has these names is not left out
-  double fill_holes = 0;               ///< holes and tubes not wider than this diameter are closed; 0: none
-  /// Planar polylines lose the points that lie within so many sizes of what stays; 0: all points stay.
-  /// Absent: 0.1 of those of data, 0 of others.
+  bool idealize = false;               ///< ignore_below defaults to min_length of the criteria
+  std::vector<std::string> keep = {};  ///< names of parts that must stay
+  double fill_holes = 0;               ///< close holes and tubes up to this diameter; 0: none
+  /// Planar polylines lose points within this many sizes of the remaining line; 0: all points stay. Absent:
+  /// 0.1 for measured points, 0 for others.
   std::optional<double> simplify;
   std::optional<double> feature_angle;   ///< degrees in (0, 180]; absent: 40
   std::optional<double> weld_tolerance;  ///< part of the diagonal in [0, 0.1]; absent: 1e-9
   std::optional<MirrorPlane> mirror;
-  bool glue = false;  ///< bodies of a CAD model share the faces and curves at which they touch
-  /// Of the lengths that the mesh gets, for models that say theirs: um, mm, cm, m, km, in or ft; empty: mm
-  /// for STEP and IGES, else as the model has them.
+  bool glue = false;  ///< bodies of a CAD model share touching faces and curves
+  /// Unit of lengths in the mesh, for models with a unit: um, mm, cm, m, km, in or ft. Empty: mm for STEP and
+  /// IGES, else the unit of the model.
   std::string unit;
   std::vector<EmbeddedLine> embed;
   std::vector<NamedPart> names;
-  std::string where;  ///< who asked for it, for messages; empty: nothing was asked for
+  std::string where;  ///< origin of the request, for messages; empty: no request
 };
 
 }  // namespace delquad
