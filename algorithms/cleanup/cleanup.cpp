@@ -23,21 +23,21 @@ namespace delquad {
 
 namespace {
 
-/// Sweeps of local relocation within which an edit must settle.
+/// Sweeps of local relocation before an edit is judged.
 constexpr int kTrialSweeps = 4;
-/// And after an accepted one: sweeps, and the part of an edge below which a move calls for no more; in the
-/// end.
+/// Sweeps after an accepted edit. Moves below these parts of an edge do not activate neighbors; the last part
+/// is for the end.
 constexpr int kSettlingSweeps = 3;
 constexpr double kSettled = 0.08, kSettledAtLast = 0.02;
-/// How much of the mean quality around an edit that lowers the valence sum may cost.
+/// Largest loss of mean quality around an edit that lowers the valence sum.
 constexpr double kGreedyLoss = 0.02;
-/// An edit is given up where a sweep leaves it so much farther away than it may be.
+/// An edit is given up if a sweep leaves its loss this much above the limit.
 constexpr double kHopeless = 0.05;
 
-/// The state and the steps of one clean-up; clean_up() is its public face.
+/// State and steps of one clean-up.
 class CleanupProcess {
  public:
-  /// Block and size outlive this object.
+  /// `block` and `size` must outlive this object.
   CleanupProcess(const QuadBlock& block, const ParametricSize& size, const CleanupOptions& options)
       : block_(block),
         mesh_(block.mesh, block.first_held),
@@ -80,7 +80,7 @@ class CleanupProcess {
     drain();
   }
 
-  /// Edits of the elements around v, splits of v and of its neighbours.
+  /// Calls f for edits of the elements around v, and for splits of v and its neighbors.
   template <class F>
   void for_each_edit_near(int v, F&& f) {
     mesh_.for_each_out(v, [&](int h) {
@@ -91,7 +91,7 @@ class CleanupProcess {
     mesh_.for_each_out(v, [&](int h) { for_each_split(mesh_, mesh_.target(h), f); });
   }
 
-  /// Edits near any of these vertices (dead ones are skipped), each once.
+  /// Queues edits that lower the sum near these vertices, each once; dead vertices are skipped.
   void consider(std::span<const int> vertices) {
     const auto add = [&](const TreatmentMove& move) {
       const int gain = energy_.gain(move);
@@ -149,7 +149,7 @@ class CleanupProcess {
     return true;
   }
 
-  /// Applies the move and relocates around; takes all back if the quality falls by more than `loss`.
+  /// Applies the move and relocates around it. Undoes both if the quality falls by more than `loss`.
   bool attempt(const TreatmentMove& move, double loss) {
     const TouchedVertices touched = touched_by(mesh_, move);
     touched_.assign(touched.begin(), touched.end());
@@ -193,13 +193,13 @@ class CleanupProcess {
 
   void count(const TreatmentMove& move) {
     using S = CleanupSummary;
-    // By TreatmentMove::Kind; there are no insets.
+    // Indexed by TreatmentMove::Kind; insets do not occur.
     static constexpr int S::*kCounters[] = {&S::rotations, &S::rotations, &S::diamonds, &S::doublets,
                                             &S::rotations, &S::splits,    &S::openings, &S::openings};
     ++(summary_.*kCounters[move.kind]);
   }
 
-  /// The mean over the elements around these, and their least sine.
+  /// Returns the mean value and least sine of the elements around these vertices.
   ElementQuality quality(std::span<const int> vertices) {
     ElementQuality total;
     int n = 0;
@@ -233,14 +233,14 @@ class CleanupProcess {
   ValenceEnergy energy_;
   QuadRelocation relocation_;
   CleanupOptions options_;
-  long long quality_looks_ = 0;  ///< elements whose quality was looked at
-  long long most_looks_;         ///< until then edits are tried
+  long long quality_looks_ = 0;  ///< number of elements whose quality was measured
+  long long most_looks_;         ///< limit of looks, after which no edit is tried
   std::mt19937_64 random_;
   MoveQueue queue_;                   ///< edits that lower the sum
-  std::vector<int> visiting_, work_;  ///< irregular vertices of this round and of the next
-  std::vector<char> listed_;          ///< by vertex: in work_
-  /// What failed at a vertex since an edit changed what lies around: the last one by vertex (-1: none), and
-  /// before it.
+  std::vector<int> visiting_, work_;  ///< irregular vertices of this round and of the next one
+  std::vector<char> listed_;          ///< by vertex: whether it is in work_
+  /// Index in failed_ of the last edit that failed at a vertex since its surroundings changed; -1: none.
+  /// `before` links to the previous one.
   std::vector<int> last_failed_;
   struct Failed {
     TreatmentMove move;

@@ -6,8 +6,7 @@
 
 namespace delquad {
 
-/// What a stage of edits is: a process for each block, and the numbers of irregular vertices before and
-/// after.
+/// Runs an editing stage: one process for each block. Counts the irregular vertices before and after.
 template <class Process, class Summary, class StageOptions>
 QuadPatch edit_in_blocks(const QuadPatch& mesh, const ParametricSize& size, const StageOptions& options,
                          Summary* summary) {

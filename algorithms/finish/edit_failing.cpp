@@ -18,19 +18,19 @@
 namespace delquad {
 namespace {
 
-/// Edits that are tried in a patch, at most, and sweeps of relocation in which each settles.
+/// Most tried edits in a patch, and sweeps of relocation after each.
 constexpr int kMostEdits = 2000, kSettlingSweeps = 6;
-/// What one quad less that fails may cost in eta, summed up over those around it.
+/// Allowed loss of eta, summed over the quads around, for each failing quad that an edit removes.
 constexpr double kPriceOfFailing = 1;
-/// No quad falls below this part of kAskedEta, or of the worst around; below these where quads are given.
+/// Least part of kAskedEta, or of the worst eta around, that an edit must keep; for given quads 1.
 constexpr double kKeptPart = 0.9;
 
-/// Quads around some vertices: the worst, and sums.
+/// Sums and the worst value over quads around some vertices.
 struct QuadsAround {
   int failing = 0;
-  double lack = 0, worst = 1;  ///< of 1 - eta; eta
-  int ties = 0;                ///< what another face may have, too, as part_twins() would part it
-  Vec3 area = {};              ///< vector
+  double lack = 0, worst = 1;  ///< sum of 1 - eta; least eta
+  int ties = 0;                ///< chords and corners that another face may share, see part_twins()
+  Vec3 area = {};              ///< area vector
 };
 
 class FailingEdits {
@@ -67,7 +67,7 @@ class FailingEdits {
   }
 
  private:
-  /// Where it is, or where it comes to lie once it has moved in the plane.
+  /// Returns the known place of v; if v moved in the plane, the place of its lifted point.
   Vec3 place(int v) const {
     if (static_cast<std::size_t>(v) < places_.size() && mesh_.point(v) == positions_[v]) return places_[v];
     return lift(domain_, surface_.model, mesh_.point(v), hint_);
@@ -147,7 +147,7 @@ class FailingEdits {
     return moves;
   }
 
-  /// Makes an edit. What it gains, not more than 0 where it must not be.
+  /// Applies an edit. Returns its gain, at most 0 if it is not acceptable.
   double attempt(const TreatmentMove& move) {
     --trials_;
     const TouchedVertices touched = touched_by(mesh_, move);
@@ -160,7 +160,7 @@ class FailingEdits {
     const ElementQuality settled = in_plane();
     if (settled.least_sine < kept_ * std::min(flat.least_sine, sine_of_eta(kAskedEta)) ||
         settled.failing > flat.failing || settled.crowding > flat.crowding)
-      return 0;  // to ask for places in space takes longer
+      return 0;  // checked first, since places in space take longer
     const QuadsAround after = in_space();
     if (after.failing >= before.failing || after.ties > before.ties ||
         after.worst < kept_ * std::min(before.worst, kAskedEta) || some_turn_from(before.area))
@@ -191,11 +191,11 @@ class FailingEdits {
   QuadTopology mesh_;
   QuadRelocation relocation_;
   const SizeField& size_;
-  const double kept_;            ///< part of eta
-  std::vector<Vec2> positions_;  ///< of vertices, in the plane
-  std::vector<Vec3> places_;     ///< and in space, where they were there
+  const double kept_;            ///< least kept part of eta
+  std::vector<Vec2> positions_;  ///< places of vertices in the plane
+  std::vector<Vec3> places_;     ///< their places in space
   std::vector<int> touched_;     ///< vertices of the edit on trial
-  int trials_ = kMostEdits;      ///< left
+  int trials_ = kMostEdits;      ///< number of edits that may still be tried
   mutable int hint_ = -1;
   Marks met_;
 };

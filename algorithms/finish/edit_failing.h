@@ -6,10 +6,10 @@
 
 namespace delquad {
 
-/// Edits a patch's quads around those that fail in space, by is_beyond_asked() with sides over `size` or by
-/// kAskedWarp: of the rotations, collapses, openings and splits there the one that leaves the fewest of those
-/// around failing once its vertices have settled in the plane, where these are fewer and that costs not too
-/// much of their eta. Nodes of the boundary stay. Returns how many edits were made.
+/// Edits the quads of a patch around quads that fail in space. A quad fails by is_beyond_asked(), with sides
+/// over `size`, or by kAskedWarp. Edits are rotations, collapses, openings and splits; the best one must
+/// leave fewer failing quads after relocation at a small loss of eta. Boundary nodes stay. Returns the number
+/// of edits.
 int edit_failing(const AllPatches& in, std::size_t patch, const SizeField& size);
 
 }  // namespace delquad

@@ -22,32 +22,32 @@
 namespace delquad {
 namespace {
 
-/// Quads below this eta in space are lifted, in so many sweeps.
+/// Quads below this eta in space are lifted, in this many sweeps.
 constexpr double kPoorInSpace = 0.3;
 constexpr int kLiftSweeps = 20;
-/// Those beyond what is asked for are mended in so many.
+/// Sweeps that move failing quads.
 constexpr int kMendingSweeps = 6;
-/// Quads of this eta and less are flat: hardly better than inverted.
+/// Quads of at most this eta are flat, and hardly better than inverted.
 constexpr double kFlat = 1e-3;
-/// Rings are put around what is bad so many times at most.
+/// Passes that add rings.
 constexpr int kRingPasses = 3;
-/// Changes of quads around what is bad still: in all, quads in all the meshes of these, and of one quad.
+/// Trials of edits; quads of all meshes of these trials; edits of one quad.
 constexpr int kMostTrials = 200, kMostTried = 1'000'000, kWays = 21;
-/// Places of vertices that are tried in all, see lift_worst_on_surface(): some ten seconds.
+/// Limit of tried places of vertices, see lift_worst_on_surface(): about ten seconds.
 constexpr long long kMostCost = 8'000'000;
-/// And for mending: a second.
+/// Limit for failing quads: about a second.
 constexpr long long kMostMending = 1'000'000;
 
-/// What a quad counts that is inverted, folded or turned away from the model; one that is flat counts 1.
+/// Badness of a quad that is inverted, folded or turned away from the model; a flat quad has 1.
 constexpr int kUnsound = 1000;
 
-/// How bad quads are.
+/// Measures the badness of quads.
 class Badness {
  public:
   explicit Badness(const Mesh& fine) : fine_(fine) {}
 
-  /// `around`: sum of the unit normals of the quads around the corners. A quad that agrees with these is
-  /// taken to look the right way, for to ask the model takes long.
+  /// `around` is the sum of the unit normals of the quads at the corners. A quad that agrees with them counts
+  /// as well oriented, since the exact test is slow.
   int operator()(const std::array<Vec3, 4>& corners, const Vec3& around, int face) const {
     constexpr double kAgrees = 0.5;  // a cosine
     const Vec3 area = area_vector(corners);
@@ -73,7 +73,7 @@ class Badness {
   mutable std::optional<FaceNormals> normals_;
 };
 
-/// The patches that take part.
+/// Returns the patches of quads that are not left out.
 std::vector<std::size_t> patches_of_quads(const AllPatches& in) {
   std::vector<std::size_t> which;
   for (std::size_t i = 0; i < in.patches.size(); ++i)
@@ -81,7 +81,7 @@ std::vector<std::size_t> patches_of_quads(const AllPatches& in) {
   return which;
 }
 
-/// By the tracks of these patches. Returns how many vertices moved.
+/// Moves vertices on the tracks of these patches. Returns how many moved.
 template <class Move>
 int move_on_tracks(const AllPatches& in, const std::vector<std::size_t>& which, const Move& move) {
   const PreparedSurface& surface = *in.prepared.surface;
@@ -107,10 +107,10 @@ struct BadQuad {
   int badness;
   std::size_t patch;
   int quad;
-  LiftedBall around;  ///< what a change of it may move
+  LiftedBall around;  ///< region that an edit may change
 };
 
-/// Around the middle of a quad, so many times as far as its corners.
+/// Returns the ball around the middle of a quad; its radius is kReach times the farthest corner.
 LiftedBall ball_around(const std::array<Vec3, 4>& corners) {
   constexpr double kReach = 5;
   LiftedBall ball{0.25 * (corners[0] + corners[1] + corners[2] + corners[3]), 0};
@@ -118,7 +118,7 @@ LiftedBall ball_around(const std::array<Vec3, 4>& corners) {
   return ball;
 }
 
-/// The places of a patch's vertices in space.
+/// Returns the places in space of the vertices of a patch.
 std::vector<Vec3> places_of(const AllPatches& in, std::size_t patch) {
   std::vector<Vec3> places;
   for (const int node : in.prepared.patches[patch].boundary.point_node)
@@ -128,8 +128,8 @@ std::vector<Vec3> places_of(const AllPatches& in, std::size_t patch) {
   return places;
 }
 
-/// Of these patches the one, those that reach into the ball, and all that have nodes with these in common:
-/// lifting there touches no others.
+/// Returns patch `one`, patches that reach into the ball, and patches that share nodes with these. Lifting in
+/// the ball touches no others.
 std::vector<std::size_t> patches_near(const AllPatches& in, const std::vector<std::size_t>& which,
                                       std::size_t one, const LiftedBall& ball) {
   const auto nodes_of = [&](std::size_t p) -> const std::vector<int>& {
@@ -147,7 +147,7 @@ std::vector<std::size_t> patches_near(const AllPatches& in, const std::vector<st
   return found;
 }
 
-/// The bad quads of a patch, in space.
+/// Returns the bad quads of a patch, measured in space.
 std::vector<BadQuad> bad_quads(const AllPatches& in, const Badness& badness_of, std::size_t patch) {
   const QuadPatch& mesh = in.patches[patch].quads;
   const std::vector<Vec3> place = places_of(in, patch);
@@ -171,7 +171,7 @@ std::vector<BadQuad> bad_quads(const AllPatches& in, const Badness& badness_of, 
   return bad;
 }
 
-/// The worst come first.
+/// Returns the bad quads of these patches, worst first.
 std::vector<BadQuad> all_bad_quads(const AllPatches& in, const Badness& badness_of,
                                    const std::vector<std::size_t>& which) {
   std::vector<std::vector<BadQuad>> found(which.size());
@@ -190,7 +190,7 @@ int total(const std::vector<BadQuad>& bad) {
   return sum;
 }
 
-/// All that a change of quads touches, to come back to.
+/// Saved patches and nodes, to undo an edit.
 class State {
  public:
   State(const AllPatches& in, const std::vector<std::size_t>& which)
@@ -209,7 +209,7 @@ class State {
   std::vector<PatchMesh> patches_;
 };
 
-/// Writes a patch's quads back, and places in space: those of vertices that were there stay.
+/// Writes the quads and places in space of a patch back. Old vertices keep their places.
 void store(const AllPatches& in, std::size_t p, const QuadTopology& mesh) {
   const PreparedSurface& surface = *in.prepared.surface;
   PatchMesh& patch = in.patches[p];
@@ -225,7 +225,7 @@ void store(const AllPatches& in, std::size_t p, const QuadTopology& mesh) {
   patch.quads = mesh.to_patch();
 }
 
-/// Lets the vertices from slot `first` on settle in the plane.
+/// Relocates the vertices from slot `first` on in the plane.
 void settle(const QuadTopology& mesh, QuadRelocation& relocation, int first) {
   constexpr int kSweeps = 8;
   relocation.adopt_new_vertices(first);
@@ -233,7 +233,7 @@ void settle(const QuadTopology& mesh, QuadRelocation& relocation, int first) {
     for (int v = first; v < mesh.vertex_slots(); ++v) relocation.step(v);
 }
 
-/// Puts a ring inside each unsound quad. Returns how many.
+/// Adds a ring inside each unsound quad. Returns how many.
 int add_rings(const AllPatches& in, const std::vector<BadQuad>& bad) {
   std::map<std::size_t, std::vector<int>> quads_of;  // by patch
   for (const BadQuad& b : bad)
@@ -255,8 +255,8 @@ int add_rings(const AllPatches& in, const std::vector<BadQuad>& bad) {
   return rings;
 }
 
-/// The changes around a quad that are tried: it is merged away, an edge of it turns, opens to two more quads,
-/// or it gets a ring. False where that cannot be.
+/// Applies edit `way` to a quad: it collapses, rotates or opens an edge, or adds a ring. Returns false if it
+/// is impossible.
 bool change(QuadTopology& mesh, int quad, int way) {
   const int h = 4 * quad + way % 4, kind = way / 4;
   const bool counterclockwise = kind % 2 == 0, is_inner = mesh.twin(h) >= 0;
@@ -269,7 +269,7 @@ bool change(QuadTopology& mesh, int quad, int way) {
   return false;
 }
 
-/// The bad quads once those of the patches `changed` are others.
+/// Returns the bad quads after `now` replaces the bad quads of patches `changed`.
 std::vector<BadQuad> with_changed(std::vector<BadQuad> bad, const std::vector<std::size_t>& changed,
                                   const std::vector<BadQuad>& now) {
   std::erase_if(bad, [&](const BadQuad& b) { return std::ranges::binary_search(changed, b.patch); });
@@ -278,7 +278,7 @@ std::vector<BadQuad> with_changed(std::vector<BadQuad> bad, const std::vector<st
   return bad;
 }
 
-/// Changes the quads around the first of the bad ones that this helps, and lifts. False where nothing does.
+/// Edits the quads around the first bad quad that improves, and lifts them. Returns false if none improves.
 bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector<std::size_t>& which,
               std::vector<BadQuad>& bad, int& trials, Budget& cost, LiftingSummary& summary) {
   for (const auto& [badness, p, quad, around] : bad) {
@@ -322,7 +322,7 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
   for (const std::size_t i : which) n_quads += in.patches[i].quads.quads.size();
   const int most = static_cast<int>(std::min<std::size_t>(kMostTrials, kMostTried / n_quads));
   int trials = most;
-  // Rings make a mesh less regular: one that was given gets them last.
+  // Rings make a mesh less regular, so a given mesh gets them last.
   if (in.prepared.surface->given)
     while (mend_one(in, badness_of, which, bad, trials, cost, summary)) continue;
   trials = most;
@@ -359,7 +359,7 @@ FailingRepairSummary repair_failing_quads(const AllPatches& in, const SizeField&
     });
   };
   move();
-  if (!in.prepared.boundary.periodic_faces.empty()) return summary;  // faces that are images stay so
+  if (!in.prepared.boundary.periodic_faces.empty()) return summary;  // images of faces must not change
   std::vector<int> edits(which.size());
   parallel_for(
       which.size(), [&](std::size_t k) { edits[k] = edit_failing(in, which[k], size); },

@@ -6,15 +6,18 @@
 #include "base/counters.h"
 #include "patches/places_inside.h"
 
+// This header has the last repairs of quads in space. The pipeline uses it after its stages.
+
 namespace delquad {
 
-/// What became of quads that were bad in space, at the end.
+/// Counts of lift_bad_quads().
 struct LiftingSummary {
   int moved = 0;       ///< vertices
-  int rings = 0;       ///< of quads, put inside those that stayed inverted or folded
-  int mended = 0;      ///< changes of the quads around those
-  long long cost = 0;  ///< places of vertices that were tried, those on CAD ten times
-  int stopped = 0;     ///< the tag of the face with the worst quad, where it may not cost more; 0: it ended
+  int rings = 0;       ///< rings of quads inside quads that stayed inverted or folded
+  int mended = 0;      ///< edits of quads around bad ones
+  long long cost = 0;  ///< tried places of vertices; a place on CAD counts ten times
+  int stopped = 0;     ///< tag of the face with the worst quad if the limit of cost ended the work; 0: it did
+                       ///< not
 };
 
 template <>
@@ -26,10 +29,10 @@ struct Counters<LiftingSummary> {
                  counter("cost", &S::cost), counter("stopped", &S::stopped)};
 };
 
-/// The work of repair_failing_quads().
+/// Counts of repair_failing_quads().
 struct FailingRepairSummary {
   int moved = 0;   ///< vertices
-  int edited = 0;  ///< changes of the quads around those that failed
+  int edited = 0;  ///< edits of quads around failing ones
 };
 
 template <>
@@ -39,17 +42,16 @@ struct Counters<FailingRepairSummary> {
   static constexpr auto all = std::tuple{counter("moved", &S::moved), counter("edited", &S::edited)};
 };
 
-/// Quads of a surface may be worse in space than in the plane in which they were treated, and nodes on curves
-/// may have to give way: lifts those that are poor in space, see lift_worst_on_surface(). What is inverted,
-/// folded or turned away from the model then gets a ring of quads inside, which is lifted again and kept if
-/// fewer are bad. Last, quads are merged, and edges turned or opened, around what is bad still or flat, one
-/// at a time, and what helps is kept. Patches of quads hold their places in space afterwards. Returns what
-/// was done.
+/// Repairs quads that are worse in space than in the plane of their patch. First it lifts quads that are poor
+/// in space (lift_worst_on_surface()). Then each inverted, folded or turned quad gets a ring of quads inside.
+/// The ring is lifted and kept if fewer quads are bad. Last it tries to merge quads and to rotate or open
+/// edges around bad or flat quads, one at a time, and keeps improvements. It stores the places in space of
+/// all patches of quads.
 LiftingSummary lift_bad_quads(const AllPatches& in);
 
-/// Repairs the quads of a sound mesh that fail by `size`. Moves come first, see mend_failing_on_surface(),
-/// then edits, see edit_failing(), and moves once more. Nothing happens if a quad is inverted, folded or
-/// turned away from the model.
+/// Repairs quads of a sound mesh that fail by `size`: by moves (mend_failing_on_surface()), edits
+/// (edit_failing()), and moves again. It does nothing if a quad is inverted, folded or turned away from the
+/// model.
 FailingRepairSummary repair_failing_quads(const AllPatches& in, const SizeField& size);
 
 }  // namespace delquad

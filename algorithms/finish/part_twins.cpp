@@ -19,12 +19,12 @@
 namespace delquad {
 namespace {
 
-/// An edge of a patch between two points of its boundary.
+/// Edge of a patch between two points of its boundary.
 struct PartEdge {
   std::array<int, 2> nodes;  ///< ascending
-  bool is_chord;             ///< it lies inside
+  bool is_chord;             ///< whether it lies inside
   int patch;
-  std::array<int, 2> ends;  ///< points of the patch
+  std::array<int, 2> ends;  ///< points of the patch at its ends
   friend auto operator<=>(const PartEdge&, const PartEdge&) = default;
 };
 
@@ -38,14 +38,14 @@ void add_sides(const std::vector<std::array<int, N>>& elements, int n_boundary,
     }
 }
 
-/// A patch, with its nodes or with those of its image.
+/// A patch with its nodes or the nodes of its image.
 struct PatchNodes {
   int patch;
-  std::vector<int> node;  ///< of the points of its boundary
+  std::vector<int> node;  ///< node of each boundary point
 };
 
-/// Those that take part, and then their images. Nodes of curves inside of faces, which have none, are less
-/// than 0 there.
+/// Returns the patches in use, then their images. Image nodes of curves inside faces do not exist and are
+/// negative.
 std::vector<PatchNodes> patches_and_images(const AllPatches& in) {
   std::vector<PatchNodes> all;
   for (std::size_t p = 0; p < in.patches.size(); ++p)
@@ -88,7 +88,7 @@ void add_edges(const AllPatches& in, const PatchNodes& nodes, std::vector<PartEd
   }
 }
 
-/// By patch, the ends of the chords that have to go.
+/// Returns the ends of the chords to remove, by patch.
 std::map<int, std::vector<std::array<int, 2>>> twin_chords(const AllPatches& in) {
   std::vector<PartEdge> edges;
   for (const PatchNodes& patch : patches_and_images(in)) add_edges(in, patch, edges);
@@ -109,10 +109,10 @@ void part_chord(TriPatch& mesh, std::array<int, 2> ends) {
         return split_side(mesh, static_cast<int>(t), k, 0.5 * (mesh.points[a] + mesh.points[b]));
 }
 
-/// A corner is not opened where that leaves a quad below this eta, or this part of the sine that it had.
+/// A corner is opened only if all quads keep this eta, or this part of its sine.
 constexpr double kOpenCornerEta = 0.1, kOpenCornerPart = 0.3;
 
-/// The quads around the vertices from slot `first` on, once these have settled.
+/// Relocates the vertices from slot `first` on. Returns the quality of the quads around them.
 ElementQuality once_settled(QuadTopology& mesh, QuadRelocation& relocation, int first) {
   constexpr int kSweeps = 8;
   const int end = mesh.vertex_slots();
@@ -144,8 +144,8 @@ ElementQuality with_ring(QuadTopology& mesh, QuadRelocation& relocation, int qua
   return once_settled(mesh, relocation, first);
 }
 
-/// A node between two faces that has one quad of each: these share two sides. Its places on both boundaries.
-/// Or the end of a cut with one quad around it, whose sides there are one edge in space: one place, twice.
+/// A node with one quad in each of two faces, which share two sides, as a point of both patches. At the end
+/// of a cut with one quad, both points are the same.
 struct TwinCorner {
   std::array<int, 2> patch, point;
 };
@@ -153,7 +153,7 @@ struct TwinCorner {
 std::vector<TwinCorner> twin_corners(const AllPatches& in) {
   struct Corner {
     int node;
-    std::array<int, 2> beside;  ///< nodes at the other ends of the quad's sides there, ascending
+    std::array<int, 2> beside;  ///< nodes at the other ends of its two sides, ascending
     int patch, point;
     auto operator<=>(const Corner&) const = default;
   };
@@ -179,7 +179,7 @@ std::vector<TwinCorner> twin_corners(const AllPatches& in) {
   return twins;
 }
 
-/// Of the k-th face at the corner, in its plane.
+/// Returns the angle at the corner in the plane of the k-th face, radians.
 double angle_at(const AllPatches& in, const TwinCorner& corner, int k) {
   const QuadPatch& mesh = in.patches[corner.patch[k]].quads;
   const int v = corner.point[k];
@@ -194,14 +194,14 @@ double angle_at(const AllPatches& in, const TwinCorner& corner, int k) {
   return 0;
 }
 
-/// What a boundary vertex with one quad may get a second one by, and the quads around then.
+/// A patch whose boundary vertex got a second quad, and the quality around it.
 struct Opened {
   QuadPatch mesh;
   ElementQuality quality;
 };
 
-/// Opens one of the sides that do not touch it, or puts a ring inside the quad. None where that would leave
-/// bad quads.
+/// Opens a side that does not touch the vertex, or adds a ring inside its quad. Returns nothing if that
+/// leaves bad quads.
 std::optional<Opened> open_corner(const QuadPatch& patch, int v, const ParametricSize& size) {
   QuadTopology mesh(patch);
   QuadRelocation relocation(mesh, size);
@@ -237,7 +237,7 @@ std::optional<Opened> open_corner(const QuadPatch& patch, int v, const Parametri
   return Opened{mesh.to_patch(), least};
 }
 
-/// Returns how many were opened.
+/// Opens these chords. Returns how many.
 int open_chords(QuadPatch& patch, const std::vector<std::array<int, 2>>& chords, const ParametricSize& size) {
   int opened = 0;
   QuadTopology mesh(patch);
@@ -265,7 +265,7 @@ int open_chords(QuadPatch& patch, const std::vector<std::array<int, 2>>& chords,
   return opened;
 }
 
-/// The patches that are one quad each on nodes on which a patch before is one quad.
+/// Returns the patches of one quad whose nodes an earlier patch of one quad also has.
 std::vector<int> twin_quads(const AllPatches& in) {
   std::vector<std::pair<std::array<int, 4>, int>> quads;
   for (const auto& [p, node] : patches_and_images(in)) {
@@ -324,7 +324,7 @@ PartingSummary part_twins(const AllPatches& in) {
       };
       return std::ranges::count_if(in.patches[corner.patch[k]].quads.quads, has_it) > 1;
     };
-    if (is_open(0) || is_open(1)) {  // by now
+    if (is_open(0) || is_open(1)) {  // opened by an earlier corner
       ++summary.corners;
       continue;
     }
@@ -333,7 +333,7 @@ PartingSummary part_twins(const AllPatches& in) {
       opened[k] = open_corner(in.patches[corner.patch[k]].quads, corner.point[k],
                               *in.prepared.patches[corner.patch[k]].size);
     ++(opened[0] || opened[1] ? summary.corners : summary.corners_left);
-    // The wider angle has more room for two.
+    // The wider angle leaves more space for two quads.
     int k = angle_at(in, corner, 0) >= angle_at(in, corner, 1) ? 0 : 1;
     if (!opened[k] || (opened[1 - k] && opened[1 - k]->quality.failing < opened[k]->quality.failing))
       k = 1 - k;

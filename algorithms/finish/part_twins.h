@@ -5,15 +5,17 @@
 #include "base/counters.h"
 #include "patches/places_inside.h"
 
+// This header removes duplicate edges and quads between patches. The pipeline uses it after each stage.
+
 namespace delquad {
 
-/// What part_twins() did, over all stages.
+/// Counts of part_twins() over all stages.
 struct PartingSummary {
-  int chords = 0;        ///< parted
-  int left = 0;          ///< chords that the quads beside did not allow to part
-  int rings = 0;         ///< of quads, put inside of faces of one quad
-  int corners = 0;       ///< nodes with two quads in all, of which one face got a second one
-  int corners_left = 0;  ///< those where that would have left bad quads
+  int chords = 0;        ///< chords that were split
+  int left = 0;          ///< chords that could not be opened
+  int rings = 0;         ///< rings of quads inside faces of one quad
+  int corners = 0;       ///< nodes with only two quads, where one face got a second quad
+  int corners_left = 0;  ///< such nodes where opening would leave bad quads
 };
 
 template <>
@@ -25,16 +27,14 @@ struct Counters<PartingSummary> {
                  counter("corners", &S::corners), counter("corners_left", &S::corners_left));
 };
 
-/// Parts what two patches of a surface have in common besides the curves between them.
+/// Removes edges and quads that two patches of a surface share besides their common curves.
 ///
-/// Where nodes are few, as on a small round curve between faces that bend the same way, both may have a
-/// chord, an edge inside, between the same two nodes of their boundaries, or a chord beside an edge of a
-/// curve: in space these are one edge, with three or four elements. All but one of them (all, beside an edge
-/// of a curve) are parted: of triangles by a point in the middle, of quads by an opening, see
-/// QuadTopology::open, and left where the quads beside do not allow it. Of two faces that are one quad each
-/// on the same nodes, one gets a ring of quads. A node with one quad of each of two faces, which share two
-/// sides then, gets a third by an opening, as readers take two sides in common for an error. Returns what was
-/// done.
+/// If nodes are few, as on a small round curve, both patches may have a chord (an inner edge) between the
+/// same two boundary nodes. A chord may also lie beside an edge of a curve. Such chords are one edge in
+/// space, with three or four elements. All but one are split, or all beside an edge of a curve: triangles by
+/// a midpoint, quads by QuadTopology::open if possible. If two faces are one quad each on the same nodes, one
+/// gets a ring of quads. A node with one quad in each of two faces gets a third quad by an opening, since
+/// readers refuse two common sides.
 PartingSummary part_twins(const AllPatches& in);
 
 }  // namespace delquad

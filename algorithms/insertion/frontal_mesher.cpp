@@ -16,25 +16,25 @@ namespace delquad {
 
 namespace {
 
-constexpr unsigned char kAllTried = 7;  // one bit a side
-constexpr std::size_t kBlock = 4096;    // triangles that are checked together, whatever the threads
+constexpr unsigned char kAllTried = 7;  // one bit for each side
+constexpr std::size_t kBlock = 4096;    // triangles that are checked together, for any number of threads
 constexpr std::array<int, 3> kNext = {1, 2, 0}, kPrev = {2, 0, 1};
 
 struct TriangleState {
-  double h = 0;             ///< dimensionless size
-  double delta = INFINITY;  ///< delta' at the centroid, where it was found to be too small for the triangle
-  unsigned stamp = 0;       ///< counts the triangles that have used this index
-  unsigned char front = 0;  ///< bit k: side k belongs to the frozen front of this layer
-  unsigned char tried = 0;  ///< bit k: an insertion over side k was refused
-  bool checked = false;     ///< resolved also by the size at its own centroid
-  bool listed = false;      ///< waits for the next layer
+  double h = 0;             ///< dimensionless size over the ideal one
+  double delta = INFINITY;  ///< delta' at the centroid, if it was too small for the triangle
+  unsigned stamp = 0;       ///< number of triangles that have used this index
+  unsigned char front = 0;  ///< bit k: side k is in the frozen front of this layer
+  unsigned char tried = 0;  ///< bit k: insertion over side k was refused
+  bool checked = false;     ///< resolved also at its own centroid
+  bool listed = false;      ///< is queued for the next layer
 };
 
 struct FrontEntry {
   double h;
   int triangle;
   unsigned stamp;
-  /// Largest first; ties by index, for the same mesh everywhere.
+  /// Orders by size, then by index, so that the mesh is reproducible.
   bool operator<(const FrontEntry& o) const { return h != o.h ? h < o.h : triangle > o.triangle; }
 };
 
@@ -55,8 +55,8 @@ class FrontalMesher {
     for (int t = 0; t < static_cast<int>(states_.size()); ++t) classify_new(t);
   }
 
-  /// Ends: a point is at least a part of delta' away from the vertices around, so that sizes above 0 leave
-  /// room for finitely many; a side over which none may go is not tried again before its triangle changes.
+  /// The run ends: points keep a part of delta' from vertices around, so sizes above 0 allow finitely many. A
+  /// side that refused all points is tried again only if its triangle changes.
   FrontalSummary run() {
     do {
       while (start_layer()) {
@@ -86,8 +86,8 @@ class FrontalMesher {
   }
 
   bool resolved(int t) const { return states_[t].h <= h_max_; }
-  /// Nothing could be inserted over its front: its neighbours treat it as resolved, so that the front goes on
-  /// behind it.
+  /// Returns whether t is resolved or refused all points over its front. Neighbors then treat it as resolved,
+  /// and the front continues behind it.
   bool settled(int t) const { return resolved(t) || states_[t].tried; }
 
   std::array<Vec2, 3> corners(int t) const {
@@ -122,7 +122,7 @@ class FrontalMesher {
     }
   }
 
-  /// Freezes the front: the sides of unresolved triangles towards settled ones and the boundary.
+  /// Freezes the front: sides of unresolved triangles beside settled triangles and the boundary.
   bool start_layer() {
     for (const int t : next_layer_) {
       TriangleState& s = states_[t];
@@ -139,7 +139,7 @@ class FrontalMesher {
     return !queue_.empty();
   }
 
-  /// Inserts a point over one of the triangle's front sides; marks the sides where none can go.
+  /// Inserts a point over a front side of the triangle, and marks sides that refuse all points.
   void advance(int t) {
     for (int k = 0; k < 3; ++k) {
       if (!(states_[t].front & (1 << k))) continue;
@@ -152,7 +152,7 @@ class FrontalMesher {
           continue;
         }
         if (states_[t].stamp != stamp) return;
-        break;  // inserted elsewhere: the triangle outlived it
+        break;  // inserted elsewhere: the triangle still exists
       }
       states_[t].tried |= 1 << k;
       states_[t].front &= ~(1 << k);
@@ -160,7 +160,7 @@ class FrontalMesher {
     if (states_[t].tried != kAllTried || !split_at_centroid(t)) wake_neighbours(t);
   }
 
-  /// Last chance of a triangle over whose sides no point can go: its edges are much longer than delta'
+  /// Tries the centroid of a triangle whose sides refuse all points; its edges are much longer than delta'
   /// inside.
   bool split_at_centroid(int t) {
     const auto c = corners(t);
@@ -224,7 +224,7 @@ class FrontalMesher {
       if (resolved(n)) {
         wake_neighbours(n);
       } else if (inherited_[i]) {
-        states_[n].front = 1;  // side 0 lies opposite to the new point
+        states_[n].front = 1;  // side 0 is opposite to the new point
         queue_.push({states_[n].h, n, states_[n].stamp});
       }
     }
@@ -232,8 +232,8 @@ class FrontalMesher {
     return true;
   }
 
-  /// Vertices may all miss a narrow minimum of the size field: asks once at each resolved triangle's
-  /// centroid.
+  /// Checks each resolved triangle once at its centroid, since all vertices may miss a narrow minimum of the
+  /// size.
   bool recheck_resolved() {
     const std::size_t n = states_.size();
     std::vector<std::vector<int>> too_large((n + kBlock - 1) / kBlock);
@@ -246,7 +246,7 @@ class FrontalMesher {
     return !next_layer_.empty();
   }
 
-  /// False where a triangle, resolved so far, is no more.
+  /// Returns false if a resolved triangle is too large at its centroid.
   bool recheck(int t) {
     TriangleState& s = states_[t];
     if (s.checked || !resolved(t)) return true;
@@ -275,7 +275,7 @@ class FrontalMesher {
   FrontalSummary summary_;
 };
 
-/// Outside of its range the front never ends, or nothing can be inserted.
+/// Outside of its range the front never ends, or no point can be inserted.
 const OptionTable<FrontalOptions>& insertion_table() {
   static const auto all = OptionTable<FrontalOptions>("insertion", "options of F, D and P")
                               .add({.name = "h_max",

@@ -9,19 +9,20 @@
 #include "delquad/mesh.h"
 #include "delquad/options.h"
 
+// This header has the insertion of points, stages F, D and P. Pipelines, layouts and cross fields use it.
+
 namespace delquad {
 
-/// Points whose height above a boundary edge is below this times delta' are refused.
+/// Least height of a point over a boundary edge, in delta'.
 inline constexpr double kBoundaryHeight = 0.5;
 
-/// What insertion (F, D, P) can be told.
+/// Options of insertion (F, D, P).
 struct FrontalOptions {
-  /// A triangle is resolved when its dimensionless size is at most h_max (1: ideal). 0: the strategy's own
-  /// default.
+  /// Largest size of resolved triangles over their ideal size. 0: default of the strategy.
   double h_max = 0;
-  /// A point nearer than rejection * delta' to a vertex (in the strategy's norm) is refused.
+  /// Least distance of a point from vertices, in delta' and the norm of the strategy.
   double rejection = 0.7;
-  /// The most points to insert; the summary says when it stopped the mesher.
+  /// Limit of inserted points; the summary tells whether it stopped the mesher.
   long long max_points = 200'000'000;
 };
 
@@ -33,11 +34,11 @@ enum class FrontalTermination { kResolved, kMaxPoints };
 struct FrontalSummary {
   FrontalTermination termination = FrontalTermination::kResolved;
   long long inserted = 0;    ///< points
-  long long packed = 0;      ///< of these, by packing (P)
+  long long packed = 0;      ///< inserted by packing (P)
   long long rejected = 0;    ///< candidate points refused
-  long long unresolved = 0;  ///< triangles left above h_max because every candidate was refused
+  long long unresolved = 0;  ///< triangles above h_max because all their candidates were refused
   int layers = 0;
-  double h_max = 0;  ///< that was used: the option's or the strategy's own
+  double h_max = 0;  ///< value in use, of the option or of the strategy
   double seconds = 0;
 };
 
@@ -60,35 +61,35 @@ struct Counters<FrontalSummary> {
                  counter("h_max", &S::h_max, Over::kMost), counter("seconds", &S::seconds));
 };
 
-/// Frontal Delaunay mesher [paper, section 5]: layer by layer, largest active triangle first, one strategy
-/// for where the point goes. Connects by the ordinary (L2) constrained Delaunay kernel, as the paper does.
+/// Meshes a patch by frontal Delaunay insertion [paper, section 5]: layer by layer, largest active triangle
+/// first. `placement` chooses the points. They are connected by the constrained Delaunay kernel of the L2
+/// norm, as in the paper.
 TriPatch mesh_frontal(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options = {},
                       FrontalSummary* summary = nullptr);
 
-/// The same, from a constrained Delaunay triangulation that may have points inside already.
+/// Does the same from a constrained Delaunay triangulation, which may have points inside.
 TriPatch fill_frontal(const TriPatch& initial, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options = {},
                       FrontalSummary* summary = nullptr);
 
-/// Whether a boundary strays from the cross: beside more than half of its length there are grids, by cross
-/// and size, whose rows do not run along it, nor into it at a right angle.
+/// Returns whether a boundary strays from the cross. Then grids by cross and size lie beside more than half
+/// of its length, and their rows are neither parallel nor normal to it.
 bool is_astray(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size);
 
-/// P: packs vertices along the cross, then fills what is left by the frontal mesher with `filler`.
+/// Stage P: packs vertices along the cross, then fills the rest with the frontal mesher and `filler`.
 ///
-/// First in, first out from the boundary's points (where the boundary is astray, from the point farthest from
-/// it), each vertex proposes its four neighbours in a grid: one step of length delta' along each direction of
-/// the cross, by the midpoint rule. A proposal is refused outside the domain and by the same tests as in
-/// mesh_frontal(). A vertex knows of no front and no triangles, so that legs and diagonals of half squares
-/// cannot be taken for each other.
+/// A queue starts with the points of the boundary, or with the innermost point if the boundary is astray.
+/// Each vertex proposes its four neighbors in a grid: one step of length delta' along each direction of the
+/// cross, by the midpoint rule. A proposal is refused outside the domain and by the tests of mesh_frontal().
+/// No front or triangle matters, so legs and diagonals of half squares cannot be confused.
 ///
-/// After the packing of parallelograms in Gmsh (algorithm 9).
+/// The method follows the packing of parallelograms in Gmsh (algorithm 9).
 TriPatch mesh_packing(const PatchBoundary& boundary, const PointPlacement& filler, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options = {},
                       FrontalSummary* summary = nullptr);
 
-/// D: mesh_frontal(), but mesh_packing() where the boundary is astray, which would lead the front astray.
+/// Stage D: mesh_frontal(), or mesh_packing() if the boundary is astray, which would misguide the front.
 TriPatch mesh_delquad(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options = {},
                       FrontalSummary* summary = nullptr);

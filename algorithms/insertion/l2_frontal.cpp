@@ -8,13 +8,13 @@ namespace delquad {
 
 namespace {
 
-/// Frontal Delaunay insertion in the L2 norm [rebay1993], letter F: the ideal triangle is equilateral with
+/// Frontal Delaunay insertion in the L2 norm [rebay1993], stage F. The ideal triangle is equilateral with
 /// side delta'.
 class L2Frontal final : public PointPlacement {
  public:
   std::string name() const override { return "L2 frontal"; }
-  /// Where a large uniform mesh has 2/sqrt 3 times the vertices of D's [section 1]. The reference
-  /// implementation's 1.22 gives 7 % more than that.
+  /// At this value a large uniform mesh has 2/sqrt 3 times as many vertices as by D [paper, section 1]. The
+  /// value 1.22 of the reference implementation gives 7 % more.
   double default_h_max() const override { return 1.4; }
 
   double triangle_size(const std::array<Vec2, 3>& t, Cross, double delta) const override {
@@ -30,7 +30,7 @@ class L2Frontal final : public PointPlacement {
     const double length = norm(pq), p = length / 2;
     const Vec2 up = (1 / length) * perp(pq);
     const Vec2 middle = 0.5 * (edge.p + edge.q), to_apex = edge.apex - middle;
-    // Height of the active triangle's circumcentre over the edge.
+    // Height of the circumcenter of the active triangle over the edge.
     const double q = (dot(to_apex, to_apex) - p * p) / (2 * dot(to_apex, up));
     double radius = std::max(edge.delta / std::numbers::sqrt3, p);
     if (q > 0) radius = std::min(radius, (p * p + q * q) / (2 * q));

@@ -40,26 +40,26 @@ class Adaptation {
   }
 
  private:
-  /// An edge with its length, a < b.
+  /// Edge with its length; a < b.
   struct Edge {
     double length;
     int a, b;
   };
 
-  /// `near` by value: it may lie in the list that grows here.
+  /// `near` is a copy, since it may lie in the list that grows here.
   void sample(int i, VertexFields near) {
     if (static_cast<std::size_t>(i) >= fields_.size()) fields_.resize(i + 1);
     fields_[i] = sample_fields(cross_, size_, mesh_.point(i), near);
   }
 
-  /// Axes and length by which vectors are measured.
+  /// Axes and length of a measure of vectors.
   struct Frame {
     Vec2 e;
     double delta;
     Vec2 of(Vec2 d) const { return (1 / delta) * Vec2{dot(e, d), ::delquad::cross(e, d)}; }
     Vec2 to_plane(Vec2 f) const { return delta * (f.x * e + f.y * perp(e)); }
   };
-  /// The means at some vertices.
+  /// Returns the mean frame at some vertices.
   template <std::size_t N>
   Frame frame_of(const std::array<int, N>& vertices) const {
     Cross sum = {0, 0};
@@ -76,7 +76,7 @@ class Adaptation {
     return largest(frame_of(std::array{a, b}).of(mesh_.point(b) - mesh_.point(a)));
   }
 
-  /// 0 when it is flat or upside down.
+  /// Returns 0 if the triangle is flat or inverted.
   double measure(const Frame& frame, int a, int b, int c) const {
     const Vec2 p = mesh_.point(a), q = mesh_.point(b), r = mesh_.point(c);
     if (orient2d(p, q, r) <= 0) return 0;
@@ -85,7 +85,7 @@ class Adaptation {
     return ::delquad::cross(q - p, r - p) / (frame.delta * frame.delta * longest * longest);
   }
 
-  /// Inner edges whose length is `wanted`, by vertices.
+  /// Returns inner edges whose length is `wanted`, with their vertices.
   template <class Wanted>
   std::vector<Edge> inner_edges(Wanted wanted) const {
     std::vector<Edge> edges;
@@ -134,7 +134,7 @@ class Adaptation {
     for (const Edge& e : edges) {
       check_cancelled();
       if (mesh_.find_inner_edge(e.a, e.b).t < 0 || length(e.a, e.b) >= kShortest) continue;
-      // The younger vertex goes, if it can.
+      // The younger vertex is removed if possible.
       collapses += collapse(e.b, e.a) || collapse(e.a, e.b);
     }
     return collapses;
@@ -152,14 +152,14 @@ class Adaptation {
       if (a == to || b == to) continue;
       if (orient2d(mesh_.point(to), mesh_.point(a), mesh_.point(b)) <= 0) return false;
     }
-    if (common != 2) return false;  // else an edge would be there twice
+    if (common != 2) return false;  // else an edge would exist twice
     mesh_.collapse(from, to, star_);
     return true;
   }
 
   long long swap_edges() {
     constexpr int kPasses = 10;
-    constexpr double kBetter = 1e-6;  // far above rounding, so that no edge goes to and fro
+    constexpr double kBetter = 1e-6;  // far above rounding, so that no edge swaps back and forth
     long long swaps = 0;
     for (int pass = 0, changed = 1; pass < kPasses && changed > 0; ++pass) {
       changed = 0;
@@ -193,8 +193,8 @@ class Adaptation {
     return moves;
   }
 
-  /// Sum over the edges of i, when it lies at `at`, of the squares of what separates them from the nearest
-  /// ideal edge, over delta'; `step` receives the mean of the ways to these, if asked for.
+  /// Returns the sum of squared distances of the edges of i, placed at `at`, from their nearest ideal edges,
+  /// over delta'. `step`, if given, gets the mean vector to these.
   double misfit(int i, Vec2 at, Vec2* step) const {
     double sum = 0;
     Vec2 ways;
@@ -209,7 +209,7 @@ class Adaptation {
     return sum;
   }
 
-  /// Of the legs and hypotenuses of unit half squares along the axes.
+  /// Returns the nearest leg or hypotenuse of unit half squares along the axes.
   static Vec2 nearest_ideal(Vec2 f) {
     const auto whole = [](double x) { return std::clamp(std::round(x), -1.0, 1.0); };
     const Vec2 ideal = {whole(f.x), whole(f.y)};
@@ -238,7 +238,7 @@ class Adaptation {
     return false;
   }
 
-  static constexpr int kFew = 1000;  // edits to so many triangles are not worth another sweep
+  static constexpr int kFew = 1000;  // share of triangles (1 in so many) whose edits justify another sweep
   TriTopology mesh_;
   const CrossField& cross_;
   const ParametricSize& size_;

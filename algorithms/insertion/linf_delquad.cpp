@@ -8,19 +8,19 @@ namespace delquad {
 
 namespace {
 
-/// Up to this slope |beta| / alpha an edge counts as aligned with the cross: the new point goes straight
-/// above one of its ends. An exactly aligned edge has a whole region for a bisector (the paper's Figure 9);
-/// on nearly aligned ones the bisector would lean by |rho - e| wherever sizes change.
+/// Largest slope |beta| / alpha of edges that count as aligned with the cross. Their new point lies straight
+/// above an end. The bisector of an aligned edge is a region (Figure 9 of the paper). On nearly aligned edges
+/// it would lean by |rho - e| if sizes change.
 constexpr double kAlignedSlope = 0.25;
-/// The shortest leg relative to the edge, when sizes shrink faster than the front can follow.
+/// Shortest leg over the edge, if sizes shrink faster than the front can follow.
 constexpr double kShortestLeg = 0.79;
 
-/// Delquad insertion in the L-infinity norm of the cross field [remacle2013, section 5], letter D: the
-/// ideal triangle is half a square of side delta'.
+/// Insertion in the L-infinity norm of the cross [remacle2013, section 5], stage D. The ideal triangle is
+/// half a square of side delta'.
 ///
-/// Differs from the paper: the point is B(rho), rho = delta' clamped by the circumsquares' rho instead of the
-/// printed t (whose min and max are exchanged); there is no lower clamp; nearly aligned edges keep their
-/// right angle.
+/// It differs from the paper. The point is B(rho), with rho = delta' clamped by the rho of the circumsquares
+/// instead of the printed t, whose min and max are exchanged. There is no lower clamp, and nearly aligned
+/// edges keep their right angle.
 class LinfDelquad final : public PointPlacement {
  public:
   std::string name() const override { return "L-infinity Delquad"; }
@@ -38,7 +38,7 @@ class LinfDelquad final : public PointPlacement {
       points.add(e.to_global(bisector_point(e, distance(e, apex, edge.delta))));
       return points;
     }
-    // Above P and above Q are the two ends of the bisector's tilted branch for either sign of beta.
+    // The points above P and Q are the ends of the tilted branch of the bisector, for either sign of beta.
     bool above_p = e.beta > 0;
     if (std::abs(e.beta) < kAlignedNoise * e.alpha) {
       above_p = !edge.resolved_apex || e.to_local(*edge.resolved_apex).x <= 0;
@@ -64,7 +64,7 @@ class LinfDelquad final : public PointPlacement {
     return std::min(std::max(delta, kShortestLeg * e.length()), circumradius_on_branch(e, apex));
   }
 
-  /// Circumcentre of a very flat active triangle: it lies on the bisector's straight part.
+  /// Returns the circumcenter of a very flat active triangle, on the straight part of the bisector.
   static Vec2 flat_centre(const CanonicalEdge& e, Vec2 apex) {
     const double slack = e.alpha - std::abs(e.beta);
     return e.to_global({0, std::clamp(apex.y - e.alpha, -slack, slack)});

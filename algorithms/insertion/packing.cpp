@@ -14,15 +14,15 @@ namespace delquad {
 
 namespace {
 
-/// An edge follows the cross where its slope against the nearest direction of it is at most this: 7 degrees.
+/// Largest slope of an edge that follows the nearest direction of the cross: 7 degrees.
 constexpr double kFollowedSlope = 0.125;
-/// There is a grid beside an edge over which the cross turns by no more than 2 degrees (the cosine of four
-/// times that) and delta' changes by no more than this part.
+/// A grid lies beside an edge if cross and delta' hardly change over it. The cross turns by at most 2 degrees
+/// (the cosine of four times that).
 constexpr double kSameCross = 0.99, kSameSize = 0.05;
-/// The share of the boundary's length beside which grids may stray from it.
+/// Share of the boundary's length beside which grids may stray from it.
 constexpr double kMostAstray = 0.5;
 
-/// Of the four directions of the frame, the one nearest to d.
+/// Returns the direction of the frame that is nearest to d.
 Vec2 nearest_direction(const Frame& frame, Vec2 d) {
   const Vec2 local = frame.to_local(d);
   if (std::abs(local.x) >= std::abs(local.y)) return local.x >= 0 ? frame.e1 : -frame.e1;
@@ -45,8 +45,8 @@ class Packer {
     }
   }
 
-  /// Begins at vertex `first`. The vertices' own order is the queue: each is appended when it is inserted.
-  /// Ends as the frontal mesher does.
+  /// Begins at vertex `first`. The vertices are the queue: insertion appends them. It ends as the frontal
+  /// mesher does.
   FrontalSummary run(int first) {
     for (int v = first; v < static_cast<int>(vertices_.size()); ++v) {
       check_cancelled();
@@ -62,8 +62,7 @@ class Packer {
     return summary_;
   }
 
-  /// Inserts the middle of the circle around a triangle that is largest, in delta' there; the number of its
-  /// vertex.
+  /// Inserts the center of the largest circumcircle, measured in delta'. Returns the index of its vertex.
   int insert_innermost() {
     const int number = static_cast<int>(vertices_.size());
     const auto& p = kernel_.points();
@@ -130,7 +129,7 @@ class Packer {
   const FrontalOptions& options_;
   DelaunayKernel kernel_;
   std::vector<VertexFields> vertices_;
-  std::vector<int> triangle_;  ///< one around each vertex
+  std::vector<int> triangle_;  ///< a triangle at each vertex
   FrontalSummary summary_;
 };
 

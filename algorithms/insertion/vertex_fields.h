@@ -8,16 +8,15 @@
 
 namespace delquad {
 
-/// Fields at a vertex, asked for once; the hints say where its neighbourhood lies in the fields' background
-/// meshes.
+/// Fields at a vertex, sampled once. The hints tell its place in the background meshes of the fields.
 struct VertexFields {
-  Cross cross;  ///< of unit length; (1, 0) where the field vanishes
+  Cross cross;  ///< of unit length; (1, 0) if the field vanishes
   double delta = 0;
   int cross_hint = -1, size_hint = -1;
 };
 
-/// The fields at u, found from those of a point nearby. Throws InputError for a size that is not positive, on
-/// which insertion would not end.
+/// Returns the fields at u, searched from a nearby point. Throws InputError unless the size is positive,
+/// since insertion would not end.
 inline VertexFields sample_fields(const CrossField& cross, const ParametricSize& size, Vec2 u,
                                   const VertexFields& near) {
   VertexFields f = near;

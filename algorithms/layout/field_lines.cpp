@@ -13,14 +13,14 @@ namespace delquad {
 
 namespace {
 
-/// Of a step, in wanted edges.
+/// Length of a step, in wanted edges.
 constexpr double kStep = 0.3;
-/// A line ends where a rim is that near, in wanted edges, once it is that far from its start.
+/// A line ends at a rim within kReach wanted edges, once it is kFree away from its start.
 constexpr double kReach = 0.35, kFree = 0.75;
-/// Lines are given up beyond so many edges for each of the rims'.
+/// Longest line, in edges for each edge of the rims.
 constexpr double kLongest = 0.75;
-/// What a distance of one edge from where the field leads counts, spread over the line's edges, and a right
-/// angle between the line and where the quads at its end ask for it.
+/// Cost of an offset of one edge from the field, spread over the edges of the line. Cost of a right angle
+/// between the line and the direction that the quads at its end want.
 constexpr double kOffset = 4, kTurn = 4;
 
 Vec2 turned(Vec2 v, double angle) {
@@ -54,7 +54,7 @@ FieldLines::FieldLines(const CrossField& cross, const ParametricSize& size, cons
 FieldLines::Corner FieldLines::corner(RimPlace p) const {
   const Vec2 out = place(next(p)) - place(p);
   const double angle = angle_between(out, place(before(p)) - place(p));
-  // Both sides of a cut: all around.
+  // At both sides of a cut the angle is a full turn.
   return {(1 / norm(out)) * out, angle > 0 ? angle : 2 * std::numbers::pi};
 }
 
@@ -81,7 +81,7 @@ void FieldLines::trace(RimPlace from, int along, std::vector<FieldLine>& lines) 
     if (line.path.size() > 1) direction = arm(x + (step / 2) * arm(x, direction), direction);
     const Vec2 y = x + step * direction;
     const bool may_reach = line.edges.back() + kStep > kFree;
-    // The edge that it crosses first, else the nearest one within reach.
+    // Finds the first crossed edge, or the nearest one within reach.
     int hit = -1;
     double at = 2;
     Vec2 hit_at;
@@ -123,7 +123,7 @@ void FieldLines::end(FieldLine line, Vec2 hit, RimPlace to, std::vector<FieldLin
   if (edges < 0.3) return;
   for (std::size_t i = 0; i < line.path.size(); ++i)
     line.path[i] = line.path[i] + (line.edges[i] / edges) * offset;
-  // The way back from its end, seen over the last edge or so.
+  // Measures the direction at the end over about the last edge.
   std::size_t i = line.path.size() - 2;
   while (i > 0 && edges - line.edges[i] < kFree) --i;
   const Corner at = corner(to);

@@ -9,6 +9,8 @@
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
 
+// This header traces lines of the cross field between rims. Layouts use them as cuts.
+
 namespace delquad {
 
 /// A place on one of several rims.
@@ -17,34 +19,34 @@ struct RimPlace {
   friend bool operator==(const RimPlace&, const RimPlace&) = default;
 };
 
-/// A line along the cross field from a vertex of a rim to another.
+/// A line along the cross field between two vertices of rims.
 struct FieldLine {
   RimPlace from, to;
-  int along;  ///< quads at its start between it and the rim that goes on from there
-  int back;   ///< quads at its end between it and the rim that comes in there
+  int along;  ///< quads at its start between the line and the next edge of the rim
+  int back;   ///< quads at its end between the line and the previous edge of the rim
   std::vector<Vec2> path;
-  std::vector<double> edges;  ///< of the wanted length, up to each point of the path
-  double misfit;              ///< how far its ends are from where and how the field has them; squares, summed
+  std::vector<double> edges;  ///< length in wanted edges, up to each point of the path
+  double misfit;              ///< sum of squared deviations of its ends from place and direction of the field
 };
 
-/// The lines of a cross field in a piece of a patch.
+/// Lines of a cross field in a piece of a patch.
 class FieldLines {
  public:
-  /// All but `rims` outlive this object.
+  /// All arguments but `rims` must outlive this object.
   FieldLines(const CrossField& cross, const ParametricSize& size, const LayoutVertices& vertices,
              std::span<const Rim> rims);
 
-  /// Adds the lines that leave a place: one between any two neighbouring quads there, to either end of the
-  /// edge that it meets.
+  /// Adds the lines from a place: one between each two adjacent quads there, to either end of the edge that
+  /// it meets.
   void trace(RimPlace from, std::vector<FieldLine>& lines);
-  /// Whether a row of edges between two places meets no rim.
+  /// Returns whether a row of edges between two places meets no rim.
   bool is_free(RimPlace from, RimPlace to, std::span<const Vec2> row) const;
 
  private:
   struct Edge {
     RimPlace from, to;
   };
-  /// The angle of a place from the edge that goes out to the one that comes in.
+  /// Angle at a place between its outgoing and its incoming edge.
   struct Corner {
     Vec2 out;
     double angle;

@@ -36,34 +36,33 @@ namespace {
 
 // Costs are in quads times eta.
 
-/// Of a cut, of a corner that lies one edge from its end, and of one that leaves all of a piece on one side.
+/// Costs of a cut, of a corner one edge from its end, and of a cut with all of a piece on one side.
 constexpr double kCut = 0.3, kCrowding = 1, kUneven = 0.5;
-/// Of an edge of a cut that joins two rims: the shortest is best.
+/// Cost of an edge of a cut that joins two rims; the shortest cut is best.
 constexpr double kJoining = 0.05;
-/// The most that a piece costs which needs no better ones.
+/// A piece up to this cost needs no better pieces.
 constexpr double kGoodCost = 2;
 /// The cost of an irregular vertex.
 constexpr double kIrregular = 4;
-/// Of an irregular vertex while cuts are chosen for a try, in parts: those that leave a pair more may be
-/// better.
+/// Part of this cost in the choice of cuts to try: cuts with one more pair may be better.
 constexpr double kEstimate = 0.25;
-/// Cuts whose pieces are filled for a try, and those of them that are followed, one less at each level. At
-/// the levels beyond only pieces without a pattern are cut, twice as deep at most.
+/// Cuts whose pieces are filled as a trial, followed cuts (one less at each level), and levels. Beyond these
+/// levels only pieces without a pattern are cut, at most twice as deep.
 constexpr std::size_t kMostTried = 10;
 constexpr int kMostCuts = 3, kMostLevels = 3;
-/// Corners that a piece may have for each level that it begins above the others: large patches take long.
+/// Corners of a piece for each level that it starts higher, since large patches take long.
 constexpr int kCornersPerLevel = 12;
-/// Corners of pieces from which levels count.
+/// Least number of corners at which levels count.
 constexpr int kFewCorners = 8;
-/// Places of a piece from which lines are traced, at most: more are left out evenly.
+/// Most places of a piece from which lines start; the places are spread evenly.
 constexpr std::size_t kMostStarts = 160;
-/// Irregular vertices of a piece that no pattern fills, for each vertex of its rim; what a quad of it lacks.
+/// For a piece without a pattern: irregular vertices for each vertex of its rim, and loss of a quad.
 constexpr double kMixedPerVertex = 0.1, kMixedLoss = 0.15;
-/// Where there are quads already: pieces that are looked at, at most, and what a quad more counts that fails.
-/// With 2000 pieces a layout takes four times as long, and leaves as many irregular vertices.
+/// If quads exist: limit of examined pieces, and cost of one more failing quad. With 2000 pieces a layout
+/// takes four times as long and leaves as many irregular vertices.
 constexpr int kFewPieces = 40;
 constexpr double kFailing = 0.4;
-/// Sweeps of relocation, first without lengths, and the part of an edge that is no move.
+/// Sweeps of relocation, first without lengths, and the part of an edge that counts as no move.
 constexpr int kSweeps = 60;
 constexpr double kRelaxed = 0.02;
 
@@ -79,7 +78,7 @@ class LayoutSearch {
         summary_(summary),
         edges_(edges) {}
 
-  /// How many irregular vertices are necessary, by Euler's formula.
+  /// Returns the necessary number of irregular vertices, by Euler's formula.
   int necessary() {
     const std::vector<Rim> rims = rims_of_boundary();
     int turns = 0;
@@ -133,9 +132,9 @@ class LayoutSearch {
   struct Solution {
     double cost = 0;
     std::vector<Rim> pieces = {};
-    std::optional<Pattern> pattern = {};  ///< of a single piece; none: it is meshed as a patch of its own
+    std::optional<Pattern> pattern = {};  ///< of a single piece; none: the piece is meshed as its own patch
   };
-  /// A line with its number of edges.
+  /// Line with its number of edges.
   struct Cut {
     FieldLine line;
     int edges;
@@ -168,7 +167,7 @@ class LayoutSearch {
     return rims;
   }
 
-  /// Vertices along a line, both ends included.
+  /// Returns the vertices along a line, both ends included.
   std::vector<Vec2> row_along(const FieldLine& line, int edges) const {
     std::vector<Vec2> row{line.path.front()};
     std::size_t k = 1;
@@ -181,7 +180,7 @@ class LayoutSearch {
     row.push_back(line.path.back());
     return row;
   }
-  /// Adds the vertices inside a cut.
+  /// Adds the inner vertices of a cut.
   std::vector<int> add_row(std::span<const Vec2> row) {
     std::vector<int> added;
     int hint = -1;
@@ -198,7 +197,7 @@ class LayoutSearch {
     return edges * misfit * misfit + line.misfit;
   }
 
-  /// The lines from places of some rims, from concave ones alone where there are any and `concave` says so.
+  /// Returns the lines from places of some rims; with `concave` only from concave ones, if there are any.
   std::vector<FieldLine> lines_from(FieldLines& tracer, std::span<const Rim> rims, bool concave) const {
     std::vector<RimPlace> starts;
     for (const int least : {concave ? 3 : 2, 2}) {
@@ -213,7 +212,7 @@ class LayoutSearch {
     return lines;
   }
 
-  /// What it costs that corners are near a place on both sides of it.
+  /// Returns the cost of corners near a place, on both sides of it.
   static double crowding(const Rim& rim, int at) {
     const int n = static_cast<int>(rim.size());
     double cost = 0;
@@ -225,7 +224,7 @@ class LayoutSearch {
     return cost;
   }
 
-  /// Joins the two rims that are joined best.
+  /// Joins the two rims with the cheapest cut.
   bool join(std::vector<Rim>& rims) {
     check_cancelled();
     FieldLines tracer(cross_, size_, vertices_, rims);
@@ -264,7 +263,7 @@ class LayoutSearch {
     return is_free() ? cost_of_closed(rim, weight) : cost_of(rim, weight);
   }
 
-  /// The polygon with the numbers of edges nearest to its own for which it has a grid or a star.
+  /// Returns the polygon with the nearest numbers of edges that allow a grid or a star.
   static Outline closed(const Outline& outline) {
     const auto sides = sides_of(outline.turn);
     const int n = sides ? static_cast<int>(sides->edges.size()) : 0;
@@ -297,8 +296,8 @@ class LayoutSearch {
     return Solution{cost, {rim}, std::move(pattern)};
   }
 
-  /// What the quads of a pattern lack: the sum of 1 - eta + 1.5 * (size deviation), before they are
-  /// relocated.
+  /// Returns kLoss times the sum of 1 - eta + 1.5 * (size deviation) over the quads of a pattern, before
+  /// relocation.
   double loss_of(const Outline& outline, const Pattern& pattern) const {
     const PatternMesh filled = mesh_pattern(outline, pattern);
     std::vector<Vec2> points = outline.places;
@@ -343,7 +342,7 @@ class LayoutSearch {
     return cuts;
   }
 
-  /// A piece that no pattern fills.
+  /// Returns the solution of a piece without a pattern.
   std::optional<Solution> mixed(const Rim& rim) {
     std::vector<int> vertices;
     for (const RimVertex& v : rim) vertices.push_back(v.vertex);
@@ -359,7 +358,7 @@ class LayoutSearch {
     return Solution{kIrregular * irregular + kLoss * kMixedLoss * area / (delta * delta), {rim}};
   }
 
-  /// Its mesh, numbered as that of a pattern is.
+  /// Returns the mesh of such a piece, numbered like the mesh of a pattern.
   PatternMesh mesh_mixed(const Rim& rim) {
     PatchBoundary boundary;
     const int n = static_cast<int>(rim.size());
@@ -375,7 +374,7 @@ class LayoutSearch {
     return {{mesh.points.begin() + n, mesh.points.end()}, std::move(mesh.quads)};
   }
 
-  /// Those of the cuts that leave the best pieces, as far as these can be filled at once.
+  /// Returns the cuts with the best pieces, by the cost of pieces that patterns fill at once.
   std::vector<Cut> promising(const FieldLines& tracer, const Rim& rim, std::vector<Cut> cuts) {
     std::vector<Cut> best;
     for (Cut& cut : cuts) {
@@ -434,7 +433,7 @@ class LayoutSearch {
     return best;
   }
 
-  /// By a pattern, or mixed where that costs less.
+  /// Fills by a pattern, or as a mixed piece if that costs less.
   std::optional<Solution> filled(const Rim& rim) {
     std::optional<Solution> best;
     if (is_polygon(rim)) best = by_pattern(rim);
@@ -510,9 +509,9 @@ std::optional<QuadPatch> fill_layout(const PatchLayout& layout, const PatchBound
   try {
     return LayoutSearch(boundary, cross, size, options, summary).fill(layout);
   } catch (const InputError&) {
-    // A piece that is no polygon in the plane: there is no such layout.
+    // A piece is no polygon in the plane, so there is no such layout.
   } catch (const std::invalid_argument&) {
-    // Pieces that do not fit together.
+    // Pieces do not fit together.
   }
   return std::nullopt;
 }

@@ -10,25 +10,27 @@
 #include "delquad/mesh.h"
 #include "smoothing/relocation/element_quality.h"
 
+// This header divides patches into layouts of few pieces (stages K and R). The pipeline uses it.
+
 namespace delquad {
 
 struct LayoutOptions {
-  double tolerance = 4;  ///< what an irregular vertex less may cost where quads are there already
-  int pieces = 2000;     ///< that are looked at in a patch, at most
+  double tolerance = 4;  ///< allowed loss, in quads times eta, for each removed irregular vertex
+  int pieces = 2000;     ///< limit of examined pieces of a patch
 };
 
 OptionGroup layout_group();
 LayoutOptions layout_options(const Options& options);
 
 struct LayoutSummary {
-  int patches = 0;      ///< that were to be laid out
-  int without = 0;      ///< of these, for which there was no layout
-  int worse = 0;        ///< of these, whose layout was not taken, as their quads are better
-  int cuts = 0;         ///< rows of edges by which patches were cut
-  int pieces = 0;       ///< polygons that were filled with patterns
-  int mixed = 0;        ///< polygons without a pattern, which D, B and Q fill
-  int irregular = 0;    ///< vertices of all
-  long long looks = 0;  ///< pieces that were looked at
+  int patches = 0;      ///< patches to lay out
+  int without = 0;      ///< patches without a layout
+  int worse = 0;        ///< patches whose own quads were better
+  int cuts = 0;         ///< rows of edges that cut patches
+  int pieces = 0;       ///< polygons filled with patterns
+  int mixed = 0;        ///< polygons without a pattern, filled by D, B and Q
+  int irregular = 0;    ///< irregular vertices in all
+  long long looks = 0;  ///< examined pieces
   double seconds = 0;
 };
 
@@ -42,52 +44,49 @@ struct Counters<LayoutSummary> {
       counter("irregular", &S::irregular), counter("looks", &S::looks), counter("seconds", &S::seconds));
 };
 
-/// Quads of a patch by a layout: it is cut along lines of the cross field, from hole to hole first, then from
-/// concave corners and where else it has to be, until each piece is a polygon of two to five corners that a
-/// Pattern fills. A cut ends at vertices of the boundary or of other cuts, and has the number of edges that
-/// its length asks for, one more or less where the piece's rim is odd. Of several cuts those are followed
-/// that leave the fewest irregular vertices and the best quads. Pieces that no pattern fills, or none that is
-/// worth its distortion, are meshed by themselves, with D, B and Q. All is relocated at last.
+/// Meshes a patch by a layout. Cuts follow lines of the cross field: first between holes, then from concave
+/// corners, then where needed. Each piece becomes a polygon of two to five corners that a Pattern fills. A
+/// cut ends at vertices of the boundary or other cuts. Its length sets its number of edges, plus or minus one
+/// if a rim is odd. The chosen cuts leave the fewest irregular vertices and the best quads. Pieces without a
+/// worthwhile pattern are meshed by D, B and Q. Relocation comes last.
 ///
-/// Boundary points stay where they are, in their order. None where no layout was found without flat or
-/// inverted quads. The same input gives the same mesh.
+/// Boundary points keep their places and order. Returns nothing if no layout without flat or inverted quads
+/// was found. The same input gives the same mesh.
 std::optional<QuadPatch> lay_out(const PatchBoundary& boundary, const CrossField& cross,
                                  const ParametricSize& size, const LayoutOptions& options = {},
                                  LayoutSummary* summary = nullptr);
 
-/// Whether lines and the boundary keep their edges when pieces are chosen, or get what pieces need later.
+/// Whether the choice of pieces keeps the edges of lines and boundary, or pieces set them later.
 enum class LayoutEdges { kCounted, kFree };
 
-/// The pieces of a layout, see lay_out(); none: not found. Where edges are free, a piece costs what its sizes
-/// lose once its opposite sides (or a star's arms) have as many, and has three to five corners, but where no
-/// line cuts it.
+/// Finds the pieces of a layout, see lay_out(). Returns nothing if there is none. With free edges, a piece
+/// costs the loss of size after its opposite sides (or the arms of a star) match. Such a piece has three to
+/// five corners unless a line cannot cut it.
 std::optional<PatchLayout> find_layout(const PatchBoundary& boundary, const CrossField& cross,
                                        const ParametricSize& size, LayoutEdges edges,
                                        const LayoutOptions& options, LayoutSummary& summary);
-/// Its quads; none: some are flat or inverted.
+/// Returns the quads of a layout; nothing if some are flat or inverted.
 std::optional<QuadPatch> fill_layout(const PatchLayout& layout, const PatchBoundary& boundary,
                                      const CrossField& cross, const ParametricSize& size,
                                      const LayoutOptions& options, LayoutSummary& summary);
 
-/// What a mesh of a patch is worth beside another one.
+/// Value of a mesh of a patch, for comparison with another one.
 struct PatchWorth {
   ElementQuality quality;
   int irregular = 0;
   std::size_t quads = 0;
 
   static PatchWorth of(const QuadPatch& mesh, const ParametricSize& size);
-  /// The sum of eta - 1.5 * (size deviation) that goes with `now`, for as many quads; one more that fails
-  /// (see ElementQuality) counts, too.
+  /// Returns the loss by `now` of the sum of eta - 1.5 * (size deviation), scaled to the same number of
+  /// quads. More failing quads (ElementQuality) add to it.
   double loss(const PatchWorth& now) const;
-  /// Whether no quad of `now` is worse than both this eta and the worst there was, nor sides are more
-  /// crowded.
+  /// Returns whether `now` has no quad below both this eta and the old worst, and no more crowded sides.
   bool keeps_worst(const PatchWorth& now, double eta) const;
 };
 
-/// A layout that has fewer irregular vertices than a mesh of the patch, and loses less of the sum of
-/// eta - 1.5 * (size deviation) than the tolerance for each; a quad more that fails (see ElementQuality) is a
-/// loss, too. No quad of it is worse than both kCleanupFloorEta and those before. It looks at few pieces.
-/// None: there is no such layout, or nothing to win.
+/// Returns a layout with fewer irregular vertices than the mesh. For each of them its loss
+/// (PatchWorth::loss()) stays below the tolerance. No quad is worse than both kCleanupFloorEta and the old
+/// worst. It examines few pieces. Returns nothing without such a layout.
 std::optional<QuadPatch> more_regular(const QuadPatch& mesh, const PatchBoundary& boundary,
                                       const CrossField& cross, const ParametricSize& size,
                                       const LayoutOptions& options = {}, LayoutSummary* summary = nullptr);

@@ -87,7 +87,7 @@ PatchLayout LayoutArcs::with(std::span<const int> edges, const PatchBoundary& bo
     for (const int v : {was.front(), was.back()})
       if (number[v] < 0) number[v] = add(vertices_.places[v]);
     const int from = number[was.front()], to = number[was.back()];
-    // Its ends may have moved along the boundary, and it with them.
+    // The arc follows its ends, which may have moved along the boundary.
     const Vec2 at_from = places[from] - vertices_.places[was.front()],
                at_to = places[to] - vertices_.places[was.back()];
     rows[a].push_back(from);

@@ -9,28 +9,29 @@
 
 namespace delquad {
 
-/// A layout as arcs, rows of edges between places where lines meet, and as pieces between these.
+/// A layout as arcs and pieces. An arc is a row of edges between places where lines meet. The joint choice of
+/// edges uses it.
 class LayoutArcs {
  public:
   struct Arc {
     std::vector<int> vertices;  ///< both ends included
-    double length;              ///< in wanted edges
+    double length;              ///< length in wanted edges
     int edges() const { return static_cast<int>(vertices.size()) - 1; }
   };
-  /// An arc on the way around a piece, which gets so many quads at its beginning.
+  /// An arc on the way around a piece, with the number of quads at its start.
   struct Step {
     int arc;
     bool forward;
     int quads;
   };
-  /// `runs`: numbers of edges into which the boundary's are divided: no arc goes over their ends.
+  /// `runs` has the numbers of edges in each run of the boundary. No arc passes the end of a run.
   LayoutArcs(PatchLayout layout, const PatchBoundary& boundary, std::span<const int> runs,
              const ParametricSize& size);
 
   const std::vector<Arc>& arcs() const { return arcs_; }
   const std::vector<std::vector<Step>>& pieces() const { return pieces_; }
-  const std::vector<std::vector<int>>& of_runs() const { return of_runs_; }  ///< in their order
-  /// The same pieces with so many edges on each arc, on a boundary that has them.
+  const std::vector<std::vector<int>>& of_runs() const { return of_runs_; }  ///< arcs of each run, in order
+  /// Returns the same pieces with these numbers of edges on the arcs, on a boundary that matches them.
   PatchLayout with(std::span<const int> edges, const PatchBoundary& boundary,
                    const ParametricSize& size) const;
 

@@ -68,11 +68,10 @@ bool is_polygon(const Rim& rim) {
 
 namespace {
 
-/// In pieces of six corners with more vertices on their rims there is mostly a row of edges that leaves two
-/// stars.
+/// Pieces of six corners with more rim vertices usually have a row of edges that leaves two stars.
 constexpr std::size_t kManyVertices = 36;
 
-/// Whether a row of edges cuts a polygon of six sides into two of five that are stars.
+/// Returns whether a row of edges cuts a polygon of six sides into two stars of five sides.
 bool is_two_stars(std::span<const int> s) {
   for (int i = 0; i < 3; ++i)
     for (int a = 1; a < s[i]; ++a)
@@ -105,7 +104,7 @@ double cost_of(const Rim& rim, double weight) {
     return weight * (rim.size() > kManyVertices || is_two_stars(sides->edges) ? least : least + kMixed);
   const int irregular = least_irregular_of(sides->edges);
   if (irregular < 0 && corners == 4) {
-    // Rows that end, of which a pair of irregular vertices can end as many as there is room for.
+    // Rows end here. A pair of irregular vertices can end as many as there is space for.
     int pairs = 1;
     for (int i = 0; i < 2; ++i) {
       const int rows = std::abs(sides->edges[i] - sides->edges[i + 2]),

@@ -23,39 +23,39 @@ namespace delquad {
 
 namespace {
 
-// Prices are in irregular vertices, each of which costs the tolerance.
+// Prices are in irregular vertices; each of these costs the tolerance.
 
-/// Of an open sum, for each edge that it is off, and of a polygon without a star.
+/// Price of an open sum, for each missing edge, and of a polygon without a star.
 constexpr double kPair = 1, kRow = 0.5, kNoStar = 2;
-/// Of an edge more or less of a patch without a layout, and rows that follow it.
+/// Price of an added or removed edge of a patch without a layout, and number of rows that follow it.
 constexpr double kFreeEdge = 0.3, kRowsThatFollow = 2;
-/// What the sizes of quads cost whose edges are too long or short, by half of their edges, and the part of a
-/// piece in which a change of its side is felt.
+/// Price of sizes of quads with too long or short edges, for half of their edges. Part of a piece that a
+/// change of its side affects.
 constexpr double kSizes = 1.5 / 2, kFelt = 0.5;
-/// What may not be.
+/// Price of a forbidden choice.
 constexpr double kForbidden = 1e6;
-/// Times the tolerance, one after the other: what an open sum costs.
+/// Prices of an open sum, in tolerances, one after the other.
 constexpr double kPrices[] = {1, 3};
-/// Steps of agree_counts() each time, and patches that one of its searches looks at.
+/// Limits of agree_counts(): steps, and patches in one of its searches.
 constexpr long long kMostSteps = 500'000;
 constexpr int kMostLooks = 100;
-/// Times that numbers are chosen at each price, at most.
+/// Most choices of numbers at each price.
 constexpr int kMostRounds = 8;
-/// Pieces of a patch that are looked at.
+/// Most examined pieces of a patch.
 constexpr int kMostPieces = 600;
-/// No quad is to be worse than that and those before.
+/// Least eta of quads, unless they were worse before.
 constexpr double kLeastEta = 0.3;
 
-/// Numbers of edges: of curves, and of the arcs of each patch.
+/// Numbers of edges on curves, and on the arcs of each patch.
 struct Numbers {
   std::vector<int> curves;
   std::vector<std::vector<int>> arcs;
 };
 
-/// For agree_counts(): curves first, then arcs that are a part of a curve, or inside a patch.
+/// Problem for agree_counts(): curves first, then arcs that are a part of a curve or inside a patch.
 class NumberProblem {
  public:
-  /// `price`: what an irregular vertex costs. `stays`: patches that take no part.
+  /// `price` is the cost of an irregular vertex; `stays` marks patches that take no part.
   NumberProblem(const LayoutNetwork& network, const std::vector<std::optional<LayoutArcs>>& layouts,
                 const std::vector<char>& stays, double price)
       : price_(price), n_curves_(network.curves.size()) {
@@ -109,7 +109,7 @@ class NumberProblem {
         variable[arcs[0]] = curve;
         continue;
       }
-      // The arcs have as many edges as the curve.
+      // Together the arcs have as many edges as the curve.
       const int place = n_places_++;
       curves_[curve].patches.push_back(place);
       ClosureSum whole{place, {{curve, -1}}, 0, kForbidden};
@@ -153,13 +153,13 @@ class NumberProblem {
     }
     if (is_box)
       for (int i = 0; i < 2; ++i) {
-        // A pair ends two rows for each edge but one that there is room for.
+        // A pair ends two rows for each edge but one of the available space.
         const double room = std::max((lengths[i + 1] + lengths[(i + 3) % 4]) / 2 - 1, 0.05);
         add_sum({place, {}, kPair, std::max(kRow, 0.5 / room)}, {{&sides[i], 1}, {&sides[i + 2], -1}});
       }
     if (is_convex && (corners == 3 || corners == 5))
       for (int i = 0; i < corners; ++i) {
-        // Twice the distance from the start of side i to the foot of the star's arm, see star_feet().
+        // The sum is twice the distance from the start of side i to the foot of an arm, see star_feet().
         Sides terms;
         for (int k = 0, at = i; k < corners; ++k, at = (at + 2) % corners)
           terms.emplace_back(&sides[at], k % 2 == 0 ? 1 : -1);
@@ -181,11 +181,11 @@ class NumberProblem {
 
   double price_;
   std::size_t n_curves_;
-  int n_places_ = 0;  ///< what the sums are of: pieces, patches without any, and curves with several arcs
+  int n_places_ = 0;  ///< pieces, patches without pieces, and curves with several arcs
   std::vector<AgreeingCurve> curves_;
   std::vector<int> counts_;
   std::vector<ClosureSum> sums_;
-  std::vector<std::vector<int>> variables_;  ///< of each patch's arcs
+  std::vector<std::vector<int>> variables_;  ///< variables of the arcs of each patch
 };
 
 class Together {
@@ -223,15 +223,15 @@ class Together {
   }
 
  private:
-  /// A mesh that a patch may get.
+  /// A possible mesh of a patch.
   struct Candidate {
-    std::vector<int> numbers = {};  ///< edges of its arcs and curves, for which it was made
-    bool moved = false;             ///< its curves have others than now
-    double cost = kForbidden;       ///< what it loses, less what fewer irregular vertices are worth
+    std::vector<int> numbers = {};  ///< edges on its arcs and curves
+    bool moved = false;             ///< its curves have other numbers now
+    double cost = kForbidden;       ///< its loss minus the worth of removed irregular vertices
     std::optional<QuadPatch> mesh = {};
     PatchBoundary boundary = {};
     PatchWorth worth = {};
-    int filled = 0;  ///< meshes that were made so far
+    int filled = 0;  ///< number of meshes made so far
   };
 
   template <class F>
@@ -299,7 +299,7 @@ class Together {
     return make_regular(clean_up(treat_paper(merged, *patch.size), *patch.size), *patch.size);
   }
 
-  /// Takes groups that are worth it. False: a patch of each of the others keeps its curves from now on.
+  /// Takes worthwhile groups. Returns false if a patch of each other group keeps its curves from now on.
   bool choose(const Numbers& numbers) {
     std::vector<int> group(n_);
     std::iota(group.begin(), group.end(), 0);
@@ -351,10 +351,10 @@ class Together {
   LayoutNetwork& network_;
   const LayoutOptions& options_;
   std::size_t n_;
-  std::vector<std::optional<LayoutArcs>> layouts_;  ///< of each patch; none: it has no layout
-  std::vector<PatchWorth> worth_;                   ///< of its mesh
+  std::vector<std::optional<LayoutArcs>> layouts_;  ///< layout of each patch, if it has one
+  std::vector<PatchWorth> worth_;                   ///< worth of its mesh
   std::vector<Candidate> candidates_;
-  std::vector<char> takes_no_part_, stays_;  ///< whether it does now
+  std::vector<char> takes_no_part_, stays_;  ///< whether it takes no part, always or now
   TogetherSummary summary_;
 };
 

@@ -10,9 +10,11 @@
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
 
+// This header chooses edges on curves for all layouts together (stage R). The pipeline uses it on surfaces.
+
 namespace delquad {
 
-/// All edges of a curve, where a patch's boundary runs along it.
+/// All edges of a curve, as a part of the boundary of a patch.
 struct CurveRun {
   int curve, edges;
 };
@@ -23,7 +25,7 @@ struct LayoutPatch {
   PatchBoundary boundary = {};
   const CrossField* cross = nullptr;  ///< null: it takes no part, and its curves stay
   const ParametricSize* size = nullptr;
-  std::vector<CurveRun> runs = {};  ///< of the boundary's edges, in their order
+  std::vector<CurveRun> runs = {};  ///< runs of the boundary's edges, in order
   bool changed = false;
 };
 
@@ -37,19 +39,20 @@ struct LayoutCurve {
 struct LayoutNetwork {
   std::vector<LayoutPatch> patches;
   std::vector<LayoutCurve> curves;
-  /// A patch's boundary where its curves have so many edges; none: it encloses no quads.
+  /// Returns the boundary of a patch for these numbers of edges on its curves; nothing if it encloses no
+  /// quads.
   std::function<std::optional<PatchBoundary>(int patch, const std::vector<int>& edges)> boundary;
-  /// Whether a patch may have this mesh.
+  /// Returns whether a patch may have this mesh.
   std::function<bool(const QuadPatch& mesh, const PatchBoundary& boundary)> may_be;
 };
 
 struct TogetherSummary {
-  int chosen = 0;        ///< times that numbers of edges were chosen
-  long long filled = 0;  ///< meshes of patches that were made for these
-  int accepted = 0;      ///< groups of patches that were taken
-  int patches = 0;       ///< changed
-  int curves = 0;        ///< with other numbers of edges
-  int gained = 0;        ///< irregular vertices less, those of each patch counted
+  int chosen = 0;        ///< number of choices of edges
+  long long filled = 0;  ///< meshes of patches made for these choices
+  int accepted = 0;      ///< groups of patches whose new meshes were taken
+  int patches = 0;       ///< changed patches
+  int curves = 0;        ///< curves with a new number of edges
+  int gained = 0;        ///< removed irregular vertices, counted in each patch
   double seconds = 0;
 };
 
@@ -63,19 +66,18 @@ struct Counters<TogetherSummary> {
                                          counter("seconds", &S::seconds));
 };
 
-/// Lays all patches out, and chooses the numbers of edges of all curves and lines for all layouts at once.
+/// Lays out all patches, with one choice of edges on all curves and lines.
 ///
-/// Pieces of layouts are polygons of three to five sides. A grid closes where opposite sides have as many
-/// edges, a star where its arms find their feet: sums of numbers of edges, which agree_counts() chooses at
-/// the least cost of the sizes that change and of the sums that stay open. (QuadWild with Bi-MDF has one flow
-/// for patches that all have to close [heistermann2023].) The pieces get these numbers and are filled. A
-/// patch whose curves have other numbers may also have a mesh of D, B, C and Q, where that is better.
+/// Pieces of layouts are polygons of three to five sides. A grid closes if opposite sides have equal numbers
+/// of edges, and a star if its arms find their feet. These conditions are sums of numbers of edges.
+/// agree_counts() chooses the numbers at the least cost of changed sizes and open sums. (QuadWild with Bi-MDF
+/// has one flow for patches that must all close [heistermann2023].) The pieces are then filled. A patch with
+/// new numbers on its curves may also be meshed by D, B, C and Q if that is better.
 ///
-/// Patches that hang together by such curves are a group. It is taken where it loses less than the tolerance
-/// for each irregular vertex less, by what R asks for (see more_regular()), but with quads down to an eta of
-/// .3, since O moves nodes along curves. Where it is not, its patch that costs most keeps its curves, and
-/// numbers are chosen again. First an open sum costs what the tolerance says, then more: what loses less than
-/// it seemed to is found so.
+/// Patches connected by such curves form a group. A group is taken if its loss for each removed irregular
+/// vertex is below the tolerance (see more_regular()). An eta of 0.3 is enough for quads, since O moves nodes
+/// along curves. Otherwise its most expensive patch keeps its curves, and numbers are chosen again. An open
+/// sum first costs the tolerance, then more, to find groups with a smaller loss than predicted.
 TogetherSummary lay_out_together(LayoutNetwork& network, const LayoutOptions& options);
 
 }  // namespace delquad

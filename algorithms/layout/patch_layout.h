@@ -6,23 +6,23 @@
 
 namespace delquad {
 
-/// A vertex on the rim of a piece of a patch, and how many quads it gets inside.
+/// Vertex on the rim of a piece, with its number of quads inside.
 struct RimVertex {
   int vertex;
   int quads;
 };
-/// The piece lies on its left. Where a cut opens the piece, both of its sides are on the rim.
+/// The piece lies on the left of its rim. A cut that opens the piece has both sides on the rim.
 using Rim = std::vector<RimVertex>;
 
-/// All vertices that rims have.
+/// Vertices of all rims.
 struct LayoutVertices {
   std::vector<Vec2> places;
   std::vector<double> delta;
 };
 
-/// A patch cut into pieces along lines: what numbers of edges leave as it is.
+/// A patch that lines cut into pieces.
 struct PatchLayout {
-  LayoutVertices vertices;  ///< those of the boundary first
+  LayoutVertices vertices;  ///< vertices of the boundary first
   std::vector<Rim> pieces;
 };
 

@@ -15,16 +15,16 @@ namespace delquad {
 namespace {
 
 constexpr int kNone = -1;
-/// A duplication, which adds an irregular vertex, must lift the worst eta by this much over the swap.
+/// Least gain in the worst eta by a duplication over the swap, since it adds an irregular vertex.
 constexpr double kWorthAVertex = 0.05;
-/// A quad, or a triangle with kNone as its fourth vertex, or four times kNone when it has been removed.
+/// A quad; a triangle with kNone as fourth vertex; or four times kNone if removed.
 using Element = std::array<int, 4>;
 
 bool is_triangle(const Element& e) { return e[3] == kNone; }
 bool contains(const Element& e, int v) { return std::find(e.begin(), e.end(), v) != e.end(); }
 void replace(Element& e, int from, int to) { std::replace(e.begin(), e.end(), from, to); }
 
-/// Smallest angle over 60 deg, negative when the triangle is turned over.
+/// Returns the smallest angle over 60 degrees, negative if the triangle is inverted.
 double triangle_quality(Vec2 a, Vec2 b, Vec2 c) {
   const auto angle = [](Vec2 u, Vec2 v) { return std::atan2(cross(u, v), dot(u, v)); };
   const double abc = angle(b - a, c - a), bca = angle(c - b, a - b), cab = angle(a - c, b - c);
@@ -43,7 +43,7 @@ double worst_quality(const std::vector<Vec2>& points, std::span<const Element> e
   return worst;
 }
 
-/// Mean of the vertices of the star of v, without v itself.
+/// Returns the mean of the star of v without v.
 Vec2 star_mean(const std::vector<Vec2>& points, int v, std::span<const Element> star) {
   Vec2 sum;
   int n = 0;
@@ -57,14 +57,14 @@ Vec2 star_mean(const std::vector<Vec2>& points, int v, std::span<const Element> 
   return (1.0 / n) * sum;
 }
 
-/// Moves point v to where the worst element of its star is best, by a compass search from where it is and
-/// from the mean of its star. Returns that quality.
+/// Moves point v by a compass search, from its place and from the mean of its star, for the best worst
+/// element. Returns the quality of that element.
 double place(std::vector<Vec2>& points, int v, std::span<const Element> star) {
   constexpr double kDiagonal = std::numbers::sqrt2 / 2;
   constexpr Vec2 kDirections[] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDiagonal, kDiagonal},
                                   {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
-  constexpr double kLastStep = 1e-3;  // of the first one: positions matter less beyond
-  constexpr int kMovesPerStep = 8;    // the star is four first steps wide, and each later step half as long
+  constexpr double kLastStep = 1e-3;  // part of the first step: positions matter less beyond
+  constexpr int kMovesPerStep = 8;    // the star is four first steps wide; each later step is half as long
   const Vec2 start = points[v], mean = star_mean(points, v, star);
   double best = worst_quality(points, star);
   Vec2 at = start;
@@ -113,7 +113,7 @@ class Repairer {
     }
   }
 
-  /// The k-th pair.
+  /// Repairs the k-th pair.
   void repair(std::size_t k) {
     const std::size_t first = first_end_ + 2 * k, last = first + 1;
     const int b = elements_[first][0];
@@ -143,9 +143,9 @@ class Repairer {
     ++summary_.duplications;
   }
 
-  /// Places the points from `first_new` on again, now that everything around them is settled.
+  /// Places the points from `first_new` on again after all repairs.
   void relax(std::size_t first_new) {
-    constexpr int kSweeps = 3;  // neighbouring new points are rare: one sweep is nearly always enough
+    constexpr int kSweeps = 3;  // adjacent new points are rare, so one sweep is nearly always enough
     std::vector<std::vector<Element>> stars(points_.size() - first_new);
     for (const Element& e : elements_) {
       for (const int v : e) {
@@ -167,7 +167,7 @@ class Repairer {
       around_[slot_[v]].push_back(element);
   }
 
-  /// The two quads of the pentagon swap, if there is one.
+  /// Returns the two quads of the pentagon swap, if it exists.
   std::optional<std::array<Element, 2>> swap(const Element& first, const Element& last,
                                              const std::vector<int>& between) const {
     if (between.size() != 1 || is_triangle(elements_[between[0]])) return std::nullopt;
@@ -178,7 +178,7 @@ class Repairer {
     return std::array<Element, 2>{{{first[0], first[1], first[2], m}, {first[0], m, last[1], last[2]}}};
   }
 
-  /// Adds the duplicate of the fan's point and returns its star: first end, last end, all that lies between.
+  /// Adds a duplicate of the fan's point. Returns its star: first end, last end, elements between.
   std::vector<Element> duplicate(const Element& first, const Element& last, const std::vector<int>& between) {
     const int b = first[0], copy = static_cast<int>(points_.size());
     points_.push_back(points_[b]);
@@ -192,9 +192,9 @@ class Repairer {
 
   std::vector<Vec2>& points_;
   std::vector<Element>& elements_;
-  std::size_t first_end_ = 0;             // element of the first pair's first end
-  std::vector<int> slot_;                 // of each boundary point: place in around_, or kNone
-  std::vector<std::vector<int>> around_;  // elements that hold, or once held, the point
+  std::size_t first_end_ = 0;             // first element of the first pair
+  std::vector<int> slot_;                 // by boundary point: its place in around_, or kNone
+  std::vector<std::vector<int>> around_;  // elements that have or once had the point
   BoundaryRepairSummary summary_;
 };
 

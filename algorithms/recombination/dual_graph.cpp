@@ -22,10 +22,10 @@ namespace delquad {
 
 namespace {
 
-constexpr int kBits = 16;  // of each coordinate
+constexpr int kBits = 16;  // bits of each coordinate
 
-/// Sorts by the upper 32 bits; numbers that agree in them stay in their order. Parts of a fixed length are
-/// counted and moved at once.
+/// Sorts by the upper 32 bits and keeps the order of equal ones. Parts of fixed length are counted and moved
+/// in parallel.
 void sort_by_upper_half(std::vector<std::uint64_t>& keys) {
   constexpr int kDigit = 11;
   constexpr std::size_t kPart = std::size_t{1} << 17;
@@ -59,7 +59,7 @@ std::vector<int> hilbert_order(std::span<const Vec2> points) {
   const auto [low, high] = Box<Vec2>::around(points);
   const double extent = std::max(high.x - low.x, high.y - low.y);
   const double scale = extent > 0 ? ((1 << kBits) - 1) / extent : 0;
-  // Position in the upper half and index in the lower.
+  // Keys have the position in the upper half and the index in the lower half.
   std::vector<std::uint64_t> keys(points.size());
   parallel_each(points.size(), [&](std::size_t i) {
     const Vec2 p = scale * (points[i] - low);
@@ -89,10 +89,10 @@ long long merge_cost(const TriPatch& tri, const std::array<int, 4>& quad) {
   return static_cast<long long>(std::floor(kCostUnit * (1 - eta)));
 }
 
-/// Nodes whose sides are listed at once, and those whose edges one thread writes at once.
+/// Nodes whose sides are listed together, and nodes whose edges a thread writes together.
 constexpr std::size_t kPerBlock = 256, kPerRange = 32 * kPerBlock;
 
-/// Where the edges of each range of nodes begin, each edge being its lower node's, and after the last.
+/// Returns the first edge of each range of nodes, and the end. Edges belong to their lower node.
 std::vector<std::size_t> first_edges(const TriPatch& tri, const std::vector<int>& node) {
   const std::size_t n = node.size();
   std::vector<std::atomic<std::size_t>> counts(n / kPerRange + 1);
@@ -106,14 +106,14 @@ std::vector<std::size_t> first_edges(const TriPatch& tri, const std::vector<int>
   return first;
 }
 
-/// A block of nodes and their sides to higher nodes, in steps: each fetches from memory what the next one
-/// needs, and none has a branch that would be guessed wrongly half of the time.
+/// A block of nodes and their sides to higher nodes. It works in steps; each prefetches data for the next
+/// one, and none has branches that are hard to predict.
 class SideBlock {
  public:
   SideBlock(const TriPatch& tri, const std::vector<int>& triangle, const std::vector<int>& node)
       : tri_(tri), triangle_(triangle), node_(node) {}
 
-  /// Writes the edges of nodes [begin, end), and returns where they end.
+  /// Writes the edges of nodes [begin, end). Returns their end.
   MatchingGraph::Edge* write(std::size_t begin, std::size_t end, MatchingGraph::Edge* edge) {
     for (std::size_t i = begin; i < end; ++i) __builtin_prefetch(&tri_.neighbours[triangle_[i]]);
     for (std::size_t i = begin; i < end; ++i) {
@@ -203,7 +203,7 @@ void add_extra_edges(const TriPatch& tri, const std::vector<int>& node, long lon
   }
 }
 
-/// The first node of each node's component: within ranges first, and then across.
+/// Returns the first node of each node's component, joined within ranges first, then across.
 std::vector<int> first_nodes(const MatchingGraph& graph, const std::vector<std::size_t>& first_edge) {
   DisjointSets components(graph.n_nodes);
   std::vector<std::vector<MatchingGraph::Edge>> across(first_edge.size() - 1);
@@ -223,7 +223,7 @@ std::vector<int> first_nodes(const MatchingGraph& graph, const std::vector<std::
   return components.roots();
 }
 
-/// Components go by their first nodes.
+/// Adds a spare for each odd component, in the order of first nodes.
 void add_spares(DualGraph& dual, const std::vector<std::size_t>& first_edge) {
   const int n = dual.graph.n_nodes;
   const std::vector<int> first = first_nodes(dual.graph, first_edge);
@@ -263,7 +263,7 @@ DualGraph build_dual_graph(const TriPatch& tri, long long extra_edge_cost) {
 namespace {
 
 struct Corner {
-  double cross, dot;  ///< of the sides that leave the corner, forwards and backwards
+  double cross, dot;  ///< of the sides that leave the corner, forward and backward
 };
 
 Corner corner(Vec2 before, Vec2 at, Vec2 after) {
@@ -271,7 +271,7 @@ Corner corner(Vec2 before, Vec2 at, Vec2 after) {
   return {cross(u, v), dot(u, v)};
 }
 
-/// |angle - 90 deg|, the angle in [0, 360) degrees.
+/// Returns |angle - 90 deg| with the angle in [0, 360) degrees, in radians.
 double deviation(Corner c) {
   const double angle = std::atan2(c.cross, c.dot);
   return std::abs((angle < 0 ? angle + 2 * std::numbers::pi : angle) - std::numbers::pi / 2);
@@ -281,7 +281,7 @@ double deviation(Corner c) {
 
 double signed_eta(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const Corner corners[4] = {corner(d, a, b), corner(a, b, c), corner(b, c, d), corner(c, d, a)};
-  // In a convex quad the tangent of the deviation is |dot| / cross: one arc tangent does for all corners.
+  // In a convex quad |dot| / cross is the tangent of the deviation, so one arc tangent is enough.
   double worst = 0;
   bool convex = true;
   for (const Corner& k : corners) {

@@ -17,14 +17,14 @@ struct Pair {
   int triangle, side;
 };
 
-/// Side k is no shorter than the others.
+/// Returns whether side k is at least as long as the others.
 bool is_longest(const TriPatch& tri, int t, int k) {
   const auto& v = tri.triangles[t];
   const auto length = [&](int i) { return norm(tri.points[v[(i + 2) % 3]] - tri.points[v[(i + 1) % 3]]); };
   return length(k) >= length((k + 1) % 3) && length(k) >= length((k + 2) % 3);
 }
 
-/// The quads that triangles may make, and which of them they do.
+/// The possible quads of triangles, and the chosen ones.
 class Pairing {
  public:
   Pairing(const TriPatch& tri, const GreedyOptions& options)
@@ -74,7 +74,7 @@ class Pairing {
     mate_[u] = t;
   }
 
-  /// `search`: whose search this is; no triangle is passed twice in one.
+  /// `search` is the number of a search; each visits a triangle at most once.
   bool find_mate(int t, int quads, int search) {
     searched_[t] = search;
     for (const int u : pairs_at_[t]) {
@@ -91,7 +91,7 @@ class Pairing {
   const TriPatch& tri_;
   std::vector<Pair> pairs_;  ///< best first
   std::vector<int> mate_, searched_;
-  std::vector<std::vector<int>> pairs_at_;  ///< of each triangle the others, best first
+  std::vector<std::vector<int>> pairs_at_;  ///< possible partners of each triangle, best first
 };
 
 }  // namespace

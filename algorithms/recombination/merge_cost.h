@@ -11,8 +11,8 @@ namespace delquad {
 /// Gives the interior sides of a dual graph other costs.
 using AddedCost = std::function<void(const TriPatch& tri, DualGraph& dual)>;
 
-/// The cost that add_merge_cost() has added by that name, for a patch; null for "eta". What it returns throws
-/// an Error that names the cost where one of its values is not from 0 to 3.
+/// Returns the cost that add_merge_cost() added under a name, for a patch; null for "eta". It throws an Error
+/// that names the cost for values outside [0, 3].
 AddedCost added_cost(const std::string& name, const StageInput& in);
 
 }  // namespace delquad

@@ -14,7 +14,7 @@ namespace delquad {
 
 namespace {
 
-/// Seconds since the last call.
+/// Returns the seconds since the last call.
 class Lap {
  public:
   double operator()() {
@@ -28,10 +28,11 @@ class Lap {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Pairs that are looked at together, so that what each needs is fetched from memory while others are.
+/// Pairs that are processed together, so that their data can be prefetched.
 constexpr std::size_t kPairsPerBlock = 256;
 
-/// The triangles of the pairs that are matched through their lower nodes in [begin, end).
+/// Lists the triangles of pairs that are matched through their lower nodes in [begin, end). Returns their
+/// number.
 std::size_t list_pairs(const TriPatch& tri, const DualGraph& dual, const std::vector<int>& mate,
                        std::size_t begin, std::size_t end,
                        std::array<std::pair<int, int>, kPairsPerBlock>& pairs) {
@@ -49,7 +50,7 @@ std::size_t list_pairs(const TriPatch& tri, const DualGraph& dual, const std::ve
   return count;
 }
 
-/// The quads of all matched pairs that share a side.
+/// Returns the quads of all matched pairs that share a side.
 std::vector<std::array<int, 4>> merged_pairs(const TriPatch& tri, const DualGraph& dual,
                                              const std::vector<int>& mate) {
   using Quads = std::vector<std::array<int, 4>>;
@@ -63,13 +64,13 @@ std::vector<std::array<int, 4>> merged_pairs(const TriPatch& tri, const DualGrap
           for (std::size_t k = 0; k < count; ++k) {
             const auto [t, u] = pairs[k];
             const int side = facing_side(tri, t, u);
-            if (side >= 0) quads.push_back(merged_quad(tri, t, side, u));  // else by an extra edge
+            if (side >= 0) quads.push_back(merged_quad(tri, t, side, u));  // else matched by an extra edge
           }
         }
       });
 }
 
-/// Those quads, and the triangles matched with a spare.
+/// Returns these quads, and the triangles matched with a spare.
 QuadPatch merge(const TriPatch& tri, const DualGraph& dual, const std::vector<int>& mate) {
   QuadPatch mesh;
   mesh.points = tri.points;
@@ -81,7 +82,7 @@ QuadPatch merge(const TriPatch& tri, const DualGraph& dual, const std::vector<in
   return mesh;
 }
 
-/// The triangle, starting with vertex b.
+/// Returns the triangle, rotated to start with vertex b.
 std::array<int, 3> starting_at(const std::array<int, 3>& v, int b) {
   if (v[1] == b) return {v[1], v[2], v[0]};
   if (v[2] == b) return {v[2], v[0], v[1]};
@@ -148,7 +149,7 @@ QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, Recombine
 
 namespace {
 
-/// An interior side of t between two boundary points, -1 when it has none.
+/// Returns an interior side of t between two boundary points; -1: none.
 int spanning_side_of(const TriPatch& tri, int t) {
   for (int side = 0; side < 3; ++side) {
     if (tri.neighbours[t][side] >= 0 && tri.triangles[t][(side + 1) % 3] < tri.n_boundary &&

@@ -17,7 +17,7 @@ namespace delquad {
 namespace across {
 namespace {
 
-/// Vertices that are visited at once.
+/// Vertices visited in parallel.
 constexpr std::size_t kAtOnce = 32;
 
 class AcrossCurves {
@@ -45,7 +45,7 @@ class AcrossCurves {
   }
 
  private:
-  /// An irregular vertex that is to be visited; negative: it is gone.
+  /// An irregular vertex to visit; negative: it was removed.
   struct Place {
     int patch, vertex;
     friend bool operator==(const Place&, const Place&) = default;
@@ -61,7 +61,7 @@ class AcrossCurves {
         shared_.works[p] = std::make_unique<PatchWork>(patch, p);
     });
     versions_ = n;
-    // One of each patch after the other, as those of a patch look at the same quads.
+    // Patches alternate, since vertices of one patch examine the same quads.
     std::vector<std::pair<int, Place>> places;
     for (std::size_t p = 0; p < n; ++p)
       if (const auto& w = shared_.works[p])
@@ -83,8 +83,8 @@ class AcrossCurves {
     idle_.push_back(std::move(one));
   }
 
-  /// Takes over what the first ones that are pending have found. Where one before has changed a patch that
-  /// another one has looked at, that is visited once more.
+  /// Accepts results of the first pending vertices. A vertex is visited again if an earlier result changed a
+  /// patch that it examined.
   void take(std::vector<Visited>& found) {
     std::vector<char> changed(network_.patches.size(), 0);
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -143,7 +143,7 @@ class AcrossCurves {
   std::uint64_t versions_ = 0;
   std::vector<Place> pending_;
   std::mutex lock_;
-  std::vector<std::shared_ptr<Searches>> idle_;  ///< with lock_
+  std::vector<std::shared_ptr<Searches>> idle_;  ///< guarded by lock_
   Searches searches_;
   AcrossCurvesSummary summary_;
 };

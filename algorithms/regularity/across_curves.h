@@ -10,38 +10,40 @@
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
 
+// This header has stage Q across curves. The pipeline uses it on surfaces.
+
 namespace delquad {
 
-/// An edge of a patch's boundary: between the nodes `index` and index + 1 of a curve; `forward`: in its
-/// order.
+/// A boundary edge of a patch between the nodes `index` and index + 1 of a curve; `forward` if it runs in the
+/// curve's order.
 struct CurveEdge {
   int curve = -1, index = 0;
   bool forward = true;
 };
 
-/// A patch that ends at curves.
+/// Patch that ends at curves.
 struct PatchAtCurves {
   QuadPatch mesh;
   const ParametricSize* size = nullptr;  ///< null: it takes no part
-  std::vector<CurveEdge> edges;          ///< from each boundary point to the next of its loop
+  std::vector<CurveEdge> edges;          ///< edge from each boundary point to the next of its loop
   bool changed = false;
 };
 
 /// Patches that share curves.
 struct CurveNetwork {
   std::vector<PatchAtCurves> patches;
-  std::vector<std::vector<double>> nodes;  ///< of each curve, the places of its nodes, ascending
-  /// Of each curve the patches on its two sides, different ones; negative: its nodes stay.
+  std::vector<std::vector<double>> nodes;  ///< parameters of the nodes of each curve, ascending
+  /// The two distinct patches at each curve; negative: its nodes stay.
   std::vector<std::array<int, 2>> sides;
-  std::function<Vec2(int patch, int curve, double place)> at;  ///< of a curve in the patch's plane
+  std::function<Vec2(int patch, int curve, double place)> at;  ///< point of a curve in the plane of the patch
 };
 
 struct AcrossCurvesSummary {
   long long tried = 0;  ///< cavities that were filled and relocated
-  int accepted = 0;     ///< of these
-  int longest = 0;      ///< patches of one that was accepted, at most
-  int gained = 0;       ///< irregular vertices less, those of each patch counted
-  int patches = 0;      ///< changed
+  int accepted = 0;     ///< accepted ones
+  int longest = 0;      ///< most patches of an accepted one
+  int gained = 0;       ///< removed irregular vertices, counted in each patch
+  int patches = 0;      ///< changed patches
   double seconds = 0;
 };
 
@@ -55,14 +57,14 @@ struct Counters<AcrossCurvesSummary> {
                  counter("patches", &S::patches), counter("seconds", &S::seconds));
 };
 
-/// make_regular() over curves that are kept.
+/// Runs make_regular() across curves, which keep their shape.
 ///
-/// A cavity that a curve cuts is a polygon on each side, and both have a stretch of the curve in common. The
-/// number of edges of the stretch may grow or fall by two or four: where all polygons then have patterns with
-/// fewer irregular vertices in all, those of a curve counted on either side, they are filled, each in the
-/// plane of its patch, relocated together, and kept by what make_regular() asks for. A polygon may hand the
-/// change on to another stretch, and so across narrow patches, kMostParts in all. Nodes of the stretch get
-/// new places between the old ones; its ends stay, as all other nodes of curves do.
+/// A curve cuts a cavity into a polygon on each side, and both share a stretch of the curve. The stretch may
+/// gain or lose two or four edges. If all polygons then have patterns with fewer irregular vertices in total
+/// (vertices of a curve count on either side), they are filled. Each fill lies in the plane of its patch, all
+/// are relocated together, and the tests of make_regular() apply. A polygon may pass the change on to another
+/// stretch, across up to kMostParts patches. Nodes of the stretch move between the old ones; its ends and all
+/// other nodes stay.
 AcrossCurvesSummary make_regular_across_curves(CurveNetwork& network, const RegularityOptions& options);
 
 }  // namespace delquad

@@ -11,6 +11,8 @@
 #include "base/marks.h"
 #include "geometry/mesh/quad_topology.h"
 
+// This header has cavities, which are sets of quads to replace, and the search for them. Stage Q uses it.
+
 namespace delquad {
 
 /// Scatters the bits of a number (splitmix64).
@@ -21,19 +23,19 @@ inline std::uint64_t scattered(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Quads that other quads may replace. A vertex of the rim wants so many quads inside as its ideal valence is
-/// more than its quads outside: one at a corner, two on a side. A closed cavity has no others, but for
-/// concave vertices of the boundary, and its rim is one loop.
+/// Set of quads that may be replaced. A rim vertex wants its ideal valence minus its quads outside: one quad
+/// at a corner, two on a side. In a closed cavity every rim vertex wants one or two, except concave ones of
+/// the boundary, and the rim is one loop.
 class Cavity {
  public:
-  /// Both outlive this object.
+  /// Both must outlive this object.
   Cavity(const QuadTopology& mesh, const ValenceEnergy& energy) : mesh_(mesh), energy_(energy) {}
 
-  /// Empty, and never more than `most` quads.
+  /// Empties the cavity, and limits it to `most` quads.
   void begin(int most);
 
-  /// False, here and below: it would have a triangle, a held vertex or too many quads. It can be no cavity
-  /// then.
+  /// Returns false, here and below, if the set would have a triangle, a held vertex or too many quads. It
+  /// cannot become a cavity then.
   bool add(int element);
 
   bool add_around(int vertex) {
@@ -42,15 +44,14 @@ class Cavity {
     return good;
   }
 
-  /// Adds the quads at vertices of the rim that want none, or three and more, as long as there are any.
-  /// False, too, where the boundary is too concave, or the rim no loop with 2 to 8 corners (concave ones
-  /// taken off).
+  /// Adds quads at rim vertices that want none, or three and more, until none are left. Returns also false if
+  /// the boundary is too concave, or the rim is no loop with 2 to 8 corners (minus concave ones).
   bool close();
 
   std::span<const int> elements() const { return elements_; }
-  /// All vertices, also of the rim.
+  /// Returns all vertices, rim included.
   std::span<const int> vertices() const { return vertices_; }
-  /// Of a closed one: the half-edges of the rim counterclockwise, and 2 - (quads wanted) of their origins.
+  /// For a closed cavity: half-edges of the rim counterclockwise, and 2 - (wanted quads) at their origins.
   std::span<const int> rim() const { return rim_; }
   std::span<const int> turns() const { return turns_; }
   int corners() const { return corners_; }
@@ -61,12 +62,12 @@ class Cavity {
     return static_cast<std::size_t>(element) < element_pass_.size() && element_pass_[element] == pass_;
   }
 
-  /// How many of its vertices are irregular.
+  /// Returns the number of its irregular vertices.
   int irregular() const {
     return static_cast<int>(std::ranges::count_if(vertices_, [&](int v) { return energy_.of(v) > 0; }));
   }
 
-  /// A number that tells cavities apart, and what lies around them.
+  /// Returns a hash of the cavity and its surroundings.
   std::uint64_t key() const;
 
  private:
@@ -75,7 +76,7 @@ class Cavity {
   }
   int wanted(int v) const { return energy_.ideal(v) - (mesh_.valence(v) - quads_at(v)); }
 
-  /// Runs of its quads around a vertex.
+  /// Returns the number of runs of its quads around a vertex.
   int fans_at(int v) const;
 
   bool trace();
@@ -84,39 +85,37 @@ class Cavity {
   const ValenceEnergy& energy_;
   std::size_t most_ = 0;
   unsigned pass_ = 0;
-  std::vector<unsigned> element_pass_, vertex_pass_;  ///< the last pass in which each was met
+  std::vector<unsigned> element_pass_, vertex_pass_;  ///< last pass that met each element or vertex
   std::vector<int> quads_at_;                         ///< by vertex of this pass
-  std::vector<int> checked_at_;                       ///< and how many there were when it was checked last
+  std::vector<int> checked_at_;                       ///< number of quads at its last check
   std::vector<int> elements_, vertices_, to_check_, rim_, turns_;
   int corners_ = 0;  ///< sum of the turns
 };
 
-/// How many irregular vertices near one make cavities with it, and among how many vertices they are looked
-/// for, for each quad that a cavity may have. With 5, a quarter more cavities on the plate of 16 holes bring
-/// nothing.
+/// Number of near irregular vertices that make cavities with one, and searched vertices for each quad that a
+/// cavity may have. With 5, a quarter more cavities on the plate of 16 holes bring nothing.
 inline constexpr std::size_t kNear = 4, kMostMet = 3;
-/// Rings of quads that a cavity grows by until it has a pattern.
+/// Most rings of quads that a cavity adds until it has a pattern.
 inline constexpr int kMostRings = 2;
 
-/// Grows cavities of a mesh.
+/// Search that grows cavities of a mesh.
 class CavitySearch {
  public:
-  /// Both outlive this object.
+  /// Both must outlive this object.
   CavitySearch(const QuadTopology& mesh, const ValenceEnergy& energy)
       : mesh_(mesh), energy_(energy), cavity_(mesh, energy) {}
 
   Cavity& cavity() { return cavity_; }
   const Cavity& cavity() const { return cavity_; }
 
-  /// Calls consider() for what start() adds to the empty cavity, from there to each of the irregular vertices
-  /// nearest to the sources, and to the nearest two, three, ... together. Where start() is false there is
-  /// none.
+  /// Calls consider() for the cavity of start(), for it with each near irregular vertex, and for it with the
+  /// nearest two, three and so on. A false start() has no cavity.
   template <class Start, class F>
   void grow(std::span<const int> sources, int most_quads, Start&& start, F&& consider) {
     find_near(sources, most_quads, [](int) {});
     grow(most_quads, start, consider);
   }
-  /// The same from the sources of the last find_near().
+  /// Does the same from the sources of the last find_near().
   template <class Start, class F>
   void grow(int most_quads, Start&& start, F&& consider) {
     const auto begin = [&] {
@@ -133,12 +132,12 @@ class CavitySearch {
     }
   }
 
-  /// Adds the quads around `from`, which find_near() met, and those on the way to its source.
+  /// Adds the quads around `from`, which find_near() met, and around the path to its source.
   bool add_path(int from);
   /// Adds the quads around the rim of the closed cavity.
   bool add_ring();
-  /// Irregular vertices around the sources, the nearest first, as far as quads go from vertex to vertex, at
-  /// most so many times as the quads that a cavity may have; each() gets all vertices that are met.
+  /// Finds irregular vertices near the sources, nearest first, in steps from vertex to vertex through quads.
+  /// It visits at most kMostMet * most_quads vertices, and calls each() for all of them.
   template <class F>
   void find_near(std::span<const int> sources, int most_quads, F&& each) {
     near_.clear();
@@ -171,8 +170,8 @@ class CavitySearch {
   const QuadTopology& mesh_;
   const ValenceEnergy& energy_;
   Cavity cavity_;
-  std::vector<int> near_;  ///< irregular vertices near the sources, the nearest first
-  std::vector<int> from_;  ///< by vertex met: where the search came from
+  std::vector<int> near_;  ///< irregular vertices near the sources, nearest first
+  std::vector<int> from_;  ///< by met vertex: its predecessor in the search
   Marks met_;
 };
 

@@ -9,11 +9,10 @@ namespace delquad {
 
 namespace {
 
-/// What a centre on the rim counts more than one inside: those come last.
+/// Extra cost of a center on the rim, which comes last.
 constexpr double kRimStrain = 1000;
 
-/// An irregular vertex and the lines from it to places that stay: springs, in which each edge is as strong as
-/// the others.
+/// An irregular vertex with lines to fixed places. Each edge of a line is a spring of the same strength.
 struct Hub {
   struct Line {
     Vec2 to;
@@ -33,11 +32,11 @@ struct Hub {
   }
   std::array<Line, 5> lines;
   std::size_t n = 0;
-  Vec2 pull;          ///< sum of the ends, each over its edges
+  Vec2 pull;          ///< sum of the ends, each divided by its edges
   double weight = 0;  ///< sum of 1 / edges
 };
 
-/// Patterns of an outline without concave vertices, but no cuts.
+/// Search for patterns without cuts in an outline without concave vertices.
 class ConvexSearch {
  public:
   ConvexSearch(const Outline& outline, const PolygonSides& sides) : outline_(outline), sides_(sides) {}
@@ -73,20 +72,20 @@ class ConvexSearch {
   void add_line(Hub& hub, int i, int edges) const {
     hub.add(outline_.places[place(i)], outline_.delta[place(i)], edges);
   }
-  /// A star: its polygon's sides, and the feet of its arms.
+  /// A star: sides of its polygon, and feet of its arms.
   struct Star {
     std::span<const int> sides;
     const std::array<int, 5>& feet;
   };
-  /// The arms of a star to its sides from `first` on, which follow each other on the outline from `at`. The
-  /// side that has its centre; negative: none.
+  /// Adds the arms of a star to its sides from `first` on, which begin at `at` on the outline. Returns the
+  /// side with its center; negative: none.
   int add_arms(Hub& hub, const Star& star, std::size_t first, int at) const {
     const auto& [sides, x] = star;
     const std::size_t n = sides.size();
     std::size_t on = 0;
     while (on < n && x[(on + 1) % n] > 0) ++on;
     for (std::size_t i = first; i < n; ++i) {
-      // The arms beside a centre on the rim lie on the rim.
+      // Arms beside a center on the rim lie on the rim.
       if (on == n || (i + n - on + 1) % n > 2) add_line(hub, at + x[i], x[(i + 1) % n]);
       at += sides[i];
     }
@@ -128,7 +127,7 @@ class ConvexSearch {
     const int on = add_arms(star, left, 1, corner + along);
     Vec2 t = three.rest(), c = t;
     if (on < 0) {
-      // Both pull at each other.
+      // Both vertices pull at each other.
       const double w = 1.0 / between, a = three.weight + w, b = star.weight + w, det = a * b - w * w;
       t = (1 / det) * (b * three.pull + w * star.pull);
       c = (1 / det) * (w * three.pull + a * star.pull);
@@ -140,7 +139,7 @@ class ConvexSearch {
       const double far = x[0] < along ? double(x[0]) / along : double(rest[0] - x[0]) / back;
       c = (1 - far) * outline_.places[x[0] < along ? behind : ahead] + far * t;
     } else {
-      return std::nullopt;  // both irregular vertices would be one
+      return std::nullopt;  // both irregular vertices would coincide
     }
     return Pair{strain + three.strain(t) + star.strain(c) + (on < 0 ? 0 : kRimStrain), t, c};
   }

@@ -12,22 +12,21 @@ namespace delquad {
 
 namespace {
 
-/// An irregular vertex that stays counts as so many quads.
+/// A remaining irregular vertex counts as this many quads.
 constexpr double kQuadsPerIrregular = 10;
-/// Quads that a cavity may have for each irregular vertex less in the first round, and how many times more in
-/// each further one; the last one has no limit. Of the fills of larger ones one in thirty would be kept.
+/// Quads of a cavity for each removed irregular vertex in the first round, and growth of this limit by round.
+/// The last round has no limit. One in thirty fills of larger cavities would be kept.
 constexpr double kQuadsPerGain = 15, kMoreQuads = 3;
-/// Sweeps within which a fill must settle.
+/// Sweeps of relocation before a fill is judged.
 constexpr int kFillSweeps = 12;
-/// A fill is given up where a sweep mends less than this part of what it loses too much, or of what its worst
-/// corner lacks.
+/// A fill is given up if a sweep gains less than this part of its excess loss, or of its worst corner's lack.
 constexpr double kHopelessPart = 0.2;
-/// And where at any time the sum loses so much more than it may, times the square root of the quads around.
-/// Without that, relocation costs half as much again and mends as many on the plate of 16 holes; with 1.2 it
-/// costs a fifth less and mends 2 % fewer.
+/// A fill is also given up if its excess loss is above this times the square root of the quads around.
+/// Without it, relocation costs half as much again for equal results on the plate of 16 holes. A value of 1.2
+/// saves a fifth of the cost and removes 2 % fewer irregular vertices.
 constexpr double kHopelessLoss = 1.6;
 
-/// As in CleanupProcess: the part of an edge below which a move calls for no more in the end.
+/// Moves below this part of an edge do not activate neighbors in the end, as in CleanupProcess.
 constexpr double kRelaxedAtLast = 0.02;
 
 bool is_slow(double mended, double lack) { return lack > 0 && mended < kHopelessPart * lack; }

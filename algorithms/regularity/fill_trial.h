@@ -9,53 +9,55 @@
 #include "geometry/mesh/quad_topology.h"
 #include "smoothing/relocation/quad_relocation.h"
 
+// This header tries fills of cavities. Stage Q, in patches and across curves, uses it.
+
 namespace delquad {
 
-/// What a round allows: the loss for an irregular vertex less, and quads of its cavities.
+/// Limits of a round: loss for each removed irregular vertex, and quads of its cavities.
 double tolerance_of(const RegularityOptions& options, int round);
 double quads_per_gain_of(const RegularityOptions& options, int round);
-/// Cavities of which this is less are tried first. `left`: irregular vertices of its pattern.
+/// Returns the rank of a cavity; lower ones are tried first. `left` counts irregular vertices of its pattern.
 double promise_of(double quads, int left, int gain);
-/// Cavities of a vertex that are tried in a round. A third brings nothing.
+/// Most tried cavities of a vertex in a round; a third one brings nothing.
 inline constexpr int kMostTrials = 2;
 
-/// Relocation as Q does it, and of all vertices that are active once it is done. Returns the moves.
+/// Sets the limits of relocation in stage Q. Relocates all active vertices at the end, and returns the moves.
 void hold(QuadRelocation& relocation);
 long long relax_at_last(QuadRelocation& relocation);
 
-/// What moves when a cavity is filled, and what becomes of the elements there.
+/// Moving vertices and quality of the elements around them when a cavity is filled.
 class FillTrial {
  public:
   struct Quality {
-    double mean = 0;  ///< of the elements' values
+    double mean = 0;  ///< mean of the elements' values
     double least_sine = 1;
     int failing = 0, thin = 0;
     double crowding = 0;
     int n = 0;
   };
 
-  /// Both outlive this object.
+  /// Both must outlive this object.
   FillTrial(const QuadTopology& mesh, QuadRelocation& relocation) : mesh_(mesh), relocation_(relocation) {}
 
-  /// The vertices of the rim and of the quads around it; those within are others before and after.
+  /// Collects vertices of the rim and of quads around it; vertices inside differ before and after.
   void collect_region(const Cavity& cavity);
   void collect_elements();
   void measure_before();
   Quality quality() const;
   void sweep();
 
-  std::vector<int> region;  ///< vertices that move
+  std::vector<int> region;  ///< moving vertices
   Quality before;
 
  private:
   const QuadTopology& mesh_;
   QuadRelocation& relocation_;
-  std::vector<int> elements_;  ///< around the region
+  std::vector<int> elements_;  ///< elements around the region
   Marks elements_met_, vertices_met_;
 };
 
-/// Relocates cavities that were filled together; whether the loss of their mean gets as small as allowed,
-/// with at most so many quads more that fail. `tried` is counted up where it is not that from the start.
+/// Relocates cavities that are filled together. Returns whether the loss of their mean falls to `allowed`,
+/// with at most `more_failing` more failing quads. `tried` grows unless that holds from the start.
 bool settle(std::span<FillTrial> trials, double allowed, int more_failing, double& loss, long long& tried);
 
 }  // namespace delquad

@@ -13,17 +13,18 @@
 #include "algorithms/regularity/fill_trial.h"
 #include "algorithms/regularity/patch_work.h"
 
-/// Cavities at curves, filled beside their patch, and such fills in its place.
+/// This header fills cavities on a copy beside their patch, and puts fills in place. Stage Q across curves
+/// uses it.
 
 namespace delquad::across {
 
-/// Rings of quads around changed polygons and curves whose vertices are relocated.
+/// Rings of quads around changed polygons and curves that are relocated.
 inline constexpr int kMovedRings = 2;
 
-/// A cavity filled on a mesh of its own, with the elements around all that moves.
+/// A cavity filled on its own mesh, with the elements around all moving vertices.
 class LocalFill {
  public:
-  /// Throws std::invalid_argument where two vertices would get a second edge in common.
+  /// Throws std::invalid_argument if two vertices would share a second edge.
   LocalFill(PatchWork& work, const Cavity& cavity, const Rim& rim, const PatternMesh& fill)
       : whole_(work.mesh), cavity_(cavity), rim_(rim) {
     find_moving();
@@ -47,10 +48,10 @@ class LocalFill {
 
   std::optional<QuadTopology> mesh;
   std::optional<QuadRelocation> relocation;
-  std::vector<int> global;  ///< vertex of the patch, by vertex here; negative: a new one
-  std::vector<int> corner;  ///< by vertex of the rim
+  std::vector<int> global;  ///< vertex of the patch for each vertex here; negative: new
+  std::vector<int> corner;  ///< vertex here for each vertex of the rim
   std::vector<int> region;
-  FillTrial::Quality before;  ///< of what there is
+  FillTrial::Quality before;  ///< quality before the fill
   int first_fill = 0, n_fill = 0;
 
  private:
@@ -77,8 +78,8 @@ class LocalFill {
     return static_cast<int>(global.size()) - 1;
   }
 
-  /// Adds vertices of the boundary first, new ones with them, then vertices that have elements elsewhere,
-  /// which are held. Returns the first of the held ones.
+  /// Adds vertices of the boundary and new ones first, then held vertices, which have elements elsewhere.
+  /// Returns the first held one.
   int add_vertices() {
     std::map<int, int> in_elements;
     for (const int e : elements_)
@@ -130,11 +131,11 @@ class LocalFill {
   const Cavity& cavity_;
   const Rim& rim_;
   std::vector<int> moving_, elements_;  ///< of the patch
-  std::map<int, int> number_;           ///< vertex here, by vertex of the patch
+  std::map<int, int> number_;           ///< vertex here for each vertex of the patch
   QuadPatch local_;
 };
 
-/// Takes a fill over into its patch; boundary points keep their order.
+/// Moves a fill into its patch; boundary points keep their order.
 class FillTaking {
  public:
   FillTaking(PatchWork& work, const Cavity& cavity, const LocalFill& fill, const Rim& rim)
@@ -149,7 +150,7 @@ class FillTaking {
   }
 
   void finish(std::span<const Change> changes) {
-    // Edges of a curve are numbered anew, in their order or against it.
+    // Renumbers the edges of changed curves along each of them.
     for (const Change& change : changes) {
       const auto is_on = [&](const CurveEdge& e) { return e.curve == change.curve; };
       const auto n = static_cast<int>(std::ranges::count_if(edges_, is_on));
@@ -162,7 +163,7 @@ class FillTaking {
     work_.patch.changed = true;
   }
 
-  std::vector<int> number, of_local;  ///< what becomes of vertices
+  std::vector<int> number, of_local;  ///< new numbers of vertices
 
  private:
   int add(Vec2 at) {
@@ -171,7 +172,7 @@ class FillTaking {
   }
 
   void add_boundary(const Rim& rim) {
-    std::map<int, std::vector<int>> after;  // new nodes by the point that they follow
+    std::map<int, std::vector<int>> after;  // new nodes by their previous boundary point
     for (std::size_t i = 0, last = 0; i < rim.vertex.size(); ++i) {
       if (rim.vertex[i] >= 0)
         last = i;

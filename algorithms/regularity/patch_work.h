@@ -19,18 +19,18 @@
 #include "algorithms/regularity/polygon_sides.h"
 #include "smoothing/relocation/quad_relocation.h"
 
-/// Patches as they are while make_regular_across_curves() changes them and the curves between them.
+/// This header has the state of patches and curves during make_regular_across_curves(). Its visits use it.
 
 namespace delquad::across {
 
-/// A stretch of a curve between two of its nodes that gets so many edges more. Edges beside it make room: the
-/// nodes between `from` and `to` get other places.
+/// A stretch of a curve between two nodes that gets `by` more edges. Nodes between `from` and `to` move to
+/// make space.
 struct Change {
   int curve, low, high, by;
   int from = 0, to = 0;
-  int side = 0;                                 ///< of a simple polygon, on which it lies
-  int edges() const { return to - from + by; }  ///< between `from` and `to`, in the end
-  /// The place of a node that stays, among those from `from` on.
+  int side = 0;                                 ///< its side of a simple polygon
+  int edges() const { return to - from + by; }  ///< final edges between `from` and `to`
+  /// Returns the index of a fixed node among the nodes from `from` on.
   int index(int k) const { return k - from + (k < high ? 0 : by); }
   bool moves(int k) const { return (from < k && k <= low) || (high <= k && k < to); }
 };
@@ -47,8 +47,8 @@ inline std::uint64_t mixed(std::uint64_t sum, const Change& c) {
 /// Quads of a patch that make a closed cavity.
 struct Polygon {
   std::vector<int> elements;
-  std::vector<Change> runs;           ///< stretches on its rim, by 0, one of a curve
-  std::optional<PolygonSides> sides;  ///< none where it is concave, or has six corners or more
+  std::vector<Change> runs;           ///< unchanged stretches on its rim, one for each curve
+  std::optional<PolygonSides> sides;  ///< none if it is concave or has six corners or more
   int irregular;
   std::uint64_t key;
 };
@@ -64,20 +64,20 @@ struct Use {
     return a.more() != b.more() ? a.more() < b.more() : a.quads() < b.quads();
   }
 };
-/// Holds uses of a patch beside a stretch: some end a change, others hand it on.
+/// Uses of a patch beside a stretch: `ends` finish a change, `ways` pass it on.
 struct Uses {
   std::vector<Use> ends, ways;
 };
 
-/// The rim of a cavity once stretches have changed.
+/// Rim of a cavity after its stretches have changed.
 struct Rim {
   Outline outline;
-  std::vector<int> vertex;    ///< of the patch; negative: a new node
-  std::map<int, Vec2> moved;  ///< boundary points of the patch that get other places
-  std::set<int> gone;         ///< and those that go
+  std::vector<int> vertex;    ///< vertex of the patch; negative: new node
+  std::map<int, Vec2> moved;  ///< moved boundary points of the patch
+  std::set<int> gone;         ///< removed boundary points of the patch
 };
 
-/// A patch as it is now, for all threads.
+/// Current state of a patch for all threads.
 class PatchWork {
  public:
   PatchWork(PatchAtCurves& of, std::uint64_t number)
@@ -90,7 +90,7 @@ class PatchWork {
   }
 
   double delta(int v) const { return relocation.delta(v); }
-  /// The boundary point from which the curve's k-th edge begins here.
+  /// Returns the boundary point where the curve's k-th edge begins in this patch.
   int edge_point(int curve, int k) const {
     const auto [first, n] = first_.at(curve);
     return patch.edges[first].forward ? first + k : first + n - 1 - k;
@@ -101,12 +101,12 @@ class PatchWork {
     return k > 0 ? first + n - k : mesh.target(mesh.out(first + n - 1));
   }
   int edge_element(int curve, int k) const { return QuadTopology::element(mesh.out(edge_point(curve, k))); }
-  /// Returns the edge that begins at a half-edge's origin; negative curve: no curve has it.
+  /// Returns the edge that begins at a half-edge's origin; its curve is negative if no curve has it.
   CurveEdge edge_of(int h) const {
     if (mesh.twin(h) >= 0) return {};
     return patch.edges[mesh.origin(h)];
   }
-  /// Returns the known value, or else calls `make`, which returns the same on every thread.
+  /// Returns the known value, or calls `make`, which returns the same on every thread.
   template <class Map, class Make>
   const typename Map::mapped_type& known(Map& all, const typename Map::key_type& key, Make&& make) {
     {
@@ -127,11 +127,11 @@ class PatchWork {
   std::map<std::array<int, 4>, Uses> uses;                      ///< by stretch and change
 
  private:
-  std::map<int, std::pair<int, int>> first_;  ///< by curve: its first point here, and its edges
+  std::map<int, std::pair<int, int>> first_;  ///< first boundary point and number of edges of each curve here
   std::mutex lock_;
 };
 
-/// Holds the data that visits share.
+/// Data that visits share.
 struct Shared {
   const CurveNetwork& network;
   const RegularityOptions& options;
@@ -140,7 +140,7 @@ struct Shared {
 
   bool may_cross(const CurveEdge& e) const { return e.curve >= 0 && network.sides[e.curve][0] >= 0; }
 
-  /// Places on the curve of the nodes from `from` to `to`, once they have changed.
+  /// Returns the parameters of the nodes from `from` to `to` after the change.
   std::vector<double> new_places(const Change& change) const {
     const auto& nodes = network.nodes[change.curve];
     const int n = change.edges();
@@ -154,7 +154,7 @@ struct Shared {
   }
 };
 
-/// Grows cavities of patches, one thread at a time.
+/// Grows cavities of patches, for one thread at a time.
 class Searches {
  public:
   CavitySearch& of(PatchWork& w, int patch) {
@@ -166,7 +166,7 @@ class Searches {
     }
     return *search;
   }
-  /// Makes the polygon the patch's cavity; none: it is no more.
+  /// Makes the polygon the cavity of the patch. Returns null if it no longer exists.
   const Cavity* take(PatchWork& w, int patch, const std::vector<int>& elements) {
     Cavity& cavity = of(w, patch).cavity();
     cavity.begin(static_cast<int>(elements.size()));

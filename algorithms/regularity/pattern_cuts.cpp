@@ -10,23 +10,22 @@ namespace delquad {
 
 namespace {
 
-/// Of a cut: its edges are at least and at most so many times as long as wanted.
+/// Range of the length of edges on a cut, over the wanted length.
 constexpr double kShortestEdge = 0.75, kLongestEdge = 1.4;
-/// How many cuts of an outline are followed, those with the least strain, and of each of its parts so many
-/// times less.
+/// Most followed cuts of an outline, least strain first, and the divisor of this number for its parts.
 constexpr int kMostCuts = 8, kFewerOfParts = 4;
-/// Corners of an outline, less concave vertices.
+/// Corners of an outline minus concave vertices.
 constexpr int kFewestCorners = 2, kMostCorners = 8;
 
-/// Irregular vertices that corners ask for.
+/// Returns the number of irregular vertices that corners require.
 int bound_of(int corners) { return std::abs(4 - corners); }
 
-/// Adds up the sides of a polygon that consists of a piece of an outline and a cut.
+/// Sums up the sides of a polygon from a piece of an outline and a cut.
 class PartSides {
  public:
-  /// `turn`: at the place where the piece begins.
+  /// `turn` is the turn at the start of the piece.
   explicit PartSides(int turn) : corners_(turn), at_corner_(turn == 1), convex_(turn >= 0) {}
-  /// On to the next place that has a turn, or to the end of the piece.
+  /// Advances to the next place with a turn, or to the end of the piece.
   void go(int edges, int turn) {
     edges_[last_] += edges;
     corners_ += turn;
@@ -34,7 +33,7 @@ class PartSides {
     if (turn == 1 && last_ + 1 < edges_.size()) ++last_;
   }
   int corners() const { return corners_; }
-  /// The least number of irregular vertices of its patterns, or less; negative where it has none.
+  /// Returns a lower bound for the irregular vertices of its patterns; negative if it has none.
   int least(int cut) const {
     if (corners_ < kFewestCorners || corners_ > kMostCorners) return -1;
     if (!convex_ || corners_ > 5) return bound_of(corners_);
@@ -51,8 +50,8 @@ class PartSides {
 };
 
 struct Cut {
-  int from, along, back, to, edges;  ///< as Pattern has them
-  int irregular;                     ///< of its parts, or less
+  int from, along, back, to, edges;  ///< as in Pattern
+  int irregular;                     ///< lower bound for its parts
   double strain;
   friend bool operator<(const Cut& a, const Cut& b) {
     return std::tie(a.irregular, a.strain, a.from, a.to, a.along, a.back, a.edges) <
@@ -60,17 +59,17 @@ struct Cut {
   }
 };
 
-/// Finds the cuts of an outline of one loop.
+/// Search for cuts of an outline with one loop.
 class CutSearch {
  public:
-  /// Cuts that leave more than `most` irregular vertices are left out.
+  /// Leaves out cuts with more than `most` irregular vertices.
   CutSearch(const Outline& outline, int most)
       : outline_(outline), n_(static_cast<int>(outline.turn.size())), most_(most), to_turn_(n_, n_) {
     for (int i = 2 * n_ - 1; i >= 0; --i)
       to_turn_[i % n_] = outline.turn[(i + 1) % n_] != 0 ? 1 : std::min(to_turn_[(i + 1) % n_] + 1, n_);
   }
 
-  /// So many, those with the fewest irregular vertices first, of these those with the least strain.
+  /// Returns up to n cuts, by fewest irregular vertices, then least strain.
   std::vector<Cut> first(int n) && {
     if (const auto sides = sides_of(outline_.turn)) {
       between_sides(*sides);
@@ -86,7 +85,7 @@ class CutSearch {
   }
 
  private:
-  /// Cuts that leave a pentagon.
+  /// Tries cuts that leave a pentagon.
   void between_sides(const PolygonSides& sides) {
     const auto& s = sides.edges;
     const int n = static_cast<int>(s.size());
@@ -136,11 +135,11 @@ class CutSearch {
 
   const Outline& outline_;
   int n_, most_;
-  std::vector<int> to_turn_;  ///< edges from each place to the next one that has a turn
+  std::vector<int> to_turn_;  ///< edges from each place to the next place with a turn
   std::vector<Cut> cuts_;
 };
 
-/// Makes outlines of pieces of another one.
+/// Makes outlines of pieces of another outline.
 struct OutlineMaker {
   const Outline& whole;
   Outline made = {};
@@ -149,7 +148,7 @@ struct OutlineMaker {
   void add(int i, int turn) {
     made.places.push_back(whole.places[i]), made.delta.push_back(whole.delta[i]), made.turn.push_back(turn);
   }
-  /// The places between two of a loop.
+  /// Adds the places between two places of a loop.
   void add_between(int from, int to, int begin, int end) {
     for (int i = from + 1 < end ? from + 1 : begin; i != to; i = i + 1 < end ? i + 1 : begin)
       add(i, whole.turn[i]);
@@ -174,7 +173,7 @@ Outline part_of(const Outline& whole, int from, int to, int turn_from, int turn_
   return std::move(maker.made);
 }
 
-/// The best pattern of at most `most` irregular vertices; so many cuts are followed.
+/// Returns the best pattern with at most `most` irregular vertices. It follows `n_cuts` cuts.
 std::optional<Pattern> search(const Outline& outline, int most, int n_cuts) {
   if (const auto sides = sides_of(outline.turn); sides && sides->edges.size() < 6) {
     const int least = least_irregular_of(sides->edges);

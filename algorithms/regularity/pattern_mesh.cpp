@@ -8,7 +8,7 @@ namespace delquad {
 
 namespace {
 
-/// A row of vertices, both ends included.
+/// Row of vertices, both ends included.
 using Row = std::vector<int>;
 
 Row part(const Row& row, int from, int to) { return {row.begin() + from, row.begin() + to + 1}; }
@@ -16,14 +16,14 @@ Row reversed(Row row) {
   std::ranges::reverse(row);
   return row;
 }
-/// Two rows, the second from where the first ends.
+/// Joins two rows; the second begins at the end of the first.
 Row joined(Row row, const Row& more) {
   row.insert(row.end(), more.begin() + 1, more.end());
   return row;
 }
 int length(const Row& row) { return static_cast<int>(row.size()) - 1; }
 
-/// A polygon that is to be filled.
+/// Polygon to fill.
 struct Loop {
   std::vector<int> vertex, turn;
 };
@@ -60,7 +60,7 @@ class PatternMesher {
     points_.push_back(at);
     return static_cast<int>(points_.size()) - 1;
   }
-  /// A new straight row of n edges between two vertices.
+  /// Adds a straight row of n edges between two vertices.
   Row line(int from, int to, int n) {
     Row row{from};
     for (int i = 1; i < n; ++i)
@@ -69,7 +69,7 @@ class PatternMesher {
     return row;
   }
 
-  /// Rows counterclockwise around it.
+  /// Fills a grid; the rows run counterclockwise around it.
   void grid(const Row& south, const Row& east, const Row& north, const Row& west) {
     const int n = length(south), m = length(east);
     std::vector<Row> rows(m + 1, Row(n + 1));
@@ -146,7 +146,7 @@ class PatternMesher {
       fill(half, own);
     };
     fill_part(p.at, p.to, 2 - p.along, 2 - p.back, reversed(row), p.parts[0]);
-    // The quads of both parts at an end are those of the whole.
+    // At an end, both parts together have the quads of the whole.
     fill_part(p.to, p.at, loop.turn[p.to] + p.back, loop.turn[p.at] + p.along, row, p.parts[1]);
   }
 

@@ -26,7 +26,7 @@ namespace {
 template <int n>
 std::optional<std::array<int, 5>> feet_of(std::span<const int> sides) {
   const auto after_next = [](int i) { return i + 2 < n ? i + 2 : i + 2 - n; };
-  // x[i + 2] = sides[i] - x[i], n times around.
+  // Solves x[i + 2] = sides[i] - x[i], n times around.
   int sum = 0;
   for (int k = 0, i = 0; k < n; ++k, i = after_next(i)) sum = sides[i] - sum;
   if (sum < 0 || sum % 2 != 0) return std::nullopt;
@@ -58,7 +58,7 @@ std::array<int, 5> sides_without_corner(std::span<const int> sides, int at, int 
 CornerGrids corner_grids(std::span<const int> s, int at) {
   const int n = static_cast<int>(s.size()), ahead = s[at], behind = s[(at + n - 1) % n];
   if (std::reduce(s.begin(), s.end()) % 2 != 0) return {};
-  // No foot of the star's arms may lie before the start of its side.
+  // No foot of an arm may lie before the start of its side.
   if (n == 2)
     return {std::max(1, (ahead - behind) / 2 + 1), std::max(1, (behind - ahead) / 2 + 1), ahead - 1,
             behind - 1};

@@ -5,34 +5,36 @@
 #include <span>
 #include <vector>
 
+// This header relates the sides of convex polygons to grids and stars. Patterns and layouts use it.
+
 namespace delquad {
 
-/// The edges of each side of a convex polygon, from `start`, the place of its first corner on the outline.
+/// Edges of each side of a convex polygon, from its first corner, `start`, on the outline.
 struct PolygonSides {
   std::vector<int> edges;
   int start = 0;
 };
 
-/// `turn`: as Outline has it. None where a vertex is concave or there are fewer than two corners.
+/// Returns the sides for turns as in Outline; nothing if a vertex is concave or fewer than two are corners.
 std::optional<PolygonSides> sides_of(std::span<const int> turn);
 
-/// The distances x[i] from the start of side i to the foot of a star's arm on that side; none where there is
-/// no such star. Arm i has x[(i + 1) % N] edges. N, the number of sides, is 3 or 5. Of five arms one may have
-/// none: its foot is the centre then, and the arms beside lie on its side.
+/// Returns the distances x[i] from the start of side i to the foot of a star's arm; nothing without such a
+/// star. Arm i has x[(i + 1) % N] edges, for N = 3 or 5 sides. One of five arms may have length 0: its foot
+/// is the center, and the adjacent arms lie on its side.
 std::optional<std::array<int, 5>> star_feet(std::span<const int> sides);
 
-/// The sides of what is left of a polygon beside a grid of `along` edges on side `at`, at its start, and
-/// `back` edges on the side before: first the new one, then what is left of side `at`, and on.
+/// Returns the sides of a polygon without a grid of `along` edges at the start of side `at` and `back` edges
+/// on the previous side. The new side comes first, then the rest of side `at`, and so on.
 std::array<int, 5> sides_without_corner(std::span<const int> sides, int at, int along, int back);
 
-/// Of the grids in a corner of a polygon of two or four sides that leave a star the least and the most edges.
+/// Range of grids in a corner of a polygon of two or four sides that leave a star.
 struct CornerGrids {
   int least_along = 1, least_back = 1, most_along = 0, most_back = 0;
 };
 CornerGrids corner_grids(std::span<const int> sides, int at);
 
-/// Calls f(at, along, back, sides of what is left, feet of its star) for all of them of a polygon of two or
-/// four sides, until f returns true. Whether it did.
+/// Calls `f(at, along, back, remaining sides, feet of their star)` for all such grids of a polygon of two or
+/// four sides, until f returns true. Returns whether it did.
 template <class F>
 bool any_corner(std::span<const int> sides, F&& f) {
   const int n = static_cast<int>(sides.size());
@@ -48,8 +50,8 @@ bool any_corner(std::span<const int> sides, F&& f) {
   return false;
 }
 
-/// The least number of irregular vertices of a pattern of a convex polygon of two to five sides without cuts;
-/// negative where there is none.
+/// Returns the least number of irregular vertices of patterns without cuts, for a convex polygon of two to
+/// five sides; negative without a pattern.
 int least_irregular_of(std::span<const int> sides);
 
 }  // namespace delquad

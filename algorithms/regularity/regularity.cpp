@@ -23,13 +23,13 @@ namespace delquad {
 
 namespace {
 
-/// As in CleanupProcess: the part of an edge below which a move calls for no more.
+/// Moves below this part of an edge do not activate neighbors, as in CleanupProcess.
 constexpr double kRelaxed = 0.08;
 
-/// The state and the steps of one make_regular().
+/// State and steps of one make_regular().
 class RegularityProcess {
  public:
-  /// Block and size outlive this object.
+  /// `block` and `size` must outlive this object.
   RegularityProcess(const QuadBlock& block, const ParametricSize& size, const RegularityOptions& options)
       : block_(block),
         mesh_(block.mesh, block.first_held),
@@ -68,21 +68,21 @@ class RegularityProcess {
   const RegularitySummary& summary() const { return summary_; }
 
  private:
-  /// A cavity that may be filled with fewer irregular vertices.
+  /// A cavity whose pattern may have fewer irregular vertices.
   struct Candidate {
-    double promise;  ///< the less, the sooner it is tried
+    double promise;  ///< lower ones are tried first
     int gain;
     std::uint64_t key;
     std::vector<int> elements;
-    std::optional<Pattern> pattern;  ///< none where it was not sought in this visit
+    std::optional<Pattern> pattern;  ///< none if this visit did not search it
     friend bool operator<(const Candidate& a, const Candidate& b) {
       return a.promise != b.promise ? a.promise < b.promise : a.key < b.key;
     }
   };
-  /// What is known of a cavity.
+  /// Known facts of a cavity.
   struct Known {
-    int least = -1;  ///< irregular vertices of its patterns; negative: it has none
-    /// That a fill brought, for each irregular vertex less.
+    int least = -1;  ///< irregular vertices of its best pattern; negative: no pattern
+    /// Loss of its fill for each removed irregular vertex.
     double loss = -std::numeric_limits<double>::infinity();
   };
 
@@ -106,7 +106,7 @@ class RegularityProcess {
     }
   }
 
-  /// Makes a candidate of the cavity, or of it with rings of quads more, if it is one.
+  /// Makes a candidate of the cavity, or of the cavity with more rings of quads.
   void consider() {
     for (int ring = 0; ring <= kMostRings; ++ring) {
       if (!cavity_.close()) return;
@@ -147,7 +147,7 @@ class RegularityProcess {
     return outline;
   }
 
-  /// Fills a cavity with its best pattern; takes all back where that costs too much.
+  /// Fills a cavity with its best pattern. Undoes it if it costs too much.
   bool attempt(Candidate& candidate) {
     cavity_.begin(options_.quads);
     for (const int e : candidate.elements) cavity_.add(e);
@@ -203,9 +203,9 @@ class RegularityProcess {
   Cavity& cavity_;
   FillTrial trial_;
   double tolerance_ = 0;              ///< of this round
-  double quads_per_gain_ = 0;         ///< of this round's cavities, at most
-  std::vector<int> visiting_, work_;  ///< irregular vertices of this round and of the next
-  std::vector<char> listed_;          ///< by vertex: in work_
+  double quads_per_gain_ = 0;         ///< limit for cavities of this round
+  std::vector<int> visiting_, work_;  ///< irregular vertices of this round and of the next one
+  std::vector<char> listed_;          ///< by vertex: whether it is in work_
   std::vector<Candidate> candidates_;
   std::unordered_map<std::uint64_t, Known> known_;  ///< by Cavity::key()
   RegularitySummary summary_;

@@ -6,27 +6,29 @@
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
 
+// This header has stage Q, which fills cavities with patterns. Pipelines and layouts use it.
+
 namespace delquad {
 
 struct RegularityOptions {
-  double tolerance = 3;       ///< what an irregular vertex less may cost in the last round; none in the first
-  int quads = 200;            ///< of a cavity, at most
-  int rounds = 3;             ///< over which the tolerance grows
-  double weight = 1;          ///< times what an irregular vertex less may cost by the options of any room
-  bool across_curves = true;  ///< of surfaces: see make_regular_across_curves()
-  double joined = 4;          ///< times the tolerance of surfaces with compounds
+  double tolerance = 3;  ///< allowed loss for each removed irregular vertex in the last round; 0 in the first
+  int quads = 200;       ///< most quads of a cavity
+  int rounds = 3;        ///< rounds in which the tolerance grows
+  double weight = 1;     ///< factor for the tolerances of all stages
+  bool across_curves = true;  ///< for surfaces, see make_regular_across_curves()
+  double joined = 4;          ///< factor for the tolerance of surfaces with compounds
 };
 
 OptionGroup regularity_group();
-/// With the tolerance times the weight.
+/// Returns the options, with the tolerance multiplied by the weight.
 RegularityOptions regularity_options(const Options& options);
 
 struct RegularitySummary {
   int irregular_before = 0;  ///< vertices whose valence is not ideal
   int irregular_after = 0;
-  long long cavities = 0;   ///< with patterns of fewer irregular vertices
-  long long tried = 0;      ///< of these, filled and relocated
-  int accepted = 0;         ///< of these
+  long long cavities = 0;   ///< cavities with patterns of fewer irregular vertices
+  long long tried = 0;      ///< filled and relocated ones
+  int accepted = 0;         ///< accepted ones
   int grids = 0;            ///< accepted ones without irregular vertices
   long long relocated = 0;  ///< moves of vertices at the end
   long long looks = 0;      ///< QuadRelocation::looks()
@@ -44,25 +46,24 @@ struct Counters<RegularitySummary> {
       counter("seconds", &S::seconds));
 };
 
-/// Lowers the number of irregular vertices of a quad mesh further than clean_up() can, which leaves pairs of
-/// valences 3 and 5 that no edit of a few quads removes.
+/// Removes irregular vertices that clean_up() leaves: pairs of valences 3 and 5 that no edit of a few quads
+/// removes.
 ///
-/// Around every irregular vertex, and from there to the nearest others, cavities are grown: their quads, with
-/// more at concave places of the rim, until each vertex of the rim wants one quad inside (a corner) or two to
-/// have its ideal valence. The rim is then a polygon with sides of so many edges, for which Pattern has
-/// meshes with the fewest irregular vertices. Those that have fewer than the cavity are tried: the few with
-/// the least quads for each irregular vertex less. A fill is relocated together with a ring of quads around,
-/// and kept when the sum of eta - 1.5 * (size deviation) over the quads there (as many as before) loses no
-/// more than the tolerance for each irregular vertex less. The tolerance grows from round to round, so that
-/// what costs nothing comes first; so do the quads that a cavity may have for each irregular vertex less.
-/// What has failed is not tried again before the tolerance is above what it lost, or other quads are there.
+/// Cavities grow around every irregular vertex, and from there to the nearest others. They add quads at
+/// concave places of the rim until each rim vertex wants one quad inside (a corner) or two. The rim is then a
+/// polygon whose sides have known numbers of edges, for which Pattern has meshes. Cavities whose pattern has
+/// fewer irregular vertices are tried, those with the fewest quads for each removed one first. A fill is
+/// relocated with a ring of quads around it. It is kept if the sum of eta - 1.5 * (size deviation) falls by
+/// at most the tolerance for each removed irregular vertex. The sum is over as many quads as before. The
+/// tolerance and the size of cavities grow from round to round, so cheap gains come first. A failed fill is
+/// tried again only if the tolerance exceeds its loss, or quads have changed.
 ///
-/// The number of irregular vertices never grows, and the least eta of the mesh never falls below both
-/// kCleanupFloorEta and what it was. No fill is kept that makes more quads fail, see
-/// ElementQuality: the sum hardly feels a single one. A mesh in which no fill is kept stays as it is.
-/// Boundary points stay where they are, in their order, and leftover triangles stay; the mesh stays
-/// conforming, oriented and of the same topology type. The same input gives the same mesh. Time is linear in
-/// the number of irregular vertices. Throws std::invalid_argument where the input is not conforming.
+/// The number of irregular vertices never grows, and the least eta never falls below both kCleanupFloorEta
+/// and its old value. No kept fill makes more quads fail (ElementQuality), which the sum hardly shows. A mesh
+/// without a kept fill does not change. Boundary points keep their places and order, and leftover triangles
+/// stay. The mesh stays conforming, oriented and of the same topology. The same input gives the same mesh.
+/// Time is linear in the number of irregular vertices. Throws std::invalid_argument if the input is not
+/// conforming.
 QuadPatch make_regular(const QuadPatch& mesh, const ParametricSize& size,
                        const RegularityOptions& options = {}, RegularitySummary* summary = nullptr);
 

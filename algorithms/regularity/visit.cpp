@@ -19,38 +19,39 @@ namespace delquad::across {
 
 namespace {
 
-/// Polygons of a cavity.
+/// Most polygons of a cavity.
 constexpr std::size_t kMostParts = 4;
-/// Patterns with cuts that are sought around a vertex, and at a change of a stretch, and edges of their rims,
-/// at most.
+/// Most patterns with cuts that are searched around a vertex, and at a change of a stretch. Most edges of
+/// their rims.
 constexpr int kMostPatterns = 8, kMostPatternsThere = 1;
 constexpr std::size_t kMostRim = 48;
-/// Sides of polygons whose patterns are told by their numbers of edges alone.
+/// Most sides of polygons whose patterns follow from numbers of edges alone.
 constexpr std::size_t kSimpleSides = 5;
-/// Rings of quads that polygons grow by around a vertex, and at a stretch; each makes one.
+/// Rings of quads that polygons add around a vertex, and at a stretch; each ring makes a polygon.
 constexpr int kRings = 2, kRingsThere = 3;
-/// Cavities of a vertex that are filled, and of these such as are relocated.
+/// Most filled cavities of a vertex, and relocated ones among them.
 constexpr int kMostAttempts = 6, kMostRelocated = 2;
-/// An irregular vertex less may cost so many times as much as in a single patch. O moves nodes along the
-/// curves afterwards; they stay where they are while it is tried.
+/// Factor of the tolerance over a single patch: O moves nodes along curves later, but they are fixed in the
+/// trial.
 constexpr double kDearer = 3;
-/// Stretches of a vertex that are followed, and ways on from the other side of each.
+/// Most stretches of a vertex that are followed, and ways on from the other side of each.
 constexpr std::size_t kMostStretches = 8, kMostWays = 3;
-/// Quads of a polygon that hands a change on straight across, or is all of a patch.
+/// Most quads of a polygon that passes a change straight across or is a whole patch.
 constexpr int kMostWhole = 100;
-/// Edges of a stretch over the wanted length, at least where it gets more of them, at most where fewer.
+/// Limits of edges on a stretch over the wanted length: the least if it gains edges, the most if it loses
+/// some.
 constexpr double kShortest = 0.6, kLongest = 1.5;
-/// How far the middle of an edge may lie off the curve, in its lengths: a circle keeps twelve edges.
+/// Largest distance of the middle of an edge from the curve, in its lengths: a circle keeps twelve edges.
 constexpr double kMostSagitta = 0.066;
-/// By how much stretches change.
+/// Changes of stretches.
 constexpr std::array kChanges = {2, -2, 4, -4};
-/// Edges beside a stretch that make room for it, on either side, for each edge more or less.
+/// Edges beside a stretch, on either side, that make space for each added or removed edge.
 constexpr int kSpread = 4;
-/// A pattern of more strain than this for each irregular vertex less will not settle. Nor will one whose
-/// quads lose more of the sum before they are relocated, or have a worse corner (sine).
+/// Limits for each removed irregular vertex: a pattern with more strain or raw loss will not settle. Least
+/// sine of a corner before relocation.
 constexpr double kMostStrain = 1.5, kMostRawLoss = 19, kWorstRawSine = -0.5;
 
-/// A visit of an irregular vertex: seeks cavities around it, and fills them.
+/// A visit of an irregular vertex.
 class Visit {
  public:
   Visit(const Shared& shared, Searches& searches)
@@ -79,7 +80,7 @@ class Visit {
  private:
   struct Part {
     int patch;
-    const Use* use;  ///< its last change is shared with the next part, its first one with the last part
+    const Use* use;  ///< its last change is shared with the next part, its first one with the previous part
   };
   struct Candidate {
     double promise;
@@ -98,8 +99,8 @@ class Visit {
   }
   bool may_cross(const CurveEdge& e) const { return shared_.may_cross(e); }
 
-  /// Polygons with a vertex, and with the way to the nearest curve, which may be farther away than irregular
-  /// vertices.
+  /// Returns polygons around a vertex, and with the path to the nearest curve, which may be farther than
+  /// irregular vertices.
   std::vector<Polygon> grow_around(PatchWork& w, int patch, int v) {
     CavitySearch& search = searches_.of(w, patch);
     std::vector<Polygon> found;
@@ -128,7 +129,7 @@ class Visit {
       return std::all_of(nodes.begin() + 1, nodes.end() - 1, [&](int v) { return cavity.add_around(v); });
     };
     search.grow(nodes, options_.quads, start, [&] { collect(w, search, kRingsThere, -1, found); });
-    // Straight across to the next curve.
+    // Tries straight across to the next curve.
     cavity.begin(kMostWhole);
     bool good = start();
     for (int k = change.low; k < change.high && good; ++k)
@@ -137,7 +138,7 @@ class Visit {
         if (good = w.mesh.is_quad(QuadTopology::element(h)); good)
           good = cavity.add(QuadTopology::element(h));
     if (good) collect(w, search, kRingsThere, -1, found);
-    // All of a small patch: what it hands on spreads over it.
+    // Tries all of a small patch, over which the change spreads.
     cavity.begin(kMostWhole);
     good = w.mesh.element_slots() <= kMostWhole;
     for (int e = 0; e < w.mesh.element_slots() && good; ++e) good = cavity.add(e);
@@ -150,8 +151,8 @@ class Visit {
     return found;
   }
 
-  /// The cavity, and what it becomes by rings of quads, where a pattern may have so many irregular vertices
-  /// less.
+  /// Collects the cavity, and the cavity with rings of quads, if a pattern may have at least `fewer`
+  /// irregular vertices less.
   void collect(PatchWork& w, CavitySearch& search, int rings, int fewer, std::vector<Polygon>& found) const {
     Cavity& cavity = search.cavity();
     for (int ring = 0; ring <= rings; ++ring) {
@@ -167,8 +168,8 @@ class Visit {
     }
   }
 
-  /// Irregular vertices of the polygon's best pattern, once stretches have changed; negative: it has none, or
-  /// one with more than `most`.
+  /// Returns the irregular vertices of the polygon's best pattern after stretches have changed; negative: no
+  /// pattern, or more than `most`.
   int least(PatchWork& w, int patch, const Polygon& polygon, std::span<const Change> changes, int most,
             int& patterns_left) {
     const Change& last = changes.back();
@@ -206,14 +207,14 @@ class Visit {
     candidates_.push_back({promise_of(quads, left, gain), gain, key, parts_});
   }
 
-  /// Where the polygon has a pattern with at most so many irregular vertices more.
+  /// Adds a use if the polygon has a pattern with at most `most_more` more irregular vertices.
   void add_use(PatchWork& w, int patch, const Polygon& polygon, std::vector<Change> changes, int most_more,
                int& patterns_left, std::vector<Use>& to) {
     const int left = least(w, patch, polygon, changes, polygon.irregular + most_more, patterns_left);
     if (left >= 0) to.push_back({&polygon, std::move(changes), left});
   }
 
-  /// How the patch can take this change.
+  /// Returns the ways in which the patch can take this change.
   Uses find_uses(PatchWork& w, int patch, const Change& change) {
     Uses found;
     if (!has_room(w, patch, change)) return found;
@@ -226,7 +227,7 @@ class Visit {
           if (run.curve != change.curve)
             add_use(w, patch, polygon, {change, changed(run, by)}, 1, patterns_left, found.ways);
     }
-    // The smallest of similar uses stays, and the largest, over which a change spreads.
+    // Keeps the smallest of similar uses, and the largest, over which a change spreads.
     const auto prune = [](std::vector<Use>& all, const auto& kind_of) {
       std::ranges::stable_sort(all, {}, [&](const Use& use) { return std::pair(kind_of(use), use.quads()); });
       std::vector<Use> kept;
@@ -246,7 +247,8 @@ class Visit {
     return found;
   }
 
-  /// To the other side of the stretch that this polygon changed last. `gain`: irregular vertices less so far.
+  /// Continues at the other side of the last changed stretch. `gain` is the number of removed irregular
+  /// vertices so far.
   void go_on(Part part, int gain, double quads) {
     const Change change = part.use->changes.back();
     const auto& [a, b] = network_.sides[change.curve];
@@ -269,8 +271,8 @@ class Visit {
     parts_.pop_back();
   }
 
-  /// The sides of the closed cavity, and stretches of curves on its rim without vertices in between that want
-  /// other than two quads.
+  /// Finds the sides of the closed cavity, and stretches of curves on its rim whose inner vertices all want
+  /// two quads.
   void find_runs(const PatchWork& w, const Cavity& cavity, Polygon& polygon) const {
     const auto rim = cavity.rim(), turns = cavity.turns();
     const auto n = static_cast<int>(rim.size());
@@ -296,7 +298,7 @@ class Visit {
             {.curve = e.curve, .low = e.index, .high = e.index + 1, .by = 0, .side = side});
       }
     }
-    // A curve that is there twice stays.
+    // A curve with several stretches stays.
     std::erase_if(polygon.runs, [all = polygon.runs](const Change& run) {
       return std::ranges::count(all, run.curve, &Change::curve) > 1;
     });
@@ -310,7 +312,7 @@ class Visit {
     return run;
   }
 
-  /// Whether edges on the changed stretch are about as long as wanted, and near the curve.
+  /// Returns whether edges on the changed stretch have about the wanted length and lie near the curve.
   bool has_room(const PatchWork& w, int patch, const Change& change) {
     const auto [at, is_new] = room_.try_emplace({patch, change.curve, change.low, change.high, change.by});
     if (is_new) at->second = would_have_room(w, patch, change);
@@ -335,7 +337,7 @@ class Visit {
     return true;
   }
 
-  /// Where boundary points go that make room.
+  /// Returns new places of boundary points that make space.
   std::map<int, Vec2> moved_points(const PatchWork& w, int patch, std::span<const Change> changes) const {
     std::map<int, Vec2> moved;
     for (const Change& c : changes) {
@@ -377,8 +379,8 @@ class Visit {
     return rim;
   }
 
-  /// Whether quads of a fill are so poor before they are relocated that they will not get good. `loss` gets
-  /// what they lose of the sum.
+  /// Returns whether quads of a fill are too poor before relocation to become good. Adds their loss of the
+  /// sum to `loss`.
   static bool is_hopeless(const PatchWork& w, const Cavity& cavity, const Outline& rim,
                           const PatternMesh& fill, double& loss) {
     std::vector<Vec2> points = rim.places;
@@ -398,7 +400,7 @@ class Visit {
     return after.least_sine < kWorstRawSine;
   }
 
-  /// Fills all polygons of a cavity with their best patterns; nothing is found where that costs too much.
+  /// Fills all polygons of a cavity with their best patterns. Fails if it costs too much.
   bool attempt(const Candidate& candidate) {
     visited_.lost.push_back(candidate.key);
     std::vector<Filled> parts;
@@ -458,7 +460,7 @@ class Visit {
   const RegularityOptions& options_;
   Searches& searches_;
   int attempts_ = 0;
-  std::vector<Part> parts_;  ///< polygons of the cavity that is sought
+  std::vector<Part> parts_;  ///< polygons of the current cavity
   std::vector<Candidate> candidates_;
   std::map<std::array<int, 5>, bool> room_;  ///< by patch, stretch and change
   Visited visited_;

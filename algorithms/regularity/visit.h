@@ -8,7 +8,7 @@
 
 namespace delquad::across {
 
-/// A polygon of a cavity that was filled.
+/// A filled polygon of a cavity.
 struct Filled {
   int patch;
   std::vector<int> elements;
@@ -17,16 +17,16 @@ struct Filled {
   std::unique_ptr<LocalFill> fill;
 };
 
-/// Holds the results of a visit of a vertex. They hold as long as the patches that were looked at stay.
+/// Results of a visit of a vertex. They are valid as long as the examined patches do not change.
 struct Visited {
   std::vector<int> looked_at;
-  std::vector<std::uint64_t> lost;  ///< candidates that were tried
+  std::vector<std::uint64_t> lost;  ///< tried candidates
   long long tried = 0;
-  int gain = 0;               ///< irregular vertices less
-  std::vector<Filled> parts;  ///< none: nothing was found
+  int gain = 0;               ///< removed irregular vertices
+  std::vector<Filled> parts;  ///< empty: nothing was found
 };
 
-/// Seeks cavities around an irregular vertex, and fills them.
+/// Searches cavities around an irregular vertex and fills them.
 Visited visit(const Shared& shared, Searches& searches, int patch, int vertex);
 
 }  // namespace delquad::across

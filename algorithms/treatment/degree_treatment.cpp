@@ -30,7 +30,7 @@ class DegreeTreatment {
   }
 
  private:
-  /// The first edit at the element that lowers the energy and leaves good elements.
+  /// Applies the first edit at the element that lowers the energy and leaves good elements.
   void edit(int element, TreatmentSummary& s) {
     check_cancelled();
     std::vector<TreatmentMove> moves;
@@ -77,7 +77,7 @@ class DegreeTreatment {
     return moved;
   }
 
-  /// Half-way or less to the mean of the elements' best points.
+  /// Moves v at most half-way to the mean of the best points of its elements.
   bool relocate(int v) {
     if (!mesh_.vertex_alive(v) || mesh_.on_boundary(v)) return false;
     Vec2 sum;

@@ -10,17 +10,17 @@ namespace delquad {
 
 namespace {
 
-/// Sweeps of relocation and of lifting after untangling.
+/// Sweeps of relocation, and of lifting after untangling.
 constexpr int kRelocationSweeps = 8, kLiftSweeps = 3;
 
-/// Rings around a quad that are untangled after edits of it, of its neighbours, and at the last attempt, when
-/// a whole tangle may have to move.
+/// Untangled rings around a quad: after edits of it, after edits of its neighbors, and at the last attempt,
+/// which may move a whole tangle.
 constexpr int kNearRings = 2, kFarRings = 3, kMostRings = 20;
-/// A region grows by no more rings once it has so many vertices; and at the last attempt.
+/// Numbers of vertices above which a region grows no more; the second is for the last attempt.
 constexpr int kLargeRegion = 40, kHugeRegion = 1500;
 
-/// Elements around vertices that may be settled, counting each time, for each element of the mesh; and in any
-/// mesh. Patches whose bad quads are few need a tenth of it.
+/// Limits of settled elements around vertices, with repetition: for each element of the mesh, and at least.
+/// Patches with few bad quads need a tenth.
 constexpr long long kSettledPerElement = 800, kLeastSettled = 80'000;
 
 }  // namespace
@@ -45,7 +45,7 @@ bool LocalRemeshing::improve(int quad, double least_relief) {
   return try_all(least_relief, true);
 }
 
-/// The elements that share a side (or a corner) with one of these, and these.
+/// Returns these elements and their neighbors across sides (or corners).
 std::vector<int> LocalRemeshing::neighbours(std::span<const int> elements, bool across_corners) const {
   std::vector<int> all(elements.begin(), elements.end());
   for (const int e : elements)
@@ -159,7 +159,7 @@ bool LocalRemeshing::try_all(double least_relief, bool first_will_do) {
 
 namespace {
 
-/// Weight of an element of eta 0. The sums over the others stay below: they hold some hundreds of corners.
+/// Weight of an element of eta 0. Sums over the others are below it, with some hundreds of corners.
 constexpr double kFlatWeight = 1e4;
 
 }  // namespace

@@ -8,27 +8,28 @@
 #include "base/marks.h"
 #include "smoothing/relocation/quad_relocation.h"
 
+// This header remeshes around bad quads. The treatment uses it last.
+
 namespace delquad {
 
-/// Below this eta an element is poor: moves for the valences may not add to the penalty around, and any move
-/// that takes from it is welcome.
+/// Elements below this eta are poor. Moves for the valences may not add to their penalty, and any move that
+/// lowers it is allowed.
 inline constexpr double kPoorEta = 0.3;
-/// A corner whose sine is at most this is flat, reflex or turned over: eta 0.
+/// A corner with at most this sine is flat, reflex or inverted: eta 0.
 inline constexpr double kFlatSine = 1e-7;
 
-/// How bad the shapes of a part of a mesh are, for comparison before and after an edit.
+/// Badness of shapes in a part of a mesh, for comparison before and after an edit.
 class ShapePenalty {
  public:
-  /// Both outlive this object.
+  /// Both must outlive this object.
   ShapePenalty(const QuadTopology& mesh, const QuadRelocation& relocation)
       : mesh_(mesh), relocation_(relocation) {}
 
-  /// Of the corners of the elements around the vertices (dead ones are skipped), the sum of (what the sine
-  /// lacks, as a part of what is wanted)^3: one flat corner outweighs a handful that are merely poor. To this
-  /// comes how their vertices crowd, see QuadRelocation::crowding(), up to 1. Each element of eta 0 counts as
-  /// much as any number of others.
+  /// Returns the penalty of elements around the vertices; dead vertices are skipped. It sums up (lack of sine
+  /// / wanted sine)^3 over corners, so one flat corner outweighs several poor ones. An element of eta 0 adds
+  /// more than any number of others.
   double around(std::span<const int> vertices);
-  /// Elements that it has looked at so far.
+  /// Returns the number of examined elements.
   long long looks() const { return looks_; }
 
  private:
@@ -38,25 +39,25 @@ class ShapePenalty {
   long long looks_ = 0;
 };
 
-/// The last resort for a bad quad: every edit of it and its neighbours is tried, up to a ring of new quads
-/// around the neighbourhood, each followed by untangling of some rings around, and the best is kept. A mesh
-/// of which all is bad cannot be helped so: all attempts together settle vertices with a number of elements
-/// around that is linear in its size, and none helps after.
+/// The last resort for a bad quad. It tries every edit of the quad and its neighbors, up to a ring of new
+/// quads around the neighborhood. Each edit is followed by untangling of a few rings, and the best one is
+/// kept. The work of all attempts together is linear in the size of the mesh, which a mesh of only bad quads
+/// exhausts.
 class LocalRemeshing {
  public:
-  /// All outlive this object.
+  /// All must outlive this object.
   LocalRemeshing(QuadTopology& mesh, QuadRelocation& relocation, ShapePenalty& penalty);
 
-  /// Whether the penalty around the quad fell by at least `least_relief`. The edit is not committed;
-  /// touched() holds the vertices around.
+  /// Returns whether the penalty around the quad fell by at least `least_relief`. The edit is not committed;
+  /// touched() has the vertices around it.
   bool improve(int quad, double least_relief);
   std::span<const int> touched() const { return region_; }
-  /// Of the last improvement: quads of its ring; else its move, which may be none (`at` negative).
+  /// For the last improvement: quads of its ring, else its move, which may be none (`at` negative).
   int ring_quads() const { return ring_quads_; }
   const TreatmentMove& move() const { return move_; }
 
  private:
-  /// Either a move or, if it has quads, a pillow.
+  /// A move, or a ring around quads if it has any.
   struct Edit {
     TreatmentMove move{TreatmentMove::kDoublet, -1};  ///< none
     std::vector<int> pillow;
@@ -69,14 +70,14 @@ class LocalRemeshing {
   void list_far_edits(int quad);
   void perform(const Edit& edit);
   void settle();
-  /// Keeps the best of the edits, or the first one that takes off enough.
+  /// Keeps the best edit, or the first one with enough relief.
   bool try_all(double least_relief, bool first_will_do);
 
   QuadTopology& mesh_;
   QuadRelocation& relocation_;
   ShapePenalty& penalty_;
-  long long settlements_;    ///< elements around vertices that may still be settled
-  std::vector<int> region_;  ///< all vertices whose elements may change
+  long long settlements_;    ///< remaining elements around vertices that may be settled
+  std::vector<int> region_;  ///< vertices whose elements may change
   std::vector<int> free_;
   std::vector<Edit> edits_;
   int ring_quads_ = 0;

@@ -17,23 +17,23 @@ namespace delquad {
 
 namespace {
 
-/// Sweeps of local relocation within which a move must settle; and for the few that may lift a poor element.
+/// Sweeps of local relocation before a move is judged, and for the few moves that may lift a poor element.
 constexpr int kTrialSweeps = 4, kRescueSweeps = 12;
-/// A pair's first move may cost this much valence energy; of its second moves so many are tried.
+/// Largest loss of valence energy by the first move of a pair, and number of tried second moves.
 constexpr int kPairLoss = 2, kPairTries = 3;
-/// No pair of moves gains where the energy around is less: a dislocation alone (3-5) cannot vanish.
+/// Least energy around at which a pair of moves can gain: a single dislocation (3-5) cannot vanish.
 constexpr int kPairEnergy = 3;
-/// Passes over the quads that are bad in the end.
+/// Passes over quads that are bad in the end.
 constexpr int kRemeshingPasses = 5;
-/// Below this eta even new vertices are welcome, once nothing else helps; and in the end remeshing.
+/// Limits of eta for new vertices as the last resort, and for remeshing in the end.
 constexpr double kInsetEta = 0.15, kRemeshedEta = 0.05;
-/// How much penalty such a move must take off, and more for each unit of valence energy that it costs.
+/// Least relief of penalty by such a move, and more for each unit of valence energy that it costs.
 constexpr double kLeastRelief = 0.05, kReliefPerEnergy = 0.05;
 
-/// The state and the steps of one treatment; treat_paper() is its public face.
+/// State and steps of one treatment.
 class TreatmentProcess {
  public:
-  /// Both outlive this object.
+  /// Both must outlive this object.
   TreatmentProcess(const QuadBlock& block, const ParametricSize& size)
       : block_(block),
         mesh_(block.mesh, block.first_held),
@@ -49,9 +49,8 @@ class TreatmentProcess {
     for (int e = 0; e < mesh_.element_slots(); ++e) pending_.push_back(is_near(e));
     relocation_.activate_all(block_);
     summary_.relocated += relocation_.relax(0.1, 6);
-    // Ends after max_rounds. In a round, single moves and pairs lower the valence energy, an integer that is
-    // never negative; a rescue, at most one for each element that the round began with, may raise it by a
-    // few.
+    // The loop ends after max_rounds. In a round, single moves and pairs lower the valence energy, an integer
+    // that is never negative. A rescue, at most one for each initial element, may raise it a little.
     for (int changes = 1; changes > 0 && summary_.rounds < options.max_rounds && !is_spent();
          ++summary_.rounds) {
       changes = single_moves();
@@ -81,7 +80,7 @@ class TreatmentProcess {
     return drain();
   }
 
-  /// Ends: elements are passed once, new ones included, and there are new ones only where energy fell.
+  /// The loop ends: it passes elements once, new ones included, and new ones need a fall of energy.
   int paired_moves() {
     int changes = 0;
     pending_.resize(mesh_.element_slots(), 1);
@@ -104,8 +103,8 @@ class TreatmentProcess {
     return changes;
   }
 
-  /// Tries to mend each quad below this eta that was not given up; returns how much changed.
-  /// Ends: each element that was there at the start is looked at once.
+  /// Tries `mend` on each quad below this eta that was not given up. Returns the number of changes. The loop
+  /// ends: it visits each initial element once.
   template <class Mend>
   int mend_below(double eta, std::vector<char>& given_up, Mend mend) {
     int changes = 0;
@@ -124,7 +123,7 @@ class TreatmentProcess {
     return mend_below(kPoorEta, beyond_rescue_, [&](int e) { return rescue(e); });
   }
 
-  /// The last resort: the neighbourhoods of bad quads.
+  /// Remeshes the neighborhoods of bad quads as the last resort.
   int remeshings() {
     return mend_below(kRemeshedEta, hopeless_, [&](int e) {
       if (!remeshing_.improve(e, kLeastRelief)) return false;
@@ -149,7 +148,7 @@ class TreatmentProcess {
     for_each_opening(mesh_, element, push);
   }
 
-  /// Ends: each move that is kept lowers the valence energy and calls for no more others than lie around it.
+  /// The loop ends: each kept move lowers the valence energy and queues only moves around it.
   int drain() {
     int changes = 0;
     while (const auto move = queue_.pop())
@@ -242,7 +241,7 @@ class TreatmentProcess {
     const auto start = mesh_.mark();
     perform(choice);
     relax_touched();
-    // The relief was against relaxed neighbours, which may be poorer than those that are there.
+    // The relief was against relaxed neighbors, which may be poorer than the actual ones.
     if (before - penalty() < kLeastRelief) {
       mesh_.rollback(start);
       return false;
@@ -252,7 +251,8 @@ class TreatmentProcess {
     return true;
   }
 
-  /// New vertices in a bad element, after which single moves put the valences right: kept if all of it helps.
+  /// Adds new vertices in a bad element, and lets single moves repair the valences. Keeps it if all of it
+  /// helps.
   bool rescue_by_inset(int element) {
     const TreatmentMove inset{TreatmentMove::kInset, 4 * element};
     if (!is_legal(mesh_, inset) || summary_.ring_quads >= most_ring_quads_) return false;
@@ -282,7 +282,7 @@ class TreatmentProcess {
     return true;
   }
 
-  /// How much penalty the move takes off once it has settled.
+  /// Returns the relief of penalty by the move after it has settled.
   double relief_of(const TreatmentMove& move) {
     touched_.clear();
     touch(touched_by(mesh_, move));
@@ -344,7 +344,7 @@ class TreatmentProcess {
 
   void count(const TreatmentMove& move) {
     using S = TreatmentSummary;
-    // By TreatmentMove::Kind; there are no splits.
+    // Indexed by TreatmentMove::Kind; splits do not occur.
     static constexpr int S::*kCounters[] = {
         &S::swaps, &S::swaps,    &S::diamonds, &S::doublets, &S::boundary_repairs,
         &S::swaps, &S::openings, &S::openings};
@@ -373,19 +373,19 @@ class TreatmentProcess {
   ShapePenalty penalty_;
   LocalRemeshing remeshing_;
   MoveQueue queue_;                  ///< single moves
-  std::vector<char> pending_;        ///< by element: changed since pairs of moves were tried there
-  std::vector<char> hopeless_;       ///< by element: unchanged since remeshing failed there
-  std::vector<char> beyond_rescue_;  ///< by element: unchanged since no move took off enough there
-  std::vector<int> touched_;         ///< vertices of the move on trial
+  std::vector<char> pending_;        ///< by element: changed since its last pairs of moves
+  std::vector<char> hopeless_;       ///< by element: unchanged since remeshing failed
+  std::vector<char> beyond_rescue_;  ///< by element: unchanged since no move had enough relief
+  std::vector<int> touched_;         ///< vertices of the current move
   std::vector<Candidate> firsts_, seconds_;
   std::vector<int> region_;
   Marks elements_met_, vertices_met_;
-  bool revocable_ = false;             ///< accepted moves may still be taken back
-  std::vector<int> touched_on_trial_;  ///< by those moves
-  /// Rings of new quads may not outgrow the patch, however poor its quads stay.
+  bool revocable_ = false;             ///< accepted moves can still be undone
+  std::vector<int> touched_on_trial_;  ///< vertices of these moves
+  /// Limit of ring quads for each element, so that rings cannot outgrow the patch.
   static constexpr int kRingQuadsPerElement = 4;
   int most_ring_quads_;
-  long long most_looks_;  ///< until then moves are tried
+  long long most_looks_;  ///< limit of looks, after which no move is tried
   TreatmentSummary summary_;
 };
 

@@ -8,24 +8,27 @@
 #include "delquad/mesh.h"
 #include "delquad/options.h"
 
+// This header has the treatment of quads after matching. Pipelines and layouts use it.
+
 namespace delquad {
 
 struct TreatmentOptions {
-  int max_rounds = 20;  ///< rounds of topology and relocation; stops earlier when a round changes no topology
-  double settled = 0.02;  ///< in the end vertices rest once they would move by less than this part of an edge
+  int max_rounds = 20;    ///< most rounds of topology and relocation; a round without changes of topology is
+                          ///< the last
+  double settled = 0.02;  ///< in the end, vertices rest below moves of this part of an edge
 };
 
 struct TreatmentSummary {
   int rounds = 0;
-  int doublets = 0;          ///< interior vertices between two quads, removed
-  int diamonds = 0;          ///< quads removed by merging two opposite corners
+  int doublets = 0;          ///< removed interior vertices between two quads
+  int diamonds = 0;          ///< quads removed by merging opposite corners
   int swaps = 0;             ///< edges rotated within the hexagon of their two quads
-  int openings = 0;          ///< pairs of quads added so that a boundary vertex gets its second one
-  int boundary_repairs = 0;  ///< times that a ring of new quads was put around bad ones
-  int ring_quads = 0;        ///< quads of those rings; each has as many new vertices
+  int openings = 0;          ///< pairs of quads added to give a boundary vertex its second quad
+  int boundary_repairs = 0;  ///< rings of new quads around bad quads
+  int ring_quads = 0;        ///< quads of these rings; each ring has as many new vertices
   int relocated = 0;         ///< moves of vertices
   long long looks = 0;       ///< QuadRelocation::looks(): at most linear in the number of elements
-  int stopped = 0;           ///< 1: before all moves were tried, after as many looks as the patch may take
+  int stopped = 0;  ///< 1: it stopped before all moves were tried, after as many looks as the patch may take
   double seconds = 0;
 };
 
@@ -41,41 +44,40 @@ struct Counters<TreatmentSummary> {
       counter("seconds", &S::seconds));
 };
 
-/// The treatment after matching that the paper's tables include [Remacle et al. 2012, section 7; its
-/// Blossom-Quad]: doublets, diamonds, swaps of poor pairs, vertex relocation.
+/// Applies the treatment that the paper's tables include [Remacle et al. 2012, section 7; its Blossom-Quad]:
+/// doublets, diamonds, swaps of poor pairs, relocation.
 ///
-/// Differs from the paper:
-/// - an edit is chosen by what it takes off the sum of (valence - ideal)^2, largest first, boundary vertices
-///   with their own ideal; two edits may be tried together where the first alone gains nothing;
-/// - it is kept only if, after local relocation, the elements around are not poorer (eta below 0.3) than
-///   before;
-/// - a flat boundary vertex with one quad, which rotations would only hand to the next, gets its second by an
-///   opening, see QuadTopology::open;
-/// - quads that stay poor get any edit that lifts them, and bad ones (flat boundary corners) a ring of new
-///   quads; those of eta 0 are in the end remeshed with their neighbourhood, see LocalRemeshing;
-/// - relocation weighs angles and edge lengths, and a last pass lifts the worst quads.
+/// Differences from the paper:
+/// - Edits are chosen by the decrease of the sum of (valence - ideal)^2, largest first. Boundary vertices
+///   have their own ideal. Two edits may be tried together if the first alone gains nothing.
+/// - An edit is kept only if, after local relocation, the elements around are not poorer (eta below 0.3).
+/// - A flat boundary vertex with one quad gets a second quad by an opening (QuadTopology::open). Rotations
+///   would only move the defect on.
+/// - Quads that stay poor get any edit that lifts them. Bad quads in flat boundary corners get a ring of new
+///   quads. Quads of eta 0 are remeshed with their neighborhood (LocalRemeshing).
+/// - Relocation weighs angles and edge lengths, and a last pass lifts the worst quads.
 ///
-/// Boundary points stay where they are, in their order; the mesh stays conforming, oriented and of the same
-/// topology type; quads stay quads and leftover triangles triangles. Throws std::invalid_argument where the
-/// input is not conforming. Quads of eta 0 may be left where edges of the boundary are some hundred times as
-/// long as the quads beside them, or where corners of about one degree crowd.
+/// Boundary points keep their places and order. The mesh stays conforming, oriented and of the same topology,
+/// and leftover triangles stay triangles. Throws std::invalid_argument if the input is not conforming. Quads
+/// of eta 0 may remain beside boundary edges some hundred times as long as their quads, or at crowded corners
+/// of about one degree.
 QuadPatch treat_paper(QuadPatch mesh, const ParametricSize& size, const TreatmentOptions& options = {},
                       TreatmentSummary* summary = nullptr);
 
-/// What follows on greedy merging [borouchaki1998], as far as is known: edges between quads are swapped where
-/// that brings the degrees of their vertices nearer to 4 (the boundary's: to what its angle asks for), inner
-/// vertices of two elements are taken out, and vertices go towards the mean of the points that would be best
-/// for each element around, weighted by 1/delta'^2: the corner that makes the diagonal opposite a square's,
-/// or the side of a triangle one of an equilateral. A move is kept when the worst element around gets better,
-/// an edit when it gets no worse than that or half as good as a square (in the sine of the least corner).
+/// Applies the treatment after greedy merging [borouchaki1998], as far as is known. Edges between quads are
+/// swapped if that brings degrees of vertices nearer to 4 (on the boundary to the ideal of its angle). Inner
+/// vertices of two elements are removed. Vertices move toward the mean of the best points for each element
+/// around, weighted by 1/delta'^2. The best point makes a square of the opposite diagonal, or an equilateral
+/// triangle of the opposite side. A move is kept if the worst element around improves. An edit is kept if
+/// that element gets no worse, or stays above half of a square's sine.
 QuadPatch treat_by_degrees(const QuadPatch& mesh, const ParametricSize& size,
                            const TreatmentOptions& options = {}, TreatmentSummary* summary = nullptr);
 
 enum class Treatment { kNone, kPaper };
 
-/// What recombination can be told.
+/// Options of recombination.
 struct RecombinationOptions {
-  std::string solver = "primal-dual";  ///< of matching_solver_names(); for the counts on curves, too
+  std::string solver = "primal-dual";  ///< of matching_solver_names(); also for the counts on curves
   std::string cost = "eta";            ///< of merge_cost_names()
   Treatment treatment = Treatment::kPaper;
   double settled = TreatmentOptions().settled;

@@ -11,16 +11,16 @@ namespace delquad {
 
 namespace {
 
-/// Cost of a valence that forces an element of eta 0, against single steps of valence.
+/// Cost of a valence that forces an element of eta 0, relative to single steps of valence.
 constexpr double kForcedBad = 12;
 
-/// Of a valence that leaves each of its elements this many right angles in the mean.
+/// Returns the cost of a valence that leaves each of its elements this many right angles in the mean.
 int forced_cost(double right_angles) {
   const double eta = std::max(0.0, 1 - std::abs(right_angles - 1));
   return static_cast<int>(std::ceil(kForcedBad * std::max(0.0, 1 - 2 * eta) - 1e-9));
 }
 
-/// Middle of the vertices that edges lead to from `from`'s origin, between `from` and `to` counterclockwise.
+/// Returns the mean of neighbors of `from`'s origin, strictly between `from` and `to` counterclockwise.
 Vec2 middle_between(const QuadTopology& mesh, int from, int to) {
   Vec2 sum;
   int n = 0;
@@ -28,7 +28,7 @@ Vec2 middle_between(const QuadTopology& mesh, int from, int to) {
   return (1.0 / n) * sum;
 }
 
-/// Splits; the new vertex and, if interior, the old one move a little into their own parts.
+/// Applies a split. The new vertex and, if interior, the old one move a little into their own parts.
 void split_apart(QuadTopology& mesh, const TreatmentMove& move) {
   constexpr double kPart = 0.25;
   const int v = mesh.origin(move.at), opened = mesh.vertex_slots();
@@ -113,7 +113,7 @@ bool ring_divides_sharp_corner(const QuadTopology& mesh, std::span<const int> qu
 
 namespace {
 
-/// As if no vertex were held.
+/// Returns whether the move is legal if no vertex is held.
 bool is_legal_alone(const QuadTopology& mesh, const TreatmentMove& move) {
   switch (move.kind) {
     case TreatmentMove::kCollapse:
@@ -134,8 +134,8 @@ bool is_legal_alone(const QuadTopology& mesh, const TreatmentMove& move) {
   }
 }
 
-/// Whether the move would change the valence of a held vertex, or give it an edge that another of its fans
-/// may have.
+/// Returns whether the move would change the valence of a held vertex, or give it an edge that another of its
+/// fans may have.
 bool disturbs_held(const QuadTopology& mesh, const TreatmentMove& move) {
   if (!mesh.any_held() || move.kind == TreatmentMove::kInset) return false;
   if (move.kind == TreatmentMove::kCollapse && mesh.near_held(mesh.target(mesh.next(move.at)))) return true;
@@ -215,7 +215,7 @@ std::optional<TreatmentMove> MoveQueue::pop() {
     check_cancelled();
     const Candidate candidate = queue_.top();
     queue_.pop();
-    // A move is seen from several elements and vertices.
+    // Several elements and vertices propose the same move.
     if (candidate.gain == last_.gain && candidate.move == last_.move) continue;
     last_ = candidate;
     if (!is_legal(mesh_, candidate.move)) continue;

@@ -10,9 +10,11 @@
 #include "geometry/mesh/quad_topology.h"
 #include "smoothing/relocation/quad_relocation.h"
 
+// This header has edits of quad meshes and their valence energy. The treatment, stage C and repairs use it.
+
 namespace delquad {
 
-/// One edit of the quad mesh that the treatment or the clean-up may choose.
+/// One edit of the quad mesh.
 struct TreatmentMove {
   enum Kind : int {
     kRotateForward,
@@ -25,14 +27,13 @@ struct TreatmentMove {
     kOpenBackward
   };
   Kind kind;
-  int at;       ///< half-edge; for a doublet its vertex
+  int at;       ///< half-edge, or the vertex of a doublet
   int to = -1;  ///< second half-edge of a split
   friend auto operator<=>(const TreatmentMove&, const TreatmentMove&) = default;
 };
 
-/// How many elements may be looked at, by relocation and for the quality around, while moves are tried on a
-/// patch of n: some hundred for each are usual, but at a vertex of n elements the work grows with the cube of
-/// n.
+/// Returns the limit of examined elements, by relocation and measures of quality, for moves on a patch of n
+/// elements. Usual are some hundred for each. At a vertex of n elements the work grows with the cube of n.
 constexpr long long most_looks(int n) { return 100'000 + 10'000LL * n; }
 
 /// Vertices that a move touches.
@@ -43,10 +44,10 @@ struct TouchedVertices {
   const int* end() const { return v.data() + n; }
 };
 
-/// How far the vertices' valences are from ideal: the sum of (valence - ideal)^2, with 4 inside and angle /
-/// 90 degrees, rounded and at least 1, on the boundary. To this comes what a valence costs that forces an
-/// element of less than eta 1/2, as a doublet or a single quad in a boundary angle of more than 135 degrees:
-/// 1 to 12, the most at eta 0. A valence of 6 or 3 forces none.
+/// Distance of valences from their ideal: the sum of (valence - ideal)^2. The ideal is 4 inside, and angle /
+/// 90 degrees, rounded and at least 1, on the boundary. A valence that forces an element below eta 1/2 costs
+/// 1 to 12 more, most at eta 0. Examples are a doublet, or a single quad in a boundary angle above 135
+/// degrees. A valence of 6 or 3 forces none.
 class ValenceEnergy {
  public:
   explicit ValenceEnergy(const QuadTopology& mesh);
@@ -58,7 +59,7 @@ class ValenceEnergy {
   int of(int v) const { return of(v, mesh_.valence(v)); }
   /// The ideal valence.
   int ideal(int v) const { return mesh_.on_boundary(v) ? ideal_[v].valence : kInside.valence; }
-  /// What the move takes off the sum. Not for insets, which are never chosen for it.
+  /// Returns the decrease of the sum by a move. It is not defined for insets.
   int gain(const TreatmentMove& move) const;
 
  private:
@@ -80,21 +81,20 @@ class ValenceEnergy {
   std::array<int, 16> inside_;  ///< of interior vertices, by valence
 };
 
-/// Whether a ring of quads laid around these would divide a sharp corner of the boundary that one of them
+/// Returns whether a ring around these quads would divide a sharp corner of the boundary that one of them
 /// fills.
 bool ring_divides_sharp_corner(const QuadTopology& mesh, std::span<const int> quads);
 
 bool is_legal(const QuadTopology& mesh, const TreatmentMove& move);
 void apply(QuadTopology& mesh, const TreatmentMove& move);
-/// The same; vertices that it creates can then be relocated, and are added to `touched`.
+/// Applies a move; new vertices can then be relocated, and are added to `touched`.
 void apply(QuadTopology& mesh, QuadRelocation& relocation, const TreatmentMove& move,
            std::vector<int>& touched);
-/// The vertices whose valences the move changes or whose elements it replaces, without those that it removes
-/// or creates.
+/// Returns the vertices whose valence or elements the move changes, without removed and new ones.
 TouchedVertices touched_by(const QuadTopology& mesh, const TreatmentMove& move);
 
-/// Calls f(move) for the moves at an element: rotations of its sides, its two collapses, its doublets.
-/// Legality is not checked, except that rotated sides lie between quads.
+/// Calls f(move) for rotations of the sides of an element, its two collapses and its doublets. Only rotations
+/// are checked: their sides lie between quads.
 template <class F>
 void for_each_move(const QuadTopology& mesh, int element, F&& f) {
   if (!mesh.alive(element)) return;
@@ -107,15 +107,15 @@ void for_each_move(const QuadTopology& mesh, int element, F&& f) {
       f(TreatmentMove{TreatmentMove::kRotateForward, t < h ? t : h});
       f(TreatmentMove{TreatmentMove::kRotateBackward, t < h ? t : h});
     }
-    // The corner that goes is interior; of two interior ones the kept one is the first.
+    // The removed corner is interior; if both are, the first one is kept.
     const int opposite = mesh.next(mesh.next(h));
     const bool goes = !mesh.on_boundary(mesh.origin(opposite));
     if (goes && (mesh.on_boundary(v) || h < opposite)) f(TreatmentMove{TreatmentMove::kCollapse, h});
   }
 }
 
-/// Calls f(move) for the openings of sides of an element that give one of its boundary vertices an edge more.
-/// Legality is not checked. Unlike rotations they take none from the next boundary vertex.
+/// Calls f(move) for openings of the sides of an element that give one of its boundary vertices one more
+/// edge. They are not checked. Unlike rotations they take no edge from the next boundary vertex.
 template <class F>
 void for_each_opening(const QuadTopology& mesh, int element, F&& f) {
   if (!mesh.is_quad(element)) return;
@@ -126,9 +126,8 @@ void for_each_opening(const QuadTopology& mesh, int element, F&& f) {
   }
 }
 
-/// Calls f(move) for the splits of a vertex. Legality is not checked, except that both parts keep a valence
-/// of 3 at least. Of vertices with very many edges these are the splits in halves. The treatment does not use
-/// them.
+/// Calls f(move) for splits of a vertex. They are not checked, but both parts keep at least valence 3.
+/// Vertices with very many edges are only split in halves. The treatment has no splits.
 template <class F>
 void for_each_split(const QuadTopology& mesh, int v, F&& f) {
   constexpr int kMany = 32;
@@ -144,7 +143,7 @@ void for_each_split(const QuadTopology& mesh, int v, F&& f) {
   }
 }
 
-/// A move and what it takes off the valence energy.
+/// A move with its decrease of valence energy.
 struct Candidate {
   int gain;
   TreatmentMove move;
@@ -153,21 +152,21 @@ struct Candidate {
   }
 };
 
-/// Moves that lower the valence energy, the largest gain first.
+/// Queue of moves that lower the valence energy, largest gain first.
 class MoveQueue {
  public:
-  /// Both outlive this object.
+  /// Both must outlive this object.
   MoveQueue(const QuadTopology& mesh, const ValenceEnergy& energy) : mesh_(mesh), energy_(energy) {}
 
   void push(const Candidate& candidate) { queue_.push(candidate); }
-  /// Takes out the best move that is legal by now, with what it gains by now; none when none is left.
+  /// Removes and returns the best move that is legal now, with its current gain; nothing if none is left.
   std::optional<TreatmentMove> pop();
 
  private:
   const QuadTopology& mesh_;
   const ValenceEnergy& energy_;
   std::priority_queue<Candidate> queue_;
-  Candidate last_{0, {}};  ///< what was taken out, 0: nothing since the queue was empty
+  Candidate last_{0, {}};  ///< last removed move; gain 0: none since the queue was empty
 };
 
 }  // namespace delquad
