@@ -9,19 +9,18 @@
 
 namespace delquad {
 
-/// So many items are one piece of work, whatever the number of threads, so that what pieces collect does not
-/// depend on it.
+/// Items of one piece of work. It does not depend on the number of threads, so neither do results.
 inline constexpr std::size_t kBlock = 2048;
 
 inline std::size_t n_blocks(std::size_t n) { return (n + kBlock - 1) / kBlock; }
 
-/// Calls work(begin, end) for each block of [0, n), in parallel. See parallel_for().
+/// Calls work(begin, end) for each block of [0, n) in parallel, see parallel_for().
 template <class Work>
 void parallel_blocks(std::size_t n, Work work) {
   parallel_for(n_blocks(n), [&](std::size_t i) { work(i * kBlock, std::min(n, (i + 1) * kBlock)); });
 }
 
-/// The sum of term(i) over [0, n): of each block in its order, then of the blocks in theirs.
+/// Returns the sum of term(i) over [0, n), summed up in each block, then over the blocks, in order.
 template <class Term>
 double sum_of_blocks(std::size_t n, Term term) {
   std::vector<double> sums(n_blocks(n));

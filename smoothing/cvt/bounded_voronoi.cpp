@@ -8,10 +8,10 @@
 namespace delquad {
 namespace {
 
-/// How far two clips on a boundary edge may stand in the wrong order, by rounding; of the edge's length.
+/// Largest wrong order of two clips on a boundary edge, by rounding, in lengths of the edge.
 constexpr double kOrderTolerance = 1e-9;
 
-/// Relative to the first corner, so that far from the origin no digits are lost.
+/// Returns the circumcenter, computed from the first corner to keep digits far from the origin.
 Vec2 circumcentre(Vec2 a, Vec2 b, Vec2 c) {
   const Vec2 ab = b - a, ac = c - a;
   const double twice = 2 * cross(ab, ac), bb = dot(ab, ab), cc = dot(ac, ac);
@@ -20,10 +20,10 @@ Vec2 circumcentre(Vec2 a, Vec2 b, Vec2 c) {
 
 }  // namespace
 
-/// The cells along a boundary edge from its first end on.
+/// The cells along a boundary edge from its first end.
 struct BoundedVoronoi::Chain {
   Vec2 a, b;
-  double at = 0;  ///< of the last clip, 0 at a, 1 at b
+  double at = 0;  ///< parameter of the last clip: 0 at a, 1 at b
   int clip = kOutside;
 };
 
@@ -53,7 +53,7 @@ bool BoundedVoronoi::build(const MovingDelaunay& delaunay) {
   return true;
 }
 
-/// The triangle is blind by the chain's boundary edge: follows the cells along that edge which meet there.
+/// Marks the triangle as blind beyond the chain's boundary edge, and follows the cells along that edge.
 bool BoundedVoronoi::grow(const TriPatch& tri, int triangle, int entered, Chain& chain) {
   if (blind_[triangle] >= 0) return false;
   blind_[triangle] = static_cast<int>(clip_of_.size());

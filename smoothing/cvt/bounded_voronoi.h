@@ -5,42 +5,44 @@
 
 #include "smoothing/cvt/moving_delaunay.h"
 
+// This header has the Voronoi diagram of a patch. Lp-CVT uses it.
+
 namespace delquad {
 
-/// The bounded Voronoi diagram of a triangulation's points, boundary points included: the cell of a seed is
-/// what it sees of the patch and no other visible seed is nearer to. Dual to the constrained Delaunay
-/// triangulation [tournois2010]: inside of the patch a triangle stands for the corner of three cells at its
-/// circumcentre; where that lies beyond a boundary edge, the triangle is blind, and the edges between cells
-/// end on that boundary edge instead.
+/// Bounded Voronoi diagram of a triangulation's points, boundary points included. The cell of a seed is the
+/// part of the patch that sees it and sees no nearer seed. It is dual to the constrained Delaunay
+/// triangulation [tournois2010]. Inside the patch the circumcenter of a triangle is a corner of three cells.
+/// If it lies beyond a boundary edge, the triangle is blind, and the edges between cells end on that boundary
+/// edge.
 ///
-/// All boundary points being seeds, no cell reaches around a corner of the boundary, and the diagram is
+/// Since all boundary points are seeds, no cell reaches around a corner of the boundary, and the diagram is
 /// continuous in the seeds.
 class BoundedVoronoi {
  public:
-  /// Where the edge between two cells meets the boundary.
+  /// Point where the edge between two cells meets the boundary.
   struct Clip {
-    int side;        ///< 3 t + k, of a blind triangle: the edge that is dual to it
-    int from, to;    ///< that side's ends, the two seeds
+    int side;        ///< side 3 t + k of a blind triangle that is dual to the edge
+    int from, to;    ///< ends of the side, which are the two seeds
     Vec2 at;         ///< on the boundary edge
-    Vec2 direction;  ///< of that boundary edge, unit length
+    Vec2 direction;  ///< unit vector along the boundary edge
   };
-  /// A part of a boundary edge that belongs to the cell of a seed which is neither of its ends.
+  /// Part of a boundary edge in the cell of a seed that is no end of the edge.
   struct Piece {
     int seed;
     int from, to;  ///< clips, in the direction of the boundary edge
   };
-  static constexpr int kOutside = -1;  ///< instead of a clip: the edge lies outside of the patch
+  static constexpr int kOutside = -1;  ///< in place of a clip: the edge lies outside the patch
 
-  /// False where the points lie so that no diagram can be told in floating point (three on a line along the
+  /// Builds the diagram. Returns false if floating point cannot tell it (three points on a line along the
   /// boundary).
   bool build(const MovingDelaunay& delaunay);
 
-  /// Circumcentre of each triangle.
+  /// Returns the circumcenter of each triangle.
   const std::vector<Vec2>& centres() const { return centres_; }
-  /// Whether the cell of a seed has other corners than the circumcentres around the seed.
+  /// Returns whether the cell of a seed has corners other than circumcenters of its triangles.
   bool is_cut(int seed) const { return cut_[seed] != 0; }
   bool is_blind(int triangle) const { return blind_[triangle] >= 0; }
-  /// Of a blind triangle, where the edge dual to its side k ends: a clip or kOutside.
+  /// Returns where the edge dual to side k of a blind triangle ends: a clip or kOutside.
   int clip_of(int triangle, int k) const { return clip_of_[blind_[triangle]][k]; }
   const std::vector<Clip>& clips() const { return clips_; }
   const std::vector<Piece>& pieces() const { return pieces_; }
@@ -50,8 +52,8 @@ class BoundedVoronoi {
   bool grow(const TriPatch& tri, int triangle, int entered, Chain& chain);
 
   std::vector<Vec2> centres_;
-  std::vector<int> blind_;  ///< of each triangle: index into clip_of_, -1: not blind
-  std::vector<char> cut_;   ///< of each point
+  std::vector<int> blind_;  ///< index into clip_of_ for each triangle; -1: not blind
+  std::vector<char> cut_;   ///< by point
   std::vector<std::array<int, 3>> clip_of_;
   std::vector<Clip> clips_;
   std::vector<Piece> pieces_;

@@ -9,38 +9,39 @@
 #include "smoothing/cvt/lp_energy.h"
 #include "smoothing/cvt/moving_delaunay.h"
 
+// This header has the Lp energy of a patch and its minimization. Lp-CVT uses it.
+
 namespace delquad {
 
-/// The Lp energy of a patch's points as a function of the inner ones, without dimension:
+/// Dimensionless Lp energy of a patch's points as a function of the inner ones:
 ///
-///     F = (p + 1) 2^p / (2 N) * sum over seeds of integral over the cell of |y - x|_p^p / delta'(x)^(p + 2)
-///     dy
+///     F = (p + 1) 2^p / (2 N) sum over seeds of integral over the cell of |y - x|_p^p / delta'(x)^(p + 2) dy
 ///
-/// with N the integral of 1/delta'^2 over the patch: 1 when all cells are squares of side delta' along the
-/// cross field. The cross is held where the seeds were when it was last taken; log delta' is linear around
-/// there, with the gradient that the triangulation gives.
+/// N is the integral of 1/delta'^2 over the patch; F is 1 if all cells are squares of side delta' along the
+/// cross. The cross is fixed at the seeds of the last hold_frames(). There, log delta' is linear with the
+/// gradient by the triangulation.
 ///
-/// A density of points of 1/h^2 makes F the integral of h^p / delta'^(p + 2), least for h in proportion to
-/// delta' [levy2010, baudouin2014]. That needs the derivative of delta' in the gradient: seeds that carry
-/// their weights along would settle at widths of delta'^(1 + 2/p).
+/// For a density of points of 1/h^2, F is the integral of h^p / delta'^(p + 2), which is least for h
+/// proportional to delta' [levy2010, baudouin2014]. This needs the derivative of delta' in the gradient.
+/// Seeds with fixed weights would settle at widths of delta'^(1 + 2/p).
 class CvtProblem {
  public:
   CvtProblem(MovingDelaunay delaunay, int p);
 
-  /// Takes cross and size at the points as they are.
+  /// Takes cross and size at the current points.
   void hold_frames(const CrossField& cross, const ParametricSize& size);
 
   int n_free() const { return delaunay_.n_points() - delaunay_.n_boundary(); }
   std::vector<Vec2> seeds() const;
-  /// Moves the seeds there; F, or nothing where that is no admissible place for them (see
-  /// MovingDelaunay::move_to and BoundedVoronoi::build). Costs nothing where they are already.
+  /// Moves the seeds and returns F; nothing if the places are not admissible (MovingDelaunay::move_to,
+  /// BoundedVoronoi::build). It is free if the seeds are already there.
   std::optional<double> evaluate(std::span<const Vec2> seeds);
-  /// dF/dx of each seed, of the last evaluation.
+  /// Returns dF/dx for each seed at the last evaluation.
   std::span<const Vec2> gradient() const;
-  /// delta' where each seed was when the frames were taken: the unit to measure its way in.
+  /// Returns delta' at the seeds of the last hold_frames(), the unit of their steps.
   std::span<const double> lengths() const;
-  /// F in such units that its second derivatives by positions over lengths() are about 1 on a lattice of
-  /// the wanted size.
+  /// Returns the unit of F in which its second derivatives by positions over lengths() are about 1 on a
+  /// lattice of the wanted size.
   double newton_scale() const;
 
   int p() const { return p_; }
@@ -55,44 +56,43 @@ class CvtProblem {
   LpEnergy energy_;
   int p_;
   std::vector<double> length_;  ///< delta' of each point
-  double squares_ = 0;          ///< N above
+  double squares_ = 0;          ///< N in the energy
   std::vector<Vec2> gradient_;
-  std::optional<double> last_;  ///< F where the seeds are, when it is known
+  std::optional<double> last_;  ///< F at the seeds, if known
 };
 
 enum class MinimiserTermination {
   kConverged,   ///< by a tolerance
-  kIterations,  ///< all that were allowed
-  kStuck        ///< no admissible step that lowers the energy was found
+  kIterations,  ///< limit of iterations
+  kStuck        ///< no admissible step lowers the energy
 };
 
 struct MinimiserOptions {
-  int iterations = 25;               ///< at most
-  double function_tolerance = 1e-5;  ///< converged when a step lowers F by less than this times F
-  double gradient_tolerance = 0;     ///< converged when no seed's derivative, in newton_scale(), is larger
+  int iterations = 25;               ///< limit of iterations
+  double function_tolerance = 1e-5;  ///< converged if a step lowers F by less than this times F
+  double gradient_tolerance = 0;     ///< converged if no derivative by a seed, in newton_scale(), is larger
 };
 
-/// One evaluation of the energy.
+/// An evaluation of the energy.
 struct EnergySample {
-  int frames = 0;         ///< how many times cross and size had been taken before
-  double energy = 0;      ///< NaN: the place was refused
-  bool accepted = false;  ///< whether the seeds went on from there
+  int frames = 0;         ///< number of earlier hold_frames()
+  double energy = 0;      ///< NaN: the places were refused
+  bool accepted = false;  ///< whether the seeds continued from there
 };
 
 struct MinimiserOutcome {
   MinimiserTermination termination = MinimiserTermination::kConverged;
   int iterations = 0;        ///< accepted steps
-  double gradient_norm = 0;  ///< the largest derivative by a seed at the end, in newton_scale()
+  double gradient_norm = 0;  ///< largest derivative by a seed at the end, in newton_scale()
 };
 
-/// Lowers the energy of a problem whose frames are held, by L-BFGS with a line search for the strong Wolfe
-/// conditions (Ceres). A place that is refused shortens the step. Leaves the problem evaluated at the best
-/// seeds found. Appends to `samples` each evaluation made. The first is at the seeds as they are, and
-/// admissible.
+/// Lowers the energy of a problem with fixed frames, by L-BFGS with a line search for the strong Wolfe
+/// conditions (Ceres). A refused place shortens the step. The problem ends evaluated at the best seeds found.
+/// Appends all evaluations to `samples`; the first one is at the current seeds, which are admissible.
 MinimiserOutcome minimise_cells(CvtProblem& problem, const MinimiserOptions& options,
                                 std::vector<EnergySample>& samples);
 
-/// The largest derivative of F by a seed's position over lengths(), in newton_scale().
+/// Returns the largest derivative of F by a seed's position over lengths(), in newton_scale().
 double scaled_gradient_norm(const CvtProblem& problem);
 
 }  // namespace delquad

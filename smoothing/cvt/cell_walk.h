@@ -3,30 +3,32 @@
 #include "smoothing/cvt/bounded_voronoi.h"
 #include "smoothing/cvt/moving_delaunay.h"
 
+// This header walks around cells of the bounded Voronoi diagram. The Lp energy uses it.
+
 namespace delquad {
 
-/// An end of an edge between two cells of a bounded Voronoi diagram.
+/// End of an edge between two cells of a bounded Voronoi diagram.
 struct CellEnd {
   enum Kind {
-    kOutside,  ///< the edge lies outside of the patch
-    kCentre,   ///< index: corner 3 t + k of the triangle whose circumcentre it is
-    kClip,     ///< index: of the clip
-    kMiddle    ///< of a boundary edge; does not move
+    kOutside,  ///< the edge lies outside the patch
+    kCentre,   ///< index: corner 3 t + k of the triangle with this circumcenter
+    kClip,     ///< index of the clip
+    kMiddle    ///< middle of a boundary edge; it does not move
   };
   Kind kind = kOutside;
   int index = -1;
   Vec2 at;
 };
 
-/// Calls edge(first, second) for each edge between the cell of a seed and another, counterclockwise around
-/// the seed; and, for a seed on the boundary, the edges that end in the middles of its boundary edges. With
-/// the pieces of the boundary in the cell, the triangles (seed, first, second) make up the cell.
+/// Calls edge(first, second) for each edge between the cell of a seed and another cell, counterclockwise. At
+/// a boundary seed, edges also end in the middles of its boundary edges. The triangles (seed, first, second)
+/// and the pieces of the boundary in the cell make up the cell.
 template <class Edge>
 void walk_cell(const MovingDelaunay& delaunay, const BoundedVoronoi& cells, int seed, Edge edge) {
   const TriPatch& tri = delaunay.patch();
   const Vec2 x = tri.points[seed];
   const bool on_boundary = seed < tri.n_boundary;
-  // The end in triangle t, whose corner k the seed is, of the edge dual to its side m.
+  // Returns the end in triangle t (corner k is the seed) of the edge dual to side m.
   const auto end_in = [&](int t, int k, int m) -> CellEnd {
     if (!cells.is_blind(t)) return {CellEnd::kCentre, 3 * t + k, cells.centres()[t]};
     const int clip = cells.clip_of(t, m);

@@ -9,7 +9,7 @@
 namespace delquad {
 namespace {
 
-/// The integral of 1/length^2, taken as linear on triangles.
+/// Returns the integral of 1/length^2, linear on triangles.
 double squares_in(const TriPatch& tri, const std::vector<double>& length) {
   return sum_of_blocks(tri.triangles.size(), [&](std::size_t t) {
     const auto& v = tri.triangles[t];
@@ -20,7 +20,7 @@ double squares_in(const TriPatch& tri, const std::vector<double>& length) {
   });
 }
 
-/// The gradient of f around an inner point, f linear on triangles: the mean of the triangles by area.
+/// Returns the gradient of f around an inner point: the mean over its triangles by area, f linear on each.
 Vec2 gradient_at(const MovingDelaunay& delaunay, int i, const std::vector<double>& f) {
   const std::vector<Vec2>& points = delaunay.patch().points;
   Vec2 sum;
@@ -47,7 +47,7 @@ void CvtProblem::hold_frames(const CrossField& cross, const ParametricSize& size
   length_.resize(n);
   std::vector<double> log_weight(n);
   parallel_blocks(n, [&](std::size_t begin, std::size_t end) {
-    int cross_hint = -1, size_hint = -1;  // of each block its own, whatever the threads
+    int cross_hint = -1, size_hint = -1;  // one for each block, so that threads do not matter
     for (std::size_t i = begin; i < end; ++i) {
       const double theta = cross.at(points[i], cross_hint).angle();
       frames_.axis[i] = {std::cos(theta), std::sin(theta)};
@@ -91,8 +91,8 @@ std::span<const double> CvtProblem::lengths() const {
 }
 
 double CvtProblem::newton_scale() const {
-  // Of a seed in a square cell of side delta' that stays: weight p (p - 1) times the integral of x^(p-2) is
-  // 2 p (p + 1) / (N delta'^2).
+  // For a fixed seed in a square cell of side delta', weight p (p - 1) times the integral of x^(p-2) is `2 p
+  // (p + 1) / (N delta'^2)`.
   return squares_ / (2.0 * p_ * (p_ + 1));
 }
 

@@ -12,9 +12,9 @@
 namespace delquad {
 namespace {
 
-/// F in newton_scale() by the seeds' ways from where they were, over lengths(). Where that makes the first
-/// step longer than one length for some seed, F is scaled down: Ceres would shorten it by the largest
-/// component, which depends on how the axes lie.
+/// F in newton_scale() as a function of the seeds' steps over lengths(). If the first step of a seed is
+/// longer than one length, F is scaled down. Ceres would shorten it by the largest component, which depends
+/// on the axes.
 class ScaledEnergy final : public ceres::FirstOrderFunction {
  public:
   ScaledEnergy(CvtProblem& problem, std::vector<EnergySample>& samples)
@@ -22,7 +22,7 @@ class ScaledEnergy final : public ceres::FirstOrderFunction {
 
   bool Evaluate(const double* parameters, double* cost, double* gradient) const override {
     std::optional<double> energy;
-    // Nothing may be thrown through the solver. It gives up at what cannot be evaluated.
+    // The solver passes no exceptions. It stops if an evaluation fails.
     try {
       energy = problem_.evaluate(seeds(parameters));
     } catch (const Cancelled&) {
@@ -43,11 +43,11 @@ class ScaledEnergy final : public ceres::FirstOrderFunction {
     });
     return true;
   }
-  /// Of the cost: after the first evaluation.
+  /// Returns the scale of the cost, known after the first evaluation.
   double scale() const { return scale_; }
   int NumParameters() const override { return 2 * static_cast<int>(start_.size()); }
 
-  /// Until the next call.
+  /// Returns seeds that stay valid until the next call.
   std::span<const Vec2> seeds(const double* parameters) const {
     std::vector<Vec2>& x = seeds_;
     const auto h = problem_.lengths();
@@ -66,13 +66,13 @@ class ScaledEnergy final : public ceres::FirstOrderFunction {
   mutable std::vector<Vec2> seeds_;
 };
 
-/// Marks the evaluation that each accepted step went to.
+/// Marks the evaluation of each accepted step.
 class MarkAccepted final : public ceres::IterationCallback {
  public:
   MarkAccepted(std::vector<EnergySample>& samples, const ScaledEnergy& energy)
       : samples_(samples), energy_(energy) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    // The search may end at an earlier evaluation than its last.
+    // The search may end at an earlier evaluation than its last one.
     for (auto sample = samples_.rbegin(); sample != samples_.rend() && !sample->accepted; ++sample)
       if (energy_.scale() * sample->energy == summary.cost) {
         sample->accepted = true;
@@ -91,25 +91,25 @@ class MarkAccepted final : public ceres::IterationCallback {
 MinimiserOutcome minimise_cells(CvtProblem& problem, const MinimiserOptions& options,
                                 std::vector<EnergySample>& samples) {
   std::vector<double> parameters(2 * static_cast<std::size_t>(problem.n_free()), 0.0);
-  auto* energy = new ScaledEnergy(problem, samples);  // the problem's from here on
+  auto* energy = new ScaledEnergy(problem, samples);  // owned by the problem from here on
   const ceres::GradientProblem gradient_problem(energy);
   MarkAccepted mark(samples, *energy);
   ceres::GradientProblemSolver::Options solver;
   solver.line_search_direction_type = ceres::LBFGS;
   solver.line_search_type = ceres::WOLFE;
-  solver.max_lbfgs_rank = 10;  // steps that the approximate Hessian remembers
+  solver.max_lbfgs_rank = 10;  // number of steps in the approximate Hessian
   solver.use_approximate_eigenvalue_bfgs_scaling = true;
   solver.max_num_iterations = options.iterations;
   solver.function_tolerance = options.function_tolerance;
   solver.gradient_tolerance = options.gradient_tolerance;
-  solver.parameter_tolerance = 0;  // ways from the start: no length to compare with
+  solver.parameter_tolerance = 0;  // parameters are steps from the start, so there is no length to compare
   solver.logging_type = ceres::SILENT;
   solver.callbacks.push_back(&mark);
   ceres::GradientProblemSolver::Summary summary;
   const std::size_t first = samples.size();
   ceres::Solve(solver, gradient_problem, parameters.data(), &summary);
   check_cancelled();
-  samples[first].accepted = true;  // not marked where the search converges at once
+  samples[first].accepted = true;  // not marked if the search converges at once
 
   problem.evaluate(energy->seeds(parameters.data()));
   MinimiserOutcome outcome;

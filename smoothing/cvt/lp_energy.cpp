@@ -11,28 +11,28 @@
 namespace delquad {
 namespace {
 
-/// Into a seed's frame and back.
+/// Turns vectors into a seed's frame and back.
 struct Turn {
   Vec2 axis;
   Vec2 in(Vec2 v) const { return {dot(axis, v), cross(axis, v)}; }
   Vec2 out(Vec2 v) const { return {axis.x * v.x - axis.y * v.y, axis.y * v.x + axis.x * v.y}; }
 };
 
-/// Adds up one cell: its energy, and derivatives by its seed and the ends of its edges.
+/// Sums up a cell: its energy, and derivatives by its seed and the ends of its edges.
 template <int P>
 class CellEnergy {
  public:
   CellEnergy(Vec2 seed, Turn turn, double weight) : seed_(seed), turn_(turn), weight_(weight) {}
 
   Vec2 corner(Vec2 x) const { return turn_.in(x - seed_); }
-  /// The triangle of the seed and two corners; its derivatives by them, in the seed's frame.
+  /// Adds the triangle of the seed and two corners. Returns its derivatives by them in the seed's frame.
   SimplexEnergy add(Vec2 first, Vec2 second) {
     const SimplexEnergy s = simplex_energy<P>(first, second);
     energy_ += s.value;
     by_seed_ += -(s.by_first + s.by_second);
     return s;
   }
-  /// The same; derivatives are added to `by_first` and `by_second`.
+  /// Does the same, and adds the derivatives to `by_first` and `by_second`.
   void add(Vec2 first, Vec2 second, Vec2* by_first, Vec2* by_second) {
     const SimplexEnergy s = add(first, second);
     if (by_first != nullptr) *by_first += out(s.by_first);
@@ -59,7 +59,7 @@ struct Arrays {
   double weight(std::size_t i) const {
     return frames.weight[i] * std::exp(dot(frames.slope[i], tri.points[i] - frames.from[i]));
   }
-  /// Where the derivative by an end of an edge of seed i's cell is added up.
+  /// Returns where the derivative by an end of an edge of this cell is summed up.
   Vec2* slot(int seed, const CellEnd& end) const {
     if (end.kind == CellEnd::kCentre) return &by_centre[end.index];
     if (end.kind == CellEnd::kClip) return &by_clip[2 * end.index + (cells.clips()[end.index].to == seed)];
@@ -67,11 +67,11 @@ struct Arrays {
   }
 };
 
-/// A cell whose corners are the circumcentres around its seed.
+/// Adds a cell whose corners are the circumcenters around its seed.
 template <int P>
 void add_whole_cell(const MovingDelaunay& delaunay, const Arrays& a, int seed, CellEnergy<P>& cell) {
   Vec2 first, last;        // corners
-  Vec2 by_first, by_last;  // derivatives by them, as far as they are known
+  Vec2 by_first, by_last;  // partial derivatives by them
   int first_at = -1, last_at = -1;
   const auto edge_to = [&](Vec2 corner) {
     const SimplexEnergy s = cell.add(last, corner);
@@ -96,7 +96,7 @@ void add_whole_cell(const MovingDelaunay& delaunay, const Arrays& a, int seed, C
   a.by_centre[first_at] = cell.out(by_last + by_first);
 }
 
-/// A cell that ends on the boundary somewhere.
+/// Adds a cell that ends on the boundary.
 template <int P>
 void add_cut_cell(const MovingDelaunay& delaunay, const Arrays& a, int seed, CellEnergy<P>& cell) {
   for_each_corner(delaunay, seed, [&](int t, int k) { a.by_centre[3 * t + k] = {}; });
@@ -105,7 +105,7 @@ void add_cut_cell(const MovingDelaunay& delaunay, const Arrays& a, int seed, Cel
   });
 }
 
-/// All edges of the cells of seeds begin .. end - 1 that lie between cells.
+/// Adds the edges between cells for seeds begin .. end - 1.
 template <int P>
 void add_cells(const MovingDelaunay& delaunay, const Arrays& a, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
@@ -120,7 +120,7 @@ void add_cells(const MovingDelaunay& delaunay, const Arrays& a, std::size_t begi
   }
 }
 
-/// The triangles between seeds and pieces of the boundary that do not end in them.
+/// Adds the triangles between seeds and pieces of the boundary that do not end in them.
 template <int P>
 void add_pieces(const Arrays& a) {
   for (const BoundedVoronoi::Piece& piece : a.cells.pieces()) {
@@ -134,8 +134,8 @@ void add_pieces(const Arrays& a) {
   }
 }
 
-/// Turns derivatives by circumcentres into derivatives by the seeds around them. The circumcentre C of i, j,
-/// k moves so that (x_j - x_i).dC = (x_j - C).dx_j - (x_i - C).dx_i, and so for k.
+/// Turns derivatives by circumcenters into derivatives by the seeds around them. The circumcenter C of i, j,
+/// k moves by (x_j - x_i).dC = (x_j - C).dx_j - (x_i - C).dx_i, and likewise for k.
 void chain_through_centres(const Arrays& a, std::size_t begin, std::size_t end) {
   for (std::size_t t = begin; t < end; ++t) {
     Vec2* by = &a.by_centre[3 * t];
@@ -155,7 +155,7 @@ void chain_through_centres(const Arrays& a, std::size_t begin, std::size_t end) 
   }
 }
 
-/// The same for clips, which move along their boundary edge only.
+/// Does the same for clips, which move only along their boundary edge.
 void chain_through_clips(const Arrays& a) {
   for (std::size_t c = 0; c < a.cells.clips().size(); ++c) {
     const BoundedVoronoi::Clip& clip = a.cells.clips()[c];

@@ -55,7 +55,7 @@ TriPatch reordered(const TriPatch& patch, const std::vector<int>& order) {
     place[order[k]] = patch.n_boundary + static_cast<int>(k);
     result.points[patch.n_boundary + k] = patch.points[order[k]];
   }
-  // The last corner is an inner point wherever there is one.
+  // The last corner is an inner point if there is one.
   const auto key = [&](int t) {
     const auto& v = patch.triangles[t];
     return std::max({place[v[0]], place[v[1]], place[v[2]]});
@@ -77,12 +77,12 @@ TriPatch reordered(const TriPatch& patch, const std::vector<int>& order) {
 
 namespace {
 
-/// How often a way that turns a triangle over is cut in half before the triangulation is made anew.
+/// Halvings of a move that inverts a triangle, before the triangulation is rebuilt.
 constexpr int kHalvings = 2;
-/// How many corners more than at first a point has room for.
+/// Spare corners of a point.
 constexpr unsigned kSpare = 2;
 
-/// The boundary as the triangulation's own free sides give it.
+/// Returns the boundary by the free sides of the triangulation.
 PatchBoundary boundary_of(const TriPatch& tri) {
   PatchBoundary boundary;
   boundary.points.assign(tri.points.begin(), tri.points.begin() + tri.n_boundary);
@@ -127,7 +127,7 @@ void MovingDelaunay::make_stars() {
   });
 }
 
-/// Walks around a point. False where its corners have no room.
+/// Lists the corners around a point. Returns false if they need more space.
 bool MovingDelaunay::renew_star(int i) {
   Star& star = star_[i];
   star.count = 0;
@@ -194,26 +194,24 @@ bool MovingDelaunay::rebuild(const std::vector<Vec2>& points) {
   ++rebuilds_;
   try {
     tri_ = constrained_delaunay(boundary_, {points.begin() + tri_.n_boundary, points.end()});
-  } catch (const InputError&) {  // the points cannot be triangulated, which is what the caller asks
+  } catch (const InputError&) {  // a point set without triangulation is a valid answer
     return false;
   }
   make_stars();
   return true;
 }
 
-/// Whether the side, which has a neighbour, has that one's opposite point inside of its triangle's
-/// circumcircle.
+/// Returns whether the opposite point across this inner side lies inside the circumcircle of its triangle.
 bool MovingDelaunay::illegal(int side) const {
   const int t = side / 3, k = side % 3;
   const auto &v = tri_.triangles[t], &n = tri_.triangles[tri_.neighbours[t][k]];
-  const int apex =
-      n[0] ^ n[1] ^ n[2] ^ v[kNextCorner[k]] ^ v[kLastCorner[k]];  // the corner that is not the side's
+  const int apex = n[0] ^ n[1] ^ n[2] ^ v[kNextCorner[k]] ^ v[kLastCorner[k]];  // the corner off the side
   return in_circle_or_unsure(tri_.points[v[0]], tri_.points[v[1]], tri_.points[v[2]], tri_.points[apex]) > 0;
 }
 
-/// Appends the illegal sides of triangles begin .. end - 1, each side by its triangle of smaller index.
+/// Appends the illegal sides of triangles begin .. end - 1, each by its triangle of smaller index.
 void MovingDelaunay::find_illegal(std::size_t begin, std::size_t end, std::vector<int>& found) const {
-  std::array<int, 3 * kBlock> sides;  // first all sides and then the tests: no branch that is hard to predict
+  std::array<int, 3 * kBlock> sides;  // all sides first, then the tests: no branch is hard to predict
   std::size_t n = 0;
   for (std::size_t t = begin; t < end; ++t)
     for (int k = 0; k < 3; ++k) {
@@ -243,7 +241,7 @@ void MovingDelaunay::make_delaunay() {
   if (!all_have_room) make_stars();
 }
 
-/// Turns the diagonal of the two triangles at a side; their outer sides go on the stack.
+/// Swaps the diagonal of the two triangles at a side, and stacks their outer sides.
 void MovingDelaunay::flip(int side) {
   ++flips_;
   const int t = side / 3, k = side % 3, u = tri_.neighbours[t][k];

@@ -7,32 +7,34 @@
 
 #include "delquad/mesh.h"
 
+// This header has a triangulation that follows moving points. Lp-CVT uses it.
+
 namespace delquad {
 
-/// Of a triangle's corner, the next one counterclockwise, and the one before.
+/// Next and previous corner of a triangle, counterclockwise.
 inline constexpr std::array<int, 3> kNextCorner = {1, 2, 0}, kLastCorner = {2, 0, 1};
 
-/// A constrained Delaunay triangulation whose inner points move, between fixed boundary points. It follows
-/// the points by flips; only where a triangle would turn over is it made anew.
+/// Constrained Delaunay triangulation whose inner points move between fixed boundary points. It follows the
+/// points by flips, and is rebuilt only if a triangle would be inverted.
 ///
-/// Where four points are cocircular up to rounding, either diagonal stays.
+/// If four points are cocircular up to rounding, either diagonal stays.
 class MovingDelaunay {
  public:
-  /// Any triangulation; becomes Delaunay. Throws InputError naming a triangle that is flat or inverted.
+  /// Takes any triangulation and makes it Delaunay. Throws InputError with a flat or inverted triangle.
   explicit MovingDelaunay(TriPatch initial);
 
   const TriPatch& patch() const { return tri_; }
   int n_points() const { return static_cast<int>(tri_.points.size()); }
   int n_boundary() const { return tri_.n_boundary; }
-  /// Of each point, the corners 3 t + k that lie there, counterclockwise: those of boundary points from one
-  /// boundary edge to the other.
+  /// Returns the corners 3 t + k at a point, counterclockwise; at boundary points from one boundary edge to
+  /// the other.
   std::span<const int> corners(int i) const { return {&stars_[star_[i].begin], star_[i].count}; }
 
-  /// Moves all points that are not the boundary's. False where that is not possible: a point outside of the
-  /// patch, on its boundary or on another point; the points are then somewhere on their way.
+  /// Moves all inner points. Returns false if a point is outside the patch, on its boundary or on another
+  /// point. Then the points are somewhere on their way.
   bool move_to(std::span<const Vec2> inner);
 
-  /// What the moves took so far.
+  /// Returns the work of the moves so far.
   long long flips() const { return flips_; }
   int rebuilds() const { return rebuilds_; }
 
@@ -51,7 +53,7 @@ class MovingDelaunay {
   TriPatch tri_;
   PatchBoundary boundary_;
   struct Star {
-    std::size_t begin = 0;  ///< in stars_, with room for kSpare corners more than when it was made
+    std::size_t begin = 0;  ///< in stars_, with space for kSpare more corners than at first
     unsigned count = 0, room = 0;
     int first = -1;
     bool stale = false;
@@ -64,18 +66,18 @@ class MovingDelaunay {
   int rebuilds_ = 0;
 };
 
-/// Calls visit(t, k) for the triangles t around point i, which have it as corner k: see corners().
+/// Calls visit(t, k) for each triangle t around point i, whose corner k is i, see corners().
 template <class Visit>
 void for_each_corner(const MovingDelaunay& d, int i, Visit visit) {
   for (const int corner : d.corners(i)) visit(corner / 3, corner % 3);
 }
 
-/// The inner points of a patch along a Hilbert curve, so that what is close in the plane is close in memory:
-/// for each its index in the patch.
+/// Returns the indices of the inner points along a Hilbert curve, so that neighbors in the plane are close in
+/// memory.
 std::vector<int> spatial_order(const TriPatch& patch);
 
-/// The patch with `order[k]` in the place of its k-th inner point, and its triangles in the order of their
-/// points. Boundary points stay where they are.
+/// Returns the patch with `order[k]` as its k-th inner point, and triangles in the order of their points.
+/// Boundary points keep their places.
 TriPatch reordered(const TriPatch& patch, const std::vector<int>& order);
 
 }  // namespace delquad

@@ -5,20 +5,22 @@
 
 #include "delquad/mesh.h"
 
+// This header integrates powers over triangles. The Lp energy uses it.
+
 namespace delquad {
 
-/// An integral over a triangle and its derivatives by two of the corners; that by the third, the origin, is
-/// minus their sum where the corners move with it.
+/// An integral over a triangle and its derivatives by two corners. The derivative by the third one, the
+/// origin, is minus their sum if the corners move with it.
 struct SimplexEnergy {
   double value = 0;
   Vec2 by_first, by_second;
 };
 
-/// Numbers of the two axes, on which the same is done at once.
+/// Numbers for both axes, processed together.
 using BothAxes = double __attribute__((vector_size(16)));
 
-/// S below and its derivatives by its two arguments: the coefficients, all positive, so that nothing cancels.
-/// Known when compiling, as rounding may not be taken for granted there in expressions (-frounding-math).
+/// Coefficients of S below and of its derivatives by both arguments. All are positive, so nothing cancels.
+/// They are compile-time constants, since -frounding-math forbids assumptions about rounding.
 template <int P>
 struct OddBinomials {
   std::array<double, P / 2> by_ss{}, by_dd{};
@@ -36,23 +38,23 @@ struct OddBinomials {
   }
 };
 
-/// Integral of x^P + y^P over the triangle (0, first, second), negative when it is clockwise:
+/// Returns the integral of x^P + y^P over the triangle (0, first, second), negative if it is clockwise:
 ///
 ///     J / ((P + 1) (P + 2)) sum over k = 0 .. P of (x1^k x2^(P-k) + y1^k y2^(P-k)),  J = first x second
 ///
-/// which follows from the integrals of b1^k b2^(P-k), b the barycentric coordinates [levy2010]. P even. With
+/// It follows from the integrals of b1^k b2^(P-k), b the barycentric coordinates [levy2010], for even P. With
 /// s = x1 + x2 and d = x2 - x1 the sum is 2^-P times
 ///
 ///     S(s^2, d^2) = sum over j = 0 .. P/2 of (P + 1 over 2 j + 1) s^(P - 2 j) d^(2 j)
 ///
-/// which takes a third of the multiplications, derivatives included.
+/// and takes a third of the multiplications, derivatives included.
 template <int P>
 SimplexEnergy simplex_energy(Vec2 first, Vec2 second) {
   static_assert(P >= 2 && P % 2 == 0);
   static constexpr OddBinomials<P> kOdd;
   const BothAxes s = {first.x + second.x, first.y + second.y}, d = {second.x - first.x, second.y - first.y};
   const BothAxes ss = s * s, dd = d * d;
-  // The derivatives of S, homogeneous, by Horner's rule in s^2; S by Euler's formula.
+  // Derivatives of S, homogeneous, by Horner's rule in s^2; S by Euler's formula.
   BothAxes by_ss = {kOdd.by_ss[0], kOdd.by_ss[0]}, by_dd = {kOdd.by_dd[0], kOdd.by_dd[0]}, power = dd;
   for (std::size_t j = 1; j < P / 2; ++j) {
     by_ss = by_ss * ss + kOdd.by_ss[j] * power;

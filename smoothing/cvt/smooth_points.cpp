@@ -22,7 +22,7 @@ SmoothingTermination of_minimiser(MinimiserTermination termination) {
   return SmoothingTermination::kStuck;
 }
 
-/// Takes the frames anew and minimises, up to outer_iterations times.
+/// Takes new frames and minimizes, up to outer_iterations times.
 void smooth(CvtProblem& problem, const CrossField& cross, const ParametricSize& size,
             const SmoothingOptions& options, SmoothingSummary& s) {
   problem.hold_frames(cross, size);
@@ -54,7 +54,7 @@ void smooth(CvtProblem& problem, const CrossField& cross, const ParametricSize& 
     s.iterations += outcome.iterations;
     s.gradient_norm = outcome.gradient_norm;
     s.final_energy = last;
-    if (outcome.iterations == 0) break;  // the frames were up to date
+    if (outcome.iterations == 0) break;  // the frames were current
   }
   if (!s.samples.empty()) s.evaluations = static_cast<int>(s.samples.size());
   for (const EnergySample& sample : s.samples) s.refused += std::isnan(sample.energy) ? 1 : 0;

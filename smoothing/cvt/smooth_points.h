@@ -7,49 +7,50 @@
 #include "delquad/options.h"
 #include "smoothing/cvt/cell_minimiser.h"
 
+// This header has stage L, Lp-CVT smoothing. The pipeline uses it.
+
 namespace delquad {
 
 struct SmoothingOptions {
-  /// Of the norm: even, 2 to 16. 6 is the smallest for which a square lattice is a minimum of the energy, and
-  /// not only stationary.
+  /// Exponent of the norm: even, 2 to 16. At 6 or more a square lattice is a minimum of the energy, and not
+  /// only stationary.
   int p = 6;
-  int outer_iterations = 2;  ///< how often cross and size are taken anew; at least 0
-  MinimiserOptions inner;    ///< of each
+  int outer_iterations = 2;  ///< how often cross and size are taken again; at least 0
+  MinimiserOptions inner;    ///< options of each
 };
 
-/// Throws InputError that says which option is out of its range.
+/// Throws InputError that names an option out of its range.
 void check_options(const SmoothingOptions& options);
 
 enum class SmoothingTermination {
-  kConverged,   ///< with the frames taken last
-  kIterations,  ///< all that were allowed
-  kStuck,       ///< no admissible step that lowers the energy was found
-  kRefused      ///< the energy of the points as they were cannot be told: they stay
+  kConverged,   ///< with the last frames
+  kIterations,  ///< limit of iterations
+  kStuck,       ///< no admissible step lowers the energy
+  kRefused      ///< the energy at the start is not defined, so points stay
 };
 
 struct SmoothingSummary {
   SmoothingTermination termination = SmoothingTermination::kConverged;
-  int cells = 0;  ///< as many as points, the boundary's included
+  int cells = 0;  ///< number of points, boundary points included
   int outer_iterations = 0;
   int iterations = 0;        ///< accepted steps
-  int evaluations = 0;       ///< of the energy, refused ones included
-  int refused = 0;           ///< of them, at places that are not admissible
-  long long flips = 0;       ///< of the triangulation, following the points
-  int rebuilds = 0;          ///< of the triangulation from nothing
+  int evaluations = 0;       ///< number of evaluations, refused ones included
+  int refused = 0;           ///< refused places that were not admissible
+  long long flips = 0;       ///< flips of the triangulation
+  int rebuilds = 0;          ///< rebuilds of the triangulation
   double first_energy = 0;   ///< 1: squares of the wanted size everywhere
-  double final_energy = 0;   ///< in the frames taken last
-  double gradient_norm = 0;  ///< see MinimiserOutcome
+  double final_energy = 0;   ///< in the last frames
+  double gradient_norm = 0;  ///< see `MinimiserOutcome`
   double seconds = 0;
   std::vector<EnergySample> samples;  ///< all evaluations
 };
 
 const char* name_of(SmoothingTermination termination);
-/// How often patches ended in which way.
+/// Counts patches by the way in which they ended.
 void append_counter(std::vector<SummaryField>& fields, const char* key, SmoothingTermination value, Over,
                     double);
-/// A list for each patch: the energies, NaN where the place was refused; the evaluations, counted from 0,
-/// that were the first with new frames, as "first_of_frames"; and those from where the points went on, as
-/// "accepted_evaluations".
+/// Appends lists for each patch. They are the energies (NaN if refused), the first evaluations with new
+/// frames ("first_of_frames"), and accepted ones ("accepted_evaluations"). Evaluations count from 0.
 void append_counter(std::vector<SummaryField>& fields, const char* key,
                     const std::vector<EnergySample>& samples, Over, double);
 
@@ -69,8 +70,8 @@ struct Counters<SmoothingSummary> {
 };
 
 /// Moves the inner points of a patch so that their Voronoi cells become squares of side delta' along the
-/// cross field, as far as the number of points allows [section 7]. Boundary points stay. The result is the
-/// constrained Delaunay triangulation of the moved points: the same points, in their order.
+/// cross [paper, section 7]. The number of points limits this. Boundary points stay. Returns the constrained
+/// Delaunay triangulation of the moved points, in their order.
 TriPatch smooth_points(const TriPatch& patch, const CrossField& cross, const ParametricSize& size,
                        const SmoothingOptions& options = {}, SmoothingSummary* summary = nullptr);
 

@@ -7,7 +7,7 @@ namespace delquad {
 
 namespace {
 
-/// Step of the difference that stands for a curve's derivative, in parts of what a node may slide over.
+/// Step of the difference for a curve's derivative, as a part of a node's range.
 constexpr double kStep = 1e-6;
 
 }  // namespace

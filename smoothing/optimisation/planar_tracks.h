@@ -8,26 +8,28 @@
 #include "geometry/planar/planar_model.h"
 #include "smoothing/optimisation/track_optimisation.h"
 
+// This header moves vertices of planar meshes, nodes along curves. Stage O uses it.
+
 namespace delquad {
 
-/// The vertices of all patches of a planar domain as one mesh, each on its track: nodes inside curves slide
-/// along these, other nodes stay, vertices inside a patch move freely. Vertices of leftover triangles stay.
+/// The vertices of all patches of a planar domain as one mesh. Nodes inside curves slide along them, other
+/// nodes stay, and vertices inside a patch move freely. Vertices of leftover triangles stay.
 ///
-/// Vertices: the nodes, then those inside each patch, patch by patch. All arguments outlive this object.
+/// The nodes come first, then the vertices inside each patch. All arguments must outlive this object.
 class PlanarTracks final : public VertexTracks<Vec2> {
  public:
   struct Patch {
     QuadPatch* mesh;
-    std::vector<int> point_node;  ///< the node of each boundary point
+    std::vector<int> point_node;  ///< node of each boundary point
     const CrossField* cross;
   };
-  /// `places`: of the nodes; empty: all stay.
+  /// `places` are the places of nodes on curves; if empty, all nodes stay.
   PlanarTracks(std::vector<Vec2> nodes, const std::vector<CurvePlace>& places, std::vector<Patch> patches,
                const ParametricSize& size);
 
   const std::vector<Vec2>& points() const { return points_; }
   const std::vector<std::array<int, 4>>& quads() const { return quads_; }
-  /// Writes places back to the patches.
+  /// Writes places to the patches.
   void store(const std::vector<Vec2>& points);
 
   Vec2 position(int v) const override { return slides(v) ? Vec2{places_[v].t, 0} : points_[v]; }
@@ -39,7 +41,7 @@ class PlanarTracks final : public VertexTracks<Vec2> {
  private:
   bool slides(int v) const { return v < static_cast<int>(places_.size()) && !places_[v].is_free; }
 
-  std::vector<CurvePlace> places_;  ///< of the nodes
+  std::vector<CurvePlace> places_;  ///< by node
   std::vector<Patch> patches_;
   const ParametricSize& size_;
   std::vector<Vec2> points_;

@@ -17,13 +17,13 @@ namespace delquad {
 
 namespace {
 
-/// Where |angle - 90 degrees| (radians) and |log(l/d)| are rounded off.
+/// Widths at which the kinks of |angle - 90 degrees| (radians) and |log(l/d)| are rounded off.
 constexpr double kShapeKink = 0.03, kSizeKink = 0.02;
-/// How far beyond the walls of lengths (as a logarithm) still can be cured.
+/// Excess over the walls of lengths, as a logarithm, that can still be repaired.
 constexpr double kCurable = 0.25;
-/// The least knee: below it what keeps a bad quad from getting worse would drown the others.
+/// Least knee: a lower one would let bad quads drown the others.
 constexpr double kLeastKnee = 0.15;
-/// Of edges that come near their least length, and how near that is.
+/// Weight of edges near their least length, and the factor of that length below which they are near.
 constexpr double kTooShort = 0.3, kNear = 1.5;
 /// Quads in a piece.
 constexpr std::size_t kPieceLength = 1024;
@@ -52,7 +52,7 @@ QuadEnergy<Vec>::QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& w
   energies_.resize(pieces_.size());
 }
 
-/// Quads and edges that can move, with vertices for slots at first; then piece by piece slots take over.
+/// Adds quads and edges that can move, first with vertices, then with slots piece by piece.
 template <class Vec>
 void QuadEnergy<Vec>::add_pieces(const QuadEnergyMesh<Vec>& mesh) {
   std::vector<int> moving(start_.size(), -1);
@@ -62,7 +62,7 @@ void QuadEnergy<Vec>::add_pieces(const QuadEnergyMesh<Vec>& mesh) {
   }
   const auto moves = [&](int v) { return moving[v] >= 0; };
   std::vector<int> first_side(start_.size(), -1),
-      next_side;  // sides seen so far, chained by their lesser end
+      next_side;  // known sides, chained by their lower end
   std::size_t quads_begin = 0, edges_begin = 0;
   std::vector<int> other_end;
   const auto is_new = [&](int a, int b) {
@@ -113,10 +113,10 @@ void QuadEnergy<Vec>::add_slots(std::size_t quads_begin, std::size_t edges_begin
   pieces_.push_back({quads_.size(), edges_.size(), slots_.size(), sides_.size()});
 }
 
-/// Puts sides in the place of slots.
+/// Replaces slots by sides.
 template <class Vec>
 void QuadEnergy<Vec>::add_sides(std::size_t quads_begin, std::size_t edges_begin, std::size_t slots_begin) {
-  // Chained by their lesser end.
+  // Sides are chained by their lower end.
   const int sides_begin = static_cast<int>(sides_.size());
   std::vector<int> first(slots_.size() - slots_begin, -1), following;
   const auto side_of = [&](int a, int b) {
@@ -183,7 +183,7 @@ bool QuadEnergy<Vec>::evaluate(const double* x, double& energy, double* gradient
   return true;
 }
 
-/// Sets the slopes of its slots, too.
+/// Returns the energy of a piece, and sets the slopes of its slots.
 template <class Vec>
 double QuadEnergy<Vec>::piece_energy(std::size_t piece, const double* x) const {
   const Piece begin = piece == 0 ? Piece{0, 0, 0, 0} : pieces_[piece - 1], end = pieces_[piece];
@@ -243,7 +243,7 @@ double QuadEnergy<Vec>::add_quad(const Quad& quad) const {
   for (int k = 0; k < 4; ++k) {
     if (!quad.moves(k)) continue;
     const int before = (k + 3) % 4;
-    // The sine's derivative by the angle between both sides is their cosine.
+    // The derivative of the sine by the angle between both sides is their cosine.
     const double by_turn = steep * by_sine[k] * dot(side[before], side[k]) - (k % 2 == 0 ? by_sum : 0);
     by_side[before] = by_side[before] - by_turn * inverse[before] * corner[k].quarter_turn(side[before]);
     by_side[k] = by_side[k] + by_turn * inverse[k] * corner[k].quarter_turn(side[k]);
@@ -256,14 +256,14 @@ template <class Vec>
 double QuadEnergy<Vec>::add_edge(const Edge& edge) const {
   SideState& side = states_[edge.side];
   const double length = side.length, inverse = side.inverse;
-  // Hyperbolic sine and cosine of log(l/d): their difference is min(l/d, d/l).
+  // Hyperbolic sine and cosine of log(l/d); their difference is min(l/d, d/l).
   const double ratio = length * edge.inverse_length, cosh = 0.5 * (ratio + 1 / ratio), sinh = ratio - cosh;
   const double rounded = std::sqrt(sinh * sinh + kSizeKink * kSizeKink), lack = cosh - rounded + kSizeKink;
   const Vec u = side.u;
-  // sin^2 2 phi = 4 c^2 (1 - c^2), c the cosine between edge and arm.
+  // sin^2 2 phi = 4 c^2 (1 - c^2), with the cosine c between edge and arm.
   const double c = dot(u, edge.arm), c2 = c * c;
   const double near = std::max(kNear * edge.least_length * inverse - 1, 0.0);
-  // Positive: how much longer it should be, as a logarithm.
+  // Missing length as a logarithm; negative if the edge is too long.
   const double lacks = ratio < kShortWall  ? std::log(kShortWall / ratio)
                        : ratio > kLongWall ? std::log(kLongWall / ratio)
                                            : 0;
@@ -282,9 +282,9 @@ template class QuadEnergy<Vec3>;
 
 namespace {
 
-/// Steps that L-BFGS remembers: more of them cost as much time as they save.
+/// Steps that L-BFGS remembers; more cost as much time as they save.
 constexpr int kMemory = 5;
-/// The descent ends when a step gains less than this part of the energy.
+/// The descent ends if a step gains less than this part of the energy.
 constexpr double kLeastGain = 4e-4;
 
 template <class Vec>
@@ -292,7 +292,7 @@ class CeresEnergy final : public ceres::FirstOrderFunction {
  public:
   explicit CeresEnergy(const QuadEnergy<Vec>& energy) : energy_(energy) {}
   bool Evaluate(const double* parameters, double* cost, double* gradient) const override {
-    // Nothing may be thrown through the solver. It gives up at what cannot be evaluated.
+    // The solver passes no exceptions. It stops if an evaluation fails.
     try {
       return energy_.evaluate(parameters, *cost, gradient);
     } catch (const Cancelled&) {
@@ -331,7 +331,7 @@ EnergyDescent minimise(const QuadEnergy<Vec>& energy, int max_iterations) {
   descent.evaluations = report.num_cost_evaluations + report.num_gradient_evaluations;
   descent.energy_before = report.initial_cost;
   descent.energy_after = report.final_cost;
-  // What the solver left may be its last trial, of infinite energy.
+  // The solver may leave its last trial, with infinite energy.
   double value = 0;
   if (!energy.evaluate(descent.x.data(), value, nullptr)) descent.x.assign(descent.x.size(), 0.0);
   return descent;

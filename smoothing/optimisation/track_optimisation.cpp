@@ -20,14 +20,14 @@ namespace delquad {
 
 namespace {
 
-/// The tracks of one block's vertices; those of other blocks, too, stay.
+/// Tracks of the vertices of one block; other vertices stay.
 template <class Vec>
 class BlockTracks final : public VertexTracks<Vec> {
  public:
   BlockTracks(VertexTracks<Vec>& whole, const std::vector<std::array<int, 4>>& quads,
               const ElementBlocks& blocks, std::size_t block)
       : whole_(whole), own_quads_(blocks[block]) {
-    // Sorted, so that each has a number.
+    // Sorted, so that each vertex has an index.
     for (const int q : own_quads_) vertices_.insert(vertices_.end(), quads[q].begin(), quads[q].end());
     sort_unique(vertices_);
     for (const int v : vertices_)
@@ -62,7 +62,7 @@ class BlockTracks final : public VertexTracks<Vec> {
  private:
   VertexTracks<Vec>& whole_;
   std::span<const int> own_quads_;
-  std::vector<int> vertices_;  ///< of the whole mesh, sorted
+  std::vector<int> vertices_;  ///< in the whole mesh, sorted
   std::vector<char> moves_;
   std::vector<std::array<int, 4>> quads_;
 };
@@ -92,29 +92,29 @@ OptimisationOptions optimisation_options(const Options& options) { return table(
 
 namespace {
 
-/// A quad with a corner of this sine or less is flat or inverted, and held.
+/// A quad with a corner of at most this sine is flat or inverted, and its vertices stay.
 constexpr double kHeldSine = 1e-3;
-/// The least sine that a quad must keep is so much, as a part, below what it was.
+/// Part by which the least sine of a quad may fall.
 constexpr double kRoom = 0.005;
-/// The worst: quads below this eta. All passes but the first leave alone what lies around better ones than
-/// the second value. Rings of quads around those below move with them.
+/// Quads below kWorstEta are the worst. After the first pass, only vertices around quads below kSettledEta
+/// move. Vertices in kRings rings around these quads move, too.
 constexpr double kWorstEta = 0.6, kSettledEta = 0.9;
 constexpr int kRings = 2;
-/// No pass follows one that gained no more than this part of the energy.
+/// No pass follows one with a smaller gain, as a part of the energy.
 constexpr double kLeastTrackedGain = 0.1;
-/// For the worst: weight and exponent of bad quads there: about the 6th power of |angle - 90 degrees|.
+/// Weight and exponent for the worst quads: about the sixth power of |angle - 90 degrees|.
 constexpr double kWorstWeight = 30;
 constexpr int kWorstPower = 3;
-/// And that of walls: angles come first there.
+/// Weight of walls for the worst quads, where angles come first.
 constexpr double kWorstWall = 20;
-/// Sum over the corners of 1/sin alpha - 1 from which on quads weigh less, so that those beyond help do not
-/// drown the others.
+/// Sum over corners of 1/sin alpha - 1 above which quads weigh less, so that hopeless ones do not drown the
+/// others.
 constexpr double kHopelessShape = 3;
-/// No edge becomes shorter than this part of what it was, or of delta where that is less.
+/// Least length of an edge over its old length, or over delta if that is less.
 constexpr double kShortest = 0.2;
-/// The same of edges that are beyond the wall already.
+/// The same for edges that are already beyond the wall.
 constexpr double kShort = 0.5;
-/// Where a move makes a quad bad it is halved, and left out below this part of it.
+/// A move that makes a quad bad is halved, and dropped below this part.
 constexpr double kLeastPart = 0.2;
 
 template <class Vec>
@@ -124,10 +124,10 @@ class TrackOptimisation {
                     VertexTracks<Vec>& tracks, const OptimisationOptions& options)
       : points_(points), quads_(quads), tracks_(tracks), options_(options) {}
 
-  /// To be called once, before the others.
+  /// Must be called once, before all others.
   void find_free();
   OptimisationSummary run();
-  /// The least eta of quads that can move.
+  /// Returns the least eta of movable quads.
   double worst() const { return std::max(0.0, eta_of_sine(least())); }
   const OptimisationSummary& summary() const { return summary_; }
 
@@ -156,18 +156,18 @@ class TrackOptimisation {
   OptimisationOptions options_;
   std::vector<char> free_;                            ///< by vertex
   std::vector<double> delta_;                         ///< by vertex
-  std::vector<Vec> delta_at_;                         ///< where it was found
-  std::vector<std::array<double, 4>> least_lengths_;  ///< of each quad's sides
-  std::vector<double> kept_;      ///< the least sine that each quad must keep in this pass
-  std::vector<char> failed_;      ///< by quad: is_failing() before this pass
-  std::vector<char> inside_;      ///< by vertex: on no curve
-  std::vector<double> room_;      ///< by vertex: delta, or the shortest edge to others on curves
-  std::vector<char> narrow_;      ///< by vertex: on a curve, in a narrow place
-  std::vector<double> crowding_;  ///< of each quad, that it may have
+  std::vector<Vec> delta_at_;                         ///< place of the evaluation
+  std::vector<std::array<double, 4>> least_lengths_;  ///< by quad and side
+  std::vector<double> kept_;                          ///< least sine that each quad must keep in this pass
+  std::vector<char> failed_;                          ///< by quad: is_failing() before this pass
+  std::vector<char> inside_;                          ///< by vertex: on no curve
+  std::vector<double> room_;      ///< by vertex: delta, or the shortest edge to other vertices on curves
+  std::vector<char> narrow_;      ///< by vertex: on a curve in a narrow place
+  std::vector<double> crowding_;  ///< allowed crowding of each quad
   OptimisationSummary summary_;
 };
 
-/// Sines of the corners, 1 for those that cannot move.
+/// Returns the sines of the corners, with 1 for corners that cannot move.
 template <class Vec>
 std::array<double, 4> TrackOptimisation<Vec>::movable_sines(std::size_t quad) const {
   const auto& v = quads_[quad];
@@ -183,7 +183,7 @@ double TrackOptimisation<Vec>::movable_sine(std::size_t quad) const {
   return std::min({sines[0], sines[1], sines[2], sines[3]});
 }
 
-/// movable_sine() of each quad.
+/// Returns movable_sine() of each quad.
 template <class Vec>
 std::vector<double> TrackOptimisation<Vec>::least_sines() const {
   std::vector<double> sines(quads_.size());
@@ -223,7 +223,7 @@ void TrackOptimisation<Vec>::find_free() {
   for (std::size_t v = 0; v < free_.size(); ++v) summary_.held += all[v] && !free_[v];
 }
 
-/// At the vertices that moved since.
+/// Updates delta at moved vertices.
 template <class Vec>
 void TrackOptimisation<Vec>::find_delta() {
   const bool first = delta_.empty();
@@ -264,7 +264,7 @@ bool TrackOptimisation<Vec>::is_failing(std::size_t quad) const {
   return is_beyond_asked(shortest, longest, most / std::max(least, kTinyLength), movable_sine(quad));
 }
 
-/// The vertices that can move around quads below this eta, and around those with sides beyond the walls.
+/// Returns the movable vertices around quads below this eta or with sides beyond the walls.
 template <class Vec>
 std::vector<char> TrackOptimisation<Vec>::around_below(double eta) const {
   std::vector<char> near(points_.size(), 0);
@@ -283,7 +283,7 @@ std::vector<char> TrackOptimisation<Vec>::around_below(double eta) const {
   return near;
 }
 
-/// Of each vertex the shortest edge, or delta where that is less.
+/// Returns the shortest edge of each vertex, or delta if that is less.
 template <class Vec>
 std::vector<double> TrackOptimisation<Vec>::reaches(std::vector<double> delta) const {
   for (const auto& quad : quads_)
@@ -295,7 +295,7 @@ std::vector<double> TrackOptimisation<Vec>::reaches(std::vector<double> delta) c
   return delta;
 }
 
-/// Without what quads keep and weigh. A step of 1 is a vertex's reach.
+/// Makes the energy's mesh without kept sines and weights. A step of 1 is the reach of a vertex.
 template <class Vec>
 QuadEnergyMesh<Vec> TrackOptimisation<Vec>::energy_mesh(const std::vector<char>& free) const {
   QuadEnergyMesh<Vec> mesh;
@@ -384,7 +384,7 @@ void TrackOptimisation<Vec>::find_room() {
   for (std::size_t q = 0; q < quads_.size(); ++q) crowding_[q] = crowding(q);
 }
 
-/// As QuadRelocation's, but in narrow places, which angles and sizes alone shape.
+/// Returns the crowding as in QuadRelocation, but 0 in narrow places, which only angles and sizes shape.
 template <class Vec>
 double TrackOptimisation<Vec>::crowding(std::size_t quad) const {
   const auto& v = quads_[quad];
@@ -408,8 +408,7 @@ std::vector<std::vector<int>> TrackOptimisation<Vec>::quads_around() const {
   return around;
 }
 
-/// Puts the vertices on their tracks, as far as no quad falls below what it must keep or gets sides too
-/// short.
+/// Puts the vertices on their tracks, as far as all quads keep their limits and lengths of sides.
 template <class Vec>
 void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving,
                                     const std::vector<double>& x) {
@@ -429,8 +428,8 @@ void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving
       put(v);
     }
   });
-  // Ends: a vertex that is put anew has gone back by half, or at last to where it was, and only quads around
-  // such ones are looked at again.
+  // The loop ends: a vertex moves back by half, or at last to its start. Only quads around such vertices are
+  // checked again.
   std::vector<std::vector<int>> quads_at;
   std::vector<int> looked_at(quads_.size());
   std::iota(looked_at.begin(), looked_at.end(), 0);
@@ -496,7 +495,7 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
 
 std::vector<Vec2> in_a_plane(const std::vector<Vec2>& points) { return points; }
 
-/// Along a direction that faces hardly have.
+/// Projects along a direction that is rarely in a face.
 std::vector<Vec2> in_a_plane(const std::vector<Vec3>& points) {
   std::vector<Vec2> places;
   places.reserve(points.size());

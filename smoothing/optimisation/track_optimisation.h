@@ -8,13 +8,15 @@
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
 
+// This header has stage O, vertex optimization on tracks. The pipeline and layouts use it.
+
 namespace delquad {
 
 struct OptimisationOptions {
-  int passes = 4;            ///< at most; delta and the cross are evaluated anew before each
-  int iterations = 30;       ///< of L-BFGS, at most: of the worst quads, then of the others, in each pass
-  double size = 0.4;         ///< weight of the edges' lengths, see QuadEnergyWeights
-  double alignment = 0.02;   ///< weight of the edges' directions
+  int passes = 4;       ///< most passes; each evaluates delta and cross again
+  int iterations = 30;  ///< most iterations of L-BFGS, for the worst quads and for the others, in each pass
+  double size = 0.4;    ///< weight of lengths of edges, see QuadEnergyWeights
+  double alignment = 0.02;   ///< weight of directions of edges
   double orthogonality = 0;  ///< weight of quads whose corners lie on no circle
 };
 
@@ -22,12 +24,12 @@ OptionGroup optimisation_group();
 OptimisationOptions optimisation_options(const Options& options);
 
 struct OptimisationSummary {
-  int untangled = 0;   ///< inverted or flat quads of the input that are so no more
-  int held = 0;        ///< vertices kept in place that could move, but for flat quads
-  int iterations = 0;  ///< of L-BFGS, those for the worst quads included
+  int untangled = 0;   ///< inverted or flat quads that were repaired
+  int held = 0;        ///< movable vertices that stayed because of flat quads
+  int iterations = 0;  ///< iterations of L-BFGS, with the worst quads
   int evaluations = 0;
-  double energy_before = 0, energy_after = 0;  ///< of the pass over all quads
-  double worst_before = 1, worst_after = 1;    ///< least eta of quads that can move, after untangling
+  double energy_before = 0, energy_after = 0;  ///< of the passes over all quads
+  double worst_before = 1, worst_after = 1;    ///< least eta of movable quads, after untangling
   double seconds = 0;
 };
 
@@ -42,60 +44,60 @@ struct Counters<OptimisationSummary> {
       counter("worst_after", &S::worst_after, Over::kLeast), counter("seconds", &S::seconds));
 };
 
-/// The least eta never falls below both this and what it was.
+/// The least eta never falls below both this and its old value.
 inline constexpr double kOptimisedFloorEta = 0.6;
 
-/// Where the last size and the last cross were found. It never changes what is found: start with a new one
-/// and carry it along between nearby places.
+/// Hints of the last size and cross. They never change a result: start with a new object and pass it on
+/// between nearby places.
 struct TrackHint {
   int size = -1;
-  int patch = -1, cross = -1;  ///< `cross` is of that patch
+  int patch = -1, cross = -1;  ///< `cross` is the hint of this patch
 
-  /// That of a patch's cross.
+  /// Returns the hint of a patch's cross.
   int& cross_of(int p) {
     if (patch != p) patch = p, cross = -1;
     return cross;
   }
 };
 
-/// Where the vertices of a quad mesh can go, in the plane (Vec2) or in space (Vec3): over surfaces, or along
-/// curves. position(), put() and axes() of different vertices may be called from several threads at a time,
-/// and so may delta() and arm() while the vertices around do not move.
+/// Tracks of the vertices of a quad mesh, in the plane (Vec2) or in space (Vec3): surfaces or curves. Threads
+/// may call position(), put() and axes() of different vertices at once. They may call delta() and arm() while
+/// vertices around do not move.
 template <class Vec>
 class VertexTracks {
  public:
   virtual ~VertexTracks() = default;
-  /// Parameters on the surface, or one along the curve and 0.
+  /// Returns the parameters on the surface, or the parameter on the curve and 0.
   virtual Vec2 position(int v) const = 0;
-  /// Puts v at a position and returns its place. A curve ends where it ends.
+  /// Puts v at a position and returns its place. The range of a curve limits it.
   virtual Vec put(int v, Vec2 position) = 0;
-  /// Derivatives of the place by the position, where v is; zero: it does not move that way.
+  /// Returns the derivatives of v's place by its position; zero: it does not move that way.
   virtual std::array<Vec, 2> axes(int v) const = 0;
-  /// The wanted edge length.
+  /// Returns the wanted edge length.
   virtual double delta(const Vec& place, TrackHint& hint) const = 0;
-  /// Unit vector along one arm of the cross on a quad's side (by its first corner); zero: none.
+  /// Returns a unit vector along an arm of the cross on a side of a quad, by its first corner; zero: none.
   virtual Vec arm(int quad, int side, TrackHint& hint) const = 0;
 };
 
-/// Moves the vertices of a quad mesh together to the least of QuadEnergy by L-BFGS (Ceres). In each pass
-/// those around the worst quads move first by themselves, with a weight on bad quads that lifts these; then
-/// all, from the second pass on those around quads that are not good yet. `points` are the places of the
-/// vertices on their tracks, and are updated. Works on several threads: a large mesh block by block, see
-/// ElementBlocks, each with passes of its own.
+/// Moves all vertices of a quad mesh to a minimum of QuadEnergy by L-BFGS (Ceres). In each pass, vertices
+/// around the worst quads move first, with a higher weight of bad quads. Then all move; after the first pass,
+/// only vertices around quads that are not good yet. `points` has the places of the vertices on their tracks,
+/// and is updated. Several threads work on a large mesh block by block (ElementBlocks), each block with its
+/// own passes.
 ///
-/// Vertices of flat or inverted quads stay. In each pass vertices move along their tangents and are then put
-/// on their tracks. No quad's least sine falls below both that of eta kOptimisedFloorEta and half a percent
-/// less than it was before the pass, none below both that floor and the least of the whole mesh, none is
-/// beyond what engineers ask for, see is_beyond_asked(), that was not before the pass, and no edge becomes
-/// shorter than a fifth of what it was, or of delta where that is less: where that would be, the quad's
-/// vertices go only part of the way, or stay. The same input gives the same mesh.
+/// Vertices of flat or inverted quads stay. In each pass vertices move along tangents and are then put on
+/// their tracks. Limits hold for each quad: its least sine may fall by half a percent, or to the sine of
+/// kOptimisedFloorEta if that is lower. It stays above the least sine of the whole mesh, or that floor. It
+/// does not get beyond the usual requirements (is_beyond_asked()). No edge gets shorter than a fifth of its
+/// old length, or of delta if that is less. Vertices that would violate a limit move only a part of the way,
+/// or not at all. The same input gives the same mesh.
 template <class Vec>
 OptimisationSummary optimise_on_tracks(std::vector<Vec>& points, const std::vector<std::array<int, 4>>& quads,
                                        VertexTracks<Vec>& tracks, const OptimisationOptions& options = {});
 
-/// Opens edges without length and untangles what is inverted or flat, with its surroundings. Connectivity and
-/// boundary points stay. Returns how many quads are no more so. Throws std::invalid_argument where there
-/// are such and the input is not conforming.
+/// Opens edges without length and untangles inverted or flat quads with their surroundings. Connectivity and
+/// boundary points stay. Returns the number of repaired quads. Throws std::invalid_argument if there are such
+/// quads and the input is not conforming.
 int untangle_flat(QuadPatch& mesh, const ParametricSize& size);
 
 }  // namespace delquad

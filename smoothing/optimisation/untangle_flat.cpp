@@ -13,12 +13,12 @@ namespace delquad {
 
 namespace {
 
-/// A quad with a corner of this sine or less is untangled.
+/// A quad with a corner of at most this sine is untangled.
 constexpr double kFlatSine = 1e-3;
 /// Rings of elements around flat ones that are untangled with them.
 constexpr int kUntanglingRings = 2;
 
-/// The vertices of some elements and of `rings` rings of elements around.
+/// Returns the vertices of some elements and of `rings` rings around them.
 std::vector<char> near(const QuadTopology& topology, const std::vector<char>& elements, int rings) {
   std::vector<char> vertex(topology.vertex_slots(), 0), inside = elements;
   for (int ring = 0;; ++ring) {

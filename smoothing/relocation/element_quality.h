@@ -7,15 +7,17 @@
 #include "geometry/mesh/quad_topology.h"
 #include "smoothing/relocation/quad_relocation.h"
 
+// This header measures elements for edits of quads. Clean-up, stage Q, repairs and relocation use it.
+
 namespace delquad {
 
-/// Of one element or of several.
+/// Quality of one element, or sums and minima over several.
 struct ElementQuality {
-  double value = 0;       ///< eta - 1.5 * (size deviation), or the sum of it
+  double value = 0;       ///< eta - 1.5 * (size deviation)
   double least_sine = 1;  ///< of all corners
-  int failing = 0;        ///< 1: is_beyond_asked(); or the sum
-  int thin = 0;           ///< 1: by its shortest side, which no angle mends; or the sum
-  double crowding = 0;    ///< QuadRelocation::crowding(), or the sum of it
+  int failing = 0;        ///< 1 if is_beyond_asked()
+  int thin = 0;           ///< 1 if its shortest side is too short, which angles cannot repair
+  double crowding = 0;    ///< QuadRelocation::crowding()
   void add(const ElementQuality& other) {
     value += other.value;
     least_sine = std::min(least_sine, other.least_sine);
@@ -25,21 +27,20 @@ struct ElementQuality {
   }
 };
 
-/// The size deviation is the mean over the sides of 1 - min(l, 1/l), l = length / delta'. Its weight: with 1,
-/// edits that are weighed by this pay for regular vertices with tau.
+/// Measures an element. The size deviation is the mean over sides of 1 - min(l, 1/l), l = length / delta'.
+/// With a weight of 1, edits would pay for regular vertices with tau.
 ElementQuality element_quality(const QuadTopology& mesh, const QuadRelocation& relocation, int element);
-/// Of n corners and the delta' there, without what is around: crowding is 0 or 1, which is perhaps some.
+/// Measures n corners and their delta' without surroundings: crowding is 0 or 1, if there may be some.
 ElementQuality quality_of(const std::array<Vec2, 4>& at, const std::array<double, 4>& delta, int n = 4);
 
-/// How near the ends of an inner side come to each other, against the longest side of its element or delta,
-/// as far as this is not more than twice that (what is far too small all over is not crowded). In `narrow`
-/// places elements are thin as a whole: `width` (area over longest side) counts there. 0: the side is as long
-/// as kKeptSide asks for, else by what part more it would have to be longer, 99 at most. It is that steep so
-/// that no side gets shorter for the sake of others.
+/// Returns how close the ends of an inner side are. The reference is delta, clamped to between one and two
+/// times the longest side, so a small element is not crowded. In `narrow` places, `width` (area over longest
+/// side) limits it, as elements are thin. The value is 0 if the side is as long as kKeptSide asks, else the
+/// missing part, 99 at most. It is steep, so that no side shrinks in favor of others.
 inline double crowding_of(double length, double delta, double longest, bool narrow = false,
                           double width = 0) {
   constexpr double kLeastPart = 0.01;
-  constexpr double kNarrowAspect = 4;  // longest side over width: from there on an element is thin
+  constexpr double kNarrowAspect = 4;  // longest side over width of a thin element
   double reach = std::clamp(delta, longest, 2 * longest);
   if (narrow) reach = std::min(reach, kNarrowAspect * width);
   return 1 / std::clamp(length / std::max(kKeptSide * reach, kTinyLength), kLeastPart, 1.0) - 1;

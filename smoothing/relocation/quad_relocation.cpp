@@ -14,24 +14,24 @@ namespace delquad {
 
 namespace {
 
-/// Weight of the length term against the corners'.
+/// Weight of the length term against the corner terms.
 constexpr double kLengthWeight = 0.12;
-/// The steep term of a corner starts at this sine and has this factor.
+/// Sine below which the steep term of a corner starts, and its factor.
 constexpr double kSteepSine = 0.05, kSteep = 40;
-/// Square of the misfit (logarithm of length / delta) past which the length term levels off.
+/// Square of the misfit (logarithm of length / delta) above which the length term levels off.
 constexpr double kHopeless = 2;
 /// Misfits at the walls.
 const double kShortMisfit = std::log(kShortWall), kLongMisfit = std::log(kLongWall);
-/// How far a step goes, in Newton's steps.
+/// Length of a step, in Newton steps.
 constexpr double kOverRelaxation = 1.4;
-/// A step is at most this part of the shortest edge.
+/// Limit of a step, in shortest edges.
 constexpr double kLongestStep = 0.4;
-/// delta' is evaluated anew after a move of this part of it.
+/// delta' is evaluated again after a move of this part of it.
 constexpr double kDeltaReach = 0.15;
 /// Steps of the search that lifts a vertex's worst corner.
 constexpr int kLiftSteps = 10;
 
-/// Two numbers that are worked on at once.
+/// Two numbers, processed together.
 using Pair = double __attribute__((vector_size(16)));
 
 template <class Number>
@@ -64,19 +64,19 @@ Number smaller(Number a, Number b) {
   return a < b ? a : b;
 }
 
-/// log(x) within 0.2 % for x from 1/2 to 2, by its Pade approximant; bounded by 3.
+/// Returns log(x), within 0.2 % for x from 1/2 to 2, by its Pade approximant; bounded by 3.
 template <class Number>
 Number misfit_of(Number x) {
   return 3 * (x * x - 1) / (x * x + 4 * x + 1);
 }
 
-/// What corners and edges add up to.
+/// Sums over corners and edges.
 template <class Number, bool kDerivatives>
 struct Sums {
   Number cost{}, flat{}, least_sine = Number{} + 1;
   Number gx{}, gy{}, hxx{}, hxy{}, hyy{};
 
-  /// `turn_x`, `turn_y`: gradient of the corner's angle.
+  /// `turn_x`, `turn_y` is the gradient of the corner's angle.
   void add_corner(Number sine, Number cosine, Number turn_x, Number turn_y) {
     const Number zero{};
     const Number excess = larger(zero, kSteepSine - sine);
@@ -84,7 +84,7 @@ struct Sums {
     least_sine = smaller(least_sine, sine);
     flat += sine <= zero ? zero + 1 : zero;
     if constexpr (kDerivatives) {
-      const Number slope = 1 + 2 * kSteep * excess;  // of the cost, against the sine
+      const Number slope = 1 + 2 * kSteep * excess;  // of the cost by the sine
       const Number first = -slope * cosine;
       const Number steep = excess > zero ? 2 * kSteep * cosine * cosine : zero;
       const Number second = larger(slope * sine + steep, zero + 0.1);
@@ -95,7 +95,7 @@ struct Sums {
       hyy += second * turn_y * turn_y;
     }
   }
-  /// `wall`: its weight.
+  /// `wall` is the weight of walls.
   void add_edge(Number ux, Number uy, Number inverse, Number misfit, double wall) {
     const Number zero{};
     const Number beyond = smaller(zero, misfit - kShortMisfit) + larger(zero, misfit - kLongMisfit);
@@ -143,7 +143,7 @@ void QuadRelocation::adopt_new_vertices(int first) {
   const std::size_t n = mesh_.vertex_slots();
   hint_.resize(n, -1), delta_.resize(n), delta_at_.resize(n), active_.resize(n, 0);
   for (std::size_t v = first; v < n; ++v) {
-    // Neighbours lie close by, and mostly points that follow one another.
+    // Neighbors are close, and so are most consecutive points.
     if (v > 0) hint_[v] = hint_[v - 1];
     if (mesh_.vertex_alive(static_cast<int>(v)))
       mesh_.for_each_out(static_cast<int>(v), [&](int h) {
@@ -254,7 +254,7 @@ QuadRelocation::Value QuadRelocation::add_up(Derivatives* derivatives) const {
     const Number inverse = load<Number>(&rays_.inverse[i + 1]), before = load<Number>(&rays_.inverse[i]);
     const Number lx = load<Number>(&spokes_.left_x[i]), ly = load<Number>(&spokes_.left_y[i]);
     const Number rx = load<Number>(&spokes_.right_x[i]), ry = load<Number>(&spokes_.right_y[i]);
-    // Gradient of the direction angle of a spoke with respect to v: a quarter turn clockwise / length.
+    // Gradient of the direction angle of a spoke by v: a quarter turn clockwise / length.
     const Number turn_x = inverse * uy, turn_y = -inverse * ux;
     sums.add_corner(px * uy - py * ux, px * ux + py * uy, turn_x - before * py, turn_y + before * px);
     sums.add_corner(ux * ly - uy * lx, -(ux * lx + uy * ly), turn_x, turn_y);
@@ -270,7 +270,7 @@ QuadRelocation::Value QuadRelocation::add_up(Derivatives* derivatives) const {
   return value;
 }
 
-/// Directions first, then sums: each loop keeps what it adds up in registers.
+/// Finds directions first, then sums, so that each loop keeps its sums in registers.
 template <bool kDerivatives>
 QuadRelocation::Value QuadRelocation::evaluate(Vec2 at, Derivatives* derivatives) const {
   const bool even = n_spokes_ % 2 == 0;
@@ -290,7 +290,7 @@ bool QuadRelocation::is_narrow(int element) const {
   return false;
 }
 
-/// With a vertex at another place.
+/// Returns the crowding with a vertex at another place.
 double QuadRelocation::crowding(int element, int moved, Vec2 to, double delta_there) const {
   const bool narrow = is_narrow(element);
   const int n = mesh_.is_quad(element) ? 4 : 3;
@@ -322,7 +322,7 @@ double QuadRelocation::crowding(int element, int moved, Vec2 to, double delta_th
   return sum;
 }
 
-/// Of the gathered vertex, with delta' as it is there.
+/// Returns the crowding around the gathered vertex at a place.
 double QuadRelocation::crowding_around(Vec2 at) const {
   const auto sum_by = [&](double delta) {
     double sum = 0;
@@ -330,14 +330,14 @@ double QuadRelocation::crowding_around(Vec2 at) const {
                        [&](int h) { sum += crowding(QuadTopology::element(h), gathered_, at, delta); });
     return sum;
   };
-  // It grows with delta', which takes longer to know.
+  // Crowding grows with delta', which takes longer to evaluate.
   if (sum_by(std::numeric_limits<double>::max()) == 0) return 0;
   int hint = hint_[gathered_];
   return sum_by(size_.at(at, hint));
 }
 
-/// Whether a move brings vertices nearer to each other than they may come. Angles alone do not prevent it:
-/// towards a point where two vertices meet, the angles between them may take any value.
+/// Returns whether a move brings vertices too close to each other. Angles cannot prevent it: near a place
+/// where two vertices meet, the angles between them may take any value.
 bool QuadRelocation::crowds(Vec2 from, Vec2 to, const Value& there) const {
   if (there.roomy) return false;
   const double crowding = crowding_around(to);
@@ -349,14 +349,15 @@ double QuadRelocation::cost(int v) {
   return evaluate<false>(mesh_.point(v), nullptr).cost;
 }
 
-/// A convex star has its vertex in the box around the neighbours: no step may leave that. A vertex outside
-/// may go round in a box twice as large, and from farther out only come nearer.
+/// Returns whether a step leaves its region. A convex star has its vertex in the box around the neighbors,
+/// and no step may leave it. An outside vertex may move in a box twice as large, and from farther out only
+/// come nearer.
 bool QuadRelocation::strays(Vec2 from, Vec2 to) const {
   const Vec2 first{spokes_.end_x[0], spokes_.end_y[0]};
   Box<Vec2> box{first, first};
   for (std::size_t i = 1; i < n_spokes_; ++i) box.add({spokes_.end_x[i], spokes_.end_y[i]});
   const Vec2 middle = 0.5 * (box.low + box.high), half = 0.5 * box.size();
-  // Distance from the middle: 1 on the box.
+  // Distance from the middle; 1 on the box.
   const auto distance = [&](Vec2 p) {
     return std::max(std::abs(p.x - middle.x) / std::max(half.x, kTinyLength),
                     std::abs(p.y - middle.y) / std::max(half.y, kTinyLength));
@@ -382,7 +383,7 @@ double QuadRelocation::step(int v) {
   for (int halving = 0; halving < 4; ++halving, move = 0.4 * move) {
     const Value after = evaluate<false>(at + move, nullptr);
     if (!(after.cost < before.cost)) continue;
-    // Whatever the sum gains.
+    // Checked whatever the sum gains.
     if (after.flat > (keep_convex_corners_ ? before.flat : before.flat > 0 ? after.flat : 0)) continue;
     if (after.least_sine < std::min(before.least_sine, kept_sine_)) continue;
     if (before.flat > 0 && strays(at, at + move)) continue;
@@ -400,7 +401,7 @@ long long QuadRelocation::relax(double tolerance, int max_sweeps) {
     queue_.clear();
     for (const int v : visiting_) {
       active_[v] = 0;
-      if (v >= mesh_.vertex_slots() || !mesh_.vertex_alive(v)) continue;  // since taken back, or removed
+      if (v >= mesh_.vertex_slots() || !mesh_.vertex_alive(v)) continue;  // undone or removed since
       refresh_delta(v);
       const double moved = step(v);
       if (moved > 0) ++moves;
@@ -422,7 +423,7 @@ double QuadRelocation::lift(int v, double enough) {
   const double least = best.least_sine;
   if (least >= enough) return 0;
   Vec2 place = at;
-  // Compass search for the worst corner: eight directions, a step that shrinks.
+  // Compass search for the worst corner: eight directions with a shrinking step.
   constexpr double kDiagonal = std::numbers::sqrt2 / 2;
   constexpr Vec2 kCompass[8] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDiagonal, kDiagonal},
                                 {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};

@@ -12,8 +12,8 @@ namespace delquad {
 
 namespace {
 
-constexpr double kShort = 1e-3;  ///< of delta'
-/// Parts of the way to the middle of the neighbours that are tried.
+constexpr double kShort = 1e-3;  ///< in delta'
+/// Tried parts of the way to the middle of the neighbors.
 constexpr double kWays[] = {1, 0.75, 0.5, 0.25};
 
 double least_sine_around(const QuadTopology& mesh, int v) {
@@ -22,7 +22,7 @@ double least_sine_around(const QuadTopology& mesh, int v) {
   return least;
 }
 
-/// Whether v moved. The mesh keeps the best of the ways with all corners around turning left.
+/// Moves v to the best of these places with all corners around turning left. Returns whether it moved.
 bool move_to_middle(QuadTopology& mesh, int v) {
   const Vec2 start = mesh.point(v);
   Vec2 middle, best = start;

@@ -15,12 +15,12 @@ namespace {
 constexpr int kMostSweeps = 100;
 /// Sweeps without a better least area before giving up.
 constexpr int kPatience = 25;
-/// Sweeps that spread the areas once all are positive.
+/// Sweeps that equalize the areas once all are positive.
 constexpr int kFinalSweeps = 5;
-/// e as a part of the least area's absolute value; and of the mean area when that is positive.
+/// e as a part of the least area's absolute value, or of the mean area if the least is positive.
 constexpr double kSoftness = 0.5, kLeastSoftness = 1e-6;
 
-/// Corner of an element: local numbers of its vertex, the next and the one before.
+/// Corner of an element: local indices of its vertex, the next and the previous one.
 struct Corner {
   int at, next, before;
 };
@@ -33,7 +33,7 @@ class Untangling {
     for (const int v : vertices)
       mesh.for_each_out(v, [&](int h) { elements.push_back(QuadTopology::element(h)); });
     sort_unique(elements);
-    // The vertices that stay follow the free ones.
+    // The fixed vertices follow the free ones.
     std::vector<int> free(vertices.begin(), vertices.end()), fixed;
     std::sort(free.begin(), free.end());
     for (const int e : elements)
@@ -125,8 +125,8 @@ class Untangling {
     return sum;
   }
 
-  /// A Newton step with the part of the second derivatives that is positive: |a|^2 / chi is convex in a and
-  /// chi together, only chi's own curvature is left out.
+  /// Takes a Newton step with the positive part of the second derivatives. The term |a|^2 / chi is convex in
+  /// a and chi together, so only the curvature of chi is left out.
   void step(int i) {
     double gx = 0, gy = 0, hxx = 0, hxy = 0, hyy = 0, before = 0;
     for (int k = first_[i]; k < first_[i + 1]; ++k) {
@@ -134,8 +134,8 @@ class Untangling {
       const Vec2 a = points_[c.next] - points_[c.at], b = points_[c.before] - points_[c.at];
       const double d = cross(a, b), root = std::sqrt(d * d + softness2_);
       const double chi = d > 0 ? (d + root) / 2 : softness2_ / (2 * (root - d));
-      const double sides = dot(a, a) + dot(b, b), slope = chi / root;  // of chi, against d
-      Vec2 dd, ds;  // gradients of d and of the sides' squares
+      const double sides = dot(a, a) + dot(b, b), slope = chi / root;  // of chi by d
+      Vec2 dd, ds;  // gradients of d and of the squared sides
       double second = 2;
       if (c.at == i)
         dd = perp(b - a), ds = -2 * (a + b), second = 4;
@@ -164,11 +164,11 @@ class Untangling {
 
   QuadTopology& mesh_;
   int n_free_;
-  std::vector<int> vertex_, by_number_, number_;  // of the mesh; sorted with local number
+  std::vector<int> vertex_, by_number_, number_;  // of the mesh; then sorted, with local indices
   std::vector<Vec2> points_;
-  Box<Vec2> box_;  ///< around the vertices that stay: all places in their polygon are within
+  Box<Vec2> box_;  ///< around the fixed vertices; it contains all places in their polygon
   std::vector<Corner> corners_;
-  std::vector<int> first_, around_;  // corners that hold each free vertex
+  std::vector<int> first_, around_;  // corners of each free vertex
   double softness2_ = 0;
 };
 

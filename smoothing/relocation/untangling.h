@@ -7,21 +7,21 @@
 
 namespace delquad {
 
-/// Moves `vertices` (interior ones of quads) together so that every corner on them turns left, from
-/// any start. All others stay where they are, and so do these when all turns left already. Returns whether
-/// that is reached; if not, the places are the best ones found, by the least area.
+/// Moves `vertices` (interior ones of quads) together, from any start, until every corner on them turns left.
+/// Other vertices stay, and so do these if all corners turn left already. Returns whether all turn left. If
+/// not, the places with the best least area are kept.
 ///
-/// Lowers the sum over the corners of (|a|^2 + |b|^2) / chi(a x b) vertex by vertex, where a and b are the
-/// corner's sides and chi(d) = (d + sqrt(d^2 + e^2)) / 2 stays positive where d is not; e falls with the
-/// least a x b (Escobar et al. 2003).
+/// It lowers the sum over corners of (|a|^2 + |b|^2) / chi(a x b) vertex by vertex [escobar2003]. Here a and
+/// b are the corner's sides, and chi(d) = (d + sqrt(d^2 + e^2)) / 2 is positive for all d. The value e falls
+/// with the least a x b.
 bool untangle(QuadTopology& mesh, std::span<const int> vertices);
 
-/// False: lengthen_short_edges() would move nothing.
+/// Returns false if lengthen_short_edges() would move nothing.
 bool may_have_short_edges(const QuadPatch& mesh, const ParametricSize& size);
 
-/// Parts the ends of edges shorter than 1e-3 delta', whose directions and with them the angles of the quads
-/// beside mean nothing, so that no relocation by angles can lengthen them: an interior end goes towards the
-/// middle of its neighbours, as far as the least sine around is largest. Returns how many vertices moved.
+/// Lengthens edges shorter than 1e-3 delta'. Their directions are noise, and so are the angles beside them,
+/// so relocation cannot help. An interior end moves towards the middle of its neighbors, to the largest least
+/// sine around. Returns the number of moved vertices.
 int lengthen_short_edges(QuadTopology& mesh, const ParametricSize& size);
 
 }  // namespace delquad

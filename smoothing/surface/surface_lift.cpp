@@ -15,48 +15,47 @@ namespace delquad {
 
 namespace {
 
-/// The search begins with this part of the longest edge, and ends after so many steps.
+/// The search starts with this part of the longest edge, and ends after so many steps.
 constexpr double kReach = 0.25;
 constexpr int kSteps = 14;
-/// What quads lack is (1 - quality / this)^power, of those that are worse: one bad one outweighs several poor
-/// ones.
+/// A quad lacks (1 - quality / kGood)^kPower if its quality is below kGood. So one bad quad outweighs several
+/// poor ones.
 constexpr double kGood = 0.35, kPower = 8;
-/// What a quad that is warped by w counts as: this times 1 - w / 90 degrees, so that lifting begins at 79
-/// degrees, and leaves alone what is merely bent.
+/// Quality of a quad with warp w: this times 1 - w / 90 degrees. Lifting begins at 79 degrees, and leaves
+/// slightly bent quads alone.
 constexpr double kWarpFactor = 2.5;
-/// A move that gains a smaller part is not made, nor where less is lacking.
+/// Least gain of a move, as a part, and least lack that can justify one.
 constexpr double kLeastGain = 0.01, kLeastLack = 1e-4;
-/// What a quad that is turned over has less.
+/// Subtracted from the quality of an inverted quad.
 constexpr double kTurnedOver = 2;
-/// No edge at a node becomes shorter than this part of the shortest around it, on a curve and inside: angles
+/// Least length of edges at a node over the shortest initial one around it, on a curve and inside. Angles
 /// alone would let nodes run into each other.
 constexpr double kShortestOnCurve = 0.5, kShortestInside = 0.2;
 
-/// Mending: what quads count that fail, and by how much they do (as a logarithm, 1 at most), beside what
-/// all lack in eta; limits are kept with this to spare (as a part); a move that gains less is not made.
+/// Repair of failing quads: costs of a failing quad and of its excess (as a logarithm, 1 at most), beside the
+/// lack of eta. Limits are kept with a margin of kToSpare, and smaller gains are ignored.
 constexpr double kFailing = 100, kBeyond = 20, kToSpare = 0.02, kLeastMending = 0.02;
-/// What one quad less that fails may cost in eta, summed up over those around it.
+/// Allowed loss of eta, summed over the quads around, for each removed failing quad.
 constexpr double kMendingPrice = 1;
-/// Steps of a search; it ends after so many without a gain. Rounds for the vertices of a quad.
+/// Steps of a search, steps without gain that end it, and rounds for the vertices of a quad.
 constexpr int kMendingSteps = 8, kFruitless = 3, kMendingRounds = 3;
 
-/// A trial on CAD costs so many on triangles, as it asks for the nearest point of a face.
+/// Cost of a trial on CAD in trials on triangles, since it asks for the nearest point of a face.
 constexpr long long kCostOnCad = 10;
 
 constexpr double kDiagonal = std::numbers::sqrt2 / 2;
 constexpr Vec2 kCompass[8] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDiagonal, kDiagonal},
                               {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
 
-/// Places halfway between two neighbours are tried for so many (each is there twice), as their pairs grow
-/// with the square.
+/// Most neighbors (each counted twice) for trials halfway between two of them, as pairs grow with the square.
 constexpr std::size_t kMostPaired = 24;
 
-/// Vertices of some quads move one by one, to where what the quads around them lack is least.
+/// Moves vertices of some quads one by one to the least lack of the quads around them.
 class SurfaceMoves {
  public:
   virtual ~SurfaceMoves() = default;
 
-  /// Ends after max_sweeps; each works on every bad quad once. Or once the trials are spent.
+  /// Ends after max_sweeps, each of which works on every bad quad once, or when the trials are spent.
   int run(int max_sweeps) {
     bool again = true;
     for (int sweep = 0; sweep < max_sweeps && again; ++sweep) {
@@ -70,7 +69,7 @@ class SurfaceMoves {
   }
 
  protected:
-  /// `steps` of a search, which ends after `fruitless` ones without a gain.
+  /// A search makes up to `steps`, and ends after `fruitless` steps without gain.
   SurfaceMoves(SurfaceTracks& tracks, std::vector<Vec3>& places, Budget& trials, int steps, int fruitless)
       : tracks_(tracks),
         quads_(tracks.quads()),
@@ -87,16 +86,16 @@ class SurfaceMoves {
   }
 
   virtual bool is_bad(int q) const = 0;
-  /// Returns whether something moved.
+  /// Returns whether a vertex moved.
   virtual bool work_on(int q) = 0;
   virtual double lack_around(int v) const = 0;
   virtual bool is_gain(double lack, double before) const = 0;
-  /// That edges at a vertex may not fall below.
+  /// Returns the least length of edges at a vertex.
   virtual double least_edge(int v) const = 0;
 
-  /// 1 - |angle - 90 degrees| / 90 degrees, the least over the corners: eta where that is positive. Without
-  /// the corner `skipped` (none: -1). Or what its warp counts as where that is less: 0 for a folded quad.
-  /// `warp`: gets it instead, in radians.
+  /// Returns 1 - |angle - 90 degrees| / 90 degrees, the least over corners but `skipped` (-1: none): eta if
+  /// positive. A lower quality by warp counts instead, 0 for a folded quad. `warp`, if given, gets the warp
+  /// in radians instead.
   double quality(int q, int skipped = -1, double* warp = nullptr) const {
     const auto& v = quads_[q];
     const Vec3& outward = outward_[q];
@@ -139,8 +138,8 @@ class SurfaceMoves {
     return shortest;
   }
 
-  /// Axes of the search, a step long: along the longest edge, and across it as far as the edges reach; on a
-  /// curve along this only.
+  /// Returns the axes of the search, one step long: along the longest edge, and across it as far as the edges
+  /// reach. On a curve there is only the curve's direction.
   std::array<Vec3, 2> axes(int v, const std::array<Vec3, 2>& free) const {
     Vec3 along;
     for_each_neighbour(v, [&](int w) {
@@ -156,15 +155,15 @@ class SurfaceMoves {
     return {kReach * along, kReach * width * across};
   }
 
-  /// The best of the places halfway between two neighbours, then a compass search: eight directions, a step
-  /// that shrinks.
+  /// Tries the places halfway between two neighbors, then a compass search: eight directions with a shrinking
+  /// step.
   bool improve(int v) {
     const auto free = tracks_.axes(v);
     if (norm(free[0]) == 0 || is_unchanged(v)) return false;
     tried_[v] = ++now_;
     const SurfaceTracks::Spot start{tracks_.position(v), places_[v]};
     const double before = lack_around(v);
-    if (!is_gain(0, before)) return false;  // whatever would be found
+    if (!is_gain(0, before)) return false;  // no place would gain enough
     const double shortest = least_edge(v);
     SurfaceTracks::Spot at = start;
     double best = before;
@@ -200,9 +199,9 @@ class SurfaceMoves {
   const std::vector<std::array<int, 4>>& quads_;
   std::vector<Vec3>& places_;
   const std::vector<Vec3> start_;
-  std::vector<int> first_, corners_;  ///< of each vertex, its corners: 4 quad + k
-  const std::vector<Vec3> outward_;   ///< normals at the quads where these were at first
-  std::vector<int> tried_, moved_;    ///< of each vertex, when last; 0: never
+  std::vector<int> first_, corners_;  ///< corners of each vertex: 4 quad + k
+  const std::vector<Vec3> outward_;   ///< normals at the initial quads
+  std::vector<int> tried_, moved_;    ///< time of the last trial and move of each vertex; 0: never
   int now_ = 0;
   Budget& trials_;
   const long long cost_;  ///< of a trial
@@ -230,7 +229,7 @@ class SurfaceMoves {
     return bad;
   }
 
-  /// Whether v has been tried and nothing around it has moved since.
+  /// Returns whether v was tried and nothing around it has moved since.
   bool is_unchanged(int v) const {
     for (int i = first_[v]; i < first_[v + 1]; ++i)
       for (const int w : quads_[corners_[i] / 4])
@@ -241,7 +240,7 @@ class SurfaceMoves {
   const int steps_, fruitless_;
 };
 
-/// Of quads below an eta.
+/// Lifts quads below an eta.
 class PoorLift final : public SurfaceMoves {
  public:
   PoorLift(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, Budget& trials,
@@ -261,7 +260,7 @@ class PoorLift final : public SurfaceMoves {
     return again;
   }
 
-  /// Counting in each quad the corners that the place of v changes: all but the one opposite.
+  /// Sums up the lack of quads by corners that the place of v changes: all but the opposite one.
   double lack_around(int v) const override {
     double sum = 0;
     for (int i = first_[v]; i < first_[v + 1]; ++i)
@@ -284,7 +283,7 @@ class PoorLift final : public SurfaceMoves {
            });
   }
 
-  /// Whether quality() is above the wanted eta without doubt: as cheap as can be, for most quads are.
+  /// Returns whether quality() is certainly above the wanted eta. It is cheap, since most quads are.
   bool is_clearly_good(int q) const {
     constexpr double kMargin = 1 - 1e-9;
     const auto& v = quads_[q];
@@ -308,12 +307,12 @@ class PoorLift final : public SurfaceMoves {
   }
 
   const LiftedBall& ball_;
-  double eta_;        ///< that will do
-  double steepest2_;  ///< square of the cotangent of the sharpest angle that will do
-  double warp2_;      ///< square of the tangent of the largest warp that will do
+  double eta_;        ///< sufficient eta
+  double steepest2_;  ///< square of the cotangent of the sharpest sufficient angle
+  double warp2_;      ///< square of the tangent of the largest sufficient warp
 };
 
-/// Of quads beyond what is asked for, see is_beyond_asked(), for a size.
+/// Repairs quads that fail by is_beyond_asked() for a size.
 class FailingMending final : public SurfaceMoves {
  public:
   FailingMending(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size, Budget& trials)
@@ -324,8 +323,8 @@ class FailingMending final : public SurfaceMoves {
  private:
   bool is_bad(int q) const override { return beyond(q) > 0; }
 
-  /// Moves the vertices of a quad, and where fewer quads fail then, for not too much of eta, those near it to
-  /// what is best for eta; else they go back.
+  /// Moves the vertices of a quad. If fewer quads fail then at a small loss of eta, near vertices move to the
+  /// best eta; otherwise all go back.
   bool work_on(int q) override {
     std::vector<int> around;
     for (const int v : quads_[q])
@@ -384,7 +383,7 @@ class FailingMending final : public SurfaceMoves {
     for (double& least : least_) least = std::min(least, std::max(worst, kAskedEta));
   }
 
-  /// By how much a quad is beyond what is asked for, as logarithms; 0: it is not.
+  /// Returns the excess of a quad over the requirements, as logarithms; 0: none.
   double beyond(int q) const {
     const auto& v = quads_[q];
     double warp = 0, sum = 0, least = std::numeric_limits<double>::max(), most = 0;
@@ -418,12 +417,12 @@ class FailingMending final : public SurfaceMoves {
 
   bool is_gain(double lack, double before) const override { return lack < before - kLeastMending; }
 
-  /// Nor below what is asked for and was.
+  /// Not below the requirement and the initial length.
   double least_edge(int v) const override {
     return std::min(shortest_edge(v, start_), kAskedShort * delta_[v]);
   }
 
-  /// improve() for both ends of an edge that move by the same way: alone, each would warp quads more.
+  /// Improves both ends of an edge by the same move, since a single end would warp quads more.
   bool shift(std::array<int, 2> ends) {
     std::array<SurfaceTracks::Spot, 2> start, at;
     for (const int k : {0, 1}) {
@@ -462,8 +461,8 @@ class FailingMending final : public SurfaceMoves {
     return gained;
   }
 
-  std::vector<double> delta_;  ///< by vertex, where it was at first
-  std::vector<double> least_;  ///< of each quad, the quality that it must keep
+  std::vector<double> delta_;  ///< by vertex, at its initial place
+  std::vector<double> least_;  ///< quality that each quad must keep
 };
 
 }  // namespace

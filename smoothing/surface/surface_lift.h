@@ -6,27 +6,28 @@
 #include "base/budget.h"
 #include "smoothing/surface/surface_tracks.h"
 
+// This header moves vertices on surfaces in space. The last repairs use it.
+
 namespace delquad {
 
-/// Quads with a corner in this ball are lifted.
+/// Region of lifting: quads with a corner in this ball.
 struct LiftedBall {
   Vec3 centre = {};
   double radius = std::numeric_limits<double>::infinity();
 };
 
-/// Lifts the worst quads of a surface in space: while quads below `eta` improve, their vertices slide over
-/// the true faces and along the curves to where the worst quad around the vertex is best, also where that is
-/// outside the parameter plane's fine triangles, as happens where a face is narrower than these are exact. No
-/// least eta around a vertex gets lower; no edge at a node on a curve falls below half of the shortest that
-/// was around it. `places` are those of the tracks' vertices, and are updated. Each place that is tried for a
-/// vertex is one of the `trials`, on CAD ten; once these are spent, the rest stays. Returns how many vertices
-/// moved.
+/// Lifts the worst quads of a surface in space. While quads below `eta` improve, their vertices slide on the
+/// true faces and along curves to raise the worst quad around. They may leave the fine triangles of the
+/// parameter plane, where a face is narrower than the triangles are exact. The least eta around a vertex
+/// never falls. Edges at a node on a curve keep half of the shortest initial length around it. `places` has
+/// the places of the tracks' vertices, and is updated. Each tried place costs one of `trials`, on CAD ten;
+/// the work ends when they are spent. Returns the number of moved vertices.
 int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps,
                           Budget& trials, const LiftedBall& ball = {});
 
-/// The same for quads beyond what is asked for, see is_beyond_asked(), or warped more than kAskedWarp, sides
-/// over `size`: vertices of such a quad move where fewer quads fail by that, for not too much of eta. No eta
-/// falls below kAskedEta, nor below the worst of all, and where it was below it does not fall.
+/// Does the same for quads that fail by is_beyond_asked(), with sides over `size`, or by kAskedWarp. Vertices
+/// of such a quad move if fewer quads fail then, at a small loss of eta. No eta falls below kAskedEta or, if
+/// it was lower, below its old value or the least of all.
 int mend_failing_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size,
                             int max_sweeps, Budget& trials);
 

@@ -9,7 +9,7 @@ namespace delquad {
 
 namespace {
 
-/// Derivatives of the place in space by both parameters, on a triangle of a patch's map.
+/// Returns the derivatives of the place by both parameters, on a triangle of a patch's map.
 std::array<Vec3, 2> tangents(const SurfacePatch& patch, const Mesh& fine, int triangle) {
   const auto& v = patch.map.flat.triangles[triangle];
   const auto& u = patch.map.flat.points;
@@ -20,7 +20,7 @@ std::array<Vec3, 2> tangents(const SurfacePatch& patch, const Mesh& fine, int tr
   return {inverse * (b.y * p - a.y * q), inverse * (a.x * q - b.x * p)};
 }
 
-/// The place of the patch's map that is nearest to u.
+/// Returns the place of the patch's map nearest to u.
 Vec2 place_within(const SurfacePatch& patch, Vec2 u, int& hint) {
   const auto [t, weights] = patch.background->locate(u, hint);
   Vec2 place;
@@ -28,7 +28,7 @@ Vec2 place_within(const SurfacePatch& patch, Vec2 u, int& hint) {
   return place;
 }
 
-/// At each vertex of a patch's map the sum of its triangles' normals, as long as their areas.
+/// Returns the sum of triangle normals at each vertex of a patch's map, weighted by area.
 std::vector<Vec3> vertex_normals(const SurfacePatch& patch, const Mesh& fine) {
   std::vector<Vec3> normals(patch.map.flat.points.size());
   for (const auto& v : patch.map.flat.triangles) {
@@ -185,7 +185,7 @@ std::array<Vec3, 2> SurfaceTracks::axes(int v) const {
 Vec3 SurfaceTracks::arm(int quad, int side, TrackHint& hint) const {
   const Patch& patch = patches_[quad_patch_[quad]];
   const int a = quads_[quad][side], b = quads_[quad][(side + 1) % 4];
-  // The parameters of nodes on curves may be old: the end inside says enough.
+  // Parameters of nodes on curves may be stale; the inner end is enough.
   const int inside = vertex_patch_[a] >= 0 ? a : b;
   if (vertex_patch_[inside] < 0) return {};
   Vec2 u = position_[inside];
