@@ -20,7 +20,8 @@ Vec2 circumcentre(Vec2 a, Vec2 b, Vec2 c) {
   return twice == 0 ? (1.0 / 3) * (a + b + c) : a + (1 / twice) * perp(dot(v, v) * u - dot(u, u) * v);
 }
 
-/// `x`: corners, counterclockwise; `inner`: whether the edge behind each has an element on its other side.
+/// Returns the center of an element with corners `x`, counterclockwise. `inner` tells whether the edge after
+/// each corner has another element.
 Vec2 flow_centre(std::span<const Vec2> x, std::span<const char> inner) {
   constexpr int kSteps = 100;
   constexpr double kStep = 0.1;
@@ -53,7 +54,7 @@ FlowLinks measure_flow_links(const Mesh& mesh) {
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   const auto at = [&](int v) { return Vec2{mesh.points[v].x, mesh.points[v].y}; };
   std::vector<Vec2> centres;
-  std::vector<double> roots;  // of areas
+  std::vector<double> roots;  // roots of areas
   for_each_element(mesh, [&](int, const auto& v) {
     std::array<Vec2, 4> x;
     std::array<char, 4> inner{};

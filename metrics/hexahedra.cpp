@@ -8,20 +8,20 @@ namespace delquad {
 
 namespace {
 
-/// How often a hexahedron is halved in its three directions in turn while its sign is open.
+/// Most halvings, in three directions in turn, of a hexahedron whose sign is open.
 constexpr int kMostHalvings = 12;
 
 double triple(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(cross(a, b), c); }
 
-/// Corner k's neighbours, so that edges to them are right-handed.
+/// Neighbors of each corner, in an order that makes the edges right-handed.
 constexpr int kNeighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
                                    {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
 
-/// The Jacobian's determinant at 0, 1/2 and 1 of each parameter, the first one running fastest: a polynomial
-/// of degree 2 in each.
+/// Determinants of the Jacobian at 0, 1/2 and 1 of each parameter, the first one fastest. They define a
+/// polynomial of degree 2 in each.
 using Values27 = std::array<double, 27>;
 Values27 jacobian_values(const HexCorners& p) {
-  // Edges along each parameter, by the other two (the lower one first): (0, 0), (1, 0), (0, 1), (1, 1).
+  // Edges along each parameter, by the other two (lower one first): (0, 0), (1, 0), (0, 1), (1, 1).
   const std::array<std::array<Vec3, 4>, 3> edges = {{{p[1] - p[0], p[2] - p[3], p[5] - p[4], p[6] - p[7]},
                                                      {p[3] - p[0], p[2] - p[1], p[7] - p[4], p[6] - p[5]},
                                                      {p[4] - p[0], p[5] - p[1], p[7] - p[3], p[6] - p[2]}}};
@@ -53,7 +53,7 @@ Values27 bernstein(Values27 values) {
   return values;
 }
 
-/// Whether a polynomial is above `least` everywhere, by its coefficients.
+/// Returns whether a polynomial is above `least` everywhere, by its coefficients.
 bool is_above(const Values27& b, double least, int halvings) {
   if (*std::min_element(b.begin(), b.end()) > least) return true;
   for (const int corner : {0, 2, 6, 8, 18, 20, 24, 26})

@@ -15,18 +15,18 @@ inline HexCorners corners_of(const std::vector<Vec3>& points, const std::array<i
   return at;
 }
 
-/// The determinant of the unit vectors along the edges at a corner, the least of eight.
+/// Returns the least of eight corners: the determinant of unit vectors along the edges there.
 double scaled_jacobian(const HexCorners& at);
 
-/// Of the trilinear hexahedron, positive where its corners are in order.
+/// Returns the volume of the trilinear hexahedron, positive if its corners are in order.
 double signed_volume(const HexCorners& at);
 
-/// Part of the product of three edges' lengths below which a Jacobian counts as zero: far more than what
-/// rounding of coordinates leaves of flat hexahedra, far less than what solvers take.
+/// A Jacobian below this part of the product of three edge lengths counts as zero. It is far above rounding
+/// of flat hexahedra, and far below the needs of solvers.
 inline constexpr double kLeastHexJacobian = 1e-9;
 
-/// Whether the Jacobian of the trilinear map is positive everywhere in the hexahedron, by its Bernstein
-/// coefficients, also those of its parts. False where that is not found out.
+/// Returns whether the Jacobian of the trilinear map is positive in the whole hexahedron, by Bernstein
+/// coefficients of it and its parts. Returns false if that stays open.
 bool is_positive(const HexCorners& at);
 
 }  // namespace delquad

@@ -12,9 +12,9 @@
 namespace delquad {
 namespace {
 
-/// Edges in range have lengths of this at most, and no less than its inverse.
+/// Lengths of edges in range are at most this, and at least its inverse.
 constexpr double kRange = std::numbers::sqrt2;
-/// An edge is along an axis that it differs from by no more, in the metric.
+/// Largest angle, in the metric, between an edge and the axis that it follows.
 constexpr double kAlong = 8 * std::numbers::pi / 180;
 
 constexpr std::array kEqualWeights{0.25, 0.25, 0.25, 0.25};
@@ -40,7 +40,7 @@ std::vector<double> etas_by(const Mesh& mesh, const MetricAt& metric_at) {
   return etas;
 }
 
-/// The angle of d from the nearest axis, in the metric.
+/// Returns the angle between d and the nearest axis, in the metric.
 double angle_from_axes(const Vec3& way, const TangentMetric& metric) {
   const MetricAxes axes = axes_of(metric.m);
   const Vec2 e{std::cos(axes.theta), std::sin(axes.theta)}, d = metric.in_plane(way);

@@ -13,12 +13,12 @@
 
 namespace delquad {
 
-/// The metric at a place of a region; `hint`: as in SizeField::at.
+/// Returns the metric at a place of a region; `hint` is as in SizeField::at.
 using MetricAt = std::function<TangentMetric(int region, const Vec3& x, int& hint)>;
 
-/// What is measured of meshes by a metric, where there is one.
+/// Returns the measures of a mesh in its metric.
 const std::vector<Metric>& metrics_by_metric();
-/// eta of each quad, where the metric is the mean of those at its corners.
+/// Returns eta of each quad in the mean metric of its corners.
 std::vector<double> metric_etas(const Mesh& mesh, const MetricAt& metric);
 std::map<std::string, double> measure_by_metric(const Mesh& mesh, std::span<const HalfEdge> sides,
                                                 const MetricAt& metric);

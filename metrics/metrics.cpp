@@ -25,11 +25,11 @@ using Values = std::map<std::string, double>;
 void add_to(Histogram& histogram, double value) {
   const double bins = static_cast<double>(histogram.counts.size());
   const double bin = std::floor((value - histogram.low) / (histogram.high - histogram.low) * bins);
-  // The last bin is closed; not a number falls into the first.
+  // The last bin is closed; NaN counts in the first.
   ++histogram.counts[bin > 0 ? static_cast<size_t>(std::min(bin, bins - 1)) : 0];
 }
 
-/// Smallest value that at least `percent` of the values do not exceed; puts them in another order.
+/// Returns the least value that at least `percent` of the values do not exceed. Reorders the values.
 double nearest_rank(std::vector<double>& values, double percent) {
   const double rank = std::ceil(percent / 100 * static_cast<double>(values.size()));
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
@@ -84,7 +84,7 @@ void measure_shapes(const Mesh& mesh, MeshMetrics& metrics) {
   metrics.values["scaled_jacobian_mean"] = jacobian_sum / n;
 }
 
-/// What eta, which is about angles alone, does not see.
+/// Measures proportions, which eta does not see, since it depends only on angles.
 void measure_proportions(const Mesh& mesh, const std::vector<char>& in_layers, Values& values) {
   if (mesh.quads.empty()) return;
   std::vector<double> warps(mesh.quads.size()), aspects(mesh.quads.size());
@@ -117,7 +117,7 @@ void measure_lengths(const Mesh& mesh, std::span<const HalfEdge> sides, const Si
   values["tau_given"] = given == nullptr ? fit.tau : fit_to_size(mesh, sides, *given).tau;
 }
 
-/// Those of elements that are in no layer.
+/// Returns the sides of elements outside layers.
 std::vector<HalfEdge> sides_outside(const Mesh& mesh, std::span<const HalfEdge> sides,
                                     const std::vector<char>& in_layers) {
   const int n_triangles = static_cast<int>(mesh.triangles.size());
@@ -142,7 +142,7 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
     ++n_edges;
     if (edge.size() != 2) on_boundary[edge[0].lo] = on_boundary[edge[0].hi] = 1;
   });
-  // Files that hold no lines still tell regions.
+  // Files without lines still have regions.
   std::vector<char> on_curve(mesh.points.size(), 0);
   for (const auto& line : mesh.lines) on_curve[line[0]] = on_curve[line[1]] = 1;
   std::vector<int> region(mesh.points.size(), -1);
@@ -152,7 +152,7 @@ void measure_topology(const Mesh& mesh, std::span<const HalfEdge> sides, MeshMet
       if (region[i] != mesh.quad_region[q]) on_curve[i] = 1;
     }
   double n_vertices = 0, n_interior = 0, n_irregular_on_curves = 0;
-  // Among quads only these count; a mesh of triangles alone has its own degrees.
+  // Among quads only quads count; a mesh of triangles has its own degrees.
   const std::vector<int>& degrees = mesh.quads.empty() ? triangles_at : quads_at;
   int least = std::numeric_limits<int>::max(), most = 0;
   for (size_t i = 0; i < mesh.points.size(); ++i) {

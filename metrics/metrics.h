@@ -11,17 +11,17 @@
 
 namespace delquad {
 
-/// The project's own measures, with the mesh's sorted_half_edges(). `in_layers`: by quad; those are left out
-/// of what is measured against the size, since they are flat on purpose. Empty: none.
+/// Measures a mesh by the built-in measures; `sides` is its sorted_half_edges(). Quads with `in_layers` are
+/// flat on purpose, and left out of measures by size. Empty: none.
 MeshMetrics own_measures(const Mesh& mesh, const SizeField* size, const SizeField* given,
                          std::span<const HalfEdge> sides, const std::vector<char>& in_layers = {});
-/// Adds those from outside.
+/// Adds the added measures.
 void measure_from_outside(const MetricInput& input, MeshMetrics& metrics);
 
-/// Of these the measures of the elements' shapes and of vertices' valences alone.
+/// Returns only the measures of shapes of elements and of valences.
 MeshMetrics evaluate_shapes(const Mesh& mesh, std::span<const HalfEdge> sides);
 
-/// The measures from outside, with their keys.
+/// An added measure with its key.
 struct OwnMetric {
   std::string key;
   std::function<double(const MetricInput&)> measure;

@@ -14,13 +14,13 @@
 namespace delquad {
 namespace {
 
-/// Nodes of a mesh cut open, and how many quads each lacks.
+/// Nodes of a mesh cut open, and the number of missing quads at each.
 class Charges {
  public:
   Charges(const Mesh& mesh, std::span<const HalfEdge> sides)
       : mesh_(mesh), quads_(mesh, sides), charge_(quads_.size()), total_(quads_.n_patches(), 0) {
     const ElementSides up(mesh);
-    // Of each point the sum of its ideals; 0: it is not inside of the mesh.
+    // Sum of ideals at each point; 0: not inside the mesh.
     std::vector<int> ideal(mesh.points.size(), 0);
     for (int node = 0; node < quads_.size(); ++node) {
       const int of_node = quads_.inside(node) ? 4 : ideal_quads(angle(node, up) / (std::numbers::pi / 2));
@@ -41,7 +41,7 @@ class Charges {
   const std::vector<int>& charge() const { return charge_; }
   int point(int node) const { return mesh_.quads[quads_.quad(quads_.out(node))][quads_.out(node) & 3]; }
   Vec3 at(int node) const { return mesh_.points[point(node)]; }
-  /// The sum of the charges of the node's patch.
+  /// Returns the sum of charges in the node's patch.
   int total(int node) const { return total_[patch(node)]; }
   int necessary() const { return necessary_; }
   int beyond() const { return beyond_; }
@@ -70,7 +70,7 @@ struct Candidate {
   std::array<int, 2> burgers;
 };
 
-/// Shortest paths from a node, farther and farther.
+/// Search for shortest paths from a node, edge by edge.
 class PathSearch {
  public:
   PathSearch(const Charges& charges, int source) : charges_(&charges), source_(source), front_({source}) {
@@ -80,7 +80,7 @@ class PathSearch {
   int source() const { return source_; }
   bool is_done() const { return front_.empty(); }
 
-  /// Goes one edge farther; adds what is met of the opposite charge.
+  /// Goes one edge farther. Adds met nodes of opposite charge to `met`.
   void step(std::vector<Candidate>& met) {
     ++edges_;
     std::vector<int> next;
@@ -102,14 +102,14 @@ class PathSearch {
     int edges = 0, before = -1;
     double length = 0;
     int x = 0, y = 0;   // offset in the grid along the path
-    int edge = -1;      // by which it was reached: the lower of its half-edges
-    int direction = 0;  // of that step, in right angles
+    int edge = -1;      // last edge, as the lower of its half-edges
+    int direction = 0;  // direction of that step, in right angles
   };
   struct Way {
     int edge, to;
   };
 
-  /// Counterclockwise; on the boundary from the first to the last one.
+  /// Returns the edges at a node counterclockwise; on the boundary from the first to the last.
   std::vector<Way> ways(int node) const {
     const OpenQuads& quads = charges_->quads();
     const auto edge = [&](int h) { return quads.twin(h) < 0 ? h : std::min(h, quads.twin(h)); };
@@ -156,7 +156,7 @@ class PathSearch {
 PairedVertices pair_irregular(const Mesh& mesh, std::span<const HalfEdge> sides) {
   const Charges charges(mesh, sides);
   std::vector<int> left = charges.charge();
-  // From the charges of which a patch has fewer: nearly all of them find a partner.
+  // Start at the charges of the rarer sign in a patch: nearly all of them find a partner.
   std::vector<PathSearch> searches;
   for (int node = 0; node < charges.quads().size(); ++node)
     if (left[node] != 0 && (left[node] > 0) == (charges.total(node) <= 0))

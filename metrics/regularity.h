@@ -7,33 +7,34 @@
 #include "delquad/metrics.h"
 #include "geometry/mesh/half_edges.h"
 
+// This header pairs irregular vertices. The measures of a mesh use it.
+
 namespace delquad {
 
-/// Two irregular vertices that end rows of quads together: one of too few quads with one of too many.
+/// Two irregular vertices that end rows of quads together: one with too few quads, one with too many.
 struct IrregularPair {
   int few, many;               ///< indices into Mesh::points
-  int edges;                   ///< of the shortest path between them
-  std::array<int, 2> burgers;  ///< rows that end, in either direction; the larger first
+  int edges;                   ///< number of edges on the shortest path between them
+  std::array<int, 2> burgers;  ///< ending rows in either direction; the larger first
 };
 
 struct PairedVertices {
-  int necessary = 0, beyond = 0;  ///< irregular vertices; one that lacks two quads counts twice
+  int necessary = 0, beyond = 0;  ///< irregular vertices; a vertex that lacks two quads counts twice
   std::vector<IrregularPair> pairs;
-  int unpaired = 0;  ///< in patches: the necessary ones, and what no path leads to
+  int unpaired = 0;  ///< in patches: necessary vertices, and vertices that no path reaches
 };
 
-/// Which irregular vertices of a mesh of quads are necessary, and pairs of all others, nearest first.
+/// Finds the necessary irregular vertices of a mesh of quads, and pairs the others, nearest first.
 ///
-/// The charge of a vertex is the number of its quads that are missing: 4 - quads inside of a patch, on the
-/// patch's boundary ideal_quads() - quads. Patches are those of OpenQuads. Every mesh of a patch has the same
-/// sum of charges, 4 chi - sum over its boundary (2 - ideal): that many irregular vertices are necessary,
-/// and of those on curves inside of the mesh 4 - the sum of their ideals. All other charges cancel in pairs.
+/// The charge of a vertex is its number of missing quads. It is 4 - quads inside a patch, and ideal_quads() -
+/// quads on its boundary. Patches are as in OpenQuads. Every mesh of a patch has the same sum of charges, 4
+/// chi - sum over its boundary (2 - ideal). It is the number of necessary irregular vertices. On inner
+/// curves, 4 - the sum of the ideals is necessary. All other charges cancel in pairs.
 ///
-/// Paths run along edges and through no irregular vertex; of several of the same number of edges the shortest
-/// one counts. A pair at the offset (x, y) in the grid along it has the Burgers vector (|x + y|, |x - y|): so
-/// many columns and rows more has one side of a loop of edges around both than the other.
-/// Of pairs of equally many edges the shortest comes first. A vertex with two quads too many or too few is in
-/// two pairs. The numbering of the mesh does not matter.
+/// Paths run along edges and pass no irregular vertex. Among paths with equally many edges the shortest
+/// counts. A pair at the grid offset (x, y) has the Burgers vector (|x + y|, |x - y|). It is the difference
+/// of columns and rows on a loop around it. Among pairs with equally many edges the shortest comes first. A
+/// vertex with two missing or extra quads is in two pairs. Numbering of the mesh does not matter.
 PairedVertices pair_irregular(const Mesh& mesh, std::span<const HalfEdge> sides);
 
 }  // namespace delquad

@@ -9,17 +9,18 @@
 #include "delquad/mesh.h"
 #include "geometry/mesh/quad_corners.h"
 
+// This header measures shapes of elements. Measures, soundness, criteria and repairs use it.
+
 namespace delquad {
 
-/// Inner angles of a triangle or quad and its smallest scaled Jacobian.
+/// Inner angles and smallest scaled Jacobian of a triangle or quad.
 template <size_t N>
 struct ElementShape {
-  std::array<double, N> angle;  ///< radians, [0, 2 pi]; a corner that turns the wrong way is above pi
-  double scaled_jacobian =
-      1;  ///< least over the corners of sin(angle), signed; 0 where an edge has no length
+  std::array<double, N> angle;  ///< radians in [0, 2 pi]; above pi if the corner turns the wrong way
+  double scaled_jacobian = 1;   ///< least signed sine of the corners; 0 if an edge has no length
 };
 
-/// Shape of the element through `corners`, which should run counterclockwise seen from the tip of `normal`.
+/// Returns the shape of the element with `corners`, counterclockwise as seen from the tip of `normal`.
 template <size_t N>
 ElementShape<N> element_shape(const std::array<Vec3, N>& corners, const Vec3& normal) {
   ElementShape<N> shape;
@@ -36,7 +37,7 @@ ElementShape<N> element_shape(const std::array<Vec3, N>& corners, const Vec3& no
   return shape;
 }
 
-/// eta, equation (4). Not a number counts as the worst.
+/// Returns eta, equation (4). NaN counts as the worst angle.
 inline double eta_of(const std::array<double, 4>& angle) {
   double eta = 1;
   for (const double a : angle) {
@@ -54,19 +55,19 @@ std::array<Vec3, N> corners_of(const Mesh& mesh, const std::array<int, N>& eleme
   return corners;
 }
 
-/// Twice the area vector of an element: its length the area, where the element is flat.
+/// Returns twice the area vector of an element. The length of the area vector is the area of a flat element.
 inline Vec3 area_vector(const std::array<Vec3, 3>& p) { return cross(p[1] - p[0], p[2] - p[0]); }
 inline Vec3 area_vector(const std::array<Vec3, 4>& p) { return cross(p[2] - p[0], p[3] - p[1]); }
 
-/// The side from which each element of a mesh is looked at.
+/// The side from which each element of a mesh is seen.
 ///
-/// Where all points have the same z, it is +z or -z: the one from which more of the area of the element's
-/// region runs counterclockwise. So a flat face may look down, and an element that runs against most of its
-/// region is inverted. Elsewhere each element is seen from the tip of its own area vector.
+/// If all points have the same z, it is +z or -z: the one from which the larger part of the region runs
+/// counterclockwise. So a flat face may look down, and an element against most of its region is inverted. In
+/// space each element is seen from the tip of its own area vector.
 class ElementSides {
  public:
   explicit ElementSides(const Mesh& mesh);
-  /// Of a mesh that is seen from one side, whatever its elements do.
+  /// Sees all elements from one given side.
   ElementSides(const Mesh& mesh, const Vec3& side) : mesh_(mesh), of_region_(1, side), one_for_all_(true) {}
 
   Vec3 of_triangle(int t) const {
@@ -79,13 +80,13 @@ class ElementSides {
   }
 
  private:
-  /// Elements without a region count as of the first.
+  /// Elements without a region count as in the first one.
   size_t index(const std::vector<int>& regions, int element) const {
     return one_for_all_ || static_cast<size_t>(element) >= regions.size() ? 0 : regions[element];
   }
 
   const Mesh& mesh_;
-  std::vector<Vec3> of_region_;  ///< empty: each element has its own
+  std::vector<Vec3> of_region_;  ///< by region; empty: each element has its own
   bool one_for_all_ = false;
 };
 
@@ -97,9 +98,9 @@ inline ElementShape<4> quad_shape(const Mesh& mesh, int q, const ElementSides& s
   return element_shape(corners_of(mesh, mesh.quads[q]), sides.of_quad(q));
 }
 
-/// How far a quad is from flat, in radians, [0, pi]: a diagonal cuts it into two triangles, whose normals
-/// form an angle; the larger one of the two diagonals'. It is the angle whose cosine is the least in
-/// Verdict's "warpage" [stimpson2007]. A corner of 180 degrees has no normal and counts as flat.
+/// Returns the warp of a quad, radians in [0, pi]: the larger angle between normals of two triangles, over
+/// both diagonals. It is the angle with the least cosine in Verdict's "warpage" [stimpson2007]. A corner of
+/// 180 degrees has no normal and counts as flat.
 inline double quad_warp(const std::array<Vec3, 4>& p) {
   std::array<Vec3, 4> normal;  // of the triangle at each corner
   for (size_t k = 0; k < 4; ++k) normal[k] = cross(p[(k + 1) % 4] - p[k], p[(k + 3) % 4] - p[k]);
@@ -107,23 +108,23 @@ inline double quad_warp(const std::array<Vec3, 4>& p) {
   return std::max(angle(normal[0], normal[2]), angle(normal[1], normal[3]));
 }
 
-/// A quad is folded where quad_warp() is above this: cut along one of its diagonals, as solvers, pictures and
-/// other programs do along either, it turns back on itself. All quads of eta 0 that are seen from their own
-/// side are folded, but for corners of just 180 degrees; others are folded although all their angles are
-/// below 180. Above a right angle by what rounding makes of one: quads around a square tube have just that.
+/// A quad with a larger quad_warp() is folded. Cut along one of its diagonals, as solvers and viewers do, it
+/// turns back on itself. A quad of eta 0, seen from its own side, is folded unless a corner has 180 degrees.
+/// Others are folded with all angles below 180. The excess over a right angle is for rounding: quads around a
+/// square tube have a right angle.
 inline constexpr double kFold = std::numbers::pi / 2 + 1e-6;  // radians
 
-/// A quad of a larger aspect is thin. It is the reciprocal of kShortSide.
+/// A quad with a larger aspect is thin. It is the reciprocal of kShortSide.
 inline constexpr double kThin = 10;
 
-/// Elements of this scaled Jacobian and less are not sound. Rounding to single precision, as many programs
-/// read coordinates, moves a corner by up to 2^-24 = 6e-8 of its coordinates: that turns the sides of an
-/// element a thousandth as large as these, kSingleHolds such steps, by up to so many radians.
+/// Elements need a larger scaled Jacobian to be sound. Single precision, in which many programs read
+/// coordinates, moves a corner by up to 2^-24 = 6e-8 of its coordinates. That turns sides of kSingleHolds
+/// such steps, a thousandth of these coordinates, by up to this many radians.
 inline constexpr double kLeastJacobian = 1e-4;
-/// Elements with shorter sides, in steps of rounding, are more than single precision holds.
+/// Sides, in steps of rounding, that single precision can hold; shorter ones are too short.
 inline constexpr double kSingleHolds = 2e4;
 
-/// The rounding of the largest coordinate to single precision.
+/// Returns the rounding of the largest coordinate to single precision.
 template <size_t N>
 double single_rounding(const std::array<Vec3, N>& corners) {
   double largest = 0;
@@ -131,7 +132,7 @@ double single_rounding(const std::array<Vec3, N>& corners) {
   return largest * 0x1p-24;
 }
 
-/// The scaled Jacobian of the element once its coordinates are rounded to single precision.
+/// Returns the scaled Jacobian of the element in single precision.
 template <size_t N>
 double single_jacobian(std::array<Vec3, N> corners, const Vec3& normal) {
   const auto round = [](double x) { return static_cast<double>(static_cast<float>(x)); };
@@ -139,11 +140,11 @@ double single_jacobian(std::array<Vec3, N> corners, const Vec3& normal) {
   return element_shape(corners, normal).scaled_jacobian;
 }
 
-/// Whether the element is fit to be computed with: its scaled Jacobian is above kLeastJacobian, also in
-/// single precision where that can hold it.
+/// Returns whether the scaled Jacobian is above kLeastJacobian, also in single precision if that can hold the
+/// element.
 template <size_t N>
 bool is_readable(const std::array<Vec3, N>& corners, const Vec3& normal, const ElementShape<N>& shape) {
-  constexpr double kDoubtful = 10 * kLeastJacobian;  // more than rounding takes away
+  constexpr double kDoubtful = 10 * kLeastJacobian;  // more than rounding can take away
   if (shape.scaled_jacobian > kDoubtful) return true;
   if (!(shape.scaled_jacobian > kLeastJacobian)) return false;
   double shortest = norm(corners[0] - corners[N - 1]);
@@ -152,13 +153,14 @@ bool is_readable(const std::array<Vec3, N>& corners, const Vec3& normal, const E
          single_jacobian(corners, normal) > kLeastJacobian;
 }
 
-/// Whether a quad, seen from the tip of `normal`, is readable and not folded.
+/// Returns whether a quad, seen from the tip of `normal`, is readable and not folded.
 inline bool is_sound_quad(const std::array<Vec3, 4>& corners, const Vec3& normal,
                           const ElementShape<4>& shape) {
   return is_readable(corners, normal, shape) && quad_warp(corners) <= kFold;
 }
 
-/// Longest over shortest side, at least 1; infinite where a side has no length [stimpson2007, edge ratio].
+/// Returns longest over shortest side, at least 1; infinite if a side has no length [stimpson2007, edge
+/// ratio].
 inline double quad_aspect(const std::array<Vec3, 4>& p) {
   double shortest = norm(p[0] - p[3]), longest = shortest;
   for (size_t k = 0; k < 3; ++k) {

@@ -13,13 +13,13 @@ namespace delquad {
 
 namespace {
 
-/// Where Simpson's rule and the trapezium agree to this, relative, Simpson's is taken: its own error is far
-/// smaller where delta is smooth, and of this order at a kink.
+/// Largest relative difference of Simpson's rule and the trapezium at which Simpson's is taken. Its own error
+/// is far smaller if delta is smooth, and of this order at a kink.
 constexpr double kAgreement = 1e-3;
-/// Panels are halved at most this often: a jump of delta is found to 1e-6 of the edge.
+/// Most halvings of a panel: a jump of delta is found to 1e-6 of the edge.
 constexpr int kMaxHalvings = 20;
-/// Values of delta on an edge: a jump takes two for each halving, so ten jumps are found. Where sheets lie on
-/// each other it may jump everywhere; then the mean of so many values, evenly spaced, is taken.
+/// Limit of values on an edge: a jump takes two for each halving, so ten jumps are found. Between overlapping
+/// sheets delta may jump everywhere; then a mean of evenly spaced values counts.
 constexpr int kMostValues = 512, kValuesOfMean = 256;
 
 class EdgeIntegral {
@@ -27,7 +27,7 @@ class EdgeIntegral {
   EdgeIntegral(const Vec3& a, const Vec3& b, const SizeField& size, int& hint)
       : a_(a), ab_(b - a), size_(size), hint_(hint) {}
 
-  /// Integral over [t0, t1] of 1/delta, whose values at the ends are f0 and f1.
+  /// Returns the integral of 1/delta over [t0, t1], with values f0 and f1 at the ends.
   double panel(double t0, double f0, double t1, double f1, int halvings_left) {
     const double tm = (t0 + t1) / 2, fm = at(tm);
     const double simpson = (t1 - t0) * (f0 + 4 * fm + f1) / 6;
@@ -36,7 +36,7 @@ class EdgeIntegral {
       return simpson;
     return panel(t0, f0, tm, fm, halvings_left - 1) + panel(tm, fm, t1, f1, halvings_left - 1);
   }
-  /// Two panels at the least, so that delta symmetric about the middle is not taken for constant.
+  /// Takes at least two panels, so that delta symmetric about the middle does not look constant.
   double length(double f0, double f1) {
     const double fm = at(0.5);
     const double adaptive = panel(0, f0, 0.5, fm, kMaxHalvings) + panel(0.5, fm, 1, f1, kMaxHalvings);

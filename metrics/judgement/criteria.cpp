@@ -20,7 +20,7 @@ namespace {
 constexpr double kMost = std::numeric_limits<double>::max();
 constexpr const char* kInSizes = "size";
 
-/// The limit of that key that counts for elements with the name; null: none.
+/// Returns the limit of a key that counts for elements with the name; null: none.
 const CriterionLimit* find_limit(const Criteria& criteria, CriterionKind kind, const std::string& on) {
   const CriterionLimit* found = nullptr;
   for (const CriterionLimit& limit : criteria.limits)
@@ -40,7 +40,7 @@ void check_pairs(const Criteria& criteria, const std::string& on) {
   }
 }
 
-/// The names of entities, each once.
+/// Returns the names of entities, each once.
 std::vector<std::string> names_of(const Mesh& mesh) {
   std::set<std::string> names;
   for (const auto* entities : {&mesh.curves, &mesh.regions})

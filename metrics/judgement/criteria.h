@@ -8,33 +8,36 @@
 #include "delquad/mesher.h"
 #include "metrics/judgement/element_values.h"
 
+// This header has helpers for criteria and their tables. The pipeline, the program and the bench use it.
+
 namespace delquad {
 
-/// Throws InputError, naming those known.
+/// Returns the kind of a key. Throws InputError, with all known keys, for an unknown one.
 CriterionKind criterion_kind(const std::string& key);
 
 inline constexpr std::size_t kMostLimits = 64;
 
 StepLength step_length_named(const std::string& name);
-inline constexpr const char* kStepLengths[] = {"ls-dyna", "radioss", "abaqus"};  ///< as StepLength
+inline constexpr const char* kStepLengths[] = {"ls-dyna", "radioss", "abaqus"};  ///< in the order of
+                                                                                 ///< StepLength
 
-/// Of membrane waves in a shell: sqrt(E / (rho (1 - nu^2))); 1 without a material.
+/// Returns the speed of membrane waves in a shell: sqrt(E / (rho (1 - nu^2))); 1 without a material.
 double speed_of_sound(const Criteria& criteria);
 
-/// "0.33 size" or "40 degrees".
+/// Returns "0.33 size" or "40 degrees".
 std::string text_of(const CriterionLimit& limit);
 
-/// The size that was wanted, before it was made less.
+/// Returns the requested size, before it was reduced.
 inline const SizeField& asked_size(const Preparation& prepared) {
   return prepared.size.asked ? *prepared.size.asked : *prepared.size.field;
 }
-/// Throws InputError for names that neither a curve nor a region of the mesh has, and where the wanted size
-/// is at no point as large as the least length, or as small as the largest.
+/// Throws InputError for names that no curve or region of the mesh has. Also throws if the wanted size is
+/// everywhere below the least length, or above the largest.
 void check_criteria(const Criteria& criteria, const Mesh& mesh, const SizeField& size);
 
-/// "failing", "failing_min_length", ..., "time_step": what meshes are compared by in tables.
+/// Returns the measures of meshes by criteria in tables: "failing", "failing_min_length", ..., "time_step".
 const std::vector<Metric>& criteria_metrics();
-/// These of a report.
+/// Returns these measures for a report.
 std::map<std::string, double> values_of(const CriteriaReport& report);
 
 }  // namespace delquad

@@ -9,9 +9,11 @@
 
 #include "metrics/shape.h"
 
+// This header has the value of an element for each criterion. The judges of elements use it.
+
 namespace delquad {
 
-/// Criteria by their places in criterion_registry().
+/// Criteria in the order of criterion_registry().
 enum CriterionKind {
   kMinLength,
   kMaxLength,
@@ -28,10 +30,10 @@ enum CriterionKind {
   kMinEta,
 };
 
-/// Whose length the time step of a shell goes by.
+/// Program whose length sets the time step of a shell.
 enum class StepLength { kLsDyna, kRadioss, kAbaqus };
 
-/// The shortest and the longest side.
+/// Returns the shortest and the longest side.
 template <size_t N>
 std::pair<double, double> least_and_most_side(const std::array<Vec3, N>& p) {
   double least = norm(p[0] - p[N - 1]), most = least;
@@ -43,7 +45,7 @@ std::pair<double, double> least_and_most_side(const std::array<Vec3, N>& p) {
   return {least, most};
 }
 
-/// The least distance of a corner from the line through a side that does not end there.
+/// Returns the least distance of a corner from the line through a side that does not end there.
 template <size_t N>
 double least_height(const std::array<Vec3, N>& p) {
   double least = std::numeric_limits<double>::infinity();
@@ -55,8 +57,8 @@ double least_height(const std::array<Vec3, N>& p) {
   return least;
 }
 
-/// Least over largest Jacobian of the bilinear quad at the 2 x 2 Gauss points, seen along its area vector;
-/// negative where it is inverted at one.
+/// Returns least over largest Jacobian of the bilinear quad at 2 x 2 Gauss points, seen along its area
+/// vector. It is negative if the quad is inverted at one.
 inline double gauss_ratio(const std::array<Vec3, 4>& p) {
   const Vec3 normal = area_vector(p);
   double least = std::numeric_limits<double>::infinity(), most = 0;
@@ -72,13 +74,14 @@ inline double gauss_ratio(const std::array<Vec3, 4>& p) {
   return most > 0 ? least / most : 0;
 }
 
-/// 90 degrees less the angle at which the lines through the middles of opposite sides cross.
+/// Returns 90 degrees minus the angle between the lines through middles of opposite sides.
 inline double quad_skew(const std::array<Vec3, 4>& p) {
   const Vec3 a = p[1] + p[2] - p[0] - p[3], b = p[2] + p[3] - p[0] - p[1];
   return std::atan2(std::abs(dot(a, b)), norm(cross(a, b))) * 180 / std::numbers::pi;
 }
 
-/// By how much of half the quad's area the triangle at a corner, cut off by a diagonal, is less; the most.
+/// Returns the largest part of half the quad's area that a triangle at a corner, cut off by a diagonal,
+/// lacks.
 inline double quad_taper(const std::array<Vec3, 4>& p) {
   const double half = norm(area_vector(p)) / 4;
   double least = half;
@@ -87,10 +90,10 @@ inline double quad_taper(const std::array<Vec3, 4>& p) {
   return half > 0 ? 1 - least / half : 1;
 }
 
-/// The characteristic length of a shell. LS-DYNA (theory manual, time step of shells): the area over the
-/// longest side, of triangles twice that. Radioss (as OpenRadioss has it): the area over the longer diagonal,
-/// but at least the shortest side or diagonal, of triangles as LS-DYNA. Abaqus/Explicit (guide, stability
-/// limit): the shortest distance across, which is least_height() here.
+/// Returns the characteristic length of a shell. LS-DYNA (theory manual, time step of shells) takes the area
+/// over the longest side, twice that for triangles. Radioss (from OpenRadioss) takes the area over the longer
+/// diagonal, at least the shortest side or diagonal; for triangles as LS-DYNA. Abaqus/Explicit (guide,
+/// stability limit) takes the shortest distance across, here least_height().
 template <size_t N>
 double step_length(const std::array<Vec3, N>& p, StepLength by) {
   if (by == StepLength::kAbaqus) return least_height(p);
@@ -105,7 +108,8 @@ double step_length(const std::array<Vec3, N>& p, StepLength by) {
   }
 }
 
-/// Of an element of this shape. `speed`: of sound. What triangles have not is as that of perfect quads.
+/// Returns the value of an element of this shape; `speed` is the speed of sound. Criteria of quads alone give
+/// triangles the value of perfect quads.
 template <size_t N>
 double criterion_value(CriterionKind kind, const std::array<Vec3, N>& p, const ElementShape<N>& shape,
                        StepLength by, double speed) {

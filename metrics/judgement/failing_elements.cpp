@@ -23,17 +23,17 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSharpAngle = kBadEta * std::numbers::pi / 2;
-/// A corner explains a quad that is as good as it allows, up to the bend of its curves along one edge; below
-/// the angle (radians) any.
+/// A corner explains a quad whose eta is at least kPartOfBound of its bound, up to the bend of its curves
+/// along an edge. Below the angle kCusp (radians) it explains any quad.
 constexpr double kPartOfBound = 0.9, kCusp = kDegree;
-/// Edges on curves, and places between curves, below this part of the size leave no room for good quads.
+/// Edges on curves, and gaps between curves, below this part of the size leave no space for good quads.
 constexpr double kFine = 0.25;
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-/// The edges of a mesh on curves of its model, with the faces that they bound or lie in.
+/// Edges of a mesh on curves of its model, with their faces.
 class CurveEdges {
  public:
-  /// `prepared`: what the mesh was made of; null: its curves are the model's.
+  /// `prepared` is the problem of the mesh; null: curves of the mesh count as the model's.
   CurveEdges(const PreparedProblem* prepared, const Mesh& mesh)
       : mesh_(mesh),
         shortest_(mesh.points.size(), kAny),
@@ -47,7 +47,7 @@ class CurveEdges {
       if (is_cut[mesh.line_curve[l]]) continue;
       const auto [a, b] = mesh.lines[l];
       edges_.push_back({std::min(a, b), std::max(a, b), mesh.line_curve[l]});
-      // As it was before nodes moved along the curves, which is no matter of the model.
+      // Uses places before nodes moved along curves, which is not due to the model.
       const Mesh& first = prepared ? prepared->boundary : mesh;
       const bool is_there = l < first.lines.size() && first.lines[l] == mesh.lines[l];
       const auto& points = is_there ? first.points : mesh.points;
@@ -76,23 +76,23 @@ class CurveEdges {
     for (const Face& face : faces) width_.push_back(face.outline > 0 ? 2 * face.area / face.outline : kAny);
     tree_ = BoxTree<Vec3>(boxes);
   }
-  /// That of the edge from a to b; -1: it is on none.
+  /// Returns the curve of the edge from a to b; -1: none.
   int curve(int a, int b) const {
     const std::array<int, 3> first{std::min(a, b), std::max(a, b), -1};
     const auto at = std::ranges::lower_bound(edges_, first);
     return at != edges_.end() && (*at)[0] == first[0] && (*at)[1] == first[1] ? (*at)[2] : -1;
   }
-  /// Of the edges at a node; infinite: none.
+  /// Returns the shortest edge at a node; infinite: none.
   double shortest(int v) const { return shortest_[v]; }
   bool has(int v) const { return shortest_[v] < kAny; }
-  /// The curve of that edge; -1: none.
+  /// Returns the curve of that edge; -1: none.
   int shortest_on(int v) const { return shortest_on_[v]; }
-  /// Of a face, as ignore_small() has it.
+  /// Returns the width of a face, as in ignore_small().
   double width(int region) const { return width_[region]; }
-  /// The length of the shortest curve at a node.
+  /// Returns the length of the shortest curve at a node.
   double shortest_curve(int v) const { return shortest_curve_[v]; }
-  /// From a node on a curve to the nearest other edge of its face's outline, up to `most`: not to those that
-  /// begin there, nor to the next. Infinite: there is none.
+  /// Returns the distance from a node on a curve to the nearest other edge on its face's outline, up to
+  /// `most`. Edges that begin at the node or next to it do not count. Infinite: none.
   double gap(int v, int region, double most) const {
     const Vec3& x = mesh_.points[v];
     double limit2 = most * most, gap = kAny;
@@ -117,7 +117,7 @@ class CurveEdges {
   BoxTree<Vec3> tree_;
 };
 
-/// Why elements fail.
+/// Finds the causes of failing elements.
 class CauseFinder {
  public:
   explicit CauseFinder(FailingElements& all)
@@ -133,7 +133,7 @@ class CauseFinder {
  private:
   const std::array<int, 4>& quad(int element) const { return mesh_.quads[element - all_.n_triangles()]; }
 
-  /// The causes are those of quads that are narrow, short or oblique, not of ones that are long or warped.
+  /// Returns whether causes apply: to quads that are narrow, short or oblique, not to long or warped ones.
   bool is_explained(const FailingElement& failing) const {
     const auto& limits = all_.criteria.limits;
     for (std::size_t k = 0; k < limits.size(); ++k)
@@ -142,7 +142,7 @@ class CauseFinder {
         return failing.element >= all_.n_triangles();
     return false;
   }
-  /// The largest limit of a kind that the element is beyond; 0: none. `size`: there.
+  /// Returns the largest limit of a kind that the element exceeds; 0: none. `size` is the size there.
   double limit_beyond(const FailingElement& failing, CriterionKind kind, double size = 1) const {
     double largest = 0;
     const auto& limits = all_.criteria.limits;
@@ -202,7 +202,7 @@ class CauseFinder {
     }
     if (is_triangulated() && edges_.has(finest)) found(kAtSharpEdge, 0);
   }
-  /// Quads that share a node with one that is explained by curves or a gap, and so on, are so for that.
+  /// Passes causes by curves or gaps on to failing quads that share a node, repeatedly.
   void spread_causes() {
     std::vector<FailingElement>& elements = all_.elements;
     std::vector<int> from(mesh_.points.size(), -1);  // by node: such a quad
@@ -229,9 +229,9 @@ class CauseFinder {
     return prepared_ && prepared_->surface && !prepared_->surface->given &&
            !prepared_->surface->model.projector;
   }
-  /// Or an image of it.
+  /// Returns whether x is the place of the corner or an image of it.
   bool is_at(const SharpCorner& corner, const Vec3& x) const {
-    constexpr double kSamePlace = 1e-9;  // of the coordinates
+    constexpr double kSamePlace = 1e-9;  // part of the coordinates
     const auto& mirrored = prepared_->surface->mirrored;
     const Vec3 at = prepared_->boundary.points[corner.node], here = mirrored ? mirrored->planes.fold(x) : x;
     return norm(here - at) <= kSamePlace * norm(at);
@@ -249,8 +249,8 @@ bool is_given(const PreparedProblem& prepared) {
                              [](const PreparedPatch& patch) { return !patch.given.points.empty(); });
 }
 
-/// What helps against a cause; empty: nothing that is known. Of its elements, `n`, so many are `ignored`
-/// below that length.
+/// Returns a remedy for a cause; empty: none is known. `ignored` of its `n` elements lie below the length
+/// `below`.
 std::string advice(const PreparedProblem* prepared, const FailingElement& first, int n, int ignored,
                    double below) {
   if (!prepared || is_given(*prepared) || (first.cause != kAtGap && first.cause != kAtFineCurve)) return "";
@@ -271,13 +271,13 @@ std::string advice(const PreparedProblem* prepared, const FailingElement& first,
   return fmt::format(": {}a size of {:.3g} there would help", other, first.what);
 }
 
-/// "curve 7 (rim)"
+/// Returns "curve 7 (rim)".
 std::string show_curve(const Mesh& mesh, int curve) {
   const Entity& entity = mesh.curves[curve];
   return fmt::format("curve {}{}", entity.tag, entity.names.empty() ? "" : " (" + entity.names[0] + ")");
 }
 
-/// By element: 1 in regions and along curves of that name.
+/// Returns 1 for each element in regions or along curves of a name.
 std::vector<char> elements_named(const Mesh& mesh, const std::string& name) {
   const auto has_name = [&](const Entity& entity) { return std::ranges::count(entity.names, name) > 0; };
   std::set<std::array<int, 2>> on_curves;
@@ -298,7 +298,7 @@ std::vector<char> elements_named(const Mesh& mesh, const std::string& name) {
   return in;
 }
 
-/// Of values beyond a limit: above 1.
+/// Returns the factor by which a value exceeds a limit; above 1 if it does.
 double times_beyond(CriterionKind kind, double value, double limit) {
   const auto positive = [](double x) { return std::max(x, 1e-300); };
   if (limit == 0) return value < 0 ? kAny : 0;
@@ -314,7 +314,7 @@ double JudgedMesh::size_at(std::span<const int> v, int& hint) const {
   return size->at((1.0 / static_cast<double>(v.size())) * sum, hint);
 }
 
-/// The limits of the criteria, as they count for elements.
+/// The limits of the criteria, as they apply to elements.
 struct FailingElements::Limits {
   Limits(const Mesh& mesh, const Criteria& criteria)
       : by(step_length_named(criteria.time_step_by)), speed(speed_of_sound(criteria)) {
@@ -356,7 +356,7 @@ Place FailingElements::place_of(int element) const {
 
 template <std::size_t N>
 void FailingElements::judge(int element, const std::array<int, N>& v, const Limits& limits, int& hint) {
-  constexpr double kRounding = 1e-9;  // relative: of coordinates (1e-16) a million times a side
+  constexpr double kRounding = 1e-9;  // relative: rounding of coordinates (1e-16), a million times a side
   const auto corners = corners_of(judged.mesh, v);
   const Vec3 side =
       N == 3 ? judged.sides.of_triangle(element) : judged.sides.of_quad(element - n_triangles());
@@ -394,7 +394,7 @@ FailingElements::FailingElements(const JudgedMesh& mesh, const Criteria& asked, 
     if (with_triangles || element >= n_triangles()) judge(element, v, limits, hint);
   });
   for (LimitTally& tally : tallies) {
-    // Quads are told first.
+    // Quads come first.
     const auto quads = std::ranges::lower_bound(tally.failing, n_triangles());
     for (auto i = quads; i != tally.failing.end(); ++i) tally.places.add(place_of(*i));
     for (auto i = tally.failing.begin(); i != quads; ++i) tally.places.add(place_of(*i));
@@ -449,7 +449,7 @@ std::string FailingElements::text_of(FailingCause cause, bool named) const {
     default:
       return fmt::format("{} for other reasons, as in {}", n, at);
   }
-  constexpr double kAbove = 1.05;  // of what is to be below
+  constexpr double kAbove = 1.05;  // part of the length that must be exceeded
   return fmt::format("{} {}{}", n, why, advice(judged.prepared, *first, n, ignored, kAbove * below));
 }
 

@@ -34,7 +34,7 @@ const OptionTable<LimitOptions>& limit_table() {
   return all;
 }
 
-/// What makes a quad poor, in this order.
+/// Properties that make a quad poor, in this order.
 enum PoorLimit { kPoorByEta, kPoorByAspect, kPoorBySide };
 const Criteria& poor_criteria() {
   static const Criteria poor{.limits = {{.key = "min_eta", .value = kBadEta},
@@ -43,7 +43,7 @@ const Criteria& poor_criteria() {
   return poor;
 }
 
-/// The limits that were asked for by options.
+/// Returns the limits requested by options.
 Criteria option_criteria(const Options& options) {
   Criteria criteria;
   const LimitOptions limits = limit_table().read(options);
@@ -74,7 +74,7 @@ void warn_of_poor_quads(const std::string& label, const FailingElements& poor, c
   warnings.emplace_back(std::move(text));
 }
 
-/// Quads that are sound, but not once they were rounded.
+/// Warns of quads that are sound, but not after rounding.
 void warn_of_single_precision(const std::string& label, const Mesh& mesh, const ElementSides& sides,
                               std::vector<Warning>& warnings) {
   Places spoilt;
@@ -96,7 +96,7 @@ void warn_of_single_precision(const std::string& label, const Mesh& mesh, const 
                   describe(mesh, spoilt, "1 quad is inverted or flat", "quads are inverted or flat"), help));
 }
 
-/// Says what of the model stands in the way of quads that are inverted or flat.
+/// Names the parts of the model that cause inverted or flat quads.
 void explain_flat_quads(const JudgedMesh& judged, Soundness& soundness) {
   static const Criteria flat{.limits = {{.key = "min_jacobian", .value = kLeastJacobian}}};
   FailingElements failing(judged, flat, false);
@@ -111,7 +111,7 @@ void hold_to(const FailingElements& failing, std::vector<std::string>& beyond) {
     if (std::string text = failing.text_of(k); !text.empty()) beyond.push_back(std::move(text));
 }
 
-/// By quad: those whose sides and aspects were asked for.
+/// Returns, by quad, whether its sides and aspect are requested.
 std::vector<char> quads_on_purpose(const PreparedProblem& prepared, const Mesh& mesh) {
   std::vector<char> is_grid(mesh.regions.size(), 0);
   for (const PreparedPatch& patch : prepared.patches)
@@ -122,7 +122,7 @@ std::vector<char> quads_on_purpose(const PreparedProblem& prepared, const Mesh& 
   return on_purpose;
 }
 
-/// The least time step of all elements by the length of a program.
+/// Returns the least time step of all elements by the length of a program.
 double estimated_step(const JudgedMesh& judged, Criteria criteria, const char* program) {
   criteria.limits = {{.key = "min_time_step"}};
   criteria.time_step_by = program;
@@ -167,7 +167,7 @@ CriteriaReport report_on(const JudgedMesh& judged, const Criteria& criteria) {
   return report;
 }
 
-/// The mean length of sides.
+/// Returns the mean length of sides.
 double mean_side(const Mesh& mesh) {
   double sum = 0, n = 0;
   for_each_element(mesh, [&](int, const auto& v) {
@@ -230,7 +230,7 @@ BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, 
   const JudgedMesh judged{mesh, sides, prepared.size.field.get(), &prepared,
                           quads_on_purpose(prepared, mesh)};
   BadQuads bad;
-  // Most meshes have none.
+  // Most meshes have no such quads.
   const bool by_size = !prepared.metric_plane && !(prepared.surface && prepared.surface->metric);
   if (by_size && (values.at("eta_worst") < kBadEta || values.at("aspect_max") > kPoorAspect ||
                   values.at("edge_min") < kPoorEdge)) {

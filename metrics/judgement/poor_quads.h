@@ -7,38 +7,39 @@
 #include "geometry/mesh/quad_corners.h"
 #include "patches/prepared.h"
 
+// This header judges the quads of finished meshes. The pipeline uses it.
+
 namespace delquad {
 
-/// A quad is poor with an angle below 10 or above 170 degrees (eta below kBadEta), with longer sides than
-/// this times the shortest, or with a side below this part of the size there.
+/// A quad is poor if its eta is below kBadEta (an angle below 10 or above 170 degrees). It is also poor with
+/// a larger aspect than this, or with a side below this part of the size there.
 inline constexpr double kPoorAspect = 20, kPoorEdge = kShortSide;
 
-/// What no element may be beyond.
+/// Limits for every element.
 struct LimitOptions {
   double min_angle = 0;   ///< degrees
-  double max_aspect = 0;  ///< of longest over shortest side; 0: any
+  double max_aspect = 0;  ///< longest over shortest side; 0: no limit
 };
 OptionGroup limit_group();
 
-/// Quads with an eta below kBadEta: in corners of the model that forbid more, and others.
+/// Quads with an eta below kBadEta: in corners of the model that forbid more, and elsewhere.
 struct BadQuads {
   int in_corners = 0, elsewhere = 0;
 };
 
-/// Counts the bad quads of a mesh. Warns in one line of those that are poor, with the worst of them, why
-/// that is as far as it is known, and what helps; and of quads that single precision cannot hold. Says which
-/// elements are beyond the limits that were asked for, see Soundness::beyond, and what of the model stands in
-/// the way of ones that are inverted or flat. Aspects and sides of layers, and of grids that were asked for,
-/// are as they are on purpose; of quads by a metric only what was asked for and single precision count.
-/// `label` names the case and pipeline.
+/// Counts the bad quads of a mesh. One warning tells the number of poor quads, the worst of them, causes and
+/// remedies. Another one tells quads that single precision cannot hold. `soundness` gets elements beyond
+/// requested limits (Soundness::beyond), and causes of inverted or flat elements. Sides and aspects in layers
+/// and requested grids do not count. In meshes by a metric, only requested limits and single precision count.
+/// `label` names case and pipeline.
 BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, const Mesh& mesh,
                      const MeshMetrics& metrics, std::vector<Warning>& warnings, Soundness& soundness);
 
-/// Judges the result's mesh by the problem's criteria, where it has some: its report, measures of tables and,
-/// where that is strict, what is beyond. `is_others`: another program made the mesh, from the same model.
+/// Judges the result's mesh by the criteria of the problem, if any: report, measures for tables, and elements
+/// beyond strict criteria. `is_others` tells that another program made the mesh, from the same model.
 void judge_by_criteria(const PreparedProblem& prepared, bool is_others, MeshResult& result);
 
-/// The part of the quads that is beyond the problem's criteria; 0 if it has none.
+/// Returns the part of quads beyond the problem's criteria; 0 without criteria.
 double failing_part(const PreparedProblem& prepared, const Mesh& mesh);
 
 }  // namespace delquad

@@ -21,7 +21,7 @@ namespace {
 
 using Edge = std::array<int, 2>;
 
-/// Adds nothing when there are none.
+/// Adds a reason, unless there are no places.
 void add_reason(const Mesh& mesh, const Places& places, const std::string& one, const std::string& several,
                 Soundness& result) {
   if (places.count == 0) return;
@@ -29,7 +29,7 @@ void add_reason(const Mesh& mesh, const Places& places, const std::string& one, 
   result.reasons.push_back(describe(mesh, places, one, several));
 }
 
-/// The middle of an element, and its face where it has one.
+/// Returns the middle of an element, with its face if any.
 template <std::size_t N>
 Place middle(const Mesh& mesh, const std::array<int, N>& v, const std::vector<int>& regions,
              std::size_t element) {
@@ -40,7 +40,7 @@ Place middle(const Mesh& mesh, const std::array<int, N>& v, const std::vector<in
 
 enum class QuadFlaw : char { kNone, kInverted, kFolded };
 
-/// The edges of a mesh that are lines, sorted.
+/// Returns the edges of a mesh that are lines, sorted.
 std::vector<Edge> line_edges(const Mesh& mesh) {
   std::vector<Edge> edges;
   for (const auto& [a, b] : mesh.lines) edges.push_back({std::min(a, b), std::max(a, b)});
@@ -48,8 +48,8 @@ std::vector<Edge> line_edges(const Mesh& mesh) {
   return edges;
 }
 
-/// Whether a corner between two curves is narrower than elements may be, and the quad no worse than that: the
-/// model asks for it.
+/// Returns whether the model forces a quad to be as narrow. Then a corner between two curves is below the
+/// limit for elements, and the quad is no worse.
 bool is_as_narrow_as_model(const std::array<int, 4>& v, const ElementShape<4>& shape,
                            const std::vector<Edge>& lines) {
   constexpr double kNearly = 0.9;
@@ -105,13 +105,13 @@ void check_finite(const Mesh& mesh, Soundness& result) {
   add_reason(mesh, places, "1 point is not finite", "points are not finite", result);
 }
 
-/// The boundary of a patch with its layers and wedges.
+/// Returns the boundary of a patch with its layers and wedges.
 const PatchBoundary& outline_of(const PreparedProblem& prepared, std::size_t patch) {
   const std::vector<PatchBoundary>& outlines = prepared.plane.outlines;
   return outlines.empty() ? prepared.patches[patch].boundary : outlines[patch];
 }
 
-/// How many patches of a planar domain have each edge of the boundary.
+/// Returns the number of patches at each edge on the boundary of a planar domain.
 std::map<Edge, int> patches_at_edges(const PreparedProblem& prepared) {
   std::map<Edge, int> patches;
   for (std::size_t k = 0; k < prepared.patches.size(); ++k) {
@@ -124,7 +124,7 @@ std::map<Edge, int> patches_at_edges(const PreparedProblem& prepared) {
   return patches;
 }
 
-/// How many pieces the outline of a patch has: loops, or loops that touch.
+/// Returns the number of pieces in the outline of a patch: loops, or groups of touching loops.
 int pieces_of(const PatchBoundary& boundary) {
   DisjointSets joined(boundary.points.size());
   int pieces = static_cast<int>(joined.size());
@@ -132,7 +132,8 @@ int pieces_of(const PatchBoundary& boundary) {
   return pieces;
 }
 
-/// Of a planar domain: points and edges on its outlines, and what is inside of each patch, a disc with holes.
+/// Returns the Euler characteristic of a planar domain, by points and edges on its outlines and by patches,
+/// which are discs with holes.
 int euler_characteristic(const PreparedProblem& prepared, const std::map<Edge, int>& edges) {
   std::set<int> nodes;
   for (const auto& [edge, patches] : edges) nodes.insert(edge.begin(), edge.end());
@@ -147,7 +148,7 @@ void compare_euler(int mesh, int model, Soundness& result) {
         fmt::format("its Euler characteristic is {}, that of the model {}", mesh, model));
 }
 
-/// Returns how many edges are wrong.
+/// Returns the number of wrong edges.
 int check_planar(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides,
                  Soundness& result) {
   const std::map<Edge, int> wanted = patches_at_edges(prepared);
@@ -172,8 +173,8 @@ int check_planar(const PreparedProblem& prepared, const Mesh& mesh, std::span<co
   return wrong.count;
 }
 
-/// How many more fans of elements there are than vertices: a surface may touch itself in points. `mesh`
-/// hardly ever has any.
+/// Returns the number of fans of elements minus the number of vertices, since a surface may touch itself in
+/// points. `mesh` rarely has such points.
 int pinches(const Mesh& mesh) {
   std::vector<std::array<int, 2>> corners;  // vertex and element, sorted
   for_each_element(mesh, [&](int element, const auto& v) {
@@ -195,7 +196,7 @@ int pinches(const Mesh& mesh) {
   return n_fans - vertices;
 }
 
-/// The same of the faces of a model that the mesh has.
+/// Returns the same number for the faces of a model that the mesh has.
 int pinches_of_model(Mesh fine, const Mesh& mesh) {
   std::vector<char> has(fine.regions.size(), 0);
   for (const auto* regions : {&mesh.triangle_region, &mesh.quad_region})
@@ -209,7 +210,7 @@ void check_surface(const Mesh& fine, const Mesh& mesh, const SurfaceReport& repo
              "elements face away from the model", result);
   add_reason(mesh, report.nonconforming_edges, "1 edge is in more or fewer elements than the model asks for",
              "edges are in more or fewer elements than the model asks for", result);
-  // Cones that touch in their tips need no node there.
+  // Cones whose tips touch need no node there.
   if (const int euler = report.mesh.euler_characteristic; euler != report.model.euler_characteristic)
     compare_euler(euler + pinches(mesh), report.model.euler_characteristic + pinches_of_model(fine, mesh),
                   result);
@@ -278,7 +279,7 @@ Soundness check_soundness(const PreparedProblem& prepared, const Mesh& mesh, con
     check_surface(prepared.surface->whole().fine, mesh, *report, result);
     wrong_edges = report->nonconforming_edges.count;
   }
-  // Most of these are about the same edges.
+  // Most of these concern the same edges.
   if (!violations.empty() && wrong_edges == 0)
     result.reasons.push_back(
         fmt::format("it is not conforming ({} violations): {}", violations.size(), violations[0]));

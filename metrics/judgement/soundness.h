@@ -8,22 +8,23 @@
 #include "metrics/surface/surface_report.h"
 #include "patches/prepared.h"
 
+// This header checks the soundness of meshes. The pipeline and the program use it.
+
 namespace delquad {
 
-/// The middle of a quad, and its face.
+/// Returns the middle of a quad, with its face.
 Place middle_of_quad(const Mesh& mesh, int quad);
-/// "face 3 at (1, 2, 3)".
+/// Returns "face 3 at (1, 2, 3)".
 std::string show_place(const Mesh& mesh, const Place& place);
-/// `one`, or the number of places and `several`, and where the first are.
+/// Returns `one`, or the number of places and `several`, with the first places.
 std::string describe(const Mesh& mesh, const Places& places, const std::string& one,
                      const std::string& several);
 
-/// The first two of these, which are about single elements. Planar domains are seen from above.
+/// Checks the first two conditions of Soundness, for single elements. Planar domains are seen from above.
 Soundness check_elements(const PreparedProblem& prepared, const Mesh& mesh);
 
-/// All of them, of a mesh with the curves and regions of its case. `report`: of surfaces, without the faces
-/// that were left out; null of a mesh with points that are not finite. `sides`: the mesh's
-/// sorted_half_edges().
+/// Checks all conditions of Soundness, for a mesh with curves and regions of its case. On surfaces `report`
+/// leaves out missing faces; it is null if a point is not finite. `sides` is sorted_half_edges() of the mesh.
 Soundness check_soundness(const PreparedProblem& prepared, const Mesh& mesh, const SurfaceReport* report,
                           std::span<const HalfEdge> sides);
 

@@ -18,7 +18,7 @@ namespace delquad {
 
 namespace {
 
-/// Their map from the square or triangle is not one to one, or has no inverse somewhere.
+/// Refuses elements whose map from the square or triangle is not one to one, or not invertible somewhere.
 void check_elements(const Mesh& mesh) {
   const ElementSides sides(mesh);
   std::size_t quads = 0, triangles = 0;
@@ -31,7 +31,7 @@ void check_elements(const Mesh& mesh) {
          triangles, mesh.triangles.size());
 }
 
-/// For each point one of its part of the mesh, the same for all of that part.
+/// Returns, for each point, a representative point of its part of the mesh.
 std::vector<int> parts_of(const Mesh& mesh) {
   DisjointSets parts(mesh.points.size());
   for_each_element(mesh, [&](int, const auto& v) {
@@ -59,7 +59,7 @@ ElementPoint point_of(const std::array<Vec3, 4>& corners, const GaussPoint& r, c
   const double density = norm(area);
   p.weight = r.weight * s.weight * density;
   p.normal = (1 / density) * area;
-  // The dual basis of the tangents.
+  // Dual basis of the tangents.
   const Vec3 dual_r = (1 / density) * cross(along_s, p.normal),
              dual_s = (1 / density) * cross(p.normal, along_r);
   for (std::size_t k = 0; k < 4; ++k) p.gradient[k] = by_r[k] * dual_r + by_s[k] * dual_s;
@@ -125,7 +125,7 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-/// The kernel taken away by pinning an unknown of each floating set.
+/// Factors of a system, with one unknown of each floating set pinned to remove the kernel.
 class Factorisation {
  public:
   explicit Factorisation(const LinearSystem& system) {
@@ -151,7 +151,7 @@ class Factorisation {
   Eigen::SimplicialLDLT<Matrix> factors_;
 };
 
-/// Parts v orthogonally from vectors with separate supports.
+/// Removes from v its components along vectors with disjoint supports.
 void remove_parts(const std::vector<std::vector<int>>& sets, const Vector& weights, Vector& v) {
   for (const auto& set : sets) {
     double part = 0, length2 = 0;
@@ -164,17 +164,17 @@ void remove_parts(const std::vector<std::vector<int>>& sets, const Vector& weigh
 }
 
 Vector start_vector(Eigen::Index n) {
-  std::mt19937_64 random(1);  // any will do, as long as it stays
+  std::mt19937_64 random(1);  // any seed will do, if it is fixed
   Vector v(n);
   for (Eigen::Index i = 0; i < n; ++i) v[i] = std::ldexp(static_cast<double>(random() >> 11), -53) - 0.5;
   return v;
 }
 
-/// Tridiagonal matrices of growing size, whose eigenvalues approach those of an operator.
+/// Tridiagonal matrices of growing size, whose eigenvalues approach an operator's.
 struct Tridiagonal {
   std::vector<double> diagonal, beside;
 
-  /// The largest eigenvalue, and by how much at most it is none of the operator.
+  /// Returns the largest eigenvalue, and a bound of its error.
   std::pair<double, double> largest() const {
     const auto n = static_cast<Eigen::Index>(diagonal.size());
     const Eigen::Map<const Vector> d(diagonal.data(), n), b(beside.data(), n - 1);

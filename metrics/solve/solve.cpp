@@ -16,10 +16,10 @@ namespace delquad {
 
 namespace {
 
-/// Where a domain lies, whatever its mesh: the same for all meshes of a planar boundary, up to rounding.
+/// Frame of a domain, equal for all meshes of a planar boundary up to rounding.
 struct Frame {
   Vec3 centre;
-  double radius = 0;  ///< of gyration
+  double radius = 0;  ///< radius of gyration
 };
 
 Frame frame_of(const Discretisation& elements) {
@@ -35,7 +35,7 @@ Frame frame_of(const Discretisation& elements) {
   return {centre, std::sqrt(second / area)};
 }
 
-/// sin and cos of pi / 2 times the squared distance p . p, with their derivatives by it.
+/// Sine and cosine of pi / 2 times the squared distance p . p, with derivatives by it.
 struct Waves {
   double sine, cosine, by_sine, by_cosine;
   explicit Waves(double distance2) {
@@ -62,7 +62,7 @@ ScalarSolution spatial_wave(const Frame& frame, const Vec3& at) {
   return {a * b * c, (2 / frame.radius) * by};
 }
 
-/// (sine p + cosine q) with q = p turned by 90 degrees, in units of the radius.
+/// Returns (sine p + cosine q), q being p turned by 90 degrees, in units of the radius.
 VectorSolution swirl(const Frame& frame, const Vec3& at) {
   const Vec3 p = (1 / frame.radius) * (at - frame.centre), q = {-p.y, p.x, 0};
   const Waves waves(dot(p, p));
@@ -80,13 +80,13 @@ struct Field {
 };
 template <std::size_t C>
 using Exact = std::function<Field<C>(const Vec3&)>;
-/// What makes the equation: from the gradients of a field to the fluxes of its components.
+/// The equation: maps the gradients of a field to the fluxes of its components.
 template <std::size_t C>
 using Flux = std::array<Vec3, C> (*)(const std::array<Vec3, C>&);
 
 std::array<Vec3, 1> heat_flux(const std::array<Vec3, 1>& gradient) { return gradient; }
 
-/// Plane stress [hughes2000, section 2.7].
+/// Returns plane stress [hughes2000, section 2.7].
 std::array<Vec3, 2> stress(const std::array<Vec3, 2>& gradient) {
   constexpr double kYoung = 1, kPoisson = 0.3, kPlate = kYoung / (1 - kPoisson * kPoisson);
   const double xx = gradient[0].x, yy = gradient[1].y;
@@ -94,11 +94,11 @@ std::array<Vec3, 2> stress(const std::array<Vec3, 2>& gradient) {
   return {{{kPlate * (xx + kPoisson * yy), shear, 0}, {shear, kPlate * (yy + kPoisson * xx), 0}}};
 }
 
-/// A problem with C unknowns a node, discretised.
+/// A discretized problem with C unknowns for each node.
 template <std::size_t C>
 class Problem {
  public:
-  /// The right side by so many x so many Gauss points, means and errors by one more.
+  /// Takes n x n Gauss points for the right side, and one more for means and errors.
   Problem(const Discretisation& elements, const Exact<C>& exact, Flux<C> flux, int gauss_points)
       : elements_(elements),
         exact_(exact),
@@ -113,7 +113,7 @@ class Problem {
     assemble();
   }
 
-  /// By node and component.
+  /// Returns values by node and component.
   std::vector<double> values() const {
     const Eigen::VectorXd free = solve_directly(system_);
     std::vector<double> values = given_;
@@ -134,7 +134,7 @@ class Problem {
  private:
   using Triplets = std::vector<Eigen::Triplet<double>>;
 
-  /// -1: the value is given.
+  /// Returns -1 if the value is given.
   int row_of(std::size_t node, std::size_t component) const {
     const int row = elements_.row(node);
     return row < 0 ? -1 : static_cast<int>(C) * row + static_cast<int>(component);
@@ -161,11 +161,11 @@ class Problem {
     });
     system_.matrix.setFromTriplets(entries.begin(), entries.end());
     set_scale();
-    if constexpr (C == 1)  // planar domains, which the others are on, have a boundary
+    if constexpr (C == 1)  // planar domains, on which the others are solved, have a boundary
       system_.floating = elements_.floating();
   }
 
-  /// Jacobi's scaling, the same for all components of a node: so it does not depend on the axes.
+  /// Sets Jacobi's scaling, equal for all components of a node, so it does not depend on the axes.
   void set_scale() {
     const Eigen::VectorXd diagonal = system_.matrix.diagonal();
     system_.scale.resize(diagonal.size());
@@ -174,7 +174,7 @@ class Problem {
       system_.scale.segment(i, kWidth).setConstant(diagonal.segment(i, kWidth).mean());
   }
 
-  /// What a quadrature point says of one test function.
+  /// Adds a quadrature point's share of a test function.
   void add_row(const std::array<int, 4>& nodes, const ElementPoint& p, std::size_t i, std::size_t a, int row,
                Triplets& entries) {
     for (std::size_t j = 0; j < 4; ++j)
@@ -190,7 +190,7 @@ class Problem {
       }
   }
 
-  /// u_h and its gradient at a quadrature point.
+  /// Returns u_h and its gradient at a quadrature point.
   Field<C> field_at(const std::vector<double>& values, const std::array<int, 4>& nodes,
                     const ElementPoint& p) const {
     Field<C> field = {};
@@ -203,7 +203,7 @@ class Problem {
     return field;
   }
 
-  /// Gives u_h the mean of u on every part where it is known up to a constant.
+  /// Gives u_h the mean of u on every part that is known up to a constant.
   void shift_floating(std::vector<double>& values) const {
     const std::size_t n = elements_.floating().size();
     std::vector<double> area(n), excess(n);
@@ -303,13 +303,13 @@ namespace {
 
 using StepVector = Eigen::VectorXd;
 
-/// The stiffness of an element between its nodes; triangles have their third one twice.
+/// Stiffness of an element between its nodes; triangles repeat the third one.
 struct StiffElement {
   std::array<int, 4> nodes;
   std::array<std::array<double, 4>, 4> stiffness{};
 };
 
-/// In the plane through its middle that its diagonals are parallel to.
+/// Returns the corners projected to the plane through their middle, parallel to both diagonals.
 std::array<Vec3, 4> flattened(std::array<Vec3, 4> p) {
   const Vec3 normal = area_vector(p), middle = 0.25 * (p[0] + p[1] + p[2] + p[3]);
   const double n2 = dot(normal, normal);
@@ -318,7 +318,7 @@ std::array<Vec3, 4> flattened(std::array<Vec3, 4> p) {
   return p;
 }
 
-/// Adds its mass to those of its nodes. False where it is inverted at a point.
+/// Adds an element's stiffness, and its mass to its nodes. Returns false if it is inverted at a point.
 bool add_element(const std::array<Vec3, 4>& corners, const std::vector<GaussPoint>& rule,
                  StiffElement& element, StepVector& mass) {
   const std::array<Vec3, 4> flat = flattened(corners);
@@ -349,7 +349,7 @@ double critical_step(const Mesh& mesh) {
   });
   if (!is_sound) return 0;
   const StepVector scale =
-      mass.unaryExpr([](double m) { return m > 0 ? 1 / std::sqrt(m) : 0.0; });  // 0: of no element
+      mass.unaryExpr([](double m) { return m > 0 ? 1 / std::sqrt(m) : 0.0; });  // 0: without element
   const auto apply = [&](const StepVector& x) -> StepVector {
     const StepVector scaled = scale.cwiseProduct(x);
     StepVector y = StepVector::Zero(n);

@@ -9,17 +9,18 @@
 
 namespace delquad {
 
-/// "poisson" and "elasticity": what measures may be asked for by.
+/// Returns "poisson" and "elasticity", the solvers that measures can use.
 const std::vector<std::string>& solver_names();
-/// Its measures: "poisson_l2" and so on. They cost more than others and are not in metric_registry(): they
-/// are there for who asks.
+/// Returns the measures of a solver: "poisson_l2" and so on. They cost more than others, so they are on
+/// request and not in metric_registry().
 std::vector<Metric> metrics_of_solver(const std::string& solver);
 
 struct SolverOutcome {
-  std::map<std::string, double> values;  ///< by key; NaN where they are not defined
-  std::string undefined;                 ///< why they are not; empty: they are
+  std::map<std::string, double> values;  ///< by key; NaN if not defined
+  std::string undefined;                 ///< reason for missing values; empty: none is missing
 };
-/// `exact`: of Poisson's equation; empty: the domain's own. Throws InputError for a solver that there is not.
+/// Measures by a solver. `exact` is the solution of Poisson's equation; empty: made from the domain. Throws
+/// InputError for an unknown solver.
 SolverOutcome measure_by_solver(const Mesh& mesh, const std::string& solver, const Solution& exact = {});
 
 }  // namespace delquad

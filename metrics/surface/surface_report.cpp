@@ -19,7 +19,7 @@ namespace delquad {
 
 namespace {
 
-/// Quads with a vertex less than this many quads away from a cut lie near it.
+/// A quad with a vertex less than this many quads away from a cut is near it.
 constexpr int kRings = 3;
 
 enum class Where : char { kOff, kNear, kOnCurve };
@@ -31,7 +31,7 @@ void put(const Mesh& mesh, const std::vector<char>& is_cut, bool cuts, Where her
       for (const int v : mesh.lines[l]) where[v] = here;
 }
 
-/// Of each vertex.
+/// Returns the place of each vertex.
 std::vector<Where> places(const Mesh& mesh, const std::vector<char>& is_cut) {
   std::vector<Where> where(mesh.points.size(), Where::kOff);
   put(mesh, is_cut, true, Where::kNear, where);
@@ -79,7 +79,7 @@ using Edge = std::array<int, 2>;
 
 Edge sorted_edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// The lines of a mesh by their ends.
+/// Lines of a mesh by their ends.
 class LineIndex {
  public:
   explicit LineIndex(const Mesh& mesh) {
@@ -88,7 +88,7 @@ class LineIndex {
       lines_.push_back({sorted_edge(mesh.lines[l][0], mesh.lines[l][1]), mesh.line_curve[l]});
     std::ranges::sort(lines_);
   }
-  /// The curve of the edge, -1: none.
+  /// Returns the curve of an edge; -1: none.
   int curve_of(int a, int b) const {
     const Edge edge = sorted_edge(a, b);
     const auto at = std::ranges::lower_bound(lines_, std::pair(edge, -1));
@@ -99,7 +99,7 @@ class LineIndex {
   std::vector<std::pair<Edge, int>> lines_;
 };
 
-/// Calls visit(curve, sides) for the edges that lie on curves.
+/// Calls visit(curve, sides) for each edge on a curve.
 template <class Visit>
 void for_each_edge_on_curve(const Mesh& mesh, Visit visit) {
   const LineIndex lines(mesh);
@@ -115,7 +115,7 @@ int region_of(const Mesh& mesh, int element) {
   return element < n_triangles ? mesh.triangle_region[element] : mesh.quad_region[element - n_triangles];
 }
 
-/// The model without the faces that were left out.
+/// Returns the model without the faces that were left out.
 Mesh without(const Mesh& fine, const std::vector<char>& left_out) {
   Mesh kept;
   kept.points = fine.points;
@@ -131,7 +131,7 @@ Mesh without(const Mesh& fine, const std::vector<char>& left_out) {
   return kept;
 }
 
-/// How many elements have each of the curves' edges as a side.
+/// Returns the number of elements at an edge of each curve.
 std::vector<int> elements_on_curves(const Mesh& mesh) {
   std::vector<int> elements(mesh.curves.size(), 0);
   for_each_edge_on_curve(mesh, [&](int curve, std::span<const HalfEdge> edge) {
@@ -173,17 +173,18 @@ class Comparison {
   }
 
  private:
-  /// A place on the mesh, and the curve or, if that is -1, the face that it belongs to.
+  /// A place on the mesh with its curve or, if that is -1, its face.
   struct Sample {
     Vec3 x;
     int face, curve = -1;
   };
 
-  /// Distance to the true surface near a face, in diagonals. `near`: that of a place nearby, in its unit.
+  /// Returns the distance to the true surface near a face, in diagonals. `near` is the distance of a nearby
+  /// place, in its unit.
   double to_face(int face, const Vec3& x, double& near) const {
     return (projector_ ? norm(projector_->to_face(face, x) - x) : to_triangles(x, near)) / diagonal_;
   }
-  /// Most places lie about as far from the model as the one before.
+  /// Returns the distance to the triangles. Most places lie about as far away as the previous one.
   double to_triangles(const Vec3& x, double& near) const {
     constexpr double kOnIt = 1e-9;
     NearestTriangle::Found found = triangles_[0].find(x, 2 * near + kOnIt * diagonal_);
@@ -194,7 +195,7 @@ class Comparison {
     return norm(projector_->to_curve(curve, x) - x) / diagonal_;
   }
 
-  /// In diagonals.
+  /// Returns the size in diagonals.
   double size_at(const Vec3& x, int& hint) const { return size_ ? size_->at(x, hint) / diagonal_ : kInf; }
 
   void measure(const std::vector<Sample>& samples, Distances& distances) const {
@@ -315,7 +316,7 @@ class Comparison {
   }
 
   std::vector<Place> places_on_surface() const {
-    constexpr double kSpacing = 1.0 / 50;  // of the diagonal
+    constexpr double kSpacing = 1.0 / 50;  // part of the diagonal
     std::vector<Place> places;
     std::vector<char> seen(fine_.points.size(), 0);
     for (std::size_t t = 0; t < fine_.triangles.size(); ++t) {
@@ -343,7 +344,7 @@ class Comparison {
         distances[i] = elements.distance(places[i].at, reach);
         sizes[i] = size_at(places[i].at, hint);
         if (i + 1 == end) break;
-        // The distance changes by no more than the place moves.
+        // The distance changes by at most the step between places.
         constexpr double kRounding = 1 + 1e-9;
         reach = kRounding * (distances[i] + norm(places[i + 1].at - places[i].at)) +
                 kRounding * 1e-12 * diagonal_;
@@ -361,7 +362,7 @@ class Comparison {
   LineIndex lines_;
   std::span<const HalfEdge> sides_;  ///< of the mesh
   std::vector<char> is_cut_;
-  std::vector<NearestTriangle> triangles_;  ///< one, of a model without a projector
+  std::vector<NearestTriangle> triangles_;  ///< one, for a model without a projector
   SurfaceReport report_;
 };
 

@@ -9,9 +9,11 @@
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/nearest_triangle.h"
 
+// This header searches distances to meshes and normals of faces. Comparison of surfaces and repairs use it.
+
 namespace delquad {
 
-/// Finds the distance to the elements of a mesh, each quad being four triangles around its centre.
+/// Distance search among the elements of a mesh; each quad is four triangles around its center.
 class NearestElement {
  public:
   explicit NearestElement(const Mesh& mesh) : mesh_(mesh) {
@@ -22,7 +24,7 @@ class NearestElement {
     tree_ = BoxTree<Vec3>(boxes_);
   }
 
-  /// Infinite where nothing is within `reach`.
+  /// Returns the distance to the nearest element; infinite if none is within `reach`.
   double distance(const Vec3& x, double reach) const {
     double best2 = reach * reach;
     bool found = false;
@@ -54,7 +56,7 @@ class NearestElement {
   BoxTree<Vec3> tree_;
 };
 
-/// Which way the faces of a model look.
+/// Normals of the faces of a model.
 class FaceNormals {
  public:
   explicit FaceNormals(const Mesh& fine) : fine_(fine) {
@@ -63,8 +65,8 @@ class FaceNormals {
     tree_ = BoxTree<Vec3>(boxes_);
   }
 
-  /// Whether `normal` points away from the sides of all triangles of the place's face within `reach`, and
-  /// there is one: on a bend sharper than that, some look the same way.
+  /// Returns whether the place's face has triangles within `reach`, and `normal` points away from the sides
+  /// of all. On a sharper bend, some look the same way.
   bool all_point_away(const Place& place, const Vec3& normal, double reach) const {
     double limit2 = reach * reach;
     bool some = false, same_way = false;
@@ -78,7 +80,7 @@ class FaceNormals {
       some = true;
       if (!(dot(cross(q - p, r - p), normal) > 0)) return;
       same_way = true;
-      limit2 = -1;  // enough
+      limit2 = -1;  // one is enough
     });
     return some && !same_way;
   }

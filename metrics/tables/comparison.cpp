@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kTimeColumn = "seconds";
 constexpr int kDigits = 4;
 
-/// One that is better one way.
+/// Returns the metric of a key, if one direction is better.
 Metric comparable(const std::string& key, const std::vector<Metric>& own) {
   std::vector<Metric> metrics(metric_registry().begin(), metric_registry().end());
   metrics.insert(metrics.end(), own.begin(), own.end());
@@ -38,7 +38,7 @@ std::string name(const CellRecord& r) { return r.group + " " + r.pipeline; }
 
 using Runs = std::vector<const CellRecord*>;
 
-/// Cells that differ in the seed alone, before and after, in the same order.
+/// Cells that differ only in the seed, before and after, in the same order.
 struct Row {
   std::string group, pipeline;
   Runs before, after;
@@ -49,7 +49,7 @@ std::string group_of(const CellRecord& r) {
   return has_seed ? row_group(r) : r.group;
 }
 
-/// Sorts cells into those that both runs have and the rest.
+/// Pairs the cells of both runs, and lists the rest.
 std::vector<Row> pair_cells(const std::vector<CellRecord>& before, const std::vector<CellRecord>& after,
                             Comparison& result) {
   std::map<std::string, const CellRecord*> later;
@@ -122,7 +122,7 @@ double mean_magnitude(const Runs& runs, const std::string& key) {
   return means.empty() ? 0 : std::abs(mean(means));
 }
 
-/// Failed cells lose.
+/// Compares over domains; failed cells lose.
 std::vector<DomainChange> compare_over_domains(const std::vector<CellRecord>& before,
                                                const std::vector<CellRecord>& after,
                                                const std::vector<Metric>& metrics, double tolerance,
@@ -168,7 +168,7 @@ const char* text_of(Verdict verdict) {
   }
 }
 
-/// The words behind a change, with the number of runs.
+/// Returns the remark on a change, with the number of runs.
 std::string remark(Verdict verdict, std::size_t runs, const std::string& failures = "") {
   std::string text = runs == 1 ? "one run" : fmt::format("{} runs", runs);
   if (!failures.empty()) text += "; " + failures;

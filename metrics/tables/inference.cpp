@@ -15,7 +15,7 @@ namespace delquad {
 
 namespace {
 
-/// Compares runs of pipelines that make quads; in measures of quads alone of those that leave no triangles.
+/// Compares runs of pipelines that make quads. Measures of quads leave out pipelines that leave triangles.
 class Comparing {
  public:
   explicit Comparing(const std::vector<CellRecord>& records) : records_(records) {
@@ -53,7 +53,7 @@ class Comparing {
   std::set<std::string> with_triangles_, with_quads_, done_;
 };
 
-/// What is said where the first is proven to be better, and to be worse.
+/// Texts for a first that is proven better, and for one that is proven worse.
 using Words = std::array<const char*, 2>;
 
 std::string in_words(const PairComparison& pair, const ClaimFamily& family, const Words& words) {
@@ -180,17 +180,17 @@ namespace {
 constexpr const char* kSeconds = "seconds";
 constexpr const char* kTauGiven = "tau_given";
 constexpr int kTimeDigits = 2;
-/// What the paper's tables show, with the counts, and what eta cannot see.
+/// Columns of the paper's tables, with counts, and properties that eta cannot see.
 const std::vector<std::pair<const char*, int>> kColumns = {
     {"n_vertices", 0}, {"n_quads", 0},     {"n_triangles", 0},   {"eta_worst", 3},
     {"eta_mean", 3},   {"d4", 1},          {"d_min", 0},         {"d_max", 0},
     {"tau", 1},        {kTauGiven, 1},     {"percent_quads", 1}, {"aspect_max", 1},
     {"edge_min", 3},   {"misalignment", 1}};
-/// And what stages do that lessen irregular vertices.
+/// Stages that remove irregular vertices, and their columns.
 constexpr const char* kRegularStages = "QKR";
 const std::vector<const char*> kRegularity = {"n_irregular", "n_irregular_on_curves", "n_necessary",
                                               "n_beyond"};
-/// What pairs of pipelines are compared by, beside measures of the study's own.
+/// Measures in which pairs of pipelines are compared, beside the study's own.
 const std::vector<const char*> kCompared = {"eta_mean", "eta_worst", "d4", "tau"};
 
 std::optional<Metric> metric_of(const std::string& key, const std::vector<Metric>& own) {
@@ -233,7 +233,7 @@ std::vector<PairComparison> compare_hypotheses(const StudyFile& study, const std
   std::vector<PairComparison> all;
   for (const Hypothesis& h : study.hypotheses)
     for (const std::string& key : h.measures) {
-      // Of a measure that no record knows there is nothing to compare.
+      // A measure that no record has cannot be compared.
       const Metric metric = metric_of(key, own).value_or(Metric{key, key, "", Better::kHigher, 0, ""});
       all.push_back(compare(h.along, h.better, h.than, metric));
       all.back().test = family.add(wilcoxon(all.back().domains.differences));

@@ -11,44 +11,45 @@
 #include "metrics/tables/study_file.h"
 #include "metrics/tables/table.h"
 
+// This header tests claims of a study. Its tables and reports use it.
+
 namespace delquad {
 
-/// With fewer domains Wilcoxon's test can prove nothing at 5 %.
+/// Fewer domains prove nothing at 5 % by Wilcoxon's test.
 inline constexpr std::size_t kFewestDomains = 6;
 
-/// Two pipelines, or two values of an axis, in one measure, over their common domains.
+/// Comparison of two pipelines, or of two values of an axis, in a measure, over common domains.
 struct PairComparison {
   std::string first, second;
   Metric metric;
   PairedDomains domains;                  ///< first minus second
-  std::optional<Interval> interval = {};  ///< of the mean, over the domains on which neither has failed
-  std::size_t test = 0;                   ///< of its family: Wilcoxon's over the domains
+  std::optional<Interval> interval = {};  ///< interval of the mean, over domains where neither failed
+  std::size_t test = 0;                   ///< index in its family of Wilcoxon's test over domains
 
-  /// "DB failed on 2 domains, PB on 1"; empty: neither has.
+  /// Returns "DB failed on 2 domains, PB on 1"; empty: neither failed.
   std::string failures() const;
 };
 
-/// Everything that the tables of a study may claim. Either all pairs of its pipelines are one family of
-/// tests, or its hypotheses are. See docs/statistics.md.
+/// All claims of a study's tables. One family of tests has all pairs of pipelines, or the hypotheses; see
+/// docs/statistics.md.
 class Inference {
  public:
-  /// `records` have to outlive it.
+  /// `records` must outlive it.
   Inference(const StudyFile& study, const std::vector<CellRecord>& records);
   Inference(const Inference&) = delete;
   Inference& operator=(const Inference&) = delete;
 
-  /// The tests of the pairs, which are explored where the study has hypotheses.
+  /// Returns the tests of pairs, which are exploratory if the study has hypotheses.
   const ClaimFamily& family() const { return family_; }
-  /// Every two pipelines that share two domains or more, in every measure, and values of the axes that the
-  /// study asks for. Measures of quads leave out pipelines that leave triangles. Unsound meshes count as they
-  /// are.
+  /// Returns every two pipelines with at least two common domains, in every measure, and values of requested
+  /// axes. Pipelines that leave triangles have no measures of quads. Unsound meshes count.
   const std::vector<PairComparison>& pairs() const { return pairs_; }
-  /// The tests of the hypotheses.
+  /// Returns the tests of hypotheses.
   const ClaimFamily& planned() const { return planned_; }
-  /// A test for each measure of each hypothesis, in their order, whatever there is to test.
+  /// Returns a test for each measure of each hypothesis, in order, even without data.
   const std::vector<PairComparison>& hypotheses() const { return hypotheses_; }
-  /// Whether the first is proven to be better, or worse: by the test, and by an interval without 0 on the
-  /// same side. A study with hypotheses proves them alone.
+  /// Returns whether the first is proven to be better or worse: by the test, and by an interval on the same
+  /// side of 0. If a study has hypotheses, only they are proven.
   std::optional<bool> first_is_better(const PairComparison& pair) const;
 
  private:
@@ -56,18 +57,18 @@ class Inference {
   std::vector<PairComparison> pairs_, hypotheses_;
 };
 
-/// The same in a family.
+/// Returns the same within a family.
 std::optional<bool> first_is_better(const PairComparison& pair, const ClaimFamily& family);
 
-/// A row for each pair: domains and runs, and on how many domains the first is better and worse and each has
-/// failed. Then the mean of the domains with its 95 % interval, p-values, and what is proven, in words.
+/// Returns a row for each pair: domains and runs, and domains on which the first is better or worse and each
+/// has failed. Then come the mean of the domains with its 95 % interval, p-values, and the finding.
 Table pairs_table(const std::string& title, const Inference& inference);
-/// The same of what was planned.
+/// Returns the same rows for hypotheses.
 Table hypotheses_table(const std::string& title, const Inference& inference);
 
-/// The measures that pairs are compared by.
+/// Returns the measures in which pairs are compared.
 std::vector<Metric> compared_measures(const StudyFile& study, const std::vector<CellRecord>& records);
-/// What no value of a measure of the project's own can leave.
+/// Returns the range of values of a built-in measure.
 Interval range_of(const std::string& key);
 /// Returns the columns of the study's table. They are the number of runs, the measures of the paper's tables,
 /// the study's own measures, other measures in its columns, and times.

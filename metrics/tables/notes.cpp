@@ -13,7 +13,7 @@
 namespace delquad {
 namespace {
 
-/// A list of a kind of T, by a name, in the order of first use.
+/// List of values of T by name, in the order of first use.
 template <class T>
 using ByName = std::vector<std::pair<std::string, T>>;
 
@@ -29,7 +29,7 @@ void add_once(const std::string& name, std::vector<std::string>& names) {
 
 using Calibrations = std::vector<CalibrationRecord>;
 
-/// Part by which it has more quads than it should.
+/// Returns the part by which it has too many quads.
 double excess(const CalibrationRecord& c) { return c.quads / c.wanted - 1; }
 
 std::string note(const std::string& name, Calibrations runs) {
@@ -54,8 +54,8 @@ double quads_of(const CellRecord& record) {
   return value_of(record, "n_quads") + (triangles > 0 ? triangles / 2 : 0);
 }
 
-/// Lists other words, and by how many percent they have more quads, at least and at most: ", FB +3 to +17 %".
-/// Words as near as peers have to be are left out.
+/// Lists other pipelines with the least and largest excess of quads in percent: ", FB +3 to +17 %". Pipelines
+/// within the peers' tolerance are left out.
 std::string others_text(const std::vector<CellRecord>& records, const std::string& target) {
   std::map<std::string, double> wanted;  // by case and variant
   for (const CellRecord& record : records)
@@ -74,7 +74,7 @@ std::string others_text(const std::vector<CellRecord>& records, const std::strin
   return text;
 }
 
-/// The cases on which a word has quads, those of them on which it leaves triangles, and those without quads.
+/// Cases on which a pipeline has quads, leaves triangles among them, and has no quads.
 struct Cases {
   std::vector<std::string> all, with_triangles, without_quads;
 };
@@ -87,7 +87,7 @@ ByName<Cases> cases_by_word(const std::vector<CellRecord>& records) {
     add_once(record.name, makes_quads(record) ? cases.all : cases.without_quads);
     if (leaves_triangles(record)) add_once(record.name, cases.with_triangles);
   }
-  std::erase_if(words, [](const auto& word) { return word.second.all.empty(); });  // words of triangles
+  std::erase_if(words, [](const auto& word) { return word.second.all.empty(); });  // pipelines of triangles
   return words;
 }
 

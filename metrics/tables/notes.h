@@ -7,20 +7,21 @@
 
 namespace delquad {
 
-/// A note for each calibrated peer on each case: by how much its size was changed, and whether it has the
-/// number of quads. Where some meshes miss it, the note has their number and the worst.
+/// Returns a note for each calibrated peer on each case: the change of its size, and whether it has the
+/// number of quads. If some meshes miss it, the note has their number and the worst one.
 std::vector<std::string> calibration_notes(const std::vector<CellRecord>& records);
 
-/// For each word that peers were brought to: these peers, and by how many percent other words have more quads
-/// or fewer. Words as near as peers have to be are left out. Nothing where no peer was calibrated.
+/// Returns a note for each pipeline that peers were calibrated to: these peers, and percentages by which
+/// other pipelines have more or fewer quads. Pipelines within the peers' tolerance are left out. Returns
+/// nothing without calibrated peers.
 std::vector<std::string> quad_count_notes(const std::vector<CellRecord>& records);
 
-/// For each word that leaves triangles among its quads: on how many of its cases and on which (five at most
-/// by name), then `consequence`.
+/// Returns a note for each pipeline that leaves triangles among quads: the number of its cases, up to five of
+/// their names, then `consequence`.
 std::vector<std::string> triangle_notes(const std::vector<CellRecord>& records,
                                         const std::string& consequence);
 
-/// For each word that makes quads, but not everywhere: where it made none.
+/// Returns a note for each pipeline that makes quads in some cases only: the cases without quads.
 std::vector<std::string> quadless_notes(const std::vector<CellRecord>& records);
 
 }  // namespace delquad

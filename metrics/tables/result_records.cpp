@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 using namespace nlohmann::literals;
 using Json = nlohmann::ordered_json;
 
-/// Processor time; of steps in other processes, such as reading CAD, time on the clock.
+/// Adds processor times; for steps in other processes, such as reading CAD, wall-clock times.
 void add_step_times(const Json& record, std::map<std::string, double>& values) {
   Json seconds = record.at("seconds");
   seconds.update(record.value("cpu_seconds", Json::object()));
@@ -135,10 +135,10 @@ CellRecord parse(const Json& json) {
   return record;
 }
 
-/// Behind all others.
+/// Place after all others.
 constexpr std::array<std::size_t, 3> kNoPlace = {std::numeric_limits<std::size_t>::max(), 0, 0};
 
-/// Nothing where there is none that can be read: records tell all but the order.
+/// Returns the study, or nothing if it is unreadable, since records have all but the order.
 std::optional<StudyFile> readable_study(const fs::path& folder) {
   try {
     return read_study(folder);
@@ -147,7 +147,7 @@ std::optional<StudyFile> readable_study(const fs::path& folder) {
   }
 }
 
-/// Which cell it is tells its folder.
+/// Returns a damaged record; its folder identifies the cell.
 CellRecord damaged_record(const fs::path& file, const std::string& problem,
                           const std::optional<StudyFile>& study) {
   CellRecord record;
@@ -173,7 +173,7 @@ CellRecord read_record(const fs::path& file, const std::optional<StudyFile>& stu
         json.contains("digest") && !is_sealed(text)
             ? damaged_record(file, file.string() + ": was changed: its digest is not that of its text", study)
             : parse(json);
-  } catch (const std::exception& error) {  // of Json, or InputError
+  } catch (const std::exception& error) {  // from Json, or InputError
     record = damaged_record(file, json_problem(file, "", error), study);
   }
   record.folder = file.parent_path();

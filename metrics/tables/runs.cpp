@@ -15,10 +15,10 @@ namespace delquad {
 namespace {
 
 struct RunColumn {
-  Metric metric;     ///< key, title, unit, which way is better; what it means stands in `source`
-  Interval range;    ///< of numbers
+  Metric metric;     ///< key, title, unit, better direction; `source` has the meaning
+  Interval range;    ///< range of numbers
   const char* type;  ///< "text" or "number"
-  std::function<std::string(const CellRecord&)> field;  ///< in quotes where it must be
+  std::function<std::string(const CellRecord&)> field;  ///< quoted if needed
 };
 
 std::string status_of(const CellRecord& record) {
@@ -26,7 +26,7 @@ std::string status_of(const CellRecord& record) {
   return !record.skipped ? "failed" : record.kind == kNotApplicable ? kNotApplicable : "skipped";
 }
 
-/// In a line: the kind of failure and the first line of its text.
+/// Returns the kind of failure and the first line of its text, in one line.
 std::string reason_of(const CellRecord& record) {
   if (record.reason.empty()) return fmt::format("{}", fmt::join(record.unsound, "; "));
   const std::string text = record.reason.substr(0, record.reason.find('\n'));
@@ -104,7 +104,7 @@ class RunColumns {
             metric.better == Better::kLower ? metric.worst : HUGE_VAL};
   }
 
-  /// In which claims it is tested.
+  /// Returns the kind of claims in which a measure is tested.
   const char* tested(const std::string& key) const {
     if (study_.hypotheses.empty())
       return std::ranges::find(compared_, key, &Metric::key) != compared_.end() ? "pairs" : "";

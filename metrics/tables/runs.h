@@ -8,12 +8,12 @@
 
 namespace delquad {
 
-/// The cells of an experiment for other programs, and what is in them.
+/// An experiment's cells as CSV for other programs.
 struct RunsCsv {
-  std::string lines;    ///< one for each record: what it is of, what came of it, every measure and time
-  std::string columns;  ///< one for each column of `lines`: meaning, unit, range, which way is better
+  std::string lines;    ///< a line for each record: its cell, outcome, all measures and times
+  std::string columns;  ///< a line for each column of `lines`: meaning, unit, range, better direction
 };
-/// With all digits; empty where a value is not defined.
+/// Returns the CSV with all digits; values that are not defined are empty.
 RunsCsv runs_csv(const StudyFile& study, const std::vector<CellRecord>& records);
 
 }  // namespace delquad

@@ -9,17 +9,17 @@
 namespace delquad {
 namespace {
 
-/// The row of a cell, but for the value along the axis.
+/// Returns the row of a cell without its value on the axis.
 std::string row_across(const CellRecord& record, const std::string& along) {
   return row_group(record, along) + (along.empty() ? "" : " " + record.pipeline);
 }
 
-/// What two cells that are compared have in common.
+/// Returns the common key of two cells that are compared.
 std::string partner_key(const CellRecord& record, const std::string& along) {
   return along.empty() ? record.group : row_across(record, along) + " " + value_along(record, kSeedAxis);
 }
 
-/// Values of a domain, by variant.
+/// Values of a domain by variant.
 using ByVariant = std::map<std::string, std::vector<double>>;
 
 double domain_mean_of(ByVariant variants) {
@@ -94,7 +94,7 @@ std::vector<Samples> group_samples(const std::vector<CellRecord>& records) {
     Samples& row = rows[at->second];
     (record.reason.empty() ? row.done : record.skipped ? row.skipped : row.failed).push_back(&record);
   }
-  // Groups stay together: by the first of their cells.
+  // Groups stay together, in the order of their first cells.
   std::map<std::string, std::size_t> order;
   for (const Samples& row : rows) order.try_emplace(row.group, order.size());
   std::ranges::stable_sort(rows, {}, [&](const Samples& row) { return order.at(row.group); });
@@ -129,7 +129,7 @@ PairedDomains pair_by_domain(std::span<const CellRecord* const> a, std::span<con
       has_mesh[side] = sides[side]->reason.empty() && (!of_quads || makes_quads(*sides[side]));
       none[side] = !has_mesh[side] || std::isnan(values[side]);
     }
-    // The measure may not be defined for a mesh that is there.
+    // The measure may be undefined for an existing mesh.
     if (none[0] && none[1] && (has_mesh[0] || has_mesh[1])) continue;
     const auto [at, is_new] = domains.try_emplace(domain_of(*record));
     if (is_new) names.push_back(at->first);

@@ -9,58 +9,59 @@
 #include "metrics/tables/result_records.h"
 #include "metrics/tables/statistics.h"
 
+// This header groups records by rows and domains. Tables and tests use it.
+
 namespace delquad {
 
-/// The axis whose values are samples of the same thing.
+/// Axis whose values are samples of the same thing.
 inline constexpr const char* kSeedAxis = "seed";
 
-/// The value of a measure; NaN: not known.
+/// Returns the value of a measure; NaN: not known.
 double value_of(const CellRecord& record, const std::string& key);
-/// The mesh has quads.
+/// Returns whether the mesh has quads.
 bool makes_quads(const CellRecord& record);
-/// The mesh has triangles beside its quads.
+/// Returns whether the mesh has triangles beside quads.
 bool leaves_triangles(const CellRecord& record);
-/// The measure is of quads alone, or of vertices among quads: triangles that are left make it look better.
+/// Returns whether the measure is only of quads, or of vertices among quads: leftover triangles improve it.
 bool is_of_quads(const std::string& key);
-/// The case and what else tells the runs of a row from those of others: its variant without the seed, and
-/// without `along`.
+/// Returns the row of a run: its case and its variant, without the seed and without `along`.
 std::string row_group(const CellRecord& record, const std::string& along = "");
-/// The value of an axis, by its title; that of none is the pipeline.
+/// Returns the value on an axis, by title; for an empty title the pipeline.
 const std::string& value_along(const CellRecord& record, const std::string& along);
 
-/// The cells of one row: a pipeline on a variant, with every seed.
+/// Cells of a row: a pipeline on a variant, with all seeds.
 struct Samples {
   std::string group, pipeline;
   std::vector<const CellRecord*> done, skipped, failed;
 
-  /// Of a measure, those that are known.
+  /// Returns the known values of a measure.
   std::vector<double> of(const std::string& key) const;
 };
 
-/// By group, in the order of the first cell of each. The records have to outlive it.
+/// Groups records in the order of the first cell of each. The records must outlive the result.
 std::vector<Samples> group_samples(const std::vector<CellRecord>& records);
 
-/// Two sides on every domain where they ran the same case, variant and seed. Two values along an axis ran
-/// them with the same pipeline, and share the variant but for that axis. A domain's difference is the mean
-/// over its variants of the mean over their seeds.
+/// Comparison of two sides on every domain where both ran the same case, variant and seed. Two values on an
+/// axis need the same pipeline and the same variant but for that axis. The difference on a domain is the mean
+/// over variants of the mean over seeds.
 ///
-/// A side fails on a domain if it has no value in a run in which the other side has one. It loses there: the
-/// difference is infinite. Where both fail, the domain is left out.
+/// A side fails on a domain if it lacks a value in a run where the other side has one. It loses there: the
+/// difference is infinite. Domains on which both fail are left out.
 struct PairedDomains {
   std::vector<std::string> names;
   std::vector<double> differences;             ///< by domain, first minus second
-  std::array<std::size_t, 2> failed = {0, 0};  ///< on how many of the domains each side has
+  std::array<std::size_t, 2> failed = {0, 0};  ///< number of domains on which each side failed
   std::vector<std::string> left_out;
-  std::size_t runs = 0;  ///< pairs of them, both with a value
+  std::size_t runs = 0;  ///< pairs with both values
 
-  /// The differences of domains on which neither has failed.
+  /// Returns the differences on domains where neither failed.
   std::vector<double> finite() const;
   bool has_failures() const { return failed[0] + failed[1] > 0; }
 };
-/// Takes records that were not skipped. `of_quads`: a mesh without quads counts as none.
+/// Pairs records that were not skipped. With `of_quads`, a mesh without quads counts as none.
 PairedDomains pair_by_domain(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,
                              const Metric& metric, const std::string& along = "", bool of_quads = true);
-/// The mean of each domain on which there are values.
+/// Returns the mean of each domain that has values.
 std::vector<double> means_by_domain(std::span<const CellRecord* const> runs, const std::string& key);
 
 }  // namespace delquad

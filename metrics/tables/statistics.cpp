@@ -15,7 +15,7 @@ namespace delquad {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kMostExact = 60;  // up to here the numbers of ways are exact enough, and quickly had
+constexpr std::size_t kMostExact = 60;  // up to here counting is exact enough and fast
 
 std::vector<double> without_zeros(std::span<const double> differences) {
   std::vector<double> values;
@@ -23,9 +23,9 @@ std::vector<double> without_zeros(std::span<const double> differences) {
   return values;
 }
 
-/// The part of all choices of signs whose positive ranks add up to at most `sum`.
+/// Returns the part of all choices of signs whose positive ranks add up to at most `sum`.
 double exact_tail(const std::vector<int>& ranks, int sum) {
-  std::vector<double> ways(static_cast<std::size_t>(sum) + 1, 0);  // parts, by sum of positive ranks
+  std::vector<double> ways(static_cast<std::size_t>(sum) + 1, 0);  // parts by sum of positive ranks
   ways[0] = 1;
   for (const int rank : ranks)
     for (std::size_t s = ways.size(); s-- > 0;) {
@@ -48,8 +48,8 @@ double tail_of(const std::vector<int>& ranks, int sum) {
   return ranks.size() <= kMostExact ? exact_tail(ranks, sum) : normal_tail(ranks, sum);
 }
 
-/// The largest p-value that a test may be able to reach and count: kSignificance over the least number K such
-/// that no more than K tests can reach kSignificance / K [tarone1990].
+/// Returns the largest least p-value of tests that count. It is kSignificance / K for the least K such that
+/// at most K tests can reach it [tarone1990].
 double reach(const std::vector<RankTest>& tests) {
   std::vector<double> least;
   for (const RankTest& test : tests) least.push_back(test.least_p);
@@ -82,13 +82,13 @@ double mean(std::span<const double> samples) {
 
 namespace {
 
-/// That leaves out 5 %, half of it on either side.
+/// Returns the quantile that leaves out 5 %, half on either side.
 double student_quantile(double degrees_of_freedom) {
   constexpr double kTail = 0.025;
   return quantile(complement(boost::math::students_t(degrees_of_freedom), kTail));
 }
 
-/// And the standard error of the mean, of two or more.
+/// Returns the mean and its standard error, for two samples or more.
 std::array<double, 2> mean_and_error(std::span<const double> samples) {
   const auto n = static_cast<double>(samples.size());
   const double centre = mean(samples);
@@ -144,10 +144,10 @@ std::optional<Interval> interval_of_mean(std::span<const double> values) {
   const double half = confidence_half_width(values);
   double cubes = 0;
   for (const double value : values) cubes += std::pow(value - centre, 3);
-  const double deviation = error * std::sqrt(n - 1);  // whose square is the mean of the squares
+  const double deviation = error * std::sqrt(n - 1);  // its square is the mean of the squares
   const double skewness = cubes / n / std::pow(deviation, 3);
   if (values.size() < kFewest || !(std::abs(skewness) > 1e-9)) return Interval{centre - half, centre + half};
-  // Where Student's statistic over the root of n is what the interval leaves of it, without the skewness.
+  // Returns where the limit by Student's statistic over the root of n lies without its skewness.
   const auto inverse = [&](double u) {
     return 3 / skewness * (std::cbrt(1 + skewness * (u - skewness / (6 * n))) - 1);
   };

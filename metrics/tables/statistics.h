@@ -7,67 +7,70 @@
 #include <string>
 #include <vector>
 
+// This header has tests and intervals. Tables of studies use it.
+
 namespace delquad {
 
 double mean(std::span<const double> samples);
-/// Half the width of the 95 % confidence interval of the mean, by Student's t; NaN of fewer than two.
+/// Returns half the width of the 95 % confidence interval of the mean, by Student's t; NaN for fewer than two
+/// samples.
 double confidence_half_width(std::span<const double> samples);
 
-/// Twice the rank of each value, from 1: whole numbers also where ties share a mean rank.
+/// Returns twice the rank of each value, from 1, so that shared mean ranks of ties are integers.
 std::vector<int> double_ranks(std::span<const double> values);
 
-/// A test by ranks of the hypothesis that there is no difference.
+/// Rank test of the hypothesis that there is no difference.
 struct RankTest {
-  double p = 1;        ///< how likely it is that samples lean so far to one side when nothing does
-  double least_p = 1;  ///< the least that so many samples can give, however they come out
+  double p = 1;        ///< probability of a lean at least as large without any difference
+  double least_p = 1;  ///< least p that so many samples can give
   double lean = 0;     ///< above 0: the first is larger
 };
-/// Wilcoxon's signed-rank test of differences, first minus second, two-sided. Zeros are left out, ties share
-/// their mean rank; differences may be infinite. Exact up to 60 differences, by the normal distribution
-/// beyond. p = 1 of none.
+/// Tests differences, first minus second, by Wilcoxon's two-sided signed-rank test. Zeros are left out, and
+/// ties share their mean rank; differences may be infinite. It is exact up to 60 differences, and by the
+/// normal distribution beyond. Returns p = 1 without differences.
 RankTest wilcoxon(std::span<const double> differences);
-/// Holm's step-down adjustment [holm1979]: a hypothesis may be rejected at a level when its adjusted p-value
-/// is at most that level; then the probability of any false rejection is at most the level, however the tests
-/// depend on each other.
+/// Returns p-values adjusted by Holm's step-down method [holm1979]. A hypothesis may be rejected at a level
+/// if its adjusted p-value is at most that level. Then any false rejection has at most that probability, for
+/// any dependence of the tests.
 std::vector<double> holm(std::span<const double> p);
 
-/// Samples of one domain: of each of its variants the seeds.
+/// Samples of a domain: the seeds of each of its variants.
 using DomainSamples = std::vector<std::vector<double>>;
 
-/// The mean over variants of the mean over seeds; no variant may be empty.
+/// Returns the mean over variants of the mean over seeds; no variant may be empty.
 double domain_mean(const DomainSamples& domain);
 
 struct Interval {
   double low, high;
 };
 
-/// The 95 % interval of the mean by Student's statistic without its skewness [hall1992]; of fewer than six
-/// values by Student's statistic as it is. Nothing of fewer than two values.
+/// Returns the 95 % interval of the mean, by Student's statistic without its skewness [hall1992]. For fewer
+/// than six values Student's statistic is unchanged. Returns nothing for fewer than two values.
 std::optional<Interval> interval_of_mean(std::span<const double> values);
 
-/// The probability of any false claim in all tables of a study.
+/// Probability of any false claim in all tables of a study.
 inline constexpr double kSignificance = 0.05;
 
 enum class Finding {
   kProven,      ///< a difference
-  kNotProven,   ///< no difference is
-  kTooFew,      ///< samples: nothing could have been proven, whatever they say
-  kExploratory  ///< nothing was planned: no claim, whatever they say
+  kNotProven,   ///< no difference is proven
+  kTooFew,      ///< too few samples to prove anything
+  kExploratory  ///< not planned, so nothing is claimed
 };
 
-/// All tests of a study: what may be claimed, so that the probability of any false claim, anywhere, is at
-/// most kSignificance, however the tests depend on each other.
+/// All tests of a study. It decides what may be claimed, so that any false claim has at most the probability
+/// kSignificance, for any dependence of the tests.
 ///
-/// By Holm's method [holm1979] over the tests that could have proven something. The others, whose least
-/// p-value is above what the correction for all that count asks for, do not count [tarone1990]: their least
-/// p-values are known from the number of samples alone, before anybody has won.
+/// It applies Holm's method [holm1979] to the tests that could have proven something. Tests whose least
+/// p-value exceeds the corrected level for all counted tests do not count [tarone1990]. The least p-values
+/// follow from the numbers of samples, before any result.
 class ClaimFamily {
  public:
-  /// Returns the number of the test.
+  /// Returns the index of the test.
   std::size_t add(const RankTest& test);
-  /// To be called once, after all tests are added and before anything is asked.
+  /// Decides. Must be called once, after all tests are added and before any query.
   void decide();
-  /// In place of decide(): the tests are shown, and nothing is claimed.
+  /// Replaces decide(): tests are shown, and nothing is claimed.
   void explore();
   bool is_exploratory() const { return !findings_.empty() && findings_[0] == Finding::kExploratory; }
   const RankTest& test(std::size_t test) const { return tests_[test]; }
@@ -75,11 +78,11 @@ class ClaimFamily {
     assert(test < findings_.size());
     return findings_[test];
   }
-  /// Holm's; NaN of those that do not count.
+  /// Returns Holm's value; NaN for tests that do not count.
   double adjusted_p(std::size_t test) const { return adjusted_[test]; }
   std::size_t size() const { return tests_.size(); }
   std::size_t counted() const { return counted_; }
-  /// For people: over how many tests was corrected, and how many do not count.
+  /// Returns the number of tests in the correction, and of those that do not count, in words.
   std::string note(const char* whole = "of this study") const;
 
  private:

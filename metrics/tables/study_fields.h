@@ -6,11 +6,11 @@
 #include "io/cases/description.h"
 #include "metrics/tables/study_file.h"
 
-// The descriptions of what an experiment says of its tables.
+// This header describes the fields of an experiment's tables in files. Readers and writers of studies use it.
 
 namespace delquad {
 
-/// Digits of a measure after the decimal point.
+/// Most digits of a measure after the decimal point.
 inline constexpr int kMostDigits = 12;
 
 template <>

@@ -21,7 +21,7 @@ namespace delquad {
 
 namespace {
 
-/// ":LINE:COLUMN", as the parser has it in its text; empty where it has not.
+/// Returns ":LINE:COLUMN" from the parser's text; empty if it has none.
 std::string place_in(const std::string& text) {
   const auto at = text.find("at line ");
   int line = 0, column = 0;
@@ -58,13 +58,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr const char* kStudyFile = "study.json";
 
-/// Up to this many characters of a value make the name of a folder.
+/// Most characters of a value in the name of a folder.
 constexpr std::size_t kLongestValue = 40;
 
 }  // namespace
 
 std::string folder_text(const std::vector<std::string>& values, std::size_t i) {
-  constexpr std::size_t kDigits = 8;  // of a digest
+  constexpr std::size_t kDigits = 8;  // digits of a digest
   const auto plain = [](const std::string& text) {
     std::string result = text;
     for (char& c : result)

@@ -10,11 +10,13 @@
 #include <utility>
 #include <vector>
 
+// This header has the description of an experiment, study.json. Tables, the bench and reports use it.
+
 namespace delquad {
 
-/// What is wrong with a file of results, for people, by what reading its JSON has thrown: "FILE:LINE:COLUMN:
-/// WHAT: why" where it is no JSON, "FILE: WHAT: why" where another thing was expected in it. `what`: such as
-/// "is no record of a cell"; empty: nothing is said there.
+/// Returns a message on an unreadable file of results, from an exception of the JSON parser. It is
+/// "FILE:LINE:COLUMN: WHAT: why" for invalid JSON, and "FILE: WHAT: why" for unexpected content. `what` is a
+/// text such as "is no record of a cell"; empty: left out.
 std::string json_problem(const std::filesystem::path& file, const std::string& what,
                          const std::exception& error);
 
@@ -24,10 +26,10 @@ struct PublishedRow {
   std::map<std::string, double> values;  ///< by metric key
 };
 
-/// The column of a table that shows how long a step took.
+/// A column with the time of a step.
 struct StepTime {
   const char *key, *title;
-  const char* step;  ///< as records call it; empty: all of these together
+  const char* step;  ///< name in records; empty: all of these together
 };
 const std::vector<StepTime>& step_times_of_tables();
 
@@ -39,82 +41,82 @@ struct Hypothesis {
   bool operator==(const Hypothesis&) const = default;
 };
 
-/// Cells that may fail, as an experiment declares them: [[may_fail]].
+/// Cells that may fail, as declared in [[may_fail]].
 struct MayFail {
   std::string name, variant, pipeline;  ///< of the case and of the [[variant]]; empty: any
   bool operator==(const MayFail&) const = default;
 };
 
-/// What an experiment says of its tables.
+/// An experiment's entries for its tables.
 struct TablePlan {
   std::string title;
   std::vector<PublishedRow> published;
-  bool step_times = false;           ///< the table has a column for each step's time
-  std::vector<std::string> columns;  ///< of tables in Markdown and LaTeX, by key; empty: all
-  std::vector<std::string> pairs;    ///< titles of axes whose values are compared as pipelines are
+  bool step_times = false;           ///< the table has a column for the time of each step
+  std::vector<std::string> columns;  ///< columns in Markdown and LaTeX, by key; empty: all
+  std::vector<std::string> pairs;    ///< titles of axes whose values are compared like pipelines
   std::vector<Hypothesis> hypotheses;
   std::vector<MayFail> may_fail;
 };
 
-/// Geometries are the same if their digests are equal, or if their shapes agree as far as chords let them.
+/// Identity of a geometry: the digest, or the shape within the accuracy of chords.
 struct CaseGeometry {
-  std::string domain;         ///< what the case says; empty: the geometry tells
-  std::string digest;         ///< of the model's file, without what is no geometry; empty: there is none
+  std::string domain;         ///< declared domain; empty: by geometry
+  std::string digest;         ///< digest of the model's file, only of its geometry; empty: none
   std::vector<double> shape;  ///< moments; empty: not known
-  double chord_error = 0;     ///< part of its length or area that chords of curves may have cut off
+  double chord_error = 0;     ///< part of length or area that chords of curves may have cut off
 };
 
-/// The cells of an experiment.
+/// Cells of an experiment.
 struct StudyCells {
   std::string experiment;  ///< name of its file, without folder and extension
-  /// Digests of problems, by the folder of the variant: one, or more after folders were merged.
+  /// Digests of problems by folder of the variant: one, or more after folders were merged.
   std::map<std::string, std::vector<std::string>> problems;
   std::vector<std::string> cases, pipelines;
-  /// What varies, in its order, with its values.
+  /// Axes in order, with their values.
   std::vector<std::pair<std::string, std::vector<std::string>>> axes;
   std::map<std::string, CaseGeometry> geometry;  ///< by case
-  std::string plan;       ///< digest of all that determines the results, but for the order of cases
-  std::size_t cells = 0;  ///< that the experiment has
-  /// case -> pipeline -> name of the published row beside it
+  std::string plan;       ///< digest of everything that determines results, without the order of cases
+  std::size_t cells = 0;  ///< number of cells of the experiment
+  /// Name of the published row by case and pipeline.
   std::map<std::string, std::map<std::string, std::string>> compare;
-  bool plan_changed = false;  ///< after the first record was there
+  bool plan_changed = false;  ///< changed after the first record existed
 };
 
-/// The description of an experiment in its folder of results, beside the records of its cells: study.json.
+/// Description of an experiment in its folder of results: study.json, beside the records of cells.
 struct StudyFile : TablePlan, StudyCells {};
-/// What tables say then.
+/// Note of tables in that case.
 inline constexpr const char* kNotPlanned =
     "Not planned: hypotheses, cases, models, options or pipelines were changed after the first mesh was "
     "made.";
-/// Whether two have the same plan, or both no hypotheses.
+/// Returns whether both have the same plan, or no hypotheses.
 bool have_same_plan(const StudyFile& a, const StudyFile& b);
-/// By case, the domain that it counts as: it says one, or an earlier case has the same geometry, or it is one
-/// by itself.
+/// Returns the domain of each case: a declared one, the domain of an earlier case with the same geometry, or
+/// its own.
 std::map<std::string, std::string> domains_of(const StudyFile& study);
 
-/// Value `i` of those of an axis, as it stands in the name of a folder: what might not stand there is
-/// replaced by `_`, and long or doubtful texts by a digest.
+/// Returns value `i` of an axis as part of a folder's name. Unsuitable characters become `_`; long or
+/// ambiguous texts become a digest.
 std::string folder_text(const std::vector<std::string>& values, std::size_t i);
 
-/// Throws InputError when it cannot be written.
+/// Throws InputError if it cannot be written.
 void write_study(const std::filesystem::path& folder, const StudyFile& study);
-/// Nothing when there is none; throws InputError when it is no such file, or of another version.
+/// Returns nothing if there is none. Throws InputError for another file or version.
 std::optional<StudyFile> read_study(const std::filesystem::path& folder);
 
-/// Which cell of an experiment.
+/// Address of a cell in an experiment.
 struct CellAddress {
-  std::string name;                                          ///< of the case
-  std::vector<std::pair<std::string, std::string>> variant;  ///< what varies, by title, with its value
+  std::string name;                                          ///< name of the case
+  std::vector<std::pair<std::string, std::string>> variant;  ///< values of axes by title
   std::string pipeline;
 };
-/// Whether the cell is one of those that may fail.
+/// Returns whether the cell is one of the cells that may fail.
 bool is_one_of(const MayFail& cells, const CellAddress& cell);
 bool may_fail(const TablePlan& plan, const CellAddress& cell);
-/// Where the cell stands among those of the experiment: case, variant and pipeline. Nothing: it has none
-/// such.
+/// Returns the indices of the cell's case, variant and pipeline in the experiment; nothing if it is not
+/// there.
 std::optional<std::array<std::size_t, 3>> place_of(const StudyFile& study, const CellAddress& cell);
-/// The cell whose results lie in the folder of this name ("disc@seed=2"), with this pipeline; nothing where
-/// the experiment has none such.
+/// Returns the cell with results in the folder of this name ("disc@seed=2"), with this pipeline; nothing if
+/// the experiment has none.
 std::optional<CellAddress> find_cell(const StudyFile& study, const std::string& folder,
                                      const std::string& pipeline);
 

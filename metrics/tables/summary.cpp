@@ -15,14 +15,14 @@ namespace {
 
 using Runs = std::vector<const CellRecord*>;
 
-/// A pipeline, or a value of an axis, that has runs.
+/// A pipeline, or a value of an axis, with runs.
 struct Contestant {
   std::string name;
   Runs runs;
-  std::size_t rivals = 0, failed = 0;  ///< of its kind; domains
+  std::size_t rivals = 0, failed = 0;  ///< others of its kind; failed domains
 };
 
-/// Adds what its pairs say in a measure.
+/// Adds the findings of its pairs in a measure.
 void add_pairs(const Contestant& one, const std::string& key, const Inference& inference, TableRow& row) {
   std::map<std::string, std::set<int>> ways;  // by domain: above, below or like another
   std::vector<std::string> beaten;

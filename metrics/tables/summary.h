@@ -9,13 +9,13 @@
 
 namespace delquad {
 
-/// Pipelines beside each other, over all domains: a row for each in each measure that pairs are compared by.
-/// A study of one pipeline has rows for the values of the axes that it compares.
+/// Compares pipelines over all domains: a row for each, in each measure in which pairs are compared. A study
+/// of one pipeline has rows for the values of its compared axes.
 ///
-/// A row has the mean of the domains' means with the interval of interval_of_mean(). It counts the domains
-/// that it failed on, won and lost. It wins a domain if it is better there than every other row that it has a
-/// pair with. It loses the domain if it is worse than every one. Last it names the rows than which it is
-/// proven to be better. There are no rows for fewer than two domains.
+/// A row has the mean of the domains' means with its interval_of_mean(), and counts of failed, won and lost
+/// domains. It wins a domain if it is better there than every row that it has a pair with. It loses if it is
+/// worse than every one. Last, it names the rows than which it is proven better. Returns no rows for fewer
+/// than two domains.
 Table summarise(const StudyFile& study, const std::vector<CellRecord>& records, const Inference& inference);
 
 }  // namespace delquad

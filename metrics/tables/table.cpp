@@ -16,10 +16,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The most decimal places of values whose exact ones have `digits`: what is less is of no use to anybody.
+/// Returns the most useful decimal places of values whose exact ones have `digits`.
 int most_decimals(int digits) { return std::max(6, digits + 3); }
 
-/// Whether half of the last place is the rest, exactly.
+/// Returns whether the rest is exactly half of the last place.
 bool is_tie(double value, int decimals) {
   return std::fmod(std::ldexp(std::abs(value), decimals + 1), 2) == 1;
 }
@@ -69,7 +69,7 @@ std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::form
 
 namespace {
 
-/// Of UTF-8.
+/// Returns the number of characters in UTF-8.
 std::size_t characters(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
@@ -78,7 +78,7 @@ std::size_t characters(const std::string& text) {
 std::string markdown_escaped(const std::string& text) { return replace_all(text, "|", "\\|"); }
 
 constexpr TableStyle kMarkdown = {"**", "**", " \u00b1 ", markdown_escaped};
-/// A line with "failed" where its first value would be.
+/// Returns the cells of a line; "failed" is in place of its first value.
 std::vector<std::string> cells_of(const RenderedTable::Line& line) {
   std::vector<std::string> cells = line.names;
   bool said = line.missing.empty();
@@ -96,20 +96,20 @@ std::string status(const TableRow& row) {
   return row.unsound + (row.unsound.empty() || row.incomplete.empty() ? "" : ", ") + row.incomplete;
 }
 
-/// The number; where there is none, what stands for it.
+/// Returns the number, or the text that replaces it.
 std::string csv_value(const TableRow& row, const std::string& key) {
   const auto text = row.texts.find(key);
   const double value = value_or_nan(row.values, key);
   return std::isnan(value) && text != row.texts.end() ? csv_quoted(text->second) : csv_number(value);
 }
 
-/// Whether the 95 % interval goes on where no value can be.
+/// Returns whether the 95 % interval extends beyond possible values.
 bool leaves_range(double value, double half_width, const Interval& range) {
   const bool is_inside = value >= range.low && value <= range.high;
   return is_inside && (value - half_width < range.low || value + half_width > range.high);
 }
 
-/// What stands behind a mean: half the width of its interval, or the ends of what the range leaves of it.
+/// Returns the half-width of a mean's interval, or the ends of the clamped interval.
 std::string spread_text(double value, double half_width, const TableColumn& column, const TableStyle& style) {
   if (std::isnan(half_width)) return "";
   const int decimals = decimals_of(half_width, column.digits);
@@ -139,7 +139,7 @@ std::string cell(const TableRow& row, const TableColumn& column, const TableStyl
   return fmt::format("{} ({}, {})", text, published, difference_text(ours - published, decimals));
 }
 
-/// What stands in place of values where there are none; empty: there are.
+/// Returns the text in place of missing values; empty: none is missing.
 std::string shown_skip(const TableRow& row) {
   return row.skipped.empty() ? "" : row.skipped == kNotApplicable ? row.skipped : "skipped";
 }
@@ -259,7 +259,7 @@ nlohmann::ordered_json json_without_rows(const Table& table) {
 
 namespace {
 
-/// Of the row's values, by column.
+/// Returns the row's values by column.
 nlohmann::ordered_json by_column(const Table& table, const std::map<std::string, double>& values) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const TableColumn& column : table.columns)

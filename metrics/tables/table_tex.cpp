@@ -9,21 +9,21 @@
 #include "metrics/tables/table.h"
 
 // Tables for LaTeX, at 8 points. A line above each group has its name. Columns that do not fit beside each
-// other stand below each other, over the same rows.
+// other follow below, over the same rows.
 
 namespace delquad {
 namespace {
 
 constexpr double kPageWidth = 345;         ///< points: \textwidth of LaTeX's classes on A4 at 10 points
 constexpr double kColumnSpace = 6;         ///< points: twice \tabcolsep as set below
-constexpr double kMostOfNames = 100;       ///< points that the names' column takes; longer ones are broken
-constexpr double kLeastOfTexts = 70;       ///< points that a column of broken texts takes
+constexpr double kMostOfNames = 100;       ///< points of the column of names; longer names are broken
+constexpr double kLeastOfTexts = 70;       ///< points of a column of broken texts
 constexpr std::size_t kLongestPiece = 12;  ///< characters of a name without a place to break it
-constexpr std::size_t kLongestText = 16;   ///< characters of a word in a text without one
-constexpr std::size_t kLongestWord = 30;   ///< characters of a word in a note without one
-constexpr std::size_t kFullPage = 32;  ///< lines of groups, after which the next one has a page of its own
+constexpr std::size_t kLongestText = 16;   ///< characters of a word in a text
+constexpr std::size_t kLongestWord = 30;   ///< characters of a word in a note
+constexpr std::size_t kFullPage = 32;      ///< lines of groups, after which the next group starts a page
 
-/// The next character of UTF-8 and its bytes; U+FFFD for what is none.
+/// Returns the next character of UTF-8 and its number of bytes; U+FFFD if it is invalid.
 std::pair<char32_t, std::size_t> decode(std::string_view text) {
   auto at = text.begin();
   const auto code = boost::locale::utf::utf_traits<char>::decode(at, text.end());
@@ -31,7 +31,8 @@ std::pair<char32_t, std::size_t> decode(std::string_view text) {
   return {code, static_cast<std::size_t>(at - text.begin())};
 }
 
-/// Letters of western Europe that every LaTeX has in its first fonts; others would end its run.
+/// Returns whether LaTeX's default fonts have this letter of western Europe; other characters would stop
+/// LaTeX.
 bool is_in_every_font(char32_t code) {
   constexpr std::u32string_view kMissing = U"\u00D0\u00D7\u00DE\u00F0\u00F7\u00FE";
   return code >= 0xC0 && code <= 0xFF && kMissing.find(code) == kMissing.npos;
@@ -62,12 +63,12 @@ std::string tex_escaped(const std::string& text) {
   return result;
 }
 
-/// Comments end with their line.
+/// Returns the text in one line, since comments end with their line.
 std::string in_one_line(const std::string& text) { return replace_all(text, "\n", " "); }
 
 constexpr TableStyle kTex = {"\\textbf{", "}", " $\\pm$ ", tex_escaped};
 
-/// In points, at 8 points and rounded up, of text that is not escaped.
+/// Returns the width of unescaped text in points, at 8 points, rounded up.
 double width_of(const std::string& text) {
   constexpr std::string_view kThinOnes = " .,:;'!il|[]()/", kWideOnes = "mwMW%";
   double width = 0;
@@ -80,8 +81,8 @@ double width_of(const std::string& text) {
   return width;
 }
 
-/// Escaped, with places where words of more than `longest` characters may be broken: after what is no letter
-/// or figure, and after every few characters.
+/// Returns the escaped text, with breaks allowed in words of more than `longest` characters: after characters
+/// other than letters and digits, and after every few characters.
 std::string breakable(const std::string& text, std::size_t longest) {
   std::string result;
   for (std::size_t begin = 0, end; begin <= text.size(); begin = end + 1) {
@@ -123,7 +124,8 @@ class TexTable {
     }
   }
 
-  /// As many columns beside each other as fit, at least one: `tabular` below `tabular`, or `longtable`.
+  /// Returns as many columns beside each other as fit, at least one: `tabular` below `tabular`, or
+  /// `longtable`.
   std::string body(const std::string& environment) const {
     std::string text = "\\begingroup\\fontsize{8}{9.5}\\selectfont\\setlength{\\tabcolsep}{3pt}%\n";
     std::size_t first = 0;
@@ -146,7 +148,7 @@ class TexTable {
   }
 
  private:
-  /// The greatest width in the head and all lines.
+  /// Returns the greatest width in the head and all lines.
   template <class Text>
   double widest(Text text) const {
     double width = width_of(text(plain_.head));
@@ -154,7 +156,7 @@ class TexTable {
     return width;
   }
 
-  /// Points for columns beside the names.
+  /// Returns the points for columns beside the names.
   double room() const { return kPageWidth - name_ - kColumnSpace; }
 
   std::string line(const RenderedTable::Line& plain, const RenderedTable::Line& line, std::size_t first,
@@ -174,7 +176,7 @@ class TexTable {
     return text + " \\tabularnewline\n";
   }
 
-  /// The group's name above its rows; one that is wider than the page is broken.
+  /// Returns the group's name above its rows, broken if it is wider than the page.
   static std::string group_line(const std::string& group, std::size_t columns) {
     return fmt::format("\\multicolumn{{{}}}{{@{{}}l@{{}}}}{{{}}} \\tabularnewline\n", columns,
                        width_of(group) <= kPageWidth
@@ -202,10 +204,10 @@ class TexTable {
   }
 
   RenderedTable plain_, rendered_;
-  double name_ = 0;  ///< width
+  double name_ = 0;  ///< width of names
   bool is_name_broken_ = false;
-  std::vector<double> widths_;    ///< of columns, with the space between them
-  std::vector<char> are_broken_;  ///< columns whose texts go over lines
+  std::vector<double> widths_;    ///< widths of columns, with the space between them
+  std::vector<char> are_broken_;  ///< columns whose texts are broken over lines
 };
 
 }  // namespace

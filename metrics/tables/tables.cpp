@@ -66,7 +66,7 @@ class Tabulation {
  private:
   bool is_planned() const { return !study_.hypotheses.empty(); }
 
-  /// Says that questions which were asked after the runs are no claims.
+  /// Returns a note that questions asked after the runs are no claims.
   std::string late_note() const {
     return !study_.plan_changed ? ""
            : is_planned()       ? kNotPlanned
@@ -140,7 +140,7 @@ class Tabulation {
     table.notes.insert(table.notes.end(), notes.begin(), notes.end());
   }
 
-  /// What pairs lack, and why.
+  /// Adds notes on missing pairs.
   void note_pairs(Table& table) const {
     add_notes(triangle_notes(records_,
                              "no pair with it is compared in measures of quads (eta, d4 and the like), from "
@@ -150,7 +150,7 @@ class Tabulation {
     add_notes(quad_count_notes(records_), table);
   }
 
-  /// Summary and pairs in as few columns as say all, and with captions.
+  /// Prints summary and pairs in few columns, with captions.
   void print() {
     Table summary = outcome_.summary, pairs = is_planned() ? outcome_.hypotheses : outcome_.pairs;
     if (summary.rows.empty()) return;
@@ -201,7 +201,7 @@ class Tabulation {
     outcome_.files[kReferences] = kBibliography;
   }
 
-  /// What there is to say of single cells, and of those that are not there.
+  /// Adds notes on single cells and on missing ones.
   void note_cells() {
     std::vector<std::string>& notes = outcome_.table.notes;
     std::set<std::string> said;
@@ -228,9 +228,9 @@ class Tabulation {
           fmt::format("{} of {} cells have no result yet", study_.cells - records_.size(), study_.cells));
   }
 
-  /// Of each measure that has no value somewhere: where, and why.
+  /// Adds a note for each measure with missing values: where, and why.
   void note_failed_metrics() {
-    std::map<std::string, std::pair<std::size_t, std::string>> failed;  // how often, the first
+    std::map<std::string, std::pair<std::size_t, std::string>> failed;  // number, and the first
     for (const CellRecord& record : records_)
       for (const auto& [key, reason] : record.failed_metrics) {
         auto& [count, first] = failed[key];
@@ -242,7 +242,7 @@ class Tabulation {
                                                                     entry.first, entry.second));
   }
 
-  /// Against which size tau is measured.
+  /// Says which size tau is measured against.
   template <class Say>
   static void say_size(const CellRecord& record, const Say& say) {
     const bool uniform = !record.uniform_size.empty() && record.variant.empty();
@@ -256,7 +256,7 @@ class Tabulation {
         record.name, uniform ? " = " + record.uniform_size : "", fmt::join(record.size_adapted_to, " and ")));
   }
 
-  /// How many of the cells that may fail did.
+  /// Adds notes with the number of failed cells among the cells that may fail.
   void note_may_fail() {
     for (const MayFail& cells : study_.may_fail) {
       std::size_t all = 0, failed = 0;
@@ -324,7 +324,7 @@ Outcome make_tables(const fs::path& folder) { return make_tables(read_results(fo
 
 namespace {
 
-/// The table that a name stands for, in the formats that it is written in.
+/// A table of the outcome, with its name and formats.
 struct WrittenTable {
   const char* name;
   const Table Outcome::*table;
@@ -335,7 +335,7 @@ const WrittenTable kTables[] = {{"table", &Outcome::table, true},
                                 {"hypotheses", &Outcome::hypotheses, false},
                                 {"summary", &Outcome::summary, false}};
 
-/// By name; without a text those that are not there.
+/// Returns the texts by name; missing files are empty.
 std::map<std::string, std::string> texts_of(const Outcome& outcome) {
   std::map<std::string, std::string> files = {
       {kRunsFile, ""}, {kRunColumns, ""}, {kPrinted, ""}, {kReferences, ""}};
@@ -354,9 +354,9 @@ std::map<std::string, std::string> texts_of(const Outcome& outcome) {
 
 std::vector<std::string> write_tables(const fs::path& folder, const Outcome& outcome) {
   std::vector<std::string> errors;
-  std::error_code kept;  // in a folder that cannot be written to, as the errors say then
+  std::error_code kept;  // in a folder without write access, as the errors then say
   for (const auto& [name, text] : texts_of(outcome)) try {
-      // What an earlier run asked for and this one does not would be taken for its own.
+      // An old file that this run does not request would be taken for its own.
       text.empty() ? void(fs::remove(folder / name, kept)) : write_text_file(folder / name, text);
     } catch (const InputError& error) {
       errors.push_back(error.what());
