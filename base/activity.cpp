@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// What an entry says, without its texts copied.
+/// Content of an entry, without copies of its texts.
 struct SeenFace {
   const char *stage, *kind;
   int tag;
@@ -29,7 +29,7 @@ long long ticks() {
 
 double seconds_of(long long nanoseconds) { return static_cast<double>(nanoseconds) / kNanosecondsPerSecond; }
 
-/// Characters put together without memory of their own.
+/// Text in a given buffer, without allocation.
 class Text {
  public:
   Text(char* to, std::size_t size) : to_(to), room_(size > 0 ? size - 1 : 0) {}
@@ -48,7 +48,7 @@ class Text {
     if (negative) digits[--k] = '-';
     add(digits + k);
   }
-  /// " (4.2 s)"
+  /// Adds " (4.2 s)".
   void add_age(long long since) {
     const std::int64_t tenths = (ticks() - since) / (kNanosecondsPerSecond / 10);
     add(" (");
@@ -57,7 +57,7 @@ class Text {
     add(tenths % 10);
     add(" s)");
   }
-  /// What stands for the faces behind the first few of `n`.
+  /// Adds the number of faces after the first few of `n`.
   void add_others(int n) {
     const int others = n - static_cast<int>(kMostTold);
     if (others <= 0) return;
@@ -97,7 +97,7 @@ static_assert(std::atomic<const char*>::is_always_lock_free && std::atomic<long 
 Activities::Activities(int most_faces) : entries_(static_cast<std::size_t>(std::max(most_faces, 1))) {}
 Activities::~Activities() = default;
 
-/// -1: so many faces that of this one is not told.
+/// Returns -1 if the limit of faces is reached.
 int Activities::take_entry(int tag, const char* kind, const char* stage, bool is_of_this_thread) {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     Entry& entry = entries_[i];
@@ -123,7 +123,7 @@ void Activities::release(int i) {
   entry.taken = false;
 }
 
-/// The faces that have been at work for longest, at most so many, and how many there are.
+/// Writes up to `most` faces that have been at work longest. Returns the number of all faces.
 int Activities::longest(std::size_t most, SeenFace* first) const {
   std::size_t n = 0;
   for (const Entry& entry : entries_) {

@@ -6,48 +6,49 @@
 #include <string>
 #include <vector>
 
-// What a run (see context.h) is at, for those who look at it from outside: a time limit, the progress bar, a
-// process that waits for another. Work says so by scopes, which cost a few atomic stores and allocate
-// nothing; outside of runs nobody is told.
+// This header tells the current stage and faces of a run (context.h). Time limits, progress bars and parent
+// processes read it. Scopes cost a few atomic stores and no allocation; outside of runs they do nothing.
 
 namespace delquad {
 
 struct SeenFace;
 
-/// A face that some thread is at.
+/// A face that a thread works on.
 struct FaceAtWork {
   std::string stage, kind;
   int tag = 0;
-  double seconds = 0;      ///< on the clock
-  double cpu_seconds = 0;  ///< of its thread; 0 for one of another process
+  double seconds = 0;      ///< wall-clock time
+  double cpu_seconds = 0;  ///< processor time of its thread; 0 for another process
 };
 
-/// The stage that a run is at, and the faces that its threads are at. Safe to read from any thread.
+/// Current stage of a run, and faces of its threads. Any thread may read it.
 class Activities {
  public:
-  /// `most_faces`: at a time; of further ones is not told.
+  /// `most_faces` limits the simultaneous faces; others are not recorded.
   explicit Activities(int most_faces);
   ~Activities();
   Activities(const Activities&) = delete;
   Activities& operator=(const Activities&) = delete;
 
-  /// The faces, those longest at work first.
+  /// Returns the faces, longest at work first.
   std::vector<FaceAtWork> faces() const;
-  /// The stage, and the faces in it, longest at it first: "treatment of face 12 (4.2 s), face 3 (0.1 s)".
+  /// Returns the stage and its faces, longest first: "treatment of face 12 (4.2 s), face 3 (0.1 s)".
   std::string text() const;
-  /// The same as characters, as many as fit, ended by a zero; safe in signal handlers. Returns how many.
+  /// Writes the same text, as far as it fits, with a final zero. Signal handlers may call it. Returns its
+  /// length.
   std::size_t describe(char* text, std::size_t size) const noexcept;
-  /// Just the faces, for a line that names the stage already: "face 12, face 3"; empty where there are none.
+  /// Returns only the faces, for a line that names the stage: "face 12, face 3"; empty: none.
   std::string faces_text() const;
-  /// The stage outside of faces; empty: none.
+  /// Returns the stage outside of faces; empty: none.
   std::string stage() const;
 
-  /// Forgets all, in a process just forked, where nobody comes to the end of the scopes.
+  /// Clears everything in a forked process, where scopes never end.
   void clear();
 
-  /// Called by each thread as it begins (`begins`) and ends a face. Set before the work begins; may be empty.
+  /// Called by each thread when it starts (`begins`) and ends a face. Set it before the work starts; may be
+  /// empty.
   std::function<void(int tag, bool begins)> on_face;
-  /// The same for stages outside of faces, as they begin.
+  /// Called when a stage outside of faces starts.
   std::function<void(const char* name)> on_stage;
 
  private:
@@ -64,25 +65,24 @@ class Activities {
   std::vector<Entry> entries_;
 };
 
-/// The stage from here to the end of the scope: of the face that this thread works on or, outside of faces,
-/// of the whole run.
+/// Scope of a stage: of this thread's face or, outside of faces, of the whole run.
 class DoingStage {
  public:
-  /// `name` must live as long as the run's activities.
+  /// `name` must outlive the activities of the run.
   explicit DoingStage(const char* name);
   ~DoingStage();
   DoingStage(const DoingStage&) = delete;
   DoingStage& operator=(const DoingStage&) = delete;
 
  private:
-  std::atomic<const char*>* name_;  ///< null: nobody is told
+  std::atomic<const char*>* name_;  ///< null: not recorded
   const char* before_ = nullptr;
 };
 
-/// The face that this thread works on from here to the end of the scope.
+/// Scope of a face that this thread works on.
 class DoingFace {
  public:
-  /// `kind`, such as "region", must live as long as the run's activities.
+  /// `kind`, such as "region", must outlive the activities of the run.
   explicit DoingFace(int tag, const char* kind = "face");
   ~DoingFace();
   DoingFace(const DoingFace&) = delete;
@@ -93,7 +93,7 @@ class DoingFace {
   int tag_, entry_ = -1, before_ = -1;
 };
 
-/// A face that another process works on for this thread's run, as long as it lives.
+/// Scope of a face that another process works on for this thread's run.
 class FaceElsewhere {
  public:
   FaceElsewhere(int tag, const char* stage);

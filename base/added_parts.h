@@ -8,9 +8,11 @@
 #include <utility>
 #include <vector>
 
+// This header registers parts from outside by name. Solvers, costs, fields and measures use it.
+
 namespace delquad {
 
-/// Throws std::invalid_argument for what is no letter and then letters, digits, - and _: names stand in
+/// Throws std::invalid_argument unless the name is a letter, then letters, digits, - and _. Names appear in
 /// files, tables and schemas.
 inline void check_part_name(const std::string& kind, const std::string& name) {
   const auto is_fit = [](char c) {
@@ -21,15 +23,15 @@ inline void check_part_name(const std::string& kind, const std::string& name) {
     throw std::invalid_argument(kind + " '" + name + "': expected a letter, then letters, digits, - and _");
 }
 
-/// Parts of one kind that can be chosen by name, in the order in which they were added.
+/// Parts of one kind, chosen by name, in the order of addition.
 template <class Part>
 class AddedParts {
  public:
-  /// `kind`: for messages, "matching solver". `words`: names that mean something else there.
+  /// `kind` is for messages, such as "matching solver". `words` are reserved names.
   explicit AddedParts(std::string kind, std::vector<std::string> words = {})
       : kind_(std::move(kind)), words_(std::move(words)) {}
 
-  /// Throws std::invalid_argument for a name that is taken or none, see check_part_name(), and for nothing.
+  /// Throws std::invalid_argument for a taken or invalid name (check_part_name()), and for an empty part.
   void add(const std::string& name, Part part) {
     check_part_name(kind_, name);
     if (!part) throw std::invalid_argument(kind_ + " '" + name + "': there is nothing to call");
@@ -38,7 +40,7 @@ class AddedParts {
     parts_.emplace_back(name, std::move(part));
   }
 
-  /// Null: there is none of that name.
+  /// Returns null for an unknown name.
   const Part* find(const std::string& name) const {
     for (const auto& [known, part] : parts_)
       if (known == name) return &part;

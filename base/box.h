@@ -8,6 +8,8 @@
 
 #include "delquad/mesh.h"
 
+// This header has axis-aligned boxes. All modules use it.
+
 namespace delquad {
 
 inline double coordinate(const Vec2& p, int axis) { return axis == 0 ? p.x : p.y; }
@@ -21,13 +23,13 @@ inline Vec3 upper(const Vec3& a, const Vec3& b) {
   return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
 
-/// A box along the axes of the plane or of space.
+/// Axis-aligned box in the plane or in space.
 template <class V>
 struct Box {
   static constexpr int kAxes = sizeof(V) / sizeof(double);
   V low, high;
 
-  /// The smallest one around some points, at least one.
+  /// Returns the smallest box around at least one point.
   static Box around(std::initializer_list<V> points) { return around(std::span(points)); }
   static Box around(std::span<const V> points) {
     assert(!points.empty());
@@ -35,10 +37,10 @@ struct Box {
     for (const V& p : points) box.add(p);
     return box;
   }
-  /// Makes it larger where the point lies outside.
+  /// Extends the box to a point.
   void add(const V& p) { low = lower(low, p), high = upper(high, p); }
   V size() const { return high - low; }
-  /// Larger by this length on all sides.
+  /// Returns the box, larger by this length on all sides.
   Box grown(double by) const {
     V more;
     if constexpr (kAxes == 2)
@@ -47,14 +49,14 @@ struct Box {
       more = {by, by, by};
     return {low - more, high + more};
   }
-  /// Whether both share a point.
+  /// Returns whether both share a point.
   bool overlaps(const Box& other) const {
     for (int k = 0; k < kAxes; ++k)
       if (coordinate(low, k) > coordinate(other.high, k) || coordinate(other.low, k) > coordinate(high, k))
         return false;
     return true;
   }
-  /// Square of the distance to x, 0 inside.
+  /// Returns the square of the distance to x; 0 inside.
   double distance2(const V& x) const {
     double sum = 0;
     for (int k = 0; k < kAxes; ++k) {
@@ -66,7 +68,7 @@ struct Box {
   }
 };
 
-/// Of the bounding box of some points; 0 without points.
+/// Returns the diagonal of the bounding box of points; 0 without points.
 template <class V>
 double diagonal(const std::vector<V>& points) {
   return points.empty() ? 0 : norm(Box<V>::around(std::span(points)).size());

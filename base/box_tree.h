@@ -11,16 +11,18 @@
 
 #include "base/box.h"
 
+// This header searches items by bounding boxes. Most modules use it.
+
 namespace delquad {
 
-/// Things with bounding boxes, known by their number, in a binary tree of boxes.
+/// Binary tree of boxes over numbered items with bounding boxes.
 template <class V>
 class BoxTree {
  public:
   struct Node {
     Box<V> box;
-    int begin, end;  ///< range of the items in the tree's order
-    int right;       ///< second child, the first being the next node; -1: a leaf
+    int begin, end;  ///< range of items in the order of the tree
+    int right;       ///< second child (the first is the next node); -1: a leaf
   };
 
   BoxTree() = default;
@@ -34,8 +36,8 @@ class BoxTree {
     return std::span(items_).subspan(node.begin, node.end - node.begin);
   }
 
-  /// Calls visit(item) for the items of all leaves whose bound(node) is not above `limit`, which visit() may
-  /// lower meanwhile; nodes of lesser bounds come first. A node's bound must not be above its children's.
+  /// Calls visit(item) for the items of all leaves whose bound(node) is at most `limit`, lower bounds first.
+  /// visit() may lower the limit. The bound of a node must not exceed the bounds of its children.
   template <class Bound, class Visit>
   void search(const double& limit, Bound bound, Visit visit) const {
     if (nodes_.empty()) return;
@@ -59,14 +61,14 @@ class BoxTree {
     }
   }
 
-  /// search() by the distance to x: `limit2` is the square of the greatest distance of interest.
+  /// Searches by the distance to x; `limit2` is the square of the largest distance.
   template <class Visit>
   void nearest(const V& x, const double& limit2, Visit visit) const {
     search(
         limit2, [&](const Node& node) { return node.box.distance2(x); }, visit);
   }
 
-  /// Calls visit(item) for the items of all leaves whose boxes share a point with this one.
+  /// Calls visit(item) for the items of all leaves whose boxes share a point with `box`.
   template <class Visit>
   void overlapping(const Box<V>& box, Visit visit) const {
     search(
@@ -75,7 +77,7 @@ class BoxTree {
 
  private:
   static constexpr int kLeafSize = 4;
-  /// Halving leaves less than 32 levels, each with one node that waits.
+  /// Halving leaves fewer than 32 levels, each with one waiting node.
   static constexpr int kMostWaiting = 40;
 
   int build(const std::vector<Box<V>>& boxes, int begin, int end) {

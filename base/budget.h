@@ -4,9 +4,9 @@
 
 namespace delquad {
 
-/// What a step may do that could go on for very long: steps of its own work, which are counted, as the same
-/// input has to give the same bytes however fast the machine is. Several threads may spend at once; whether
-/// all is spent is then asked between parallel loops only.
+/// Limit of work for a step that could run very long. It counts steps, not time, so the same input gives the
+/// same bytes on any machine. Several threads may spend at once. Ask only between parallel loops whether it
+/// is spent.
 class Budget {
  public:
   explicit Budget(long long steps) : left_(steps) {}

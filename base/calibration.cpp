@@ -6,15 +6,16 @@
 namespace delquad {
 namespace {
 
-/// Scales beyond this factor, either way, make another case of it.
+/// Largest factor of a scale, up or down; more would be another case.
 constexpr double kLargestScale = 4;
-/// Brackets narrower than this (of log scale) hold a jump of the number of quads, which else changes by less
-/// than anybody asks for over them.
+/// Narrowest bracket, in log scale. A narrower one contains a jump of the number of quads, which otherwise
+/// hardly changes in it.
 constexpr double kNarrow = 2e-3;
-/// A number that changes by less (of its logarithm) over this change of log scale does not follow the size.
+/// A number of quads does not follow the size if its logarithm changes by less than kNoAnswer over kChange of
+/// log scale.
 constexpr double kNoAnswer = 1e-3, kChange = 0.02;
-/// The power of the size by which numbers of quads go, at least and at most; -2 in the plane, where nothing
-/// else limits them.
+/// Limits and usual value of the power of size that numbers of quads follow; -2 in the plane without other
+/// limits.
 constexpr double kSteepest = -4, kFlattest = -0.5, kUsual = -2;
 
 struct Try {
@@ -22,7 +23,7 @@ struct Try {
   double excess;  ///< log of the number over the wanted one
 };
 
-/// The closest pair around the wanted number: what is too fine, and what is too coarse.
+/// Returns the closest pair around the wanted number: a finer scale and a coarser one.
 std::optional<std::pair<Try, Try>> bracket(const std::vector<Try>& tries) {
   std::optional<Try> fine, coarse;
   for (const Try& t : tries) {
@@ -34,14 +35,14 @@ std::optional<std::pair<Try, Try>> bracket(const std::vector<Try>& tries) {
 }
 
 std::optional<double> inside(const Try& fine, const Try& coarse) {
-  constexpr double kLeast = 0.1;  // of the bracket, off its ends, so that it shrinks
+  constexpr double kLeast = 0.1;  // least part of the bracket from its ends, so that it shrinks
   const double width = coarse.log_scale - fine.log_scale;
   if (width < kNarrow) return std::nullopt;
   const double part = fine.excess / (fine.excess - coarse.excess);
   return fine.log_scale + width * std::clamp(part, kLeast, 1 - kLeast);
 }
 
-/// The next log scale to try; nothing: no use.
+/// Returns the next log scale to try; nothing if none is useful.
 std::optional<double> next_log_scale(const std::vector<Try>& tries) {
   if (const auto pair = bracket(tries)) return inside(pair->first, pair->second);
   const Try& last = tries.back();

@@ -6,29 +6,31 @@
 
 #include "delquad/mesh.h"
 
+// This header scales sizes to reach a number of quads. The pipeline and comparisons with peers use it.
+
 namespace delquad {
 
-/// Quads, and a triangle as half a quad, whose area it has.
+/// Returns the number of quads; a triangle counts half, by its area.
 double count_of_quads(const Mesh& mesh);
 
-/// How close a mesher came to a number of quads by changing its size.
+/// Result of a calibration.
 struct Calibration {
-  double scale = 1;                             ///< by which the size is multiplied
-  double quads = 0;                             ///< its number then
-  int runs = 0;                                 ///< how often it was run
-  std::vector<std::vector<double>> tried = {};  ///< scale and number of each run that gave one
+  double scale = 1;                             ///< factor of the size
+  double quads = 0;                             ///< its number of quads
+  int runs = 0;                                 ///< number of runs
+  std::vector<std::vector<double>> tried = {};  ///< scale and number of quads of each successful run
 };
 
-/// How close is close enough, as a part of the wanted number, and how often a mesher is run to get there.
+/// Tolerance, as a part of the wanted number, and limit of runs.
 struct CalibrationLimits {
   double tolerance;
   int most_runs;
 };
 
-/// Looks for the scale of the sizes at which `quads_at` gives `wanted` within the tolerance, beginning with
-/// 1: by regula falsi on the logarithms, and by the secant before there is a bracket. Ends, with the closest,
-/// after the most runs, when the number does not follow the size or jumps over `wanted`, and when `quads_at`
-/// gives nothing.
+/// Finds a scale of sizes at which `quads_at` returns `wanted` within the tolerance. It starts at 1 and takes
+/// regula falsi on logarithms, or the secant without a bracket. It ends, with the closest scale, at the limit
+/// of runs, and if `quads_at` returns nothing. It also ends if the number does not follow the size or jumps
+/// over `wanted`.
 Calibration calibrate_scale(double wanted, const CalibrationLimits& limits,
                             const std::function<std::optional<double>(double scale)>& quads_at);
 

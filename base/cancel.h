@@ -2,12 +2,11 @@
 
 namespace delquad {
 
-/// Throws Cancelled or TimeIsUp, which say at what the run is, when it has been cancelled or its time is up.
-/// It takes some nanoseconds: whatever may take longer than about a millisecond calls it on its way. What
-/// cannot be interrupted are single calls of other libraries (LEMON's matching, a factorisation, the CAD
-/// kernel's projection of a point).
+/// Throws Cancelled or TimeIsUp, with the current step, if the run was cancelled or its time is up. It takes
+/// some nanoseconds; work above about a millisecond must call it regularly. Single calls of other libraries
+/// cannot be interrupted (LEMON's matching, a factorization, a projection by the CAD kernel).
 void check_cancelled();
-/// The same as an answer, for callbacks of libraries through which nothing may be thrown.
+/// Returns the answer instead, for callbacks of libraries that pass no exceptions.
 bool is_cancelled() noexcept;
 
 }  // namespace delquad

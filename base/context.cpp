@@ -29,13 +29,13 @@ int threads_of(const RunSettings& settings, const Run* around) {
   return around != nullptr ? around->settings.threads : core_count();
 }
 
-/// Nested scopes and what works for them have faces of their own.
+/// Returns the number of entries for faces, with some for nested scopes and their workers.
 int most_faces(int threads) {
   constexpr int kFacesPerThread = 4;
   return kFacesPerThread * (threads + 1);
 }
 
-/// The limit that has been passed: that of the run, or of one around it.
+/// Returns the passed time limit, of the run or of an outer one.
 double limit_passed(const Run* run) {
   while (run->around != nullptr && !(coarse_seconds() >= run->end)) run = run->around;
   return run->settings.seconds;
@@ -74,8 +74,8 @@ Run::State Run::state() const noexcept {
 }
 
 tbb::task_arena& Run::arena() {
-  // Without it oneTBB never starts more than there are cores. Of several the least counts: also of those that
-  // a program around has.
+  // Without this, oneTBB starts at most as many threads as cores. The least limit counts, also of an
+  // embedding program.
   if (settings.threads > core_count() && !more_than_cores_)
     more_than_cores_.emplace(tbb::global_control::max_allowed_parallelism,
                              static_cast<std::size_t>(settings.threads));

@@ -6,35 +6,33 @@
 
 #include "base/cancel.h"
 
-// What belongs to one call of the library, and not to the process: how many threads it uses, whether it has
-// been cancelled, when its time is up, and what it is at. It is found through the thread: a scope sets it for
-// the thread that makes the scope, and parallel_for() for those that work for it.
+// This header has settings of one call of the library: threads, cancellation, time limit and activities. All
+// modules find them through their thread. A scope sets them for its thread, and parallel_for() for its
+// workers.
 
 namespace delquad {
 
 class Activities;
 
-/// How work is done, as opposed to what: nothing of it changes a result.
+/// Settings of work that never change a result.
 struct RunSettings {
-  /// Of parallel_for(), the calling one included; 0: as in the scope around, without one as many as the
-  /// machine has cores.
+  /// Threads of parallel_for(), with the calling one. 0: as in the outer scope, or the number of cores.
   int threads = 0;
   std::stop_token cancel = {};
-  double seconds = 0;  ///< from the beginning of the scope; 0: no limit
-  /// Told what is being done; null: those of the scope around, without one the scope's own. Must outlive the
-  /// scope.
+  double seconds = 0;  ///< from the start of the scope; 0: no limit
+  /// Receives the activities; null: the outer scope's, or own ones. Must outlive the scope.
   Activities* activities = nullptr;
-  /// Called by every check, on the thread that makes it. For tests.
+  /// Called by every check on its thread, for tests.
   std::function<void()> on_check = {};
 };
 
 class Run;
 
-/// From here to the end of the scope, this thread works by these settings. A scope in a scope is cancelled
-/// with it, and ends with its time. Scopes on different threads have nothing to do with each other.
+/// Scope in which this thread works by these settings. An inner scope is cancelled with the outer one, and
+/// shares its time limit. Scopes on different threads are independent.
 class RunScope {
  public:
-  /// Throws std::invalid_argument when a number is below zero or not finite.
+  /// Throws std::invalid_argument if a number is negative or not finite.
   explicit RunScope(RunSettings settings = {});
   ~RunScope();
   RunScope(const RunScope&) = delete;
@@ -46,11 +44,10 @@ class RunScope {
   bool in_arena_before_ = false;
 };
 
-/// The run of this thread; null outside of scopes.
+/// Returns the run of this thread; null outside of scopes.
 Run* current_run() noexcept;
 
-/// For threads that others than parallel_for() start: this thread works for `run`, which may be null, from
-/// here to the end of the scope.
+/// Scope in which a thread not started by parallel_for() works for `run`, which may be null.
 class WorksFor {
  public:
   explicit WorksFor(Run* run) noexcept;
@@ -64,7 +61,7 @@ class WorksFor {
   bool in_arena_before_;
 };
 
-/// What is told of what the run of this thread is at; null outside of scopes.
+/// Returns the activities of this thread's run; null outside of scopes.
 Activities* current_activities() noexcept;
 
 }  // namespace delquad

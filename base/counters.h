@@ -9,9 +9,11 @@
 
 #include "delquad/options.h"
 
+// This header turns summaries of steps into fields of records. All stages use it.
+
 namespace delquad {
 
-/// A member of a step's summary, by its key in records, and how patches add up.
+/// A member of a step's summary: its key in records, and its sum over patches.
 template <class Summary, class Value>
 struct CounterField {
   const char* key;
@@ -25,12 +27,12 @@ constexpr CounterField<Summary, Value> counter(const char* key, Value Summary::*
   return {key, member, over};
 }
 
-/// Stands beside each summary: `step`, its name in records, `all`, every member in the order of records, and,
-/// where there are means, `weight(summary)`.
+/// Specialized for each summary: `step`, its name in records, and `all`, its members in the order of records.
+/// Summaries with means also have `weight(summary)`.
 template <class Summary>
 struct Counters;
 
-/// How a member becomes fields; overloads for other types stand beside these.
+/// Appends a member as fields. Other types have their own overloads.
 template <class Value>
 requires std::is_arithmetic_v<Value>
 void append_counter(std::vector<SummaryField>& fields, const char* key, Value value, Over over,
@@ -41,7 +43,7 @@ void append_counter(std::vector<SummaryField>& fields, const char* key, Value va
     fields.push_back({key, static_cast<long long>(value), over, weight});
 }
 
-/// Fields that came from elsewhere stay what they are.
+/// Appends fields of other sources unchanged.
 inline void append_counter(std::vector<SummaryField>& fields, const char*,
                            const std::vector<SummaryField>& others, Over, double) {
   fields.insert(fields.end(), others.begin(), others.end());
@@ -52,7 +54,7 @@ struct Anything {
   template <class T>
   operator T() const;  // NOLINT: converts to the type of any member
 };
-/// How many members an aggregate has.
+/// Returns the number of members of an aggregate.
 template <class T, class... Members>
 consteval std::size_t n_members() {
   if constexpr (requires { T{Members{}..., Anything{}}; })
@@ -62,7 +64,7 @@ consteval std::size_t n_members() {
 }
 }  // namespace counters_detail
 
-/// Calls visit(field) for every member of a summary. One that is missing from the list does not compile.
+/// Calls visit(field) for every member of a summary. A member missing from the list does not compile.
 template <class Summary, class Visit>
 void for_each_counter(Visit&& visit) {
   static_assert(std::tuple_size_v<decltype(Counters<Summary>::all)> == counters_detail::n_members<Summary>(),
@@ -70,7 +72,7 @@ void for_each_counter(Visit&& visit) {
   std::apply([&](const auto&... field) { (visit(field), ...); }, Counters<Summary>::all);
 }
 
-/// Adds what another call says to a summary. There may be no means.
+/// Adds another call's counters to a summary, which must have no means.
 template <class Summary>
 void add_counters(Summary& total, const Summary& more) {
   for_each_counter<Summary>([&](const auto& field) {
@@ -83,7 +85,7 @@ void add_counters(Summary& total, const Summary& more) {
   });
 }
 
-/// What a summary says, for Summaries::add(Counters<Summary>::step, ...).
+/// Returns the fields of a summary for Summaries::add(Counters<Summary>::step, ...).
 template <class Summary>
 std::vector<SummaryField> fields_of(const Summary& summary) {
   double weight = 1;

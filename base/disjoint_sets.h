@@ -5,15 +5,17 @@
 #include <numeric>
 #include <vector>
 
+// This header joins sets. Components of meshes and graphs use it.
+
 namespace delquad {
 
-/// Sets of the numbers 0, 1, ..., at first of one each, that grow together. A set goes by one of its numbers,
-/// its root.
+/// Sets of the numbers 0, 1, ..., initially of one each, that grow together. The root of a set is one of its
+/// numbers.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n = 0) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
   std::size_t size() const { return parent_.size(); }
-  /// One more number, which it returns.
+  /// Adds a number, and returns it.
   int add() {
     parent_.push_back(static_cast<int>(parent_.size()));
     return parent_.back();
@@ -23,25 +25,25 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  /// False where both were in one set. The lower one of their roots is that of both.
+  /// Joins two sets; the lower root remains. Returns false if they are one set already.
   bool join(int i, int j) {
     i = root(i), j = root(j);
     return i < j ? join_to(i, j) : join_to(j, i);
   }
-  /// The same, but the root is the first's.
+  /// Joins two sets; the root of the first remains.
   bool join_to(int i, int j) {
     i = root(i), j = root(j);
     parent_[j] = i;
     return i != j;
   }
-  /// Of each number.
+  /// Returns the root of each number.
   std::vector<int> roots() {
     std::vector<int> all = parent_;
     for (int& i : all) i = root(i);
     return all;
   }
 
-  /// Of each number the place of its set among all, which are in the order of their first members.
+  /// Returns the index of each number's set, in the order of first members.
   std::vector<int> places() {
     std::vector<int> place(parent_.size(), -1);
     int n = 0;

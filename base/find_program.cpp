@@ -15,15 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One that was asked for is taken or refused; there is no other in its place.
+/// Returns a requested program, or refuses it; no other one replaces it.
 fs::path required(const fs::path& path, const std::string& who, const std::string& reads) {
   if (can_be_run(path)) return path;
   throw InputError(
       fmt::format("{} says that {} reads {}: that is no program that can be run", who, path.string(), reads));
 }
 
-/// Folders in which it is looked for: that of the running program, that of the program or library that this
-/// code is in, and where it is installed, as seen from both.
+/// Returns the folders to search: of the running program, of this code's program or library, and of the
+/// installation as seen from both.
 std::vector<fs::path> folders() {
   std::vector<fs::path> all;
   const fs::path program = running_program().parent_path();

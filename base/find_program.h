@@ -5,16 +5,16 @@
 
 namespace delquad {
 
-/// A program of ours that reads files for us.
+/// A program of this project that reads files for the library.
 struct HelperProgram {
   std::string name;      ///< "delquad-cad"
   std::string reads;     ///< "CAD files"
-  std::string variable;  ///< of the environment, which may name one
+  std::string variable;  ///< environment variable that may name one
 };
 
-/// Where it is: what the variable names, else `chosen`, unless that is empty, by `chooser`; else beside the
-/// running program or the library that this code is in, or where it was installed. Throws InputError, naming
-/// the places, when it is not there.
+/// Finds the program: named by the variable, or `chosen` by `chooser` unless empty. Otherwise it is beside
+/// the running program or this library, or where it was installed. Throws InputError, with the places, if it
+/// is not there.
 std::filesystem::path find_program(const HelperProgram& program, const std::filesystem::path& chosen = {},
                                    const std::string& chooser = {});
 

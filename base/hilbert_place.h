@@ -4,14 +4,14 @@
 
 namespace delquad {
 
-/// Place of the cell (x, y) along a Hilbert curve through 2^16 times 2^16 cells. No branches: they would be
-/// guessed wrongly half of the time.
+/// Returns the position of cell (x, y) along a Hilbert curve through 2^16 x 2^16 cells. It has no branches,
+/// as they would be mispredicted half of the time.
 inline std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
   std::uint32_t place = 0;
   for (int bit = 15; bit >= 0; --bit) {
     const std::uint32_t right = x >> bit & 1, upper = y >> bit & 1;
     place = 4 * place + ((3 * right) ^ upper);
-    // The curve enters the two lower quarters turned: bring them to the standard attitude.
+    // The curve enters the two lower quarters turned: normalize them.
     const std::uint32_t lower = upper - 1, turn = lower & (0 - right);
     const std::uint32_t swap = (x ^ y) & lower;
     x ^= swap ^ turn;

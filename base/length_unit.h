@@ -6,12 +6,12 @@ namespace delquad {
 
 struct LengthUnit {
   const char* name;       ///< "mm"
-  double metres;          ///< how long it is
-  const char* kernel;     ///< what OpenCASCADE calls it
-  const char* long_name;  ///< what STEP files call it, in capitals
+  double metres;          ///< length in meters
+  const char* kernel;     ///< name in OpenCASCADE
+  const char* long_name;  ///< name in STEP files, in capitals
 };
 
-/// Throws InputError that names those known.
+/// Throws InputError, with all known names, for an unknown name.
 const LengthUnit& length_unit(const std::string& name);
 
 }  // namespace delquad

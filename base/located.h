@@ -7,15 +7,17 @@
 
 #include "delquad/error.h"
 
+// This header throws errors with their place. All modules use it.
+
 namespace delquad {
 
-/// Throws an error whose message is made as by fmt::format().
+/// Throws an error with a message as by fmt::format().
 template <class E = InputError, class... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> text, Args&&... args) {
   throw E(fmt::format(text, std::forward<Args>(args)...));
 }
 
-/// Runs `f`; an InputError gains `where` in front, unless it stands there already.
+/// Runs `f`; puts `where` before the message of an InputError, unless it is there already.
 template <class F>
 auto located(const std::string& where, F&& f) {
   try {

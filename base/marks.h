@@ -7,22 +7,22 @@
 
 namespace delquad {
 
-/// Which of some numbered things have been met in this pass. To begin another one costs nothing.
+/// Marks of numbered things that were met in this pass. A new pass costs nothing.
 class Marks {
  public:
-  /// Nothing has been met; there are n things.
+  /// Starts a pass over n things, none of them met.
   void begin(std::size_t n) {
     ++pass_;
     met_.resize(n, 0);
   }
-  /// Whether this is the first time in this pass.
+  /// Returns whether i is met for the first time in this pass.
   bool meet(int i) {
     assert(i >= 0 && i < static_cast<int>(met_.size()));
     return std::exchange(met_[i], pass_) != pass_;
   }
 
  private:
-  std::vector<unsigned> met_;  ///< the last pass in which each was met
+  std::vector<unsigned> met_;  ///< last pass that met each thing
   unsigned pass_ = 0;
 };
 

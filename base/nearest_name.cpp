@@ -8,7 +8,8 @@
 namespace delquad {
 namespace {
 
-/// Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours cost 1 each.
+/// Returns the optimal string alignment: insertions, deletions, substitutions and swaps of neighbors cost 1
+/// each.
 int edit_distance(const std::string& a, const std::string& b) {
   const int n = static_cast<int>(a.size()), m = static_cast<int>(b.size());
   std::vector<std::vector<int>> d(n + 1, std::vector<int>(m + 1));
@@ -24,7 +25,7 @@ int edit_distance(const std::string& a, const std::string& b) {
   return d[n][m];
 }
 
-/// Names of entities without a name by what other programs call them: "face_3", "edge_3" or "3".
+/// Returns our name of an unnamed entity, from the names in other programs: "face_3", "edge_3" or "3".
 std::optional<std::string> numbered_entity(const std::string& given, const std::vector<std::string>& known) {
   constexpr std::array<std::pair<const char*, const char*>, 6> kOthers = {{{"face_", "region_"},
                                                                            {"surface_", "region_"},
@@ -43,7 +44,7 @@ std::optional<std::string> numbered_entity(const std::string& given, const std::
 }  // namespace
 
 std::optional<std::string> nearest_name(const std::string& given, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongestName = 64;  // no key is longer: no slip to look for
+  constexpr std::size_t kLongestName = 64;  // no key is longer
   if (given.size() > kLongestName) return std::nullopt;
   std::optional<std::string> best = numbered_entity(given, known);
   if (best) return best;

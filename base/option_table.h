@@ -10,17 +10,19 @@
 
 #include "delquad/options.h"
 
+// This header declares and reads options. All stages use it.
+
 namespace delquad {
 
-/// The keys of an option group and the members of a struct that they stand for, each in one line: from it
-/// come the declaration, with the defaults of the struct, and the reading.
+/// Table of an option group: each line relates a key to a member of a struct. It gives the declaration, with
+/// the struct's defaults, and the reader.
 template <class Struct>
 class OptionTable {
  public:
   OptionTable(std::string name, std::string help) : group_{std::move(name), std::move(help), {}} {}
 
-  /// `at` gives a reference to the member: a pointer to it, or a function of the struct. The key's default
-  /// comes from there; an int cannot be more than it holds.
+  /// Adds a key. `at` returns a reference to the member: a pointer to it, or a function of the struct. The
+  /// default comes from the member, and an int limits the key to its range.
   template <class At>
   OptionTable& add(OptionKey key, At at) {
     Struct defaults;
@@ -34,7 +36,7 @@ class OptionTable {
     });
   }
 
-  /// A member that has one of several values, each with its name in files.
+  /// Adds a key for a member with several values, each with its name in files.
   template <class At, class Member>
   OptionTable& choice(OptionKey key, At at, const std::vector<std::pair<std::string, Member>>& choices) {
     Struct defaults;

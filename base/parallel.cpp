@@ -30,15 +30,15 @@ std::vector<std::size_t> by_cost(std::size_t n, const std::function<double(std::
   return order;
 }
 
-/// Processor time that others spent for this thread, less its own while it waited for them.
+/// Processor time of other threads for this thread, minus its own while it waited for them.
 thread_local double cpu_of_others = 0;
 
 double own_cpu() { return 1e-9 * static_cast<double>(nanoseconds_of_this_thread()); }
 
-/// In the process: finish_threads() has nothing to do without them.
+/// Whether the process has threads that finish_threads() must end.
 std::atomic<bool> threads_started = false;
 
-/// Calls run() for each worker on the threads of the run, or of an arena of their own outside of runs.
+/// Calls run() for each worker on the threads of the run, or on its own arena outside of runs.
 void work_together(int workers, const std::function<void()>& run) {
   threads_started = true;
   const ThreadState state = this_thread();
@@ -52,7 +52,7 @@ void work_together(int workers, const std::function<void()>& run) {
         },
         tbb::simple_partitioner());
   };
-  // Isolated, so that a thread that waits for the inner calls does not begin another of the outer ones.
+  // Isolated, so that a thread that waits for inner calls does not start an outer one.
   if (state.in_arena) {
     tbb::this_task_arena::isolate(all);
   } else if (state.run != nullptr) {

@@ -5,31 +5,31 @@
 
 #include "delquad/options.h"
 
+// This header has parallel loops. All modules use it.
+
 namespace delquad {
 
-/// Threads that parallel_for() uses here: those of the run (see context.h); outside of runs as many as the
-/// machine has cores.
+/// Returns the number of threads of parallel_for(): of the run (context.h), or the number of cores outside of
+/// runs.
 int thread_count();
 
-/// Ends the threads that wait for work, as is necessary before a process forks; the next parallel_for()
-/// starts new ones. Only where no other thread of the program uses oneTBB, as in the command line; not while
-/// a parallel_for() runs.
+/// Ends waiting threads, as needed before a process forks; the next parallel_for() starts new ones. No other
+/// thread of the program may use oneTBB, and no parallel_for() may run.
 void finish_threads();
 
-/// Calls work(i) once for each i in [0, n), on thread_count() threads, and returns when all are done. `cost`
-/// (any unit) tells which are to begin first, so that the large ones do not end up alone; equal costs begin
-/// in order. Each call must write only to what belongs to its own i: then the result is the same for every
-/// number of threads. Where calls throw, the others run nevertheless, and the exception of the smallest i is
-/// thrown on; only when the run is cancelled those that have not begun do not. Calls may use parallel_for()
-/// themselves.
+/// Calls work(i) once for each i in [0, n) on thread_count() threads, and waits. Calls with a higher `cost`
+/// (any unit) start first, equal ones in order. Each call must write only to the data of its own i, so that
+/// the number of threads does not matter. After an exception the other calls still run, and the exception of
+/// the smallest i is thrown. If the run is cancelled, calls that have not started are left out. Calls may use
+/// parallel_for() themselves.
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
                   const std::function<double(std::size_t)>& cost = {});
 
-/// Calls work(begin, end) for ranges of a fixed length, the last one excepted, that make up [0, n).
+/// Calls work(begin, end) for ranges of fixed length (the last may be shorter) that cover [0, n).
 void parallel_ranges(std::size_t n, const std::function<void(std::size_t begin, std::size_t end)>& work);
 
-/// The clock, and the processor time of this thread and of others while they worked in its parallel_for()
-/// calls (nested ones included): differences mean something. For measuring: see Stopwatch.
+/// Returns the clock, and processor time of this thread and of others in its parallel_for() calls, nested
+/// ones included. Only differences are meaningful. Stopwatch uses it.
 TimeSpent time_spent();
 
 }  // namespace delquad

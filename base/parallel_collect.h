@@ -8,9 +8,9 @@
 
 namespace delquad {
 
-/// Calls make(begin, end, items) for ranges of a fixed length, the last one excepted, that make up [0, n), on
-/// all threads of the run: it appends what the range yields. Returns all of it in the ranges' order, so that
-/// it does not depend on the number of threads.
+/// Calls `make(begin, end, items)` in parallel for ranges of fixed length (the last may be shorter) that
+/// cover [0, n). It appends the items of its range. Returns all items in the order of ranges, for any number
+/// of threads.
 template <class Item, class Make>
 std::vector<Item> parallel_collect(std::size_t n, const Make& make) {
   constexpr std::size_t kLength = 8192;

@@ -6,8 +6,7 @@
 
 namespace delquad {
 
-/// Calls work(i) for each i in [0, n), by the ranges of parallel_ranges(): for many calls that take about as
-/// long.
+/// Calls work(i) for each i in [0, n), by parallel_ranges(), for many calls of about equal cost.
 template <class Work>
 void parallel_each(std::size_t n, const Work& work) {
   parallel_ranges(n, [&](std::size_t begin, std::size_t end) {

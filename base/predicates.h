@@ -5,11 +5,13 @@
 
 #include "delquad/mesh.h"
 
+// This header has exact predicates of the plane. All decisions of topology use it.
+
 namespace delquad {
 
 namespace exact {
 
-/// The predicates in exact arithmetic, for the few calls that the filters below cannot decide.
+/// Exact predicates for the few calls that the filters below cannot decide.
 int orient2d(Vec2 a, Vec2 b, Vec2 c);
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 
@@ -18,12 +20,13 @@ int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 inline constexpr double kEps = std::numeric_limits<double>::epsilon() / 2;
 inline constexpr double kOrientBound = (3 + 16 * kEps) * kEps;
 inline constexpr double kInCircleBound = (10 + 96 * kEps) * kEps;
-/// Below this the products may have lost bits to underflow and the relative bounds do not hold.
+/// Below this, products may have lost bits to underflow, and relative bounds do not hold.
 inline constexpr double kUnderflowGuard = 1e-280;
 
 }  // namespace exact
 
-/// Sign of the exact area of the triangle a, b, c: +1 counterclockwise, 0 collinear, -1 clockwise.
+/// Returns the sign of the exact area of the triangle a, b, c: +1 counterclockwise, 0 collinear, -1
+/// clockwise.
 inline int orient2d(Vec2 a, Vec2 b, Vec2 c) {
   const double left = (a.x - c.x) * (b.y - c.y);
   const double right = (a.y - c.y) * (b.x - c.x);
@@ -33,7 +36,7 @@ inline int orient2d(Vec2 a, Vec2 b, Vec2 c) {
   return exact::orient2d(a, b, c);
 }
 
-/// As in_circle(), but 0 also where rounding leaves the sign open: never slow, and right when not 0.
+/// Returns in_circle(), or 0 if rounding leaves the sign open. It is always fast.
 inline int in_circle_or_unsure(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const Vec2 ad = a - d, bd = b - d, cd = c - d;
   const double bc1 = bd.x * cd.y, bc2 = cd.x * bd.y;
@@ -49,7 +52,7 @@ inline int in_circle_or_unsure(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return 0;
 }
 
-/// +1 when d lies strictly inside the circle through the counterclockwise triangle a, b, c, 0 on it, -1
+/// Returns +1 if d lies strictly inside the circle through the counterclockwise triangle a, b, c, 0 on it, -1
 /// outside.
 inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const int sign = in_circle_or_unsure(a, b, c, d);

@@ -36,7 +36,7 @@ int wait_for_end(int child) {
 }
 
 std::optional<std::string> call_apart(const std::function<std::string()>& work) {
-  constexpr char kDone = '\n';  // a line that the child alone can end
+  constexpr char kDone = '\n';  // a line that only the child can end
   const Pipe pipe;
   const int parent = getpid(), child = fork();
   if (child == 0) {

@@ -6,28 +6,28 @@
 #include <string>
 #include <vector>
 
-// Processes, as far as the standard library has none: see system.h.
+// This header starts and ends processes. The program, the bench and readers of files use it.
 
 namespace delquad {
 
 int process_number();
 
-/// Both ends of a pipe, which programs that are started do not inherit. Throws std::system_error.
+/// Both ends of a pipe, which started programs do not inherit. Throws std::system_error.
 struct Pipe {
   int read_end = -1, write_end = -1;
   Pipe();
 };
 
-/// In a process just made: it gets this signal when its parent, the process of this number, ends, or has.
+/// Sends this new process a signal when its parent, the process of this number, ends or has ended.
 void end_with(int parent, int signal_number);
-/// Waits for a child to end, and says how, as waitpid() does; -1: it is none.
+/// Waits for the end of a child. Returns its status as by waitpid(); -1: no such child.
 int wait_for_end(int child);
 
-/// Calls `work` in a child of this process, which prints nothing. Returns what it returned; nothing where the
-/// child ended before. Throws std::system_error when there can be no child.
+/// Calls `work` in a child process, which prints nothing. Returns its result; nothing if the child died.
+/// Throws std::system_error if no child can start.
 std::optional<std::string> call_apart(const std::function<std::string()>& work);
 
-/// Starts a program that prints nothing and outlives this process. That there is none is no error.
+/// Starts a program that prints nothing and outlives this process. A missing program is no error.
 void start_apart(std::string program, std::string argument);
 
 }  // namespace delquad

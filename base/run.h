@@ -11,22 +11,22 @@
 
 namespace delquad {
 
-/// The state of a run, for context.cpp, parallel.cpp and activity.cpp alone.
+/// State of a run, only for context.cpp, parallel.cpp and activity.cpp.
 class Run {
  public:
   explicit Run(RunSettings settings, Run* around);
 
   enum class State { kGoing, kCancelled, kTimeIsUp };
-  /// Of this run and those around it.
+  /// Returns the state of this run and outer ones.
   State state() const noexcept;
-  /// Its threads; made at the first use.
+  /// Returns its threads, made at the first use.
   tbb::task_arena& arena();
-  /// Lets go of the arenas of this run and those around it; the next use makes them anew.
+  /// Releases the arenas of this run and outer ones; the next use makes new ones.
   void end_arenas();
 
   RunSettings settings;
   Run* around;
-  double end;  ///< of the steady clock, in seconds; infinite: none
+  double end;  ///< in seconds of the steady clock; infinite: none
   std::optional<Activities> own_activities;
   Activities* activities;
 
@@ -35,11 +35,11 @@ class Run {
   std::optional<tbb::task_arena> arena_;
 };
 
-/// What this thread does, and for whom.
+/// Work of a thread, and its run.
 struct ThreadState {
   Run* run = nullptr;
-  int entry = -1;         ///< of the run's activities: its face; -1: none
-  bool in_arena = false;  ///< the run's
+  int entry = -1;         ///< index of its face in the run's activities; -1: none
+  bool in_arena = false;  ///< of the run
 };
 ThreadState& this_thread() noexcept;
 

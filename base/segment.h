@@ -6,16 +6,18 @@
 
 #include "delquad/mesh.h"
 
+// This header measures distances to segments. Most modules use it.
+
 namespace delquad {
 
-/// How far along from a to b, in [0, 1], the point of this segment lies that is nearest to x; 0 where a is b.
+/// Returns the parameter in [0, 1] of the point nearest to x on segment a, b; 0 if a equals b.
 template <class Vec>
 double nearest_part(const Vec& x, const Vec& a, const Vec& b) {
   const Vec d = b - a;
   const double length2 = dot(d, d);
   return length2 > 0 ? std::clamp(dot(x - a, d) / length2, 0.0, 1.0) : 0;
 }
-/// That point.
+/// Returns that point.
 template <class Vec>
 Vec nearest_on_segment(const Vec& x, const Vec& a, const Vec& b) {
   return a + nearest_part(x, a, b) * (b - a);
@@ -25,8 +27,8 @@ double distance_to_segment(const Vec& x, const Vec& a, const Vec& b) {
   return norm(x - nearest_on_segment(x, a, b));
 }
 
-/// From a corner into it along its bisector, by this part of its shorter side. The inside is on the left of
-/// the way from `back` over the corner to `ahead`.
+/// Returns the vector from a corner along its bisector, this part of its shorter side long. The inside is on
+/// the left of the path from `back` over the corner to `ahead`.
 inline Vec2 into_corner(Vec2 back, Vec2 corner, Vec2 ahead, double part) {
   const Vec2 out = ahead - corner, in = back - corner;
   const double from = std::atan2(out.y, out.x);

@@ -4,7 +4,7 @@
 
 namespace delquad {
 
-/// Time since it was made, by this thread and by others that worked for it.
+/// Time since its creation, of this thread and of others that worked for it.
 class Stopwatch {
  public:
   TimeSpent time() const { return time_spent() - spent_; }

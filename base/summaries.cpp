@@ -12,7 +12,7 @@ template <class T>
 constexpr bool kIsList =
     std::is_same_v<T, std::vector<double>> || std::is_same_v<T, std::vector<std::vector<double>>>;
 
-/// A number of the field and of another one.
+/// Combines a number with another field's.
 template <class T>
 T merged(T a, double weight_a, T b, double weight_b, Over over) {
   if (over == Over::kSum) return a + b;

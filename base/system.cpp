@@ -78,7 +78,7 @@ long long peak_memory() {
 void keep_freed_memory() {
 #ifdef M_TRIM_THRESHOLD
   constexpr int kMebibyte = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, 32 * kMebibyte);  // the most that is allowed
+  mallopt(M_MMAP_THRESHOLD, 32 * kMebibyte);  // largest allowed value
   mallopt(M_TRIM_THRESHOLD, 1024 * kMebibyte);
   mallopt(M_TOP_PAD, 16 * kMebibyte);
 #endif

@@ -16,7 +16,7 @@ namespace delquad {
 
 namespace {
 
-/// Six digits, or as many as show hundredths: of map coordinates those are centimetres.
+/// Shows six digits, or enough for hundredths, which are centimeters in map coordinates.
 std::string show_coordinate(double x) {
   constexpr int kLeast = 6, kMost = 15, kHundredths = 3;
   const double size = std::abs(x);

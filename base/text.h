@@ -9,24 +9,24 @@
 
 #include "delquad/mesh.h"
 
-/// Texts of messages and files.
+/// This header formats texts of messages and reads files. All modules use it.
 namespace delquad {
 
-/// "(x, y)" and "(x, y, z)", six digits each.
+/// Returns "(x, y)" or "(x, y, z)" with six digits or more.
 std::string show_point(Vec2 p);
 std::string show_point(const Vec3& p);
-/// "1 triangle", "2 triangles"
+/// Returns "1 triangle" or "2 triangles".
 std::string counted(long long n, std::string_view what);
-/// "a, b, c, ...": the first of some texts.
+/// Returns the first texts, joined: "a, b, c, ...".
 std::string first_of(const std::vector<std::string>& texts, std::size_t most,
                      std::string_view between = ", ");
-/// Without blanks, tabs and line breaks around it.
+/// Returns the text without surrounding blanks, tabs and line breaks.
 std::string_view trimmed(std::string_view text);
-/// With capitals for a to z.
+/// Returns the text with a to z in capitals.
 std::string upper(std::string_view text);
-/// The value of a text that is a number and nothing else.
+/// Returns the number that the whole text is; nothing otherwise.
 std::optional<double> as_number(std::string_view text);
-/// A file's bytes. Throws InputError naming the file, and why it cannot be read.
+/// Returns the bytes of a file. Throws InputError with the file and the reason.
 std::string file_bytes(const std::filesystem::path& path);
 
 }  // namespace delquad

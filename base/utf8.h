@@ -5,14 +5,14 @@
 
 namespace delquad {
 
-/// Whether text is UTF-8: no byte out of place, no code point that is written too long, a surrogate or beyond
-/// U+10FFFF.
+/// Returns whether text is UTF-8, without misplaced bytes, overlong code points, surrogates, and code points
+/// above U+10FFFF.
 bool is_utf8(std::string_view text);
 
-/// The text where it is UTF-8; else its bytes are taken for ISO 8859-1, so that nothing of them is lost.
+/// Returns the text if it is UTF-8; otherwise its bytes as ISO 8859-1, so that none is lost.
 std::string as_utf8(std::string_view text);
 
-/// Text of units of two bytes as UTF-8; U+FFFD for what is no character.
+/// Converts text of two-byte units to UTF-8; invalid characters become U+FFFD.
 std::string from_utf16(std::string_view bytes, bool is_big_endian);
 
 }  // namespace delquad

@@ -7,11 +7,11 @@
 
 namespace delquad {
 
-/// A line for each kind, in the order of the first of each: its only text, or how many there are and the text
-/// of the worst.
+/// Returns a line for each kind, in the order of first warnings: the only text, or the number of warnings and
+/// the worst text.
 std::vector<std::string> summaries(const std::vector<Warning>& warnings);
 
-/// The text of each.
+/// Returns the text of each warning.
 std::vector<std::string> texts(const std::vector<Warning>& warnings);
 
 }  // namespace delquad

@@ -27,7 +27,7 @@ namespace delquad {
 
 namespace {
 
-/// Milliseconds between looks at whether the run is cancelled, or the process has ended unheard.
+/// Milliseconds between checks for cancellation or a dead process.
 constexpr int kPollMilliseconds = 20;
 constexpr std::size_t kLengthBytes = sizeof(std::uint64_t), kHead = 1 + kLengthBytes;
 
@@ -43,14 +43,14 @@ std::string framed(char first, const std::string& text) {
   return frame + text;
 }
 
-/// The length in a head.
+/// Returns the length in a head.
 std::size_t length_in(const std::string& frame) {
   std::uint64_t length = 0;
   std::memcpy(&length, frame.data() + 1, kLengthBytes);
   return length;
 }
 
-/// Both ends, none of them a standard one, so that those can be replaced in the child.
+/// Returns both ends, neither of them a standard stream, so that the child can replace these.
 std::pair<int, int> connected_pair() {
   constexpr int kFirst = 10;
   int ends[2], above[2];
@@ -64,8 +64,8 @@ std::pair<int, int> connected_pair() {
   refuse("no pair of sockets", error);
 }
 
-/// How the worker starts: some of its standard streams are the socket, and it has no other files. No signal
-/// is ignored or blocked. It is a process group of its own.
+/// Attributes of a worker's start. Some standard streams are the socket, and it has no other files. No signal
+/// is ignored or blocked, and it is its own process group.
 class Spawning {
  public:
   Spawning(int socket, const std::vector<int>& streams) {
@@ -93,7 +93,7 @@ class Spawning {
   Spawning(const Spawning&) = delete;
   Spawning& operator=(const Spawning&) = delete;
 
-  /// Returns an error number, 0: none.
+  /// Returns an error number; 0: none.
   int start(std::vector<std::string>& words, pid_t& pid) const {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
@@ -106,7 +106,7 @@ class Spawning {
   posix_spawnattr_t attributes_;
 };
 
-/// Takes the whole replies from the front of the buffer; says whether the last one was among them.
+/// Takes complete replies from the front of the buffer. Returns whether the last one was among them.
 bool hear_all(std::string& buffer, const std::function<void(char, const std::string&)>& hear) {
   std::size_t at = 0;
   bool last = false;
@@ -125,7 +125,7 @@ bool hear_all(std::string& buffer, const std::function<void(char, const std::str
   return last;
 }
 
-/// The worker is of use only as long as somebody listens, and must not go on for ever.
+/// Ends the worker when nobody listens, so that it cannot run forever.
 void end_with_listener(int parent, int socket) {
   end_with(parent, SIGKILL);
   std::thread([socket] {
@@ -151,7 +151,7 @@ std::string receive_request(int socket) {
 
 }  // namespace
 
-// The worker ends with its parent, which may already be another by the time it can ask for that.
+// The worker ends with its parent, which may be another process by the time it asks for that.
 WorkerProcess::WorkerProcess(const std::filesystem::path& program)
     : WorkerProcess({program.string(), std::to_string(process_number())}, {STDIN_FILENO}) {}
 
@@ -173,7 +173,8 @@ WorkerProcess::~WorkerProcess() {
   }
 }
 
-/// A program around may wait for all its children; then this one is not to be found any more.
+/// Returns whether it has ended. An embedding program may wait for all its children; then this one is no
+/// longer found.
 bool WorkerProcess::has_ended() {
   if (pid_ < 0) return true;
   const pid_t ended = waitpid(pid_, &status_, WNOHANG);
@@ -205,7 +206,7 @@ void WorkerProcess::ask(const std::string& request,
           send(socket_, message.data() + sent, message.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
       if (n > 0) sent += static_cast<std::size_t>(n);
     }
-    // Another process that was forked meanwhile may keep the other end open.
+    // A process forked meanwhile may keep the other end open.
     const bool ended = ready == 0 && has_ended();
     const bool more = (ready <= 0 && !ended) || (entry.revents & ~POLLOUT) == 0 || read_some(buffer);
     if (hear_all(buffer, hear) || !more || ended) return;

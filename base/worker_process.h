@@ -5,22 +5,23 @@
 #include <string>
 #include <vector>
 
+// This header runs programs that may crash, apart from this process. Readers of files use it.
+
 namespace delquad {
 
-/// How a program ended.
+/// End of a program.
 struct ProgramEnd {
-  int exit_code;        ///< -1: by a signal, or not known
-  std::string printed;  ///< to standard output and standard error
+  int exit_code;        ///< -1: by a signal, or unknown
+  std::string printed;  ///< standard output and standard error
 };
-/// Runs a program of the PATH, for so many seconds of processor time at most, without input and as a
-/// WorkerProcess apart from this one. Throws InputError when it cannot be started, and Cancelled.
+/// Runs a program of PATH without input, apart from this process as a WorkerProcess, for at most `seconds` of
+/// processor time. Throws InputError if it cannot start, and Cancelled.
 ProgramEnd run_to_end(const std::vector<std::string>& words, unsigned seconds);
 
-/// A process of a program that reads files by a library, which may crash on damaged ones, or find no end. It
-/// has neither standard output nor error nor any file of this one's, and a signal of the terminal does not
-/// reach it. It ends with this object, and when this process dies.
-/// Nothing of this process is changed: no fork, no signal handler. Throws InputError when it cannot be
-/// started.
+/// A process of a program that reads files by a library, which may crash or hang on damaged files. It has no
+/// standard output or error and no files of this process. Signals of the terminal do not reach it. It ends
+/// with this object, and when this process dies. It does not change this process: no fork, no signal handler.
+/// Throws InputError if it cannot start.
 class WorkerProcess {
  public:
   explicit WorkerProcess(const std::filesystem::path& program);
@@ -28,15 +29,15 @@ class WorkerProcess {
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-  /// Sends the request and calls `hear` with each reply and its kind, until the last one has come or the
-  /// process has ended. Throws Cancelled.
+  /// Sends the request and calls `hear` with each reply and its kind, until the last one or the end of the
+  /// process. Throws Cancelled.
   void ask(const std::string& request, const std::function<void(char, const std::string&)>& hear);
 
  private:
   friend ProgramEnd run_to_end(const std::vector<std::string>&, unsigned);
-  /// `streams`: standard ones of the process that are the socket; the others are the null device.
+  /// `streams` are standard streams of the process that become the socket; others become the null device.
   WorkerProcess(std::vector<std::string> words, const std::vector<int>& streams);
-  /// Whether more may come.
+  /// Returns whether more may come.
   bool read_some(std::string& buffer) const;
   bool has_ended();
 
@@ -45,17 +46,17 @@ class WorkerProcess {
   int status_ = -1;
 };
 
-/// After a reply whose kind is no small letter the worker is done.
+/// Returns whether a reply is the last: its kind is no small letter.
 inline bool is_last(char kind) { return kind < 'a'; }
 
-/// The life of a worker: it calls `answer` with the one request that comes through the socket, and ends when
-/// its parent, the process of this number, does. `why_not` tells what was thrown, the reply kMessage.
+/// Runs a worker: it calls `answer` with the only request from the socket, and ends with its parent, the
+/// process of this number. `why_not` returns the message of an exception, sent as kMessage.
 [[noreturn]] void work_for(int socket, int parent, const std::function<void(const std::string&)>& answer,
                            const std::function<std::string()>& why_not);
 constexpr char kMessage = 'M';
-/// In the worker: so many seconds of processor time are left.
+/// Limits the worker to this many more seconds of processor time.
 void limit_to(unsigned seconds);
-/// In the worker: sends a reply, as a whole, from any thread; without a listener the worker ends.
+/// Sends a whole reply from the worker, on any thread; without a listener the worker ends.
 void send_reply(int socket, char kind, const std::string& text);
 
 }  // namespace delquad

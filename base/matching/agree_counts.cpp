@@ -16,17 +16,17 @@
 namespace delquad {
 namespace {
 
-/// Large deviations cost more than many small ones.
+/// Weight of the square of deviations, so that large ones cost more than many small ones.
 constexpr double kUneven = 8;
-/// What counts as cheaper.
+/// Least decrease of cost that counts.
 constexpr double kCheaper = 1e-9;
-/// Passes over all sums and curves, at most.
+/// Most passes over all sums and curves.
 constexpr int kMostAgreements = 50;
-/// Curves of a chain.
+/// Most curves of a chain.
 constexpr int kMostCurves = 24;
-/// What a chain may cost on the way beyond what its end can gain.
+/// Cost that a chain may have beyond the largest gain of its end.
 constexpr double kAdvance = 2;
-/// The price of a sum that is to become zero.
+/// Price of a sum that must become zero.
 constexpr double kForced = 1000;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -85,7 +85,7 @@ class Agreement {
     int curve = -1, by = 0;
   };
   using Changes = std::vector<Change>;
-  /// A curve of a chain; `patch`, beyond it, is the next one to set right.
+  /// A curve of a chain; `patch` beyond it is the next one to correct.
   struct Step {
     double cost;
     int patch;
@@ -97,9 +97,9 @@ class Agreement {
     Changes changes = {};
   };
 
-  /// All the way to zero, or not at all.
+  /// Brings a sum to zero, or changes nothing.
   bool close(int sum) {
-    std::map<int, int> by;  // of each curve that changes
+    std::map<int, int> by;  // change of each curve
     forced_ = sum;
     while (off(sum) != 0) {
       const Best best = approach(sum);
@@ -115,7 +115,7 @@ class Agreement {
     return is_closed && gain_of(all) > kCheaper && make(all);
   }
 
-  /// The best change that brings a sum nearer to zero.
+  /// Returns the best change that brings a sum nearer to zero.
   Best approach(int sum) {
     const double most = price(sum, values_[sum]) + kAdvance;
     Best best;
@@ -124,7 +124,7 @@ class Agreement {
     return best;
   }
 
-  /// The best change that brings a curve nearer to what it wants.
+  /// Makes the best change that brings a curve nearer to its wanted number.
   bool restore(int curve) {
     Best best;
     try_change(curve, counts_[curve] > curves_[curve].want ? -1 : 1, misfit(curve, counts_[curve]) + kAdvance,
@@ -132,7 +132,7 @@ class Agreement {
     return make(best.changes);
   }
 
-  /// By one and by two. `most`: what the rest of a chain may cost.
+  /// Tries changes by one and by two. `most` limits the cost of the rest of a chain.
   void try_change(int curve, int by, double most, Best& best) {
     const auto& patches = curves_[curve].patches;
     const auto compare = [&](Changes changes) {
@@ -152,7 +152,7 @@ class Agreement {
     compare(std::move(changes));
   }
 
-  /// The cheapest changes that follow the first one at `from`, until `to` is reached; none: it is not.
+  /// Returns the cheapest changes after the first one at `from` that reach `to`; empty: none.
   Changes chain(int from, Change first, int to, double most) {
     std::vector<Step> steps{{0, from, first, -1, 0}};
     best_.resize(4 * curves_.size() + at_patch_.size(), kNever);
@@ -196,7 +196,7 @@ class Agreement {
     return changes;
   }
 
-  /// Where a patch has sums, it matters by which change it was reached.
+  /// Returns the label of a step: at a patch with sums, the change that reached it matters.
   std::size_t label(const Step& step) const {
     if (!closes_[step.patch]) return 4 * curves_.size() + step.patch;
     const bool second = curves_[step.change.curve].patches.front() != step.patch;
@@ -229,7 +229,7 @@ class Agreement {
   void note_costs(int curve) {
     for (int by = -kNoted; by <= kNoted; ++by) costs_[curve][by + kNoted] = new_cost_of({curve, by});
   }
-  /// By how much a sum of this value is too large or, negative, too small.
+  /// Returns the excess of a sum of this value; negative: it is too small.
   int off(int sum, int value) const {
     const int least = sums_[sum].at_least;
     return least > 0 ? std::min(0, value - least) : value;
@@ -246,7 +246,7 @@ class Agreement {
         if (s == sum) times += t;
     return times;
   }
-  /// Of two changes at a patch, the second one new, by its sums.
+  /// Returns the cost of two changes at a patch by its sums; the second change is new.
   double cost_at(int patch, Change first, Change second) const {
     double cost = 0;
     const auto add = [&](int curve) {
@@ -266,7 +266,7 @@ class Agreement {
     return cost;
   }
 
-  /// By how much the changes lower the costs, that of the forced sum being kForced.
+  /// Returns the decrease of cost by the changes; the forced sum costs kForced.
   double gain_of(const Changes& changes) {
     if (changes.empty()) return 0;
     double gain = 0;
@@ -295,7 +295,7 @@ class Agreement {
   }
 
   static constexpr int kAnywhere = -1;
-  static constexpr int kNoted = 2;  // searches change numbers by no more
+  static constexpr int kNoted = 2;  // searches change numbers by at most this
 
   const std::vector<AgreeingCurve>& curves_;
   const std::vector<ClosureSum>& sums_;
@@ -303,13 +303,13 @@ class Agreement {
   int most_looks_;
   std::vector<int>& counts_;
   int outside_;
-  std::vector<std::vector<std::pair<int, int>>> in_sums_;  ///< of each curve: sums, and how often
-  std::vector<std::vector<int>> at_patch_;                 ///< free curves, of the outside, too
+  std::vector<std::vector<std::pair<int, int>>> in_sums_;  ///< by curve: sums, and its factor in each
+  std::vector<std::vector<int>> at_patch_;                 ///< free curves by patch, outside included
   std::vector<char> closes_;                               ///< whether a patch has sums
-  std::vector<int> values_;                                ///< of the sums
-  int forced_ = -1;                                        ///< a sum that is to become zero
+  std::vector<int> values_;                                ///< of sums
+  int forced_ = -1;                                        ///< sum that must become zero
   std::vector<double> best_;                               ///< by label()
-  std::vector<std::array<double, 2 * kNoted + 1>> costs_;  ///< cost_of() of each curve, by its change
+  std::vector<std::array<double, 2 * kNoted + 1>> costs_;  ///< cost_of() of each curve by its change
 };
 
 }  // namespace

@@ -11,13 +11,12 @@ namespace delquad {
 
 namespace {
 
-/// The nested blossoms as heavy paths, to find the innermost one around two nodes, however deep they are
-/// nested.
+/// Nested blossoms as heavy paths, to find the innermost one around two nodes at any depth.
 struct Nesting {
   std::vector<int> depth, path;  ///< path: the outermost blossom on the same heavy path
   std::vector<long long> size;   ///< in nodes
-  std::vector<Wide> sum;         ///< dual values of a blossom and of all around it
-  bool sound = false;            ///< parents come first, sizes are odd, dual values are not negative
+  std::vector<Wide> sum;         ///< sum of dual values of a blossom and all around it
+  bool sound = false;            ///< parents come first, sizes are odd, duals are not negative
 };
 
 Nesting nest(const MatchingCertificate& c) {
@@ -49,7 +48,7 @@ Nesting nest(const MatchingCertificate& c) {
   return nesting;
 }
 
-/// Dual values of the blossoms that an edge between nodes within a and within b leaves.
+/// Returns the dual values of the blossoms that an edge between nodes in a and in b leaves.
 Wide crossed(const MatchingCertificate& c, const Nesting& nesting, int a, int b) {
   Wide sum = (a < 0 ? 0 : nesting.sum[a]) + (b < 0 ? 0 : nesting.sum[b]);
   while (a >= 0 && b >= 0 && nesting.path[a] != nesting.path[b]) {

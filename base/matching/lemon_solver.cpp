@@ -1,4 +1,4 @@
-// The one file that LEMON's headers enter; it is compiled as C++17 because they are not valid C++20.
+// The only file with LEMON's headers, compiled as C++17, since they are not valid C++20.
 #define LEMON_ONLY_TEMPLATES
 #include <lemon/matching.h>
 #include <lemon/smart_graph.h>
@@ -14,14 +14,14 @@ namespace delquad {
 
 namespace {
 
-// Extracting the matching recurses once a level of nested blossoms, which may be as deep as a fraction of the
-// nodes.
+// Extraction of the matching recurses at each level of nested blossoms, which may be as deep as a fraction of
+// the nodes.
 constexpr std::size_t kMinimumStack = std::size_t{64} << 20;
 constexpr std::size_t kStackPerNode = 256;
-/// What every thread has left on its stack. A thread of its own costs as much time as some hundred nodes.
+/// Stack that every thread has left. An own thread costs as much time as some hundred nodes.
 constexpr std::size_t kUsualStack = std::size_t{1} << 20;
 
-/// The costs as LEMON wants them, to be maximised. Arcs inherit the value of their edge.
+/// Costs negated for LEMON, which maximizes. Arcs inherit the value of their edge.
 class NegatedCosts {
  public:
   using Key = lemon::SmartGraph::Edge;
@@ -57,7 +57,7 @@ class LemonSolver final : public MatchingSolver {
  public:
   std::string name() const override { return "lemon"; }
 
-  /// LEMON cannot be interrupted: whoever cancels waits for its end.
+  /// LEMON cannot be interrupted: cancellation waits for its end.
   MatchingResult solve(const MatchingGraph& graph) const override {
     check_cancelled();
     const std::size_t needed = kStackPerNode * static_cast<std::size_t>(graph.n_nodes);

@@ -14,11 +14,12 @@
 #include "base/parallel_collect.h"
 #include "base/sort_unique.h"
 
-/// The part of the search in which trees grow, end, stop and are left.
+/// This header has the part of the search that grows, ends and stops trees, and its levels. The primal-dual
+/// solver uses it.
 
 namespace delquad {
 
-/// The edge from v, which is even, to w, which is even or in no tree, is tight.
+/// Handles a tight edge from v, which is even, to w, which is even or in no tree.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::meet(int v, int w) {
   const int c = s_.nodes[v].container, d = s_.nodes[w].container;
@@ -54,7 +55,7 @@ void PrimalDualSearch<Value, Cost>::grow(int v, int w) {
   scan_all(e);
 }
 
-/// Matches v, which is even, with w, and all else on the path from v to its root anew.
+/// Matches v, which is even, with w, and rematches the path from v to its root.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::flip(int v, int w) {
   for (;;) {
@@ -83,7 +84,7 @@ void PrimalDualSearch<Value, Cost>::free_base(int container) {
   flip(odd.outer, odd.inner);
 }
 
-/// The tree has met what may not change now: it stays as it is until this search is over, or another tree
+/// Stops a tree that met nodes which may not change now. It stays until this search ends, or another tree
 /// meets it.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::stop(int tree) {
@@ -102,7 +103,7 @@ void PrimalDualSearch<Value, Cost>::stop(int tree) {
   notice_missed();
 }
 
-/// The containers of the tree are in none any more.
+/// Removes the containers of a tree from it.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::dissolve(int tree) {
   members_.collect(tree, released_);
@@ -128,7 +129,7 @@ void PrimalDualSearch<Value, Cost>::notice_missed() {
   missed_.clear();
 }
 
-/// What is left to do once trees were dissolved. Blossoms whose dual value is zero hold nothing together.
+/// Finishes after trees were dissolved: opens free blossoms whose dual value is zero.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::settle() {
   notice_missed();
@@ -163,7 +164,8 @@ void PrimalDualSearch<Value, Cost>::leave_free_ones() {
   if (!roots.empty() && roots[0] < 0) roots.erase(roots.begin());
 }
 
-/// Trees that cannot grow: without their odd nodes, each of their even containers is a component for itself.
+/// Collects a witness from trees that cannot grow: without their odd nodes, each even container is a
+/// component.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::find_witness() {
   range_->outcome = SearchOutcome::kStuck;
@@ -174,7 +176,7 @@ void PrimalDualSearch<Value, Cost>::find_witness() {
 
 /// The part of the search that makes and opens blossoms.
 
-/// The edge between v and w, both even and in one tree, is tight: it closes an odd cycle.
+/// Contracts the odd cycle of a tight edge between v and w, both even and in one tree.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::contract(int v, int w) {
   ++range_->contractions;
@@ -184,7 +186,7 @@ void PrimalDualSearch<Value, Cost>::contract(int v, int w) {
   list_children(v, w, common, s_.blossoms[b].children);
   join_lists(b);
 
-  // The blossom goes by the name of its largest part, whose nodes need not be told.
+  // The blossom takes the number of its largest part, whose nodes then need no update.
   int container = common, largest = 0;
   bool missed = false;
   were_odd_.clear();
@@ -209,7 +211,7 @@ void PrimalDualSearch<Value, Cost>::contract(int v, int w) {
   for (const auto& [first, last] : were_odd_) s_.each_in_list(first, last, [&](int x) { scan(x); });
 }
 
-/// The tree ends here, and its new blossom is free.
+/// Ends the tree; its new blossom is free.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::park_cycle(int container) {
   free_base(container);
@@ -219,7 +221,7 @@ void PrimalDualSearch<Value, Cost>::park_cycle(int container) {
   settle();
 }
 
-/// The first even container that the paths from a and b to their root share.
+/// Returns the first even container that the paths from a and b to their root share.
 template <class Value, class Cost>
 int PrimalDualSearch<Value, Cost>::common_container(int a, int b) {
   if (mark_ == last_mark_) {
@@ -238,7 +240,7 @@ int PrimalDualSearch<Value, Cost>::common_container(int a, int b) {
   }
 }
 
-/// The containers from an even one up to, and without, another, each with the edge to the next.
+/// Lists the containers from an even one up to another (excluded), each with the edge to the next.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::climb(int from, int to, std::vector<Step>& path) const {
   path.clear();
@@ -250,7 +252,7 @@ void PrimalDualSearch<Value, Cost>::climb(int from, int to, std::vector<Step>& p
   }
 }
 
-/// The cycle: from the common container down to v, over to w, and up again.
+/// Lists the cycle: from the common container down to v, over to w, and up again.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::list_children(int v, int w, int common, std::vector<Child>& children) {
   climb(s_.nodes[v].container, common, path_a_);
@@ -267,7 +269,7 @@ void PrimalDualSearch<Value, Cost>::list_children(int v, int w, int common, std:
   }
 }
 
-/// Puts the lists of the children's nodes together, and keeps the children's dual values.
+/// Joins the node lists of the children, and stores the children's dual values.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::join_lists(int blossom) {
   auto& whole = s_.blossoms[blossom];
@@ -296,7 +298,7 @@ void PrimalDualSearch<Value, Cost>::join_lists(int blossom) {
   }
 }
 
-/// Brings the nodes of all children to one container, that of one of them. Their totals stay.
+/// Moves the nodes of all children to the container of one of them. Their totals do not change.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::relabel(int blossom, int container) {
   const Value kept = offset(s_.nodes[container]);
@@ -313,8 +315,7 @@ void PrimalDualSearch<Value, Cost>::relabel(int blossom, int container) {
   }
 }
 
-/// The dual value of an odd blossom is zero: the part of its cycle that keeps the tree together stays in the
-/// tree.
+/// Opens an odd blossom whose dual value is zero. The part of its cycle that connects the tree stays in it.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::expand_odd(int container) {
   ++range_->expansions;
@@ -325,7 +326,7 @@ void PrimalDualSearch<Value, Cost>::expand_odd(int container) {
   const int k = static_cast<int>(children.size());
   const int last = State::index_of(children, s_.nodes[base].container);
   int i = State::index_of(children, s_.nodes[inner].container);
-  // Towards the base by an even number of links.
+  // Goes towards the base by an even number of links.
   const bool forwards = (i - last + k) % k % 2 == 1;
   const int step = forwards ? 1 : k - 1;
   for (;;) {
@@ -350,8 +351,9 @@ void PrimalDualSearch<Value, Cost>::expand_odd(int container) {
   }
 }
 
-/// Searches ranges of nodes, those of one level at once, each time in larger ones. The ranges do not depend
-/// on the number of threads, and no search sees what another one of its level does: nor does the result.
+/// Searches ranges of nodes, one level at a time in parallel, with larger ranges in each level. Ranges do not
+/// depend on the number of threads, and searches of a level do not see each other. So the result does not
+/// depend on it either.
 template <class Value, class Cost>
 class PrimalDualLevels {
  public:
@@ -359,19 +361,19 @@ class PrimalDualLevels {
     note_border();
   }
 
-  /// Goes through all levels; `park` and `modulus` as for PrimalDualSearch.
+  /// Runs all levels; `park` and `modulus` are as for PrimalDualSearch.
   SearchOutcome run(bool park, int modulus);
 
-  std::vector<int> witness;  ///< where a search found that there is no perfect matching
+  std::vector<int> witness;  ///< proof of a search that there is no perfect matching
   long long contractions = 0, expansions = 0;
 
  private:
   using Search = PrimalDualSearch<Value, Cost>;
   using Border = BorderNode<Value>;
 
-  /// Nodes of the smallest ranges: their part of the graph stays in a fast cache.
+  /// Nodes of the smallest ranges, whose part of the graph stays in a fast cache.
   static constexpr int kFirstRange = 4096;
-  /// Ranges of one level that make one of the next.
+  /// Ranges of one level that form one of the next.
   static constexpr int kFactor = 8;
 
   void note_border();
@@ -385,7 +387,7 @@ class PrimalDualLevels {
 
   PrimalDualState<Value, Cost>& s_;
   Value limit_;
-  std::vector<int> border_;  ///< nodes with neighbours outside their smallest range
+  std::vector<int> border_;  ///< nodes with neighbors outside their smallest range
   std::vector<std::unique_ptr<Search>> idle_;
   std::mutex mutex_;
 };

@@ -11,11 +11,12 @@
 #include "base/cancel.h"
 #include "base/matching/primal_dual_state.h"
 
+// This header searches augmenting paths by growing trees. The primal-dual solver uses it.
+
 namespace delquad {
 
-/// Events in the order of their times, those of one time in the order in which they were pushed. Times are >=
-/// 0 and never before the time of the last event popped: then an event moves at most once for each bit of its
-/// time.
+/// Queue of events by time, and by insertion for equal times. Times are >= 0 and never before the last popped
+/// event, so an event moves at most once for each bit of its time.
 template <class Time>
 class RadixQueue {
  public:
@@ -27,7 +28,7 @@ class RadixQueue {
 
   void push(Time time, int node, int arc) { put({time, node, arc}); }
 
-  /// False when there is no event left.
+  /// Returns false if no event is left.
   bool pop(Event& event) {
     std::vector<Event>& now = buckets_[0];
     if (next_ == now.size()) {
@@ -39,7 +40,7 @@ class RadixQueue {
     return true;
   }
 
-  /// Drops all events and starts again at time zero.
+  /// Drops all events and restarts at time zero.
   void reset() {
     for (int k = 0; k < kBuckets; ++k) buckets_[k].clear();
     for (std::uint64_t& word : used_) word = 0;
@@ -51,7 +52,7 @@ class RadixQueue {
   static constexpr int kBuckets = 8 * sizeof(Time) + 1;
   static constexpr int kWords = (kBuckets + 63) / 64;
 
-  /// One more than the highest bit in which a time differs from the last one; 0 when it does not.
+  /// Returns one more than the highest bit in which a time differs from the last one; 0 if none does.
   static int bucket(Time difference) {
     if constexpr (sizeof(Time) > 8) {
       const auto high = static_cast<std::uint64_t>(difference >> 64);
@@ -66,7 +67,7 @@ class RadixQueue {
     if (k > 0) used_[k / 64] |= std::uint64_t{1} << (k % 64);
   }
 
-  /// Brings the events of the next time to bucket 0.
+  /// Moves the events of the next time to bucket 0.
   bool refill() {
     for (int word = 0; word < kWords; ++word) {
       if (used_[word] == 0) continue;
@@ -88,10 +89,10 @@ class RadixQueue {
   Time last_ = 0;
 };
 
-/// The containers of many trees, each tree a list of blocks of one cache line, which are used again.
+/// Containers of many trees; each tree is a list of reusable blocks of one cache line.
 class TreeMembers {
  public:
-  /// A new list, empty.
+  /// Makes an empty list.
   int make() {
     int tree;
     if (unused_.empty()) {
@@ -144,7 +145,7 @@ class TreeMembers {
     unused_.push_back(tree);
   }
 
-  /// Tells a tree from an earlier one of the same number; 0 when it is no more.
+  /// Returns a number that tells a tree from an earlier one of the same index; 0: it does not exist.
   long long birth(int tree) const { return births_[tree]; }
 
  private:
@@ -162,46 +163,45 @@ class TreeMembers {
 
 enum class SearchOutcome {
   kDone,
-  kStuck,     ///< some trees can neither grow nor end: there is no perfect matching
-  kOverflow,  ///< times leave the range of the numbers
+  kStuck,     ///< some trees can neither grow nor end, so there is no perfect matching
+  kOverflow,  ///< times exceed the range of the numbers
 };
 
-/// A node with neighbours outside its range, and how high its total may rise: of the slack of an edge between
-/// two ranges, each has half.
+/// A node with neighbors outside its range, and the upper limit of its total. Two ranges share the slack of
+/// an edge between them equally.
 template <class Value>
 struct BorderNode {
   int node;
   Value cap;
 };
 
-/// Consecutive nodes that are searched for themselves.
+/// Consecutive nodes that one search handles.
 template <class Value>
 struct SearchRange {
   int begin = 0, end = 0;
-  /// A node in each container to start from, ascending; after the search, in each that is free.
+  /// A node in each container to start from, ascending; after the search, in each free one.
   std::vector<int> roots = {};
   std::span<const BorderNode<Value>> border = {};  ///< ascending
   SearchOutcome outcome = SearchOutcome::kDone;
-  Value time = 0;                 ///< at which the search ended
-  std::vector<int> witness = {};  ///< where it is stuck: a set that proves it
+  Value time = 0;                 ///< end of the search
+  std::vector<int> witness = {};  ///< proof if the search is stuck
   long long contractions = 0, expansions = 0;
 };
 
-/// Trees of alternating paths that grow from all free containers of a range of nodes at once and at one
-/// speed, until each has ended: at another tree or a free container (both are matched then), or at an odd
-/// cycle that is left as a free blossom (`park`), or where it would have to leave the range. docs/matching.md
-/// says more.
+/// Search by trees of alternating paths that grow from all free containers of a range at once, at equal
+/// speed. A tree ends at another tree or a free container, and both are matched. It also ends at an odd cycle
+/// that stays as a free blossom (`park`), and at the border of the range. docs/matching.md explains the
+/// method.
 ///
-/// Searches of ranges that have no node in common may run at once: each changes containers that lie in its
-/// range only, and looks at others only where none changes them.
+/// Searches of disjoint ranges may run at once. Each changes only containers in its range, and reads others
+/// only if none changes them.
 template <class Value, class Cost>
 class PrimalDualSearch {
  public:
   explicit PrimalDualSearch(PrimalDualState<Value, Cost>& state) : s_(state) {}
 
-  /// Searches `range`, and leaves there what came of it. No time is over `limit`. `park`: see above;
-  /// `modulus`: such that totals of the nodes of roots that agree in their remainders keep all times
-  /// integral.
+  /// Searches `range` and stores the result there. Times stay below `limit`. Roots whose totals agree modulo
+  /// `modulus` keep all times integral.
   void run(SearchRange<Value>& range, Value limit, bool park, int modulus);
 
  private:
@@ -210,9 +210,9 @@ class PrimalDualSearch {
   using Child = typename State::Child;
   using Event = typename RadixQueue<Value>::Event;
   struct Step {
-    int container, end, next;  ///< on a path to the root, and the edge to the one after
+    int container, end, next;  ///< on a path to the root, with the edge to the next container
   };
-  static constexpr std::size_t kFetchAhead = 12;  ///< entries of a list that are read one by one
+  static constexpr std::size_t kFetchAhead = 12;  ///< entries of a list to prefetch
   static constexpr int kMarksAtOnce = 1024;
   static constexpr int kStart = -1, kVanish = -2, kBorder = -3;  ///< in place of an arc
 
@@ -236,7 +236,7 @@ class PrimalDualSearch {
     members_.add(tree, container);
   }
 
-  /// Starts to read a node from memory, of two cache lines.
+  /// Prefetches a node, which has two cache lines.
   void fetch(int v) const {
     __builtin_prefetch(&s_.nodes[v]);
     __builtin_prefetch(&s_.nodes[v].own_arcs);
@@ -279,13 +279,13 @@ class PrimalDualSearch {
   Value time_ = 0;
   bool park_ = false;
   int waiting_ = 0;                                 ///< roots that have not started
-  int growing_ = 0;                                 ///< trees
-  unsigned events_ = 0;                             ///< that have come, modulo 2^32
+  int growing_ = 0;                                 ///< growing trees
+  unsigned events_ = 0;                             ///< number of events, modulo 2^32
   std::vector<std::pair<int, long long>> stopped_;  ///< trees with their births
   std::vector<int> released_, missed_, loose_, parked_;
   std::vector<Step> path_a_, path_b_;
   std::vector<std::pair<int, int>> were_odd_;  ///< first and last nodes of lists
-  int mark_ = 0, last_mark_ = 0;               ///< of those that are this search's own
+  int mark_ = 0, last_mark_ = 0;               ///< range of this search's marks
 };
 
 template <class Value, class Cost>
@@ -333,7 +333,7 @@ void PrimalDualSearch<Value, Cost>::handle(const Event& event) {
   }
 }
 
-/// By how much the total of a node at the border may rise.
+/// Returns the possible rise of the total of a node at the border.
 template <class Value, class Cost>
 Value PrimalDualSearch<Value, Cost>::room(int v) const {
   const auto at = std::ranges::lower_bound(range_->border, v, {}, &BorderNode<Value>::node);
@@ -359,7 +359,7 @@ void PrimalDualSearch<Value, Cost>::start(int v) {
   scan_all(c);
 }
 
-/// Events for the edges of a node that has become even.
+/// Pushes events for the edges of a node that became even.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::scan(int v) {
   const Value mine = total(v);
@@ -377,18 +377,18 @@ void PrimalDualSearch<Value, Cost>::scan(int v) {
     if (d == c) continue;
     Node& other = s_.nodes[d];
     if (other.rate < 0) {
-      // A node in this tree stays odd for as long as this one is even.
+      // A node in this tree stays odd as long as this one is even.
       if (other.tree != tree || other.blossom >= 0) other.missed = true;
       continue;
     }
-    if (other.mate >= 0) fetch(other.mate);  // where the tree may grow to next
+    if (other.mate >= 0) fetch(other.mate);  // next place of growth
     const Value slack = arcs[a].cost - mine - (s_.nodes[w].value + offset(other));
     queue_.push(time_ + (other.rate > 0 ? slack / 2 : slack), v, a);
   }
   if (border) queue_.push(time_ + room(v), v, kBorder);
 }
 
-/// Events for the edges of a node that is odd no more, or does not change any more, with nodes that are even.
+/// Pushes events for edges to even nodes, for a node that is no longer odd or no longer changes.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::scan_missed(int v) {
   const auto* const arcs = s_.arcs_of(s_.nodes[v]);
@@ -398,7 +398,7 @@ void PrimalDualSearch<Value, Cost>::scan_missed(int v) {
   }
 }
 
-/// An edge that may have become tight.
+/// Handles an edge that may have become tight.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::follow(int v, int arc) {
   const auto& edge = s_.arcs_of(s_.nodes[v])[arc];

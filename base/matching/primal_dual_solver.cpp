@@ -17,7 +17,7 @@ namespace delquad {
 
 namespace {
 
-/// Dual values and a matching to start from, by passes over the edges: most of a mesh is matched by them.
+/// First dual values and matching, by passes over the edges: they match most of a mesh.
 
 /// Dual values in quarters of the unit of costs, all even.
 template <class Value>
@@ -26,11 +26,11 @@ struct FirstMatching {
   std::vector<Value> dual;
   std::vector<int> mate;  ///< -1: free
   int n_free = 0;
-  int hub = 0;  ///< the most edges of a node that is no hub
+  int hub = 0;  ///< largest degree of a node that is no hub
 };
 
-/// A node of a degree this many times as large as usual is a hub. Half of its cheapest edge says nothing of
-/// its neighbours: it takes what they leave.
+/// A node with this multiple of the usual degree is a hub. Half of its cheapest edge tells nothing about its
+/// neighbors, so it takes the rest of their costs.
 inline constexpr int kHubFactor = 16;
 
 inline int hub_degree(const MatchingGraph& graph) {
@@ -38,7 +38,7 @@ inline int hub_degree(const MatchingGraph& graph) {
   return static_cast<int>(std::min<std::size_t>(kHubFactor * (mean + 1), std::numeric_limits<int>::max()));
 }
 
-/// Every edge that is no hub's leaves half of its cost to each end, so that none has negative slack.
+/// Gives half the cost of every edge outside of hubs to each end, so that no slack is negative.
 template <class Value>
 void share_costs(const MatchingGraph& graph, FirstMatching<Value>& first) {
   const int hub = first.hub;
@@ -54,7 +54,7 @@ void share_costs(const MatchingGraph& graph, FirstMatching<Value>& first) {
   }
   for (int v = 0; v < graph.n_nodes; ++v) first.dual[v] = cheapest[v] == kNone ? 0 : 2 * Value{cheapest[v]};
   if (!hubs) return;
-  // Two hubs share an edge as any nodes do, and each gives way to its other neighbours.
+  // Two hubs share an edge like other nodes, and each leaves its other neighbors their share.
   for (const auto& e : graph.edges) {
     const bool a = first.degree[e.a] > hub, b = first.degree[e.b] > hub;
     if (a == b) continue;
@@ -85,7 +85,7 @@ FirstMatching<Value> first_matching(const MatchingGraph& graph) {
   return first;
 }
 
-/// The graph in rows, with the first matching; the arcs of a node are in the order of the edges.
+/// Fills the graph in rows, with the first matching; arcs of a node are in the order of edges.
 template <class Value, class Cost>
 void fill_state(const MatchingGraph& graph, const FirstMatching<Value>& first,
                 PrimalDualState<Value, Cost>& state) {
@@ -118,8 +118,8 @@ void fill_state(const MatchingGraph& graph, const FirstMatching<Value>& first,
   }
 }
 
-/// Raises the dual value of each free node as far as its edges let it, and matches it with a free node that
-/// is then tight. Lists the nodes that stay free.
+/// Raises the dual value of each free node as far as its edges allow. Matches it with a free node if their
+/// edge is tight. Lists the remaining free nodes.
 template <class Value, class Cost>
 void raise_free_nodes(PrimalDualState<Value, Cost>& state) {
   for (int v = 0; v < state.n_nodes; ++v) {
@@ -146,8 +146,7 @@ void raise_free_nodes(PrimalDualState<Value, Cost>& state) {
   }
 }
 
-/// Times and dual values are, with all else that is added to them, at most this many times a bound on the sum
-/// of the costs of a matching (docs/matching.md).
+/// Bound of times, dual values and sums with them, over a bound of the cost of a matching (docs/matching.md).
 constexpr int kRoom = 16;
 
 template <class Value>
@@ -158,12 +157,12 @@ std::vector<WideInteger> narrow_all(const std::vector<Value>& values) {
   return result;
 }
 
-/// Opens all blossoms from outside to inside, noting them down.
+/// Opens all blossoms from outside in, and records them.
 template <class Value, class Cost>
 void open_blossoms(PrimalDualState<Value, Cost>& state, MatchingCertificate& certificate) {
   struct Open {
     int container, parent;
-    Value around;  ///< dual values of all blossoms around it
+    Value around;  ///< sum of dual values of all blossoms around it
   };
   std::vector<Open> left;
   std::vector<Value> total(state.n_nodes);
@@ -193,7 +192,7 @@ void open_blossoms(PrimalDualState<Value, Cost>& state, MatchingCertificate& cer
   certificate.node_dual = narrow_all(total);
 }
 
-/// Nothing where the numbers are too narrow.
+/// Returns nothing if the numbers are too narrow.
 template <class Value, class Cost>
 std::optional<MatchingResult> solve_with(const MatchingGraph& graph, Value time_limit) {
   MatchingResult result;
@@ -211,7 +210,7 @@ std::optional<MatchingResult> solve_with(const MatchingGraph& graph, Value time_
   check_cancelled();
   raise_free_nodes(state);
   PrimalDualLevels<Value, Cost> levels(state, time_limit);
-  // Totals are even up to here, and costs multiples of four: two even nodes meet after a whole number of
+  // So far totals are even and costs multiples of four, so two even nodes meet after an integral number of
   // units.
   SearchOutcome outcome = levels.run(true, 4);
   if (outcome == SearchOutcome::kDone) outcome = levels.run(false, 2);
@@ -229,7 +228,7 @@ std::optional<MatchingResult> solve_with(const MatchingGraph& graph, Value time_
   return result;
 }
 
-/// The largest absolute cost.
+/// Returns the largest absolute cost.
 long long check(const MatchingGraph& graph) {
   if (graph.n_nodes < 0 ||
       graph.edges.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 2) {
@@ -250,7 +249,7 @@ long long check(const MatchingGraph& graph) {
   return largest;
 }
 
-/// The cost of the matching by its dual values, which are equal.
+/// Computes the cost of the matching by its dual values, which sum up to it.
 void add_up(MatchingResult& result) {
   Wide sum = 0;
   for (const WideInteger& y : result.certificate.node_dual) sum += wide(y);

@@ -11,15 +11,16 @@
 
 #include "base/system.h"
 
+// This header has the state of the primal-dual method. Its searches share it.
+
 namespace delquad {
 
-/// Items that go by numbers, which several threads may make and drop at once. An item stays where it is, and
-/// belongs to whoever made it; what is dropped is used again. Which number an item gets depends on the
-/// threads: nothing else may depend on it.
+/// Pool of numbered items that several threads make and drop at once. An item keeps its place and belongs to
+/// its maker; dropped items are reused. Numbers depend on threads, so nothing else may depend on them.
 template <class Item>
 class SharedPool {
  public:
-  /// At most this many items live at any time.
+  /// At most `most` items live at any time.
   explicit SharedPool(std::size_t most) : chunks_(most / kChunk + 1) {}
 
   Item& operator[](int i) { return chunks_[static_cast<std::size_t>(i) / kChunk][i % kChunk]; }
@@ -50,8 +51,8 @@ class SharedPool {
   std::mutex mutex_;
 };
 
-/// Allocates large arrays that are read in no order on pages of two megabytes, where the system has them:
-/// finding the place of a small page in memory costs about as much as reading from it.
+/// Allocates large arrays with random access on pages of two megabytes, if the system has them. Finding a
+/// small page in memory costs about as much as reading from it.
 template <class Item>
 struct HugePageAllocator {
   using value_type = Item;
@@ -79,17 +80,15 @@ struct HugePageAllocator {
   }
 };
 
-/// Nodes or events after which a loop asks whether the run is cancelled: some milliseconds of work.
+/// Nodes or events between checks for cancellation: some milliseconds of work.
 inline constexpr unsigned kPerCheck = 1u << 14;
 
-/// What the primal-dual method knows of a graph between two searches (docs/matching.md): a matching, dual
-/// values and blossoms such that no edge has negative slack and all matched edges and all links of blossoms
-/// have none.
+/// State of the primal-dual method between two searches (docs/matching.md): a matching, dual values and
+/// blossoms. No edge has negative slack, and matched edges and links of blossoms have slack 0.
 ///
-/// A container is a node outside all blossoms, or an outermost blossom; it goes by the number of one of its
-/// nodes. The total of a node, its own dual value and those of all blossoms around it, is `value` of the node
-/// and `offset` of its container: the slack of an edge between two containers is its cost less the totals of
-/// its ends.
+/// A container is a node outside all blossoms, or an outermost blossom; its number is one of its nodes. The
+/// total of a node sums up its dual value and those around it: its `value` plus the `offset` of its
+/// container. The slack of an edge between two containers is its cost minus the totals of its ends.
 template <class Value, class Cost>
 struct PrimalDualState {
   struct Arc {
@@ -97,38 +96,37 @@ struct PrimalDualState {
     int to;
   };
 
-  /// Nodes with more arcs have them apart.
+  /// Nodes with more arcs store them apart.
   static constexpr int kOwnArcs = 3;
 
   struct alignas(32) Node {
     Value value = 0;
     int container = 0;
     int mate = -1;  ///< valid for nodes by which a container is matched
-    // Of the container that goes by this node's number:
+    // Fields of the container with this node's number:
     Value offset = 0;
-    int tree = -1;               ///< that it is in
-    int blossom = -1;            ///< the outermost one; -1: a node
-    int base = -1;               ///< the node by which it is matched, or where it is free
-    int outer = -1, inner = -1;  ///< the edge by which it came into its tree as an odd one
+    int tree = -1;               ///< tree of the container
+    int blossom = -1;            ///< its outermost blossom; -1: a node
+    int base = -1;               ///< node by which it is matched, or at which it is free
+    int outer = -1, inner = -1;  ///< edge by which it joined its tree as an odd container
     int mark = 0;
     signed char label = 0;  ///< 1 even, -1 odd, 0 in no tree
-    signed char rate =
-        0;  ///< by which the offset changes with time: the label, or 0 in a tree that has stopped
-    bool missed = false;  ///< an event with a neighbour that is even was dropped since this is odd
+    signed char rate = 0;   ///< growth of the offset with time: the label, or 0 in a stopped tree
+    bool missed = false;    ///< an event with an even neighbor was dropped since it is odd
     int degree = 0;
-    Arc own_arcs[kOwnArcs];  ///< or the number of the first in the first one's `to`
+    Arc own_arcs[kOwnArcs];  ///< or, in `to` of the first one, the index of its first arc
   };
 
   struct Child {
     int blossom;    ///< -1: a node
-    int container;  ///< as which it went
-    int end, next;  ///< the edge to the next child: its ends here and there
+    int container;  ///< its container before the contraction
+    int end, next;  ///< ends of the edge to the next child, here and there
   };
 
   struct Blossom {
-    int first = -1, last = -1, size = 0;  ///< its nodes, a list
-    int lowest = 0, highest = 0;          ///< of its nodes
-    Value dual = 0;                       ///< while it is inside another one
+    int first = -1, last = -1, size = 0;  ///< list of its nodes
+    int lowest = 0, highest = 0;          ///< range of its nodes
+    Value dual = 0;                       ///< while it is inside another blossom
     Value origin = 0;             ///< while it is outermost: the offset at which its dual value is zero
     std::vector<Child> children;  ///< around the odd cycle
   };
@@ -136,14 +134,14 @@ struct PrimalDualState {
   explicit PrimalDualState(int n) : n_nodes(n), nodes(n), next(n), blossoms(n / 2) {}
 
   int n_nodes;
-  int hub = 0;  ///< nodes of more arcs than this are hubs: they are in no range but that of all nodes
+  int hub = 0;  ///< nodes with more arcs are hubs, only in the range of all nodes
   std::vector<Node, HugePageAllocator<Node>> nodes;
-  std::vector<int> next;  ///< in the lists of nodes of blossoms
-  std::vector<Arc> arcs;  ///< of nodes that have many
+  std::vector<int> next;  ///< in the node lists of blossoms
+  std::vector<Arc> arcs;  ///< of nodes with many arcs
   SharedPool<Blossom> blossoms;
-  /// Marks that searches have taken, some at a time: each is in use once.
+  /// Next mark; searches take several at a time, and each is used once.
   std::atomic<int> marks = 0;
-  std::vector<int> free_nodes;  ///< one in each container that is not matched
+  std::vector<int> free_nodes;  ///< one in each unmatched container
 
   const Arc* arcs_of(const Node& node) const {
     return node.degree <= kOwnArcs ? node.own_arcs : arcs.data() + node.own_arcs[0].to;
@@ -179,7 +177,7 @@ struct PrimalDualState {
     each_in_list(blossoms[b].first, blossoms[b].last, f);
   }
 
-  /// While no search runs.
+  /// Valid while no search runs.
   Value total(int v) const { return nodes[v].value + nodes[nodes[v].container].offset; }
 
   bool inside(int container, int begin, int end) const {
@@ -187,15 +185,15 @@ struct PrimalDualState {
     if (b >= 0) return blossoms[b].lowest >= begin && blossoms[b].highest < end;
     return nodes[container].degree <= hub || end - begin == n_nodes;
   }
-  /// A container that a search of the range may change, and so the one that it is matched with.
+  /// Returns whether a search of the range may change a container, and so its matched one.
   bool movable(int container, int begin, int end) const {
     if (!inside(container, begin, end)) return false;
     const int mate = nodes[nodes[container].base].mate;
     return mate < 0 || (mate >= begin && mate < end && inside(nodes[mate].container, begin, end));
   }
 
-  /// The outermost blossom of a container becomes its children, which are matched around the cycle and in no
-  /// tree. `offset` is the container's at this time.
+  /// Replaces the outermost blossom of a container by its children, matched around the cycle and in no tree.
+  /// `offset` is the current one of the container.
   std::vector<Child> expand(int container, Value offset) {
     const int b = nodes[container].blossom, base = nodes[container].base;
     std::vector<Child> children;

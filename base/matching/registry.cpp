@@ -19,7 +19,7 @@ AddedParts<MatchingSolverFactory>& solvers() {
   return all;
 }
 
-/// A solver whose results are looked at: those from outside are taken on nobody's word.
+/// A solver whose results are checked, since added ones cannot be trusted.
 class CheckedSolver final : public MatchingSolver {
  public:
   CheckedSolver(std::string name, std::unique_ptr<MatchingSolver> solver)

@@ -14,22 +14,22 @@
 namespace delquad {
 namespace {
 
-/// A chain may break what another has mended; all conditions are looked at so many times at most.
+/// Most rounds over all conditions, since a chain may break what another one repaired.
 constexpr int kMostRounds = 20;
-/// Passes over all curves that lower the sum of costs, at most, and what counts as lower.
+/// Most passes over all curves that lower the sum of costs, and the least decrease that counts.
 constexpr int kMostPasses = 100;
-/// Chains that may make up for one change.
+/// Most chains that compensate one change.
 constexpr int kMostChains = 12;
 constexpr double kLower = 1e-9;
 
-/// Of a sum of numbers of edges with signs: it is zero across a mapped face of four sides, even around one of
-/// three or a free one, and negative for a side of three against both others.
+/// Condition on a signed sum of numbers of edges. It is zero across a mapped face of four sides. It is even
+/// around a face of three sides or a free one, and negative for a side of three against both others.
 enum class Demand { kZero, kEven, kNegative };
 
 struct Condition {
   int face;
   Demand demand;
-  std::vector<std::pair<int, int>> terms;  ///< curve and how often, with its sign; where even, odd ones only
+  std::vector<std::pair<int, int>> terms;  ///< curve and signed factor; only odd factors for even sums
 };
 
 class Balance {
@@ -102,12 +102,12 @@ class Balance {
   }
   bool holds(int condition) const { return meets(conditions_[condition].demand, sum(condition)); }
 
-  /// A condition that has to be changed by one, up or down; parities know no difference.
+  /// Returns the state of a condition that must change by one, up or down; parities have no direction.
   static int state_of(int condition, bool up) { return 2 * condition + up; }
 
   struct Step {
     double cost = std::numeric_limits<double>::infinity();
-    int before = -1;  ///< state
+    int before = -1;  ///< previous state
     int curve = -1, change = 0;
   };
 
@@ -115,7 +115,7 @@ class Balance {
     return std::abs(std::log((curves_[curve].n + change) / curves_[curve].want));
   }
 
-  /// Whether a change of a curve leaves a condition no worse.
+  /// Returns whether a change of a curve leaves a condition no worse.
   bool bears(int condition, int change) const {
     const Demand demand = conditions_[condition].demand;
     const int now = sum(condition);
@@ -123,14 +123,14 @@ class Balance {
            (demand == Demand::kNegative && now >= 0 && change < 0);
   }
 
-  /// Where a change of the curve leads, seen from a condition: to another that then has to be changed back
-  /// (its state), to none (-1), or nowhere allowed (-2): to several.
+  /// Returns where a change of the curve leads from a condition: the state of another condition to correct,
+  /// or -1 for none. Returns -2 if the change is not allowed or breaks several.
   int led_to(int start, int from, int curve, int change) const {
     int state = -1, others = 0;
     for (const auto& [condition, times] : of_curve_[curve]) {
       if (condition == from) continue;
       if (condition == start && conditions_[start].demand != Demand::kNegative)
-        return -2;  // it would be changed twice
+        return -2;  // it would change twice
       if (bears(condition, times * change)) continue;
       if (++others > 1 || std::abs(times) > 1) return -2;
       const bool is_even = conditions_[condition].demand == Demand::kEven;
@@ -139,7 +139,7 @@ class Balance {
     return state;
   }
 
-  /// Makes a condition better by one.
+  /// Improves a condition by one.
   bool mend(int condition) {
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -212,7 +212,7 @@ class Balance {
     }
   }
 
-  /// Changes a curve and what has to follow, where the sum of misfits gets less.
+  /// Changes a curve and compensates the change, if the sum of misfits falls.
   bool try_change(int curve, int by) {
     changes_.clear();
     change(curve, by);
@@ -228,7 +228,7 @@ class Balance {
             if (std::ranges::find(touched, other) == touched.end()) touched.push_back(other);
         }
     held_ = -1;
-    // Of the curves that changed, each once.
+    // Each changed curve once.
     double gain = 0;
     for (const int c : touched) gain -= misfit(c);
     undo();
@@ -242,7 +242,7 @@ class Balance {
     for (const auto& [curve, by] : changes_) curves_[curve].n -= by;
   }
 
-  /// Curves that are not free, from a condition on.
+  /// Returns the fixed curves connected to a condition.
   std::vector<int> fixed_curves(int condition) const {
     std::vector<int> fixed, queue{condition};
     std::vector<char> met(conditions_.size(), 0);
@@ -264,11 +264,11 @@ class Balance {
 
   std::vector<CountedCurve>& curves_;
   std::vector<Condition> conditions_;
-  std::vector<std::vector<std::pair<int, int>>> of_curve_;  ///< conditions that it is in, how often
+  std::vector<std::vector<std::pair<int, int>>> of_curve_;  ///< conditions with this curve, and its factor
   std::vector<Step> steps_;                                 ///< by state
   std::vector<int> reached_;                                ///< states whose steps are set
-  std::vector<std::pair<int, int>> changes_;                ///< curves and by how much, since try_change()
-  int held_ = -1;                                           ///< a curve that does not change
+  std::vector<std::pair<int, int>> changes_;                ///< curves and changes since try_change()
+  int held_ = -1;                                           ///< curve that must not change
 };
 
 }  // namespace

@@ -15,12 +15,12 @@ namespace delquad {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-/// Units that the matching counts the longest path in: fine enough to tell any two paths that matter apart.
+/// Units of the matching for the longest path, fine enough to distinguish relevant paths.
 constexpr double kUnits = 1e9;
 
 struct Paths {
   std::vector<double> distance;
-  std::vector<int> edge;  ///< by which each node is reached; -1 at the source
+  std::vector<int> edge;  ///< edge to each node; -1 at the source
 };
 
 Paths shortest_paths(const WeightedGraph& graph, const std::vector<std::vector<int>>& incident, int source) {
@@ -46,7 +46,7 @@ Paths shortest_paths(const WeightedGraph& graph, const std::vector<std::vector<i
   return paths;
 }
 
-/// Takes one terminal out of each component that has an odd number of them.
+/// Removes one terminal from each component with an odd number of them. Returns these.
 std::vector<int> leave_odd_ones(std::vector<int>& terminals, std::vector<Paths>& paths) {
   std::vector<int> left;
   for (size_t i = terminals.size(); i-- > 0;) {

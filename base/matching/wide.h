@@ -6,7 +6,7 @@
 
 namespace delquad {
 
-/// To calculate with.
+/// Integer of 128 bits for arithmetic.
 __extension__ typedef __int128 Wide;
 
 inline Wide wide(const WideInteger& i) { return Wide{i.high} * (Wide{1} << 64) + i.low; }
