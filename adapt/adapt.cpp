@@ -15,16 +15,15 @@
 namespace delquad {
 namespace {
 
-/// What fits of linear fields leave, of their greatest value.
+/// Largest error of fits of linear fields, over their greatest value.
 constexpr double kNoError = 1e-12;
-/// Powers of second derivatives are still numbers.
+/// Larger values have powers of second derivatives that overflow.
 constexpr double kMostValue = 1e90;
-/// How near the number of quads, or the error on the new mesh, comes to what is asked, and after how many
-/// meshes that is given up.
+/// Tolerance for the wanted number of quads, or for the error on the new mesh, and limit of tried meshes.
 constexpr double kNearWanted = 0.05;
 constexpr int kMostMeshes = 3;
 
-/// Where it is linear there is nothing to adapt to.
+/// Returns whether the solution is linear, so that nothing can be adapted to it.
 bool is_linear(const Recovery& solution, const std::string& name) {
   double most = 0;
   for (const double value : solution.values)
@@ -35,7 +34,7 @@ bool is_linear(const Recovery& solution, const std::string& name) {
   return interpolation_error(solution, std::numeric_limits<double>::infinity()).whole <= kNoError * most;
 }
 
-/// What goes with a size, and not with a metric.
+/// Returns whether the problem has parts that need a size instead of a metric.
 bool needs_size(const MeshProblem& problem) {
   const auto* model = std::get_if<PlanarModel>(&problem.model);
   return !problem.layers.empty() || !problem.periodic.empty() || !problem.washers.empty() ||
@@ -43,7 +42,7 @@ bool needs_size(const MeshProblem& problem) {
          (model != nullptr && std::ranges::any_of(model->curves, &ModelCurve::is_crack));
 }
 
-/// Each curve needs an edge, and with n edges around it a mesh has n / 2 - 1 quads at least.
+/// Refuses too few quads. Each curve needs an edge, and n edges around a mesh need at least n / 2 - 1 quads.
 void require_quads(const PlanarModel& model, double quads) {
   std::size_t sides = 0;
   for (const ModelCurve& curve : model.curves) sides += 1 + curve.shape->fixed_parameters().size();
@@ -52,7 +51,7 @@ void require_quads(const PlanarModel& model, double quads) {
     refuse("{:g} quads: the {} sides of the outline need {:g} at least", quads, sides, std::max(1.0, least));
 }
 
-/// The height, names and numbers of the mesh in place of indices, see trace_mesh().
+/// Replaces indices by the height, names and numbers of the mesh, see trace_mesh().
 void take_names(const Mesh& from, Mesh& mesh) {
   for (Vec3& p : mesh.points)
     p.z = from.points[from.quads.empty() ? from.triangles[0][0] : from.quads[0][0]].z;
@@ -70,7 +69,7 @@ void take_names(const Mesh& from, Mesh& mesh) {
   mesh.curves.push_back({last_tag + 1, {}});
 }
 
-/// The same solution as another mesh sees its second derivatives.
+/// Returns a solution on another mesh, with its second derivatives there.
 Recovery seen_on(const Recovery& solution, const Mesh& mesh) {
   Recovery seen;
   seen.mesh = mesh;
@@ -108,7 +107,7 @@ Adapted adapt(const Mesh& mesh, const std::vector<NodalField>& fields, const Ada
     problem.model = trace_mesh(mesh), problem.name = problem.where = "the mesh of the solution";
   problem.order = std::max(problem.order, mesh.order);
   problem.size = {};
-  problem.seed = 0;  // which would turn the domain away from the solution
+  problem.seed = 0;  // a seed would turn the domain away from the solution
   problem.quads.reset();
   std::vector<Adapted::Error> errors;
   for (const Recovery& solution : solutions)

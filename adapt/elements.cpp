@@ -27,7 +27,7 @@ constexpr std::array<Quadrature, 6> kTriangle{{{kA, kA, kWa},
                                                {1 - 2 * kB, kB, kWb},
                                                {kB, 1 - 2 * kB, kWb}}};
 
-/// Polynomials of Lagrange over equal distances, and their slopes.
+/// Computes Lagrange polynomials over equal distances, and their slopes.
 void lagrange(int order, double x, std::array<double, kMostOrder + 1>& value,
               std::array<double, kMostOrder + 1>& slope) {
   for (int i = 0; i <= order; ++i) {

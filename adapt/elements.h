@@ -9,24 +9,25 @@
 #include "delquad/mesh.h"
 #include "geometry/mesh/nearest_triangle.h"
 
+// This header evaluates fields on elements. Recovery, estimates and transfer use it.
+
 namespace delquad {
 
-/// Shape functions of an element and their slopes at a place of it.
+/// Shape functions of an element and their slopes at a place.
 struct Shape {
   static constexpr std::size_t kMost = (kMostOrder + 1) * (kMostOrder + 1);
   std::array<double, kMost> value, along_s, along_t;
 };
 
-/// A place of an element that stands for a part of it.
+/// A quadrature point of an element.
 struct Quadrature {
   double s, t, weight;
 };
 
-/// The elements of a mesh, triangles first, as maps from the triangle (0, 0), (1, 0), (0, 1) and the unit
-/// square.
+/// Elements of a mesh, triangles first, as maps from the triangle (0, 0), (1, 0), (0, 1) and the unit square.
 class Elements {
  public:
-  /// `corners_only`: as if they were straight.
+  /// With `corners_only` elements have straight sides.
   explicit Elements(const Mesh& mesh, bool corners_only = false);
 
   int size() const { return static_cast<int>(start_.size()) - 1; }
@@ -35,14 +36,13 @@ class Elements {
     return std::span(nodes_).subspan(start_[element], start_[element + 1] - start_[element]);
   }
   Shape shape(int element, double s, double t) const;
-  /// The place of the element whose point is nearest to x, from a guess.
+  /// Returns the shape at the element's nearest place to x, searched from a guess.
   Shape shape_at(int element, const Vec3& x, double s, double t) const;
   double value(int element, const Shape& shape, std::span<const double> values) const;
   Vec3 point(int element, const Shape& shape) const;
-  /// The area by which it grows, and the slopes of shape functions in the plane in place of those along s and
-  /// t.
+  /// Returns the area factor of the map, and replaces slopes along s and t by slopes in the plane.
   double to_plane(int element, Shape& shape) const;
-  /// Exact for products of two shape functions and a linear one with the area.
+  /// Returns points that are exact for products of two shape functions, a linear one and the area factor.
   std::span<const Quadrature> quadrature(int element) const;
   const std::vector<Vec3>& points() const { return points_; }
 
@@ -54,15 +54,15 @@ class Elements {
   std::vector<Quadrature> of_quads_;
 };
 
-/// Finds the element at a point, or the one that is nearest to it.
+/// Search for the element at a point, or the nearest one.
 class ElementFinder {
  public:
   explicit ElementFinder(const Mesh& mesh);
   struct Found {
     int element;
-    double s, t;  ///< of the element as two triangles
+    double s, t;  ///< on the element as two triangles
   };
-  /// `hint`: -1 at first.
+  /// Returns the element; `hint` is -1 at first.
   Found at(const Vec3& x, int& hint) const;
 
  private:
@@ -70,12 +70,12 @@ class ElementFinder {
   int n_triangles_;
 };
 
-/// Throw InputError for what is no mesh of elements, and no planar one; `what` names it.
+/// Throws InputError, with the name `what`, for a mesh without elements.
 void require_elements(const Mesh& mesh, const std::string& what);
-/// Throws InputError where no two elements share a point, as in files of discontinuous fields.
+/// Throws InputError if no two elements share a point, as in files of discontinuous fields.
 void require_joined(const Mesh& mesh, const std::string& what);
 void require_planar(const Mesh& mesh, const std::string& what);
-/// Throws InputError unless there is a finite value for each point that elements have.
+/// Throws InputError unless each point of elements has a finite value.
 void require_values(const Mesh& mesh, std::span<const double> values, const std::string& name);
 
 }  // namespace delquad

@@ -12,7 +12,7 @@ namespace {
 
 double along(const Tensor2& h, Vec2 d) { return h.xx * d.x * d.x + 2 * h.xy * d.x * d.y + h.yy * d.y * d.y; }
 
-/// Places whose greatest error counts: these corners of a grid, so many on a side.
+/// Places whose greatest error counts: corners of a grid with this number on a side.
 constexpr int kPlaces = 4;
 
 }  // namespace

@@ -15,13 +15,13 @@ namespace delquad {
 namespace {
 
 constexpr int kMostRounds = 60;
-/// How near complexities and errors come to what is asked.
+/// Tolerance of complexities and errors.
 constexpr double kNear = 1e-3;
 constexpr double kMostQuads = 1e9;
-/// Of a metric whose lengths may not become as small as they would have to be.
+/// Limit of the scale of a metric whose lengths cannot become small enough.
 constexpr double kMostScale = 1e60;
 
-/// The part of the area that belongs to each point.
+/// Returns the part of the area that belongs to each point.
 std::vector<double> areas_at_points(const Mesh& mesh) {
   std::vector<double> area(mesh.points.size(), 0);
   for_each_element(mesh, [&](int, const auto& v) {
@@ -39,7 +39,7 @@ double complexity_of(const std::vector<Tensor2>& metric, const std::vector<doubl
   return sum;
 }
 
-/// All lengths times a factor, within the limits, so that it has this complexity.
+/// Returns the metric with all lengths scaled, within the limits, to this complexity.
 std::vector<Tensor2> at_complexity(const std::vector<Tensor2>& metric, const std::vector<double>& area,
                                    const MetricLimits& limits, double complexity) {
   std::vector<Tensor2> made = metric;
@@ -53,7 +53,7 @@ std::vector<Tensor2> at_complexity(const std::vector<Tensor2>& metric, const std
   return made;
 }
 
-/// The metric of one solution at the points of the mesh that was given.
+/// Returns the metric of one solution at the points of the given mesh.
 std::vector<Tensor2> metric_of(const Mesh& mesh, const Recovery& solution, const AdaptSpec& spec) {
   std::vector<Tensor2> metric(mesh.points.size());
   std::vector<char> is_known(mesh.points.size(), 0);
@@ -71,10 +71,10 @@ std::vector<Tensor2> metric_of(const Mesh& mesh, const Recovery& solution, const
   return metric;
 }
 
-/// The error of a solution on quads that are unit squares along the axes of a metric.
+/// Returns the error of a solution on quads that are unit squares along the axes of a metric.
 double error_by(const Recovery& solution, const std::vector<Tensor2>& metric, double p) {
   const std::vector<double> area = areas_at_points(solution.mesh);
-  constexpr double kBump = 0.125;  // of x (1 - x) / 2
+  constexpr double kBump = 0.125;  // maximum of x (1 - x) / 2
   constexpr int kSamples = 8;
   double sum = 0, most = 0;
   for (std::size_t i = 0; i < area.size(); ++i) {
@@ -140,7 +140,7 @@ std::vector<Tensor2> adapted_metric(const Mesh& mesh, const std::vector<Recovery
     return each.size() == 1 ? all : at_complexity(all, area, limits, quads);
   };
   if (spec.quads > 0) return made(spec.quads);
-  // The error is about in inverse proportion to the number.
+  // The error is about inversely proportional to the number.
   double quads = 1000;
   for (int round = 0; round < kMostRounds && quads < kMostQuads; ++round) {
     std::vector<Tensor2> metric = made(quads);

@@ -15,20 +15,20 @@
 namespace delquad {
 namespace {
 
-/// Radians by which a line turns that is still straight: coordinates in files have rounding.
+/// Largest turn of a straight line, radians, since coordinates in files are rounded.
 constexpr double kStraight = 1e-6;
-/// Radians by which a smooth curve turns between nodes at most: less than at a corner, so that it is smooth
-/// when it is traced again.
+/// Largest turn of a smooth curve between nodes, radians. It is less than at a corner, so the curve stays
+/// smooth when traced again.
 constexpr double kMostTurn = 30 * std::numbers::pi / 180;
 
 Vec2 flat(const Vec3& p) { return {p.x, p.y}; }
 double turn_between(Vec2 in, Vec2 out) { return std::atan2(cross(in, out), dot(in, out)); }
 
-/// Cubic between nodes, with the tangents of circles through three of them: arcs stay arcs, to the sixth
-/// power of their angle.
+/// Cubic between nodes, with tangents of circles through three nodes. Arcs stay arcs, to the sixth power of
+/// their angle.
 class SmoothChain final : public Curve {
  public:
-  /// `is_closed`: it goes on smoothly where it ends, at its first point.
+  /// `is_closed` makes it smooth at its first point, where it ends.
   SmoothChain(std::vector<Vec2> points, bool is_closed) : points_(std::move(points)), at_{0} {
     const int n = static_cast<int>(points_.size());
     for (int i = 1; i < n; ++i) at_.push_back(at_.back() + norm(points_[i] - points_[i - 1]));
@@ -58,7 +58,7 @@ class SmoothChain final : public Curve {
     if (x == 0) return points_[k - 1];
     if (x == 1) return points_[k];
     const Vec2 a = points_[k - 1], d = points_[k];
-    // The control points of an arc.
+    // Control points of an arc.
     const double quarter = std::cos(turn_between(tangent_[k - 1], tangent_[k]) / 4);
     const double handle = norm(d - a) / (3 * quarter * quarter);
     const Vec2 b = a + handle * tangent_[k - 1], c = d - handle * tangent_[k];
@@ -69,7 +69,7 @@ class SmoothChain final : public Curve {
   std::vector<double> fixed_parameters() const override { return nodes_; }
 
  private:
-  /// Of the circle through three points at one of them.
+  /// Returns the tangent of the circle through three points at one of them.
   static Vec2 tangent(Vec2 a, Vec2 b, Vec2 c, int which) {
     const Vec2 in = b - a, out = c - b;
     // Chords and tangents enclose half of the arcs' angles.
@@ -84,14 +84,14 @@ class SmoothChain final : public Curve {
   std::vector<Vec2> points_;
   std::vector<double> at_;  ///< parameters of the points
   std::vector<Vec2> tangent_;
-  std::vector<double> nodes_;  ///< parameters at which the mesh has them
+  std::vector<double> nodes_;  ///< parameters at which the mesh has nodes
 };
 
-/// A side that is to be an edge again.
+/// A side that becomes an edge again.
 struct Side {
   std::array<int, 2> nodes;
-  int curve;                   ///< of the mesh; one more: it has no line
-  std::array<int, 2> regions;  ///< of the elements left and right of it; -1: none
+  int curve;                   ///< curve in the mesh; one more: it has no line
+  std::array<int, 2> regions;  ///< regions of the elements left and right of it; -1: none
 };
 
 class MeshTracer {
@@ -121,7 +121,7 @@ class MeshTracer {
     return side.element < n ? mesh_.triangle_region[side.element] : mesh_.quad_region[side.element - n];
   }
 
-  /// Where two points lie at the same place, a curve would close what is open.
+  /// Refuses two points at the same place, since a curve would close the opening.
   void refuse_cracks() const {
     std::vector<std::array<double, 2>> places;
     for (std::size_t v = 0; v < sides_at_.size(); ++v)
@@ -161,7 +161,7 @@ class MeshTracer {
     return sides_[side].nodes[0] == node ? sides_[side].nodes[1] : sides_[side].nodes[0];
   }
 
-  /// Radians; 0 at ends.
+  /// Returns the turn at a node in radians; 0 at ends.
   double turn_at(int node) const {
     const auto& at = sides_at_[node];
     if (at.size() != 2) return 0;
@@ -194,7 +194,7 @@ class MeshTracer {
     }
   }
 
-  /// The curve that begins at a node with this side.
+  /// Adds the curve that begins at a node with this side.
   void follow(int side, int from) {
     const int curve = static_cast<int>(made_.curves.size());
     std::vector<int> chain{from};
@@ -216,9 +216,9 @@ class MeshTracer {
     made.name = std::to_string(sides_[side].curve);
   }
 
-  /// The loops around each part of a region, which has it on their left.
+  /// Adds the loops around each part of a region, which lies on their left.
   void add_loops() {
-    std::set<std::pair<int, int>> left;  // side, and 0 where it runs from lo to hi
+    std::set<std::pair<int, int>> left;  // side, and 0 if it runs from lo to hi
     for (int s = 0; s < std::ssize(sides_); ++s)
       for (const int k : {0, 1})
         if (sides_[s].regions[0] != sides_[s].regions[1] && sides_[s].regions[k] >= 0) left.insert({s, k});
@@ -245,7 +245,7 @@ class MeshTracer {
     }
   }
 
-  /// The side that goes on around a part of a region: the first one to the left.
+  /// Returns the next side around a part of a region: the first one to the left.
   std::pair<int, int> next_of(int side, int way, int region) const {
     const int node = sides_[side].nodes[1 - way];
     const Vec2 in = flat(mesh_.points[node]) - flat(mesh_.points[sides_[side].nodes[way]]);

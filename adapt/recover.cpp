@@ -14,10 +14,10 @@ namespace delquad {
 namespace {
 
 constexpr int kFewestRings = 2, kMostRings = 6;
-/// A degree is well determined where no diagonal entry of R is less than this part of the first.
+/// A degree is well determined if no diagonal entry of R is less than this part of the largest.
 constexpr double kWellDetermined = 0.02;
 
-/// Points between regions stand once for each of them.
+/// Returns the mesh with points between regions repeated for each region.
 Recovery parted(const Mesh& mesh, std::span<const double> values) {
   Recovery made;
   made.mesh = mesh;
@@ -51,7 +51,7 @@ Recovery parted(const Mesh& mesh, std::span<const double> values) {
   return made;
 }
 
-/// The numbers of the points of rings of elements around points.
+/// Rings of elements around points, as indices of their points.
 class Rings {
  public:
   explicit Rings(const Elements& elements) : elements_(elements), start_(elements.points().size() + 1, 0) {
@@ -82,7 +82,7 @@ class Rings {
 /// A polynomial around a point in the principal axes of its patch.
 class Fit {
  public:
-  /// `across`: the axis (0, 1) along which it is linear at most; -1: none.
+  /// `across` is the axis (0, 1) along which it is at most linear; -1: none.
   Fit(const std::vector<Vec3>& points, const std::vector<double>& values, int centre,
       const std::vector<int>& patch, int across)
       : across_(across) {
@@ -95,10 +95,10 @@ class Fit {
       values_[i] = values[patch[i]] - values[centre];
     }
     Eigen::MatrixX2d spread = offset;
-    if (across >= 0) spread.rowwise() -= offset.colwise().mean();  // else axes of half a row are oblique
+    if (across >= 0) spread.rowwise() -= offset.colwise().mean();  // else the axes of half a row are oblique
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread.transpose() * spread /
                                                               static_cast<double>(n));
-    // By the axes again: the smaller eigenvalue has lost its digits where the patch is thin.
+    // Recomputed by the axes: the smaller eigenvalue has lost its digits if the patch is thin.
     placed_ = offset * axes.eigenvectors();
     for (int k = 0; k < 2; ++k) {
       const double scale = std::sqrt(placed_.col(k).squaredNorm() / static_cast<double>(n));
@@ -107,7 +107,7 @@ class Fit {
     }
   }
 
-  /// False: the points do not determine it.
+  /// Returns false if the points do not determine it.
   bool solve(int degree, Vec2& gradient, Tensor2& hessian) const {
     std::vector<std::array<int, 2>> powers;
     for (int sum = 0; sum <= degree; ++sum)
@@ -167,11 +167,11 @@ Recovery recover(const Mesh& mesh, std::span<const double> values) {
       };
       for (int ring = 1; ring <= kMostRings && rings.grow(patch); ++ring)
         if (ring >= kFewestRings && solve()) return true;
-      return solve();  // where one ring is all that there is
+      return solve();  // only one ring exists
     };
     for (int degree = mesh.order + 2; degree > 1; --degree)
       if (fits(degree, -1)) return;
-    // A single row of elements says no more across.
+    // A single row of elements has no more information across.
     for (int degree = mesh.order + 2; degree > 1; --degree)
       if (fits(degree, 0) || fits(degree, 1)) return;
     fits(1, -1);

@@ -19,7 +19,7 @@ double area_of(const std::array<Vec2, 3>& x) { return cross(x[1] - x[0], x[2] - 
 
 using Polygon = std::vector<Vec2>;
 
-/// The part of a polygon that lies to the left of a line [sutherland1974].
+/// Clips a polygon to the left side of a line [sutherland1974].
 void clip(Polygon& polygon, Vec2 a, Vec2 b, Polygon& spare) {
   spare.clear();
   const auto side = [&](Vec2 x) { return cross(b - a, x - a); };
@@ -39,7 +39,7 @@ struct Half {
   std::array<Vec2, 3> corners;
 };
 
-/// Quads are parted by a diagonal that lies inside.
+/// Returns the triangles of elements; quads are split by a diagonal inside.
 std::vector<Half> halves(const Mesh& mesh) {
   std::vector<Half> made;
   const auto at = [&](int node) { return Vec2{mesh.points[node].x, mesh.points[node].y}; };
@@ -58,10 +58,10 @@ std::vector<Half> halves(const Mesh& mesh) {
   return made;
 }
 
-/// Below this part of an element's area nothing is missing but rounding.
+/// A missing area below this part of an element is rounding.
 constexpr double kCovered = 1e-10;
 
-/// The elements of two meshes over each other.
+/// Overlaps of the elements of two meshes.
 class Overlaps {
  public:
   Overlaps(const Mesh& from, const Mesh& to)
@@ -74,8 +74,9 @@ class Overlaps {
     for (std::size_t e = 1; e < first_.size(); ++e) first_[e] += first_[e - 1];
   }
 
-  /// Calls visit(weight, point, place) for places of elements of `from` whose weights make up the area of one
-  /// of `to`: three in each triangle of an overlap, exact for degree 2; beyond the old outline the nearest.
+  /// Calls visit(weight, point, place) for places in elements of `from` whose weights sum up to the area of
+  /// an element of `to`. Each triangle of an overlap has three, exact for degree 2. Beyond the old outline
+  /// the nearest place counts.
   template <class Visit>
   void visit(int element, Visit visit) const {
     std::vector<int> near;
@@ -114,14 +115,14 @@ class Overlaps {
 
  private:
   std::vector<Half> from_, to_;
-  std::vector<int> first_;  ///< of the halves of each element of `to`
+  std::vector<int> first_;  ///< first half of each element of `to`
   ElementFinder finder_;
   Elements new_;
   double z_;
   BoxTree<Vec2> tree_;
 };
 
-/// The integrals of shape functions.
+/// Returns the integrals of shape functions.
 std::vector<double> masses(const Mesh& mesh) {
   const Elements elements(mesh);
   std::vector<double> mass(mesh.points.size(), 0);
@@ -147,8 +148,7 @@ struct Bounds {
   void take(double x) { low = std::min(low, x), high = std::max(high, x); }
 };
 
-/// Makes the integral what it was: all values change by as much, or, if they are bounded, by as much of what
-/// they may.
+/// Restores the integral: all values change equally or, if bounded, in proportion to their range.
 void keep_integral(double wanted, const std::vector<double>& mass, const std::vector<Bounds>& bounds,
                    Transfer how, std::vector<double>& values) {
   std::vector<double> room(values.size(), 1);
@@ -165,7 +165,8 @@ void keep_integral(double wanted, const std::vector<double>& mass, const std::ve
   for (std::size_t i = 0; i < values.size(); ++i) values[i] += part * room[i];
 }
 
-/// The L2 projection. The same places on both sides of the equation: linear fields stay as they are.
+/// Returns the L2 projection. Both sides of the equation have the same places, so linear fields do not
+/// change.
 std::vector<double> project(const Mesh& from, std::span<const double> values, const Mesh& to,
                             std::vector<Bounds>& bounds) {
   struct Local {

@@ -3,7 +3,7 @@
 #include "benchmarks/square_case.h"
 #include "fields/fields.h"
 
-// The background mesh, the harmonic cross field on it, and queries of that field, by the number of boundary
+// Times the background mesh, its harmonic cross field, and queries of the field, by the number of boundary
 // edges.
 
 namespace delquad::benchmarks {
@@ -31,7 +31,7 @@ void query(benchmark::State& state) {
   const HarmonicCrossField field(std::make_shared<BackgroundMesh>(domain.domain.patches));
   int hint = -1, i = 0;
   for (auto _ : state) {
-    // A slow spiral: consecutive points are near each other, as in a mesher.
+    // A slow spiral: consecutive points are close, as in a mesher.
     const double r = 0.6 * (++i % 10000) / 10000, t = 0.01 * i;
     benchmark::DoNotOptimize(field.at({r * std::cos(t), 0.3 + r * std::sin(t)}, hint));
   }

@@ -6,7 +6,7 @@
 #include "base/context.h"
 #include "benchmarks/square_case.h"
 
-// F and D insertion, and CGAL's spatially sorted Delaunay triangulation of the points that each inserted.
+// Times insertion by F and D, and CGAL's spatially sorted Delaunay triangulation of the points of each.
 
 namespace delquad::benchmarks {
 namespace {

@@ -15,9 +15,9 @@
 #include "benchmarks/square_case.h"
 #include "tests/base/matching/graph_kinds.h"
 
-// Matching alone, by our solver on one thread and on two, and by LEMON's, the baseline: graphs of the meshes
-// of F and D, random cubic planar graphs, and the exact equilateral lattice. Each result of ours is proven by
-// its certificate, untimed. LEMON works in a thread of its own: only wall and process time count.
+// Times matching alone, by our solver on one thread and on two, and by LEMON's, the baseline. Graphs are
+// meshes of F and D, random cubic planar graphs, and the exact equilateral lattice. Each result of ours is
+// proven by its certificate, untimed. LEMON has its own thread: only wall and process time count.
 
 namespace delquad::benchmarks {
 namespace {
@@ -28,8 +28,8 @@ MatchingGraph mesh_graph(char letter, Grading grading, int n) {
   return build_dual_graph(mesh_frontal(domain.boundary(), *placement, domain.cross, domain.size)).graph;
 }
 
-/// The faces of the Delaunay triangulation of random points, those outside included, along a Hilbert curve;
-/// costs are random.
+/// Returns the faces of the Delaunay triangulation of random points, infinite ones included, along a Hilbert
+/// curve, with random costs.
 MatchingGraph cubic_planar_graph(int n) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Faces = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;
@@ -64,7 +64,7 @@ MatchingGraph cubic_planar_graph(int n) {
 }
 
 MatchingGraph lattice_graph(int n) {
-  // An even number of rows, so that the number of triangles is even.
+  // Rows are even, so that the number of triangles is even.
   const int rows = 2 * static_cast<int>(std::lround(std::sqrt(n) / 2));
   return testing_support::triangle_lattice(rows, kCostUnit / 3, kExtraEdgeCost);
 }
@@ -77,7 +77,7 @@ MatchingGraph graph_of(const std::string& family, int n) {
   return family == "lattice" ? lattice_graph(n) : cubic_planar_graph(n);
 }
 
-/// Our solver and LEMON get the same graph: the last one is kept.
+/// Returns the last graph again, so that our solver and LEMON get the same one.
 const MatchingGraph& kept_graph(const std::string& family, int n) {
   static std::pair<std::string, int> key;
   static MatchingGraph graph;
@@ -104,7 +104,7 @@ void matching(benchmark::State& state, const std::string& family, bool lemon, in
   state.SetComplexityN(graph.n_nodes);
 }
 
-/// The largest meshes take LEMON minutes.
+/// LEMON takes minutes for the largest meshes.
 constexpr int kSmallest = 1000, kLargest = 1'000'000, kLargestOfOurs = 3'000'000;
 
 void add_rows(const std::string& name, const std::string& family, bool lemon, int threads) {

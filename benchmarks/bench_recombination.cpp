@@ -9,8 +9,8 @@
 #include "base/matching/matching.h"
 #include "benchmarks/square_case.h"
 
-// Recombination and treatment of the meshes of F and D, with the insertion of the same mesh as the yardstick.
-// Recombination says what its dual graph, the matching and merging take, and has a row with LEMON's matching.
+// Times recombination and treatment of meshes of F and D, with the insertion of the same mesh as the scale.
+// Recombination reports the dual graph, matching and merging, and has a row with LEMON's matching.
 
 namespace delquad::benchmarks {
 namespace {
@@ -62,7 +62,7 @@ void sizes(benchmark::internal::Benchmark* b) {
   b->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMillisecond)->Complexity();
 }
 
-/// LEMON works in a thread of its own: only wall and process time count.
+/// LEMON has its own thread: only wall and process time count.
 void wall_sizes(benchmark::internal::Benchmark* b) {
   sizes(b);
   b->MeasureProcessCPUTime()->UseRealTime();

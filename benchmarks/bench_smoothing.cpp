@@ -10,13 +10,13 @@
 #include "smoothing/cvt/moving_delaunay.h"
 #include "smoothing/cvt/smooth_points.h"
 
-// Energy and gradient of Lp-CVT smoothing, with the repair of the triangulation, and CGAL's spatially sorted
-// Delaunay triangulation of the same points; whole runs.
+// Times energy and gradient of Lp-CVT smoothing with the repair of the triangulation, whole runs, and CGAL's
+// spatially sorted Delaunay triangulation of the same points.
 
 namespace delquad::benchmarks {
 namespace {
 
-/// Points of F on the unit square, about as many as asked for.
+/// Points of F on the unit square, about as many as requested.
 struct Seeds {
   explicit Seeds(double n)
       : square(Grading::kUniform, 2 * n / 1.15),  // F inserts 1.15 points for each square
@@ -25,8 +25,8 @@ struct Seeds {
   TriPatch mesh;
 };
 
-/// One evaluation, on as many threads as the second argument says. The seeds go to and fro as far as in the
-/// first steps of a run, so that the triangulation has flips to make.
+/// Times one evaluation; the second argument is the number of threads. The seeds move back and forth as in
+/// the first steps of a run, so the triangulation has flips.
 void evaluate(benchmark::State& state) {
   const Seeds seeds(static_cast<double>(state.range(0)));
   const RunScope run({.threads = static_cast<int>(state.range(1))});
@@ -68,7 +68,7 @@ void report(benchmark::State& state, const SmoothingSummary& s) {
   state.counters["rebuilds"] = s.rebuilds;
 }
 
-/// As L does it, with its defaults, on as many threads as the second argument says.
+/// Times stage L with its defaults; the second argument is the number of threads.
 void solve(benchmark::State& state) {
   const Seeds seeds(static_cast<double>(state.range(0)));
   const RunScope run({.threads = static_cast<int>(state.range(1))});

@@ -8,17 +8,17 @@
 #include "features/curves/mesh_planar_curves.h"
 #include "geometry/planar/planar_model.h"
 
-/// The domains that the microbenchmarks share.
+/// This header has the domains of the microbenchmarks.
 namespace delquad::benchmarks {
 
-/// Uniform: the unit square. Graded: the domain and size field of Lewis [paper, section 6.4], scaled.
+/// Uniform is the unit square. Graded is the domain and size field of Lewis [paper, section 6.4], scaled.
 enum class Grading : int { kUniform, kGraded };
 
 class SquareSize final : public ParametricSize, public SizeField {
  public:
-  /// `elements`: about how many D triangles the domain takes.
+  /// `elements` is the approximate number of triangles of D.
   SquareSize(Grading grading, double elements) : grading_(grading) {
-    // Integral of 1/delta^2 at scale 1: two triangles a square of side delta.
+    // Integral of 1/delta^2 at scale 1: two triangles for a square of side delta.
     constexpr double kUniformIntegral = 1, kLewisIntegral = 2567;
     scale_ = std::sqrt(2 * (grading == Grading::kUniform ? kUniformIntegral : kLewisIntegral) / elements);
   }
@@ -34,7 +34,7 @@ class SquareSize final : public ParametricSize, public SizeField {
   double scale_;
 };
 
-/// Along the axes on the uniform square, along the parabola family x = y^2 on the graded one.
+/// Cross along the axes on the uniform square, along the parabolas x = y^2 on the graded one.
 class SquareCross final : public CrossField {
  public:
   explicit SquareCross(Grading grading) : grading_(grading) {}

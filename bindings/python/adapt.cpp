@@ -18,8 +18,8 @@ py::array_t<double> array_of(const std::vector<double>& values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-/// (gradient of shape (n, 2), Hessian of shape (n, 3)) at the points; between regions of the side where the
-/// Hessian is larger.
+/// Returns (gradient of shape (n, 2), Hessian of shape (n, 3)) at the points. Between regions the side with
+/// the larger Hessian counts.
 py::tuple recovered(const Mesh& mesh, const py::object& values) {
   const std::vector<double> given = read_numbers(values, "values");
   Recovery made;
@@ -43,7 +43,7 @@ py::tuple recovered(const Mesh& mesh, const py::object& values) {
   return py::make_tuple(gradient, hessian);
 }
 
-/// Of the interpolation and of the gradient: the whole, and that of each element.
+/// Returns the errors of interpolation and gradient, each in total and by element.
 py::tuple estimated(const Mesh& mesh, const py::object& values, double norm) {
   const Recovery made = recover(mesh, read_numbers(values, "values"));
   const ErrorEstimate error = interpolation_error(made, norm), gradient = gradient_error(made);

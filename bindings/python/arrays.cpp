@@ -19,11 +19,11 @@ using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::force
 
 std::string shape_of(const py::array& array) { return py::str(array.attr("shape")); }
 
-/// Any array at all; ragged lists are none.
+/// Returns any array; ragged lists are refused.
 py::array as_array(const py::handle& object, const std::string& what, const char* expected) {
   const py::array array = py::array::ensure(object);
   if (!array) PyErr_Clear();
-  // Kinds of numpy: booleans, whole numbers, floating-point numbers.
+  // Kinds of numpy: booleans, integers, floating-point numbers.
   if (!array || std::string("biuf").find(array.dtype().kind()) == std::string::npos)
     refuse(
         "{}: expected {}, got {}", what, expected,
@@ -64,7 +64,7 @@ std::vector<double> read_vector(const py::handle& object, std::size_t n, const s
   return numbers;
 }
 
-/// Calls `make` for each row of numbers; a row has as many as one of `columns`.
+/// Calls `make` for each row of numbers; its length must be in `columns`.
 template <class Row>
 std::vector<Row> read_rows(const py::handle& object, const std::string& what, const char* expected,
                            const std::set<py::ssize_t>& columns, Row (*make)(const double*, py::ssize_t)) {

@@ -11,30 +11,30 @@
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
 
-// Arrays of numpy from and to lists of points and elements. `what` names an argument in messages. All that
-// reads throws InputError for other shapes and types.
+// This header converts numpy arrays from and to lists of points and elements. `what` names an argument in
+// messages. All readers throw InputError for other shapes and types.
 
 namespace delquad::python {
 
 namespace py = pybind11;
 
-/// (n, 2) or (n, 3) numbers; z is 0 where there is none.
+/// Reads numbers of shape (n, 2) or (n, 3); a missing z is 0.
 std::vector<Vec3> read_points(const py::handle& object, const std::string& what);
-/// (n, 2) finite numbers.
+/// Reads finite numbers of shape (n, 2).
 std::vector<Vec2> read_plane_points(const py::handle& object, const std::string& what);
-/// Two, and three, finite numbers.
+/// Reads two or three finite numbers.
 Vec2 read_vec2(const py::handle& object, const std::string& what);
 Vec3 read_vec3(const py::handle& object, const std::string& what);
-/// n numbers.
+/// Reads n numbers.
 std::vector<double> read_numbers(const py::handle& object, const std::string& what);
-/// n whole numbers.
+/// Reads n integers.
 std::vector<int> read_integers(const py::handle& object, const std::string& what);
-/// n numbers into `target`: what a callback returned. One number will do for all.
-/// m11, m12, m13, m22, m23 and m33, of shape (n, 6).
+/// Reads m11, m12, m13, m22, m23 and m33, of shape (n, 6).
 std::vector<Tensor3> read_tensors(const py::handle& object, const std::string& what);
+/// Reads n numbers from a callback into `target`; a single number is repeated.
 void read_values(const py::handle& object, double* target, std::size_t n, const std::string& what);
 
-/// (n, columns) whole numbers, one row after the other.
+/// Reads integers of shape (n, columns), row by row.
 std::vector<int> read_table(const py::handle& object, int columns, const std::string& what);
 template <std::size_t N>
 std::vector<std::array<int, N>> read_elements(const py::handle& object, const std::string& what) {
@@ -44,10 +44,10 @@ std::vector<std::array<int, N>> read_elements(const py::handle& object, const st
   return elements;
 }
 
-/// A view of numbers that lie one row after the other, which keeps `owner` alive. It cannot be written to.
+/// Returns a read-only view of numbers in rows, which keeps `owner` alive.
 template <class T>
 py::array view(const T* data, std::vector<py::ssize_t> shape, const py::object& owner) {
-  // Arrays of nothing have no address, without which numpy would allocate them.
+  // Empty arrays have no address, and without one numpy would allocate them.
   static const T kNothing{};
   py::array_t<T> array(std::move(shape), data == nullptr ? &kNothing : data, owner);
   array.attr("setflags")(py::arg("write") = false);
@@ -67,7 +67,7 @@ inline py::array view(const std::vector<Vec3>& points, const py::object& owner) 
                       owner);
 }
 
-/// Points for a callback, which may keep them: a copy.
+/// Returns a copy of points for a callback, which may keep it.
 template <class V>
 py::array points_for_python(std::span<const V> points) {
   constexpr py::ssize_t kColumns = sizeof(V) / sizeof(double);
@@ -75,7 +75,7 @@ py::array points_for_python(std::span<const V> points) {
                              points.empty() ? nullptr : &points[0].x);
 }
 
-/// (tag, names) of each.
+/// Returns (tag, names) of each entity.
 inline py::list list_of(const std::vector<Entity>& entities) {
   py::list list;
   for (const Entity& entity : entities) list.append(py::make_tuple(entity.tag, entity.names));

@@ -66,7 +66,7 @@ std::vector<Entity> default_entities(const std::vector<int>& indices) {
   return entities;
 }
 
-/// Of each element; without `given` all are of the first.
+/// Returns the entity of each element; without `given` the first one.
 std::vector<int> entities_of(const py::object& given, std::size_t n, const std::string& what) {
   return given.is_none() ? std::vector<int>(n, 0) : read_integers(given, what);
 }
@@ -91,7 +91,7 @@ ModelHandle make_triangles(const py::object& points, const py::object& triangles
   return handle_of(std::move(model), "triangles");
 }
 
-/// The lines of a mesh, or its triangles and quads where it has some.
+/// Returns the triangles and quads of a mesh or, if it has none, its lines.
 ModelHandle from_mesh(const Mesh& mesh) {
   if (mesh.triangles.empty() && mesh.quads.empty()) return handle_of(LineModel{mesh}, "lines");
   return handle_of(TriangleModel{mesh}, "triangles");

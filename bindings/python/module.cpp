@@ -27,7 +27,7 @@ std::vector<Entity> entities_of(const std::vector<std::pair<int, std::vector<std
   return entities;
 }
 
-/// A list of the mesh as a property: a view that keeps the mesh.
+/// Returns a list of the mesh as a property: a view that keeps the mesh alive.
 template <class List>
 auto view_of(List Mesh::*member) {
   return [member](const py::object& self) { return view(self.cast<const Mesh&>().*member, self); };
@@ -64,7 +64,7 @@ Mesh read(const std::string& path) {
   return read_mesh(path);
 }
 
-/// Of files that are written, or read, as "delquad formats" has them.
+/// Returns the extensions of files to write or to read, as in "delquad formats".
 std::vector<std::string> extensions(bool written) {
   std::vector<std::string> all;
   for (const MeshFormat& format : mesh_formats())
@@ -73,7 +73,7 @@ std::vector<std::string> extensions(bool written) {
   return all;
 }
 
-/// (image, master, (n, 2) nodes), each beside that of which it is the image.
+/// Returns (image, master, nodes of shape (n, 2)); each row has a node and the node whose image it is.
 py::tuple pair_of(int image, int master, const std::vector<std::array<int, 2>>& nodes) {
   const auto n = static_cast<py::ssize_t>(nodes.size());
   py::array_t<int> array({n, py::ssize_t{2}});
@@ -159,7 +159,7 @@ py::object judged(const Mesh& mesh, const Criteria& criteria, const std::optiona
   return dict_of(judge(mesh, criteria, constant.get()));
 }
 
-/// Keys of model files, each as the keyword that asks for it, for messages, and a line of TOML.
+/// Keys of model files: each has its keyword, for messages, and a line of TOML.
 using KeyLines = std::vector<std::pair<std::string, std::string>>;
 
 void set_keys(const KeyLines& lines, Case& c) {
@@ -168,7 +168,7 @@ void set_keys(const KeyLines& lines, Case& c) {
   read_case_keys(table, c);
 }
 
-/// (keyword, key of model files, its JSON Schema) of all that a problem is told by keys.
+/// Returns (keyword, key of model files, its JSON Schema) for all keys of a problem.
 std::vector<std::array<std::string, 3>> keywords() {
   std::vector<std::array<std::string, 3>> all;
   std::set<std::string> of_problems;
@@ -259,7 +259,7 @@ struct Problem : ModelHandle {
   explicit Problem(const ModelHandle& model) : ModelHandle(model) {}
   Callbacks callbacks{py::none(), py::none(), py::none(), py::none()};
 
-  /// Drops the field that the model's file has.
+  /// Removes a field of the model's file.
   void clear(const std::string& field) {
     if (field == "size") problem.size = {};
     if (field == "cross") problem.cross = {};
@@ -272,7 +272,7 @@ struct Problem : ModelHandle {
      : field == "cross" ? callbacks.cross
                         : callbacks.metric) = std::move(function);
   }
-  /// Values at the points of the mesh.
+  /// Sets values at the points of a mesh.
   void set_nodal(const std::string& field, const Mesh& mesh, const py::object& values) {
     clear(field);
     located(field, [&] {
@@ -314,7 +314,7 @@ void define_problem(py::module_& m) {
       .def("max_elements", [](Problem& p, long long n) { p.problem.max_elements = n; })
       .def("keep_going", [](Problem& p, bool yes) { p.problem.keep_going = yes; })
       .def("progress", [](Problem& p, py::object function) { p.callbacks.progress = std::move(function); })
-      // Python itself throws UnsoundError, which has the mesh.
+      // Python throws UnsoundError itself, with the mesh.
       .def(
           "mesh",
           [](Problem& p, const std::string& word, int threads, double time_limit) {
@@ -328,7 +328,7 @@ void define_problem(py::module_& m) {
 
 PYBIND11_MODULE(_core, m) {
   m.doc() = "The part of delquad that is written in C++; see the package delquad.";
-  // What stands later is tried first.
+  // Later registrations are tried first.
   py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
   const auto& cancelled = py::register_exception<Cancelled>(m, "Cancelled", PyExc_RuntimeError);
   py::register_exception<TimeIsUp>(m, "TimeIsUp", cancelled);

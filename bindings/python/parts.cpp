@@ -1,4 +1,4 @@
-// Measures, costs, stages and fields of experiments that Python adds.
+// Registers measures, costs, stages and fields that Python adds.
 #include <pybind11/stl.h>
 
 #include <cmath>
@@ -15,14 +15,14 @@
 namespace delquad::python {
 namespace {
 
-/// A function of Python that any thread may call and that is never let go: it outlives the interpreter.
+/// A Python function that any thread may call. It is never released, so it outlives the interpreter.
 class Kept {
  public:
-  /// `name`: for messages, "cost 'own'".
+  /// `name` is for messages, such as "cost 'own'".
   Kept(const py::object& function, std::string name)
       : function_(function.inc_ref().ptr()), name_(std::move(name)) {}
 
-  /// `use`(function), with the GIL. What the function throws becomes an Error, what it returned wrongly, too.
+  /// Calls use(function) with the GIL. Exceptions of the function and wrong results become an Error.
   template <class F>
   auto with(F&& use) const {
     const py::gil_scoped_acquire acquired;
@@ -41,7 +41,7 @@ class Kept {
   std::string name_;  ///< with a colon, or empty
 };
 
-/// Fields at points, as an array.
+/// Returns the values of a field at points.
 template <class Value>
 py::array_t<double> at_points(const std::vector<Vec2>& points, const Value& value) {
   py::array_t<double> array(static_cast<py::ssize_t>(points.size()));
@@ -128,7 +128,7 @@ void add_python_stage(const std::string& letter, const py::object& function, con
   add_stage({letter[0], name, PatchForm::kQuads, PatchForm::kQuads, run});
 }
 
-/// The batches of SizeFunction and CrossFunction.
+/// Adapts a Python function to SizeFunction or CrossFunction.
 template <class V>
 auto as_batch(const py::object& function, const std::string& name) {
   return [kept = Kept(function, name + ": ")](std::span<const V> points, std::span<double> values) {

@@ -86,13 +86,13 @@ void CallingThread::call(const std::function<void()>& callback) {
     changed_.notify_all();
     changed_.wait(lock, [&] { return callback_ == nullptr; });
   }
-  // The exception itself stays with Python's thread.
+  // The exception itself stays in Python's thread.
   if (failure_) throw Cancelled("a callback failed, or the work was interrupted");
 }
 
 namespace {
 
-/// A function of Python as one of a batch of points; `what` names it in messages.
+/// Adapts a Python function to batches of points; `what` names it in messages.
 template <class V>
 std::function<void(std::span<const V>, std::span<double>)> as_function(const py::object& function,
                                                                        CallingThread& python,
@@ -106,7 +106,8 @@ std::function<void(std::span<const V>, std::span<double>)> as_function(const py:
   };
 }
 
-/// The same of a metric: `read` makes vectors or tensors of what it returns, `make` a tensor of one of them.
+/// Adapts a metric function: `read` converts its result to vectors or tensors, `make` each of these to a
+/// tensor.
 template <class Point, class Tensor, class Read, class Make>
 auto as_metric(const py::object& function, CallingThread& python, Read read, Make make) {
   return [&function, &python, read, make](std::span<const Point> points, std::span<Tensor> metric) {

@@ -15,20 +15,20 @@
 
 namespace delquad::python {
 
-/// Python's thread, which waits for work that is done in another one: meanwhile it runs callbacks, and sees
-/// Ctrl-C, which Python shows to its main thread only. The GIL is released but for that.
+/// Python's thread while it waits for work in another thread. It runs callbacks and notices Ctrl-C, which
+/// Python reports only to its main thread. The GIL is released otherwise.
 class CallingThread {
  public:
-  /// Runs `work` and returns when it is done. To be called with the GIL. What callbacks throw and a signal's
-  /// exception count before what the work then throws.
+  /// Runs `work` and waits for it. Call it with the GIL. Exceptions of callbacks and signals take precedence
+  /// over exceptions of the work.
   void run(const std::function<void(std::stop_token)>& work);
 
-  /// From the work: calls `callback` in Python's thread, with the GIL, and throws what it throws.
+  /// Calls `callback` from the work, in Python's thread with the GIL. Throws its exceptions.
   void call(const std::function<void()>& callback);
 
  private:
   using Lock = std::unique_lock<std::mutex>;
-  /// How long Ctrl-C may go unnoticed.
+  /// Longest delay of Ctrl-C.
   static constexpr std::chrono::milliseconds kPatience{50};
 
   void wait(Lock& lock);
@@ -38,43 +38,43 @@ class CallingThread {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  const std::function<void()>* callback_ = nullptr;  ///< that the work waits for
-  std::exception_ptr failure_;                       ///< of a callback or signal, the first
+  const std::function<void()>* callback_ = nullptr;  ///< callback that the work waits for
+  std::exception_ptr failure_;                       ///< first exception of a callback or signal
   std::stop_source stop_;
   bool done_ = false;
 };
 
 namespace py = pybind11;
 
-/// What Python calls a model: a problem that may yet lack a size.
+/// A model in Python: a problem that may lack a size.
 struct ModelHandle {
   MeshProblem problem;
 };
 
-/// A model file of any kind that the command line knows.
+/// Reads any model file of the command line.
 ModelHandle read_model(const std::string& path);
 
-/// Tells Python of models and of what they are made of.
+/// Registers models and their parts.
 void define_models(py::module_& m);
-/// HexMesh, and extrude() for each way.
+/// Registers HexMesh and extrude() for each path.
 void define_hexahedra(py::module_& m);
 
-/// add_metric(), add_stage() and their like.
+/// Registers add_metric(), add_stage() and similar functions.
 void define_parts(py::module_& m);
-/// run(): the program.
+/// Registers run(), the program.
 void define_program(py::module_& m);
 
-/// adapt(), and what it is made of.
+/// Registers adapt() and its parts.
 void define_adapt(py::module_& m);
 
-/// Functions that a problem calls; they are called in the thread that is there while it is meshed.
+/// Functions of a problem, called in Python's thread while it is meshed.
 struct Callbacks {
   py::object size, metric, cross, progress;  ///< None: not given
 };
 
-/// A mesh and all that is known of it.
+/// A mesh and its report.
 struct Result : Mesh {
-  MeshResult rest;  ///< its mesh is empty, and what it was made of
+  MeshResult rest;  ///< without the mesh and its origin
   double expected_quads = 0;
 };
 
