@@ -17,7 +17,7 @@ def _as_mesh(mesh):
 
 
 def _columns(fields):
-    """(name, values) of each component."""
+    """Returns (name, values) of each component."""
     named = fields.items() if isinstance(fields, dict) else [("field", fields)]
     columns = []
     for name, values in named:
@@ -47,19 +47,19 @@ def adapt(
     threads=0,
     time_limit=0.0,
 ):
-    """The mesh on which solutions have the least error, and their errors: (Result, {name: {"now", "gradient", "expected"}}).
+    """Returns the mesh on which solutions have the least error, and their errors: (Result, {name: {"now", "gradient", "expected"}}).
 
-    mesh: that of the solutions, planar, of triangles and quads; a Mesh or the path of a file.
-    fields: values at its points of shape (n,) or (n, k), where each component counts, or {name: such values}.
-    quads, error: about how many quads, or how much of the interpolation's error there is to be: one of both.
-    norm: p of the Lp norm of that error, from 1 to float("inf").
-    model: what is meshed, as for mesh(); None: what the mesh bounds. Its size does not count.
-    weight: at each point, at least 0, how much errors count, such as an adjoint solution.
-    isotropic: squares. min_size, max_size, aspect, gradation: limits of lengths, of their ratio and of their growth; 0: none.
+    mesh: the planar mesh of the solutions, of triangles and quads; a Mesh or the path of a file.
+    fields: values at its points, of shape (n,) or (n, k) with components, or {name: such values}.
+    quads, error: the wanted number of quads, or the wanted error of interpolation: one of both.
+    norm: p of the Lp norm of this error, from 1 to float("inf").
+    model: as for mesh(); None: the domain of the mesh. Its size does not count.
+    weight: the weight of errors at each point, at least 0, such as an adjoint solution.
+    isotropic: square quads. min_size, max_size, aspect, gradation: limits of lengths, of their ratio and of their growth; 0: none.
     quality, threads, time_limit: as for mesh().
 
-    "now" is the estimated error of interpolation in the norm, "gradient" that of the gradient in L2, "expected" the former on the new
-    mesh. Raises what mesh() raises.
+    "now" is the estimated error of interpolation in the norm, and "gradient" the error of the gradient in L2. The error "expected" is
+    the first one on the new mesh. Raises the same as mesh().
     """
     spec = _core.AdaptSpec(quads or 0, error or 0, norm, min_size, max_size, aspect, gradation, isotropic, quality)
     return _core.adapt(
@@ -68,21 +68,21 @@ def adapt(
 
 
 def recover_hessian(mesh, values):
-    """Second derivatives xx, xy and yy at the points, of shape (n, 3), of values there; between regions those of the side where they
-    are larger. They are those of the polynomial that fits best around each point."""
+    """Returns second derivatives xx, xy and yy of values at the points, of shape (n, 3). They come from the polynomial that fits best
+    around each point. Between regions the side with the larger ones counts."""
     return _core.recover(_as_mesh(mesh), values)[1]
 
 
 def recover_gradient(mesh, values):
-    """The gradient of the same polynomials, of shape (n, 2)."""
+    """Returns the gradient of the polynomials of recover_hessian(), of shape (n, 2)."""
     return _core.recover(_as_mesh(mesh), values)[0]
 
 
 def estimate_error(mesh, values, norm=2.0):
-    """Estimates of the errors of a solution: {"interpolation", "interpolation_of_elements", "gradient", "gradient_of_elements"}.
+    """Estimates the errors of a solution: {"interpolation", "interpolation_of_elements", "gradient", "gradient_of_elements"}.
 
-    Interpolation in the Lp norm, 1 <= norm <= inf, by recovered Hessians; the gradient in L2, by recovered gradients. Elements are
-    triangles, then quads.
+    The error of interpolation is in the Lp norm, 1 <= norm <= inf, by recovered Hessians. The error of the gradient is in L2, by
+    recovered gradients. Elements are triangles, then quads.
     """
     whole, each, gradient, each_gradient = _core.estimate(_as_mesh(mesh), values, norm)
     return {
@@ -94,8 +94,8 @@ def estimate_error(mesh, values, norm=2.0):
 
 
 def transfer(mesh, values, to, how="interpolated", of_elements=False):
-    """Values on another mesh, `to`, at points, or with `of_elements` of triangles and then quads.
+    """Returns values on another mesh, `to`: at its points, or with `of_elements` on triangles and then quads.
 
-    how: "interpolated", "conservative" (their integral stays), or "bounded" (so, and within the extremes nearby).
+    how: "interpolated", "conservative" (keeps the integral), or "bounded" (conservative and within the extremes nearby).
     """
     return _core.transfer(_as_mesh(mesh), values, _as_mesh(to), how, of_elements)

@@ -1,10 +1,10 @@
-"""Meshes for and from other packages, which are imported only when they are asked for."""
+"""Meshes for and from other packages, which are imported only when needed."""
 
 import os
 
 from . import _core
 
-# Larger pictures are slow to show, and nothing can be seen in them.
+# Larger pictures are slow to show, and show nothing.
 _MOST_SHOWN = 20_000
 
 
@@ -27,7 +27,7 @@ def _names(entities, kind):
 
 
 def _to_meshio(self):
-    """As a meshio.Mesh: cells in blocks by kind, with the tags of curves and regions as "gmsh:physical"."""
+    """Returns a meshio.Mesh: cells in blocks by kind, with the tags of curves and regions as "gmsh:physical"."""
     import meshio
     import numpy as np
 
@@ -53,9 +53,9 @@ def _to_meshio(self):
 
 
 def from_meshio(mesh):
-    """A Mesh of the lines, triangles and quads of a meshio.Mesh; cells of other kinds are left out.
+    """Returns a Mesh of the lines, triangles and quads of a meshio.Mesh; other cells are left out.
 
-    Curves and regions are told apart by "gmsh:physical", "gmsh:geometrical", "medit:ref" or "cell_tags".
+    Curves and regions are distinguished by "gmsh:physical", "gmsh:geometrical", "medit:ref" or "cell_tags".
     """
     import numpy as np
 
@@ -81,7 +81,7 @@ def from_meshio(mesh):
     quads, quad_tags = joined("quad", 4)
 
     def entities(tags, dim):
-        """Tags as numbers from 0, and what they were."""
+        """Returns entities for the tags, and tags as indices of these."""
         unique, index = np.unique(tags, return_inverse=True)
         given = [int(tag) for tag in unique]
         # Numbers in files are positive; "none" often is 0.
@@ -97,7 +97,7 @@ def from_meshio(mesh):
 
 
 def _to_vtk(self):
-    """As a vtkPolyData of triangles and quads, with the tags of their regions as "region"."""
+    """Returns a vtkPolyData of triangles and quads, with the tags of their regions as "region"."""
     import numpy as np
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
@@ -122,14 +122,14 @@ def _to_vtk(self):
 
 
 def _to_pyvista(self):
-    """The same as a pyvista.PolyData."""
+    """Returns a pyvista.PolyData of triangles and quads, with the tags of their regions as "region"."""
     import pyvista
 
     return pyvista.wrap(self.to_vtk())
 
 
 def _svg(self):
-    """A picture, for notebooks; None for meshes that are too large to be seen in one."""
+    """Returns a picture for notebooks; None for meshes that are too large for one."""
     n = len(self.quads) + len(self.triangles)
     if n == 0 or n > _MOST_SHOWN:
         return None
@@ -143,7 +143,7 @@ def _svg(self):
 
 
 class View:
-    """A page that shows a mesh: `path`, its file. A notebook shows it in a frame."""
+    """A page that shows a mesh; its file is `path`. A notebook shows it in a frame."""
 
     def __init__(self, path):
         self.path = path
@@ -159,8 +159,8 @@ class View:
 def _view(self, path=None):
     """Writes a page that shows the mesh, and returns it: one HTML file with shape, sizes, names and the worst quads.
 
-    path: of the file; None for a new one in a temporary folder. Where there is a display, and no notebook that shows what
-    is returned, it is opened in a browser.
+    path: the file; None for a new one in a temporary folder. A browser opens it if there is a display, unless a notebook
+    shows it.
     """
     import sys
     import tempfile

@@ -1,4 +1,4 @@
-"""extrude(), and what comes back."""
+"""extrude() and its result."""
 
 import os
 
@@ -8,19 +8,19 @@ from . import _core
 def extrude(
     mesh, *, along=None, around=None, angle=360.0, curve=None, normals=None, both_sides=False, layers=0, growth=1.0, threads=0, time_limit=0.0
 ):
-    """Sweeps a mesh of quads, or the file of one, and returns hexahedra. One of these says how:
+    """Sweeps a mesh of quads, or the file of one, and returns hexahedra. One of these sets the path:
 
-    along: a vector, from the first layer of nodes to the last.
+    along: a vector from the first layer of nodes to the last.
     around: a point of an axis and its direction; angle: in degrees, 360 closes the ring.
-    curve: points of a line of shape (n, 3), along which the section moves and with which it turns.
-    normals: a thickness along the normals, negative against them; both_sides: half of it to each.
+    curve: points of a line of shape (n, 3), along which the section moves and turns.
+    normals: a thickness along the normals, negative against them; both_sides: half of it to each side.
 
-    layers: how many; 0, with curve only, for one on each segment. growth: height of each over that of the one before.
-    threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
+    layers: their number; 0, with curve only, for one on each segment. growth: height of a layer over the previous height.
+    threads: 0 for the number of cores. time_limit: in seconds; 0 for none.
 
-    Regions become volumes, curves on the boundary and named ones inside faces, named points curves; where the sweep starts
-    and ends are faces "NAME start" and "NAME end". Raises InputError where hexahedra would be inverted or the body would
-    go through itself.
+    Regions become volumes. Curves on the boundary and named inner curves become faces, named points curves. The start and
+    the end of the sweep are faces "NAME start" and "NAME end". Raises InputError if hexahedra would be inverted, or the
+    body would meet itself.
     """
     if isinstance(mesh, (str, os.PathLike)):
         mesh = _core.read_mesh(os.fspath(mesh))
@@ -40,7 +40,7 @@ def extrude(
 
 
 def _write(self, path, binary=False, element=""):
-    """Writes .msh, .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv, whole or not at all. element: of .inp, C3D8, C3D8I, C3D20, ..."""
+    """Writes .msh, .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv, completely or not at all. element: for .inp, C3D8, C3D8I, C3D20, ..."""
     self._write_file(os.fspath(path), binary, element)
 
 

@@ -1,4 +1,4 @@
-"""Keywords by their descriptions, which the library and model files have, too."""
+"""Keywords by their descriptions, which the library and model files share."""
 
 import json
 import textwrap
@@ -16,7 +16,7 @@ def _number(kind, name):
 
 
 def words(schema):
-    """A value by its JSON Schema, in words."""
+    """Returns the values that a JSON Schema allows, in words."""
     if "anyOf" in schema:
         return " or ".join(dict.fromkeys(map(words, schema["anyOf"]))).replace("a table or a list: a table", "one or more tables")
     if "enum" in schema:
@@ -39,7 +39,7 @@ def words(schema):
 
 
 def kinds_of(schema):
-    """The kinds of value that it may be, each of one type."""
+    """Yields the allowed kinds of value, each of one type."""
     for kind in schema.get("anyOf", [schema]):
         kinds = kind.get("type")
         for one in kinds if isinstance(kinds, list) else [kinds]:
@@ -47,7 +47,7 @@ def kinds_of(schema):
 
 
 def keys_of_table(schema):
-    """The schemas of the keys of a table, or of each table of a list; none: it is no table."""
+    """Returns the schemas of the keys of a table, or of each table of a list; empty: no table."""
     for kind in kinds_of(schema):
         table = kind["items"] if kind["type"] == "array" else kind
         if "properties" in table:
@@ -56,7 +56,7 @@ def keys_of_table(schema):
 
 
 def help_line(keyword, schema, also=""):
-    """The lines of help() for a keyword."""
+    """Returns the lines of help() for a keyword."""
     keys = keys_of_table(schema)
     of = " of " + ", ".join(keys) if keys else ""
     line = f"{keyword}: {schema['description']} ({words(schema)}{of}){also}"
@@ -64,8 +64,8 @@ def help_line(keyword, schema, also=""):
 
 
 def value_of(schema, value):
-    """A value as files have it. A tuple becomes a table of its values in the order of the keys. A dictionary of names becomes a list
-    of tables with names. A value that is no table belongs to the second key there."""
+    """Returns a value as in files. A tuple becomes a table of its values in the order of the keys. A dictionary of names becomes a list
+    of tables with names. Any other value there belongs to the second key."""
     if isinstance(value, str):
         return [value] if schema.get("type") == "array" else value
     keys = keys_of_table(schema)

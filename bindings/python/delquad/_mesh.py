@@ -1,4 +1,4 @@
-"""mesh(), and models that are given as Python values."""
+"""mesh(), and models from Python values."""
 
 import difflib
 import inspect
@@ -14,7 +14,7 @@ _KEYS = {keyword: (key, json.loads(schema)) for keyword, key, schema in _core.ke
 
 
 class UnsoundError(RuntimeError):
-    """The mesh is not one of its model, or not fit to be computed with; `result` has it."""
+    """The mesh does not represent its model, or is not fit for computation; `result` has it."""
 
     def __init__(self, message, result):
         super().__init__(message)
@@ -32,14 +32,14 @@ def polygons(polygons):
 def planar(loops, embed=()):
     """A planar domain bounded by curves: loops are lists of curves, or loop()s with a name for their region.
 
-    Loops may lie side by side: where their curves lie on each other, regions share nodes. embed: curves and
-    point()s inside of the regions, which become chains of edges and nodes of the mesh; crack()s come apart.
+    Loops may lie side by side; regions share nodes where their curves overlap. embed: curves and point()s inside
+    the regions. They become chains of edges and nodes of the mesh, and the mesh opens at crack()s.
     """
     return _core.planar([l if isinstance(l, _core.Loop) else _core.loop(list(l)) for l in loops], list(embed))
 
 
 def cad(source):
-    """A STEP, IGES or BREP model, from a path or from bytes."""
+    """Returns a STEP, IGES or BREP model, from a path or from bytes."""
     return _core.cad(source) if isinstance(source, bytes) else _core.read_model(os.fspath(source))
 
 
@@ -56,7 +56,7 @@ def _as_model(model):
 
 
 def _toml(value):
-    """A value as TOML writes it."""
+    """Returns a value in TOML."""
     if hasattr(value, "tolist"):  # of numpy
         value = value.tolist()
     if isinstance(value, bool):
@@ -73,7 +73,7 @@ def _toml(value):
 
 
 def _line(keyword, key, value):
-    """A key of model files that a keyword stands for."""
+    """Returns a keyword and its line of a model file."""
     try:
         return keyword, f"{key} = {_toml(value)}"
     except TypeError as error:
@@ -81,7 +81,7 @@ def _line(keyword, key, value):
 
 
 def _set_field(problem, what, key, value):
-    """A size or cross: a number, a text, a function, or values at the points of a mesh."""
+    """Sets a size or cross: a number, a text, a function, or values at the points of a mesh."""
     if callable(value):
         problem.set_function(what, value)
     elif isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], _core.Mesh):
@@ -111,7 +111,7 @@ def _set_metric(problem, metric):
 
 
 def _lines(keyword, value):
-    """The line for a keyword; none: its value is an empty list."""
+    """Returns the line for a keyword; none if its value is empty."""
     key, schema = _KEYS[keyword]
     if not isinstance(value, str) and isinstance(value, Iterable) and not isinstance(value, Mapping):
         value = list(value)
@@ -122,13 +122,12 @@ def _lines(keyword, value):
 
 
 def judge(mesh, criteria, size=None):
-    """How the elements of any Mesh do by criteria, which are as for mesh(). size: that is wanted, a number; None: the
-    mean edge.
+    """Judges the elements of any Mesh by criteria as for mesh(). size: the wanted size, a number; None: the mean edge.
 
-    Returns a dict: "elements" and how many of them are "failing"; "limits", each with its "failing" elements (triangles
-    first), the "worst" value, where it is ("at"), and the "cause"; "causes" with the numbers of failing quads, and
-    "why" in words; "critical_step" and "estimated_step" by program, times where there is a material, else lengths;
-    "step_of_squares" of the least size.
+    Returns a dict with the numbers of "elements" and of "failing" ones. "limits" has, for each limit, its "failing"
+    elements (triangles first), the "worst" value, its place "at", and the "cause". "causes" has the numbers of failing
+    quads, and "why" explains them. "critical_step" and, by program, "estimated_step" are times with a material, else
+    lengths. "step_of_squares" is the step of squares of the least size.
     """
     return _core.judge(mesh, _core.Criteria(_lines("criteria", criteria)), None if size is None else float(size))
 
@@ -140,17 +139,17 @@ def _embed(problem, embed):
 
 
 def _bar(stage, part):
-    """Writes a line that the next one replaces."""
+    """Prints a line that the next one replaces."""
     end = "\n" if part >= 1 else ""
     print(f"\r{100 * part:3.0f} %  {stage:30}", end=end, flush=True)
 
 
 _HEAD = """Meshes a model and returns a Result.
 
-    model: from polygons(), planar(), lines(), triangles(), cad(), example(); a Mesh, whose triangles and quads
-        or else lines count; or the path of a file: .step, .iges, .brep, .stl, .obj, .off, .ply, .3mf, .geojson, .msh or .toml.
+    model: from polygons(), planar(), lines(), triangles(), cad(), example(); a Mesh, with its triangles and quads
+        or, without any, its lines; or the path of a file: .step, .iges, .brep, .stl, .obj, .off, .ply, .3mf, .geojson, .msh or .toml.
 """
-# What keywords may be beside their descriptions.
+# Values of keywords beside their descriptions.
 _ALSO = {
     "size": """, a function of points of shape (n, 3) that returns n numbers, a file of sizes ("error.vtu:h"), or (mesh, values at its points)""",
     "metric": """, a function of points of shape (n, 2) that returns m11, m12, m22 of shape (n, 3), of surfaces of points of shape (n, 3) that
@@ -161,17 +160,17 @@ _TAIL = """
     A table is a dictionary, or a tuple of values in the order of its keys. Tables with names are also {name: table}, or
     {name: value of the second key}, such as size_on={"inlet": 0.1}, divide={"wall": 20}. docs/keys.md has all keys.
 
-    word, quality: the stages by letters, or "fast", "good" (as if nothing is said), "best" or "regular".
-    options: of the stages, such as {"insertion.h_max": 1.5}; see docs/keys.md.
+    word, quality: a pipeline of stages, or "fast", "good" (the default), "best" or "regular".
+    options: options of the stages, such as {"insertion.h_max": 1.5}; see docs/keys.md.
     embed: polylines of shape (n, 3) and single points (3,) on a surface, which become edges and nodes of the mesh;
-        each alone or with a name, (points, "name"). (In the plane: see planar().)
-    name: of the model, for messages.
-    max_elements: sizes that ask for more are refused. keep_going: faces that cannot be meshed are left out.
-    allow_unsound: meshes that are not sound are returned, too.
-    threads: 0 for as many as there are cores. time_limit: in seconds; 0 for none.
-    progress: True, or a function of the stage and the part that is done, from 0 to 1.
+        each alone or with a name, (points, "name"). In the plane see planar().
+    name: name of the model in messages.
+    max_elements: refuses sizes that need more. keep_going: leaves out faces that cannot be meshed.
+    allow_unsound: returns unsound meshes, too.
+    threads: 0 for the number of cores. time_limit: in seconds; 0 for none.
+    progress: True, or a function of the stage and its finished part, from 0 to 1.
 
-    Raises InputError, UnsoundError (unless allow_unsound), TimeIsUp, and what callbacks raise.
+    Raises InputError, UnsoundError (unless allow_unsound), TimeIsUp, and exceptions of callbacks.
     """
 
 
@@ -231,7 +230,7 @@ def mesh(
 
 
 def _with_keywords(function):
-    """Gives it a signature and help with all keywords."""
+    """Gives a function a signature and help with all keywords."""
     own = [one for one in inspect.signature(function).parameters.values() if one.kind != one.VAR_KEYWORD]
     keys = [key for key in _KEYS if key != "size"]
     described = [inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=None) for key in keys]
@@ -244,15 +243,15 @@ _with_keywords(mesh)
 
 
 def improve(given, size=None, *, word=None, **settings):
-    """Makes a mesh better that is there already, planar or in space, and returns a Result.
+    """Improves an existing mesh, planar or in space, and returns a Result.
 
     given: a Mesh, or the path of a file; its points on the outline, on lines and between regions stay.
-    size: as for mesh(); else what the mesh has.
-    word: from quads stages such as "CO" (as if nothing is said), from triangles "BCO" (where there are no quads).
-    settings: cross, gradation, options, threads and others of mesh() that are for planar domains; in space
-        feature_angle, too.
+    size: as for mesh(); default: the size of the mesh.
+    word: a pipeline from quads such as "CO" (the default), or from triangles "BCO" (the default without quads).
+    settings: cross, gradation, options, threads and other keywords of mesh() for planar domains; in space also
+        feature_angle.
 
-    Where given quads would become worse, they are kept, and the warnings say so. Raises what mesh() raises.
+    Given quads that would become worse are kept, and a warning says so. Raises the same as mesh().
     """
     if isinstance(given, (str, os.PathLike)):
         given = _core.read_mesh(os.fspath(given))

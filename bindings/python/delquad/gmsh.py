@@ -1,4 +1,4 @@
-"""Quads for the model that is open in Gmsh's Python API:
+"""Meshes the model that is open in Gmsh's Python API by quads:
 
     import gmsh, delquad.gmsh
     gmsh.initialize(); gmsh.open("part.step")
@@ -17,23 +17,23 @@ from . import _core
 from ._mesh import mesh as _mesh
 
 _LINE, _TRIANGLE, _QUAD, _POINT = 1, 2, 3, 15  # kinds of elements in Gmsh
-_NEAR = 1e-6  # of the diagonal: a node this near to a point of the model is that point's
+_NEAR = 1e-6  # part of the diagonal: a node this near to a point of the model belongs to it
 
 
 def _names(dim, tag):
-    """First the entity's own, then those of its physical groups; a group without a name goes by its number."""
+    """Returns the entity's own name, then the names of its physical groups; unnamed groups have their number."""
     groups = gmsh.model.getPhysicalGroupsForEntity(dim, tag)
     return [f"gmsh {dim} {tag}", *(gmsh.model.getPhysicalName(dim, group) or f"group_{group}" for group in groups)]
 
 
 def _tags(entities, dim):
-    """Of Gmsh's entities; 0 for curves that are not the model's, by which a face was cut."""
+    """Returns the tags of Gmsh's entities; 0 for curves that cut a face and are not in the model."""
     own = [next((name for name in names if name.startswith(f"gmsh {dim} ")), "0") for _, names in entities]
     return np.array([int(name.split()[-1]) for name in own])
 
 
 def _elements(dim, kind, corners):
-    """Of all curves or surfaces: tags of nodes, the index of each one's entity, and the entities."""
+    """Returns the elements of all curves or surfaces: tags of nodes, index of each entity, and entities."""
     tags = [tag for _, tag in gmsh.model.getEntities(dim)]
     parts = [gmsh.model.mesh.getElementsByType(kind, tag)[1].reshape(-1, corners) for tag in tags]
     entity = np.repeat(np.arange(len(tags)), [len(part) for part in parts])
@@ -41,7 +41,7 @@ def _elements(dim, kind, corners):
 
 
 def _surface():
-    """The mesh that the model has on its surfaces, and the lines on its curves."""
+    """Returns the mesh on the model's surfaces, and the lines on its curves."""
     lines, line_curve, curves = _elements(1, _LINE, 2)
     triangles, triangle_region, regions = _elements(2, _TRIANGLE, 3)
     quads, quad_region, _ = _elements(2, _QUAD, 4)
@@ -56,7 +56,7 @@ def _surface():
 
 
 def _lone_points():
-    """Points with a node, but on no curve: those that were embedded into surfaces."""
+    """Yields points with a node but on no curve, which are embedded into surfaces."""
     for _, tag in gmsh.model.getEntities(0):
         if not len(gmsh.model.getAdjacencies(0, tag)[0]) and len(gmsh.model.mesh.getNodes(0, tag)[0]):
             yield gmsh.model.getValue(0, tag, []), _names(0, tag)[-1]
@@ -67,7 +67,7 @@ def _is_discrete(dim, tag):
 
 
 def _places(result, curve, surface):
-    """For each node the dimension and tag of what it lies on: a surface, but for those of a curve, but for those of a point."""
+    """Returns, for each node, the dimension and tag of its point or else its curve or else its surface."""
     places = np.full((len(result.points), 2), 2)
     places[result.triangles, 1] = surface[result.triangle_region][:, None]
     places[result.quads, 1] = surface[result.quad_region][:, None]
@@ -82,13 +82,13 @@ def _places(result, curve, surface):
 
 
 def mesh(size=None, **settings):
-    """Meshes the surfaces of the model that is open in Gmsh by quads, which take the place of its mesh there.
+    """Meshes the surfaces of the model that is open in Gmsh by quads, which replace its mesh. Returns the Result.
 
-    size, settings: as of delquad.mesh(), but order (gmsh.model.mesh.setOrder(2) comes after) and what joins or mirrors entities; names are those of physical
-        groups. Returns the Result.
+    size, settings: as for delquad.mesh(), without order (use gmsh.model.mesh.setOrder(2) afterwards) and without keywords
+        that join or mirror entities. Names are the names of physical groups.
 
-    Quads are made of the mesh that is on the surfaces, of Gmsh's triangles where there is none yet. Nodes are moved onto the
-    geometry, where there is one. Entities and physical groups stay, elements of volumes go. Raises what delquad.mesh() raises.
+    Quads come from the mesh on the surfaces or, if there is none, from Gmsh's triangles. Nodes move onto the geometry, if
+    any. Entities and physical groups stay; elements of volumes are removed. Raises the same as delquad.mesh().
     """
     for joined in ("compounds", "ignore_below", "idealize", "mirror", "symmetry"):
         if settings.get(joined):
