@@ -1,10 +1,10 @@
-"""How many quads an error of the surface takes: sizes by direction from curvature against sizes alone.
+"""Counts the quads for an error of the surface: sizes by direction from curvature against sizes alone.
 
     python3 benchmarks/chord_metric.py build/release/delquad MODEL... [--chord 0.0005] [--max 0.05]
 
-Each model is meshed with --metric chord=...,max=..., both in diagonals of the model, then with --size and --curvature, whose
-number of elements per turn is sought until the middles of quads and edges lie as near to the surface (root mean square).
-Both have the same largest size. Distances are in diagonals of the model.
+Each model is meshed with --metric chord=...,max=..., both in diagonals of the model, then with --size and --curvature. The
+elements per turn are changed until middles of quads and edges are equally near to the surface (root mean square). Both
+have the same largest size. Distances are in diagonals of the model.
 """
 
 import argparse
@@ -50,7 +50,7 @@ def diagonal(model):
 
 
 def as_near(model, size, wanted):
-    """The mesh by sizes whose distance is nearest to the wanted one."""
+    """Returns the mesh by sizes whose distance is nearest to the wanted one."""
     low, high, turns, best, why = 3.0, 400.0, 24.0, None, ""
     for _ in range(arguments.runs):
         made, why = mesh(model, "--size", f"{size:.6g}", "--curvature", f"{turns:.4g}")

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Time a quad of every step of DBCO, how that of treatment, C and O grows, and what a second thread is worth.
+"""Times every step of DBCO for each quad, the growth of treatment, C and O, and the gain of a second thread.
 
 Runs `delquad mesh` with DBCO (or --words) on a plane and on a CAD model, over a range of sizes, with one thread and with two. Times of the
-steps are processor microseconds a quad on one thread, and come from one run. Their ratio to insertion's, in the row below, means something on
-a busy machine, too. The third row has what two threads are worth: one thread's seconds on the clock over theirs, on a quiet machine only. It
-means something of the plane, which is one patch. The last line of each model has the power of the number of quads by which steps grow. "meshing" is seconds on the clock from the boundary to the mesh. A model that is missing is skipped with a reason.
+steps are processor microseconds for each quad on one thread, from one run. The row below has their ratios to insertion, which are valid on
+a busy machine, too. The third row has the gain of two threads: wall-clock seconds of one thread over theirs. It needs a quiet machine, and
+is meaningful for the plane, which is one patch. The last line of each model has the power of the number of quads by which steps grow.
+"meshing" is wall-clock seconds from the boundary to the mesh. A missing model is skipped with a reason.
 """
 
 import argparse
@@ -21,7 +22,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def mesh(delquad, model, word, size, threads):
-    """The record of a run."""
+    """Returns the record of a run."""
     with tempfile.TemporaryDirectory() as folder:
         record = Path(folder) / "record.json"
         subprocess.run([delquad, "mesh", model, "-o", Path(folder) / "mesh.msh", "--size", repr(size), "--pipeline", word,
@@ -30,14 +31,14 @@ def mesh(delquad, model, word, size, threads):
 
 
 def power(rows, column):
-    """Slope of the logarithm of a column against that of the number of quads, by least squares."""
+    """Returns the power of the number of quads by which a column grows, by least squares of logarithms."""
     x, y = ([math.log(row[i]) for row in rows] for i in (0, column))
     mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
     return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x)
 
 
 def print_ratios(name, one, two):
-    """Below the times of a mesh: over insertion's, and times of one thread over times of two."""
+    """Returns the rows below the times of a mesh: over insertion's, and one thread over two."""
     cpu, clock, clock_two = one["cpu_seconds"], one["seconds"], two["seconds"]
     rows = [("/ insertion", lambda s: cpu[s] / cpu["insertion"]), ("two threads", lambda s: clock[s] / max(clock_two[s], 1e-9))]
     for title, ratio in rows:
@@ -49,7 +50,7 @@ def print_table(delquad, name, model, word, size, counts):
     rows = []
     for count in counts:
         size *= math.sqrt((rows[-1][0] if rows else count) / count)
-        while True:  # sizes near features follow rules of their own
+        while True:  # sizes near features have their own rules
             one = mesh(delquad, model, word, size, 1)
             quads = one["metrics"]["n_quads"]
             if abs(quads / count - 1) < 0.1:

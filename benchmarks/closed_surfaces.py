@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Meshes smooth closed surfaces with delquad and with QuadriFlow, as it is in Blender, at equal numbers of quads.
+"""Meshes smooth closed surfaces with delquad and with QuadriFlow in Blender, at equal numbers of quads.
 
 A torus and a sphere are made here; scans are from the data folder. delquad has the size-aware field, as --quality best. Its size is tuned until
-the first word makes the wanted number of quads, within 3 %; QuadriFlow is asked for as many faces as that made. `delquad metrics` measures all meshes
-alike. Seconds are on the clock: of delquad meshing, of QuadriFlow the remeshing alone. "before": irregular vertices before Q ran once more with other
-cuts. What is missing is skipped with a reason.
+the first pipeline makes the wanted number of quads, within 3 %. QuadriFlow gets the number that this made. `delquad metrics` measures all meshes
+alike. Seconds are on the clock: meshing by delquad, only remeshing by QuadriFlow. "before" has irregular vertices before Q ran again with other
+cuts. Missing programs and files are skipped with a reason.
 """
 
 import argparse
@@ -52,7 +52,7 @@ def torus(rings=96, sides=40, radius=1.0, tube=0.4):
 
 
 def sphere(rounds=4):
-    """An icosahedron, whose triangles are divided in four."""
+    """Returns an icosahedron whose triangles are divided in four."""
     g = (1 + math.sqrt(5)) / 2
     points = [p for s in (1, -1) for t in (g, -g) for p in ((0, s, t), (s, t, 0), (t, 0, s))]
     near = lambda p, q: math.dist(p, q) < 2.1
@@ -96,7 +96,7 @@ class Case:
         self.options = [a for option in options for a in ("--set", option)]
 
     def run(self, word, size):
-        """The record of a word; None where it made no sound mesh."""
+        """Returns the record of a pipeline; None if it made no sound mesh."""
         record = self.folder / "record.json"
         record.unlink(missing_ok=True)
         subprocess.run([self.delquad, "mesh", self.model, "-o", self.folder / "mesh.obj", "--size", repr(size), "--pipeline", word,

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Times delquad beside Gmsh (Frontal-Delaunay and Blossom) on whole models.
 
-For each model Gmsh's size is tuned until both make as many elements, within 1 % where it can. Then all programs run in
-turn, several times, from the file read to the file written; the table shows medians, and how many times as long Gmsh takes
-with as many threads. CPU seconds count all threads and are what to look at on a busy machine. What is missing is skipped
-with a reason; inf: a program that crashed in most of its runs.
+For each model Gmsh's size is tuned until both make as many elements, within 1 % if possible. Then all programs run in
+turn, several times, from the file read to the file written. The table shows medians, and Gmsh's time over delquad's with
+as many threads. CPU seconds count all threads, and suit a busy machine. Missing programs and files are skipped with a
+reason; inf means that a program crashed in most of its runs.
 """
 
 import argparse
@@ -40,7 +40,7 @@ CreateGeometry;
 
 
 def run(command):
-    """Wall and CPU seconds and the peak memory in bytes, of all that the command starts; none when it fails."""
+    """Returns wall and CPU seconds and peak memory in bytes of a command and its children; none if it fails."""
     start = time.perf_counter()
     with open(os.devnull, "w") as nowhere:
         child = subprocess.Popen(command, stdout=nowhere, stderr=nowhere)
@@ -53,7 +53,7 @@ def run(command):
 
 
 def mirrored(half, whole):
-    """Writes both halves of an MSH 2.2 triangulation: nodes and tags of the other one follow."""
+    """Writes both halves of an MSH 2.2 triangulation; nodes and tags of the other half come last."""
     lines = half.read_text().splitlines()
     nodes_at, elements_at = lines.index("$Nodes") + 1, lines.index("$Elements") + 1
     nodes = [line.split() for line in lines[nodes_at + 1:nodes_at + 1 + int(lines[nodes_at])]]
@@ -98,7 +98,7 @@ class Comparison:
             return sum(line.split(maxsplit=2)[1:2] in (["2"], ["3"]) for line in mesh if line.count(" ") > 5)
 
     def tune(self):
-        """Elements wanted, and of Gmsh with its best size: its counts jump, so that 1 % may be out of reach."""
+        """Returns the wanted number of elements, and Gmsh's at its best size: its counts jump, so 1 % may be impossible."""
         wanted, size, low, high, tries = self.delquad_elements(), self.size, 0, math.inf, []
         for _ in range(8):
             elements = self.gmsh_elements(size)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Curved elements on whole models: what is proven of them, and what they cost.
+"""Measures proven bounds and costs of curved elements on whole models.
 
-Meshes CAD models of ../shared/data and the project's own examples with straight elements and with those of higher orders, at sizes that are
-parts of the models' diagonals. The table has, of each: quads; processor seconds of the whole program with straight and with curved elements
-and their ratio; the least proven scaled Jacobian, and the least of elements that no narrow corner of the model holds back; how many are below
-.1, and how many of these lie in such corners; elements not proven to be positive (in corners, elsewhere); quads that got a ring; rounds of
-meshing anew. A mesh that is not sound counts, and says so in the last column. Models that are missing are skipped with a reason.
+Meshes CAD models of ../shared/data and built-in examples with straight and with curved elements. Sizes are parts of the models' diagonals.
+The table has quads, processor seconds of the whole program with straight and with curved elements, and their ratio. Then come the least
+proven scaled Jacobian, and the least outside of narrow corners of the model. Numbers of elements below 0.1 and of those in such corners
+follow. Last are elements without proof (in corners, elsewhere), quads that got a ring, and rounds of remeshing. An unsound mesh counts; the
+last column tells it. Missing models are skipped with a reason.
 """
 
 import argparse
@@ -22,7 +22,7 @@ HEADER = ["model", "part", "order", "quads", "straight, s", "curved, s", "ratio"
 
 
 def models(delquad, data, folder, only):
-    """Pairs of a name and a file."""
+    """Returns pairs of a name and a file."""
     found = [(path.name, path) for path in sorted((data / "cad").glob("*"))]
     if not found:
         print(f"skipped: no models in {data / 'cad'}")
@@ -44,7 +44,7 @@ def diagonal(delquad, model, folder):
 
 
 def mesh(delquad, model, size, order, folder, arguments):
-    """Processor seconds and the record; None when it fails."""
+    """Returns processor seconds and the record; None if it fails."""
     record = folder / "record.json"
     done = run([delquad, "mesh", model, "-o", folder / "mesh.vtu", "--size", repr(size), "--order", str(order), "--allow-unsound", "--json", record,
                 "--threads", str(arguments.threads), *arguments.options])

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""What fewer irregular vertices cost: Delquad's qualities at several weights beside QuadWild with Bi-MDF at several alphas.
+"""Measures the cost of fewer irregular vertices: Delquad's qualities at several weights beside QuadWild with Bi-MDF at several alphas.
 
 The size of each CAD model is --size-part of its diagonal in length. If the variable QUADWILD names the folder of QuadWild's built sources, it gets Delquad's triangles
-(F at that size), with the settings of experiments/peers/adapters/quadwild.sh. Its patches are made once a model, its quads for each alpha,
-at the number of `good` within --within or the nearest of --tries. `delquad metrics` measures all meshes against the same size. The table has means over the models that all programs meshed; --json keeps what was made; --figure draws irregular vertices
+(F at that size), with the settings of experiments/peers/adapters/quadwild.sh. Its patches are made once for each model, its quads for each alpha,
+at the number of `good` within --within or the nearest of --tries. `delquad metrics` measures all meshes against the same size. The table has means over the models that all programs meshed; --json keeps the results; --figure draws irregular vertices
 against tau and eta. Without QUADWILD it has Delquad's half.
 """
 
@@ -25,7 +25,7 @@ MEASURES = {"n_quads": 0, "n_irregular": 1, "eta_mean": 3, "eta_worst": 3, "tau"
 
 
 def run(command, folder, seconds=None):
-    """Whether it ended well, and its process seconds."""
+    """Returns whether it succeeded, and its process seconds."""
     before = os.times()
     try:
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=seconds)
@@ -65,7 +65,7 @@ def mean_edge(path):
 
 
 def quadwilds(delquad, quadwild, model, size, wanted, arguments, folder):
-    """By alpha: what its mesh is worth, whose number of quads is nearest to that wanted."""
+    """Returns, by alpha, the measures of the mesh whose number of quads is nearest to the wanted one."""
     programs, config = quadwild / "build/Build/bin", quadwild / "config"
     (folder / "config").symlink_to(config)  # its settings name files there
     run([delquad, "mesh", model, "-o", folder / "f.obj", "--size", repr(size), "--pipeline", "F", "--allow-triangles", "-q"], folder)
@@ -101,7 +101,7 @@ def quadwilds(delquad, quadwild, model, size, wanted, arguments, folder):
 
 
 def figure(path, means):
-    """Two boxes: irregular vertices against tau and against the mean eta."""
+    """Draws two boxes: irregular vertices against tau and against the mean eta."""
     svg = ['<svg xmlns="http://www.w3.org/2000/svg" width="860" height="400" font-family="sans-serif" font-size="12">'
            '<rect width="100%" height="100%" fill="white"/>']
     y_most = 1.08 * max(m["n_irregular"] for m in means.values())

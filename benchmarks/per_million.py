@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Seconds of process time per million quads: Delquad's qualities beside Gmsh, QuadriFlow and Instant Meshes, and what they buy.
+"""Measures process seconds per million quads, and quality: Delquad's qualities beside Gmsh, QuadriFlow and Instant Meshes.
 
-Each program makes about --quads quads on a plate with holes, on a closed triangulation and on a CAD model, from the file read to the
-file written, with one thread, --runs times in turn; the least time counts (of a run above --once seconds the first). Its mesh is
-measured by `delquad metrics`. Gmsh makes quads by frontal-Delaunay for quads and Blossom (8), which leaves triangles. It makes nothing but
+Each program makes about --quads quads on a plate with holes, on a closed triangulation and on a CAD model, with one thread. It runs
+--runs times in turn, from the file read to the file written; the least time counts, or the first above --once seconds. `delquad
+metrics` measures its mesh. Gmsh makes quads by frontal-Delaunay for quads and Blossom (8), which leaves triangles. It makes nothing but
 quads by halving quads of twice the size (6); a triangle counts as half a quad. QuadriFlow and Instant Meshes begin with a triangulation.
 For a CAD model and the plate this is Delquad's F at the same size, whose time does not count. Settings are as in
-experiments/peers/adapters. Instant Meshes divides its quads in four, so that it gets twice the size.
-QuadriFlow has its default flow, since the other one (-mcf) may not end. What is not there is skipped with a line that says so. --figure draws the seconds on a logarithmic axis.
+experiments/peers/adapters. Instant Meshes divides its quads in four, so it gets twice the size. QuadriFlow has
+its default flow, since the other one (-mcf) may not end. Missing programs are skipped with a line. --figure draws the seconds on
+a logarithmic axis.
 """
 
 import argparse
@@ -24,7 +25,7 @@ from compare_gmsh import run
 from scale import AREA, MODEL, PLATE_GEO, ROOT
 
 SURFACE_GEO = 'Merge "{}";\nClassifySurfaces{{40 * Pi / 180, 1, 1, Pi}};\nCreateGeometry;\n'
-TAKEN = 'ulimit -t "$0"; "$@"; [ $? -le 1 ]'  # 1: Gmsh complained; what its mesh is worth is measured
+TAKEN = 'ulimit -t "$0"; "$@"; [ $? -le 1 ]'  # 1: Gmsh complained; its mesh is measured
 COLOURS = {"delquad": "#0b6e99", "gmsh": "#c2571a", "quadriflow": "#5b8c2a", "instant-meshes": "#7a4fa3"}
 
 
@@ -34,7 +35,7 @@ def text_of(command):
 
 
 class Model:
-    """One model as each program reads it."""
+    """A model in the format of each program."""
 
     def __init__(self, name, path, delquad, folder):
         self.name, self.path, self.delquad, self.folder, self.area = name, path, delquad, folder, AREA
@@ -62,7 +63,7 @@ class Model:
 
 
 def commands(model, quads, programs, folder):
-    """By the name of a program and its way: what to run, and the mesh that it writes."""
+    """Returns, by the name of a program and its mode, the command and the mesh that it writes."""
     size, out = math.sqrt(model.area / quads), {}
     for program in programs["delquad"]:
         for quality in "fast", "good", "best":
@@ -96,7 +97,7 @@ def measure(delquad, mesh, folder):
 
 
 def rows(model, quads, programs, arguments, folder):
-    """By program: seconds, how many runs, and what its mesh is worth; of those that failed why."""
+    """Returns, by program, seconds, number of runs and measures of its mesh, or the reason of failure."""
     jobs, times, result = commands(model, quads, programs, folder), {}, {}
     for turn in range(arguments.runs):
         for name, (command, mesh) in jobs.items():
@@ -118,7 +119,7 @@ def rows(model, quads, programs, arguments, folder):
 
 
 def figure(path, records):
-    """Seconds per million quads: a row a program, a box a model; the larger the mesh, the larger its dot."""
+    """Draws seconds per million quads: a row for each program, a box for each model; dots grow with the mesh."""
     models, names = list(dict.fromkeys(r["model"] for r in records)), list(dict.fromkeys(r["program"] for r in records))
     low = math.floor(math.log10(min(r["per_million"] for r in records)))
     high = math.ceil(math.log10(max(r["per_million"] for r in records)))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the Python module costs: importing it and meshing a square, and a constant callback beside the constant.
+"""Times the Python module: its import with a mesh of a square, and a constant callback beside the constant.
 
     PYTHONPATH=build/release/python python3 benchmarks/python_module.py
 """
@@ -37,7 +37,7 @@ def main():
     part = delquad.example("bracket")
     for name, model, size in (("square", square, 0.02), ("square", square, 0.005), ("bracket", part, 4.0)):
         pairs = []
-        for _ in range(RUNS):  # in turns, for the machine may be busy
+        for _ in range(RUNS):  # in turn, since the machine may be busy
             constant = seconds(lambda: delquad.mesh(model, size=size))
             function = seconds(lambda: delquad.mesh(model, size=lambda x: np.full(len(x), size)))
             pairs.append((constant, function))

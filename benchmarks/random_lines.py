@@ -1,24 +1,24 @@
 #!/usr/bin/env python3
-"""Mesh random sets of embedded lines and points, cracks, and regions side by side, and check each mesh with code of its own.
+"""Meshes random sets of embedded lines and points, cracks, and adjacent regions, and checks each mesh by independent code.
 
     python3 benchmarks/random_lines.py --kinds square cracks regions sphere part --sets 100 --sizes .05 .02 .01
 
-square   5 to 60 segments and points in the unit square. They cross, end on each other, on the square's sides or in one point. Whatever does not meet
-         keeps a tenth of the size apart, and lines that meet have an angle of at least 10 degrees (--least-angle).
-cracks   the same with 5 to 30 features, of which every third segment is a crack
-regions  the unit square cut into 2 to 30 polygons: by slanted cuts that end on each other, or the cells nearest to random points
-sphere   3 to 20 lines and points on the unit sphere (sizes: 4 times those given); part: on the CAD model *pump_carter* of --data (sizes: 80 times)
+* square: 5 to 60 segments and points in the unit square. They cross, or end on each other, on the square's sides or in one point. Separate features keep
+  a tenth of the size apart, and lines that meet have an angle of at least 10 degrees (--least-angle).
+* cracks: 5 to 30 such features; every third segment is a crack.
+* regions: the unit square cut into 2 to 30 polygons, by slanted cuts that end on each other, or by cells of random points.
+* sphere: 3 to 20 lines and points on the unit sphere, with 4 times the given sizes.
+* part: the same on the CAD model *pump_carter* of --data, with 80 times the given sizes.
 
-The same seeds make the same sets, whatever the machine. One line a kind and size:
+The same seeds make the same sets on any machine. Each kind and size has a line:
 
-sound    exit code 0, and in the check: quads alone, corners turned the right way by exact arithmetic, every edge in two quads or on the outline, area(s)
-         those of the model to 1e-12
-paths    all segments covered by edges from end to end, all points nodes (planar: to 1e-9; on surfaces: lines of that name from end to end), cracks
-         apart but for their tips
-refused  exit code 2; reasons are listed below the table, and so is whatever failed
-eta      mean over the sets, of the mesh, of one without the lines, and of a disc of the square's area; away: of the quads that touch neither line nor point;
-         bound: what is left of 1 by corners between lines, and by the fewest irregular vertices that the faces must have, if all else were squares
-time     processor seconds from model to mesh on one thread by those without: mean and largest; by disc: by those of the disc
+* sound: exit code 0, and a passed check. There are only quads, with corners that turn the right way by exact arithmetic. Every edge has two quads or is on
+  the outline, and areas are the model's to 1e-12.
+* paths: edges cover all segments, all points are nodes (planar: to 1e-9; surfaces: named lines), and cracks are open except at tips.
+* refused: exit code 2. Reasons, and all failures, are listed below the table.
+* eta: mean over the sets, for the mesh, for one without lines, and for a disc of equal area. "away" is over quads without line or point. "bound" is
+  possible if corners between lines and the fewest irregular vertices are the only loss.
+* time: processor seconds from model to mesh on one thread, over seconds without lines: mean and largest; "by disc" is over seconds of the disc.
 """
 
 import argparse
@@ -55,7 +55,7 @@ def along(a, b, t):
 
 
 def turn(a, b, c):
-    """Twice the area of a triangle; its sign is exact."""
+    """Returns twice the area of a triangle; its sign is exact."""
     left, right = (b[0] - a[0]) * (c[1] - a[1]), (b[1] - a[1]) * (c[0] - a[0])
     if abs(left - right) > 1e-15 * (abs(left) + abs(right)):
         return left - right
@@ -65,14 +65,14 @@ def turn(a, b, c):
 
 
 def foot(p, a, b):
-    """Parameter of the nearest place on a segment, and its distance."""
+    """Returns the parameter of the nearest place on a segment, and its distance."""
     d = minus(b, a)
     t = min(1.0, max(0.0, dot(minus(p, a), d) / dot(d, d)))
     return t, math.dist(p, along(a, b, t))
 
 
 def crossing(a, b, c, d):
-    """Where the insides of two segments cross."""
+    """Returns the point where the insides of two segments cross, if they do."""
     ta, tb, tc, td = turn(c, d, a), turn(c, d, b), turn(a, b, c), turn(a, b, d)
     return along(a, b, ta / (ta - tb)) if ta * tb < 0 and tc * td < 0 else None
 
@@ -82,7 +82,7 @@ def angle_between(u, v):
 
 
 class Drawing:
-    """Segments and points in the unit square, apart where they do not meet."""
+    """Segments and points in the unit square that keep apart unless they meet."""
 
     def __init__(self, apart, least_angle):
         self.apart, self.least_angle = apart, least_angle
@@ -90,7 +90,7 @@ class Drawing:
         self.nodes = list(SQUARE)  # ends, points, crossings
 
     def add(self, a, b):
-        """Whether there was room."""
+        """Returns whether there was space."""
         nodes = [] if a == b else self.new_nodes(a, b)
         if nodes is None:
             return False
@@ -114,7 +114,7 @@ class Drawing:
         return True
 
     def new_nodes(self, a, b):
-        """Crossings with the other segments."""
+        """Returns the crossings with the other segments."""
         if not all(0 <= x <= 1 for x in (*a, *b)):
             return None
         return [x for s in self.segments for x in [crossing(a, b, *s)]
@@ -126,7 +126,7 @@ class Drawing:
 
 
 def draw(rng, size, least_angle, least, most):
-    """Segments (pairs of points that differ) and points (pairs that do not)."""
+    """Returns segments (pairs of distinct points) and points (pairs of equal ones)."""
     drawing, features = Drawing(size / 10, least_angle), []
     wanted = rng.randint(least, most)
     for _ in range(200 * wanted):
@@ -151,7 +151,7 @@ def draw(rng, size, least_angle, least, most):
         else:
             a, b = place(), place()
             length = rng.uniform(0.02, 0.5)
-            if rng.random() < 0.7:  # else as long as it is
+            if rng.random() < 0.7:  # else its length stays
                 direction = rng.uniform(0, 2 * math.pi)
                 b = (a[0] + length * math.cos(direction), a[1] + length * math.sin(direction))
             if math.dist(a, b) < size / 10:
@@ -162,7 +162,7 @@ def draw(rng, size, least_angle, least, most):
 
 
 def clip(polygon, p, normal):
-    """The part of a convex polygon beyond a line through p."""
+    """Returns the part of a convex polygon beyond a line through p."""
     result = []
     for a, b in zip(polygon, polygon[1:] + polygon[:1]):
         ha, hb = dot(minus(a, p), normal), dot(minus(b, p), normal)
@@ -178,7 +178,7 @@ def area(polygon):
 
 
 def has_room(polygons, apart, least_angle):
-    """Whether corners keep apart from each other and from sides that they are not on."""
+    """Returns whether corners keep apart from each other and from other sides."""
     corners = [c for p in polygons for c in p]
     for p in polygons:
         for a, b, c in zip(p, p[1:] + p[:1], p[2:] + p[:2]):
@@ -190,7 +190,7 @@ def has_room(polygons, apart, least_angle):
 
 
 def cut_square(rng, size, least_angle):
-    """2 to 30 convex polygons."""
+    """Returns 2 to 30 convex polygons."""
     wanted = rng.randint(2, 30)
     by_cuts = rng.random() < 0.5
     while True:
@@ -249,7 +249,7 @@ def toml_surface(model, features):
 
 
 def write_sphere(path, steps=5):
-    """Triangles of an icosahedron, divided."""
+    """Returns the divided triangles of an icosahedron."""
     g = (1 + math.sqrt(5)) / 2
     points = [tuple(x / math.hypot(1, g) for x in p) for p in
               [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g), (0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]]
@@ -291,7 +291,7 @@ def lines_on_sphere(rng):
 
 
 def lines_on_part(rng, plain, reach):
-    """Between nodes inside of a face of the mesh without lines."""
+    """Returns features between nodes inside a face of the mesh without lines."""
     on_line = {v for line in plain.lines for v in line[0]}
     inner = sorted({(v, region) for quad, region in zip(plain.quads, plain.regions) for v in quad if v not in on_line})
     features = []
@@ -307,7 +307,7 @@ def lines_on_part(rng, plain, reach):
 
 
 class MshFile:
-    """Points, quads and lines of a file in Gmsh's format 4.1, by physical names."""
+    """Reads points, quads and lines of a file in Gmsh's format 4.1, by physical names."""
 
     def __init__(self, path):
         text = path.read_text().split("\n")
@@ -372,7 +372,7 @@ def eta(corners):
 
 
 def sides_of(mesh):
-    """Quads at each edge; a complaint instead where one runs the same way in two quads."""
+    """Returns the quads at each edge; None if an edge runs the same way in two quads."""
     seen, sides = set(), collections.defaultdict(list)
     for q, quad in enumerate(mesh.quads):
         for k in range(4):
@@ -385,7 +385,7 @@ def sides_of(mesh):
 
 
 def unsound_plane(mesh, areas):
-    """What is wrong with a mesh; areas by region."""
+    """Returns the defect of a mesh, or None; `areas` are by region."""
     if mesh.triangles:
         return "triangles"
     p = mesh.flat
@@ -413,7 +413,7 @@ def is_on_outline(a, b):
 
 
 def nodes_on(mesh, a, b):
-    """Of a segment, in their order, those at the same place together."""
+    """Returns the nodes on a segment in order, grouped by place."""
     lows, highs = [min(x) - NEAR for x in zip(a, b)], [max(x) + NEAR for x in zip(a, b)]
     found = [(foot(p, a, b)[0], v) for v, p in enumerate(mesh.flat)
              if lows[0] <= p[0] <= highs[0] and lows[1] <= p[1] <= highs[1] and foot(p, a, b)[1] <= NEAR]
@@ -427,7 +427,7 @@ def nodes_on(mesh, a, b):
 
 
 def missing_in_plane(mesh, features, is_crack):
-    """The first feature that is no path of edges or no node."""
+    """Returns the first feature that is no path of edges or no node."""
     sides = sides_of(mesh)
     on_crack = set()
     for k, (a, b) in enumerate(features):
@@ -500,7 +500,7 @@ def missing_on_surface(mesh, features, near, is_round):
 
 
 def eta_away(mesh, features):
-    """Mean eta of the quads that have no node on a feature."""
+    """Returns the mean eta of quads without a node on a feature."""
     near = {v for a, b in features if a != b for place in nodes_on(mesh, a, b) for v in place}
     near |= {v for a, b in features if a == b for v, p in enumerate(mesh.flat) if math.dist(p, a) <= NEAR}
     away = [eta([mesh.flat[v] for v in quad]) for quad in mesh.quads if near.isdisjoint(quad)]
@@ -508,7 +508,7 @@ def eta_away(mesh, features):
 
 
 class PlanarMap:
-    """What segments enclose, in the square: its corners, and the Euler characteristic of each face."""
+    """Faces of the square between segments."""
 
     def __init__(self, segments):
         segments = segments + list(zip(SQUARE, SQUARE[1:] + SQUARE[:1]))
@@ -550,7 +550,7 @@ class PlanarMap:
             yield angle if angle > 1e-9 else 2 * math.pi
 
     def faces(self):
-        """Angles and Euler characteristic of each."""
+        """Yields the corner angles and the Euler characteristic of each face."""
         polygons = [[self.at[v] for v in cycle] for cycle in self.cycles]
         areas = [area(polygon) for polygon in polygons]
         inside = collections.defaultdict(list)
@@ -576,11 +576,11 @@ def contains(polygon, x):
 
 
 def eta_bound(segments, n_quads):
-    """n quads in a corner lose n |1 - angle / (90 n)|, an inner vertex of valence v |4 - v|. In a face the sum of 2 - n over its corners and of
-    4 - v inside is four times its Euler characteristic: the best choice of all n."""
+    """Returns the largest possible mean eta. A corner with n quads loses n |1 - angle / (90 n)|, and an inner vertex of valence v loses |4 - v|.
+    In a face, the sum of 2 - n over corners and of 4 - v inside is four times its Euler characteristic. The best n are taken."""
     most, lost = 12, 0
     for angles, characteristic in PlanarMap(segments).faces():
-        best = {0: 0.0}  # by the sum over the corners so far
+        best = {0: 0.0}  # least loss by the sum over the corners so far
         for angle in angles:
             costs = [(2 - n, n * min(1, abs(1 - angle / n / (math.pi / 2)))) for n in range(1, 6)]
             least = min(cost for _, cost in costs)
@@ -618,7 +618,7 @@ class Run:
 
 
 def reason(message):
-    """A message without names, numbers and places."""
+    """Returns a message without names, numbers and places."""
     line = next((row for row in message.split("\n") if "error" in row.lower()), message.split("\n")[-1])
     line = re.sub(r"\S*/\S+\.toml:?", "", line)
     line = re.sub(r"'[^']*'", "'..'", line)
@@ -626,7 +626,7 @@ def reason(message):
 
 
 class Table:
-    """One kind at one size."""
+    """Runs one kind at one size."""
 
     def __init__(self, arguments, kind, size):
         self.arguments, self.kind, self.size = arguments, kind, size
@@ -692,7 +692,7 @@ class Table:
                 if not base:
                     away = eta_away(run.mesh, features)
                     bound = eta_bound([f for f in features if f[0] != f[1]], run.quads)
-                if k % 10 == 9:  # times of the same state of the machine
+                if k % 10 == 9:  # so that times are of the same state of the machine
                     model.write_text(toml_surface(base, []) if base else toml_square([], None))
                     again = Run(arguments.delquad, model, size, arguments.limit)
                     plain.seconds = again.seconds

@@ -1,10 +1,10 @@
-"""Runs the microbenchmarks and prints one table: how many times as fast as their baselines our steps are, now and in the versions before.
+"""Runs the microbenchmarks and prints a table of speeds of our steps over their baselines, now and in earlier versions.
 
     python3 benchmarks/ratios.py build/release [--record] [-- --benchmark_filter=... and other flags of Google Benchmark]
 
-`--record` adds the ratios to benchmarks/bench.json under the program's version, in place of what that version had. A ratio is the median
-over repetitions, of CPU times, with two threads of times on the clock. It is marked where it differs from that of the last version before at 5 %: the Mann-Whitney U
-test of the repetitions' ratios, as Google Benchmark's compare.py tests times.
+`--record` adds the ratios to benchmarks/bench.json under the program's version, in place of its old ones. A ratio is the median over
+repetitions, of CPU times or, with two threads, of wall-clock times. It is marked if it differs from the previous version's at 5 %. The
+Mann-Whitney U test compares the repetitions' ratios, as Google Benchmark's compare.py tests times.
 """
 
 import argparse
@@ -18,8 +18,8 @@ import tempfile
 from scipy.stats import mannwhitneyu
 
 HISTORY = pathlib.Path(__file__).with_name("bench.json")
-# The baseline of each step, by the names' first part: the same work by a library, or by one thread. Insertion and an evaluation have none.
-# Beside them stands CGAL's Delaunay triangulation of the same points: it is a part of their work, and gives a scale.
+# The baseline of each step, by the first part of names: the same work by a library, or by one thread. Insertion and an evaluation have
+# CGAL's Delaunay triangulation of the same points instead, which is a part of their work and gives a scale.
 BASELINES = {
     "matching": {"ours": "lemon", "ours_two_threads": "lemon"},
     "insertion": {"insertion": "triangulation_alone"},
@@ -30,9 +30,9 @@ REPETITIONS = 5
 
 
 def run_times(program, flags):
-    """Times of all repetitions in seconds, on the CPU and on the clock, by names."""
+    """Returns times of all repetitions in seconds, on the CPU and on the clock, by names."""
     with tempfile.NamedTemporaryFile(suffix=".json") as out:
-        # What it prints is the table of single times, with the banner of a library that the distribution built with assertions.
+        # It prints single times, and a warning on a library that the distribution built with assertions.
         subprocess.run([program, f"--benchmark_out={out.name}", f"--benchmark_repetitions={REPETITIONS}", *flags], check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         text = pathlib.Path(out.name).read_text()

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The whole word at 10^5, 10^6 and 10^7 triangles: seconds of every stage and peak memory, beside Gmsh.
+"""Measures the pipeline at 10^5, 10^6 and 10^7 triangles: seconds of every stage and peak memory, beside Gmsh.
 
-Meshes the plate with 16 holes by DB (or --word), with one thread and with all cores, and prints tables of seconds on the clock and of
-processor seconds; rows below have the power of the number of triangles by which each stage grows. Gmsh (Blossom, one thread;
-Frontal-Delaunay for quads or, where that fails, Frontal-Delaunay) gets the same model and size, up to --gmsh-most triangles and for
---gmsh-seconds; it is skipped where it is not installed. Sizes for which the machine has too little memory are skipped with a reason.
+Meshes the plate with 16 holes by DB (or --word), with one thread and with all cores. Tables have wall-clock and processor seconds; rows
+below have the power of the number of triangles by which each stage grows. Gmsh gets the same model and size, up to --gmsh-most triangles
+and for --gmsh-seconds. It runs Blossom on one thread after Frontal-Delaunay for quads or, if that fails, Frontal-Delaunay. It is skipped
+if it is missing, and so are sizes that need too much memory, with a reason.
 """
 
 import argparse
@@ -21,7 +21,7 @@ from compare_gmsh import run
 ROOT = Path(__file__).resolve().parent.parent
 MODEL = ROOT / "experiments/models/plate_16_holes.toml"
 AREA = 4 - 16 * math.pi * 0.14**2
-MOST_BYTES = 800  # of memory that a triangle may take: what is asked for before a size is begun
+MOST_BYTES = 800  # bytes of memory for each triangle, required before a size starts
 PLATE_GEO = """SetFactory("OpenCASCADE");
 Rectangle(1) = {0, 0, 0, 2, 2};
 For i In {0:15}
@@ -32,8 +32,8 @@ BooleanDifference{ Surface{1}; Delete; }{ Surface{2:17}; Delete; }
 
 
 def delquad(program, word, size, threads, folder):
-    """Seconds on the clock and of the processor, by stage and of the whole program, peak memory in bytes, triangles that were merged;
-    None when it fails."""
+    """Returns wall-clock and processor seconds by stage and in total, peak memory in bytes, and the number of merged triangles.
+    Returns None if it fails."""
     record = folder / "record.json"
     done = run([program, "mesh", MODEL, "-o", folder / "mesh.msh", "--binary", "--size", repr(size), "--pipeline", word,
                 "--threads", str(threads), "--json", record])
@@ -45,7 +45,7 @@ def delquad(program, word, size, threads, folder):
 
 
 def gmsh(size, algorithm, most_seconds, folder):
-    """Seconds on the clock and of the processor, and peak memory in bytes; None when it fails."""
+    """Returns wall-clock and processor seconds, and peak memory in bytes; None if it fails."""
     geometry = folder / "plate.geo"
     geometry.write_text(PLATE_GEO)
     return run(["timeout", str(most_seconds), "gmsh", geometry, "-2", "-setnumber", "Mesh.Algorithm", str(algorithm), "-setnumber",
@@ -54,7 +54,7 @@ def gmsh(size, algorithm, most_seconds, folder):
 
 
 def powers(rows):
-    """By stage, the slope of the logarithm of its seconds from the first to the last row."""
+    """Returns, by stage, the slope of the logarithm of its seconds from the first to the last row."""
     (first, *_, n), (last, *_, m) = rows[0], rows[-1]
     return {stage: math.log(last[stage] / first[stage]) / math.log(m / n) for stage in first
             if stage in last and min(first[stage], last[stage]) > 0}
