@@ -8,7 +8,7 @@
 
 #include "delquad/mesh.h"
 
-// This header has axis-aligned boxes. All modules use it.
+// This header has axis-aligned boxes. Most modules use it.
 
 namespace delquad {
 

@@ -8,7 +8,7 @@ namespace delquad {
 
 namespace {
 
-/// Most halvings, in three directions in turn, of a hexahedron whose sign is open.
+/// Limit of halvings, in three directions in turn, of a hexahedron whose sign is open.
 constexpr int kMostHalvings = 12;
 
 double triple(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(cross(a, b), c); }

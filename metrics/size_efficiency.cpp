@@ -16,7 +16,7 @@ namespace {
 /// Largest relative difference of Simpson's rule and the trapezium at which Simpson's is taken. Its own error
 /// is far smaller if delta is smooth, and of this order at a kink.
 constexpr double kAgreement = 1e-3;
-/// Most halvings of a panel: a jump of delta is found to 1e-6 of the edge.
+/// Limit of halvings of a panel: a jump of delta is found to 1e-6 of the edge.
 constexpr int kMaxHalvings = 20;
 /// Limit of values on an edge: a jump takes two for each halving, so ten jumps are found. Between overlapping
 /// sheets delta may jump everywhere; then a mean of evenly spaced values counts.

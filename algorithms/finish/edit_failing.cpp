@@ -18,7 +18,7 @@
 namespace delquad {
 namespace {
 
-/// Most tried edits in a patch, and sweeps of relocation after each.
+/// Limit of tried edits in a patch, and sweeps of relocation after each.
 constexpr int kMostEdits = 2000, kSettlingSweeps = 6;
 /// Allowed loss of eta, summed over the quads around, for each failing quad that an edit removes.
 constexpr double kPriceOfFailing = 1;

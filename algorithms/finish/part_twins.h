@@ -5,7 +5,7 @@
 #include "base/counters.h"
 #include "patches/places_inside.h"
 
-// This header removes duplicate edges and quads between patches. The pipeline uses it after each stage.
+// This header removes duplicate edges and quads between patches. The pipeline uses it before its repairs.
 
 namespace delquad {
 

@@ -238,7 +238,7 @@ class Adaptation {
     return false;
   }
 
-  static constexpr int kFew = 1000;  // share of triangles (1 in so many) whose edits justify another sweep
+  static constexpr int kFew = 1000;  // a sweep with fewer edits than 1 in so many triangles is the last one
   TriTopology mesh_;
   const CrossField& cross_;
   const ParametricSize& size_;

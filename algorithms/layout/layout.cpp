@@ -54,7 +54,7 @@ constexpr int kMostCuts = 3, kMostLevels = 3;
 constexpr int kCornersPerLevel = 12;
 /// Least number of corners at which levels count.
 constexpr int kFewCorners = 8;
-/// Most places of a piece from which lines start; the places are spread evenly.
+/// Limit of places of a piece from which lines start; the places are spread evenly.
 constexpr std::size_t kMostStarts = 160;
 /// For a piece without a pattern: irregular vertices for each vertex of its rim, and loss of a quad.
 constexpr double kMixedPerVertex = 0.1, kMixedLoss = 0.15;

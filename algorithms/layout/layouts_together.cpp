@@ -39,9 +39,9 @@ constexpr double kPrices[] = {1, 3};
 /// Limits of agree_counts(): steps, and patches in one of its searches.
 constexpr long long kMostSteps = 500'000;
 constexpr int kMostLooks = 100;
-/// Most choices of numbers at each price.
+/// Limit of choices of numbers at each price.
 constexpr int kMostRounds = 8;
-/// Most examined pieces of a patch.
+/// Limit of examined pieces of a patch.
 constexpr int kMostPieces = 600;
 /// Least eta of quads, unless they were worse before.
 constexpr double kLeastEta = 0.3;

@@ -95,7 +95,7 @@ class Cavity {
 /// Number of near irregular vertices that make cavities with one, and searched vertices for each quad that a
 /// cavity may have. With 5, a quarter more cavities on the plate of 16 holes bring nothing.
 inline constexpr std::size_t kNear = 4, kMostMet = 3;
-/// Most rings of quads that a cavity adds until it has a pattern.
+/// Limit of rings of quads that a cavity adds until it has a pattern.
 inline constexpr int kMostRings = 2;
 
 /// Search that grows cavities of a mesh.

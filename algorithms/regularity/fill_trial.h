@@ -18,7 +18,7 @@ double tolerance_of(const RegularityOptions& options, int round);
 double quads_per_gain_of(const RegularityOptions& options, int round);
 /// Returns the rank of a cavity; lower ones are tried first. `left` counts irregular vertices of its pattern.
 double promise_of(double quads, int left, int gain);
-/// Most tried cavities of a vertex in a round; a third one brings nothing.
+/// Limit of tried cavities of a vertex in a round; a third one brings nothing.
 inline constexpr int kMostTrials = 2;
 
 /// Sets the limits of relocation in stage Q. Relocates all active vertices at the end, and returns the moves.

@@ -12,7 +12,7 @@ namespace {
 
 /// Range of the length of edges on a cut, over the wanted length.
 constexpr double kShortestEdge = 0.75, kLongestEdge = 1.4;
-/// Most followed cuts of an outline, least strain first, and the divisor of this number for its parts.
+/// Limit of followed cuts of an outline, least strain first, and the divisor of this number for its parts.
 constexpr int kMostCuts = 8, kFewerOfParts = 4;
 /// Corners of an outline minus concave vertices.
 constexpr int kFewestCorners = 2, kMostCorners = 8;

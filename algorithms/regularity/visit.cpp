@@ -19,24 +19,24 @@ namespace delquad::across {
 
 namespace {
 
-/// Most polygons of a cavity.
+/// Limit of polygons of a cavity.
 constexpr std::size_t kMostParts = 4;
-/// Most patterns with cuts that are searched around a vertex, and at a change of a stretch. Most edges of
-/// their rims.
+/// Limit of patterns with cuts that are searched around a vertex, and at a change of a stretch. Limit of
+/// edges of their rims.
 constexpr int kMostPatterns = 8, kMostPatternsThere = 1;
 constexpr std::size_t kMostRim = 48;
-/// Most sides of polygons whose patterns follow from numbers of edges alone.
+/// Limit of sides of polygons whose patterns follow from numbers of edges alone.
 constexpr std::size_t kSimpleSides = 5;
 /// Rings of quads that polygons add around a vertex, and at a stretch; each ring makes a polygon.
 constexpr int kRings = 2, kRingsThere = 3;
-/// Most filled cavities of a vertex, and relocated ones among them.
+/// Limit of filled cavities of a vertex, and relocated ones among them.
 constexpr int kMostAttempts = 6, kMostRelocated = 2;
 /// Factor of the tolerance over a single patch: O moves nodes along curves later, but they are fixed in the
 /// trial.
 constexpr double kDearer = 3;
-/// Most stretches of a vertex that are followed, and ways on from the other side of each.
+/// Limit of stretches of a vertex that are followed, and ways on from the other side of each.
 constexpr std::size_t kMostStretches = 8, kMostWays = 3;
-/// Most quads of a polygon that passes a change straight across or is a whole patch.
+/// Limit of quads of a polygon that passes a change straight across or is a whole patch.
 constexpr int kMostWhole = 100;
 /// Limits of edges on a stretch over the wanted length: the least if it gains edges, the most if it loses
 /// some.

@@ -20,9 +20,9 @@ namespace {
 constexpr double kUneven = 8;
 /// Least decrease of cost that counts.
 constexpr double kCheaper = 1e-9;
-/// Most passes over all sums and curves.
+/// Limit of passes over all sums and curves.
 constexpr int kMostAgreements = 50;
-/// Most curves of a chain.
+/// Limit of curves of a chain.
 constexpr int kMostCurves = 24;
 /// Cost that a chain may have beyond the largest gain of its end.
 constexpr double kAdvance = 2;

@@ -7,7 +7,7 @@
 #include "base/budget.h"
 #include "base/matching/matching.h"
 
-// This header chooses numbers of edges on curves. Layouts, grids and periodic sides use it.
+// This header chooses numbers of edges on curves. Layouts, grids and boundaries of patches use it.
 
 namespace delquad {
 

@@ -14,11 +14,11 @@
 namespace delquad {
 namespace {
 
-/// Most rounds over all conditions, since a chain may break what another one repaired.
+/// Limit of rounds over all conditions, since a chain may break what another one repaired.
 constexpr int kMostRounds = 20;
-/// Most passes over all curves that lower the sum of costs, and the least decrease that counts.
+/// Limit of passes over all curves that lower the sum of costs, and the least decrease that counts.
 constexpr int kMostPasses = 100;
-/// Most chains that compensate one change.
+/// Limit of chains that compensate one change.
 constexpr int kMostChains = 12;
 constexpr double kLower = 1e-9;
 

@@ -85,7 +85,7 @@ struct NamedSize {
   double growth = kNamedGrowth;  ///< growth of sizes from there on, per unit length
   /// Elements per full turn of faces and curves of this name; 0: SizeSpec::curvature.
   double curvature = 0;
-  std::string where = {};  ///< who asked for it, for messages
+  std::string where = {};  ///< origin of the request, for messages
   static constexpr double kNamedGrowth = 0.3;
 };
 
@@ -147,7 +147,7 @@ struct SizeSpec {
   /// Sizes are the lengths of the lines of a LineModel, extended smoothly. This is also the default there.
   bool from_boundary = false;
   std::vector<SizeSource> sources = {};  ///< the smallest counts
-  std::vector<NamedSize> named = {};     ///< likewise
+  std::vector<NamedSize> named = {};     ///< the smallest counts, too
   double gradation = 0;  ///< upper limit of |grad delta|; 0: none, or kCurvatureGradation with `curvature`
   double curvature = 0;  ///< elements per full turn; 0: sizes do not follow curvature
   double min = 0;  ///< least size that curvature may ask for; 0: a twentieth of the size without curvature

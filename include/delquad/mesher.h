@@ -162,7 +162,7 @@ MeshProblem read_model_file(const std::filesystem::path& file);
 /// than the model. Throws InputError for unreadable models.
 ModelInfo model_info(MeshProblem problem, double size = 0);
 
-/// How to run, as opposed to what to mesh. Nothing in it changes the result.
+/// Settings of a run that never change its result.
 struct Context {
   int threads = 0;  ///< 0: number of cores
   std::stop_token cancel =

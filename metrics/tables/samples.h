@@ -9,7 +9,7 @@
 #include "metrics/tables/result_records.h"
 #include "metrics/tables/statistics.h"
 
-// This header groups records by rows and domains. Tables and tests use it.
+// This header groups records by rows and domains. Tables and reports use it.
 
 namespace delquad {
 

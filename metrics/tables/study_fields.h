@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// Most digits of a measure after the decimal point.
+/// Limit of digits of a measure after the decimal point.
 inline constexpr int kMostDigits = 12;
 
 template <>

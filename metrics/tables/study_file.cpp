@@ -58,7 +58,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr const char* kStudyFile = "study.json";
 
-/// Most characters of a value in the name of a folder.
+/// Limit of characters of a value in the name of a folder.
 constexpr std::size_t kLongestValue = 40;
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "geometry/planar/planar_model.h"
 #include "smoothing/optimisation/track_optimisation.h"
 
-// This header moves vertices of planar meshes, nodes along curves. Stage O uses it.
+// This header moves vertices of planar meshes, nodes along curves. Stage O and grids use it.
 
 namespace delquad {
 

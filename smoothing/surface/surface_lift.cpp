@@ -15,7 +15,7 @@ namespace delquad {
 
 namespace {
 
-/// The search starts with this part of the longest edge, and ends after so many steps.
+/// Start of the search, as a part of the longest edge, and its number of steps.
 constexpr double kReach = 0.25;
 constexpr int kSteps = 14;
 /// A quad lacks (1 - quality / kGood)^kPower if its quality is below kGood. So one bad quad outweighs several
@@ -47,7 +47,8 @@ constexpr double kDiagonal = std::numbers::sqrt2 / 2;
 constexpr Vec2 kCompass[8] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDiagonal, kDiagonal},
                               {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
 
-/// Most neighbors (each counted twice) for trials halfway between two of them, as pairs grow with the square.
+/// Limit of neighbors (each counted twice) for trials halfway between two of them, as pairs grow with the
+/// square.
 constexpr std::size_t kMostPaired = 24;
 
 /// Moves vertices of some quads one by one to the least lack of the quads around them.
