@@ -51,7 +51,7 @@ struct NodalField {
 /// Goals of the next mesh.
 struct AdaptSpec {
   double quads = 0;  ///< wanted number of quads, or else
-  double error = 0;  ///< wanted Lp error of interpolation, of the field that has most
+  double error = 0;  ///< wanted Lp error of interpolation of the worst field
   double norm = 2;   ///< p, from 1 to infinity
   MetricLimits limits = {};
   double gradation = 1.5;           ///< as in MetricSpec
@@ -79,11 +79,11 @@ std::vector<Tensor2> adapted_metric(const Mesh& mesh, const std::vector<Recovery
 /// Meshes `problem` for the fields at the points of the mesh. A null problem stands for the domain of the
 /// mesh, with its curves, regions and names. Its curves are chains of sides on the outline, between regions
 /// and of lines, from corner to corner (docs/adaptation.md). Constant fields do not count, and one must vary.
-/// The size, metric and seed of the problem do not count. Throws also as mesh().
+/// The size, metric and seed of the problem do not count. Also throws as mesh().
 Adapted adapt(const Mesh& mesh, const std::vector<NodalField>& fields, const AdaptSpec& spec,
               const MeshProblem* problem = nullptr, const Context& context = {});
 
-/// Ways of values to another mesh.
+/// Ways to transfer values to another mesh.
 enum class Transfer {
   kInterpolated,  ///< the interpolant of the elements; outside the value at the nearest point
   kConservative,  ///< keeps the integral: L2 projection over the overlaps of elements [farrell2011]

@@ -72,7 +72,7 @@ struct Candidates {
   void add(Vec2 x) { points.at(static_cast<std::size_t>(count++)) = x; }
 };
 
-/// Strategy that places the next point and has a norm for triangles. Several threads call it at once.
+/// Strategy of insertion: it places new points and measures triangles. Several threads call it at once.
 class PointPlacement {
  public:
   virtual ~PointPlacement() = default;
@@ -118,8 +118,8 @@ struct StageInput {
 struct PreparedProblem;
 struct SurfaceNodes;
 
-/// All patches after the stages so far. Callers outside ask input_of(), node_places() and place_inside() for
-/// the rest.
+/// All patches after the stages so far. Plugins ask input_of(), node_places() and place_inside() for the
+/// rest.
 struct AllPatches {
   const PreparedProblem& prepared;
   const Options& options;
@@ -193,7 +193,7 @@ struct Word {
   bool quads_only() const;
 };
 
-/// Form of the model from which a pipeline begins.
+/// Where pipelines begin: at the boundary, or at a given mesh.
 enum class WordStart { kBoundary, kGivenMesh };
 /// Returns the start of pipelines for a model.
 WordStart word_start(const Model& model);

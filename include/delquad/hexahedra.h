@@ -20,7 +20,7 @@ struct AroundAxis {
   double degrees = 360;  ///< counterclockwise seen from the tip of the axis; at most +-360, which closes
 };
 /// Sweep along a polyline. The quads start at their own place, not at the first point, and turn with the
-/// tangent, but not about it. They keep their profile along a segment, so legs are mitred at a corner.
+/// tangent, but not about it. They keep their profile along a segment, so legs are mitered at a corner.
 /// Tangents halve the angles between segments. End tangents continue the next turn if it is below 40 degrees;
 /// otherwise they follow the segments.
 struct AlongCurve {

@@ -236,7 +236,7 @@ class Prepared {
   MapReport maps() const;
   /// Returns the triangles that carry the fields of a planar domain; null on surfaces.
   const TriPatch* background() const;
-  /// Returns the mean number of rows of quads that must end along the fields of all patches to keep the
+  /// Returns the expected number of rows of quads that must end along the fields of all patches to keep the
   /// sizes. It takes about as long as stage D unless the fields are size-aware.
   double row_ends() const;
 
@@ -320,7 +320,7 @@ class Meshing {
   /// Returns the mesh after the stages so far.
   Mesh mesh() const;
   /// Joins the patches; repairs, measures and judges the mesh. An unsound mesh is meshed again with smaller
-  /// sizes there, but does not throw. Call it once, last.
+  /// sizes there; it never throws for one. Call it once, last.
   MeshResult finish();
 
  private:

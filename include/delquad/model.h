@@ -49,7 +49,7 @@ std::shared_ptr<const Curve> make_arc(Vec2 centre, double radius, double angle0,
 /// Makes a circle, counterclockwise from the point at angle 0.
 std::shared_ptr<const Curve> make_circle(Vec2 centre, double radius);
 
-/// Makes point(t) for t from t0 to t1, in either direction. Several threads call `point`.
+/// Makes point(t) for t from t0 to t1, in either direction. Several threads may call `point`.
 std::shared_ptr<const Curve> make_parametric_curve(std::function<Vec2(double)> point, double t0, double t1);
 
 /// Makes (x(t), y(t)) for t from t0 to t1, in either direction, from formulas as in make_expression_size().
@@ -109,9 +109,9 @@ struct GridCorners {
 
 /// Regions or faces of a surface that become grids, as fine as their sides.
 struct MappedSpec {
-  std::vector<std::string> names = {};    ///< names of regions, or numbers: "region_2"
-  bool automatic = false;                 ///< also all with four nearly right angles and matching sides
-  std::string where = "mapped";           ///< origin of the request, for messages
+  std::vector<std::string> names = {};  ///< names of regions, or numbers: "region_2"
+  bool automatic = false;               ///< also all regions with four nearly right angles and matching sides
+  std::string where = "mapped";         ///< origin of the request, for messages
   std::vector<GridCorners> corners = {};  ///< corners of regions, named above or not
   /// Surface regions by number ("region_2") that become rings of so many rows if possible. The number -1
   /// allows any grid with quads no worse than the criteria allow.
