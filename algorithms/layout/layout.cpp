@@ -44,7 +44,7 @@ constexpr double kJoining = 0.05;
 constexpr double kGoodCost = 2;
 /// The cost of an irregular vertex.
 constexpr double kIrregular = 4;
-/// Part of this cost in the choice of cuts to try: cuts with one more pair may be better.
+/// Part of kIrregular that counts in the choice of cuts to try, since cuts with one more pair may be better.
 constexpr double kEstimate = 0.25;
 /// Cuts whose pieces are filled as a trial, followed cuts (one less at each level), and levels. Beyond these
 /// levels only pieces without a pattern are cut, at most twice as deep.

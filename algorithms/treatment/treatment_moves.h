@@ -33,7 +33,7 @@ struct TreatmentMove {
 };
 
 /// Returns the limit of examined elements, by relocation and measures of quality, for moves on a patch of n
-/// elements. Usual are some hundred for each. At a vertex of n elements the work grows with the cube of n.
+/// elements. Some hundred for each are usual. At a vertex of n elements the work grows with the cube of n.
 constexpr long long most_looks(int n) { return 100'000 + 10'000LL * n; }
 
 /// Vertices that a move touches.
