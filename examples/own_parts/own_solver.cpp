@@ -22,7 +22,7 @@ class Coarse final : public MatchingSolver {
     const long long step = std::max(1LL, most / levels_);
     for (MatchingGraph::Edge& edge : rounded.edges) edge.cost = edge.cost / step;
     MatchingResult result = exact_->solve(rounded);
-    result.cost = 0;  // that of the graph as it was given
+    result.cost = 0;  // the cost in the given graph
     for (const MatchingGraph::Edge& edge : graph.edges)
       if (result.status == MatchingStatus::kOptimal && result.mate[edge.a] == edge.b)
         result.cost += edge.cost;
