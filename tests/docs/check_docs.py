@@ -12,7 +12,7 @@ that begins with the name of a file. A comment before a block, which readers do 
     <!-- slow: why -->          it is run with --slow alone
     <!-- needs: ccx gmsh -->    it is run where these programs, or modules of Python, are
     <!-- before: x = 1 -->      what comes first, not shown
-    <!-- output: of ... -->     it is part of what the block before prints; "..." stands for any text
+    <!-- output: of ... -->     it is part of the output of the block before; "..." stands for any text, numbers may differ
 """
 import argparse
 import concurrent.futures
@@ -161,8 +161,8 @@ def run_python(block, names):
 
 
 def check_output(block, printed):
-    """Returns what is wrong with the shown part of the output."""
-    pattern = ".*?".join(re.escape(part) for part in block.text.strip().split("..."))
+    """Returns what is wrong with the shown part of the output. Numbers may differ."""
+    pattern = ".*?".join(re.sub(r"\d+(\\\.\d+)?", r"\\d+(\\.\\d+)?", re.escape(part)) for part in block.text.strip().split("..."))
     return None if re.search(pattern, printed, re.DOTALL) else f"the block before prints:\n{printed.strip()[-1500:]}"
 
 
