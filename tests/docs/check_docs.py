@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Checks README and docs: links lead somewhere, the reference of keys is up to date, and every block of code runs.
+"""Checks README and docs: links lead somewhere, messages exist, the reference of keys is up to date, and every block of code runs.
 The site's tables lead to records, and tables of measurements are what `make doc-tables` writes.
 
-Usage: check_docs.py links|keys|blocks|tables|measured [--build FOLDER] [--slow] [PAGE ...]
+Usage: check_docs.py links|messages|keys|blocks|tables|measured [--build FOLDER] [--slow] [PAGE ...]
 
 A block is fenced, or indented by four spaces and more. Those of a page run in their order, in one empty folder that looks like the repository:
 shell by bash, Python in one process, C++ as one program. TOML is checked against `delquad schema`, and saved where its first line is a comment
@@ -82,6 +82,17 @@ def check_links():
                 wrong.append(f"{source.relative_to(ROOT)}: {name}: there is no such page")
     print(f"{count} links")
     return wrong
+
+
+def check_messages():
+    """Each message of the page of troubleshooting stands in the sources; "..." stands for names and numbers."""
+    sources = [path for path in files(".h", ".cpp", ".py") if path.relative_to(ROOT).parts[0] not in ("tests", "docs")]
+    texts = [re.sub(r'"\s*"', "", path.read_text(errors="replace")).replace('\\"', '"') for path in sources]
+    for line in re.findall(r"^`.*`$", (ROOT / "docs/troubleshooting.md").read_text(), re.MULTILINE):
+        for message in re.findall(r"`([^`]+)`", line):
+            parts = [part.strip() for part in message.split("...")]
+            if not any(all(part in text for part in parts) for text in texts):
+                yield f"docs/troubleshooting.md: {message}: there is no such message"
 
 
 def check_keys(build):
@@ -348,7 +359,7 @@ def check_measured(build):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("what", choices=["links", "keys", "blocks", "tables", "measured"])
+    parser.add_argument("what", choices=["links", "messages", "keys", "blocks", "tables", "measured"])
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
     parser.add_argument("--slow", action="store_true")
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
@@ -356,6 +367,8 @@ def main():
     build = given.build.resolve()
     if given.what == "links":
         wrong = check_links()
+    elif given.what == "messages":
+        wrong = list(check_messages())
     elif given.what == "keys":
         wrong = check_keys(build)
     elif given.what == "tables":
