@@ -1,10 +1,10 @@
-"""Compares numbers of quads at equal distance from the surface: sizes by direction from curvature, and sizes alone.
+"""How many quads an error of the surface takes: sizes by direction from curvature against sizes alone.
 
     python3 benchmarks/chord_metric.py build/release/delquad MODEL... [--chord 0.0005] [--max 0.05]
 
-Each model is meshed with --metric chord=...,max=..., both in diagonals of the model. Then it is meshed with --size and --curvature.
-The number of elements per turn changes until both meshes are equally near to the surface. Distances are root mean squares over
-middles of quads and edges. Both have the same largest size.
+Each model is meshed with --metric chord=...,max=..., both in diagonals of the model, then with --size and --curvature, whose
+number of elements per turn is sought until the middles of quads and edges lie as near to the surface (root mean square).
+Both have the same largest size. Distances are in diagonals of the model.
 """
 
 import argparse

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Times every step of DBCO per quad, the growth of treatment, C and O, and the gain of a second thread.
+"""Time a quad of every step of DBCO, how that of treatment, C and O grows, and what a second thread is worth.
 
-Runs `delquad mesh` with DBCO (or --words) on a plane and on a CAD model, over a range of sizes, with one thread and with two. Times of
-steps are processor microseconds per quad on one thread, from one run. The row below has their ratio to insertion, which is meaningful on
-a busy machine, too. The third row has the gain of two threads: seconds on the clock with one thread over seconds with two, on a quiet
-machine. The last line of each model has the power of the number of quads by which steps grow. "meshing" is seconds on the clock from the
-boundary to the mesh. A missing model is skipped with a reason.
+Runs `delquad mesh` with DBCO (or --words) on a plane and on a CAD model, over a range of sizes, with one thread and with two. Times of the
+steps are processor microseconds a quad on one thread, and come from one run. Their ratio to insertion's, in the row below, means something on
+a busy machine, too. The third row has what two threads are worth: one thread's seconds on the clock over theirs, on a quiet machine only. It
+means something of the plane, which is one patch. The last line of each model has the power of the number of quads by which steps grow. "meshing" is seconds on the clock from the boundary to the mesh. A model that is missing is skipped with a reason.
 """
 
 import argparse

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Meshes smooth closed surfaces with delquad and with QuadriFlow in Blender, at equal numbers of quads.
+"""Meshes smooth closed surfaces with delquad and with QuadriFlow, as it is in Blender, at equal numbers of quads.
 
-The program makes a torus and a sphere; scans come from the data folder. delquad has the size-aware field, as --quality best. Its size
-changes until the first pipeline makes the wanted number of quads, within 3 %. QuadriFlow gets this number. `delquad metrics` measures all
-meshes alike. Seconds are on the clock: meshing of delquad, remeshing of QuadriFlow. "before" has irregular vertices before Q ran once more
-with other cuts. Missing programs and models are skipped with a reason.
+A torus and a sphere are made here; scans are from the data folder. delquad has the size-aware field, as --quality best. Its size is tuned until
+the first word makes the wanted number of quads, within 3 %; QuadriFlow is asked for as many faces as that made. `delquad metrics` measures all meshes
+alike. Seconds are on the clock: of delquad meshing, of QuadriFlow the remeshing alone. "before": irregular vertices before Q ran once more with other
+cuts. What is missing is skipped with a reason.
 """
 
 import argparse

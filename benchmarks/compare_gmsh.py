@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Times delquad beside Gmsh (Frontal-Delaunay and Blossom) on whole models.
 
-For each model Gmsh's size changes until both make as many elements, within 1 % if possible. Then all programs run in turn, several
-times, from the file read to the file written. The table shows medians, and how many times as long Gmsh takes with as many threads. CPU
-seconds count all threads; use them on a busy machine. Missing programs and models are skipped with a reason. "inf" is a program that
-crashed in most of its runs.
+For each model Gmsh's size is tuned until both make as many elements, within 1 % where it can. Then all programs run in
+turn, several times, from the file read to the file written; the table shows medians, and how many times as long Gmsh takes
+with as many threads. CPU seconds count all threads and are what to look at on a busy machine. What is missing is skipped
+with a reason; inf: a program that crashed in most of its runs.
 """
 
 import argparse

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Meshes whole models with curved elements, and prints proven bounds and costs.
+"""Curved elements on whole models: what is proven of them, and what they cost.
 
-The models are CAD files of ../shared/data and the built-in examples, with elements of order 1 and of higher orders. Sizes are parts of
-the models' diagonals. The table has quads, and processor seconds of the whole program with straight and with curved elements, with their
-ratio. It has the least proven scaled Jacobian, also without elements in narrow corners of the model. It counts elements below 0.1, in
-such corners and elsewhere, unproven elements, quads with a ring, and rounds of meshing. An unsound mesh counts, and the last column says
-so. Missing models are skipped with a reason.
+Meshes CAD models of ../shared/data and the project's own examples with straight elements and with those of higher orders, at sizes that are
+parts of the models' diagonals. The table has, of each: quads; processor seconds of the whole program with straight and with curved elements
+and their ratio; the least proven scaled Jacobian, and the least of elements that no narrow corner of the model holds back; how many are below
+.1, and how many of these lie in such corners; elements not proven to be positive (in corners, elsewhere); quads that got a ring; rounds of
+meshing anew. A mesh that is not sound counts, and says so in the last column. Models that are missing are skipped with a reason.
 """
 
 import argparse

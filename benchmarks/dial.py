@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Compares prices of fewer irregular vertices: Delquad's qualities at several weights, and QuadWild with Bi-MDF at several alphas.
+"""What fewer irregular vertices cost: Delquad's qualities at several weights beside QuadWild with Bi-MDF at several alphas.
 
-The size of each CAD model is a part of its diagonal (--size-part). If the variable QUADWILD names the folder of QuadWild's built sources, QuadWild
-gets Delquad's triangles (F at this size), with the settings of experiments/peers/adapters/quadwild.sh. It makes patches once for each
-model, and quads for each alpha, at the number of `good` within --within or the nearest of --tries. `delquad metrics` measures all meshes
-against the same size. The table has means over the models that all programs meshed. --json keeps the values; --figure draws irregular
-vertices against tau and eta. Without QUADWILD the table has only Delquad's rows.
+The size of each CAD model is --size-part of its diagonal in length. If the variable QUADWILD names the folder of QuadWild's built sources, it gets Delquad's triangles
+(F at that size), with the settings of experiments/peers/adapters/quadwild.sh. Its patches are made once a model, its quads for each alpha,
+at the number of `good` within --within or the nearest of --tries. `delquad metrics` measures all meshes against the same size. The table has means over the models that all programs meshed; --json keeps what was made; --figure draws irregular vertices
+against tau and eta. Without QUADWILD it has Delquad's half.
 """
 
 import argparse

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Measures seconds of process time per million quads, and the quality: Delquad's qualities, Gmsh, QuadriFlow and Instant Meshes.
+"""Seconds of process time per million quads: Delquad's qualities beside Gmsh, QuadriFlow and Instant Meshes, and what they buy.
 
-Each program makes about --quads quads on a plate with holes, a closed triangulation and a CAD model. It runs --runs times in turn, with
-one thread, from the file read to the file written; the least time counts. If a run takes more than --once seconds, the first one counts. `delquad
-metrics` measures the mesh. Gmsh makes quads by frontal-Delaunay for quads and Blossom (8), which leaves triangles. It makes only quads by
-halving quads of twice the size (6). A triangle counts as half a quad. QuadriFlow and Instant Meshes begin with a triangulation. For the
-CAD model and the plate this is Delquad's F at the same size, whose time does not count. Settings are as in experiments/peers/adapters.
-Instant Meshes divides its quads in four, so it gets twice the size. QuadriFlow has its default flow, since the other one (-mcf) may not
-end. Missing programs are skipped with a line. --figure draws the seconds on a logarithmic axis.
+Each program makes about --quads quads on a plate with holes, on a closed triangulation and on a CAD model, from the file read to the
+file written, with one thread, --runs times in turn; the least time counts (of a run above --once seconds the first). Its mesh is
+measured by `delquad metrics`. Gmsh makes quads by frontal-Delaunay for quads and Blossom (8), which leaves triangles. It makes nothing but
+quads by halving quads of twice the size (6); a triangle counts as half a quad. QuadriFlow and Instant Meshes begin with a triangulation.
+For a CAD model and the plate this is Delquad's F at the same size, whose time does not count. Settings are as in
+experiments/peers/adapters. Instant Meshes divides its quads in four, so that it gets twice the size.
+QuadriFlow has its default flow, since the other one (-mcf) may not end. What is not there is skipped with a line that says so. --figure draws the seconds on a logarithmic axis.
 """
 
 import argparse

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times the Python module: its import, the mesh of a square, and a constant callback beside the constant.
+"""What the Python module costs: importing it and meshing a square, and a constant callback beside the constant.
 
     PYTHONPATH=build/release/python python3 benchmarks/python_module.py
 """

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Times every stage at 10^5, 10^6 and 10^7 triangles, with peak memory, beside Gmsh.
+"""The whole word at 10^5, 10^6 and 10^7 triangles: seconds of every stage and peak memory, beside Gmsh.
 
-Meshes the plate with 16 holes by DB (or --word), with one thread and with all cores. Prints tables of seconds on the clock and of
-processor seconds. Rows below have the power of the number of triangles by which each stage grows. Gmsh (Blossom, one thread) gets the
-same model and size, up to --gmsh-most triangles and for --gmsh-seconds. It runs Frontal-Delaunay for quads or, if this fails,
-Frontal-Delaunay. It is skipped if it is not installed. Sizes that need too much memory are skipped with a reason.
+Meshes the plate with 16 holes by DB (or --word), with one thread and with all cores, and prints tables of seconds on the clock and of
+processor seconds; rows below have the power of the number of triangles by which each stage grows. Gmsh (Blossom, one thread;
+Frontal-Delaunay for quads or, where that fails, Frontal-Delaunay) gets the same model and size, up to --gmsh-most triangles and for
+--gmsh-seconds; it is skipped where it is not installed. Sizes for which the machine has too little memory are skipped with a reason.
 """
 
 import argparse
