@@ -1,4 +1,4 @@
-// coarse: matches by costs of which only a few levels are told apart, to see what the resolution is worth.
+// coarse: matches by costs that are rounded to a few levels, to measure the worth of the resolution.
 #include <delquad/bench.h>
 #include <delquad/extend.h>
 #include <delquad/matching.h>
