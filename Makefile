@@ -1,37 +1,37 @@
 # Installs what is missing, then calls the CMake presets.
 PRESET ?= release
 RESULTS ?= results
-# Models that are no part of the project, see `make data`; experiments without theirs are skipped.
+# Folder of models that `make data` fetches; experiments without their models are skipped.
 DATA ?= $(if $(wildcard ../shared/data),../shared/data,data)
 # Files of peers that `make suite` runs beside our own pipelines.
 SUITE_PEERS ?= $(if $(shell command -v gmsh),experiments/peers/adapters/gmsh.toml)
 DELQUAD = build/$(PRESET)/delquad
 CMAKE_FLAGS ?=
-# How long `make fuzz` tries its targets, all of them together.
+# Seconds of `make fuzz`, for all targets together.
 SECONDS ?= 120
 
 .PHONY: doc-tables fig15 package build dev lint test test-long sanitize python data paper studies peers public public_models suite site bench fuzz
 
-# The program, the programs and libraries that it loads, and the library for C++.
+# Builds the program, the programs and libraries that it loads, and the library for C++.
 build:
 	@cmake/install-packages.sh build
 	cmake --preset $(PRESET) $(CMAKE_FLAGS)
 	cmake --build --preset $(PRESET) --target delquad
 
-# For daily work: file by file, with warnings as errors; only what was touched is compiled again. TARGETS: some of them by name.
+# Builds file by file, with warnings as errors; compiles only changed files. TARGETS names some targets.
 dev:
 	@cmake/install-packages.sh build python test
 	@[ -d build/dev ] || cmake --preset dev -DBUILD_TESTING=ON $(CMAKE_FLAGS)
 	cmake --build --preset dev $(if $(TARGETS),--target $(TARGETS))
 
-# Without a build: checks the format of the sources, their structure, and the prose of new and changed lines.
+# Checks the format of the sources, their structure, and the prose of new and changed lines, without a build.
 lint:
 	@cmake/install-packages.sh lint
 	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
 	python3 tests/house/check_house.py .
 	python3 tests/house/check_prose.py
 
-# Builds and runs the tests, and says which were skipped and why. TESTS: options of ctest, such as -R "^mesher" or -LE programs.
+# Builds and runs the tests; names skipped tests and the reasons. TESTS has options of ctest, such as -R "^mesher" or -LE programs.
 TESTS ?= -LE long
 test:
 	@cmake/install-packages.sh build python test
@@ -41,13 +41,13 @@ test:
 	  sed -n -e '/: Skipped$$/{n;p}' -e 's/^skipped: //p' build/$(PRESET)/Testing/Temporary/LastTest.log | sort | uniq -c; \
 	  exit $$status
 
-# Tests that take minutes.
+# Runs the tests that take minutes.
 test-long:
 	@$(MAKE) test TESTS="-L long"
 
-# Each of these runs the experiments of a folder and makes a page of their tables and pictures. Cells that are done are kept. Where a cell
-# fails that may not, the exit code says so after all else is done.
-# The paper's tables and figures. SMALL=1: with few pipelines, to try that all of it runs.
+# Each of these targets runs the experiments of a folder, and makes a page of their tables and pictures. Finished cells are kept. If a cell
+# fails that must not, the exit code says so at the end.
+# `paper` makes the paper's tables and figures. SMALL=1 runs few pipelines, as a check.
 paper: EXPERIMENTS = $(wildcard experiments/paper/*.toml)
 paper: INTO = $(RESULTS)$(if $(SMALL),/small)
 paper: FLAGS = $(if $(SMALL),--pipelines D$(,)DB)
@@ -55,12 +55,12 @@ paper: fig15
 fig15: build
 	@cmake --build --preset $(PRESET) --target fig15 > /dev/null
 	@build/$(PRESET)/fig15 $(or $(INTO),$(RESULTS))/fig15_linf_delaunay
-# Everything else that was measured.
+# `studies` makes all other measurements.
 studies: EXPERIMENTS = $(wildcard experiments/studies/*.toml experiments/studies/on_suite/*.toml)
-# Ours beside other meshers; those that are not installed are told.
+# `peers` compares with other meshers, and names those that are not installed.
 peers: EXPERIMENTS = $(wildcard experiments/peers/*.toml)
 peers: STATUS = 0
-# Models of other projects, beside what these published; without those that could not be fetched.
+# `public` compares with published results of other projects, for models that can be fetched.
 public: EXPERIMENTS = experiments/public/mbb.toml experiments/public/hexme.toml \
   $(shell [ ! -f experiments/public/models/NACA0012.toml ] || echo experiments/public/hohqmesh.toml) \
   $(shell [ ! -f experiments/public/models/marmousi_lines.toml ] || echo experiments/public/marmousi.toml)
@@ -79,7 +79,7 @@ paper studies peers public: build
 	  echo "Tables and pictures lie in $(INTO)/; $(INTO)/report.html shows them."; \
 	  exit $(STATUS)
 
-# Runs the experiments of README and docs that take seconds, and writes the tables of measurements anew of whose experiments there are results.
+# Runs the short experiments of README and docs, and renews all tables of measurements whose results exist.
 doc-tables: build
 	@cmake/install-packages.sh python3
 	@for name in $(shell python3 docs/make_tables.py --cheap); do \
@@ -87,7 +87,7 @@ doc-tables: build
 	@! cd $(RESULTS)/studies/which_quality 2> /dev/null || python3 $(CURDIR)/experiments/studies/which_quality.py . > printed.md
 	@python3 docs/make_tables.py $(RESULTS)
 
-# Fetches these models, and writes those in formats of others anew: as model files, and with gmsh, where it is, as .brep.
+# Fetches these models, and converts foreign formats to model files, or with gmsh to .brep.
 public_models:
 	@cmake/install-packages.sh curl ca-certificates python3
 	@python3 experiments/data/fetch.py $(DATA) --list experiments/data/public.toml
@@ -97,12 +97,12 @@ public_models:
 	  python3 experiments/public/geo.py $(DATA)/marmousi.geo experiments/public/models/marmousi_$${curve#*:}.toml $${curve%:*} || exit $$?; done
 	@[ ! -d $(DATA)/hexme ] || ! command -v gmsh > /dev/null || for f in $(DATA)/hexme/original/*.geo; do gmsh $$f -0 -o $${f%.geo}.brep -v 2; done
 
-# Fetches what is missing of the paper's own models, and checks what is there.
+# Fetches missing models of the paper, and checks present ones.
 data:
 	@cmake/install-packages.sh curl ca-certificates python3
 	@python3 experiments/data/fetch.py $(DATA)
 
-# Ours and other programs on the models of the suite: failed cells are part of the ranking.
+# Runs our pipelines and other programs on the models of the suite; failed cells count in the ranking.
 suite: build
 	@cmake/install-packages.sh python3 python3-scipy
 	@mkdir -p $(RESULTS)/suite
@@ -112,34 +112,33 @@ suite: build
 	$(DELQUAD) report $(RESULTS)/suite/run -o $(RESULTS)/suite/report.html
 	@echo "$(RESULTS)/suite/ranking has the table; $(RESULTS)/suite/report.html shows the meshes."
 
-# Debian packages, an archive and a Python wheel for other machines, in build/packages: docs/packages.md.
+# Makes Debian packages, an archive and a Python wheel in build/packages; see docs/packages.md.
 package: build
 	@cmake/install-packages.sh package python
 	cmake --preset $(PRESET) -DDELQUAD_PYTHON=ON
 	cmake --build --preset $(PRESET) --target delquad_python
 	packaging/package.sh build/$(PRESET) build/packages
 
-# The documentation as pages with a search, a gallery, and the references of C++ and Python, in build/site; with the tables of $(RESULTS) where
-# there are any. They need no network.
+# Makes the documentation as web pages in build/site, with a search, a gallery, the references of C++ and Python, and tables of $(RESULTS).
 site: build
 	@cmake/install-packages.sh site
 	/usr/bin/python3 docs/site/make_site.py build/$(PRESET) $(RESULTS) build/site
 
-# The modules that edit meshes and read files, under the address and undefined-behavior sanitizers: about ten minutes. The tests of
-# termination take two of them, and run the code of the tests of regularity.
+# Tests the modules that edit meshes and read files with the address and undefined-behavior sanitizers, in about ten minutes. The tests of
+# termination take two minutes, and run the code of the tests of regularity.
 sanitize:
 	@cmake/install-packages.sh build test
 	cmake --preset asan -DBUILD_TESTING=ON $(CMAKE_FLAGS)
 	cmake --build --preset asan --target test_basics
 	ctest --preset asan -j $$(nproc) -LE long -E Termination
 
-# The Python module, in build/$(PRESET)/python.
+# Builds the Python module in build/$(PRESET)/python.
 python:
 	@cmake/install-packages.sh build python
 	cmake --preset $(PRESET) -DDELQUAD_PYTHON=ON $(CMAKE_FLAGS)
 	cmake --build --preset $(PRESET) --target delquad_python
 
-# BENCH_FLAGS: for Google Benchmark, or --record.
+# Times single steps. BENCH_FLAGS has options of Google Benchmark, or --record.
 bench:
 	@cmake/install-packages.sh build bench
 	cmake --preset $(PRESET) -DDELQUAD_BENCHMARKS=ON $(CMAKE_FLAGS)
@@ -147,8 +146,8 @@ bench:
 	python3 benchmarks/cleanup_cost.py --counts 60000 250000 --words DB DBCO DLBCO --delquad build/$(PRESET)/delquad --data $(DATA)
 	/usr/bin/python3 benchmarks/ratios.py build/$(PRESET) $(BENCH_FLAGS)
 
-# Readers, experiments and the mesher against inputs that nobody would write: ends with an error when something was found,
-# see CONTRIBUTING.md. TARGETS: some of them by name.
+# Tries readers, experiments and the mesher with damaged and random inputs; fails if it finds something (CONTRIBUTING.md). TARGETS names some
+# targets.
 fuzz:
 	@cmake/install-packages.sh build fuzz
 	cmake --preset fuzz $(CMAKE_FLAGS)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Writes the tables of measurements in README and docs anew: make_tables.py RESULTS [NAME ...]; --cheap: which experiments take seconds
+"""Renews the tables of measurements in README and docs: make_tables.py RESULTS [NAME ...]; --cheap lists the experiments that take seconds
 
-A table stands in its page between <!-- table: NAME, made by COMMAND --> and <!-- end -->. Its last line says by which command and version it
-was made, and when. TABLES says which columns and rows of which table it shows. Tables whose results are not in RESULTS stay as they are.
+A table stands in its page between <!-- table: NAME, made by COMMAND --> and <!-- end -->. Its last line has the command, the version
+and the date. TABLES has the file, the columns and the rows of each table. Tables whose results are not in RESULTS stay as they are.
 """
 import datetime
 import json
@@ -41,7 +41,7 @@ CHEAP = ["insertion_options", "cleanup"]
 
 
 def rows_of(text, number):
-    """A table's rows by the titles of its columns."""
+    """Returns a table's rows by the titles of its columns."""
     lines = re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE)[number].splitlines()
     head, _, *rows = [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines]
     return [dict(zip(head, row)) for row in rows]
@@ -53,7 +53,7 @@ def table(columns, rows):
 
 
 def pivot(rows, key, name, value):
-    """A row for each value of `key`, with a column for each value of `name`."""
+    """Returns a row for each value of `key`, with a column for each value of `name`."""
     found = {}
     for row in rows:
         found.setdefault(row[key], {key: row[key]})[row[name]] = row[value]
@@ -61,7 +61,7 @@ def pivot(rows, key, name, value):
 
 
 def of_results(file, columns, wanted, number=0, pivoted=None):
-    """Without the rows of what was skipped."""
+    """Returns the rows of a table of results, without skipped cells."""
     rows = [row for row in rows_of(file.read_text(), number) if all(re.fullmatch(pattern, row[key]) for key, pattern in wanted.items())]
     rows = [row for row in rows if not {"skipped", "not applicable"} & set(row.values())]
     rows = pivot(rows, *pivoted) if pivoted else rows
@@ -69,7 +69,7 @@ def of_results(file, columns, wanted, number=0, pivoted=None):
 
 
 def of_matching():
-    """How many times as fast as LEMON, and for which version: what `make bench` recorded last."""
+    """Returns the table of speed beside LEMON, and its version, as `make bench` recorded them last."""
     number, ratios = list(json.loads((ROOT / "benchmarks/bench.json").read_text()).items())[-1]
     rows = {}
     for name, values in ratios.items():
@@ -79,7 +79,7 @@ def of_matching():
 
 
 def version(file):
-    """By which commits the results beside a table were made, and when; what a program printed begins with its version."""
+    """Returns commits and dates of the results beside a table; a printed file begins with its version."""
     records = [json.loads(record.read_text()) for record in file.parent.glob("*/*/record.json")]
     if not records:
         return f"{file.read_text().splitlines()[0].split(';')[0]}, {datetime.date.fromtimestamp(file.stat().st_mtime)}"

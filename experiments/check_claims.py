@@ -1,4 +1,4 @@
-"""Recomputes what DIR/pairs.csv or DIR/hypotheses.csv claims, from DIR/runs.csv alone, as docs/statistics.md says: check_claims.py DIR"""
+"""Recomputes the claims of DIR/pairs.csv or DIR/hypotheses.csv from DIR/runs.csv alone, as docs/statistics.md explains: check_claims.py DIR"""
 import csv, itertools, math, pathlib, sys
 import numpy as np
 from scipy import stats

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the figures of folders of results, as SVG and PDF in DIR/figures: figures.py DIR ...
 
-It reads runs.csv, runs_columns.csv, pairs.csv and hypotheses.csv alone. `delquad run` and `delquad tables` call it. To change figures, change a
+It reads only runs.csv, runs_columns.csv, pairs.csv and hypotheses.csv. `delquad run` and `delquad tables` call it. To change figures, change a
 copy of it, and name the copy in the environment variable DELQUAD_FIGURES. Exit code 3: matplotlib is not installed."""
 
 import csv
@@ -36,7 +36,7 @@ def number(row, key):
 
 
 class Runs:
-    """The runs of pipelines that make quads, on the variants of cases that each of them has run on."""
+    """Keeps the runs of pipelines that make quads, on the variants of cases that all of them have run."""
 
     def __init__(self, rows, columns):
         names = [column["column"] for column in columns]
@@ -58,7 +58,7 @@ class Runs:
         return [self.cells[group, pipeline] for group in self.groups]
 
     def label(self, pipeline):
-        """Says what has no value: "gmsh (1 failed, 2 not applicable of 12)"."""
+        """Names a pipeline and counts its missing values: "gmsh (1 failed, 2 not applicable of 12)"."""
         told = {}
         for cell in self.of(pipeline):
             if not is_sound(cell):
@@ -81,8 +81,10 @@ def draw_scatter(x, y, labels, axes, runs):
 
 
 def draw_profile(title, cost, axes, runs):
-    """Performance profiles [dolan2002]: on which part of the cells a pipeline's cost is at most so many times the least. No sound mesh costs
-    infinitely much."""
+    """Draws performance profiles [dolan2002]: the share of cells on which a pipeline costs at most a multiple of the least cost.
+
+    A cell without a sound mesh costs infinitely much.
+    """
     def cost_of(cell):
         value = cost(cell) if is_sound(cell) else math.inf
         return math.inf if math.isnan(value) else max(value, LEAST_COST)
@@ -135,7 +137,7 @@ def draw_effects(rows, column, hypotheses, axes):
 
 
 def effects(folder, columns):
-    """By name what draws them, for each measure of pairs."""
+    """Returns the functions that draw, by the name of the figure, for each measure of pairs."""
     found, hypotheses = {}, read(folder, "hypotheses.csv")
     rows = [row for row in read(folder, "pairs.csv") if row["low"]]
     for title in dict.fromkeys(row["measure"] for row in rows):
@@ -146,7 +148,7 @@ def effects(folder, columns):
 
 
 def save(figure, path):
-    """Whole files, with no date in them."""
+    """Writes whole files without a date."""
     for extension, date in ((".svg", "Date"), (".pdf", "CreationDate")):
         unfinished = path.with_name(f".{path.name}.{os.getpid()}")  # several shards may draw at once
         figure.savefig(unfinished, format=extension[1:], metadata={date: None})

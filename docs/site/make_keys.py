@@ -15,12 +15,12 @@ HEAD = """# Keys
 
 Made by `docs/site/make_keys.py` from `delquad schema`; a test checks that it is up to date. [models.md](models.md) and [experiments.md](experiments.md) say what the keys do. Keys in bold must be there.
 """
-OF_A_MODEL = """## Of a model, or of a case
+OF_A_MODEL = """## Keys of a model or a case
 
-All of them also stand at the top of an experiment, for every case. Model files have no `name`, `data`, `domain`, `solution`, `adapt` and `compare`. [Options](#options-of-the-stages) are below."""
-OF_AN_EXPERIMENT = """## Of an experiment
+All of these keys may also stand at the top of an experiment, for every case. Model files have no `name`, `data`, `domain`, `solution`, `adapt` and `compare`. [Options](#options-of-the-stages) are below."""
+OF_AN_EXPERIMENT = """## Keys of an experiment
 
-`[matrix]` has keys of a model, each with a list of values, `[[variant]]` a name and keys of a model."""
+`[matrix]` has keys of a model, each with a list of values. `[[variant]]` has a name and keys of a model."""
 # Pages that explain a key, or a table of keys.
 EXPLAINED = {
     **dict.fromkeys(["loop", "pattern", "curve", "embed"], "models.md#shapes"),
@@ -50,7 +50,7 @@ EXPLAINED = {
 
 
 def tables_of(schema):
-    """The kinds of table that a key may hold."""
+    """Yields the kinds of table that a key may hold."""
     for kind in schema.get("anyOf", [schema]):
         if kind.get("type") == "array":
             kind = kind["items"]
@@ -59,8 +59,8 @@ def tables_of(schema):
 
 
 def rows(head, table, seen, explained=None):
-    """The keys of a table, then the tables that they hold, each once."""
-    yield f"\n{head}\n\n| key | value | |\n|---|---|---|\n"
+    """Yields the keys of a table, then the tables that they hold, each once."""
+    yield f"\n{head}\n\n| key | value | meaning |\n|---|---|---|\n"
     for key, schema in table["properties"].items():
         shown = f"**`{key}`**" if key in table.get("required", []) else f"`{key}`"
         about = schema.get("description", "")
@@ -73,7 +73,7 @@ def rows(head, table, seen, explained=None):
                 continue
             seen.add(json.dumps(inner))
             new = {name: kind for name, kind in inner["properties"].items() if explained or kind != table["properties"].get(name)}
-            also = ", and others of those above" if len(new) < len(inner["properties"]) else ""
+            also = ", and keys above" if len(new) < len(inner["properties"]) else ""
             yield from rows(f"### `{key}`{also}", {**inner, "properties": new}, seen)
 
 

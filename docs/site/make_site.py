@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The documentation as pages with a search, which need no network: build/site.
+"""Makes the documentation as pages with a search, which need no network: build/site.
 
 Usage: make_site.py BUILD RESULTS SITE. BUILD has the program and the Python module. RESULTS are folders of `delquad run`, whose tables are shown where
 there are any. Needs Debian's mkdocs, mkdocs-material and doxygen.
@@ -36,7 +36,7 @@ class Site:
     # Pages of the repository
 
     def place(self, source):
-        """Where a file or folder of the repository goes among the pages."""
+        """Returns the place of a file or folder of the repository among the pages."""
         name = source.relative_to(ROOT).as_posix()
         if name in HOME:
             return HOME[name]
@@ -83,14 +83,14 @@ class Site:
         program = self.build / "delquad"
         said = subprocess.run([program, "help"], check=True, capture_output=True, text=True).stdout
         names = re.findall(r"^  ([a-z]+)  ", said.partition("Subcommands:")[2], re.MULTILINE)
-        text = f"# Commands\n\nWhat `delquad help` says.\n\n```text\n{said}```\n"
+        text = f"# Commands\n\nThe output of `delquad help`.\n\n```text\n{said}```\n"
         for name in names:
             said = subprocess.run([program, "help", name], check=True, capture_output=True, text=True).stdout.partition("\nExit codes")[0]
             text += f"\n## delquad {name}\n\n```text\n{said.replace(str(program), 'delquad')}```\n"
         self.write("commands.md", text.replace(str(program), "delquad"))
 
     def python(self):
-        """Signatures are those of the stub, texts those of the module."""
+        """Writes the reference of Python: signatures from the stub, texts from the module."""
         sys.path.insert(0, str(self.build / "python"))
         import delquad
 
@@ -105,7 +105,7 @@ class Site:
         self.write("python_reference.md", text.replace("```text\n\n```\n", ""))
 
     def gallery(self):
-        text = "# Gallery\n\nEach picture with the commands that made it, colours by `eta`, irregular vertices with their pairs. `delquad` is `build/release/delquad`, called in the folder of the repository.\n"
+        text = "# Gallery\n\nEach picture has the commands that made it. Colors show `eta`; lines join pairs of irregular vertices. `delquad` is `build/release/delquad`, called in the folder of the repository.\n"
         environment = {**os.environ, "PATH": f"{self.build}:{os.environ['PATH']}"}
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / "experiments").symlink_to(ROOT / "experiments")
@@ -122,7 +122,7 @@ class Site:
         self.write("gallery.md", text)
 
     def tables(self):
-        """The tables of folders of results, with version, machine and date, and links to the records."""
+        """Writes the tables of folders of results, with version, machine and date, and links to the records."""
         text, pages = "# Tables\n\n", {}
         for study in sorted(self.results.rglob("study.json")):
             folder = study.parent
@@ -161,13 +161,13 @@ class Site:
 
     def config(self):
         names = {
-            "Use": "meshing models keys criteria anisotropy adaptation source/examples/solvers/README library own_strategy python packages",
-            "Compare": "experiments results statistics suite public_cases",
-            "Measured": "tables measurements ablation which_quality matching",
-            "Inside": "algorithms architecture glossary paper contributing changes",
-            "Reference": "commands python_reference",
+            "Use": "packages criteria anisotropy adaptation source/examples/solvers/README library python",
+            "Compare": "experiments own_strategy results statistics suite public_cases",
+            "Measured": "tables measurements ablation which_quality",
+            "Inside": "algorithms matching architecture glossary paper contributing changes",
+            "Reference": "meshing models formats keys commands python_reference",
         }
-        nav = ["index.md", "how_do_i.md", "gallery.md"]
+        nav = [f"{page}.md" for page in "index getting_started tutorials how_do_i troubleshooting gallery".split()]
         nav += [{title: [f"{page}.md" for page in pages.split()]} for title, pages in names.items()]
         nav[-1]["Reference"].append({"C++": "cpp/index.html"})
         return {

@@ -1,4 +1,4 @@
-// Sizes and directions of one's own: by a function of many points at a time, and by values at nodes.
+// Your own sizes and directions: by a function of many points at a time, and by values at nodes.
 #include <delquad/mesher.h>
 
 #include <cmath>

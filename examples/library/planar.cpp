@@ -1,4 +1,4 @@
-// A plate with a hole, meshed with quads only and written for a solver.
+// Meshes a plate with a hole with quads only, and writes the mesh for a solver.
 #include <delquad/mesher.h>
 
 #include <iostream>

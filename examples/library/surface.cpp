@@ -1,4 +1,4 @@
-// A CAD model, or the sphere of triangles that is made here.
+// Meshes a CAD model, or a sphere of triangles.
 #include <delquad/mesher.h>
 
 #include <cmath>

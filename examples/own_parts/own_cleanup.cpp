@@ -1,4 +1,4 @@
-// X: closes quads between two inner points of three quads each, which become one point of four.
+// X: collapses a quad if two opposite corners have three quads each; they become one point with four quads.
 #include <delquad/bench.h>
 #include <delquad/extend.h>
 

@@ -1,4 +1,4 @@
-// aligned: triangles are merged where the quad's sides run along the cross, whatever its angles.
+// aligned: merges triangles if the quad's sides run along the cross, regardless of its angles.
 #include <delquad/bench.h>
 #include <delquad/extend.h>
 

@@ -1,5 +1,5 @@
-// Y: inner points go half of the way to the mean of their neighbours, patch by patch, where the worst quad in
-// space gains.
+// Y: moves inner points half of the way to the mean of their neighbors, patch by patch, if the worst quad in
+// space gets better.
 #include <delquad/bench.h>
 #include <delquad/extend.h>
 

@@ -1,4 +1,4 @@
-// skew: how far a quad's diagonals are from the same length, as a mean of powers over all quads.
+// skew: the difference in length of a quad's diagonals, as a mean of powers over all quads.
 #include <delquad/bench.h>
 #include <delquad/extend.h>
 #include <delquad/metrics.h>

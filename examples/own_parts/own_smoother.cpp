@@ -1,4 +1,4 @@
-// S: every inner point goes part of the way to the mean of its neighbours, as long as no triangle gets flat.
+// S: moves every inner point part of the way to the mean of its neighbors, as long as no triangle gets flat.
 #include <delquad/bench.h>
 #include <delquad/extend.h>
 
@@ -25,7 +25,7 @@ void smooth(const StageInput& in, PatchMesh& patch, StageLog& log) {
       Vec2 sum{};
       for (const int t : around[v])
         for (const int w : mesh.triangles[t])
-          if (w != v) sum += mesh.points[w];  // each neighbour twice
+          if (w != v) sum += mesh.points[w];  // each neighbor twice
       const Vec2 before = mesh.points[v];
       const Vec2 mean = (0.5 / static_cast<double>(around[v].size())) * sum;
       mesh.points[v] = before + weight * (mean - before);

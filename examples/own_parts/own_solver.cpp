@@ -1,4 +1,4 @@
-// coarse: matches by costs of which only a few levels are told apart, to see what the resolution is worth.
+// coarse: matches by costs that are rounded to a few levels, to measure the worth of the resolution.
 #include <delquad/bench.h>
 #include <delquad/extend.h>
 #include <delquad/matching.h>
@@ -22,7 +22,7 @@ class Coarse final : public MatchingSolver {
     const long long step = std::max(1LL, most / levels_);
     for (MatchingGraph::Edge& edge : rounded.edges) edge.cost = edge.cost / step;
     MatchingResult result = exact_->solve(rounded);
-    result.cost = 0;  // that of the graph as it was given
+    result.cost = 0;  // the cost in the given graph
     for (const MatchingGraph::Edge& edge : graph.edges)
       if (result.status == MatchingStatus::kOptimal && result.mate[edge.a] == edge.b)
         result.cost += edge.cost;

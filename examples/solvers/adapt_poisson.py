@@ -52,7 +52,7 @@ def solve(mesh):
 
 
 def errors(mesh, u):
-    """Of u in L2, and of its gradient."""
+    """Returns the errors of u in L2, and of its gradient."""
     of_u = of_gradient = 0
     for shape, slopes, at, weight in places(mesh, 6):
         true, dx, dy, _ = solution(*at.T)

@@ -1,4 +1,4 @@
-"""What the examples share: options, solvers that are programs, tables of loops, and pictures of meshes."""
+"""Common parts of the examples: options, solvers that are programs, tables of loops, and pictures of meshes."""
 import argparse
 import math
 import shutil
@@ -18,7 +18,7 @@ def parser(doc, output, **numbers):
 
 
 def run(command, package, folder="."):
-    """What a program prints, which is in that package."""
+    """Returns the output of a program of that package."""
     if not shutil.which(command[0]):
         sys.exit(f"{command[0]} is not installed: expected it on the PATH ({package})")
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
@@ -33,11 +33,11 @@ def draw(mesh, values, output, title):
 
 
 def compare(problem, first, doublings, mesh, adapt, solve):
-    """Prints the errors of uniform meshes of so many quads, then of twice as many each, and of loops of squares and of stretched quads, which
-    have three meshes of the first number; returns the last mesh and its solution.
+    """Prints the errors of uniform meshes, and of loops of squares and of stretched quads; returns the last mesh and its solution.
 
-    mesh(quads); adapt(mesh, solution, quads, isotropic); solve(mesh): the solution, how many quads it is on, and two errors. Order: of
-    errors in the mean size of quads.
+    Each series begins with `first` quads and doubles them; loops have three meshes of the first number. The functions are
+    mesh(quads); adapt(mesh, solution, quads, isotropic); solve(mesh), which returns the solution, its number of quads, and two
+    errors. The order is the order of errors in the mean size of quads.
     """
     print("problem    loop        quads   L2 error  order   H1 error  order  seconds")
     for loop in ("uniform", "squares", "stretched"):

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Carries a cloud once around a disc, on meshes that follow its front: front.py [--quads N] [--meshes M] [-o PICTURE.svg]
 
-The front is 0.1 wide and the disc, of two regions, turns under it: bilinear elements, the rule of Crank and Nicolson, a diffusion
-of 1e-5 and no flow through the rim, so that the mass stays. Each mesh is made from the one before, without the model, for the
-cloud now and where a try on that mesh brings it. On the same meshes the values come by each way of transfer. Needs numpy, scipy
-and the Python module delquad.
+The front is 0.1 wide; the disc of two regions turns under it. Elements are bilinear, the rule is Crank and Nicolson's. Diffusion is
+1e-5, and nothing flows through the rim, so that the mass stays. Each mesh is made from the one before, without the model. It is
+fine at the present cloud, and at the cloud that a try on the old mesh predicts. On the same meshes each way of transfer carries the
+values. Needs numpy, scipy and the Python module delquad.
 """
 
 import math

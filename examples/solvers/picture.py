@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """A picture of a solution on quads, as SVG: picture.py SOLUTION.json PICTURE.svg [TITLE]. Needs Python alone.
 
-SOLUTION.json: a list of elements; each is a list of its nodes [x, y, z, value], around the element: three or four corners, or
-four corners and then the four middles of sides.
+SOLUTION.json is a list of elements. Each is a list of its nodes [x, y, z, value] around the element. There are three or four
+corners, or four corners and then the four middles of sides.
 """
 import json
 import os
@@ -10,7 +10,7 @@ import sys
 
 COLOURS = [(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)]  # from small to large values
 SIDE = 900.0  # of the picture, in pixels
-RIGHT, UP, TOWARDS = (0.7071, 0.7071, 0.0), (-0.3536, 0.3536, 0.8660), (0.6124, -0.6124, 0.5)  # of what is not planar
+RIGHT, UP, TOWARDS = (0.7071, 0.7071, 0.0), (-0.3536, 0.3536, 0.8660), (0.6124, -0.6124, 0.5)  # directions on paper of a surface in space
 
 
 def colour(part):
@@ -24,7 +24,7 @@ def mean(nodes, weights):
 
 
 def parts(element):
-    """Each quad as four, about its centre, so that curved ones are round and colours change less from one to the next."""
+    """Returns four quads for each quad, around its center, so that curved quads are round and colors change less."""
     if len(element) == 3:
         return [element]
     corners = element[:4]

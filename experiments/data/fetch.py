@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Fetches the models of a list that are missing in a folder: files with curl, repositories with git.
 
-Usage: fetch.py FOLDER [--list LIST.toml] [--mirror URL]. The list is files.toml if absent. A file appears only if its SHA-256 is right, a repository only at its commit.
+Usage: fetch.py FOLDER [--list LIST.toml] [--mirror URL]. The default list is files.toml. A file appears only if its SHA-256 is right, a repository only at its commit.
 
---mirror (or DELQUAD_MIRROR) is asked first, for URL/NAME; then the urls of the list. The exit code is 1 if something else than a model was found, and 0 if nothing was.
+--mirror (or DELQUAD_MIRROR) is asked first, for URL/NAME; then the urls of the list. The exit code is 1 if a download is not the model,
+and 0 if a model cannot be reached.
 """
 import argparse
 import hashlib
@@ -22,7 +23,7 @@ def digest(path):
 
 
 def download(url, path):
-    """Why it failed; empty: it did not."""
+    """Returns why it failed, or an empty text."""
     if not shutil.which("curl"):
         return "curl is not installed"
     curl = ["curl", "--fail", "--silent", "--show-error", "--location", "--connect-timeout", "20", "--retry", "2"]
@@ -33,7 +34,7 @@ def download(url, path):
 
 
 def fetch(file, folder, mirror):
-    """Whether nothing wrong was found: the file is there in the end, or was not to be had."""
+    """Returns true if the file is there in the end, or could not be reached."""
     path = folder / file["name"]
     if path.exists():
         if digest(path) == file["sha256"]:
@@ -68,7 +69,7 @@ def git(*arguments):
 
 
 def clone(repository, folder, mirror):
-    """Whether nothing wrong was found: the repository is there in the end, or was not to be had."""
+    """Returns true if the repository is there in the end, or could not be reached."""
     path, commit = folder / repository["name"], repository["commit"]
     if path.exists():
         head = git("-C", path, "rev-parse", "HEAD")[0]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""A plane of lines through points in Gmsh's language as a model file: geo.py MODEL.geo OUT.toml CURVE, where CURVE is polyline or spline.
+"""Turns a planar model in Gmsh's language into a model file: geo.py MODEL.geo OUT.toml CURVE, where CURVE is polyline or spline.
 
-Line n becomes curve cn, surface n region sn. Reads `Point`, `Line`, `Line Loop` and `Plane Surface` of plain numbers, all of them, and nothing else.
+Line n becomes curve cn, surface n region sn. Reads only `Point`, `Line`, `Line Loop` and `Plane Surface` of plain numbers.
 """
 import pathlib
 import re

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Control files of HOHQMesh as model files: hohqmesh.py FILE.control... OUT writes OUT/FILE.toml of the planar ones.
+"""Turns control files of HOHQMesh into model files: hohqmesh.py FILE.control... OUT writes OUT/FILE.toml for planar models.
 
-Splines go through the same knots, with end conditions of ours. Sizes are those of the background grid and of refinement regions, and along curves a third of the radius of curvature, which gives circles about as many
-edges as HOHQMesh does; `quads` of a case scales them all.
+Splines go through the same knots, with our end conditions. Sizes come from the background grid and refinement regions. Along curves
+they are a third of the radius of curvature, so that circles have about as many edges as in HOHQMesh. `quads` of a case scales all.
 """
 import json
 import math
@@ -16,7 +16,7 @@ IN_SPACE = {"SIMPLE_EXTRUSION", "SIMPLE_ROTATION", "SWEEP_ALONG_CURVE"}
 
 
 def read_block(lines):
-    """[(name, text, or rows of numbers, or block), ...] up to the block's end."""
+    """Returns [(name, text, or rows of numbers, or block), ...] up to the block's end."""
     block = []
     for line in lines:
         line = line.split("%")[0].strip()
@@ -32,7 +32,7 @@ def read_block(lines):
 
 
 def find(block, *names):
-    """All that has the last of these names, in the first block of the name before it, and so on."""
+    """Returns all entries with the last of these names, in the first block of the name before it, and so on."""
     for name in names[:-1]:
         block = next((value for key, value in block if key == name), [])
     return [value for key, value in block if key == names[-1]]
@@ -51,7 +51,7 @@ def number(block, key, absent=0.0):
 
 
 def shape(kind, block, folder):
-    """A curve: its key in a model file, the value of that, and points along it that tell its curvature, three by three."""
+    """Returns a curve's key in a model file, its value, and triples of points along it that tell its curvature."""
     if kind == "END_POINTS_LINE":
         return "segment", [place(block, "xStart"), place(block, "xEnd")], []
     if kind == "SPLINE_CURVE":
@@ -80,13 +80,13 @@ def shape(kind, block, folder):
 
 
 def radius(a, b, c):
-    """Of the circle through three points."""
+    """Returns the radius of the circle through three points."""
     doubled = abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
     return math.dist(a, b) * math.dist(b, c) * math.dist(c, a) / (2 * doubled) if doubled > 0 else math.inf
 
 
 def refinement(block, base):
-    """A source from the size h to the background's, at the distance d where h 3^(d / w) is as large."""
+    """Returns a source from the size h to the background size, which is reached at the distance d with h 3^(d / w)."""
     if find(block, "type") != ["smooth"]:
         sys.exit(f"refinement of type {find(block, 'type')}: expected smooth")
     ends = {name: place(block, key) for name, key in (("at", "x0"), ("to", "x1")) if find(block, key)}
@@ -103,7 +103,7 @@ def toml(value):
 
 
 def convert(file):
-    """The text of a model file; None of a model in space."""
+    """Returns the text of a model file, or None for a model in space."""
     text = read_block(iter(file.read_text().splitlines()))
     control = find(text, "CONTROL_INPUT")[0]
     if any(name in IN_SPACE for name, _ in control):

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Measures of others that the program does not have: verdict.py MESH.msh prints them for the quads of a planar mesh.
+"""Measures a mesh as other programs do: verdict.py MESH.msh prints means over the quads of a planar mesh.
 
-shape: least 2 J / (a^2 + b^2) over the corners, J the cross product of the sides a and b there; aspect: longest side times the sum of the sides over four times the area [stimpson2007].
-least_angle and largest_angle: a quad's own, degrees. All these are means over quads. libmesh_shape: the harmonic mean over the corners in place of the least one, and the mean by area, as MOOSE takes it.
+The shape is the least 2 J / (a^2 + b^2) over the corners, with the cross product J of the sides a and b there. The aspect is the
+longest side times the sum of the sides over four times the area [stimpson2007]. Angles are in degrees.
+The measure libmesh_shape is MOOSE's shape: the harmonic mean over the corners, and a mean by area over the quads.
 """
 import json
 import math

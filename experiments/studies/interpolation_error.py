@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""The error of interpolation: interpolation_error.py MESH.msh SOLUTION prints {"l2": ..., "h1": ...}.
+"""Measures the error of interpolation: interpolation_error.py MESH.msh SOLUTION prints {"l2": ..., "h1": ...}.
 
-SOLUTION is one of those below, with anything behind an underscore, or a formula of x and y. It is taken at the nodes and interpolated bilinearly on quads (linearly on triangles); both
-errors are norms over the mesh by 5 x 5 Gauss points for each quad, H1 of the gradients alone.
+SOLUTION is a name below, with any text behind an underscore, or a formula of x and y. Its values at the nodes are interpolated
+bilinearly on quads, linearly on triangles. Both errors are norms over the mesh by 5 x 5 Gauss points for each quad. The H1 error
+is the error of the gradient alone.
 """
 import json
 import math
@@ -21,7 +22,7 @@ STEP = 1e-6  # of the central differences of the exact gradient
 
 
 def read_msh(path):
-    """Points and elements of two dimensions of an MSH file of version 2.2 or 4.1, as text."""
+    """Returns the points and the planar elements of a text MSH file, version 2.2 or 4.1."""
     tokens = iter(open(path).read().split())
     points, elements, version = {}, [], ""
     for token in tokens:

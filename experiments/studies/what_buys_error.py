@@ -16,7 +16,7 @@ SQUARES = "kind = 'squares'"
 
 
 def fit(points):
-    """Power and factor of the law that fits best, by least squares of the logarithms."""
+    """Returns power and factor of the best law, by least squares of the logarithms."""
     u, v = ([math.log(p[k]) for p in points] for k in (0, 1))
     u0, v0 = sum(u) / len(u), sum(v) / len(v)
     power = sum((a - u0) * (b - v0) for a, b in zip(u, v)) / sum((a - u0) ** 2 for a in u)

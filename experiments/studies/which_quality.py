@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Which quality matters: which_quality.py RESULTS prints what tells errors, and what words are worth.
+"""Which quality matters: which_quality.py RESULTS prints which measures tell errors, and the worth of pipelines.
 
 First come Spearman's rank correlations of errors with measures of quality over the runs of each domain. They are means
 over domains, with the least and the greatest. Then, for each measure, comes a pipeline's mean over seeds divided by the
@@ -34,12 +34,12 @@ def mean(case, word, key):
 
 
 def ranks(values):
-    """The rank of each value, from 1; ties share their mean rank."""
+    """Returns the rank of each value, from 1; ties share their mean rank."""
     return [sum(v < x for v in values) + (sum(v == x for v in values) + 1) / 2 for x in values]
 
 
 def spearman(a, b):
-    """NaN of fewer than three pairs, and where one of both is the same everywhere."""
+    """Returns the correlation; NaN for fewer than three pairs, and if one of both is constant."""
     if len(a) < 3 or min(a) == max(a) or min(b) == max(b):
         return math.nan
     a, b = ranks(a), ranks(b)
@@ -49,7 +49,7 @@ def spearman(a, b):
 
 
 def correlations(error, quality):
-    """The rank correlation within each case."""
+    """Returns the rank correlation within each case."""
     for case in sorted({case for case, _ in cells}):
         runs = [m for (of, _), all_runs in cells.items() if of == case for m in all_runs]
         runs = [m for m in runs if m.get(error) is not None and m.get(quality) is not None]

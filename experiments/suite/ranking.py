@@ -14,7 +14,7 @@ NOTES = ["score: mean over the models of mean eta x tau x share of quads, averag
 
 
 def read_cells(folder):
-    """By program and experiment the rows of runs.csv; a name that several runs have begins with their folder from the second on."""
+    """Returns the rows of runs.csv by program and experiment; from the second run on, a repeated name begins with the folder."""
     programs, owners, titles = {}, {}, {}
     for file in sorted(folder.rglob("runs.csv")):
         study = json.loads(file.with_name("study.json").read_text())
@@ -63,7 +63,7 @@ def mean(values):
 
 
 def value(cell, key):
-    """If the case has a metric, eta and tau in the metric."""
+    """Returns measures of a run; if the case has a metric, eta and tau in the metric."""
     return float(cell.get("metric_" + key) or cell[key] or "nan")
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Checks README and docs: links lead somewhere, the reference of keys is up to date, and every block of code runs.
+"""Checks README and docs: links lead somewhere, messages exist, the reference of keys is up to date, and every block of code runs.
 The site's tables lead to records, and tables of measurements are what `make doc-tables` writes.
 
-Usage: check_docs.py links|keys|blocks|tables|measured [--build FOLDER] [--slow] [PAGE ...]
+Usage: check_docs.py links|messages|keys|blocks|tables|measured [--build FOLDER] [--slow] [PAGE ...]
 
 A block is fenced, or indented by four spaces and more. Those of a page run in their order, in one empty folder that looks like the repository:
 shell by bash, Python in one process, C++ as one program. TOML is checked against `delquad schema`, and saved where its first line is a comment
@@ -12,11 +12,13 @@ that begins with the name of a file. A comment before a block, which readers do 
     <!-- slow: why -->          it is run with --slow alone
     <!-- needs: ccx gmsh -->    it is run where these programs, or modules of Python, are
     <!-- before: x = 1 -->      what comes first, not shown
+    <!-- output: of ... -->     it is part of the output of the block before; "..." stands for any text, numbers may differ
 """
 import argparse
 import concurrent.futures
 import contextlib
 import importlib.util
+import io
 import json
 import os
 import pathlib
@@ -36,7 +38,7 @@ import needs  # noqa: E402
 
 NOT_OURS = {"build", "results", "data", ".git"}
 SHELL = re.compile(r"(export|cat|mkdir|make|cmake|git|pip|cp|cd|ccx|rsvg-convert|awk|(\S*/)?(delquad|python3|own_strategy)) ")
-MARK = re.compile(r"<!-- (not run|slow|needs|before): (.*?) -->", re.DOTALL)
+MARK = re.compile(r"<!-- (not run|slow|needs|before|output): (.*?) -->", re.DOTALL)
 SECONDS, SLOW_SECONDS = 300, 7200  # by the clock, on a busy machine
 MANY_SECONDS = 3  # of CPU, worth telling
 
@@ -80,6 +82,17 @@ def check_links():
                 wrong.append(f"{source.relative_to(ROOT)}: {name}: there is no such page")
     print(f"{count} links")
     return wrong
+
+
+def check_messages():
+    """Each message of the page of troubleshooting stands in the sources; "..." stands for names and numbers."""
+    sources = [path for path in files(".h", ".cpp", ".py") if path.relative_to(ROOT).parts[0] not in ("tests", "docs")]
+    texts = [re.sub(r'"\s*"', "", path.read_text(errors="replace")).replace('\\"', '"') for path in sources]
+    for line in re.findall(r"^`.*`$", (ROOT / "docs/troubleshooting.md").read_text(), re.MULTILINE):
+        for message in re.findall(r"`([^`]+)`", line):
+            parts = [part.strip() for part in message.split("...")]
+            if not any(all(part in text for part in parts) for text in texts):
+                yield f"docs/troubleshooting.md: {message}: there is no such message"
 
 
 def check_keys(build):
@@ -144,16 +157,24 @@ def said(result):
 
 def run_shell(block):
     code = "set -euo pipefail\n" + block.marks.get("before", "") + "\n" + block.text
-    result = subprocess.run(["bash", "-c", code], capture_output=True, text=True, timeout=SLOW_SECONDS if "slow" in block.marks else SECONDS)
-    return None if result.returncode == 0 else f"exit code {result.returncode}\n{said(result)}"
+    result = subprocess.run(["bash", "-c", code], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=SLOW_SECONDS if "slow" in block.marks else SECONDS)
+    return (None if result.returncode == 0 else f"exit code {result.returncode}\n{result.stdout.strip()[-1500:]}"), result.stdout
 
 
 def run_python(block, names):
+    printed = io.StringIO()
     try:
-        exec(compile(block.marks.get("before", "") + "\n" + block.text, block.where, "exec"), names)
+        with contextlib.redirect_stdout(printed):
+            exec(compile(block.marks.get("before", "") + "\n" + block.text, block.where, "exec"), names)
     except Exception:
-        return traceback.format_exc(limit=-1)
-    return None
+        return traceback.format_exc(limit=-1), ""
+    return None, printed.getvalue()
+
+
+def check_output(block, printed):
+    """Returns what is wrong with the shown part of the output. Numbers may differ."""
+    pattern = ".*?".join(re.sub(r"\d+(\\\.\d+)?", r"\\d+(\\.\\d+)?", re.escape(part)) for part in block.text.strip().split("..."))
+    return None if re.search(pattern, printed, re.DOTALL) else f"the block before prints:\n{printed.strip()[-1500:]}"
 
 
 def statements(text):
@@ -199,14 +220,15 @@ def run_cpp(found, build):
 
 
 def run_block(block, names, schema):
+    """Returns what is wrong, and what the block prints."""
     try:
         if block.language == "python":
             return run_python(block, names)
         if block.language == "toml":
-            return check_toml(block, schema)
+            return check_toml(block, schema), ""
         return run_shell(block)
     except (subprocess.TimeoutExpired, tomllib.TOMLDecodeError) as error:
-        return str(error)
+        return str(error), ""
 
 
 def run_page(page, build, schema, slow):
@@ -219,15 +241,21 @@ def run_page(page, build, schema, slow):
         for display in ("DISPLAY", "WAYLAND_DISPLAY"):  # where `delquad view` would open a browser
             os.environ.pop(display, None)
         sys.path.insert(0, f"{build}/python")
+        printed = None
         for block in blocks(page):
+            if "output" in block.marks:
+                problem = check_output(block, printed) if printed is not None else None
+                wrong += [f"{block.where}: {problem}"] if problem else []
+                continue
             skipped.append(block.why_not(slow))
             if skipped[-1]:
+                printed = None
                 continue
             if block.language == "cpp":
                 cpp.append(block)
                 continue
             begin = cpu_seconds()
-            problem = run_block(block, names, schema)
+            problem, printed = run_block(block, names, schema)
             if cpu_seconds() - begin > MANY_SECONDS:
                 long.append(f"{block.where}: {cpu_seconds() - begin:.1f} s of CPU")
             if problem:
@@ -331,7 +359,7 @@ def check_measured(build):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("what", choices=["links", "keys", "blocks", "tables", "measured"])
+    parser.add_argument("what", choices=["links", "messages", "keys", "blocks", "tables", "measured"])
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
     parser.add_argument("--slow", action="store_true")
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
@@ -339,6 +367,8 @@ def main():
     build = given.build.resolve()
     if given.what == "links":
         wrong = check_links()
+    elif given.what == "messages":
+        wrong = list(check_messages())
     elif given.what == "keys":
         wrong = check_keys(build)
     elif given.what == "tables":

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Pulls a plate with a round hole by CalculiX, on meshes that follow its stresses: adapt.py [--quads N] [--meshes M] [-o PICTURE.svg]
 
-A quarter of the plate, ten times as wide as the hole, moves on its outer sides as an endless one does, so that the stress at the
-hole is three times that far away (Kirsch, 1898). Elements are CPS4, straight. Prints that stress for loops of M meshes of N quads,
-which begin from a uniform one, and for M uniform meshes, of sides as long as the radius, half as long, and so on. Needs ccx
-(Debian: calculix-ccx) and the Python module delquad.
+The model is a quarter of a plate that is ten times as wide as the hole. Its outer sides move like an endless plate. So the stress at
+the hole is three times the stress far away (Kirsch, 1898). Elements are straight CPS4. Prints the stress for loops of M meshes of N
+quads. M uniform meshes follow, whose sides are as long as the radius, half as long, and so on. Needs ccx (Debian: calculix-ccx)
+and the Python module delquad.
 """
 import math
 import pathlib

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """Solves by deal.II in a loop of meshes by `delquad adapt`: adapt.py [--quads N] [--doublings D] [--delquad PROGRAM] [-o PICTURE.svg]
 
-Poisson's equation for atan(60 (r - pi/3)), r from (1.25, -0.25), a layer along an arc, by bilinear elements. Of each loop there are
-three meshes of N quads, then D that have twice as many each; the picture is of the last. Order: of the error in the mean size of
-quads. Builds poisson.cpp, unless --poisson says where it is built. Needs CMake and deal.II 9.4 (Debian: libdeal.ii-dev).
+Solves Poisson's equation for atan(60 (r - pi/3)), r from (1.25, -0.25), a layer along an arc, by bilinear elements. Each loop has
+three meshes of N quads, then D meshes with twice as many each; the picture shows the last one. The order is the order of the error in
+the mean size of quads. Builds poisson.cpp, unless --poisson names the built program. Needs CMake and deal.II 9.4 (Debian:
+libdeal.ii-dev).
 """
 import json
 import pathlib

@@ -1,7 +1,7 @@
-// Solves by bilinear elements of deal.II: poisson heat MESH.msh SOLUTION.json, or
-// poisson shock MESH.msh SOLUTION.json SOLUTION.msh, which has the mesh, too, with u at its points. heat
-// conducts heat through the plate of ../heat.toml; shock is Poisson's equation for atan(60 (r - pi/3)), r
-// from (1.25, -0.25), a layer along an arc.
+// Solves by bilinear elements of deal.II.
+// Usage: `poisson heat MESH.msh SOLUTION.json`, or `poisson shock MESH.msh SOLUTION.json SOLUTION.msh`.
+// SOLUTION.msh has the mesh, with u at its points. `heat` conducts heat through the plate of ../heat.toml.
+// `shock` is Poisson's equation for atan(60 (r - pi/3)), r from (1.25, -0.25), a layer along an arc.
 #include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>

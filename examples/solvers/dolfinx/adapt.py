@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Solves by dolfinx in a loop of meshes that follow the solution: adapt.py [--quads N] [--doublings D] [-o PICTURE.svg] [PROBLEM ...]
 
-shock: Poisson's equation for atan(60 (r - pi/3)), r from (1.25, -0.25), a layer along an arc. advection: along (1, 1)
-with diffusion 0.005, which makes layers at two sides, by SUPG. Of each loop there are three meshes of N quads, then D that have
-twice as many each; the picture is of the last. Order: of the error in the mean size of quads. Needs dolfinx (0.5, as in Debian 12: python3-dolfinx) and the
-Python module delquad.
+The problem shock is Poisson's equation for atan(60 (r - pi/3)), r from (1.25, -0.25), a layer along an arc. The problem advection
+goes along (1, 1) with diffusion 0.005, which makes layers at two sides, by SUPG. Each loop has three meshes of N quads, then D meshes with twice as
+many each; the picture shows the last one. The order is the order of the error in the mean size of quads. Needs dolfinx (0.5, as in
+Debian 12: python3-dolfinx) and the Python module delquad.
 """
 import math
 import pathlib
@@ -35,7 +35,7 @@ def shock(x, u, v):
 
 
 def advection(x, u, v):
-    """Of factors in x and in y, each of which is advected and diffused under a source of 1."""
+    """Returns a product of factors in x and in y, each of which is advected and diffused under a source of 1."""
     fx, fy = (s - (ufl.exp((s - 1) / EPSILON) - math.exp(-1 / EPSILON)) / (1 - math.exp(-1 / EPSILON)) for s in (x[0], x[1]))
     along = ufl.as_vector((1, 1))
     residual = ufl.dot(along, ufl.grad(u)) - EPSILON * ufl.div(ufl.grad(u)) - fx - fy

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Solves by FreeFem++ on halved quads and on triangles that follow the solution: adapt.py [--vertices N] [--meshes M] [-o PICTURE.svg]
 
-Poisson's equation for atan(60 (r - pi/3)), r from (1.25, -0.25), a layer along an arc. FreeFem++ knows no quads: each is halved
-along its shorter diagonal. Beside them are the meshes of its own adaptmesh, all with about N vertices and linear elements. Needs
-FreeFem++ (Debian: freefem++) and the Python module delquad.
+Solves Poisson's equation for atan(60 (r - pi/3)), r from (1.25, -0.25), a layer along an arc. FreeFem++ has no quads, so each is
+halved along its shorter diagonal. The table compares with the meshes of its own adaptmesh. All have about N vertices and linear
+elements. Needs FreeFem++ (Debian: freefem++) and the Python module delquad.
 """
 import pathlib
 import sys
@@ -20,7 +20,7 @@ import run
 
 
 def solve(mesh, meshes=0, vertices=1, isotropic=False):
-    """Triangles, vertices, errors and seconds of this mesh and of those of adaptmesh after it, and the values on the last one."""
+    """Returns triangles, vertices, errors and seconds of this mesh and of the meshes of adaptmesh after it, and the last values."""
     with tempfile.TemporaryDirectory() as work:
         folder = pathlib.Path(work)
         lines, quads = ([[*row, 1] for row in (nodes + 1).tolist()] for nodes in (mesh.lines, mesh.quads))

@@ -1,8 +1,7 @@
 #!/usr/bin/python3
 """Conducts heat through the plate of ../heat.toml by FreeFem++: run.py [--delquad PROGRAM] [-o PICTURE.svg]
 
-FreeFem++ knows no quads: each is halved along its shorter diagonal, so that this computes with triangles. Needs FreeFem++
-(Debian: freefem++).
+FreeFem++ has no quads, so each is halved along its shorter diagonal. Needs FreeFem++ (Debian: freefem++).
 """
 import json
 import math
@@ -47,7 +46,7 @@ def write_medit(path, xy, edges, quads):
 
 
 def solve(script, folder):
-    """What a script prints that runs in a folder."""
+    """Returns the output of a script that runs in a folder."""
     shutil.copy(HERE / script, folder)
     return driver.run(["FreeFem++", "-nw", "-ne", "-v", "0", script], "Debian: freefem++", folder)
 
