@@ -10,7 +10,6 @@
 #include "base/located.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "io/boundary_chains.h"
-#include "io/entity_names.h"
 #include "io/face_reader.h"
 #include "io/library_file.h"
 #include "io/library_format.h"
@@ -153,9 +152,9 @@ void put_ugrid(NetcdfFile& file, const Mesh& mesh) {
                                  std::move(numbers));
     file.attribute(id, "flag_values", values);
   };
-  names(2, "mesh2d_face_region", "face", faces, group_numbers(groups, 2, n_faces));
+  names(2, "mesh2d_face_region", "face", faces, group_numbers(mesh, groups, 2));
   names(1, "mesh2d_edge_curve", "edge", edges, topology.edge_group);
-  names(0, "mesh2d_node_point", "node", nodes, group_numbers(groups, 0, mesh.points.size()));
+  names(0, "mesh2d_node_point", "node", nodes, group_numbers(mesh, groups, 0));
 }
 
 /// What a netCDF file holds, as text and numbers.
