@@ -56,8 +56,6 @@ ModelHandle read_model(const std::string& path);
 
 /// Tells Python of models and of what they are made of.
 void define_models(py::module_& m);
-/// HexMesh, and extrude() for each way.
-void define_hexahedra(py::module_& m);
 
 /// add_metric(), add_stage() and their like.
 void define_parts(py::module_& m);
