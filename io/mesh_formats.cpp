@@ -23,6 +23,14 @@ void write_picture(const std::filesystem::path& path, const Mesh& mesh) {
   draw_mesh(path, mesh, path.stem().string());
 }
 
+MeshFormat svg_format() {
+  return {.extensions = {".svg"},
+          .description = "a picture",
+          .write = write_by<write_picture>,
+          .most_order = kMostOrder,
+          .names = 0};
+}
+
 Mesh with_utf8(Mesh mesh) {
   const auto convert = [](Entity& entity) {
     for (std::string& name : entity.names) name = as_utf8(name);
@@ -79,39 +87,17 @@ MeshFormat msh_format(), vtu_format(), obj_format(), inp_format(), medit_format(
     stl_format(), ply_format(), three_mf_format();
 
 const std::vector<MeshFormat>& mesh_formats() {
-  static const std::vector<MeshFormat> all = {msh_format(),
-                                              vtu_format(),
-                                              obj_format(),
-                                              inp_format(),
-                                              medit_format(),
-                                              vtk_format(),
-                                              exodus_format(),
-                                              cgns_format(),
-                                              med_format(),
-                                              xdmf_format(),
-                                              mfem_format(),
-                                              su2_format(),
-                                              nastran_format(),
-                                              unv_format(),
-                                              ls_dyna_format(),
-                                              sms_format(),
-                                              gr3_format(),
-
-                                              ugrid_format(),
-                                              ism_format(),
-                                              hohqmesh_abaqus_format(),
-                                              re2_format(),
-                                              specfem_format(),
-                                              foam_format(),
-                                              off_format(),
-                                              stl_format(),
-                                              ply_format(),
-                                              three_mf_format(),
-                                              {.extensions = {".svg"},
-                                               .description = "a picture",
-                                               .write = write_by<write_picture>,
-                                               .most_order = kMostOrder,
-                                               .names = 0}};
+  static const std::vector<MeshFormat> all = [] {
+    std::vector<MeshFormat> formats;
+    for (auto* const make : {msh_format,  vtu_format,      obj_format,     inp_format, medit_format,
+                             vtk_format,  exodus_format,   cgns_format,    med_format, xdmf_format,
+                             mfem_format, su2_format,      nastran_format, unv_format, ls_dyna_format,
+                             sms_format,  gr3_format,      ugrid_format,   ism_format, hohqmesh_abaqus_format,
+                             re2_format,  specfem_format,  foam_format,    off_format, stl_format,
+                             ply_format,  three_mf_format, svg_format})
+      formats.push_back(make());
+    return formats;
+  }();
   return all;
 }
 
