@@ -44,7 +44,7 @@ std::vector<BoundarySide> boundary_sides(const Mesh& mesh, const std::vector<Mes
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> at) {
     if (at.size() != 1) return;
     const auto group = group_of.find({at[0].lo, at[0].hi});
-    const auto [element, side] = side_of(mesh, at[0]);
+    const auto [element, side] = cell_side(mesh, at[0]);
     result.push_back({at[0].run(), element, side, group == group_of.end() ? -1 : group->second});
   });
   std::ranges::sort(result, {}, &BoundarySide::run);

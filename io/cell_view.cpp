@@ -89,7 +89,7 @@ std::vector<CellBlock> cell_blocks(const Mesh& mesh, std::vector<int> places) {
   return blocks;
 }
 
-CellSide side_of(const Mesh& mesh, const HalfEdge& edge) {
+CellSide cell_side(const Mesh& mesh, const HalfEdge& edge) {
   const auto place = [&](const auto& v) {
     return static_cast<int>(std::ranges::find(v, edge.run()[0]) - v.begin());
   };
@@ -122,7 +122,7 @@ std::vector<CellSide> CellSides::at(int item) const {
     return sides;
   }
   for (const HalfEdge& edge : sides_of_edge(of_faces_, mesh_.lines[item][0], mesh_.lines[item][1]))
-    sides.push_back(side_of(mesh_, edge));
+    sides.push_back(cell_side(mesh_, edge));
   return sides;
 }
 

@@ -66,7 +66,7 @@ const Code& code_of(const CellBlock& cells, const CellCode<Code> (&codes)[N]) {
 struct CellSide {
   int element, side;
 };
-CellSide side_of(const Mesh& mesh, const HalfEdge& edge);
+CellSide cell_side(const Mesh& mesh, const HalfEdge& edge);
 
 /// The sides of triangles and quads, or of hexahedra if there are any.
 class CellSides {

@@ -15,8 +15,8 @@ namespace delquad {
 /// files of other programs have one curve and one region.
 Mesh read_vtu(const std::filesystem::path& path);
 /// Writes VTK XML (base64). Cells are lines, then triangles, then quads; with hexahedra they are these, then
-/// quads, then lines. Each has the tag of its curve or its region, or beside hexahedra of its volume, face or
-/// curve, in arrays of these names (0: none). It has one value for each field in `cell_data`. Lines have no
+/// quads, then lines. Arrays of tags tell the curve and the region of each cell, or the volume, face and curve
+/// beside hexahedra (0: none). A cell has one value for each field in `cell_data`. Lines have no
 /// values of `fields` (NaN). Names are field data: an array "curve NAME" or "region NAME" lists the tags. A
 /// known unit of lengths is a comment, here and in OBJ, Abaqus input and Medit text.
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
