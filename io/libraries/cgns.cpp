@@ -16,13 +16,8 @@ namespace {
 class CgnsFile {
  public:
   CgnsFile(const std::filesystem::path& path, const std::filesystem::path& temporary) : path_(path) {
-    check(cg_open(temporary.c_str(), CG_MODE_WRITE, &file_), "the file");
+    check(cg_open(temporary.c_str(), CG_MODE_WRITE, &file_.id), "the file");
   }
-  ~CgnsFile() {
-    if (file_ >= 0) cg_close(file_);
-  }
-  CgnsFile(const CgnsFile&) = delete;
-  CgnsFile& operator=(const CgnsFile&) = delete;
 
   void put_head(const Mesh& mesh) {
     const int dim = dimension_of(mesh), dimensions = dim == 2 && is_planar(mesh) ? 2 : 3;
@@ -68,11 +63,7 @@ class CgnsFile {
     put_condition(name, CGNS_ENUMV(PointList), nodes, CGNS_ENUMV(Vertex));
   }
 
-  void close() {
-    const int closed = cg_close(file_);
-    file_ = -1;
-    check(closed, "the end of the file");
-  }
+  void close() { check(file_.close_now(), "the end of the file"); }
 
  private:
   void check(int error, const char* what) const {
@@ -90,7 +81,8 @@ class CgnsFile {
   }
 
   const std::filesystem::path& path_;
-  int file_ = -1, base_ = 0, zone_ = 0;
+  OpenFile<int, cg_close> file_;
+  int base_ = 0, zone_ = 0;
   cgsize_t next_ = 1;
 };
 

@@ -23,15 +23,10 @@ class ExodusFile {
   ExodusFile(const std::filesystem::path& path, const std::filesystem::path& temporary) : path_(path) {
     int real_in_memory = sizeof(double), real_in_file = sizeof(double);
     ex_opts(0);  // errors are told by what is returned
-    file_ = ex_create(temporary.c_str(), EX_CLOBBER | EX_LARGE_MODEL, &real_in_memory, &real_in_file);
+    file_.id = ex_create(temporary.c_str(), EX_CLOBBER | EX_LARGE_MODEL, &real_in_memory, &real_in_file);
     check(file_ >= 0, "the file");
     ex_set_max_name_length(file_, kExodusNameLength);
   }
-  ~ExodusFile() {
-    if (file_ >= 0) ex_close(file_);
-  }
-  ExodusFile(const ExodusFile&) = delete;
-  ExodusFile& operator=(const ExodusFile&) = delete;
 
   void put_head(const char* title, int dim, const std::vector<Vec3>& points, std::size_t n_elements,
                 std::size_t n_blocks, int64_t n_node_sets, int64_t n_side_sets) {
@@ -69,9 +64,7 @@ class ExodusFile {
     put_names(EX_ELEM_BLOCK, block_names_);
     put_names(EX_NODE_SET, node_sets_);
     put_names(EX_SIDE_SET, side_sets_);
-    const int closed = ex_close(file_);
-    file_ = -1;
-    check(closed >= 0, "the end of the file");
+    check(file_.close_now() >= 0, "the end of the file");
   }
 
  private:
@@ -96,7 +89,7 @@ class ExodusFile {
   }
 
   const std::filesystem::path& path_;
-  int file_ = -1;
+  OpenFile<int, ex_close> file_;
   std::vector<std::string> block_names_, node_sets_, side_sets_;
 };
 

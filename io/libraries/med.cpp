@@ -23,14 +23,9 @@ class MedFile {
  public:
   MedFile(const std::filesystem::path& path, const std::filesystem::path& temporary, const Mesh& mesh)
       : path_(path), mesh_(mesh), groups_(mesh_groups(mesh, kMedLabels)) {
-    file_ = MEDfileOpen(temporary.c_str(), MED_ACC_CREAT);
+    file_.id = MEDfileOpen(temporary.c_str(), MED_ACC_CREAT);
     require_written(file_ >= 0, path_, "the MED library", "the file");
   }
-  ~MedFile() {
-    if (file_ >= 0) MEDfileClose(file_);
-  }
-  MedFile(const MedFile&) = delete;
-  MedFile& operator=(const MedFile&) = delete;
 
   void put_head() {
     const int dim = dimension_of(mesh_), dimensions = dim == 2 && is_planar(mesh_) ? 2 : 3;
@@ -82,11 +77,7 @@ class MedFile {
     put_families(MED_CELL, type, families);
   }
 
-  void close() {
-    const med_err closed = MEDfileClose(file_);
-    file_ = -1;
-    check(closed, "the end of the file");
-  }
+  void close() { check(file_.close_now(), "the end of the file"); }
 
  private:
   void check(med_err error, const char* what) const {
@@ -128,7 +119,7 @@ class MedFile {
   const std::filesystem::path& path_;
   const Mesh& mesh_;
   const std::vector<MeshGroup> groups_;
-  med_idt file_ = -1;
+  OpenFile<med_idt, MEDfileClose> file_;
 };
 
 /// MED 4: a family and a group for each name.

@@ -19,14 +19,9 @@ class Hdf5File {
  public:
   Hdf5File(const std::filesystem::path& path, const std::filesystem::path& temporary) : path_(path) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are told by what is returned
-    file_ = H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    file_.id = H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     check(file_ >= 0);
   }
-  ~Hdf5File() {
-    if (file_ >= 0) H5Fclose(file_);
-  }
-  Hdf5File(const Hdf5File&) = delete;
-  Hdf5File& operator=(const Hdf5File&) = delete;
 
   void put(const char* name, hsize_t rows, hsize_t columns, const void* values, bool are_reals) {
     const hsize_t sizes[2] = {rows, columns};
@@ -44,13 +39,13 @@ class Hdf5File {
   }
   void close() {
     check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0);  // what closing cannot write it does not tell
-    check(H5Fclose(std::exchange(file_, -1)) >= 0);
+    check(file_.close_now() >= 0);
   }
 
  private:
   void check(bool done) const { require_written(done, path_, "the HDF5 library", "it"); }
   const std::filesystem::path& path_;
-  hid_t file_ = -1;
+  OpenFile<hid_t, H5Fclose> file_;
 };
 
 /// Elements of one kind: their nodes, and the numbers of their names.
