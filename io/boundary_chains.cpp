@@ -44,13 +44,8 @@ std::vector<BoundarySide> boundary_sides(const Mesh& mesh, const std::vector<Mes
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> at) {
     if (at.size() != 1) return;
     const auto group = group_of.find({at[0].lo, at[0].hi});
-    const std::array run = at[0].run();
-    const auto side = [&](const auto& v) {
-      return static_cast<int>(std::ranges::find(v, run[0]) - v.begin());
-    };
-    const int e = at[0].element, n_triangles = static_cast<int>(mesh.triangles.size());
-    result.push_back({run, e, e < n_triangles ? side(mesh.triangles[e]) : side(mesh.quads[e - n_triangles]),
-                      group == group_of.end() ? -1 : group->second});
+    const auto [element, side] = cell_side(mesh, at[0]);
+    result.push_back({at[0].run(), element, side, group == group_of.end() ? -1 : group->second});
   });
   std::ranges::sort(result, {}, &BoundarySide::run);
   return result;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 
 namespace delquad {
 
@@ -19,7 +19,7 @@ std::map<std::array<int, 2>, int> groups_of_lines(const Mesh& mesh, const std::v
 /// A side on the boundary of the mesh, which lies on its left.
 struct BoundarySide {
   std::array<int, 2> run;
-  int element, side;  ///< as in ElementSide
+  int element, side;  ///< as in CellSide
   int group;          ///< index into the groups of the mesh; -1: no line is there
 };
 /// All of them, sorted by their first node.

@@ -5,14 +5,12 @@
 #include <filesystem>
 #include <map>
 #include <set>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "delquad/mesh.h"
-#include "geometry/mesh/half_edges.h"
 
 namespace delquad {
 
@@ -81,33 +79,6 @@ class NumberedEntities {
 
 /// The unit of lengths that a comment of our writers tells after its mark ("#"); empty: it tells none.
 std::string unit_in_comment(std::string_view comment, std::string_view mark);
-
-/// Points, lines or elements of one name, for formats in which everything has one.
-struct MeshGroup {
-  int dim;                  ///< 0: points, 1: lines, 2: triangles and quads, 3: hexahedra
-  int number;               ///< from 1 on, in each dimension
-  std::string name, label;  ///< the label is the name as the format can hold it
-  /// Points; indices into Mesh::lines; elements, triangles first.
-  std::vector<int> items;
-};
-
-/// All named points, the lines on the boundary and the named ones inside (of hexahedra all), all elements.
-/// Groups of the highest dimension come first. Entities have the names of group_names().
-std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& rules);
-/// The nodes of a group of points, lines or, of hexahedra, quads, ascending, each once.
-std::vector<int> nodes_of_group(const Mesh& mesh, const MeshGroup& group);
-/// The groups' numbers of all items of a dimension; 0: in none.
-std::vector<int> group_numbers(const std::vector<MeshGroup>& groups, int dim, std::size_t n_items);
-
-/// "curve "Ein|aus" is Ein_aus", one for each group whose label is not its name.
-std::vector<std::string> renamed_groups(const std::vector<MeshGroup>& groups);
-
-/// Side k of an element, between its corners k and k + 1.
-struct ElementSide {
-  int element, side;
-};
-/// The sides of elements that lie on a line, in the order of the elements. `sides`: sorted_half_edges().
-std::vector<ElementSide> sides_at_line(const Mesh& mesh, std::span<const HalfEdge> sides, int line);
 
 /// Whether all points have one z and the elements run counterclockwise as seen from above.
 bool is_planar(const Mesh& mesh);

@@ -4,8 +4,24 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <utility>
 
 namespace delquad {
+
+/// The number that a library gives to an open file, which is closed at the end.
+template <class Id, auto close>
+struct OpenFile {
+  Id id = -1;
+
+  OpenFile() = default;
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenFile() {
+    if (id >= 0) close(id);
+  }
+  operator Id() const { return id; }
+  auto close_now() { return close(std::exchange(id, -1)); }
+};
 
 /// All of a file. Throws InputError where it cannot be read; what the stream does not take is left to its
 /// state.

@@ -27,71 +27,62 @@ void write_loaded(const std::filesystem::path& path, const Mesh& mesh) {
   loaded<name>().write(path, mesh);
 }
 
+/// `is_built`: whether this program has the library.
+template <const char* name>
+MeshFormat loaded_format(bool is_built, MeshFormat format) {
+  if (!is_built) return format.has_hexahedra = false, format;
+  format.write = write_by<write_loaded<name>>;
+  format.package = "";
+  return format;
+}
+
 constexpr UniqueLabels::Rules kUgridLabels{word_label};
 
 }  // namespace
 
 MeshFormat exodus_format() {
-  MeshFormat format{.extensions = {".e", ".exo", ".ex2"},
-                    .description = "Exodus II: MOOSE, Cubit",
-                    .most_order = 2,
-                    .package = "libexodusii-dev",
-                    .labels = &kExodusLabels};
-#ifdef DELQUAD_HAS_EXODUS
-  format.write = write_by<write_loaded<kExodus>>, format.has_hexahedra = true;
-  format.package = "";
-#endif
-  return format;
+  return loaded_format<kExodus>(DELQUAD_HAS_EXODUS, {.extensions = {".e", ".exo", ".ex2"},
+                                                     .description = "Exodus II: MOOSE, Cubit",
+                                                     .most_order = 2,
+                                                     .package = "libexodusii-dev",
+                                                     .has_hexahedra = true,
+                                                     .labels = &kExodusLabels});
 }
 
 MeshFormat cgns_format() {
-  MeshFormat format{.extensions = {".cgns"},
-                    .description = "CGNS",
-                    .most_order = 2,
-                    .package = "libcgns-dev",
-                    .labels = &kCgnsLabels};
-#ifdef DELQUAD_HAS_CGNS
-  format.write = write_by<write_loaded<kCgns>>, format.has_hexahedra = true;
-  format.package = "";
-#endif
-  return format;
+  return loaded_format<kCgns>(DELQUAD_HAS_CGNS, {.extensions = {".cgns"},
+                                                 .description = "CGNS",
+                                                 .most_order = 2,
+                                                 .package = "libcgns-dev",
+                                                 .has_hexahedra = true,
+                                                 .labels = &kCgnsLabels});
 }
 
 MeshFormat med_format() {
-  MeshFormat format{.extensions = {".med"},
-                    .description = "MED: Code_Aster, Salome",
-                    .most_order = 2,
-                    .package = "libmedc-dev",
-                    .labels = &kMedLabels};
-#ifdef DELQUAD_HAS_MED
-  format.write = write_by<write_loaded<kMed>>, format.has_hexahedra = true;
-  format.package = "";
-#endif
-  return format;
+  return loaded_format<kMed>(DELQUAD_HAS_MED, {.extensions = {".med"},
+                                               .description = "MED: Code_Aster, Salome",
+                                               .most_order = 2,
+                                               .package = "libmedc-dev",
+                                               .has_hexahedra = true,
+                                               .labels = &kMedLabels});
 }
 
 MeshFormat xdmf_format() {
-  MeshFormat format{.extensions = {".xdmf"},
-                    .description = "XDMF with numbers in HDF5: dolfinx, ParaView",
-                    .most_order = 2,
-                    .package = "libhdf5-dev",
-                    .names = kAllNames & ~kPointNames};
-#ifdef DELQUAD_HAS_XDMF
-  format.write = write_by<write_loaded<kXdmf>>, format.package = "";
-#endif
-  return format;
+  return loaded_format<kXdmf>(DELQUAD_HAS_XDMF,
+                              {.extensions = {".xdmf"},
+                               .description = "XDMF with numbers in HDF5: dolfinx, ParaView",
+                               .most_order = 2,
+                               .package = "libhdf5-dev",
+                               .names = kAllNames & ~kPointNames});
 }
 
 MeshFormat ugrid_format() {
-  MeshFormat format{.extensions = {".nc"},
-                    .description = "UGRID in netCDF: Delft3D FM, QGIS",
-                    .package = "libnetcdf-dev",
-                    .has_depths = true,
-                    .labels = &kUgridLabels};
-#ifdef DELQUAD_HAS_UGRID
-  format.read = read_loaded<kUgrid>, format.write = write_by<write_loaded<kUgrid>>, format.package = "";
-#endif
-  return format;
+  return loaded_format<kUgrid>(DELQUAD_HAS_UGRID, {.extensions = {".nc"},
+                                                   .description = "UGRID in netCDF: Delft3D FM, QGIS",
+                                                   .read = DELQUAD_HAS_UGRID ? read_loaded<kUgrid> : nullptr,
+                                                   .package = "libnetcdf-dev",
+                                                   .has_depths = true,
+                                                   .labels = &kUgridLabels});
 }
 
 }  // namespace delquad

@@ -12,8 +12,7 @@
 #include "base/utf8.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
-#include "geometry/mesh/half_edges.h"
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 #include "io/picture.h"
 
 namespace delquad {
@@ -22,6 +21,14 @@ namespace {
 
 void write_picture(const std::filesystem::path& path, const Mesh& mesh) {
   draw_mesh(path, mesh, path.stem().string());
+}
+
+MeshFormat svg_format() {
+  return {.extensions = {".svg"},
+          .description = "a picture",
+          .write = write_by<write_picture>,
+          .most_order = kMostOrder,
+          .names = 0};
 }
 
 Mesh with_utf8(Mesh mesh) {
@@ -80,39 +87,17 @@ MeshFormat msh_format(), vtu_format(), obj_format(), inp_format(), medit_format(
     stl_format(), ply_format(), three_mf_format();
 
 const std::vector<MeshFormat>& mesh_formats() {
-  static const std::vector<MeshFormat> all = {msh_format(),
-                                              vtu_format(),
-                                              obj_format(),
-                                              inp_format(),
-                                              medit_format(),
-                                              vtk_format(),
-                                              exodus_format(),
-                                              cgns_format(),
-                                              med_format(),
-                                              xdmf_format(),
-                                              mfem_format(),
-                                              su2_format(),
-                                              nastran_format(),
-                                              unv_format(),
-                                              ls_dyna_format(),
-                                              sms_format(),
-                                              gr3_format(),
-
-                                              ugrid_format(),
-                                              ism_format(),
-                                              hohqmesh_abaqus_format(),
-                                              re2_format(),
-                                              specfem_format(),
-                                              foam_format(),
-                                              off_format(),
-                                              stl_format(),
-                                              ply_format(),
-                                              three_mf_format(),
-                                              {.extensions = {".svg"},
-                                               .description = "a picture",
-                                               .write = write_by<write_picture>,
-                                               .most_order = kMostOrder,
-                                               .names = 0}};
+  static const std::vector<MeshFormat> all = [] {
+    std::vector<MeshFormat> formats;
+    for (auto* const make : {msh_format,  vtu_format,      obj_format,     inp_format, medit_format,
+                             vtk_format,  exodus_format,   cgns_format,    med_format, xdmf_format,
+                             mfem_format, su2_format,      nastran_format, unv_format, ls_dyna_format,
+                             sms_format,  gr3_format,      ugrid_format,   ism_format, hohqmesh_abaqus_format,
+                             re2_format,  specfem_format,  foam_format,    off_format, stl_format,
+                             ply_format,  three_mf_format, svg_format})
+      formats.push_back(make());
+    return formats;
+  }();
   return all;
 }
 
@@ -197,7 +182,7 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOp
     check_mesh_format(path, options, mesh.order);
   else
     check_hex_format(path, options);
-  find_format(kind_to_write(path))->write(path, mesh, options, QuadNodes::kAll);
+  find_format(kind_to_write(path))->write(path, mesh, options);
 }
 
 void check_serendipity(const std::filesystem::path& path, const MshOptions& options, int order) {
@@ -220,7 +205,7 @@ void write_serendipity(const std::filesystem::path& path, const Mesh& mesh, cons
   Mesh eight = mesh;  // a corner stands for each middle node, which so is no node any more
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) eight.quad_nodes[5 * q + 4] = mesh.quads[q][0];
   drop_unused_points(eight);
-  format.write(path, eight, options, QuadNodes::kNoMiddle);
+  format.write(path, eight, options);
 }
 
 int most_order_of(const std::filesystem::path& path) {
@@ -253,11 +238,10 @@ std::vector<std::string> lost_in_file(const std::filesystem::path& path, const M
   of_regions.erase("domain");  // whose model has no name for it
   for (const NamedPoint& point : mesh.named_points)
     of_points.insert(point.entity.names.begin(), point.entity.names.end());
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  const CellSides sides(mesh);
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
     const std::vector<std::string>& of_curve = mesh.curves[mesh.line_curve[l]].names;
-    const bool is_inside = sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).size() > 1;
-    (is_inside ? inside : around).insert(of_curve.begin(), of_curve.end());
+    (sides.at(static_cast<int>(l)).size() > 1 ? inside : around).insert(of_curve.begin(), of_curve.end());
   }
   add(kRegionNames, "regions", of_regions);
   add(kBoundaryNames, "curves of the boundary", around);

@@ -31,7 +31,7 @@ struct MeshFormat {
   std::vector<std::string> extensions;  ///< in small letters, with the dot; the usual one first
   std::string description;
   Mesh (*read)(const std::filesystem::path&, ReadNotes*, Strays) = nullptr;  ///< null: it is not read
-  void (*write)(const std::filesystem::path&, const Mesh&, const MshOptions&, QuadNodes) = nullptr;
+  void (*write)(const std::filesystem::path&, const Mesh&, const MshOptions&) = nullptr;
   int most_order = 1;  ///< of elements that are written
   std::string package =
       {};  ///< of Debian, whose library this program was built without; empty: it has all it needs
@@ -59,7 +59,7 @@ Mesh read_by(const std::filesystem::path& path, ReadNotes*, Strays) {
 }
 /// Writers without options.
 template <void (*write)(const std::filesystem::path&, const Mesh&)>
-void write_by(const std::filesystem::path& path, const Mesh& mesh, const MshOptions&, QuadNodes) {
+void write_by(const std::filesystem::path& path, const Mesh& mesh, const MshOptions&) {
   write(path, mesh);
 }
 

@@ -101,10 +101,6 @@ void write_fields(const std::filesystem::path& path, const Mesh& mesh, const std
 /// Whether it reads files of that name.
 bool holds_values(const std::filesystem::path& path);
 
-/// Which nodes of quads of order 2 are written: nine, or eight of a mesh in which a corner stands for the
-/// middle one.
-enum class QuadNodes { kAll, kNoMiddle };
-
 /// InputError when write_mesh() knows no format for the path's extension, naming those known, or the format
 /// has no such option, or no elements of that order.
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {}, int order = 1);

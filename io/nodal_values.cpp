@@ -275,10 +275,9 @@ void write_fields(const std::filesystem::path& path, const Mesh& mesh, const std
   check_mesh_format(path, options, mesh.order);
   const std::string kind = kind_of_file(path);
   if (kind == ".vtu")
-    write_vtu(path, mesh, {}, QuadNodes::kAll, fields);
+    write_vtu(path, mesh, {}, fields);
   else if (kind == ".msh")
-    write_file_atomically(
-        path, [&](std::ostream& stream) { write_msh(stream, mesh, options, QuadNodes::kAll, fields); });
+    write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options, fields); });
   else
     refuse("{}: fields are written to .msh and .vtu files", path.string());
 }

@@ -11,6 +11,7 @@
 #include "base/box.h"
 #include "geometry/mesh/element_nodes.h"
 #include "geometry/mesh/half_edges.h"
+#include "io/cell_view.h"
 #include "io/item_buffer.h"
 #include "io/picture.h"
 #include "io/svg.h"
@@ -305,11 +306,7 @@ class ElementLayers {
 /// The side of an element on an edge, both ends included.
 std::vector<Vec3> side_of(const Mesh& mesh, const HalfEdge& edge) {
   std::vector<Vec3> outline = outline_of(mesh, edge.element);
-  const int n_triangles = static_cast<int>(mesh.triangles.size()), from = edge.forward ? edge.lo : edge.hi;
-  const auto place = [&](const auto& v) { return std::ranges::find(v, from) - v.begin(); };
-  const auto corner = edge.element < n_triangles
-                          ? place(mesh.triangles[static_cast<size_t>(edge.element)])
-                          : place(mesh.quads[static_cast<size_t>(edge.element - n_triangles)]);
+  const int corner = cell_side(mesh, edge).side;
   const int pieces = drawn_pieces(mesh);
   std::ranges::rotate(outline, outline.begin() + corner * pieces);
   outline.push_back(outline[0]);

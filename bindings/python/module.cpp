@@ -5,10 +5,12 @@
 #include <numbers>
 #include <set>
 
+#include "base/context.h"
 #include "base/located.h"
 #include "base/text.h"
 #include "bindings/python/arrays.h"
 #include "bindings/python/problem.h"
+#include "delquad/hexahedra.h"
 #include "geometry/mesh/check_mesh.h"
 #include "io/cases/case_file.h"
 #include "io/cases/case_keys.h"
@@ -28,9 +30,16 @@ std::vector<Entity> entities_of(const std::vector<std::pair<int, std::vector<std
 }
 
 /// Returns a list of the mesh as a property: a view that keeps the mesh alive.
-template <class List>
+template <class Owner = Mesh, class List>
 auto view_of(List Mesh::*member) {
-  return [member](const py::object& self) { return view(self.cast<const Mesh&>().*member, self); };
+  return [member](const py::object& self) { return view(self.cast<const Owner&>().*member, self); };
+}
+
+/// Adds a property of (tag, names).
+template <class Class>
+void add_entities(Class& c, const char* name, std::vector<Entity> Mesh::*member) {
+  c.def_property_readonly(
+      name, [member](const typename Class::type& self) { return list_of(self.*member); }, "(tag, names)");
 }
 
 Mesh make_mesh(const py::object& points, const py::object& lines, const py::object& line_curve,
@@ -96,9 +105,11 @@ py::list periodic_faces_of(const Mesh& mesh) {
 }
 
 void define_mesh(py::module_& m) {
-  py::class_<Mesh, std::shared_ptr<Mesh>>(m, "Mesh", "Points and elements; indices count from 0.")
-      .def(py::init(&make_mesh), arg("points"), arg("lines"), arg("line_curve"), arg("triangles"),
-           arg("triangle_region"), arg("quads"), arg("quad_region"), arg("curves"), arg("regions"))
+  py::class_<Mesh, std::shared_ptr<Mesh>> c(m, "Mesh", "Points and elements; indices count from 0.");
+  add_entities(c, "curves", &Mesh::curves);
+  add_entities(c, "regions", &Mesh::regions);
+  c.def(py::init(&make_mesh), arg("points"), arg("lines"), arg("line_curve"), arg("triangles"),
+        arg("triangle_region"), arg("quads"), arg("quad_region"), arg("curves"), arg("regions"))
       .def_property_readonly("points", view_of(&Mesh::points), "(n, 3) coordinates")
       .def_property_readonly("lines", view_of(&Mesh::lines), "(n, 2) points of edges on curves")
       .def_property_readonly("triangles", view_of(&Mesh::triangles), "(n, 3) points")
@@ -106,10 +117,6 @@ void define_mesh(py::module_& m) {
       .def_property_readonly("line_curve", view_of(&Mesh::line_curve), "index into curves of each line")
       .def_property_readonly("triangle_region", view_of(&Mesh::triangle_region), "index into regions")
       .def_property_readonly("quad_region", view_of(&Mesh::quad_region), "index into regions")
-      .def_property_readonly(
-          "curves", [](const Mesh& mesh) { return list_of(mesh.curves); }, "(tag, names)")
-      .def_property_readonly(
-          "regions", [](const Mesh& mesh) { return list_of(mesh.regions); }, "(tag, names)")
       .def_property_readonly("periodic", &periodic_of,
                              "(index into curves, that of the master, (n, 2) nodes)")
       .def_property_readonly("periodic_faces", &periodic_faces_of,
@@ -119,6 +126,65 @@ void define_mesh(py::module_& m) {
       .def("_write_file", &write, arg("path"), arg("binary") = false);
   m.def("read_mesh", &read, arg("path"));
   m.def("_extensions", &extensions, arg("written"));
+}
+
+struct Hexahedra : Mesh {
+  HexMeasures measures;
+};
+
+Hexahedra extruded(const Mesh& mesh, int layers, double growth, int threads, double time_limit,
+                   const py::object& along, const py::object& point, const py::object& axis, double degrees,
+                   const py::object& curve, const py::object& thickness, bool both_sides) {
+  const auto path = [&]() -> SweepPath {
+    if (!along.is_none()) return AlongVector{read_vec3(along, "along")};
+    if (!point.is_none())
+      return AroundAxis{read_vec3(point, "around: the point"), read_vec3(axis, "around: the axis"), degrees};
+    if (!curve.is_none()) return AlongCurve{read_points(curve, "curve")};
+    return AlongNormals{thickness.cast<double>(), both_sides};
+  }();
+  Hexahedra result;
+  CallingThread().run([&](const std::stop_token& stop) {
+    const RunScope scope({.threads = threads, .cancel = stop, .seconds = time_limit});
+    result = {extrude(mesh, path, {layers, growth}), {}};
+    result.measures = measure(result);
+  });
+  return result;
+}
+
+void define_hexahedra(py::module_& m) {
+  py::class_<Hexahedra> c(m, "HexMesh", "Hexahedra, quads on their named faces; indices count from 0.");
+  add_entities(c, "volumes", &Mesh::volumes);
+  add_entities(c, "faces", &Mesh::regions);
+  add_entities(c, "curves", &Mesh::curves);
+  c.def_property_readonly("points", view_of<Hexahedra>(&Mesh::points), "(n, 3) coordinates")
+      .def_property_readonly("hexahedra", view_of<Hexahedra>(&Mesh::hexahedra), "(n, 8) points")
+      .def_property_readonly("hex_volume", view_of<Hexahedra>(&Mesh::hex_volume),
+                             "index into volumes of each hexahedron")
+      .def_property_readonly("quads", view_of<Hexahedra>(&Mesh::quads), "(n, 4) points of quads on faces")
+      .def_property_readonly("quad_face", view_of<Hexahedra>(&Mesh::quad_region),
+                             "index into faces of each quad")
+      .def_property_readonly("lines", view_of<Hexahedra>(&Mesh::lines), "(n, 2) points of edges on curves")
+      .def_property_readonly("line_curve", view_of<Hexahedra>(&Mesh::line_curve),
+                             "index into curves of each line")
+      .def_property_readonly(
+          "unit", [](const Hexahedra& self) { return self.unit; }, "of lengths; empty: not known")
+      .def_property_readonly(
+          "volume", [](const Hexahedra& self) { return self.measures.volume; }, "of all hexahedra")
+      .def_property_readonly(
+          "scaled_jacobian",
+          [](const py::object& self) {
+            const std::vector<double>& values = self.cast<const Hexahedra&>().measures.jacobian;
+            return view<double>(values.data(), {static_cast<py::ssize_t>(values.size())}, self);
+          },
+          "the least of each hexahedron, 1 for boxes")
+      .def(
+          "_write_file",
+          [](const Hexahedra& self, const std::string& path, bool binary, const std::string& element) {
+            const py::gil_scoped_release released;
+            write_mesh(path, self, {.binary = binary, .element = element});
+          },
+          arg("path"), arg("binary") = false, arg("element") = "");
+  m.def("extrude", &extruded);
 }
 
 py::dict dict_of(const Summaries& summaries) {

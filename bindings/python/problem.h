@@ -56,8 +56,6 @@ ModelHandle read_model(const std::string& path);
 
 /// Registers models and their parts.
 void define_models(py::module_& m);
-/// Registers HexMesh and extrude() for each path.
-void define_hexahedra(py::module_& m);
 
 /// Registers add_metric(), add_stage() and similar functions.
 void define_parts(py::module_& m);

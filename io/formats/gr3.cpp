@@ -7,7 +7,6 @@
 #include "base/located.h"
 #include "base/text.h"
 #include "io/boundary_chains.h"
-#include "io/entity_names.h"
 #include "io/formats/numbered_mesh.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"

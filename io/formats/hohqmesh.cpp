@@ -5,7 +5,6 @@
 
 #include "geometry/mesh/element_nodes.h"
 #include "io/boundary_chains.h"
-#include "io/entity_names.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -96,10 +95,7 @@ void write_ism(const std::filesystem::path& path, const Mesh& mesh) {
         << all.corners().size() << ' ' << n_edges << ' ' << mesh.quads.size() << ' ' << mesh.order << '\n';
     for (const Vec3& p : all.corners()) out << p.x << ' ' << p.y << " 0.0\n";
     for_each_edge(sides, [&](std::span<const HalfEdge> at) {
-      const auto place = [&](const HalfEdge& side) {
-        return static_cast<int>(std::ranges::find(mesh.quads[side.element], side.run()[0]) -
-                                mesh.quads[side.element].begin());
-      };
+      const auto place = [&](const HalfEdge& side) { return cell_side(mesh, side).side; };
       // Sides 0 and 1 run as the element does, 2 and 3 against it.
       const auto start = [&](const HalfEdge& side) { return side.run()[place(side) < 2 ? 0 : 1]; };
       out << all.number(start(at[0])) << ' ' << all.number(at[0].lo + at[0].hi - start(at[0])) << ' '

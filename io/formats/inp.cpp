@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -8,19 +6,15 @@
 #include <filesystem>
 #include <map>
 #include <set>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/box.h"
 #include "base/sort_unique.h"
-#include "geometry/mesh/element_nodes.h"
-#include "geometry/mesh/half_edges.h"
+#include "io/cell_view.h"
 #include "io/entity_names.h"
 #include "io/formats/deck.h"
-#include "io/formats/readers.h"
-#include "io/hex_sides.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -45,8 +39,6 @@ std::string inp_number(double x, double negligible) {
 
 namespace {
 
-// What Abaqus input files have in common, whatever elements they hold.
-
 /// The longest name that Abaqus takes is 80; what is left is for numbers, and for names of sides.
 constexpr std::size_t kLongestInpName = 60;
 /// On one line of a set or an element, which may have no more.
@@ -54,36 +46,11 @@ constexpr std::size_t kInpNumbersPerLine = 16;
 /// Names of the sets of all elements and of all nodes.
 constexpr const char *kAllElements = "Eall", *kAllNodes = "Nall";
 
-/// `kinds`: what keys of labels are the names of.
-void write_inp_head(TextWriter& out, const char* title, const std::string& unit, const UniqueLabels& labels,
-                    std::span<const char* const> kinds) {
-  out << "*HEADING\n" << title << " by Delquad\n";
-  if (!unit.empty()) out << "** lengths in " << unit << '\n';
-  for (const auto& [key, label] : labels.renamed())
-    out << "** " << kinds[static_cast<std::size_t>(key.first)] << " \"" << one_line(key.second) << "\" is "
-        << label << '\n';
-}
-
-/// Writes the nodes for which `is_written(i)` holds, as members of `set`.
-template <class IsWritten>
-void write_inp_nodes(TextWriter& out, const std::vector<Vec3>& points, const std::string& set,
-                     IsWritten is_written) {
-  // Of the model's diagonal: some hundred steps of a double there, what rotations and projections leave of
-  // zeros.
-  constexpr double kNegligible = 1e-13;
-  const double negligible = kNegligible * diagonal(points);
-  out << "*NODE, NSET=" << set << '\n';
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!is_written(i)) continue;
-    out << i + 1;
-    for (const double x : {points[i].x, points[i].y, points[i].z}) out << ", " << inp_number(x, negligible);
-    out << '\n';
-  }
-}
+/// Kinds of labels: the tag or a name of an entity, by its dimension, or a set.
+enum InpName { kTagOf = 0, kNameOf = 4, kSet = 8 };
 
 /// "1, 4, 7, 9": the number of an element and those of its nodes, from 1.
-template <class Nodes>
-void write_inp_element(TextWriter& out, std::size_t number, const Nodes& nodes) {
+void write_inp_element(TextWriter& out, int number, const std::vector<int>& nodes) {
   out << number;
   std::size_t n = 1;
   for (const int v : nodes) out << (n++ % kInpNumbersPerLine == 0 ? ",\n" : ", ") << v + 1;
@@ -109,135 +76,11 @@ void write_inp_sets(TextWriter& out, const char* keyword, Sets& sets) {
   }
 }
 
-/// What a label is the name of.
-enum HexNameKind { kHexSet, kHexCurve, kHexFace, kHexVolume };
-constexpr const char* kHexKinds[] = {"set", "curve", "face", "volume"};
-
-UniqueLabels make_hex_labels(const Mesh& mesh) {
+/// Entities beside hexahedra go by their names alone.
+std::vector<UniqueLabels::Key> keys_of(const Entity& entity, int dim, bool is_solid) {
   std::vector<UniqueLabels::Key> keys;
-  const auto add = [&](const std::vector<Entity>& entities, HexNameKind kind) {
-    for (const Entity& entity : entities)
-      for (const std::string& name : entity.names) keys.emplace_back(kind, name);
-  };
-  add(mesh.volumes, kHexVolume);
-  add(mesh.regions, kHexFace);
-  add(mesh.curves, kHexCurve);
-  for (const char* all : {kAllElements, kAllNodes}) keys.emplace_back(kHexSet, all);
-  return UniqueLabels(keys, {plain_label, true, kLongestInpName});
-}
-
-class HexInpWriter {
- public:
-  HexInpWriter(TextWriter& out, const Mesh& mesh, const std::string& element)
-      : out_(out),
-        mesh_(mesh),
-        labels_(make_hex_labels(mesh)),
-        element_(element.empty() ? inp_hexahedra()[0] : element) {
-    if (element_.find("20") == std::string::npos) return;
-    for (const auto& hexahedron : mesh.hexahedra)
-      for (const auto& [a, b] : edges_of(hexahedron)) edges_.push_back(std::minmax({a, b}));
-    sort_unique(edges_);
-  }
-
-  void write() {
-    write_inp_head(out_, "Mesh of hexahedra", mesh_.unit, labels_, kHexKinds);
-    std::vector<Vec3> points = mesh_.points;
-    for (const auto& [a, b] : edges_) points.push_back(0.5 * (mesh_.points[a] + mesh_.points[b]));
-    write_inp_nodes(out_, points, labels_.of({kHexSet, kAllNodes}), [](std::size_t) { return true; });
-    out_ << "*ELEMENT, TYPE=" << element_ << ", ELSET=" << labels_.of({kHexSet, kAllElements}) << '\n';
-    for (std::size_t i = 0; i < mesh_.hexahedra.size(); ++i)
-      write_inp_element(out_, i + 1, nodes_of(mesh_.hexahedra[i]));
-    collect();
-    write_inp_sets(out_, "ELSET", element_sets_);
-    write_inp_sets(out_, "NSET", node_sets_);
-    for (const auto& [label, sides] : sides_of_) {
-      out_ << "*SURFACE, NAME=" << label << ", TYPE=ELEMENT\n";
-      for (const int side : sides) out_ << side_set(label, side) << ", S" << side << '\n';
-    }
-  }
-
- private:
-  static std::string side_set(const std::string& label, int side) {
-    return "_" + label + "_S" + std::to_string(side);
-  }
-
-  /// In the order of their nodes in C3D20; of faces and curves in any.
-  template <std::size_t N>
-  static std::vector<std::pair<int, int>> edges_of(const std::array<int, N>& v) {
-    std::vector<std::pair<int, int>> edges;
-    if (N == 2) edges.emplace_back(v[0], v[1]);
-    for (std::size_t side = 0; side + 4 <= N; side += 4)
-      for (std::size_t k = 0; k < 4; ++k) edges.emplace_back(v[side + k], v[side + (k + 1) % 4]);
-    for (std::size_t k = 4; k < N; ++k) edges.emplace_back(v[k - 4], v[k]);
-    return edges;
-  }
-
-  /// Corners, and the middles of edges where there are any.
-  template <std::size_t N>
-  std::vector<int> nodes_of(const std::array<int, N>& corners) const {
-    std::vector<int> nodes(corners.begin(), corners.end());
-    if (edges_.empty()) return nodes;
-    for (const auto& [a, b] : edges_of(corners)) {
-      const auto at = std::ranges::lower_bound(edges_, std::pair(std::minmax({a, b})));
-      nodes.push_back(static_cast<int>(mesh_.points.size()) + static_cast<int>(at - edges_.begin()));
-    }
-    return nodes;
-  }
-
-  template <std::size_t N>
-  void collect_nodes(const std::vector<std::array<int, N>>& elements, const std::vector<int>& entity_of,
-                     const std::vector<Entity>& entities, HexNameKind kind) {
-    for (std::size_t i = 0; i < elements.size(); ++i)
-      for (const std::string& name : entities[entity_of[i]].names) {
-        std::vector<int>& nodes = node_sets_[labels_.of({kind, name})];
-        for (const int v : nodes_of(elements[i])) nodes.push_back(v + 1);
-      }
-  }
-
-  void collect() {
-    collect_nodes(mesh_.hexahedra, mesh_.hex_volume, mesh_.volumes, kHexVolume);
-    collect_nodes(mesh_.quads, mesh_.quad_region, mesh_.regions, kHexFace);
-    collect_nodes(mesh_.lines, mesh_.line_curve, mesh_.curves, kHexCurve);
-    for (std::size_t i = 0; i < mesh_.hexahedra.size(); ++i)
-      for (const std::string& name : mesh_.volumes[mesh_.hex_volume[i]].names)
-        element_sets_[labels_.of({kHexVolume, name})].push_back(static_cast<int>(i) + 1);
-    const std::vector<HexSide> sides = sorted_hex_sides(mesh_);
-    for (std::size_t i = 0; i < mesh_.quads.size(); ++i) {
-      const auto at = sides_at_quad(mesh_, sides, static_cast<int>(i));
-      if (at.size() != 1) continue;
-      for (const std::string& name : mesh_.regions[mesh_.quad_region[i]].names) {
-        const std::string label = labels_.of({kHexFace, name});
-        element_sets_[side_set(label, at[0].side)].push_back(at[0].hexahedron + 1);
-        sides_of_[label].insert(at[0].side);
-      }
-    }
-  }
-
-  TextWriter& out_;
-  const Mesh& mesh_;
-  const UniqueLabels labels_;
-  const std::string element_;
-  std::vector<std::pair<int, int>> edges_;  ///< with a node in the middle; sorted
-  Sets element_sets_, node_sets_;
-  std::map<std::string, std::set<int>> sides_of_;
-};
-
-/// Every name of volumes is an ELSET and an NSET, of faces an NSET and, on the boundary, a SURFACE, of
-/// curves an NSET.
-void write_hex_inp(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
-  write_text_file(path, [&](TextWriter& out) { HexInpWriter(out, mesh, options.element).write(); });
-}
-
-/// What a label is the name of.
-enum Kind { kPointTag, kCurveTag, kRegionTag, kPointName, kCurveName, kRegionName, kSet };
-constexpr const char* kInpKinds[] = {"", "", "", "point", "curve", "region", "set"};
-
-std::vector<UniqueLabels::Key> keys_of(const std::vector<Entity>& entities, int dim) {
-  std::vector<UniqueLabels::Key> keys;
-  for (const Entity& entity : entities) {
-    keys.emplace_back(kPointTag + dim, tag_label(dim, entity.tag));
-    for (const std::string& name : entity.names) keys.emplace_back(kPointName + dim, name);
-  }
+  if (!is_solid) keys.emplace_back(kTagOf + dim, tag_label(dim, entity.tag));
+  for (const std::string& name : entity.names) keys.emplace_back(kNameOf + dim, name);
   return keys;
 }
 
@@ -248,44 +91,54 @@ std::array<std::string, 2> pair_names(const char* kind, size_t pair) {
 }
 constexpr const char *kCurvePair = "PERIODIC_", *kFacePair = "PERIODIC_FACE_";
 
-UniqueLabels make_labels(const Mesh& mesh) {
-  std::vector<UniqueLabels::Key> keys = keys_of(mesh.curves, 1), of_regions = keys_of(mesh.regions, 2);
-  keys.insert(keys.end(), of_regions.begin(), of_regions.end());
-  for (const NamedPoint& named : mesh.named_points)
-    for (auto& key : keys_of({named.entity}, 0)) keys.push_back(std::move(key));
+UniqueLabels make_labels(const Mesh& mesh, bool is_solid) {
+  const std::vector<Entity> points = entities_of(mesh.named_points);
+  const std::array all = {&points, &mesh.curves, &mesh.regions, &mesh.volumes};
+  std::vector<UniqueLabels::Key> keys;
+  for (const int dim : is_solid ? std::array{3, 2, 1, 0} : std::array{1, 2, 0, 3})
+    for (const Entity& entity : *all[dim])
+      for (auto& key : keys_of(entity, dim, is_solid)) keys.push_back(std::move(key));
   // Names that are tags keep them.
-  std::ranges::stable_sort(
-      keys, [](const auto& a, const auto& b) { return a.first <= kRegionTag && b.first > kRegionTag; });
+  std::ranges::stable_partition(keys, [](const auto& key) { return key.first < kNameOf; });
   for (const auto& [kind, count] :
        {std::pair{kCurvePair, mesh.periodic.size()}, std::pair{kFacePair, mesh.periodic_faces.size()}})
     for (size_t i = 0; i < count; ++i)
       for (const std::string& name : pair_names(kind, i)) keys.emplace_back(kSet, name);
-  for (const char* all : {kAllElements, kAllNodes}) keys.emplace_back(kSet, all);
+  for (const char* set : {kAllElements, kAllNodes}) keys.emplace_back(kSet, set);
   return UniqueLabels(keys, {plain_label, true, kLongestInpName});
+}
+
+/// In the order of their nodes in C3D20; of faces and curves in any.
+std::vector<std::pair<int, int>> edges_of(const std::vector<int>& v) {
+  std::vector<std::pair<int, int>> edges;
+  if (v.size() == 2) edges.emplace_back(v[0], v[1]);
+  for (std::size_t side = 0; side + 4 <= v.size(); side += 4)
+    for (std::size_t k = 0; k < 4; ++k) edges.emplace_back(v[side + k], v[side + (k + 1) % 4]);
+  for (std::size_t k = 4; k < v.size(); ++k) edges.emplace_back(v[k - 4], v[k]);
+  return edges;
 }
 
 class InpWriter {
  public:
-  InpWriter(TextWriter& out, const Mesh& mesh) : out_(out), mesh_(mesh), labels_(make_labels(mesh)) {
-    planar_ = is_planar(mesh);  // plane elements of a face that looks down would be inverted
+  InpWriter(TextWriter& out, const Mesh& mesh, const std::string& element)
+      : out_(out),
+        mesh_(mesh),
+        is_solid_(!mesh.hexahedra.empty()),
+        is_planar_(is_planar(mesh)),  // plane elements of a face that looks down would be inverted
+        element_(element.empty() ? inp_hexahedra()[0] : element),
+        cells_(cell_blocks(mesh, places_on_sides(mesh.order))),
+        labels_(make_labels(mesh, is_solid_)) {
+    if (!is_solid_ || element_.find("20") == std::string::npos) return;
+    for (std::size_t i = 0; i < mesh.hexahedra.size(); ++i)
+      for (const auto& [a, b] : edges_of(cells_.back().nodes(i))) edges_.push_back(std::minmax({a, b}));
+    sort_unique(edges_);
   }
 
   void write() {
-    write_inp_head(out_, "Quad mesh", mesh_.unit, labels_, kInpKinds);
+    write_head();
     write_nodes();
-    int n = 0;
-    write_elements(
-        planar_ ? "CPS3" : "S3", mesh_.triangles.size(),
-        n, [&](size_t i) -> const auto& { return mesh_.triangles[i]; });
-    if (mesh_.order == 1)
-      write_elements(
-          planar_ ? "CPS4" : "S4", mesh_.quads.size(),
-          n, [&](size_t i) -> const auto& { return mesh_.quads[i]; });
-    else
-      write_elements(planar_ ? "CPS8" : "S8R", mesh_.quads.size(), n,
-                     [&](size_t i) { return eight_nodes(i); });
-    collect_regions();
-    collect_curves();
+    write_elements();
+    for (const CellBlock& cells : cells_) collect(cells);
     for (const NamedPoint& named : mesh_.named_points)
       for (const std::string& label : labels_of(named.entity, 0)) add(node_sets_, label, {named.point + 1});
     for (auto* sets : {&element_sets_, &sides_}) write_inp_sets(out_, "ELSET", *sets);
@@ -298,30 +151,63 @@ class InpWriter {
   }
 
  private:
+  void write_head() {
+    const std::array kKinds = {"point", "curve", is_solid_ ? "face" : "region", "volume", "set"};
+    out_ << "*HEADING\n" << (is_solid_ ? "Mesh of hexahedra" : "Quad mesh") << " by Delquad\n";
+    if (!mesh_.unit.empty()) out_ << "** lengths in " << mesh_.unit << '\n';
+    for (const auto& [key, label] : labels_.renamed())
+      out_ << "** " << (key.first < kNameOf ? "" : kKinds[key.first - kNameOf]) << " \""
+           << one_line(key.second) << "\" is " << label << '\n';
+  }
+
+  /// The node inside of a quad has no place in elements of Abaqus.
   void write_nodes() {
-    std::vector<char> inside(mesh_.points.size(), 0);
-    for (size_t q = 0; q < mesh_.quads.size() && mesh_.order == 2; ++q)
-      inside[nodes_of_quad(mesh_, q)[4]] = 1;
-    write_inp_nodes(out_, mesh_.points, labels_.of({kSet, kAllNodes}), [&](size_t i) { return !inside[i]; });
+    // A part of the model's diagonal: rotations and projections turn zeros into some hundred steps of a
+    // double.
+    constexpr double kNegligible = 1e-13;
+    const double negligible = kNegligible * diagonal(mesh_.points);
+    const std::vector<char> left_out = are_in_middles(mesh_);
+    out_ << "*NODE, NSET=" << labels_.of({kSet, kAllNodes}) << '\n';
+    const auto write = [&](std::size_t i, const Vec3& p) {
+      out_ << i + 1;
+      for (const double x : {p.x, p.y, p.z}) out_ << ", " << inp_number(x, negligible);
+      out_ << '\n';
+    };
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i)
+      if (!left_out[i]) write(i, mesh_.points[i]);
+    for (std::size_t i = 0; i < edges_.size(); ++i)
+      write(mesh_.points.size() + i, 0.5 * (mesh_.points[edges_[i].first] + mesh_.points[edges_[i].second]));
   }
 
-  template <class NodesOf>
-  void write_elements(const char* type, size_t count, int& n, const NodesOf& nodes_of) {
-    if (count == 0) return;
-    out_ << "*ELEMENT, TYPE=" << type << ", ELSET=" << labels_.of({kSet, kAllElements}) << '\n';
-    for (size_t i = 0; i < count; ++i) write_inp_element(out_, static_cast<size_t>(++n), nodes_of(i));
+  void write_elements() {
+    using enum CellShape;
+    const CellCode<std::string> types[] = {{kTriangle, 3, is_planar_ ? "CPS3" : "S3"},
+                                           {kQuad, 4, is_planar_ ? "CPS4" : "S4"},
+                                           {kQuad, 8, is_planar_ ? "CPS8" : "S8R"},
+                                           {kHexahedron, 8, element_}};
+    int n = 0;
+    for (const CellBlock& cells : cells_) {
+      if (cells.dim != dimension_of(mesh_)) continue;
+      out_ << "*ELEMENT, TYPE=" << code_of(cells, types) << ", ELSET=" << labels_.of({kSet, kAllElements})
+           << '\n';
+      for (size_t i = 0; i < cells.size(); ++i) write_inp_element(out_, ++n, nodes_of(cells, i));
+    }
   }
 
-  /// Corners and middles of sides; the node inside has no place in elements of Abaqus.
-  std::vector<int> eight_nodes(size_t quad) const {
-    std::vector<int> nodes = nodes_of_quad(mesh_, quad, gmsh_places(2));
-    nodes.pop_back();
+  /// With the middles of straight edges, if there are any.
+  std::vector<int> nodes_of(const CellBlock& cells, std::size_t i) const {
+    std::vector<int> nodes = cells.nodes(i);
+    if (edges_.empty()) return nodes;
+    for (const auto& [a, b] : edges_of(nodes)) {
+      const auto at = std::ranges::lower_bound(edges_, std::pair(std::minmax({a, b})));
+      nodes.push_back(static_cast<int>(mesh_.points.size()) + static_cast<int>(at - edges_.begin()));
+    }
     return nodes;
   }
 
   std::vector<std::string> labels_of(const Entity& entity, int dim) const {
     std::vector<std::string> all;
-    for (const auto& key : keys_of({entity}, dim)) all.push_back(labels_.of(key));
+    for (const auto& key : keys_of(entity, dim, is_solid_)) all.push_back(labels_.of(key));
     return all;
   }
 
@@ -330,56 +216,38 @@ class InpWriter {
     all.insert(all.end(), numbers.begin(), numbers.end());
   }
 
-  void collect_regions() {
-    std::vector<std::vector<int>> elements(mesh_.regions.size()), nodes(mesh_.regions.size());
-    int n = 0;
-    const auto collect = [&](const auto& all, const std::vector<int>& region_of) {
-      for (size_t i = 0; i < all.size(); ++i) {
-        elements[region_of[i]].push_back(++n);
-        for (const int v : all[i]) nodes[region_of[i]].push_back(v + 1);
-      }
-    };
-    collect(mesh_.triangles, mesh_.triangle_region);
-    collect(mesh_.quads, mesh_.quad_region);
-    for (size_t q = 0; q < mesh_.quads.size() && mesh_.order == 2; ++q)
-      for (const int v : eight_nodes(q)) nodes[mesh_.quad_region[q]].push_back(v + 1);
-    for (size_t r = 0; r < mesh_.regions.size(); ++r) {
-      if (elements[r].empty()) continue;
-      for (const std::string& label : labels_of(mesh_.regions[r], 2)) {
-        add(element_sets_, label, elements[r]);
-        add(node_sets_, label, nodes[r]);
-      }
+  /// Nodes of entities, and their elements if these have the highest dimension.
+  void collect(const CellBlock& cells) {
+    std::vector<std::vector<int>> elements(cells.entities->size()), nodes(cells.entities->size());
+    for (size_t i = 0; i < cells.size(); ++i) {
+      const int entity = (*cells.entity_of)[i];
+      elements[entity].push_back(static_cast<int>(cells.first + i) + 1);
+      for (const int v : nodes_of(cells, i)) nodes[entity].push_back(v + 1);
     }
+    for (size_t e = 0; e < elements.size(); ++e)
+      for (const std::string& label : labels_of((*cells.entities)[e], cells.dim)) {
+        if (elements[e].empty()) continue;
+        add(node_sets_, label, nodes[e]);
+        if (cells.dim == dimension_of(mesh_)) add(element_sets_, label, elements[e]);
+      }
+    if (cells.dim == dimension_of(mesh_) - 1) collect_sides(cells);
   }
 
-  /// Nodes of curves; of lines on the boundary the element's side, too.
-  void collect_curves() {
-    const std::vector<HalfEdge> sides = sorted_half_edges(mesh_);
-    for (size_t i = 0; i < mesh_.lines.size(); ++i) {
-      std::vector<int> nodes = nodes_of_line(mesh_, i);
+  /// Sides on the boundary, "S2", or of shells "E2".
+  void collect_sides(const CellBlock& cells) {
+    const CellSides sides(mesh_);
+    for (size_t i = 0; i < cells.size(); ++i) {
+      const auto at = sides.at(static_cast<int>(cells.first + i));
+      if (at.size() != 1) continue;
+      std::vector<int> nodes = cells.nodes(i);
       for (int& v : nodes) ++v;
-      const auto at_line = sides_of_edge(sides, mesh_.lines[i][0], mesh_.lines[i][1]);
-      for (const std::string& label : labels_of(mesh_.curves[mesh_.line_curve[i]], 1)) {
-        add(node_sets_, label, nodes);
-        if (at_line.size() != 1) continue;
+      const std::string side = (is_solid_ || is_planar_ ? "S" : "E") + std::to_string(at[0].side + 1);
+      for (const std::string& label : labels_of(cells.entity(i), cells.dim)) {
         add(surface_nodes_, label, nodes);
-        const std::string side = side_name(at_line[0]);
-        add(sides_, "_" + label + "_" + side, {at_line[0].element + 1});
+        add(is_solid_ ? element_sets_ : sides_, "_" + label + "_" + side, {at[0].element + 1});
         sides_of_[label].insert(side);
       }
     }
-  }
-
-  /// The k-th side lies between the k-th node and the next.
-  std::string side_name(const HalfEdge& side) const {
-    const auto number_in = [&](const auto& element) {
-      const int from = side.forward ? side.lo : side.hi;
-      return static_cast<int>(std::find(element.begin(), element.end(), from) - element.begin()) + 1;
-    };
-    const int n = static_cast<int>(mesh_.triangles.size());
-    return (planar_ ? "S" : "E") + std::to_string(side.element < n
-                                                      ? number_in(mesh_.triangles[side.element])
-                                                      : number_in(mesh_.quads[side.element - n]));
   }
 
   template <class Pair>
@@ -402,18 +270,22 @@ class InpWriter {
 
   /// Abaqus and CalculiX call the sides of shells by different names, but both know surfaces of nodes.
   void write_surfaces() {
+    const bool are_of_nodes = !is_solid_ && !is_planar_;
     for (auto& [label, nodes] : surface_nodes_) {
-      out_ << "*SURFACE, NAME=" << label << ", TYPE=" << (planar_ ? "ELEMENT" : "NODE") << '\n';
-      if (!planar_) write_inp_numbers(out_, nodes, 1);
+      out_ << "*SURFACE, NAME=" << label << ", TYPE=" << (are_of_nodes ? "NODE" : "ELEMENT") << '\n';
+      if (are_of_nodes) write_inp_numbers(out_, nodes, 1);
       for (const std::string& side : sides_of_[label])
-        if (planar_) out_ << '_' << label << '_' << side << ", " << side << '\n';
+        if (!are_of_nodes) out_ << '_' << label << '_' << side << ", " << side << '\n';
     }
   }
 
   TextWriter& out_;
   const Mesh& mesh_;
+  const bool is_solid_, is_planar_;
+  const std::string element_;  ///< of hexahedra
+  const std::vector<CellBlock> cells_;
   const UniqueLabels labels_;
-  bool planar_ = false;
+  std::vector<std::pair<int, int>> edges_;  ///< of hexahedra, with a node in the middle; sorted
   Sets element_sets_, node_sets_, sides_, surface_nodes_;
   std::map<std::string, std::set<std::string>> sides_of_;
 };
@@ -423,11 +295,11 @@ class InpWriter {
 /// Every region is an ELSET and an NSET, every curve an NSET and a SURFACE. They go by tag ("region_3",
 /// "curve_5") and by each name, in letters, digits and underscores; comments have the table. A curve's
 /// surface has the sides of plane elements, and the nodes of shells. Sides of shells are ELSETs for edge
-/// loads
-/// ("_curve_5_E2").
-void write_inp(const std::filesystem::path& path, const Mesh& mesh) {
+/// loads ("_curve_5_E2"). Beside hexahedra every name is an NSET. Names of volumes are ELSETs, too, and
+/// names of faces on the boundary SURFACEs.
+void write_inp(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
   require_numbers(path, "Abaqus", mesh, 999'999'999);
-  write_text_file(path, [&](TextWriter& out) { InpWriter(out, mesh).write(); });
+  write_text_file(path, [&](TextWriter& out) { InpWriter(out, mesh, options.element).write(); });
 }
 
 }  // namespace
@@ -443,13 +315,7 @@ MeshFormat inp_format() {
                     notes->push_back(other + " is not read");
                 return std::move(deck.mesh);
               },
-          .write =
-              [](const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options, QuadNodes) {
-                if (mesh.hexahedra.empty())
-                  write_inp(path, mesh);
-                else
-                  write_hex_inp(path, mesh, options);
-              },
+          .write = write_inp,
           .most_order = 2,
           .has_hexahedra = true,
           .eight_nodes = EightNodes::kAlways,

@@ -1,6 +1,6 @@
 #include <charconv>
 
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -32,7 +32,7 @@ void write_ls_dyna(const std::filesystem::path& path, const Mesh& mesh) {
   constexpr std::size_t kField = 8, kTenth = 10;
   require_numbers(path, "LS-DYNA", mesh, 99'999'999);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
-  const std::vector<int> part = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
+  const std::vector<int> part = group_numbers(mesh, groups, 2);
   write_text_file(path, [&](TextWriter& out) {
     const auto number = [](auto n, std::size_t width) { return right(std::to_string(n), width); };
     out << "*KEYWORD\n$ quad mesh by Delquad\n";

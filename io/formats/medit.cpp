@@ -3,7 +3,7 @@
 #include <climits>
 
 #include "geometry/mesh/drop_unused_points.h"
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 #include "io/face_reader.h"
 #include "io/formats/readers.h"
 #include "io/mesh_formats.h"
@@ -137,19 +137,11 @@ void write_names(TextWriter& out, const char* kind, const std::vector<Entity>& e
       out << "# " << kind << ' ' << entity.tag << ": " << one_line(name) << '\n';
 }
 
-template <size_t N>
-void write_elements(TextWriter& out, const char* keyword, const std::vector<std::array<int, N>>& elements,
-                    const std::vector<int>& entity_of, const std::vector<Entity>& entities) {
-  if (elements.empty()) return;
-  out << keyword << '\n' << elements.size() << '\n';
-  for (size_t i = 0; i < elements.size(); ++i) {
-    for (const int v : elements[i]) out << v + 1 << ' ';
-    out << entities[entity_of[i]].tag << '\n';
-  }
-}
-
 /// Medit text (version 2): the references are tags of curves and regions; names stand in comments.
 void write_medit(const std::filesystem::path& path, const Mesh& mesh) {
+  using enum CellShape;
+  constexpr CellCode<const char*> kKeywords[] = {
+      {kLine, 2, "Edges"}, {kTriangle, 3, "Triangles"}, {kQuad, 4, "Quadrilaterals"}};
   write_text_file(path, [&](TextWriter& out) {
     out << "MeshVersionFormatted 2\n";
     if (!mesh.unit.empty()) out << "# lengths in " << mesh.unit << '\n';
@@ -157,9 +149,13 @@ void write_medit(const std::filesystem::path& path, const Mesh& mesh) {
     write_names(out, "region", mesh.regions);
     out << "Dimension\n3\nVertices\n" << mesh.points.size() << '\n';
     for (const Vec3& p : mesh.points) out << p.x << ' ' << p.y << ' ' << p.z << " 0\n";
-    write_elements(out, "Edges", mesh.lines, mesh.line_curve, mesh.curves);
-    write_elements(out, "Triangles", mesh.triangles, mesh.triangle_region, mesh.regions);
-    write_elements(out, "Quadrilaterals", mesh.quads, mesh.quad_region, mesh.regions);
+    for (const CellBlock& cells : cell_blocks(mesh)) {
+      out << code_of(cells, kKeywords) << '\n' << cells.size() << '\n';
+      for (size_t i = 0; i < cells.size(); ++i) {
+        for (const int v : cells.nodes(i)) out << v + 1 << ' ';
+        out << cells.entity(i).tag << '\n';
+      }
+    }
     out << "End\n";
   });
 }

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 #include "io/face_reader.h"
 #include "io/formats/readers.h"
 #include "io/mesh_formats.h"
@@ -319,13 +319,13 @@ void write_mfem(const std::filesystem::path& path, const Mesh& mesh) {
   require_fits(path, "MFEM", mesh.order == 1 ? 0 : 3 * row * row * mesh.quads.size(), "coordinates of nodes",
                INT_MAX);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
-  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-  const std::vector<int> attribute = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
-  const std::vector<int> of_lines = group_numbers(groups, 1, mesh.lines.size());
+  const CellSides sides(mesh);
+  const std::vector<int> attribute = group_numbers(mesh, groups, 2);
+  const std::vector<int> of_lines = group_numbers(mesh, groups, 1);
   const int dim = is_planar(mesh) ? 2 : 3;
   std::vector<std::size_t> boundary;
   for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-    if (sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).size() == 1) boundary.push_back(l);
+    if (sides.at(static_cast<int>(l)).size() == 1) boundary.push_back(l);
   // Curved meshes list the nodes of each element; vertices are the corners alone.
   std::vector<int> vertex(mesh.points.size(), -1);
   int n_vertices = 0;
@@ -342,7 +342,7 @@ void write_mfem(const std::filesystem::path& path, const Mesh& mesh) {
       if (group.dim > 0)
         out << "# " << (group.dim == 1 ? "boundary " : "") << "attribute " << group.number << ": "
             << one_line(group.name) << '\n';
-    out << "\ndimension\n2\n\nelements\n" << mesh.triangles.size() + mesh.quads.size() << '\n';
+    out << "\ndimension\n2\n\nelements\n" << n_cells(mesh, 2) << '\n';
     const auto write = [&](int number, int geometry, const auto& nodes) {
       out << number << ' ' << geometry;
       for (const int v : nodes) out << ' ' << vertex[v];

@@ -22,9 +22,8 @@ Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nu
 /// group_names(). Names beside it follow the elements in a section $MoreNames, which other programs skip. A
 /// group whose name is a number gets that number as its tag. The unit of lengths, where it is known, is a
 /// section $Unit after these.
-void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {},
-               QuadNodes nodes = QuadNodes::kAll);
+void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
 /// `fields`: become views ($NodeData, $ElementData).
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {},
-               QuadNodes nodes = QuadNodes::kAll, const std::vector<MeshField>& fields = {});
+               const std::vector<MeshField>& fields = {});
 }  // namespace delquad

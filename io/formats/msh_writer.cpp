@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -11,9 +10,7 @@
 #include <tuple>
 
 #include "base/box.h"
-#include "geometry/mesh/element_nodes.h"
-#include "geometry/mesh/half_edges.h"
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 #include "io/formats/msh.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
@@ -61,54 +58,47 @@ class MshNumbers {
   bool binary_, at_start_ = true;
 };
 
-/// All elements of a mesh that have one of Gmsh's types.
-struct MshKind {
-  int dim, type;
-  const std::vector<int>& entity_of;
-  std::function<std::vector<int>(size_t)> nodes_of;
-  std::vector<char> chosen = {};  ///< whether each is written; empty: all are
-};
-
 /// One entity as the file shows it.
 struct MshBlock {
   int dim;
   const Entity* entity;
   std::string group;
   int group_tag = 0;
-  std::vector<std::pair<const MshKind*, std::vector<size_t>>> elements = {};
+  std::vector<std::pair<const CellBlock*, std::vector<size_t>>> elements = {};
   std::vector<int> nodes = {};  ///< that no entity before has
   Box<Vec3> box{{kMax, kMax, kMax}, {-kMax, -kMax, -kMax}};
 
   static constexpr double kMax = std::numeric_limits<double>::max();
 };
 
-/// Sorts elements and nodes into the blocks of their entities, which are given by dimension. A node belongs
-/// to the first block that holds it.
-std::vector<MshBlock> make_blocks(const std::vector<Vec3>& points,
-                                  const std::vector<const std::vector<Entity>*>& entities,
-                                  const std::vector<MshKind>& kinds) {
+/// Sorts elements and nodes into the blocks of their entities. A node belongs to the first block that holds
+/// it. `is_chosen`: whether each line is written.
+std::vector<MshBlock> make_blocks(const std::vector<Vec3>& points, const std::vector<CellBlock>& all,
+                                  const std::vector<char>& is_chosen) {
   std::vector<MshBlock> blocks;
-  std::vector<int> first;  // block, by dimension
-  for (int dim = 0; dim < static_cast<int>(entities.size()); ++dim) {
-    first.push_back(static_cast<int>(blocks.size()));
-    const std::vector<std::string> groups = group_names(*entities[dim], dim);
-    for (size_t i = 0; i < groups.size(); ++i) blocks.push_back({dim, &(*entities[dim])[i], groups[i]});
-  }
   constexpr int kNone = std::numeric_limits<int>::max();
   std::vector<int> owner(points.size(), kNone);
-  for (const MshKind& kind : kinds)
-    for (size_t i = 0; i < kind.entity_of.size(); ++i) {
-      if (!kind.chosen.empty() && !kind.chosen[i]) continue;
-      const int b = first[kind.dim] + kind.entity_of[i];
+  int first = 0;  // block of the dimension
+  for (const CellBlock& cells : all) {
+    if (blocks.empty() || blocks.back().dim != cells.dim) {
+      first = static_cast<int>(blocks.size());
+      const std::vector<std::string> groups = group_names(*cells.entities, cells.dim);
+      for (size_t i = 0; i < groups.size(); ++i)
+        blocks.push_back({cells.dim, &(*cells.entities)[i], groups[i]});
+    }
+    for (size_t i = 0; i < cells.size(); ++i) {
+      if (cells.shape == CellShape::kLine && !is_chosen[i]) continue;
+      const int b = first + (*cells.entity_of)[i];
       MshBlock& block = blocks[b];
-      if (block.elements.empty() || block.elements.back().first != &kind)
-        block.elements.push_back({&kind, {}});
+      if (block.elements.empty() || block.elements.back().first != &cells)
+        block.elements.push_back({&cells, {}});
       block.elements.back().second.push_back(i);
-      for (const int v : kind.nodes_of(i)) {
+      for (const int v : cells.nodes(i)) {
         block.box.add(points[v]);
         owner[v] = std::min(owner[v], b);
       }
     }
+  }
   for (size_t i = 0; i < owner.size(); ++i)
     if (owner[i] != kNone) blocks[owner[i]].nodes.push_back(static_cast<int>(i));
   std::erase_if(blocks, [](const MshBlock& block) { return block.elements.empty(); });
@@ -208,20 +198,25 @@ void write_nodes(MshNumbers& out, const std::vector<Vec3>& points, const std::ve
 }
 
 void write_elements(MshNumbers& out, const std::vector<MshBlock>& blocks) {
+  using enum CellShape;
+  constexpr CellCode<int> kTypes[] = {
+      {kPoint, 1, 15}, {kLine, 2, 1},  {kLine, 3, 8},  {kLine, 4, 26},  {kLine, 5, 27},  {kTriangle, 3, 2},
+      {kQuad, 4, 3},   {kQuad, 8, 16}, {kQuad, 9, 10}, {kQuad, 16, 36}, {kQuad, 25, 37}, {kHexahedron, 8, 5}};
   size_t n_blocks = 0, count = 0;
   for (const MshBlock& block : blocks) {
     n_blocks += block.elements.size();
-    for (const auto& [kind, items] : block.elements) count += items.size();
+    for (const auto& [cells, items] : block.elements) count += items.size();
   }
   out.line("$Elements");
   out.size(n_blocks).size(count).size(1).size(count).end_line();
   size_t tag = 0;
   for (const MshBlock& block : blocks)
-    for (const auto& [kind, items] : block.elements) {
-      out.integer(block.dim).integer(block.entity->tag).integer(kind->type).size(items.size()).end_line();
+    for (const auto& [cells, items] : block.elements) {
+      out.integer(block.dim).integer(block.entity->tag).integer(code_of(*cells, kTypes));
+      out.size(items.size()).end_line();
       for (const size_t i : items) {
         out.size(++tag);
-        for (const int v : kind->nodes_of(i)) out.size(v + 1);
+        for (const int v : cells->nodes(i)) out.size(v + 1);
         out.end_line();
       }
     }
@@ -293,9 +288,7 @@ void write_more_names(std::ostream& stream, const std::vector<MshBlock>& blocks)
 }
 
 /// Vectors of the plane get a third component, for Gmsh knows 1, 3 and 9; a NaN is not written.
-void write_views(MshNumbers& out, const std::vector<MshBlock>& blocks, const std::vector<MeshField>& fields,
-                 std::size_t n_triangles) {
-  constexpr int kTriangle = 2;
+void write_views(MshNumbers& out, const std::vector<MshBlock>& blocks, const std::vector<MeshField>& fields) {
   for (const MeshField& field : fields) {
     const auto width = static_cast<std::size_t>(field.n_components);
     const std::size_t written = width == 2 ? 3 : width;
@@ -309,9 +302,9 @@ void write_views(MshNumbers& out, const std::vector<MshBlock>& blocks, const std
       if (field.is_of_points)
         for (const int i : block.nodes) add(i + 1, i);
       else
-        for (const auto& [kind, items] : block.elements)
+        for (const auto& [cells, items] : block.elements)
           for (const std::size_t i : items)
-            if (++tag; block.dim == 2) add(tag, kind->type == kTriangle ? i : n_triangles + i);
+            if (++tag; block.dim == 2) add(tag, cells->first + i);
     }
     const std::string section = field.is_of_points ? "NodeData" : "ElementData";
     // One text, one time, and three numbers: of the step, of components and of values.
@@ -334,7 +327,7 @@ void write_blocks(std::ostream& stream, bool binary, const Mesh& mesh, std::vect
   write_nodes(out, mesh.points, blocks);
   write_elements(out, blocks);
   write_periodic(out, mesh, blocks);
-  write_views(out, blocks, fields, mesh.triangles.size());
+  write_views(out, blocks, fields);
   out.flush();
   write_more_names(stream, blocks);
   if (!mesh.unit.empty()) stream << "$Unit\n" << mesh.unit << "\n$EndUnit\n";
@@ -353,39 +346,21 @@ std::vector<char> chosen_lines(const Mesh& mesh, MshCurves curves) {
   return chosen;
 }
 
-std::vector<Entity> entities_of(const std::vector<NamedPoint>& points) {
-  std::vector<Entity> entities;
-  for (const NamedPoint& named : points) entities.push_back(named.entity);
-  return entities;
-}
-
 /// Calls visit(blocks), which live as long.
 template <class Visit>
-void with_blocks(const Mesh& mesh, MshCurves curves, QuadNodes nodes, const Visit& visit) {
-  constexpr std::array kLines = {1, 8, 26, 27}, kQuads = {3, 10, 36, 37};  // Gmsh's types, by order
-  constexpr int kPoint = 15, kTriangle = 2, kEightNodes = 16, kHexahedron = 5;
-  const size_t order = static_cast<size_t>(mesh.order) - 1;
-  const bool eight = nodes == QuadNodes::kNoMiddle;
-  std::vector<int> places = gmsh_places(mesh.order), point_entity(mesh.named_points.size());
-  if (eight) places.pop_back();
-  std::iota(point_entity.begin(), point_entity.end(), 0);
-  const std::vector<Entity> point_entities = entities_of(mesh.named_points);
-  const std::vector<MshKind> kinds = {
-      {0, kPoint, point_entity, [&](size_t i) { return std::vector{mesh.named_points[i].point}; }},
-      {1, kLines[order], mesh.line_curve, [&](size_t i) { return nodes_ends_first(mesh, i); },
-       chosen_lines(mesh, curves)},
-      {2, kTriangle, mesh.triangle_region,
-       [&](size_t i) { return std::vector(mesh.triangles[i].begin(), mesh.triangles[i].end()); }},
-      {2, eight ? kEightNodes : kQuads[order], mesh.quad_region,
-       [&](size_t i) { return nodes_of_quad(mesh, i, places); }},
-      {3, kHexahedron, mesh.hex_volume,
-       [&](size_t i) { return std::vector(mesh.hexahedra[i].begin(), mesh.hexahedra[i].end()); }}};
-  visit(make_blocks(mesh.points, {&point_entities, &mesh.curves, &mesh.regions, &mesh.volumes}, kinds));
+void with_blocks(const Mesh& mesh, MshCurves curves, const Visit& visit) {
+  const std::vector<Entity> points = entities_of(mesh.named_points);
+  std::vector<int> of_points(points.size());
+  std::iota(of_points.begin(), of_points.end(), 0);
+  std::vector<CellBlock> all = cell_blocks(mesh);
+  all.insert(all.begin(), {CellShape::kPoint, 0, 1, 0, &of_points, &points,
+                           [&](size_t i) { return std::vector{mesh.named_points[i].point}; }});
+  visit(make_blocks(mesh.points, all, chosen_lines(mesh, curves)));
 }
 
 std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
   std::vector<std::string> lines;
-  with_blocks(mesh, MshCurves::kNamed, QuadNodes::kAll, [&](std::vector<MshBlock> blocks) {
+  with_blocks(mesh, MshCurves::kNamed, [&](std::vector<MshBlock> blocks) {
     std::map<std::pair<int, int>, std::string> label_of;
     for (const auto& [dim, tag, label] : number_groups(blocks)) label_of[{dim, tag}] = label;
     std::set<UniqueLabels::Key> told;
@@ -400,16 +375,15 @@ std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
 
 }  // namespace
 
-void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options, QuadNodes nodes,
+void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options,
                const std::vector<MeshField>& fields) {
-  with_blocks(mesh, options.curves, nodes, [&](std::vector<MshBlock> blocks) {
+  with_blocks(mesh, options.curves, [&](std::vector<MshBlock> blocks) {
     write_blocks(stream, options.binary, mesh, std::move(blocks), fields);
   });
 }
 
-void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options,
-               QuadNodes nodes) {
-  write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options, nodes); });
+void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
+  write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options); });
 }
 
 MeshFormat msh_format() {

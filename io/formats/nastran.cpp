@@ -5,8 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/mesh/element_nodes.h"
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 #include "io/formats/deck.h"
 #include "io/mesh_formats.h"
 #include "io/text_writer.h"
@@ -60,34 +59,25 @@ void write_names(TextWriter& out, const Mesh& mesh, const std::vector<MeshGroup>
 /// Writes bulk data: CHEXA, or CQUAD4, CQUAD8 and CTRIA3, with a property for each name of elements. SETs
 /// hold the nodes of other names; comments tell the names.
 void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
+  using enum CellShape;
+  constexpr CellCode<const char*> kCards[] = {
+      {kTriangle, 3, "CTRIA3"}, {kQuad, 4, "CQUAD4"}, {kQuad, 8, "CQUAD8"}, {kHexahedron, 8, "CHEXA"}};
   require_numbers(path, "Nastran", mesh, kMostNastran);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
-  const bool is_solid = !mesh.hexahedra.empty();
-  const std::vector<int> property = is_solid
-                                        ? group_numbers(groups, 3, mesh.hexahedra.size())
-                                        : group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
-  std::vector<char> inside(mesh.points.size(), 0);
-  for (std::size_t q = 0; q < mesh.quads.size() && mesh.order == 2; ++q)
-    inside[nodes_of_quad(mesh, q)[4]] = 1;
+  const std::vector<int> property = group_numbers(mesh, groups, dimension_of(mesh));
+  const std::vector<char> left_out = are_in_middles(mesh);
   write_text_file(path, [&](TextWriter& out) {
     write_names(out, mesh, groups);
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-      if (inside[i]) continue;
-      write_grid(out, i, mesh.points[i]);
-    }
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      if (!left_out[i]) write_grid(out, i, mesh.points[i]);
     std::size_t n = 0;
-    const auto write = [&](const char* name, const auto& nodes) {
-      std::vector<std::size_t> numbers{n + 1, static_cast<std::size_t>(property[n])};
-      for (const int v : nodes) numbers.push_back(static_cast<std::size_t>(v) + 1);
-      write_card(out, name, numbers);
-      ++n;
-    };
-    for (const auto& v : mesh.hexahedra) write("CHEXA", v);
-    for (const auto& v : mesh.triangles) write("CTRIA3", v);
-    for (std::size_t q = 0; q < mesh.quads.size() && !is_solid; ++q) {
-      std::vector<int> nodes = nodes_of_quad(mesh, q, gmsh_places(mesh.order));
-      if (mesh.order == 2) nodes.pop_back();
-      write(mesh.order == 2 ? "CQUAD8" : "CQUAD4", nodes);
+    for (const CellBlock& cells : cell_blocks(mesh, places_on_sides(mesh.order))) {
+      if (cells.dim != dimension_of(mesh)) continue;
+      for (std::size_t i = 0; i < cells.size(); ++i, ++n) {
+        std::vector<std::size_t> numbers{n + 1, static_cast<std::size_t>(property[n])};
+        for (const int v : cells.nodes(i)) numbers.push_back(static_cast<std::size_t>(v) + 1);
+        write_card(out, code_of(cells, kCards), numbers);
+      }
     }
     out << "ENDDATA\n";
   });

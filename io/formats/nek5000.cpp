@@ -6,7 +6,6 @@
 
 #include "geometry/mesh/element_nodes.h"
 #include "io/boundary_chains.h"
-#include "io/entity_names.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 

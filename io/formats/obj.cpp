@@ -1,7 +1,7 @@
 
 #include <map>
 
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 #include "io/face_reader.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
@@ -124,19 +124,6 @@ void write_group(TextWriter& out, const Entity& entity, const UniqueLabels& labe
   out << '\n';
 }
 
-/// Elements in their order, a group line before each change of entity.
-template <size_t N>
-void write_elements(TextWriter& out, char keyword, const std::vector<std::array<int, N>>& elements,
-                    const std::vector<int>& entity_of, const std::vector<Entity>& entities,
-                    const UniqueLabels& labels) {
-  for (size_t i = 0; i < elements.size(); ++i) {
-    if (i == 0 || entity_of[i] != entity_of[i - 1]) write_group(out, entities[entity_of[i]], labels);
-    out << keyword;
-    for (const int v : elements[i]) out << ' ' << v + 1;
-    out << '\n';
-  }
-}
-
 /// Reads Wavefront OBJ: v, l, f; g names the region of the faces and the curve of the lines after it. Faces
 /// of more than four vertices are split into triangles. In a file of the plane all points have two
 /// coordinates.
@@ -153,9 +140,14 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
       out << "# group " << label << " is \"" << one_line(key.second) << "\"\n";
     if (!mesh.unit.empty()) out << "# lengths in " << mesh.unit << '\n';
     for (const Vec3& p : mesh.points) out << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
-    write_elements(out, 'l', mesh.lines, mesh.line_curve, mesh.curves, labels);
-    write_elements(out, 'f', mesh.triangles, mesh.triangle_region, mesh.regions, labels);
-    write_elements(out, 'f', mesh.quads, mesh.quad_region, mesh.regions, labels);
+    for (const CellBlock& cells : cell_blocks(mesh))
+      for (size_t i = 0; i < cells.size(); ++i) {
+        const std::vector<int>& entity_of = *cells.entity_of;
+        if (i == 0 || entity_of[i] != entity_of[i - 1]) write_group(out, cells.entity(i), labels);
+        out << (cells.dim == 1 ? 'l' : 'f');
+        for (const int v : cells.nodes(i)) out << ' ' << v + 1;
+        out << '\n';
+      }
   });
 }
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "io/boundary_chains.h"
-#include "io/entity_names.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"

@@ -2,7 +2,6 @@
 
 #include "base/text.h"
 #include "io/boundary_chains.h"
-#include "io/entity_names.h"
 #include "io/formats/numbered_mesh.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
@@ -34,7 +33,7 @@ std::vector<std::pair<std::string, std::vector<int>>> node_strings(const Mesh& m
 void write_sms(const std::filesystem::path& path, const Mesh& mesh) {
   require_terrain(path, "SMS's .2dm", mesh);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
-  const std::vector<int> material = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
+  const std::vector<int> material = group_numbers(mesh, groups, 2);
   const auto strings = node_strings(mesh, groups);
   std::vector<UniqueLabels::Key> keys;
   for (const auto& [name, nodes] : strings) keys.emplace_back(static_cast<int>(keys.size()), name);

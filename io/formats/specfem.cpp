@@ -5,7 +5,6 @@
 
 #include "geometry/mesh/element_nodes.h"
 #include "io/boundary_chains.h"
-#include "io/entity_names.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -56,7 +55,7 @@ void write_specfem(const std::filesystem::path& path, const Mesh& mesh) {
     for (const Vec3& p : mesh.points) out << p.x << ' ' << p.y << '\n';
   });
   add("materials_file", [&](TextWriter& out) {
-    for (const int number : group_numbers(groups, 2, mesh.quads.size())) out << number << '\n';
+    for (const int number : group_numbers(mesh, groups, 2)) out << number << '\n';
   });
   add("free_surface_file", [&](TextWriter& out) {
     out << free.size() << '\n';

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -15,9 +15,6 @@ namespace {
 
 /// Names have at most 40 characters.
 constexpr UniqueLabels::Rules kUnvLabels{word_label, false, 30};
-
-/// Of elements, in dataset 2412.
-enum UnvKind { kUnvRod = 11, kUnvTriangle = 91, kUnvQuad = 94, kUnvBrick = 115 };
 
 /// A file that is being written: nodes, elements and groups, each a dataset of lines of fixed width.
 class UnvWriter {
@@ -33,18 +30,17 @@ class UnvWriter {
     begin(2412);
   }
 
-  /// `before`, `behind`: other elements of the dimension.
-  template <class Elements>
-  void write_elements(int dim, UnvKind kind, const Elements& elements, std::size_t before = 0,
-                      std::size_t behind = 0) {
-    if (before == 0) first_[dim] = n_;
-    const std::vector<int> property = group_numbers(groups_, dim, before + elements.size() + behind);
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-      write_numbers(
-          {static_cast<int>(++n_), kind, property[before + i], 1, 7, static_cast<int>(elements[i].size())});
-      if (kind == kUnvRod) write_numbers({0, 1, 1});
-      std::vector<int> nodes;
-      for (const int v : elements[i]) nodes.push_back(v + 1);
+  void write_elements(const CellBlock& cells, const std::vector<int>& property) {
+    using enum CellShape;
+    constexpr CellCode<int> kTypes[] = {
+        {kLine, 2, 11}, {kTriangle, 3, 91}, {kQuad, 4, 94}, {kHexahedron, 8, 115}};
+    if (cells.first == 0) first_[cells.dim] = n_;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      write_numbers({static_cast<int>(++n_), code_of(cells, kTypes), property[cells.first + i], 1, 7,
+                     static_cast<int>(cells.n_nodes)});
+      if (cells.shape == kLine) write_numbers({0, 1, 1});
+      std::vector<int> nodes = cells.nodes(i);
+      for (int& v : nodes) ++v;
       write_numbers(nodes);
     }
   }
@@ -89,10 +85,10 @@ void write_unv(const std::filesystem::path& path, const Mesh& mesh) {
   write_text_file(path, [&](TextWriter& text) {
     UnvWriter out(text, groups);
     out.write_nodes(mesh.points);
-    out.write_elements(3, kUnvBrick, mesh.hexahedra);
-    out.write_elements(2, kUnvTriangle, mesh.triangles, 0, mesh.quads.size());
-    out.write_elements(2, kUnvQuad, mesh.quads, mesh.triangles.size());
-    out.write_elements(1, kUnvRod, mesh.lines);
+    const std::vector<CellBlock> blocks = cell_blocks(mesh);
+    for (const int dim : {3, 2, 1})
+      for (const CellBlock& cells : blocks)
+        if (cells.dim == dim) out.write_elements(cells, group_numbers(mesh, groups, dim));
     out.write_groups();
   });
 }

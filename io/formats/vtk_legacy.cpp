@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
-#include <array>
-
 #include "geometry/mesh/element_nodes.h"
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_writer.h"
@@ -54,10 +52,12 @@ std::vector<std::string> renamed_in_vtk(const Mesh& mesh) {
 
 /// VTK's older format, as text. Cells have tags as in VTU; names are field arrays "region_NAME" of tags.
 void write_vtk(const std::filesystem::path& path, const Mesh& mesh) {
+  using enum CellShape;
   // VTK's cell types: straight, quadratic and biquadratic, Lagrange.
-  constexpr std::array kLines = {3, 21, 68, 68}, kQuads = {9, 28, 70, 70};
-  constexpr int kTriangle = 5;
-  const std::vector<int> places = mesh.order == 2 ? gmsh_places(2) : vtk_places(mesh.order);
+  constexpr CellCode<int> kTypes[] = {{kLine, 2, 3},  {kLine, 3, 21},    {kLine, 4, 68},
+                                      {kLine, 5, 68}, {kTriangle, 3, 5}, {kQuad, 4, 9},
+                                      {kQuad, 9, 28}, {kQuad, 16, 70},   {kQuad, 25, 70}};
+  const std::vector<CellBlock> blocks = cell_blocks(mesh, vtk_places(mesh.order));
   write_text_file(path, [&](TextWriter& out) {
     out << "# vtk DataFile Version 3.0\n" << kVtkTitle << "\nASCII\nDATASET UNSTRUCTURED_GRID\n";
     std::vector<std::string> arrays;
@@ -69,30 +69,25 @@ void write_vtk(const std::filesystem::path& path, const Mesh& mesh) {
     }
     out << "POINTS " << mesh.points.size() << " double\n";
     for (const Vec3& p : mesh.points) out << p.x << ' ' << p.y << ' ' << p.z << '\n';
-    const size_t n = mesh.lines.size() + mesh.triangles.size() + mesh.quads.size();
-    const size_t row = static_cast<size_t>(mesh.order) + 1;
-    out << "CELLS " << n << ' '
-        << n + row * mesh.lines.size() + 3 * mesh.triangles.size() + row * row * mesh.quads.size() << '\n';
-    const auto write = [&](const auto& nodes) {
-      out << nodes.size();
-      for (const int v : nodes) out << ' ' << v;
-      out << '\n';
+    size_t n = 0, n_numbers = 0;
+    for (const CellBlock& cells : blocks) n += cells.size(), n_numbers += cells.size() * (1 + cells.n_nodes);
+    // What `write` writes of each cell.
+    const auto each = [&](const auto& write) {
+      for (const CellBlock& cells : blocks)
+        for (size_t i = 0; i < cells.size(); ++i) write(cells, i), out << '\n';
     };
-    for (size_t i = 0; i < mesh.lines.size(); ++i) write(nodes_ends_first(mesh, i));
-    for (const auto& v : mesh.triangles) write(v);
-    for (size_t i = 0; i < mesh.quads.size(); ++i) write(nodes_of_quad(mesh, i, places));
+    out << "CELLS " << n << ' ' << n_numbers << '\n';
+    each([&](const CellBlock& cells, size_t i) {
+      out << cells.n_nodes;
+      for (const int v : cells.nodes(i)) out << ' ' << v;
+    });
     out << "CELL_TYPES " << n << '\n';
-    const size_t order = static_cast<size_t>(mesh.order) - 1;
-    for (size_t i = 0; i < mesh.lines.size(); ++i) out << kLines[order] << '\n';
-    for (size_t i = 0; i < mesh.triangles.size(); ++i) out << kTriangle << '\n';
-    for (size_t i = 0; i < mesh.quads.size(); ++i) out << kQuads[order] << '\n';
-    out << "CELL_DATA " << n << "\nSCALARS curve int 1\nLOOKUP_TABLE default\n";
-    for (const int c : mesh.line_curve) out << mesh.curves[c].tag << '\n';
-    for (size_t i = mesh.lines.size(); i < n; ++i) out << "0\n";
-    out << "SCALARS region int 1\nLOOKUP_TABLE default\n";
-    for (size_t i = 0; i < mesh.lines.size(); ++i) out << "0\n";
-    for (const auto* regions : {&mesh.triangle_region, &mesh.quad_region})
-      for (const int r : *regions) out << mesh.regions[r].tag << '\n';
+    each([&](const CellBlock& cells, size_t) { out << code_of(cells, kTypes); });
+    out << "CELL_DATA " << n << '\n';
+    for (const int dim : {1, 2}) {
+      out << "SCALARS " << (dim == 1 ? "curve" : "region") << " int 1\nLOOKUP_TABLE default\n";
+      each([&](const CellBlock& cells, size_t i) { out << (cells.dim == dim ? cells.entity(i).tag : 0); });
+    }
   });
 }
 

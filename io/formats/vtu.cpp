@@ -5,14 +5,13 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <string_view>
 
 #include "delquad/hexahedra.h"
 #include "geometry/mesh/element_nodes.h"
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 #include "io/mesh_formats.h"
 #include "io/text_writer.h"
 #include "io/xml.h"
@@ -28,19 +27,16 @@ struct VtuContent {
   const std::vector<Vec3>& points;
   const std::string& unit;  ///< empty: not known
   /// Kind of entity -> numbers of each name, which become arrays "KIND NAME".
-  std::vector<std::pair<std::string, NumbersOfNames>> names;
-  std::vector<std::pair<std::string, std::vector<std::int32_t>>> tags;  ///< of cells; 0: none
-  std::vector<MeshField> fields = {};                                   ///< of points, and of all cells
+  std::vector<std::pair<std::string, NumbersOfNames>> names = {};
+  std::vector<std::pair<std::string, std::vector<std::int32_t>>> tags = {};  ///< of cells; 0: none
+  std::vector<MeshField> fields = {};                                        ///< of points, and of all cells
   std::vector<std::int64_t> connectivity = {}, offsets = {};
   std::vector<std::uint8_t> types = {};
 
-  /// `numbers`: one of each of `tags`.
-  template <class Nodes>
-  void add(const Nodes& nodes, std::uint8_t type, std::initializer_list<int> numbers) {
+  void add(const std::vector<int>& nodes, std::uint8_t type) {
     connectivity.insert(connectivity.end(), nodes.begin(), nodes.end());
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
     types.push_back(type);
-    for (std::size_t k = 0; k < tags.size(); ++k) tags[k].second.push_back(numbers.begin()[k]);
   }
 };
 
@@ -109,61 +105,48 @@ NumbersOfNames points_of_names(const Mesh& mesh) {
   return points;
 }
 
-/// Hexahedra first, then quads and lines, with the numbers of their volumes, faces and curves (arrays
-/// `volume`, `face`, `curve`; 0: none) and of hexahedra the least scaled Jacobian.
-void write_hex_vtu(const std::filesystem::path& path, const Mesh& mesh) {
-  constexpr std::uint8_t kLine = 3, kQuad = 9, kHexahedron = 12;  // VTK's cell types
-  VtuContent content{mesh.points,
-                     mesh.unit,
-                     {{"volume", tags_of_names(mesh.volumes)},
-                      {"face", tags_of_names(mesh.regions)},
-                      {"curve", tags_of_names(mesh.curves)}},
-                     {{"volume", {}}, {"face", {}}, {"curve", {}}}};
-  for (std::size_t i = 0; i < mesh.hexahedra.size(); ++i)
-    content.add(mesh.hexahedra[i], kHexahedron, {mesh.volumes[mesh.hex_volume[i]].tag, 0, 0});
-  for (std::size_t i = 0; i < mesh.quads.size(); ++i)
-    content.add(mesh.quads[i], kQuad, {0, mesh.regions[mesh.quad_region[i]].tag, 0});
-  for (std::size_t i = 0; i < mesh.lines.size(); ++i)
-    content.add(mesh.lines[i], kLine, {0, 0, mesh.curves[mesh.line_curve[i]].tag});
-  std::vector<double> jacobian = measure(mesh).jacobian;
-  jacobian.resize(content.types.size(), std::numeric_limits<double>::quiet_NaN());
-  content.fields.push_back({"scaled Jacobian", false, 1, std::move(jacobian)});
-  write_text_file(path, [&](TextWriter& out) { write_content(out, content); });
-}
-
-void write_with_eta(const std::filesystem::path& path, const Mesh& mesh, const MshOptions&, QuadNodes nodes) {
-  if (!mesh.hexahedra.empty()) return write_hex_vtu(path, mesh);
-  std::vector<double> eta(mesh.lines.size() + mesh.triangles.size(),
-                          std::numeric_limits<double>::quiet_NaN());
+void write_with_quality(const std::filesystem::path& path, const Mesh& mesh, const MshOptions&) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (!mesh.hexahedra.empty()) {
+    std::vector<double> jacobian = measure(mesh).jacobian;
+    jacobian.resize(mesh.hexahedra.size() + mesh.quads.size() + mesh.lines.size(), kNone);
+    return write_vtu(path, mesh, {{"scaled Jacobian", jacobian}});
+  }
+  std::vector<double> eta(mesh.lines.size() + mesh.triangles.size(), kNone);
   const std::vector<double> of_quads = quad_etas(mesh);
   eta.insert(eta.end(), of_quads.begin(), of_quads.end());
-  write_vtu(path, mesh, {{"eta", eta}}, nodes);
+  write_vtu(path, mesh, {{"eta", eta}});
 }
 
 }  // namespace
 
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
-               const std::map<std::string, std::vector<double>>& cell_data, QuadNodes nodes,
+               const std::map<std::string, std::vector<double>>& cell_data,
                const std::vector<MeshField>& fields) {
+  using enum CellShape;
   // VTK's cell types: straight, quadratic and biquadratic, Lagrange.
-  constexpr std::array<std::uint8_t, 4> kLines = {3, 21, 68, 68}, kQuads = {9, 28, 70, 70};
-  constexpr std::uint8_t kTriangle = 5, kEightNodes = 23;
-  const size_t order = static_cast<size_t>(mesh.order) - 1;
-  VtuContent content{mesh.points,
-                     mesh.unit,
-                     {{"curve", tags_of_names(mesh.curves)},
-                      {"region", tags_of_names(mesh.regions)},
-                      {"point", points_of_names(mesh)}},
-                     {{"curve", {}}, {"region", {}}}};
-  for (size_t i = 0; i < mesh.lines.size(); ++i)
-    content.add(nodes_ends_first(mesh, i), kLines[order], {mesh.curves[mesh.line_curve[i]].tag, 0});
-  for (size_t i = 0; i < mesh.triangles.size(); ++i)
-    content.add(mesh.triangles[i], kTriangle, {0, mesh.regions[mesh.triangle_region[i]].tag});
-  std::vector<int> places = vtk_places(mesh.order);
-  if (nodes == QuadNodes::kNoMiddle) places.pop_back();
-  const std::uint8_t of_quads = nodes == QuadNodes::kNoMiddle ? kEightNodes : kQuads[order];
-  for (size_t i = 0; i < mesh.quads.size(); ++i)
-    content.add(nodes_of_quad(mesh, i, places), of_quads, {0, mesh.regions[mesh.quad_region[i]].tag});
+  constexpr CellCode<std::uint8_t> kTypes[] = {
+      {kLine, 2, 3},  {kLine, 3, 21}, {kLine, 4, 68},  {kLine, 5, 68},  {kTriangle, 3, 5},   {kQuad, 4, 9},
+      {kQuad, 8, 23}, {kQuad, 9, 28}, {kQuad, 16, 70}, {kQuad, 25, 70}, {kHexahedron, 8, 12}};
+  const bool is_solid = !mesh.hexahedra.empty();
+  const std::array<const std::vector<Entity>*, 4> entities = {nullptr, &mesh.curves, &mesh.regions,
+                                                              &mesh.volumes};
+  VtuContent content{mesh.points, mesh.unit};
+  const std::vector<int> dims = is_solid ? std::vector{3, 2, 1} : std::vector{1, 2};
+  for (const int dim : dims) {
+    const char* const kind = dim == 1 ? "curve" : dim == 3 ? "volume" : is_solid ? "face" : "region";
+    content.names.emplace_back(kind, tags_of_names(*entities[dim]));
+    content.tags.push_back({kind, {}});
+  }
+  if (!is_solid) content.names.emplace_back("point", points_of_names(mesh));
+  const std::vector<CellBlock> blocks = cell_blocks(mesh, vtk_places(mesh.order));
+  for (const int dim : dims)
+    for (const CellBlock& cells : blocks)
+      for (size_t i = 0; i < cells.size() && cells.dim == dim; ++i) {
+        content.add(cells.nodes(i), code_of(cells, kTypes));
+        for (size_t k = 0; k < dims.size(); ++k)
+          content.tags[k].second.push_back(dims[k] == dim ? cells.entity(i).tag : 0);
+      }
   for (const auto& [name, values] : cell_data) {
     if (values.size() != content.types.size()) {
       throw std::invalid_argument("cell data '" + name + "': " + std::to_string(values.size()) +
@@ -184,7 +167,7 @@ MeshFormat vtu_format() {
   return {.extensions = {".vtu"},
           .description = "VTK XML, ParaView",
           .read = read_by<read_vtu>,
-          .write = write_with_eta,
+          .write = write_with_quality,
           .most_order = kMostOrder,
           .has_hexahedra = true,
           .eight_nodes = EightNodes::kWhenAsked,

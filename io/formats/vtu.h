@@ -14,11 +14,12 @@ namespace delquad {
 /// appended (raw, too), plain or compressed by zlib. Curves, regions and names are those of write_vtu();
 /// files of other programs have one curve and one region.
 Mesh read_vtu(const std::filesystem::path& path);
-/// VTK XML (base64). Each cell has the tag of its curve or its region (arrays `curve` and `region`; 0: none),
-/// and one value per cell (lines, then triangles, then quads) for each field in `cell_data`, NaN where there
-/// is none, as lines have of `fields`. Names are field data: an array "curve NAME" or "region NAME" lists the
-/// tags. A known unit of lengths is a comment, here and in OBJ, Abaqus input and Medit text.
+/// Writes VTK XML (base64). Cells are lines, then triangles, then quads; with hexahedra they are these, then
+/// quads, then lines. Arrays of tags tell the curve and the region of each cell, or the volume, face and curve
+/// beside hexahedra (0: none). A cell has one value for each field in `cell_data`. Lines have no
+/// values of `fields` (NaN). Names are field data: an array "curve NAME" or "region NAME" lists the tags. A
+/// known unit of lengths is a comment, here and in OBJ, Abaqus input and Medit text.
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data = {},
-               QuadNodes nodes = QuadNodes::kAll, const std::vector<MeshField>& fields = {});
+               const std::vector<MeshField>& fields = {});
 }  // namespace delquad

@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh/element_nodes.h"
-#include "io/entity_names.h"
-#include "io/hex_sides.h"
+#include "io/cell_view.h"
 #include "io/library_file.h"
 #include "io/library_format.h"
 #include "io/mesh_io.h"
@@ -19,28 +17,16 @@ namespace {
 
 constexpr int kExodusNameLength = 80;
 
-/// Elements of one shape and name.
-struct ExodusBlock {
-  std::string name, type;
-  std::vector<int> elements;
-  std::size_t nodes_each;
-};
-
 /// A file that is being written.
 class ExodusFile {
  public:
   ExodusFile(const std::filesystem::path& path, const std::filesystem::path& temporary) : path_(path) {
     int real_in_memory = sizeof(double), real_in_file = sizeof(double);
     ex_opts(0);  // errors are told by what is returned
-    file_ = ex_create(temporary.c_str(), EX_CLOBBER | EX_LARGE_MODEL, &real_in_memory, &real_in_file);
+    file_.id = ex_create(temporary.c_str(), EX_CLOBBER | EX_LARGE_MODEL, &real_in_memory, &real_in_file);
     check(file_ >= 0, "the file");
     ex_set_max_name_length(file_, kExodusNameLength);
   }
-  ~ExodusFile() {
-    if (file_ >= 0) ex_close(file_);
-  }
-  ExodusFile(const ExodusFile&) = delete;
-  ExodusFile& operator=(const ExodusFile&) = delete;
 
   void put_head(const char* title, int dim, const std::vector<Vec3>& points, std::size_t n_elements,
                 std::size_t n_blocks, int64_t n_node_sets, int64_t n_side_sets) {
@@ -78,9 +64,7 @@ class ExodusFile {
     put_names(EX_ELEM_BLOCK, block_names_);
     put_names(EX_NODE_SET, node_sets_);
     put_names(EX_SIDE_SET, side_sets_);
-    const int closed = ex_close(file_);
-    file_ = -1;
-    check(closed >= 0, "the end of the file");
+    check(file_.close_now() >= 0, "the end of the file");
   }
 
  private:
@@ -105,8 +89,15 @@ class ExodusFile {
   }
 
   const std::filesystem::path& path_;
-  int file_ = -1;
+  OpenFile<int, ex_close> file_;
   std::vector<std::string> block_names_, node_sets_, side_sets_;
+};
+
+/// The elements of one name in a block of cells.
+struct ExodusBlock {
+  std::string name;
+  const CellBlock* cells;
+  std::vector<std::size_t> items;
 };
 
 class ExodusWriter {
@@ -114,8 +105,10 @@ class ExodusWriter {
   ExodusWriter(ExodusFile& file, const Mesh& mesh)
       : file_(file),
         mesh_(mesh),
+        dim_(dimension_of(mesh)),
         groups_(mesh_groups(mesh, kExodusLabels)),
-        dim_(mesh.hexahedra.empty() ? 2 : 3) {}
+        cells_(cell_blocks(mesh)),
+        number_of_(n_cells(mesh, dim_)) {}
 
   void write() {
     make_blocks();
@@ -126,87 +119,60 @@ class ExodusWriter {
                    dim_ == 2 && is_planar(mesh_) ? 2 : 3, mesh_.points, number_of_.size(), blocks_.size(),
                    n_sets(dim_ - 1), n_sets(dim_ - 1) - n_sets(dim_ - 2));
     write_blocks();
-    write_sets(sorted_half_edges(mesh_), sorted_hex_sides(mesh_));
+    write_sets();
     file_.close();
   }
 
  private:
   void make_blocks() {
-    const int n_triangles = static_cast<int>(mesh_.triangles.size());
-    for (const MeshGroup& group : groups_) {
-      if (group.dim != dim_) continue;
-      if (dim_ == 3) {
-        blocks_.push_back({group.label, "HEX8", group.items, 8U});
-        continue;
-      }
-      for (const bool triangles : {true, false}) {
-        ExodusBlock block{group.label,
-                          triangles          ? "TRI3"
-                          : mesh_.order == 2 ? "QUAD9"
-                                             : "QUAD4",
-                          {},
-                          triangles          ? 3U
-                          : mesh_.order == 2 ? 9U
-                                             : 4U};
-        for (const int e : group.items)
-          if ((e < n_triangles) == triangles) block.elements.push_back(e);
-        if (block.elements.empty()) continue;
+    int n = 0;
+    for (const MeshGroup& group : groups_)
+      for (const CellBlock& cells : cells_) {
+        if (group.dim != dim_) continue;
+        ExodusBlock block{group.label, &cells, items_in_block(group, cells)};
+        if (block.items.empty()) continue;
         if (!blocks_.empty() && blocks_.back().name == block.name) block.name += "_quads";
+        for (const std::size_t i : block.items) number_of_[cells.first + i] = ++n;
         blocks_.push_back(std::move(block));
       }
-    }
-    number_of_.resize(dim_ == 3 ? mesh_.hexahedra.size() : mesh_.triangles.size() + mesh_.quads.size());
-    int n = 0;
-    for (const ExodusBlock& block : blocks_)
-      for (const int e : block.elements) number_of_[e] = ++n;
   }
 
   void write_blocks() {
-    const std::vector<int> places = gmsh_places(mesh_.order);
-    const auto n_triangles = mesh_.triangles.size();
+    using enum CellShape;
+    constexpr CellCode<const char*> kTypes[] = {
+        {kTriangle, 3, "TRI3"}, {kQuad, 4, "QUAD4"}, {kQuad, 9, "QUAD9"}, {kHexahedron, 8, "HEX8"}};
     for (const ExodusBlock& block : blocks_) {
       std::vector<int> nodes;
-      const auto add = [&](const auto& of_element) {
-        for (const int v : of_element) nodes.push_back(v + 1);
-      };
-      for (const int e : block.elements)
-        if (dim_ == 3)
-          add(mesh_.hexahedra[e]);
-        else if (static_cast<std::size_t>(e) < n_triangles)
-          add(mesh_.triangles[e]);
-        else
-          add(nodes_of_quad(mesh_, static_cast<std::size_t>(e) - n_triangles, places));
-      file_.put_block(block.name, block.type.c_str(), block.nodes_each, nodes);
+      for (const std::size_t i : block.items)
+        for (const int v : block.cells->nodes(i)) nodes.push_back(v + 1);
+      file_.put_block(block.name, code_of(*block.cells, kTypes), block.cells->n_nodes, nodes);
     }
   }
 
   /// Node sets of all below the highest dimension, side sets of those next to it.
-  void write_sets(std::span<const HalfEdge> sides, const std::vector<HexSide>& hex_sides) {
+  void write_sets() {
     constexpr std::array kSideOf = {5, 6, 1, 2, 3, 4};  // of Abaqus's S1, S2, ...
+    const CellSides sides(mesh_);
     for (const MeshGroup& group : groups_) {
       if (group.dim == dim_) continue;
       file_.put_node_set(group.label, nodes_of_group(mesh_, group));
       if (group.dim < dim_ - 1) continue;
       std::vector<int> elements, which;
-      const auto add = [&](int element, int side) {
-        elements.push_back(number_of_[element]);
-        which.push_back(side);
-      };
       for (const int i : group.items)
-        if (dim_ == 3)
-          for (const HexSide& side : sides_at_quad(mesh_, hex_sides, i))
-            add(side.hexahedron, kSideOf[side.side - 1]);
-        else
-          for (const ElementSide& side : sides_at_line(mesh_, sides, i)) add(side.element, side.side + 1);
+        for (const auto& [element, side] : sides.at(i)) {
+          elements.push_back(number_of_[element]);
+          which.push_back(dim_ == 3 ? kSideOf[side] : side + 1);
+        }
       file_.put_side_set(group.label, elements, which);
     }
   }
 
   ExodusFile& file_;
   const Mesh& mesh_;
-  const std::vector<MeshGroup> groups_;
   const int dim_;  ///< of the elements
-  std::vector<ExodusBlock> blocks_;
+  const std::vector<MeshGroup> groups_;
+  const std::vector<CellBlock> cells_;
+  std::vector<ExodusBlock> blocks_ = {};
   std::vector<int> number_of_;  ///< in the file, of each element
 };
 

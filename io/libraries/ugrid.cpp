@@ -10,7 +10,6 @@
 #include "base/located.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "io/boundary_chains.h"
-#include "io/entity_names.h"
 #include "io/face_reader.h"
 #include "io/library_file.h"
 #include "io/library_format.h"
@@ -28,13 +27,8 @@ using NetcdfValues = std::variant<std::vector<int>, std::vector<double>>;
 class NetcdfFile {
  public:
   NetcdfFile(const std::filesystem::path& path, const std::filesystem::path& temporary) : path_(path) {
-    check(nc_create(temporary.c_str(), NC_CLOBBER | NC_64BIT_OFFSET, &file_));
+    check(nc_create(temporary.c_str(), NC_CLOBBER | NC_64BIT_OFFSET, &file_.id));
   }
-  ~NetcdfFile() {
-    if (file_ >= 0) nc_close(file_);
-  }
-  NetcdfFile(const NetcdfFile&) = delete;
-  NetcdfFile& operator=(const NetcdfFile&) = delete;
 
   int dimension(const char* name, std::size_t n) {
     int id = -1;
@@ -61,7 +55,7 @@ class NetcdfFile {
     check(nc_enddef(file_));
     for (const auto& [variable, values] : values_)
       check(std::visit([&](const auto& all) { return nc_put_var(file_, variable, all.data()); }, values));
-    check(nc_close(std::exchange(file_, -1)));
+    check(file_.close_now());
   }
 
  private:
@@ -70,7 +64,7 @@ class NetcdfFile {
     require_written(status == NC_NOERR, path_, "the netCDF library", "it");
   }
   const std::filesystem::path& path_;
-  int file_ = -1;
+  OpenFile<int, nc_close> file_;
   std::vector<std::pair<int, NetcdfValues>> values_;
 };
 
@@ -153,22 +147,17 @@ void put_ugrid(NetcdfFile& file, const Mesh& mesh) {
                                  std::move(numbers));
     file.attribute(id, "flag_values", values);
   };
-  names(2, "mesh2d_face_region", "face", faces, group_numbers(groups, 2, n_faces));
+  names(2, "mesh2d_face_region", "face", faces, group_numbers(mesh, groups, 2));
   names(1, "mesh2d_edge_curve", "edge", edges, topology.edge_group);
-  names(0, "mesh2d_node_point", "node", nodes, group_numbers(groups, 0, mesh.points.size()));
+  names(0, "mesh2d_node_point", "node", nodes, group_numbers(mesh, groups, 0));
 }
 
 /// What a netCDF file holds, as text and numbers.
 class NetcdfInput {
  public:
   explicit NetcdfInput(const std::filesystem::path& path) : path_(path) {
-    check(nc_open(path.c_str(), NC_NOWRITE, &file_), "the file");
+    check(nc_open(path.c_str(), NC_NOWRITE, &file_.id), "the file");
   }
-  ~NetcdfInput() {
-    if (file_ >= 0) nc_close(file_);
-  }
-  NetcdfInput(const NetcdfInput&) = delete;
-  NetcdfInput& operator=(const NetcdfInput&) = delete;
 
   int variables() const {
     int n = 0;
@@ -218,7 +207,7 @@ class NetcdfInput {
     if (status != NC_NOERR) refuse("{}: {} cannot be read: {}", path_.string(), what, nc_strerror(status));
   }
   const std::filesystem::path& path_;
-  int file_ = -1;
+  OpenFile<int, nc_close> file_;
 };
 
 /// The first two-dimensional mesh of a UGRID file [UGRID 1.0]: nodes and faces; names are left out.

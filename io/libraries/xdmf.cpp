@@ -1,7 +1,7 @@
+#include <array>
 #include <utility>
 
-#include "geometry/mesh/element_nodes.h"
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 #include "io/library_file.h"
 #include "io/library_format.h"
 #include "io/mesh_io.h"
@@ -19,14 +19,9 @@ class Hdf5File {
  public:
   Hdf5File(const std::filesystem::path& path, const std::filesystem::path& temporary) : path_(path) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are told by what is returned
-    file_ = H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    file_.id = H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     check(file_ >= 0);
   }
-  ~Hdf5File() {
-    if (file_ >= 0) H5Fclose(file_);
-  }
-  Hdf5File(const Hdf5File&) = delete;
-  Hdf5File& operator=(const Hdf5File&) = delete;
 
   void put(const char* name, hsize_t rows, hsize_t columns, const void* values, bool are_reals) {
     const hsize_t sizes[2] = {rows, columns};
@@ -44,13 +39,13 @@ class Hdf5File {
   }
   void close() {
     check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0);  // what closing cannot write it does not tell
-    check(H5Fclose(std::exchange(file_, -1)) >= 0);
+    check(file_.close_now() >= 0);
   }
 
  private:
   void check(bool done) const { require_written(done, path_, "the HDF5 library", "it"); }
   const std::filesystem::path& path_;
-  hid_t file_ = -1;
+  OpenFile<hid_t, H5Fclose> file_;
 };
 
 /// Elements of one kind: their nodes, and the numbers of their names.
@@ -61,32 +56,27 @@ struct XdmfGrid {
   std::size_t count() const { return numbers.size(); }
 };
 
+/// Quads, triangles, and lines that have a name.
 std::vector<XdmfGrid> xdmf_grids(const Mesh& mesh, const std::vector<MeshGroup>& groups) {
-  const std::vector<int> of_lines = group_numbers(groups, 1, mesh.lines.size());
-  const std::vector<int> of_elements = group_numbers(groups, 2, mesh.triangles.size() + mesh.quads.size());
-  const std::size_t nodes_of_curved = mesh.order == 2 ? 9 : 4;
-  XdmfGrid triangles{"triangles", "Triangle", "region", 3};
-  XdmfGrid quads{"mesh", mesh.order == 2 ? "Quadrilateral_9" : "Quadrilateral", "region", nodes_of_curved};
-  XdmfGrid lines{"lines", mesh.order == 2 ? "Edge_3" : "PolyLine", "curve", mesh.order == 2 ? 3U : 2U};
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    triangles.nodes.insert(triangles.nodes.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-    triangles.numbers.push_back(of_elements[t]);
-  }
-  const std::vector<int> places = gmsh_places(mesh.order);
-  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-    const std::vector<int> nodes = nodes_of_quad(mesh, q, places);
-    quads.nodes.insert(quads.nodes.end(), nodes.begin(), nodes.end());
-    quads.numbers.push_back(of_elements[mesh.triangles.size() + q]);
-  }
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    if (of_lines[l] == 0) continue;
-    const std::vector<int> nodes = nodes_ends_first(mesh, l);
-    lines.nodes.insert(lines.nodes.end(), nodes.begin(), nodes.end());
-    lines.numbers.push_back(of_lines[l]);
-  }
+  using enum CellShape;
+  constexpr CellCode<std::array<const char*, 3>> kKinds[] = {
+      {kLine, 2, {"lines", "PolyLine", "curve"}},
+      {kLine, 3, {"lines", "Edge_3", "curve"}},
+      {kTriangle, 3, {"triangles", "Triangle", "region"}},
+      {kQuad, 4, {"mesh", "Quadrilateral", "region"}},
+      {kQuad, 9, {"mesh", "Quadrilateral_9", "region"}}};
   std::vector<XdmfGrid> grids;
-  for (XdmfGrid* grid : {&quads, &triangles, &lines})
-    if (grid->count() > 0) grids.push_back(std::move(*grid));
+  for (const CellBlock& cells : cell_blocks(mesh)) {
+    const auto& [name, topology, attribute] = code_of(cells, kKinds);
+    XdmfGrid grid{name, topology, attribute, cells.n_nodes};
+    const std::vector<int> numbers = group_numbers(mesh, groups, cells.dim);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (numbers[cells.first + i] == 0) continue;
+      grid.numbers.push_back(numbers[cells.first + i]);
+      for (const int v : cells.nodes(i)) grid.nodes.push_back(v);
+    }
+    if (grid.count() > 0) grids.insert(grids.begin(), std::move(grid));
+  }
   return grids;
 }
 

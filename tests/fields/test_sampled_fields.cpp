@@ -119,7 +119,7 @@ TEST(SampledSize, NamesThePlaceOfAValueThatIsNoSize) {
   const auto half = sampled([](const Vec3& x) { return x.x - 0.5; });
   EXPECT_NEAR(at(*half, {0.75, 0.5, 0}), 0.25, 1e-9);
   const std::string some = message_of([&] { at(*half, {0.25, 0.5, 0}); });
-  expect_text(some, {"the size function is -0.", "a size must be finite and positive"});
+  EXPECT_TRUE(holds(some, "the size function is -0.", "a size must be finite and positive"));
 }
 
 TEST(SampledSize, AFunctionThatWritesNothingIsRefused) {
@@ -143,7 +143,7 @@ TEST(SampledSize, TooManySamplesAreWarnedOf) {
   std::vector<Warning> warnings;
   sample_size(noise.as_size(), kUnitSquare, "the size function", warnings);
   ASSERT_EQ(warnings.size(), 1u);
-  expect_text(warnings[0].text, {"the size function varies so much"});
+  EXPECT_TRUE(holds(warnings[0].text, "the size function varies so much"));
 }
 
 TEST(SampledSize, ExceptionsPassThrough) {

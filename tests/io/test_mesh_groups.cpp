@@ -1,4 +1,4 @@
-#include "io/entity_names.h"
+#include "io/cell_view.h"
 #include "tests/support/files.h"
 
 namespace delquad {

@@ -73,7 +73,7 @@ TEST(CheckProblem, RefusesWhatMakesNoSense) {
   for (const auto& [problem, change, says] : refusals) {
     const std::string text = complaint(problem(), change);
     if (says.starts_with("...")) {
-      expect_text(text, {says.substr(3)});
+      EXPECT_TRUE(holds(text, says.substr(3)));
     } else {
       EXPECT_EQ(text, says);
     }

@@ -16,15 +16,13 @@ PlanarModel squares(double gap) {
       .rectangle({1 + gap, 0}, {2 + gap, 1}, {"s", "e", "n", "west"});
 }
 
-bool tells(const std::string& all, const std::string& part) { return all.find(part) != std::string::npos; }
-
 TEST(ModelWarnings, GapsBetweenRegions) {
   const std::string all = warnings_of(problem_of(squares(2e-4), 0.1));
-  expect_text(all, {"leave a gap of 0.0002", "'east'", "'west'"});
+  EXPECT_TRUE(holds(all, "leave a gap of 0.0002", "'east'", "'west'"));
   EXPECT_EQ(std::ranges::count(all, '\n'), 1) << all;
   for (const double gap : {0.0, 2e-3, 0.3}) {
     const std::string none = warnings_of(problem_of(squares(gap), 0.1));
-    EXPECT_FALSE(tells(none, "gap")) << gap << ": " << none;
+    EXPECT_FALSE(holds(none, "gap")) << gap << ": " << none;
   }
 }
 
@@ -33,20 +31,20 @@ TEST(ModelWarnings, ThinRegionsAndSharpCornersAreNoGaps) {
   const std::string strip = warnings_of(problem_of(
       polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0.2, 0.2}, {0.4998, 0.2}, {0.4998, 0.8}, {0.2, 0.8}}}),
       0.1));
-  EXPECT_FALSE(tells(strip, "gap")) << strip;
+  EXPECT_FALSE(holds(strip, "gap")) << strip;
   const std::string notch = warnings_of(
       problem_of(polygons({{{0, 0}, {1, 0}, {1, 1}, {0.53, 1}, {0.5, 0.43}, {0.47, 1}, {0, 1}}}), 0.1));
-  EXPECT_FALSE(tells(notch, "gap")) << notch;
+  EXPECT_FALSE(holds(notch, "gap")) << notch;
 }
 
 TEST(ModelWarnings, SizesByNameThatHaveNoEffect) {
   MeshProblem problem = problem_of(squares(0), 0.1);
   problem.size.named = {{.name = "east", .size = 0.2, .where = "--size-on east=0.2"}};
   const std::string all = warnings_of(problem);
-  expect_text(all, {"--size-on east=0.2: the size 0.2 of 'east' has no effect"});
+  EXPECT_TRUE(holds(all, "--size-on east=0.2: the size 0.2 of 'east' has no effect"));
   EXPECT_EQ(std::ranges::count(all, '\n'), 1) << all;
   problem.size.named[0].size = 0.05;
-  EXPECT_FALSE(tells(warnings_of(problem), "no effect"));
+  EXPECT_FALSE(holds(warnings_of(problem), "no effect"));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::string poor_in(const MeshResult& result) {
 }
 
 void expect_told(const std::string& text, std::initializer_list<std::string> parts) {
-  expect_text(text, parts);
+  for (const std::string& part : parts) EXPECT_TRUE(holds(text, part));
   EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;
 }
 
@@ -121,8 +121,8 @@ TEST(Limits, AreAnErrorWithPlaces) {
     FAIL() << "a corner of ten degrees passed";
   } catch (const UnsoundError& error) {
     const std::string text = error.what();
-    expect_text(text,
-                {"beyond the limits", "elements have an angle below 20 degrees", "the least 9.5", "at ("});
+    EXPECT_TRUE(
+        holds(text, "beyond the limits", "elements have an angle below 20 degrees", "the least 9.5", "at ("));
     EXPECT_EQ(text.find("not sound"), std::string::npos) << text;
     ASSERT_TRUE(error.result);
     EXPECT_TRUE(error.result->soundness.sound());
@@ -136,7 +136,7 @@ TEST(Limits, AreAnErrorWithPlaces) {
   EXPECT_TRUE(beyond.sound());
   EXPECT_EQ(allowed.warnings.back().text, beyond.complaint());
   ASSERT_EQ(beyond.beyond.size(), 1u);
-  expect_text(beyond.beyond[0], {"an aspect above 1.5"});
+  EXPECT_TRUE(holds(beyond.beyond[0], "an aspect above 1.5"));
 }
 
 TEST(Limits, LetPerfectSquaresThrough) {
@@ -154,8 +154,8 @@ TEST(SinglePrecision, IsToldOfFarModels) {
   EXPECT_TRUE(far_away(1e3).empty());
   const auto warnings = far_away(4e6);  // numbers there are half a unit apart
   ASSERT_EQ(warnings.size(), 1u);
-  expect_text(warnings[0].text,
-              {"single precision", "inverted or flat", "origin near to (4000000.5, 4000000.5, 0)"});
+  EXPECT_TRUE(holds(warnings[0].text, "single precision", "inverted or flat",
+                    "origin near to (4000000.5, 4000000.5, 0)"));
 }
 
 }  // namespace

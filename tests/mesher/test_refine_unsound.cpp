@@ -55,7 +55,7 @@ TEST(RefineUnsound, KeepGoingLeavesOutWhatIsNotSound) {
   problem.keep_going = true;
   const MeshResult result = mesh(problem, "DB");
   ASSERT_FALSE(result.failures.empty());
-  expect_text(result.failures[0].reason, {"is not sound"});
+  EXPECT_TRUE(holds(result.failures[0].reason, "is not sound"));
   EXPECT_TRUE(result.soundness.sound());
   EXPECT_EQ(result.mesh.quads.size(), 16u) << "of the flat sheet alone";
 }
@@ -103,7 +103,7 @@ TEST(RefineUnsound, LeavesOutWhatIsNarrowAtLastAndSaysSo) {
     mesh(problem, "DBCO");
     ADD_FAILURE() << "the test is too easy";
   } catch (const UnsoundError& error) {
-    expect_text(error.what(), {"in places narrower than the size"});
+    EXPECT_TRUE(holds(error.what(), "in places narrower than the size"));
   }
 }
 

@@ -36,7 +36,7 @@ TEST(StrayPoints, AreRefusedOrLeftOut) {
     problem.keep_going = true;
     const MeshResult result = mesh(problem, "DBCO");
     ASSERT_EQ(result.failures.size(), 1u);
-    expect_text(result.failures[0].reason, {"case.stl: 1 element is missing: the point (0, "});
+    EXPECT_TRUE(holds(result.failures[0].reason, "case.stl: 1 element is missing: the point (0, "));
     EXPECT_GT(result.mesh.quads.size(), 50u);
     for (const Vec3& p : result.mesh.points) EXPECT_LT(norm(p), 2);
   }

@@ -1,4 +1,5 @@
 #include "geometry/surface/surface_editor.h"
+#include "mesher/runner.h"
 #include "metrics/judgement/poor_quads.h"
 #include "tests/support/meshing.h"
 #include "tests/support/polygon_face.h"
@@ -24,6 +25,22 @@ TEST(ThinTubes, QuadsDoNotMeetThemselvesAround) {
     EXPECT_TRUE(result.mesh.triangles.empty());
     EXPECT_EQ(result.surface->mesh.euler_characteristic, 0);
     EXPECT_GT(worst_eta(result.mesh), 0.3) << size;
+  }
+}
+
+/// A ring of quads that is cut open: its first nodes are its last ones, too.
+TEST(ThinTubes, TwoQuadsAroundHaveTheSameNodes) {
+  for (const int n : {2, 3, 4}) {
+    QuadPatch ring;
+    std::vector<int> node;
+    for (const int row : {0, 1})
+      for (int k = 0; k <= n; ++k) {
+        ring.points.push_back({double(k), double(row)});
+        node.push_back(n * row + k % n);
+      }
+    for (int k = 0; k < n; ++k) ring.quads.push_back({k, k + 1, n + k + 2, n + k + 1});
+    ring.n_boundary = static_cast<int>(node.size());
+    EXPECT_EQ(closes_too_tightly(ring, node), n == 2) << n;
   }
 }
 

@@ -11,16 +11,18 @@
 
 namespace delquad {
 
-/// The text must hold each of the parts.
-inline void expect_text(const std::string& text, std::initializer_list<std::string> parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
+/// Whether a text has all of these parts.
+template <class... Parts>
+testing::AssertionResult holds(const std::string& text, const Parts&... parts) {
+  for (const std::string& part : std::vector<std::string>{parts...})
+    if (text.find(part) == std::string::npos)
+      return testing::AssertionFailure() << "'" << part << "' is not in: " << text;
+  return testing::AssertionSuccess() << text;
 }
 
 /// How many of the warnings hold the part.
 inline auto count_told(const std::vector<Warning>& warnings, const std::string& part) {
-  return std::ranges::count_if(warnings,
-                               [&](const Warning& w) { return w.text.find(part) != std::string::npos; });
+  return std::ranges::count_if(warnings, [&](const Warning& w) { return bool(holds(w.text, part)); });
 }
 inline bool is_told(const std::vector<Warning>& warnings, const std::string& part) {
   return count_told(warnings, part) > 0;
@@ -33,7 +35,7 @@ void expect_input_error(Call&& call, std::initializer_list<const char*> parts) {
     call();
   } catch (const InputError& error) {
     const std::string message = error.what();
-    for (const char* part : parts) expect_text(message, {part});
+    for (const char* part : parts) EXPECT_TRUE(holds(message, part));
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     return;
   }

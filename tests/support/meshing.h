@@ -1,62 +1,21 @@
 #pragma once
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <chrono>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <initializer_list>
-#include <iterator>
-#include <limits>
-#include <map>
-#include <memory>
-#include <numbers>
-#include <numeric>
-#include <optional>
-#include <random>
-#include <set>
-#include <span>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <thread>
-#include <tuple>
-#include <unordered_map>
-#include <utility>
-#include <variant>
-#include <vector>
-
 #include "base/context.h"
 #include "delquad/extend.h"
 #include "delquad/mesher.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/surface/triangulated_model.h"
 #include "tests/support/analytic_fields.h"
-#include "tests/support/expect_input_error.h"
-#include "tests/support/grid_mesh.h"
+#include "tests/support/head.h"
 #include "tests/support/model_maker.h"
 #include "tests/support/patch_invariants.h"
 #include "tests/support/prepare_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surfaces.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/triangulated_shapes.h"
 
-/// The head of tests of meshing: GoogleTest, the standard library, the public API, and shapes and checks that
-/// many tests use.
+/// The head of tests of meshing: the public API, and shapes and checks that many of them use.
 namespace delquad {
-using namespace testing_support;
-
 /// A problem of this model; a size of 0 gives none.
 inline MeshProblem problem_of(Model model, double size = 0) {
   MeshProblem problem;

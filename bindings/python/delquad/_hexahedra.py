@@ -28,15 +28,8 @@ def extrude(
         raise TypeError(f"mesh: expected a delquad.Mesh or the path of a file, got {type(mesh).__name__}")
     if sum(way is not None for way in (along, around, curve, normals)) != 1:
         raise _core.InputError("expected one of along, around, curve and normals")
-    how = (mesh, layers, growth, threads, time_limit)
-    if along is not None:
-        return _core.extrude_along(*how, along)
-    if around is not None:
-        point, axis = around
-        return _core.extrude_around(*how, point, axis, angle)
-    if curve is not None:
-        return _core.extrude_curve(*how, curve)
-    return _core.extrude_normals(*how, normals, both_sides)
+    point, axis = (None, None) if around is None else around
+    return _core.extrude(mesh, layers, growth, threads, time_limit, along, point, axis, angle, curve, normals, both_sides)
 
 
 def _write(self, path, binary=False, element=""):

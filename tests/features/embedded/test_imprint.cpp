@@ -135,7 +135,7 @@ TEST(Imprint, LinesOfAFileThatLieElsewhereAreNamed) {
   const SurfaceModel model = imprinted(square(), {line});
   EXPECT_TRUE(model.embedded.empty());
   ASSERT_FALSE(model.warnings.empty());
-  expect_text(model.warnings.back().text, {"the line 'far' is left out: it is 1 away"});
+  EXPECT_TRUE(holds(model.warnings.back().text, "the line 'far' is left out: it is 1 away"));
 }
 
 TEST(Imprint, PointsOfAFileWithoutRoomStayNoNodes) {
@@ -147,7 +147,8 @@ TEST(Imprint, PointsOfAFileWithoutRoomStayNoNodes) {
   EXPECT_EQ(model.fine.named_points[0].entity.names[0], "far");
   EXPECT_LT(corner_at(model, near.points[0]), 0);
   EXPECT_GE(corner_at(model, far.points[0]), 0);
-  expect_text(model.warnings.back().text, {"the line 'near' is left out: it is nearer than a thousandth"});
+  EXPECT_TRUE(
+      holds(model.warnings.back().text, "the line 'near' is left out: it is nearer than a thousandth"));
   SurfaceModel twice = square();
   twice.loose = {line, near, near};
   twice.loose[2].is_asked = true;

@@ -89,7 +89,7 @@ TEST(Normals, CoarseMeshesOfRoundBodiesGetThinWalls) {
     const std::string message = message_of([&] { expect_sound(extrude(torus, AlongNormals{1e-6}, {2})); });
     swept += message.empty();
     if (!message.empty()) {
-      expect_text(message, {"inverted"});
+      EXPECT_TRUE(holds(message, "inverted"));
     }
   }
   EXPECT_GT(swept, 30);

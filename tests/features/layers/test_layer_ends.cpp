@@ -54,7 +54,7 @@ TEST(LayerEnds, BackwardSteps) {
   expect_first(both.mesh, "before", 1e-3);
   EXPECT_LE(least_scale(both) * layer_heights(problem.layers[0]).back(), 0.45 * 0.1);
   ASSERT_FALSE(both.warnings.empty());
-  expect_text(both.warnings[0].text, {"(1, 0) on 'after'"});
+  EXPECT_TRUE(holds(both.warnings[0].text, "(1, 0) on 'after'"));
 }
 
 TEST(LayerEnds, BumpsLowerThanTheLayers) {

@@ -99,7 +99,7 @@ TEST(Layers, NarrowChannelsLowerThem) {
   EXPECT_LT(least * layer_heights(problem.layers[0]).back(), width / 2);
   EXPECT_GT(least, 0.01);
   ASSERT_FALSE(result.warnings.empty());
-  expect_text(result.warnings[0].text, {"layers are lower", "on 'a'"});
+  EXPECT_TRUE(holds(result.warnings[0].text, "layers are lower", "on 'a'"));
 }
 
 std::vector<Vec2> star(int rays, double inner, double outer) {
@@ -201,7 +201,7 @@ TEST(Layers, WarningsOfThinLastLayersNameTheCurve) {
                                   .problem(0.1, {layer_on({"north"}, 1e-3, 5)});
   const MeshResult result = mesh(problem, "DB");
   ASSERT_EQ(result.warnings.size(), 1u);
-  expect_text(result.warnings[0].text, {"times as long as it is high, on 'north'"});
+  EXPECT_TRUE(holds(result.warnings[0].text, "times as long as it is high, on 'north'"));
 }
 
 TEST(Layers, TheSameBytesForAnyNumberOfThreads) {

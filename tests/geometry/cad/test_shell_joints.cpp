@@ -155,7 +155,7 @@ TEST_P(ShellJoints, ContactsAtAPointAreNamedAndGluedOrRefused) {
     const auto file = write("contact", compound_of(contact.bodies));
     const std::vector<std::string> told = loose_joints_of(read_cad(file));
     ASSERT_EQ(told.size(), 1u);
-    expect_text(told[0], {"at 1 place "});
+    EXPECT_TRUE(holds(told[0], "at 1 place "));
     EXPECT_LT(norm(place_in(told[0]) - contact.at), kNear) << told[0];
     try {
       const SurfaceModel model = read_cad(file, {.glue = true});
@@ -165,7 +165,7 @@ TEST_P(ShellJoints, ContactsAtAPointAreNamedAndGluedOrRefused) {
       EXPECT_TRUE(contact.name == "rims" || model.fine.regions.size() > contact.bodies.size());
     } catch (const InputError& error) {
       const std::string text = error.what();
-      expect_text(text, {"cannot be glued at 1 place"});
+      EXPECT_TRUE(holds(text, "cannot be glued at 1 place"));
       EXPECT_LT(norm(place_in(text) - contact.at), kNear) << text;
     }
   }
@@ -179,7 +179,7 @@ TEST_P(ShellJoints, FacesOnEachOtherAreNamedAndBecomeOne) {
     const SurfaceModel apart = read_cad(file);
     const std::vector<std::string> told = loose_joints_of(apart);
     ASSERT_EQ(told.size(), 1u);
-    expect_text(told[0], {" touches face "});
+    EXPECT_TRUE(holds(told[0], " touches face "));
     EXPECT_EQ(apart.fine.regions.size(), some.faces.size());
     EXPECT_EQ(parts_of(apart.fine).count(), 1 + static_cast<int>(some.faces.size()) - some.n_others);
     const SurfaceModel glued = read_cad(file, {.glue = true});
@@ -260,7 +260,7 @@ TEST_F(JoinedShells, ATipOnAFaceIsNamedAndRefused) {
   const auto file = write_step(folder_ / "tip.step", compound_of(tip_on_a_plate()));
   const std::vector<std::string> told = loose_joints_of(read_cad(file));
   ASSERT_EQ(told.size(), 1u);
-  expect_text(told[0], {"face 1 touches face 2 at (4, 3, 0)"});
+  EXPECT_TRUE(holds(told[0], "face 1 touches face 2 at (4, 3, 0)"));
   expect_input_error([&] { read_cad(file, {.glue = true}); }, {"cannot be glued at 1 place", "(4, 3, 0)"});
 }
 
@@ -270,7 +270,7 @@ TEST_F(JoinedShells, EdgesFromACommonCornerAreNamed) {
   EXPECT_EQ(parts_of(model.fine).count(), 1);
   const std::vector<std::string> told = loose_joints_of(model);
   ASSERT_EQ(told.size(), 1u);
-  expect_text(told[0], {"at 1 place ", "face 3 touches face 1 at (8, 2, 0)"});
+  EXPECT_TRUE(holds(told[0], "at 1 place ", "face 3 touches face 1 at (8, 2, 0)"));
 }
 
 TEST_F(JoinedShells, NoOthersAreNamed) {

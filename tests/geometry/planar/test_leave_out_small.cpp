@@ -27,7 +27,7 @@ TEST(LeaveOutSmall, AStepBecomesPartOfASide) {
   std::vector<Warning> warnings;
   const PlanarModel thin = leave_out_small(stepped_plate(), {0.3, 0, {}}, warnings);
   ASSERT_EQ(warnings.size(), 1U);
-  expect_text(warnings[0].text, {"no node at (4, 6"});
+  EXPECT_TRUE(holds(warnings[0].text, "no node at (4, 6"));
   EXPECT_EQ(thin.curves.size(), 6U) << "numbers of curves stay";
   EXPECT_EQ(thin.loops[0].curves.size(), 5U);
   EXPECT_LT(shortest_edge(mesh_at_1(stepped_plate(), 0).mesh), 0.03);
@@ -62,7 +62,7 @@ TEST(LeaveOutSmall, HolesGoWithTheirNames) {
   const PlanarModel closed = leave_out_small(model, {0, 1, {}}, warnings);
   EXPECT_EQ(closed.loops.size(), 2U);
   ASSERT_EQ(warnings.size(), 2U);
-  expect_text(warnings[1].text, {"'pin' went"});
+  EXPECT_TRUE(holds(warnings[1].text, "'pin' went"));
   EXPECT_EQ(leave_out_small(model, {0, 1, {false, {"pin"}}}, warnings).loops.size(), 3U);
   EXPECT_EQ(leave_out_small(model, {0, 1, {true, {}}}, warnings).loops.size(), 3U);
   const Mesh mesh = mesh_at_1(model, 0.3).mesh;

@@ -34,6 +34,9 @@ TEST(Interval, AgreesWithSciPy) {
     ASSERT_TRUE(interval);
     EXPECT_NEAR(interval->low, low, 1e-8 * (high - low));
     EXPECT_NEAR(interval->high, high, 1e-8 * (high - low));
+    std::vector<double> negative;  // skewed the other way
+    for (const double value : values) negative.push_back(-value);
+    EXPECT_NEAR(interval_of_mean(negative)->low, -high, 1e-8 * (high - low));
   }
 }
 

@@ -1,0 +1,13 @@
+# Writes the example models as string literals: script -DFOLDER= -DOUTPUT=.
+set(text "#include \"geometry/cad/examples.h\"\n\n#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n\n")
+string(APPEND text "std::string_view delquad::cad::example_data(std::string_view name) {\n")
+file(GLOB files ${FOLDER}/*.bin)
+foreach(file ${files})
+  get_filename_component(name ${file} NAME_WE)
+  file(READ ${file} bytes HEX)
+  string(LENGTH ${bytes} digits)
+  math(EXPR size "${digits} / 2")
+  string(REGEX REPLACE "(..)" "\\\\x\\1" bytes ${bytes})
+  string(APPEND text "  if (name == \"${name}\") return {\"${bytes}\", ${size}};\n")
+endforeach()
+file(WRITE ${OUTPUT} "${text}  return {};\n}\n")

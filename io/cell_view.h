@@ -1,0 +1,113 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "delquad/mesh.h"
+#include "geometry/mesh/half_edges.h"
+#include "io/entity_names.h"
+
+// A mesh as writers of files see it: elements in blocks of one shape, sides of elements, and groups by name.
+
+namespace delquad {
+
+enum class CellShape { kPoint, kLine, kTriangle, kQuad, kHexahedron };
+
+/// All elements of one shape. They live as long as their mesh.
+struct CellBlock {
+  CellShape shape;
+  int dim;
+  std::size_t n_nodes;  ///< of each element
+  std::size_t first;  ///< how many elements of this dimension other blocks have before: triangles come first
+  const std::vector<int>* entity_of;
+  const std::vector<Entity>* entities;  ///< curves, regions or volumes
+  std::function<std::vector<int>(std::size_t)> nodes;
+
+  std::size_t size() const { return entity_of->size(); }
+  const Entity& entity(std::size_t i) const { return (*entities)[(*entity_of)[i]]; }
+};
+
+/// Returns lines, triangles, quads and hexahedra, but no empty blocks. `places` orders the nodes of quads,
+/// see nodes_of_quad(). By default it is Gmsh's order, without the middle one if that is a corner, as
+/// write_serendipity() has it.
+std::vector<CellBlock> cell_blocks(const Mesh& mesh, std::vector<int> places = {});
+/// 3 with hexahedra, else 2.
+int dimension_of(const Mesh& mesh);
+/// The number of points (0), of lines (1), of triangles and quads (2), or of hexahedra (3).
+std::size_t n_cells(const Mesh& mesh, int dim);
+/// Whether the nodes in the middle of quads of order 2 are left out.
+bool has_eight_nodes(const Mesh& mesh);
+/// Places of the corners and of the nodes on sides of quads of order 1 or 2, for formats with no others.
+std::vector<int> places_on_sides(int order);
+/// For each point whether it is the node in the middle of a quad of order 2.
+std::vector<char> are_in_middles(const Mesh& mesh);
+
+/// How a format calls elements of a shape with so many nodes.
+template <class Code>
+struct CellCode {
+  CellShape shape;
+  std::size_t n_nodes;
+  Code code;
+};
+template <class Code, std::size_t N>
+const Code& code_of(const CellBlock& cells, const CellCode<Code> (&codes)[N]) {
+  return std::ranges::find_if(
+             codes,
+             [&](const CellCode<Code>& c) { return c.shape == cells.shape && c.n_nodes == cells.n_nodes; })
+      ->code;
+}
+
+/// A side of an element, from 0. Side k of a triangle or quad lies between its corners k and k + 1. The sides
+/// of a hexahedron are S1 to S6 of Abaqus's C3D8.
+struct CellSide {
+  int element, side;
+};
+CellSide cell_side(const Mesh& mesh, const HalfEdge& edge);
+
+/// The sides of triangles and quads, or of hexahedra if there are any.
+class CellSides {
+ public:
+  explicit CellSides(const Mesh& mesh);
+  /// The sides on a line, or on a quad beside hexahedra: one on the boundary, else two, in the order of the
+  /// elements.
+  std::vector<CellSide> at(int item) const;
+
+ private:
+  struct HexSide {
+    std::array<int, 4> nodes;
+    CellSide side;
+  };
+  const Mesh& mesh_;
+  std::vector<HalfEdge> of_faces_;
+  std::vector<HexSide> of_hexahedra_;
+};
+
+std::vector<Entity> entities_of(const std::vector<NamedPoint>& points);
+
+/// Points, lines or elements of one name, for formats in which everything has one.
+struct MeshGroup {
+  int dim;                  ///< 0: points, 1: lines, 2: triangles and quads, 3: hexahedra
+  int number;               ///< from 1 on, in each dimension
+  std::string name, label;  ///< the label is the name as the format can hold it
+  /// Points; indices into Mesh::lines; elements, triangles first.
+  std::vector<int> items;
+};
+
+/// All named points, the lines on the boundary and the named ones inside (of hexahedra all), all elements.
+/// Groups of the highest dimension come first. Entities have the names of group_names().
+std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& rules);
+/// The nodes of a group, ascending, each once.
+std::vector<int> nodes_of_group(const Mesh& mesh, const MeshGroup& group);
+/// The groups' numbers of all items of a dimension; 0: in none.
+std::vector<int> group_numbers(const Mesh& mesh, const std::vector<MeshGroup>& groups, int dim);
+/// The elements of a group that a block has, by their indices in it.
+std::vector<std::size_t> items_in_block(const MeshGroup& group, const CellBlock& cells);
+
+/// "curve "Ein|aus" is Ein_aus", one for each group whose label is not its name.
+std::vector<std::string> renamed_groups(const std::vector<MeshGroup>& groups);
+
+}  // namespace delquad
