@@ -64,15 +64,6 @@ std::vector<CoastPiece> coast_pieces(const Mesh& mesh) {
     runs.push_back(side.run);
     name_of[side.run] = side.group < 0 ? "" : groups[side.group].label;
   }
-  // A line may have the name of a whole outline, too.
-  for (const MeshGroup& group : groups) {
-    if (group.dim != 1 || !name_says(group.label, "open")) continue;
-    for (const int l : group.items)
-      for (const bool turned : {false, true})
-        if (const auto at = name_of.find({mesh.lines[l][turned], mesh.lines[l][!turned]});
-            at != name_of.end())
-          at->second = group.label;
-  }
   std::vector<CoastPiece> pieces;
   for (std::vector<int>& loop : join_edges(runs)) {
     const std::size_t n = loop.size() - 1;

@@ -62,17 +62,6 @@ TEST(CoastPieces, ARingOfOneNameIsTwoPieces) {
   EXPECT_EQ(pieces[3].nodes, (Nodes{15, 14, 13, 12, 8, 4, 0}));
 }
 
-TEST(CoastPieces, OpenNamesCountBeforeOthers) {
-  Mesh mesh = quad_grid(1, 1, 2, 0.5);
-  mesh.curves[1].names = {"rim", "the open"};
-  for (const int other : {0, 2, 3}) mesh.curves[other].names = {"rim"};
-  const std::vector<CoastPiece> pieces = coast_pieces(mesh);
-  ASSERT_EQ(pieces.size(), 2u);
-  EXPECT_TRUE(pieces[0].open);
-  EXPECT_EQ(pieces[0].nodes, (std::vector<int>{1, 3}));
-  EXPECT_EQ(pieces[1].name, "rim");
-}
-
 TEST(Gr3, IsTheDocumentedFormat) {
   const Folder folder;
   Mesh mesh = quad_grid(1, 1, 2, 0.5);
