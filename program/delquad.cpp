@@ -11,6 +11,7 @@
 #include <map>
 #include <new>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <system_error>
@@ -104,11 +105,15 @@ std::string meant_by(const std::string& argument, const CLI::App& app) {
 /// Why the command line cannot be read. Arguments that nothing stands for come first, in the order in which
 /// they were typed: a slip in an option may be why another is missing.
 std::string reason_of(const CLI::ParseError& error, const CLI::App& app, int argc, char** argv) {
-  const std::vector<std::string> unknown = app.remaining(true);
+  std::vector<std::string> unknown = app.remaining(true);
   std::string all;
-  for (const std::string argument : std::span(argv, static_cast<std::size_t>(argc)).subspan(1))
-    if (std::ranges::find(unknown, argument) != unknown.end())
-      all += (all.empty() ? "'" : ", '") + argument + "'" + meant_by(argument, app);
+  // An option may have taken an equal argument before, so the last one counts.
+  for (const std::string argument :
+       std::span(argv, static_cast<std::size_t>(argc)).subspan(1) | std::views::reverse)
+    if (const auto at = std::ranges::find(unknown, argument); at != unknown.end()) {
+      unknown.erase(at);
+      all = "'" + argument + "'" + meant_by(argument, app) + (all.empty() ? "" : ", ") + all;
+    }
   return all.empty() ? error.what() : "not expected: " + all;
 }
 

@@ -215,6 +215,9 @@ int extrude_command(const ExtrudeArguments& arguments) {
   });
   for (const std::string& name : renamed_in_file(arguments.output, hexahedra))
     notes.push_back(arguments.output.string() + " cannot hold all names as they are: " + name);
+  if (const auto others = others_in_file(arguments.mesh); !others.empty())
+    notes.push_back(fmt::format("{} loses these keywords of {}: {}", arguments.output.string(),
+                                arguments.mesh.string(), others));
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
   const HexMeasures measures = measure(hexahedra);
   write_mesh(arguments.output, hexahedra, arguments.file);
@@ -254,10 +257,10 @@ void add_extrude(CLI::App& app, Commands& commands) {
   extrude->add_flag("--both-sides", arguments.both_sides, "half of the thickness to each side");
   extrude
       ->add_option("--layers", arguments.layers, "of hexahedra; default with --curve: one for each segment")
-      ->check(CLI::PositiveNumber);
+      ->check(kLength);
   extrude->add_option("--growth", arguments.growth, "height of each layer over that of the one before")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(kLength);
   extrude->add_flag("--binary", arguments.file.binary, "write .msh as bytes");
   extrude->add_option("--element", arguments.file.element,
                       "of .inp: C3D8, C3D8I, C3D8R, C3D20, C3D20R, DC3D8 or DC3D20");

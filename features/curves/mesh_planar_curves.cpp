@@ -345,7 +345,9 @@ class CurveMesher {
   }
 
   /// The model's curves, then those of pieces where several lie on each other, which have all their names.
+  /// Names of curves that are in no loop come first, as most formats hold one name.
   void name_curves() {
+    const auto loops = loops_of_model_curves(model_, chain_);
     curves_ = curve_entities(model_);
     for (std::size_t c = 0; c < curves_.size(); ++c) of_curve_.push_back({static_cast<int>(c)});
     std::map<std::vector<int>, int> known;
@@ -357,7 +359,9 @@ class CurveMesher {
       if (!is_new) continue;
       Entity& curve = curves_.emplace_back(Entity{static_cast<int>(curves_.size()) + 1, {}});
       of_curve_.push_back(piece.curves);
-      for (const int c : piece.curves)
+      std::vector<int> of = piece.curves;
+      std::ranges::stable_partition(of, [&](int c) { return loops[c].empty(); });
+      for (const int c : of)
         if (const std::string& name = model_.curves[c].name;
             !name.empty() && std::ranges::find(curve.names, name) == curve.names.end())
           curve.names.push_back(name);

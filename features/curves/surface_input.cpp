@@ -192,7 +192,8 @@ SurfaceModel make_surface(const MeshProblem& problem, const TriangleModel& model
                           const std::vector<FeatureBall>& kept) {
   const SurfaceSpec& spec = problem.surface;
   if (spec.glue)
-    throw InputError(spec.where + ": gluing is for CAD models; triangulations are joined by welding");
+    throw InputError(spec.where +
+                     ": only bodies of CAD models can be glued: unite triangulated bodies in a CAD program");
   ReadNotes notes = model.notes;
   Mesh triangles = model.mesh;
   const std::string missing = problem.keep_going ? leave_out_strays(triangles) : "";

@@ -76,11 +76,12 @@ void check_embedded(const PlanarModel& model, const ModelChain& chain, const std
           fmt::format("{}{} lies outside of every region from ({:.10g}, {:.10g}) to ({:.10g}, {:.10g})",
                       message_prefix(model), curve_label(model, *embedded), a.x, a.y, b.x, b.y));
     if (embedded == piece.curves.end() || bounding == piece.curves.end()) continue;
-    throw InputError(
-        fmt::format("{}{} lies on the boundary, {}, between ({:.10g}, {:.10g}) and ({:.10g}, {:.10g}): "
-                    "expected it inside of a region, or across",
-                    message_prefix(model), curve_label(model, *embedded), curve_label(model, *bounding), a.x,
-                    a.y, b.x, b.y));
+    if (const ModelCurve& curve = model.curves[*embedded]; !curve.name.empty() && !curve.is_crack) continue;
+    throw InputError(fmt::format(
+        "{}{} lies on the boundary, {}, between ({:.10g}, {:.10g}) and ({:.10g}, {:.10g}): "
+        "expected a name, which is given to that part of the boundary, or a curve inside of a region",
+        message_prefix(model), curve_label(model, *embedded), curve_label(model, *bounding), a.x, a.y, b.x,
+        b.y));
   }
 }
 

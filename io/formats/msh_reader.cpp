@@ -88,16 +88,21 @@ class EntityTable {
   int last_index_ = -1;
 };
 
-void check_tags(const Contents& contents, const TextScanner& scanner) {
+/// Some programs write elements without an entity: these get the first free number.
+void check_tags(Contents& contents, const TextScanner& scanner) {
   for (size_t i = 1; i < contents.nodes.size(); ++i) {
     const Node &a = contents.nodes[i - 1], &b = contents.nodes[i];
     if (a.tag != b.tag) continue;
     scanner.fail_at(std::max(a.line, b.line), "node tag {} is used twice (first on line {})", a.tag,
                     std::min(a.line, b.line));
   }
+  int largest = 0;
   for (const Element& e : contents.elements) {
-    if (e.entity <= 0) scanner.fail_at(e.line, "entity tag {}: expected a positive one", e.entity);
+    if (e.entity < 0) scanner.fail_at(e.line, "entity tag {}: expected a positive one", e.entity);
+    largest = std::max(largest, e.entity);
   }
+  for (Element& e : contents.elements)
+    if (e.entity == 0) e.entity = largest + 1;
 }
 
 /// Tags of nodes become places in their sorted list. 0 for those that something needs, -1 for others.

@@ -82,6 +82,13 @@ TEST_F(MshReader, GroupsThatShareAnElementaryTagStayApart) {
   }
 }
 
+TEST_F(MshReader, ElementsNeedNoEntity) {
+  const Mesh mesh = read(with(kSquare41, "2 3 2 2\n", "2 0 2 2\n"));
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_EQ(mesh.regions.size(), 1u);
+  EXPECT_GT(mesh.regions[0].tag, 8);
+}
+
 TEST_F(MshReader, KeepsTrueTwinsForOthersToReport) {
   const Mesh mesh = read(with(kSquare22, "4 1 2 2 7 1 2", "4 1 2 1 7 1 2"));
   EXPECT_EQ(mesh.lines.size(), 5u);

@@ -261,8 +261,8 @@ TEST(Junctions, RefusesWhatMakesNoSense) {
                      {"'p'", "nearer than a thousandth", "(0.5, 0.5)"});
   expect_input_error(meshing(ModelMaker(square).point({0.5, 0.5}, "p").point({0.50009, 0.5}, "q")),
                      {"nearer than a thousandth"});
-  expect_input_error(meshing(ModelMaker(square).curve(make_segment({0.2, 0}, {0.8, 0}), "on the border")),
-                     {"'on the border'", "lies on the boundary, curve 1", "(0.2, 0) and (0.8, 0)"});
+  expect_input_error(meshing(ModelMaker(square).curve(make_segment({0.2, 0}, {0.8, 0}), "")),
+                     {"lies on the boundary, curve 1", "(0.2, 0) and (0.8, 0)"});
   ModelMaker hole = square;
   hole.rectangle({0.4, 0.4}, {0.6, 0.6});
   expect_input_error(meshing(hole.curve(make_segment({0.45, 0.5}, {0.55, 0.5}), "in the hole")),
@@ -274,6 +274,21 @@ TEST(Junctions, RefusesWhatMakesNoSense) {
           ModelMaker(square).rectangle({0, 0}, {0.5, 1}, {""}, "a").rectangle({0.5, 0}, {1, 1}, {""}, "b")),
       {"'square'", "nothing is left"});
   expect_input_error(meshing(ModelMaker(square).rectangle({0, 0}, {1, 1}, {""}, "again")), {"same curves"});
+}
+
+TEST(Junctions, NamesPartOfBoundaries) {
+  const MeshResult result = mesh(ModelMaker()
+                                     .rectangle({0, 0}, {1, 1}, {"rim"}, "square")
+                                     .curve(make_segment({0.2, 0}, {0.8, 0}), "gate")
+                                     .problem(0.1),
+                                 "DB");
+  double length = 0;
+  for (std::size_t i = 0; i < result.mesh.lines.size(); ++i) {
+    const auto [a, b] = result.mesh.lines[i];
+    if (result.mesh.curves[result.mesh.line_curve[i]].names.front() == "gate")
+      length += norm(result.mesh.points[b] - result.mesh.points[a]);
+  }
+  EXPECT_NEAR(length, 0.6, 1e-12);
 }
 
 TEST(Junctions, PointsSurviveFiles) {
