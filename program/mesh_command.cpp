@@ -285,7 +285,7 @@ void write_result(const MeshArguments& arguments, const Case& c, const Word& wor
   const Mesh& last = other ? *other : result.mesh;
   const auto write = arguments.serendipity ? write_serendipity : write_mesh;
   is_kept ? rewrite_mesh(arguments.model, arguments.output, last, c.surface.weld_tolerance.value_or(0))
-          : write(arguments.output, last, arguments.msh);
+          : write(arguments.output, last, options_after(arguments.model, arguments.msh));
   result.log.add_time("write", writing.time());
   if (!arguments.fields.empty()) write_wanted(arguments.fields, result.mesh, result.prepared);
   if (!arguments.json.empty()) write_text_file(arguments.json, run_record(c, word, result));

@@ -266,9 +266,9 @@ UniqueLabels make_labels(const Mesh& mesh) {
 
 class InpWriter {
  public:
-  InpWriter(TextWriter& out, const Mesh& mesh) : out_(out), mesh_(mesh), labels_(make_labels(mesh)) {
-    planar_ = is_planar(mesh);  // plane elements of a face that looks down would be inverted
-  }
+  /// Plane elements that look down would be inverted.
+  InpWriter(TextWriter& out, const Mesh& mesh, bool has_shells)
+      : out_(out), mesh_(mesh), labels_(make_labels(mesh)), planar_(!has_shells && is_planar(mesh)) {}
 
   void write() {
     write_inp_head(out_, "Quad mesh", mesh_.unit, labels_, kInpKinds);
@@ -413,21 +413,20 @@ class InpWriter {
   TextWriter& out_;
   const Mesh& mesh_;
   const UniqueLabels labels_;
-  bool planar_ = false;
+  const bool planar_;
   Sets element_sets_, node_sets_, sides_, surface_nodes_;
   std::map<std::string, std::set<std::string>> sides_of_;
 };
 
 /// Writes Abaqus input that CalculiX takes, too: numbers of at most 20 characters, shells S4 and S3. Elements
-/// are CPS4 and CPS3 if all z are equal and they turn left. All elements are in "Eall", all nodes in "Nall".
-/// Every region is an ELSET and an NSET, every curve an NSET and a SURFACE. They go by tag ("region_3",
-/// "curve_5") and by each name, in letters, digits and underscores; comments have the table. A curve's
-/// surface has the sides of plane elements, and the nodes of shells. Sides of shells are ELSETs for edge
-/// loads
-/// ("_curve_5_E2").
-void write_inp(const std::filesystem::path& path, const Mesh& mesh) {
+/// are CPS4 and CPS3 if all z are equal, they turn left and the options do not say S4. All elements are in
+/// "Eall", all nodes in "Nall". Every region is an ELSET and an NSET, every curve an NSET and a SURFACE. They
+/// go by tag ("region_3", "curve_5") and by each name, in letters, digits and underscores; comments have the
+/// table. A curve's surface has the sides of plane elements, and the nodes of shells. Sides of shells are
+/// ELSETs for edge loads ("_curve_5_E2").
+void write_inp(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
   require_numbers(path, "Abaqus", mesh, 999'999'999);
-  write_text_file(path, [&](TextWriter& out) { InpWriter(out, mesh).write(); });
+  write_text_file(path, [&](TextWriter& out) { InpWriter(out, mesh, options.element == kShell).write(); });
 }
 
 }  // namespace
@@ -446,7 +445,7 @@ MeshFormat inp_format() {
           .write =
               [](const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options, QuadNodes) {
                 if (mesh.hexahedra.empty())
-                  write_inp(path, mesh);
+                  write_inp(path, mesh, options);
                 else
                   write_hex_inp(path, mesh, options);
               },
