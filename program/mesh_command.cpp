@@ -105,6 +105,8 @@ bool keeps_given(const MeshArguments& arguments, const std::optional<Mesh>& give
   std::vector<Warning> lost;
   if (const auto renamed = renamed_in_file(arguments.output, result.mesh); !renamed.empty())
     lost.push_back(fmt::format("{} cannot hold all names as they are: {}", output, fmt::join(renamed, "; ")));
+  if (given && given->order > result.mesh.order)
+    lost.push_back(fmt::format("{} loses the nodes on the sides of elements", output));
   if (const auto names = lost_in_file(arguments.output, result.mesh); !names.empty())
     lost.push_back(fmt::format("{} loses {}", output, fmt::join(names, "; ")));
   if (const auto others = given ? others_in_file(arguments.model) : ""; !others.empty())
