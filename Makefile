@@ -57,8 +57,9 @@ fig15: build
 	@build/$(PRESET)/fig15 $(or $(INTO),$(RESULTS))/fig15_linf_delaunay
 # Everything else that was measured.
 studies: EXPERIMENTS = $(wildcard experiments/studies/*.toml experiments/studies/on_suite/*.toml)
-# Ours beside other meshers; those that are not installed are told.
+# Ours beside other meshers; those that are not installed are told, and programs that hang are stopped.
 peers: EXPERIMENTS = $(wildcard experiments/peers/*.toml)
+peers: FLAGS = --timeout 300
 peers: STATUS = 0
 # Models of other projects, beside what these published; without those that could not be fetched.
 public: EXPERIMENTS = experiments/public/mbb.toml experiments/public/hexme.toml \
