@@ -57,7 +57,8 @@ fig15: build
 	@build/$(PRESET)/fig15 $(or $(INTO),$(RESULTS))/fig15_linf_delaunay
 # `studies` makes all other measurements.
 studies: EXPERIMENTS = $(wildcard experiments/studies/*.toml experiments/studies/on_suite/*.toml)
-# `peers` compares with other meshers, and names those that are not installed.
+# `peers` compares with other meshers; it names those that are not installed, and stops programs that hang.
+peers: FLAGS = --timeout 300
 peers: EXPERIMENTS = $(wildcard experiments/peers/*.toml)
 peers: STATUS = 0
 # `public` compares with published results of other projects, for models that can be fetched.

@@ -128,6 +128,12 @@ void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::pa
   find_format(kind_to_write(path))->rewrite(source, path, mesh, weld);
 }
 
+MshOptions options_after(const std::filesystem::path& source, MshOptions options) {
+  if (const MeshFormat* format = find_format(kind_of_file(source)); format != nullptr && format->has_shells)
+    options.element = kShell;
+  return options;
+}
+
 std::string others_in_file(const std::filesystem::path& path) {
   const MeshFormat* format = find_format(kind_of_file(path));
   if (format == nullptr || format->others == nullptr) return "";

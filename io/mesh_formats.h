@@ -36,6 +36,7 @@ struct MeshFormat {
   std::string package =
       {};  ///< of Debian, whose library this program was built without; empty: it has all it needs
   bool has_hexahedra = false;
+  bool has_shells = false;  ///< triangles and quads are shells, even in a plane
   EightNodes eight_nodes = EightNodes::kNever;
   bool has_binary = false;
   bool has_depths = false;  ///< z of a planar mesh may be heights of the ground
@@ -63,8 +64,12 @@ void write_by(const std::filesystem::path& path, const Mesh& mesh, const MshOpti
   write(path, mesh);
 }
 
-/// Returns the values that MshOptions::element may have.
+/// Returns the values that MshOptions::element may have for hexahedra.
 const std::vector<std::string>& inp_hexahedra();
+/// The value for shells, even in a plane.
+inline constexpr const char* kShell = "S4";
+/// Adds that shells of the source stay shells in .inp.
+MshOptions options_after(const std::filesystem::path& source, MshOptions options);
 
 /// By this program, or by one with its library.
 bool can_write(const MeshFormat& format);

@@ -78,10 +78,14 @@ void run_across_cuts(Finishing& on);
 /// prepare_problem() of the same problem.
 using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;
 
+/// The work on a mesh as a number of quads that take as long. It counts quads, lifting, looks of stages,
+/// steps of curves and triangles of maps, so that it is the same on every machine.
+long long work_on(const PreparedProblem& prepared, const MeshResult& result);
+
 /// If the mesh of a surface is not sound, the size is too large for what is there. Halves it around these
-/// places and meshes anew, as long as there get fewer such places, within a budget of quads. If that does not
-/// help, sharp edges there become features. `prepared` and `result` become the best mesh, with a warning and
-/// the time of all tries. If it is not sound, a warning says why there are no more tries. Then what is
+/// places and meshes anew, as long as there get fewer such places, within a budget of work_on(). If that does
+/// not help, sharp edges there become features. `prepared` and `result` become the best mesh, with a warning
+/// and the time of all tries. If it is not sound, a warning says why there are no more tries. Then what is
 /// narrower than a tenth of the size is left out. Last, another size, fewer stages or, of triangulations,
 /// another feature angle are tried. Each is taken if the mesh is sound, with a warning. If the problem says
 /// keep_going, faces with such places are left out if others remain.

@@ -29,10 +29,13 @@ constexpr int kMostRounds = 8, kMostIdle = 2;
 constexpr int kFirstWithFeatures = 4;
 /// The size becomes this part of what it was, so many of these sizes around.
 constexpr double kPart = 0.5, kReach = 3;
-/// Budget in quads of all meshes, with the cost of lifting (LiftingSummary::cost) and the steps of curves. It
-/// takes some 30 seconds, or a multiple of a large mesh. One third more is for meshes without small parts, if
-/// one of these is likely not to need more.
-constexpr long long kLeastQuads = 120'000, kMostTimes = 2, kCostPerQuad = 300, kStepsPerQuad = 7500;
+/// Budget of work on all meshes: some 30 seconds, or a multiple of the quads of a large mesh. Half as much
+/// more is for other tries, if one of these is likely not to need more. The next mesh may exceed what is left
+/// by as much.
+constexpr long long kLeastWork = 150'000, kMostTimes = 4;
+/// A quad takes as long as these: places that lifting tries (LiftingSummary::cost), steps of curves, looks of
+/// stages, triangles of maps.
+constexpr long long kCostPerQuad = 300, kStepsPerQuad = 7500, kLooksPerQuad = 300, kTrianglesPerQuad = 10;
 /// Larger ones would ask for little else than the whole model.
 constexpr std::size_t kMostSpots = 1000;
 
@@ -91,12 +94,6 @@ Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>&
       show_point(prepared.metric_plane ? prepared.metric_plane->to_plane(least.at) : least.at));
 }
 
-long long quads_of(const PreparedProblem& prepared, const MeshResult& result) {
-  const long long steps = prepared.surface ? prepared.surface->domain.steps : 0;
-  return static_cast<long long>(result.mesh.quads.size()) + result.lifting_cost / kCostPerQuad +
-         steps / kStepsPerQuad;
-}
-
 /// Where it is not sound, the first hundred for each reason.
 std::size_t unsound_places(const MeshResult& result) { return result.soundness.places.size(); }
 
@@ -108,7 +105,7 @@ Warning warning_of_end(const MeshResult& result, const PreparedProblem& prepared
       prepared.settings.name, rounds, why, unsound_places(result));
 }
 
-void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& quads, PreparedProblem& prepared,
+void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& work, PreparedProblem& prepared,
                 MeshResult& result) {
   // Lines that were given are kept.
   const bool can_be_finer =
@@ -122,10 +119,11 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& quads
   StageLog lost;  // the times of all meshes but the best
   double seconds = result.seconds;
   long long rounds = 0, idle = 0;  // in all, and since the best
+  long long last = work_on(prepared, result);
   const char* why = "that no longer helped";
   try {
     while (!result.soundness.sound()) {
-      if (rounds == kMostRounds || quads.is_spent()) {
+      if (rounds == kMostRounds || 2 * work.left() < last) {
         why = "more would take too long";
         break;
       }
@@ -136,7 +134,8 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& quads
       PreparedProblem finer = prepare_anew(refinement);
       MeshResult run = run_word(finer, word);
       seconds += run.seconds;
-      quads.spend(quads_of(finer, run));
+      last = work_on(finer, run);
+      work.spend(last);
       add_spots(finer, run.soundness, refinement.spots);
       const bool is_better =
           run.soundness.sound() || (unsound_places(run) > 0 && unsound_places(run) < unsound_places(result));
@@ -164,7 +163,7 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& quads
 }
 
 /// Meshes without what is small beside the size, where that makes the mesh sound.
-void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& quads,
+void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& work,
                      PreparedProblem& prepared, MeshResult& result) {
   const RepairOptions options = repair_options(prepared.settings.options);
   if (!options.refine_unsound || !options.ignore_small || !prepared.surface || prepared.surface->given ||
@@ -181,8 +180,8 @@ void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& 
   try {
     PreparedProblem other = anew(as_read(prepared));
     MeshResult run = run_word(other, word);
-    quads.spend(quads_of(other, run));
-    make_finer(anew, word, quads, other, run);
+    work.spend(work_on(other, run));
+    make_finer(anew, word, work, other, run);
     if (run.soundness.sound()) {
       run.warnings.emplace_back(fmt::format(
           "{}: what is narrower than {:.3g}, a tenth of the size, is left out, as the mesh would not be "
@@ -230,8 +229,8 @@ Word until_quads(const Word& word) {
 }
 
 /// Takes the first of the last tries that makes the mesh sound.
-void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& quads,
-                   PreparedProblem& prepared, MeshResult& result) {
+void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& work, PreparedProblem& prepared,
+                   MeshResult& result) {
   if (!repair_options(prepared.settings.options).refine_unsound || !prepared.surface ||
       prepared.surface->given || prepared.surface->model.before || unsound_places(result) > kMostByChance)
     return;
@@ -241,14 +240,14 @@ void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& qu
     const double part = last.size_part;
     if (last.makes_quads_only && first.text == word.text) continue;
     if (last.feature_angle > 0 && prepared.surface->cad) continue;
-    if (once / (part * part) > static_cast<double>(quads.left())) continue;
+    if (once / (part * part) > static_cast<double>(work.left())) continue;
     try {
       Refinement refinement = as_read(prepared);
       refinement.size_part = part;
       refinement.feature_angle = last.feature_angle;
       PreparedProblem other = prepare_anew(refinement);
       MeshResult run = run_word(other, last.makes_quads_only ? first : word);
-      quads.spend(quads_of(other, run));
+      work.spend(work_on(other, run));
       add_times(other.times, result.log);
       add_times(run.log.times, result.log);
       result.seconds += run.seconds;
@@ -307,13 +306,14 @@ void stay_within_patches(PreparedProblem& prepared) {
 }
 
 /// Meshes without cavities over curves where these were filled: what they gain is not worth an unsound mesh.
-void undo_across_curves(const Word& word, PreparedProblem& prepared, MeshResult& result) {
+void undo_across_curves(const Word& word, Budget& work, PreparedProblem& prepared, MeshResult& result) {
   const Summaries& summaries = result.log.summaries;
   if (!repair_options(prepared.settings.options).refine_unsound || !summaries.has("across_curves") ||
       summaries.number("across_curves", "accepted") == 0)
     return;
   stay_within_patches(prepared);
   MeshResult run = run_word(prepared, word);
+  work.spend(work_on(prepared, run));
   run.seconds += result.seconds;
   add_times(result.log.times, run.log);
   run.log.summaries.add(kRefining, {{"within_patches", 1LL}});
@@ -322,21 +322,34 @@ void undo_across_curves(const Word& word, PreparedProblem& prepared, MeshResult&
 
 }  // namespace
 
+long long work_on(const PreparedProblem& prepared, const MeshResult& result) {
+  double looks = 0;
+  for (const char* step : {"treatment", "cleanup", "regularity"})
+    if (result.log.summaries.has(step)) looks += result.log.summaries.number(step, "looks");
+  long long work = static_cast<long long>(result.mesh.quads.size()) + result.lifting_cost / kCostPerQuad +
+                   static_cast<long long>(looks) / kLooksPerQuad;
+  if (const auto& surface = prepared.surface)
+    work += surface->domain.steps / kStepsPerQuad +
+            static_cast<long long>(surface->model.fine.triangles.size()) / kTrianglesPerQuad;
+  return work;
+}
+
 void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
                     MeshResult& result) {
-  const long long once = quads_of(prepared, result), most = std::max(kLeastQuads, kMostTimes * once);
-  Budget finer(most), without_small(most / 3);
-  finer.spend(once);
-  undo_across_curves(word, prepared, result);
+  const long long once = work_on(prepared, result),
+                  most = std::max(kLeastWork, kMostTimes * static_cast<long long>(result.mesh.quads.size()));
+  Budget finer(most - once), others(most / 2);
+  undo_across_curves(word, finer, prepared, result);
   const auto within_patches = [&prepare_anew](const Refinement& refinement) {
     PreparedProblem anew = prepare_anew(refinement);
     stay_within_patches(anew);
     return anew;
   };
   make_finer(within_patches, word, finer, prepared, result);
-  if (!result.soundness.sound() && once < most / 3)
-    leave_out_small(within_patches, word, without_small, prepared, result);
-  if (!result.soundness.sound()) take_last_try(within_patches, word, without_small, prepared, result);
+  others.spend(std::max(-finer.left(), 0LL));
+  if (!result.soundness.sound() && once < others.left())
+    leave_out_small(within_patches, word, others, prepared, result);
+  if (!result.soundness.sound()) take_last_try(within_patches, word, others, prepared, result);
   if (!result.soundness.sound()) leave_out_unsound(word, prepared, result);
 }
 

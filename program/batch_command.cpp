@@ -103,9 +103,11 @@ int batch_command(const BatchArguments& arguments) {
   const std::string& format = arguments.format;
   const std::string extension = format.empty() || format[0] == '.' ? format : "." + format;
   if (!extension.empty()) check_mesh_format("part" + extension);
+  read_criteria(arguments.criteria);
+  const std::string text = experiment_of(arguments, parts);
   prepare_folder(arguments.folder);
   const fs::path experiment = arguments.folder / "batch.toml", page = arguments.folder / "index.html";
-  write_text_file(experiment, experiment_of(arguments, parts));
+  write_text_file(experiment, text);
   const RunScope scope({.threads = threads_of(arguments)});
   const Outcome outcome = run_and_print(arguments, Experiment::read(experiment, arguments.data));
   for (const std::string& problem : write_report(arguments.folder, page))

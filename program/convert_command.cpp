@@ -72,7 +72,7 @@ int convert_command(const ConvertArguments& arguments) {
   if (is_kept)
     rewrite_mesh(arguments.mesh, arguments.output, mesh, arguments.weld);
   else if (fields.empty())
-    write_mesh(arguments.output, mesh, arguments.msh);
+    write_mesh(arguments.output, mesh, options_after(arguments.mesh, arguments.msh));
   else
     write_fields(arguments.output, mesh, fields, arguments.msh);
   if (verbosity() != Verbosity::kQuiet) {

@@ -14,6 +14,7 @@
 
 #include "base/activity.h"
 #include "base/context.h"
+#include "base/estimate.h"
 #include "base/located.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
@@ -65,10 +66,10 @@ MeshResult mesh_or_tell(const MeshArguments& arguments, const Prepared& prepared
   }
 }
 
-/// Tells before a large mesh is begun what it costs.
-void warn_of_cost(const MeshProblem& problem, double quads, const Word& word, Progress& progress) {
+/// Tells the cost of a large mesh. Returns whether it is large.
+bool warn_of_cost(const MeshProblem& problem, double quads, const Word& word, Progress& progress) {
   constexpr double kManyQuads = 2e6;
-  if (!(quads > kManyQuads)) return;
+  if (!(quads > kManyQuads)) return false;
   // The bracket and the plate of docs/measurements.md, with half a million quads, need these.
   const std::map<char, double> microseconds = {{'C', 55}, {'R', 70}, {'L', 200}};
   constexpr double kOther = 11, kBytes = 700, kMoreBytes = 600, kMinute = 60e6, kGigabyte = 1e9;
@@ -83,6 +84,7 @@ void warn_of_cost(const MeshProblem& problem, double quads, const Word& word, Pr
                    "processor time; --max-elements refuses more quads than it says",
                    problem.name, quads / 1e6, quads * bytes / kGigabyte,
                    counted(std::lround(std::ceil(quads * time / kMinute)), "minute"))});
+  return true;
 }
 
 /// Gives the nodes of a kept file's sets, which stay, the names that other formats have for them.
@@ -105,6 +107,8 @@ bool keeps_given(const MeshArguments& arguments, const std::optional<Mesh>& give
   std::vector<Warning> lost;
   if (const auto renamed = renamed_in_file(arguments.output, result.mesh); !renamed.empty())
     lost.push_back(fmt::format("{} cannot hold all names as they are: {}", output, fmt::join(renamed, "; ")));
+  if (given && given->order > result.mesh.order)
+    lost.push_back(fmt::format("{} loses the nodes on the sides of elements", output));
   if (const auto names = lost_in_file(arguments.output, result.mesh); !names.empty())
     lost.push_back(fmt::format("{} loses {}", output, fmt::join(names, "; ")));
   if (const auto others = given ? others_in_file(arguments.model) : ""; !others.empty())
@@ -285,7 +289,7 @@ void write_result(const MeshArguments& arguments, const Case& c, const Word& wor
   const Mesh& last = other ? *other : result.mesh;
   const auto write = arguments.serendipity ? write_serendipity : write_mesh;
   is_kept ? rewrite_mesh(arguments.model, arguments.output, last, c.surface.weld_tolerance.value_or(0))
-          : write(arguments.output, last, arguments.msh);
+          : write(arguments.output, last, options_after(arguments.model, arguments.msh));
   result.log.add_time("write", writing.time());
   if (!arguments.fields.empty()) write_wanted(arguments.fields, result.mesh, result.prepared);
   if (!arguments.json.empty()) write_text_file(arguments.json, run_record(c, word, result));
@@ -330,9 +334,12 @@ int mesh_command(MeshArguments arguments) {
       progress.step(head + ": " + report.stage);
     }};
   };
+  on_estimate() = [&, is_told = false](double quads) mutable {
+    is_told = is_told || warn_of_cost(c, c.quads ? static_cast<double>(*c.quads) : quads, word, progress);
+  };
   const Prepared prepared = prepare(c, told(c.name));
+  on_estimate() = nullptr;
   progress.warn(prepared->warnings);
-  warn_of_cost(prepared.problem(), prepared->size.expected_quads, word, progress);
   MeshResult result = mesh_or_tell(arguments, prepared, word, told(c.name + " " + word.text), progress);
   const bool is_kept = keeps_given(arguments, given, result, progress);
   write_result(arguments, c, word, depth, is_kept, result);

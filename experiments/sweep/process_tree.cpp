@@ -96,7 +96,7 @@ extern "C" void report_timeout(int) {
 void report_timeouts(double seconds, int report) {
   time_is_up.report = report;
   const auto end = fmt::format_to_n(time_is_up.text, sizeof time_is_up.text - 1,
-                                    "timeout\nnot done after {:g} s (--timeout): ", seconds);
+                                    "timeout\nstopped after {:g} s (--timeout): ", seconds);
   *end.out = 0;
   signal(SIGALRM, report_timeout);
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/estimate.h"
 #include "delquad/error.h"
 #include "features/divisions/divisions.h"
 #include "features/sizes/named_parts.h"
@@ -35,7 +36,10 @@ PointSize as_function(std::shared_ptr<const SizeField> size, double scale) {
 }
 
 void check_count(double quads, const MeshProblem& problem) {
-  if (quads <= static_cast<double>(problem.max_elements)) return;
+  if (quads <= static_cast<double>(problem.max_elements)) {
+    if (on_estimate()) on_estimate()(quads);
+    return;
+  }
   const std::string count =
       std::isfinite(quads) ? fmt::format("about {:.3g} quads", quads) : "more quads than can be counted";
   throw InputError(fmt::format("{}: the size asks for {}, more than the {} that are allowed (max-elements)",

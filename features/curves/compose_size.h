@@ -42,7 +42,7 @@ std::shared_ptr<const SizeField> largest_size(const SizeSpec& size, const std::s
 
 PointSize as_function(std::shared_ptr<const SizeField> size, double scale = 1);
 
-/// Throws InputError for more quads than problem.max_elements.
+/// Throws InputError for more quads than problem.max_elements. Else calls on_estimate().
 void check_count(double quads, const MeshProblem& problem);
 
 /// Whether planes of symmetry are given or looked for.

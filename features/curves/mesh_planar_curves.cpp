@@ -174,7 +174,10 @@ class CurveMesher {
       pair_symmetric(model_, *symmetry, options.symmetry.where, chain_, pieces_);
     }
     follow_masters(model_, pieces_);
-    add_whiskers(model_, size, chain_, pieces_);
+    const auto fold = [&](Vec2 at, Vec2 x) {
+      return symmetry != nullptr ? symmetry->reflect(symmetry->folds_of(at), x) : x;
+    };
+    add_whiskers(model_, size, fold, chain_, pieces_);
     make_even();
     follow_masters(model_, pieces_);
   }

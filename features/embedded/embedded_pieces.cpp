@@ -19,12 +19,13 @@ bool is_crack(const PlanarModel& model, const std::vector<int>& curves) {
   return std::ranges::any_of(curves, [&](int c) { return model.curves[c].is_crack; });
 }
 
-void add_whiskers(const PlanarModel& model, const PointSize& size, ModelChain& chain,
+void add_whiskers(const PlanarModel& model, const PointSize& size,
+                  const std::function<Vec2(Vec2, Vec2)>& fold, ModelChain& chain,
                   std::vector<CurvePiece>& pieces) {
   std::vector<char> has_piece(chain.nodes.size(), 0);
   for (const CurvePiece& p : pieces)
     for (const int v : p.ends) has_piece[v] = 1;
-  std::vector<int> nodes;
+  std::vector<int> nodes, images;
   std::vector<Vec2> points;
   std::vector<double> sizes;
   std::vector<std::string> labels;
@@ -32,8 +33,13 @@ void add_whiskers(const PlanarModel& model, const PointSize& size, ModelChain& c
     const int v = chain.point_nodes[i];
     if (has_piece[v]) continue;
     has_piece[v] = 1;
+    const Vec2 at = chain.nodes[v];
+    if (!(fold(at, at) == at)) {
+      images.push_back(v);
+      continue;
+    }
     nodes.push_back(v);
-    points.push_back(chain.nodes[v]);
+    points.push_back(at);
     sizes.push_back(size({points.back().x, points.back().y, 0}));
     labels.push_back(message_prefix(model) + point_label(model, static_cast<int>(i)));
   }
@@ -41,11 +47,18 @@ void add_whiskers(const PlanarModel& model, const PointSize& size, ModelChain& c
   std::vector<CurveSpan> curves;
   for (const CurvePiece& p : pieces) curves.emplace_back(*p.shape, p.from, p.to);
   const auto ends = whisker_ends(curves, points, sizes, labels);
+  const auto add = [&](int node, Vec2 end) {
+    pieces.push_back(
+        {{}, {node, static_cast<int>(chain.nodes.size())}, make_segment(chain.nodes[node], end)});
+    chain.nodes.push_back(end);
+  };
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (const Vec2 end : ends[i]) {
-      pieces.push_back({{}, {nodes[i], static_cast<int>(chain.nodes.size())}, make_segment(points[i], end)});
-      chain.nodes.push_back(end);
-    }
+    for (const Vec2 end : ends[i]) add(nodes[i], end);
+  for (const int v : images) {
+    const Vec2 at = chain.nodes[v], master = fold(at, at);
+    const auto next = std::ranges::min_element(points, {}, [&](Vec2 p) { return norm(p - master); });
+    for (const Vec2 end : ends[next - points.begin()]) add(v, fold(at, end));
+  }
 }
 
 void check_embedded(const PlanarModel& model, const ModelChain& chain, const std::vector<CurvePiece>& pieces,

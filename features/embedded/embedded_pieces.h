@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,9 @@ std::vector<std::array<Vec2, 2>> whisker_ends(const std::vector<CurveSpan>& curv
                                               const std::vector<std::string>& labels);
 
 /// Points that are on no curve get two edges, pieces without curves. Throws InputError as whisker_ends().
-void add_whiskers(const PlanarModel& model, const PointSize& size, ModelChain& chain,
+/// `fold(at, x)`: mirrors x as it mirrors `at` into the fundamental part of a symmetric model.
+void add_whiskers(const PlanarModel& model, const PointSize& size,
+                  const std::function<Vec2(Vec2, Vec2)>& fold, ModelChain& chain,
                   std::vector<CurvePiece>& pieces);
 
 /// Points with such edges lie in a region, and curves that no loop has on no boundary; throws InputError

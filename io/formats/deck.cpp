@@ -18,12 +18,14 @@
 
 #include "base/located.h"
 #include "base/sort_unique.h"
+#include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "geometry/mesh/turn_to_agree.h"
 #include "geometry/mesh/weld.h"
+#include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
 
@@ -209,12 +211,12 @@ class DeckRewriter {
     for (const NamedPoint& named : mesh_.named_points) number_[named.point] = kept_number(named.entity.tag);
     largest_node_ = deck_.node_of.rbegin()->first;
     for (const Deck::Word& word : deck_.words) largest_node_ = std::max(largest_node_, word.number);
-    long long largest = largest_node_;
-    for (std::size_t p = 0; p < number_.size(); ++p) {
-      if (number_[p] > 0 || mesh_.order > 1) continue;  // middles of eight nodes are in no deck
-      number_[p] = ++largest;
-      new_nodes_.push_back(p);
-    }
+    for (std::size_t p = 0; p < number_.size(); ++p)
+      if (number_[p] == 0) number_[p] = add_node(mesh_.points[p]);
+  }
+  long long add_node(const Vec3& at) {
+    new_nodes_.emplace_back(largest_node_ + static_cast<long long>(new_nodes_.size()) + 1, at);
+    return new_nodes_.back().first;
   }
 
   /// A node, or the one that takes its place.
@@ -243,7 +245,10 @@ class DeckRewriter {
     for (std::size_t e = 0; e < deck_.elements.size(); ++e) {
       kept_.push_back(deck_.elements[e].corners() == 2);
       if (kept_[e]) continue;
-      old[sorted(numbers_of(deck_.elements[e]))] = e;
+      const Numbers numbers = numbers_of(deck_.elements[e]);
+      old[sorted(numbers)] = e;
+      for (std::size_t k = 0; k < 4 && numbers.size() == 8; ++k)
+        middle_[std::minmax(numbers[k], numbers[(k + 1) % 4])] = numbers[4 + k];
       models_.try_emplace({deck_.elements[e].region, deck_.elements[e].nodes.size()}, &deck_.elements[e]);
       add_facets(deck_.elements[e]);
     }
@@ -259,7 +264,6 @@ class DeckRewriter {
         kept_[found->second] = 1;
         return add_sides(e.number, numbers_of(e), e.corners(), region);
       }
-      if (mesh_.order > 1) refuse("{}: elements of order {} stay as they are", deck_.source, mesh_.order);
       std::vector<Vec3> corners;
       for (const int i : v) corners.push_back(mesh_.points[i]);
       const Deck::Element& near = nearest(corners, region);
@@ -267,11 +271,24 @@ class DeckRewriter {
         std::reverse(numbers.begin() + 1, numbers.end());
         std::reverse(corners.begin() + 1, corners.end());
       }
-      add_sides(++largest, numbers, v.size(), region);
       const auto model = models_.contains({region, v.size()}) ? models_[{region, v.size()}]
                                                               : models_.lower_bound({region, 0})->second;
+      if (model->nodes.size() == 8) add_middles(corners, *model, numbers);
+      add_sides(++largest, numbers, v.size(), region);
       new_elements_[region].push_back({largest, model, std::move(numbers), angle_as(near, corners)});
     });
+  }
+
+  /// Adds the nodes on the sides of a new quad. Nodes on sides of the deck stay, others lie halfway.
+  void add_middles(const std::vector<Vec3>& corners, const Deck::Element& model, Numbers& numbers) {
+    if (deck_.has_directions)
+      refuse("{}:{}: element {} has eight nodes and a material's direction: expected elements of four nodes",
+             deck_.source, model.line, model.number);
+    for (std::size_t k = 0; k < 4; ++k) {
+      long long& middle = middle_[std::minmax(numbers[k], numbers[(k + 1) % 4])];
+      if (middle == 0) middle = add_node(0.5 * (corners[k] + corners[(k + 1) % 4]));
+      numbers.push_back(middle);
+    }
   }
 
   static Vec3 normal_of(const std::vector<Vec3>& p) { return cross(p[2] - p[0], p.back() - p[1]); }
@@ -333,6 +350,9 @@ class DeckRewriter {
       for (const int v : deck_.elements[e].nodes)
         if (const Deck::Node& node = kept(v); !used_.contains(node.number)) {
           require_free(node.pin, "node", node.number);
+          if (node.pin == 0 && deck_.elements[e].nodes.size() == 8)  // on a side, as corners stay
+            refuse("{}: node {} on a side is in a set and would be gone: take it out of the set",
+                   deck_.source, node.number);
           gone_nodes_.insert(node.number);
         }
     }
@@ -366,9 +386,9 @@ class DeckRewriter {
       }
     }
     std::string text = new_nodes_.empty() ? "" : writes_.head_of_nodes();
-    for (const std::size_t p : new_nodes_) {
-      const auto card = card_of.find(number_[p]);
-      text += writes_.node(number_[p], mesh_.points[p], card == card_of.end() ? nullptr : card->second);
+    for (const auto& [number, at] : new_nodes_) {
+      const auto card = card_of.find(number);
+      text += writes_.node(number, at, card == card_of.end() ? nullptr : card->second);
     }
     replace(first.end, first.end, text + sets);
     std::size_t last = first.end;  // all nodes are there
@@ -535,10 +555,11 @@ class DeckRewriter {
   const DeckText& writes_;
   const Mesh& mesh_;
   long long largest_node_ = 0;
-  Numbers number_;                                       ///< of each point of the mesh
-  std::vector<std::size_t> new_nodes_;                   ///< points of the mesh
-  std::vector<char> kept_;                               ///< by element of the deck
-  std::map<int, std::vector<NewElement>> new_elements_;  ///< by region
+  Numbers number_;                                               ///< of each point of the mesh
+  std::vector<std::pair<long long, Vec3>> new_nodes_;            ///< with their numbers
+  std::map<std::pair<long long, long long>, long long> middle_;  ///< node on the side between two corners
+  std::vector<char> kept_;                                       ///< by element of the deck
+  std::map<int, std::vector<NewElement>> new_elements_;          ///< by region
   std::map<std::tuple<long long, long long, int>, std::pair<long long, int>>
       side_at_;                                                         ///< by ends and region
   std::map<std::pair<int, std::size_t>, const Deck::Element*> models_;  ///< by region and number of nodes
@@ -612,11 +633,12 @@ Mesh given_mesh(Deck deck, ReadNotes* notes) {
   if (notes != nullptr && deck.n_named > 0)
     notes->push_back(fmt::format("{}: inner nodes and elements that stay, as lines or sets name them: {}",
                                  deck.source, deck.n_named));
-  return std::move(deck.mesh);
+  return deck.mesh.order > 1 ? straightened(std::move(deck.mesh)) : std::move(deck.mesh);
 }
 
 void rewrite_deck(Deck& deck, const DeckText& text, const std::filesystem::path& path, const Mesh& mesh,
                   double weld) {
+  require_straight(weld > 0 ? deck.mesh : mesh, deck.source);
   join_nodes(deck, weld);
   write_text_file(path, std::string_view(DeckRewriter(deck, text, mesh).text()));
 }

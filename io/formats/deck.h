@@ -144,13 +144,14 @@ Deck read_nastran_deck(const std::filesystem::path& path, bool as_deck);
 /// Parts the regions, before there is a mesh, and names the points of such a deck.
 void part_elements(Deck& deck);
 void name_points(Deck& deck);
-/// The mesh of a deck to improve; notes how much must stay.
+/// The mesh of a deck to improve, of corners alone; notes how much must stay.
 Mesh given_mesh(Deck deck, ReadNotes* notes);
 
 /// Writes a deck again with a mesh that read_..._deck() and stages made from it. Elements and nodes that
-/// are not new keep their lines, and so does all else that new ones do not change. `weld` is the part of the
-/// diagonal that weld_open_edges() had: in sets the kept nodes take the places of the joined ones. Throws
-/// InputError if a line names a node or an element that is gone.
+/// are not new keep their lines, and so does all else that new ones do not change. On new sides of elements
+/// with eight nodes the middle node lies halfway. `weld` is the part of the diagonal that weld_open_edges()
+/// had: in sets the kept nodes take the places of the joined ones. Throws InputError if a line names a node
+/// or an element that is gone.
 void rewrite_deck(Deck& deck, const DeckText& text, const std::filesystem::path& path, const Mesh& mesh,
                   double weld);
 void rewrite_inp(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh,

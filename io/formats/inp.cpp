@@ -124,7 +124,8 @@ class InpWriter {
       : out_(out),
         mesh_(mesh),
         is_solid_(!mesh.hexahedra.empty()),
-        is_planar_(is_planar(mesh)),  // plane elements of a face that looks down would be inverted
+        // Plane elements of a face that looks down would be inverted.
+        is_planar_(element != kShell && is_planar(mesh)),
         element_(element.empty() ? inp_hexahedra()[0] : element),
         cells_(cell_blocks(mesh, places_on_sides(mesh.order))),
         labels_(make_labels(mesh, is_solid_)) {
@@ -291,7 +292,8 @@ class InpWriter {
 };
 
 /// Writes Abaqus input that CalculiX takes, too: numbers of at most 20 characters, shells S4 and S3. Elements
-/// are CPS4 and CPS3 if all z are equal and they turn left. All elements are in "Eall", all nodes in "Nall".
+/// are CPS4 and CPS3 if all z are equal, they turn left and the options do not say S4. All elements are in
+/// "Eall", all nodes in "Nall".
 /// Every region is an ELSET and an NSET, every curve an NSET and a SURFACE. They go by tag ("region_3",
 /// "curve_5") and by each name, in letters, digits and underscores; comments have the table. A curve's
 /// surface has the sides of plane elements, and the nodes of shells. Sides of shells are ELSETs for edge

@@ -98,6 +98,7 @@ MeshFormat nastran_format() {
           .write = write_by<write_nastran>,
           .most_order = 2,
           .has_hexahedra = true,
+          .has_shells = true,
           .eight_nodes = EightNodes::kAlways,
           .read_given = [](const std::filesystem::path& path,
                            ReadNotes* notes) { return given_mesh(read_nastran_deck(path, true), notes); },

@@ -372,7 +372,12 @@ class NastranReader {
       if (!deck_.element_of.emplace(e.number, static_cast<int>(deck_.elements.size())).second)
         in_.fail_at(card_.line, "element {} is there twice", e.number);
       std::string set = fmt::format("#{}", property_.back());
-      if (n_nodes == 3 || n_nodes == 4) {
+      if (n_nodes == 8) {
+        for (std::size_t k = 10; k < 16; ++k) set += fmt::format(",{}", card_.field(k));
+        for (std::size_t k = 11; k < 14; ++k)
+          if (card_.field(k) != card_.field(10)) e.pin = card_.line;  // a thickness for each corner
+        deck_.has_directions |= card_.field(14).find('.') != std::string_view::npos;
+      } else if (n_nodes > 2) {
         const std::string_view angle = card_.field(first + n_nodes);
         if (angle.find('.') != std::string_view::npos) e.angle = as_nastran_real(angle).value_or(0);
         deck_.has_directions |= e.angle != 0;

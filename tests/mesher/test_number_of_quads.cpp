@@ -1,4 +1,6 @@
+#include "base/activity.h"
 #include "base/calibration.h"
+#include "base/estimate.h"
 #include "tests/support/meshing.h"
 
 namespace delquad {
@@ -208,6 +210,24 @@ TEST(NumberOfQuads, RefusesNumbersThatCannotBe) {
     problem.quads = n;
     expect_input_error([&] { prepare(problem); }, {"plate", "quads", "1 to 50000000"});
   }
+}
+
+TEST(ExpectedQuads, AreToldBeforeTheMapsAreMade) {
+  TriangleModel ball;
+  ball.mesh = round_sphere(5).fine;
+  std::vector<std::string> stages, before;
+  double told = 0;
+  Activities activities(1);
+  activities.on_stage = [&](const char* name) { stages.emplace_back(name); };
+  const RunScope run({.activities = &activities});
+  on_estimate() = [&](double quads) {
+    if (std::exchange(told, quads) == 0) before = stages;
+  };
+  prepare(problem_of(ball, 0.1));
+  on_estimate() = nullptr;
+  EXPECT_NEAR(told, 400 * std::numbers::pi, 30);
+  EXPECT_EQ(std::ranges::count(before, "maps"), 0);
+  EXPECT_EQ(std::ranges::count(stages, "maps"), 1);
 }
 
 }  // namespace

@@ -155,5 +155,16 @@ TEST(RefineUnsound, TriesFeatureAnglesLast) {
   EXPECT_TRUE(is_told(result.warnings, "with a feature angle of 25 degrees"));
 }
 
+TEST(RefineUnsound, CountsAllWork) {
+  const PreparedProblem prepared = prepare_problem(ridge(0.2));
+  MeshResult result = run_word(prepared, parse_word("DB"));
+  const long long made = work_on(prepared, result);
+  EXPECT_GT(made, static_cast<long long>(result.mesh.quads.size()));
+  result.log.summaries.add("cleanup", {{"looks", 3'000'000LL}});
+  EXPECT_EQ(work_on(prepared, result), made + 10'000);
+  result.lifting_cost += 300'000;
+  EXPECT_EQ(work_on(prepared, result), made + 11'000);
+}
+
 }  // namespace
 }  // namespace delquad

@@ -42,6 +42,15 @@ TEST(ConvertCommand, TellsWhichNamesAFormatDoesNotHold) {
   }
 }
 
+TEST(ConvertCommand, FlatShellsStayShells) {
+  const Workplace folder;
+  write_mesh(folder / "a.bdf", quad_grid(2, 2));
+  for (const char* command : {"convert a.bdf a.inp", "improve a.bdf -o a.inp"}) {
+    ASSERT_EQ(folder.run(command).exit_code, 0) << command;
+    EXPECT_TRUE(holds(read_text(folder / "a.inp"), "TYPE=S4,")) << command;
+  }
+}
+
 TEST(ConvertCommand, KeepsFieldsAndOrderWhereItCan) {
   const Folder folder;
   const Mesh mesh = curved_grid(3, 2, 2, false);

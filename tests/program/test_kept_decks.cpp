@@ -281,6 +281,61 @@ TEST(KeptDecks, TrianglesBecomeQuadsOfTheirType) {
   for (const auto& [number, type] : after.types) EXPECT_EQ(type, "CPS4");
 }
 
+/// A part of a cylinder of 8 x 8 quads of eight nodes, with moved corners; `more` lines follow.
+std::string curved_plate(const std::string& more) {
+  constexpr int kSide = 8, kRow = 2 * kSide + 1;
+  const auto number = [](int i, int j) { return 1 + j * kRow + i; };
+  std::string nodes = "*NODE\n", elements = "*ELEMENT, TYPE=S8R, ELSET=SHELL\n";
+  for (int j = 0; j < kRow; ++j)
+    for (int i = 0; i < kRow; ++i) {
+      if (i % 2 == 1 && j % 2 == 1) continue;
+      const bool moves = i % 2 + j % 2 == 0 && i > 0 && j > 0 && i < kRow - 1 && j < kRow - 1;
+      const double x = 0.05 * i + (moves ? 0.03 * std::sin(7.0 * i + 3.0 * j) : 0), y = 0.05 * j;
+      nodes += std::to_string(number(i, j));
+      for (const double c : {std::sin(x), y, std::cos(x)}) nodes += ", " + std::to_string(c);
+      nodes += '\n';
+    }
+  for (int e = 0; e < kSide * kSide; ++e) {
+    const int i = e % kSide * 2, j = e / kSide * 2;
+    elements += std::to_string(e + 1);
+    for (const auto& [a, b] : {std::pair{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}})
+      elements += ", " + std::to_string(number(i + a, j + b));
+    elements += '\n';
+  }
+  return nodes + elements + more;
+}
+
+TEST(KeptDecks, QuadsOfEightNodesKeepTheirType) {
+  const Folder folder;
+  write_text(folder / "a.inp", curved_plate("*NSET, NSET=CLAMP, GENERATE\n1, 17, 1\n"));
+  const auto result = delquad({"improve", folder / "a.inp", "-o", folder / "b.inp"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const ReadDeck before = read_deck(folder / "a.inp"), after = read_deck(folder / "b.inp");
+  EXPECT_EQ(after.nsets.at("CLAMP"), before.nsets.at("CLAMP"));
+  std::map<std::pair<int, int>, std::set<int>> middles;
+  int moved = 0;
+  for (const auto& [number, v] : after.elements) {
+    EXPECT_EQ(after.types.at(number), "S8R");
+    ASSERT_EQ(v.size(), 8u);
+    moved += !before.elements.contains(number);
+    for (std::size_t k = 0; k < 4; ++k) {
+      middles[std::minmax(v[k], v[(k + 1) % 4])].insert(v[4 + k]);
+      const auto &a = after.nodes.at(v[k]), &b = after.nodes.at(v[(k + 1) % 4]),
+                 &m = after.nodes.at(v[4 + k]);
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(m[c], (a[c] + b[c]) / 2, 2e-2);
+    }
+  }
+  EXPECT_GT(moved, 20);
+  for (const auto& [side, nodes] : middles) EXPECT_EQ(nodes.size(), 1u);
+  for (const auto& [number, at] : before.nodes)
+    if (after.nodes.contains(number)) EXPECT_EQ(after.nodes.at(number), at);
+
+  write_text(folder / "c.inp", curved_plate("*NSET, NSET=INSIDE\n" + std::to_string(1 + 8 * 17 + 7) + "\n"));
+  const auto refused = delquad({"improve", folder / "c.inp", "-o", folder / "d.inp"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(holds(refused.err, "node 144 on a side is in a set and would be gone"));
+}
+
 TEST(KeptDecks, ALoadOnAllNodesIsNotSpread) {
   const Folder folder;
   write_text(folder / "a.inp", plate("S4", 0, "*STEP\n*STATIC\n*CLOAD\nEVERY, 3, -1.\n*END STEP\n"));

@@ -227,7 +227,7 @@ TEST_F(Resume, FailuresAreCellsWithReasons) {
           .string();
   const auto result = program({"run", file, "-o", out(), "--timeout", "1", "-j", "2"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_TRUE(holds(result.err, "error: long DB: not done after 1 s (--timeout): ", "error: bad DB: "));
+  EXPECT_TRUE(holds(result.err, "error: long DB: stopped after 1 s (--timeout): ", "error: bad DB: "));
   const auto records = read_records(out());
   ASSERT_EQ(records.size(), 3u);
   EXPECT_EQ(records[0].reason, "");

@@ -101,6 +101,16 @@ TEST(Symmetry, EdgesAtSinglePointsAreMirrored) {
                   "has no mirror image at (3.4, 0.41)");
 }
 
+/// The edges at the second point run askew, past the other ones.
+TEST(Symmetry, EdgesAtCrowdedPointsAreMirrored) {
+  PlanarModel model = polygons({{{0, 0}, {4, 0}, {4, 2}, {0, 2}}});
+  for (const Vec2 at : {Vec2{0.484, 0.875}, {0.539, 0.929}, {0.519, 0.892}})
+    for (const double x : {at.x, 4 - at.x}) model.points.push_back({{x, at.y}, "sensor", {}});
+  const MeshResult r = mesh(symmetric_problem(model, 0.1, {{{{2, 1, 0}, {1, 0, 0}}}}), "DBCO");
+  EXPECT_EQ(r.mesh.named_points.size(), 6u);
+  expect_mirrored(r.mesh, about_x2);
+}
+
 TEST(Symmetry, CurvesThatSpoilAPlaneAreNamed) {
   PlanarModel model = symmetric_plate();
   model.curves.push_back({make_segment({0.2, 0.2}, {0.2, 1.2}), "rib", "m 4"});

@@ -1,0 +1,10 @@
+#include "base/estimate.h"
+
+namespace delquad {
+
+std::function<void(double quads)>& on_estimate() {
+  static thread_local std::function<void(double quads)> told;
+  return told;
+}
+
+}  // namespace delquad

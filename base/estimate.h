@@ -1,0 +1,11 @@
+#pragma once
+
+#include <functional>
+
+namespace delquad {
+
+/// Returns the function that this thread calls with each estimate of the number of quads, the first before
+/// the work on them begins. Empty: none.
+std::function<void(double quads)>& on_estimate();
+
+}  // namespace delquad
