@@ -10,9 +10,6 @@ namespace delquad {
 
 namespace {
 
-// The domain is seen at this fraction of its diagonal at least: what is smaller and appears in no sample is
-// missed.
-constexpr double kCoarsest = 1.0 / 64;
 // Estimates are differences between rules: too small where delta jumps.
 constexpr double kSafety = 0.25;
 // Bounds the work where delta has no finite integral or varies everywhere.
@@ -103,11 +100,11 @@ class Quadrature {
 
 }  // namespace
 
-double expected_quads(const BackgroundMesh& background, const SizeField& size, double relative_error) {
+double expected_quads(const TriPatch& triangulation, const SizeField& size, double relative_error,
+                      double coarsest) {
   Quadrature quadrature(size);
-  const double longest = kCoarsest * diagonal(background.triangles().points);
-  for (const auto& v : background.triangles().triangles)
-    quadrature.add(corners_of(background.triangles(), v), longest);
+  const double longest = coarsest * diagonal(triangulation.points);
+  for (const auto& v : triangulation.triangles) quadrature.add(corners_of(triangulation, v), longest);
   return quadrature.refine(kSafety * relative_error);
 }
 

@@ -79,9 +79,11 @@ class HarmonicCrossField final : public SolvedCrossField {
 /// diagonal).
 std::unique_ptr<CrossField> make_gradient_cross(std::shared_ptr<const SizeField> size, double step);
 
-/// Integral of dA/delta^2 over the domain: the expected number of quads. `relative_error` is what the
-/// adaptive quadrature over the background mesh aims at.
-double expected_quads(const BackgroundMesh& background, const SizeField& size, double relative_error = 0.01);
+/// Integral of dA/delta^2 over a triangulation: the expected number of quads. `relative_error` is what the
+/// adaptive quadrature aims at. The domain is seen at `coarsest` of its diagonal at least; what is smaller
+/// and appears in no sample is missed.
+double expected_quads(const TriPatch& triangulation, const SizeField& size, double relative_error = 0.01,
+                      double coarsest = 1.0 / 64);
 
 /// What curvature asks for at least where the size is else `base`: `min`, or if that is 0 a part of the base.
 double least_by_curvature(double base, double min);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "delquad/mesher.h"
+#include "features/curves/agreement.h"
 #include "features/given/given_surface.h"
 #include "geometry/surface/surface_model.h"
 #include "patches/prepared.h"
@@ -51,6 +52,9 @@ class ModelSteps {
 std::unique_ptr<ModelSteps> planar_steps(const MeshProblem& problem, const Refinement& refinement);
 std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const Refinement& refinement);
 std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem, const GivenMesh& given);
+
+/// How far numbers of edges agree; with few steps for a problem that is meshed anew.
+CurveAgreement agreement_of(const MeshProblem& problem, const Refinement& refinement);
 
 /// All of them in turn.
 PreparedProblem prepare_by(const MeshProblem& problem, ModelSteps& model);

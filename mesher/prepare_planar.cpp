@@ -25,6 +25,7 @@
 #include "geometry/planar/check_lines.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
+#include "patches/narrow_places.h"
 
 namespace delquad {
 namespace {
@@ -135,7 +136,7 @@ PlanarDomain planar_domain(const MeshProblem& problem, const Refinement& refinem
                            std::vector<QuadPatch>& given, PreparedProblem& p) {
   if (const auto* model = std::get_if<PlanarModel>(&problem.model)) {
     p.warnings.insert(p.warnings.end(), model->notes.begin(), model->notes.end());
-    return mesh_by_size(problem, *model, refinement.spots, p);
+    return mesh_by_size(problem, *model, refinement.spots, agreement_of(problem, refinement), p);
   }
   const auto* start = std::get_if<GivenMesh>(&problem.model);
   if (start == nullptr) return prepare_lines(problem, std::get<LineModel>(problem.model), p);
@@ -161,8 +162,8 @@ class PlanarSteps final : public ModelSteps {
     if (std::holds_alternative<LineModel>(problem_.model))
       for (const std::string& line : odd_boundaries(domain_))
         p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
-    p.size.expected_quads =
-        expected_quads(*p.plane.background, *p.size.field) + (p.layers ? p.layers->count.quads : 0);
+    p.size.expected_quads = expected_quads(p.plane.background->triangles(), *p.size.field) +
+                            (p.layers ? p.layers->count.quads : 0);
     check_count(p.size.expected_quads, problem_);
     warn_of_large_size(*p.size.field, domain_.boundary, p.warnings);
     if (const auto* model = std::get_if<PlanarModel>(&problem_.model); model && !p.metric_plane)
@@ -171,6 +172,7 @@ class PlanarSteps final : public ModelSteps {
     given_cross_ = given_cross(problem_.cross, domain_.boundary, p);
     auto shapes = domain_.curve_shapes;
     if (problem_.seed != 0) turn(problem_, domain_, given_, p);
+    if (std::holds_alternative<PlanarModel>(problem_.model)) seed_narrow(agreement_of(problem_, refinement_));
     p.boundary = std::move(domain_.boundary);
     p.plane.curve_places = std::move(domain_.places);
     p.plane.outlines = std::move(domain_.outlines);
@@ -211,6 +213,14 @@ class PlanarSteps final : public ModelSteps {
   }
 
  private:
+  /// Where nodes face each other, single edges across may be impossible.
+  void seed_narrow(const CurveAgreement& agreement) {
+    if (agreement.price == 0 || curve_options(problem_.options).thin_rows) return;
+    for (std::size_t p = 0; p < domain_.patches.size(); ++p)
+      if (std::ranges::find(domain_.mapped, static_cast<int>(p), &MappedPatch::patch) == domain_.mapped.end())
+        seed_narrow_places(domain_.patches[p]);
+  }
+
   const MeshProblem& problem_;
   const Refinement& refinement_;
   PlanarDomain domain_;

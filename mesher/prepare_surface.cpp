@@ -74,24 +74,18 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
   }
 }
 
-/// Steps of agreement where a problem is meshed anew, as its mesh was not sound: fewer irregular vertices are
-/// not what is missing then, and there may be many rounds.
-constexpr long long kStepsAnew = kMostAgreementSteps / 10;
-
 /// Meshes the curves; faces for which that is impossible go, those with washers once these gave way.
 SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                              const SizeField* asked, const MeshProblem& problem,
                              const std::vector<CurveDivision>& divisions, SurfaceWashers& washers,
-                             const MappedSpec& mapped, const PeriodicSides& periodic, long long most_steps,
-                             Failures& failures) {
+                             const MappedSpec& mapped, const PeriodicSides& periodic,
+                             const CurveAgreement& agreement, Failures& failures) {
   const auto solver = matching_solver(recombination_options(problem.options).solver, problem.options);
-  const CurveOptions curves = curve_options(problem.options);
-  const double agreement = regularity_options(problem.options).weight * curves.agreement;
   while (!flattening.patches.empty()) {
     try {
       const bool may_repeat = failures.are_left_out() || washers.can_give_way();
       return make_surface_domain(model, may_repeat ? flattening : std::move(flattening), size, *solver, asked,
-                                 divisions, periodic, mapped, agreement, most_steps, curves.round_holes);
+                                 divisions, periodic, mapped, agreement);
     } catch (const FaceError& error) {
       if (washers.give_way(error)) continue;
       failures.add(error.face(), error.what());
@@ -174,10 +168,10 @@ class SurfaceSteps final : public ModelSteps {
       other.base = jittered(wanted_.base, problem_.seed, diagonal(model_.fine));
       on_curves = std::make_shared<SurfaceSize>(model_, other);
     }
-    surface_->domain = mesh_curves_of(
-        model_, std::move(flattening_), *on_curves,
-        wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_, divisions_, washers_, mapped_,
-        periodic_, refinement_.spots.empty() ? kMostAgreementSteps : kStepsAnew, failures_);
+    surface_->domain =
+        mesh_curves_of(model_, std::move(flattening_), *on_curves,
+                       wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_, divisions_,
+                       washers_, mapped_, periodic_, agreement_of(problem_, refinement_), failures_);
     surface_->is_anew = !refinement_.spots.empty();
     surface_->model = std::move(model_);
     surface_->cad = cad_;
@@ -365,6 +359,14 @@ class GivenSurfaceSteps final : public ModelSteps {
 };
 
 }  // namespace
+
+CurveAgreement agreement_of(const MeshProblem& problem, const Refinement& refinement) {
+  // A mesh that was not sound does not lack regularity, and there may be many rounds.
+  constexpr long long kStepsAnew = kMostAgreementSteps / 10;
+  const CurveOptions curves = curve_options(problem.options);
+  return {regularity_options(problem.options).weight * curves.agreement,
+          refinement.spots.empty() ? kMostAgreementSteps : kStepsAnew, curves.round_holes};
+}
 
 std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const Refinement& refinement) {
   return std::make_unique<SurfaceSteps>(problem, refinement);

@@ -121,16 +121,8 @@ bool is_of_ring(const SurfaceCurves& curves, const ClosureSum& sum) {
 
 }  // namespace
 
-double expected_quads(const Mesh& fine, const FlatPatch& map, const SurfaceSize& size) {
-  double sum = 0;
-  int hint = -1;
-  for (const int t : map.fine_triangle) sum += size.quads_in(fine, t, hint);
-  return sum;
-}
-
-void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
-                     const SurfaceSize& size, double price, const std::set<int>& kept, Budget& steps,
-                     std::vector<int>& counts) {
+void agree_on_counts(const SurfaceCurves& curves, const CurveDemands& wanted, double price,
+                     const std::set<int>& kept, Budget& steps, std::vector<int>& counts) {
   assert(wanted.demands.size() == curves.chains.size() && counts.size() == curves.chains.size());
   const std::vector<int> leader = leaders(curves);
   std::vector<AgreeingCurve> agreeing;
@@ -146,8 +138,7 @@ void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveD
       length += std::abs(times) * wanted.demands[chain].integral / 2;
       gap += times * wanted.demands[chain].integral;
     }
-    const double quads = expected_quads(fine, curves.maps[sum.patch], size);
-    const double depth = std::max(1.0, quads / std::max(length, 1.0));
+    const double depth = std::max(1.0, wanted.quads[sum.patch] / std::max(length, 1.0));
     const bool may_close = std::abs(gap) <= kWidestGap * length;
     sum.price_of_pair = may_close ? price : 0;
     sum.price = price * (may_close ? kIrregularPerRow + kMoreInNarrow * std::min(1.0, 2 / depth)

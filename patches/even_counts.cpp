@@ -25,6 +25,14 @@ void add(Parities& to, const Parities& other) {
     if (const auto [at, added] = to.insert(i); !added) to.erase(at);
 }
 
+/// The patches that get another parity if a curve that bounds these changes by one.
+std::vector<int> with_other_parity(std::vector<int> patches) {
+  if (patches.size() == 2 && patches[0] != patches[1]) return patches;
+  Parities odd;
+  for (const int p : patches) add(odd, {p});
+  return {odd.begin(), odd.end()};
+}
+
 /// Parts of the graph that hang together, by node.
 std::vector<int> components(const WeightedGraph& graph) {
   DisjointSets parts(graph.n_nodes);
@@ -132,10 +140,10 @@ std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patch
     counts.push_back(n);
     for (const int p : curve.patches) total[p] += n;
     if (curve.exact > 0) continue;
-    if (curve.patches.size() > 2) branching.push_back(static_cast<int>(c));
-    if (curve.patches.empty() || curve.patches.size() > 2) continue;
-    const int a = curve.patches[0], b = curve.patches.size() == 2 ? curve.patches[1] : n_patches;
-    if (a == b) continue;
+    const std::vector<int> patches = with_other_parity(curve.patches);
+    if (patches.size() > 2) branching.push_back(static_cast<int>(c));
+    if (patches.empty() || patches.size() > 2) continue;
+    const int a = patches[0], b = patches.size() == 2 ? patches[1] : n_patches;
     graph.edges.push_back({a, b, cost(n, curve)});
     curve_of_edge.push_back(static_cast<int>(c));
   }

@@ -38,20 +38,16 @@ inline constexpr double kDeviationCost = 1.5 / 2;
 /// places so that rows need not end.
 std::vector<ClosureSum> closure_sums(const SurfaceCurves& curves, const CurveDemands& wanted);
 
-/// Integral of dA/delta^2 over a patch.
-double expected_quads(const Mesh& fine, const FlatPatch& map, const SurfaceSize& size);
-
 /// Asks for more edges around small round holes in faces that need four irregular vertices beside each, as
 /// many as around a square that encloses the hole, so that these vertices stand at its corners: where there
 /// is room, and where that is worth more than the sizes of the quads behind. `price`: as for
 /// agree_on_counts().
-void widen_round_holes(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
-                       const SurfaceSize& size, double price, CurveDemands& wanted);
+void widen_round_holes(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across, double price,
+                       CurveDemands& wanted);
 
 /// Lets numbers of edges agree, so that fewer rows of quads have to end, see agree_counts(). `price`: what an
 /// irregular vertex less is worth, in quads times eta. Chains of `kept` keep their numbers.
-void agree_on_counts(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
-                     const SurfaceSize& size, double price, const std::set<int>& kept, Budget& steps,
-                     std::vector<int>& counts);
+void agree_on_counts(const SurfaceCurves& curves, const CurveDemands& wanted, double price,
+                     const std::set<int>& kept, Budget& steps, std::vector<int>& counts);
 
 }  // namespace delquad

@@ -22,9 +22,9 @@ constexpr double kSquare = 4 / std::numbers::pi;
 
 class RoundHoles {
  public:
-  RoundHoles(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across, const SurfaceSize& size,
-             double price, CurveDemands& wanted)
-      : fine_(fine), curves_(curves), across_(across), size_(size), price_(price), wanted_(wanted) {}
+  RoundHoles(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across, double price,
+             CurveDemands& wanted)
+      : fine_(fine), curves_(curves), across_(across), price_(price), wanted_(wanted) {}
 
   void run() {
     std::vector<char> closes(curves_.maps.size(), 0);
@@ -77,7 +77,7 @@ class RoundHoles {
       for (const int q : wanted_.demands[c].patches) {
         if (q == p) continue;
         if (!faces_one_.contains({c, q})) return false;
-        if (behind.insert(q).second) quads += expected_quads(fine_, curves_.maps[q], size_);
+        if (behind.insert(q).second) quads += wanted_.quads[q];
       }
     }
     return length > kShortestHole && length < kLongestHole &&
@@ -100,7 +100,6 @@ class RoundHoles {
   const Mesh& fine_;
   const SurfaceCurves& curves_;
   const AcrossView& across_;
-  const SurfaceSize& size_;
   double price_;
   CurveDemands& wanted_;
   std::set<std::pair<int, int>> faces_one_;  ///< chains that have one other opposite, in which patch
@@ -108,9 +107,9 @@ class RoundHoles {
 
 }  // namespace
 
-void widen_round_holes(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
-                       const SurfaceSize& size, double price, CurveDemands& wanted) {
-  RoundHoles(fine, curves, across, size, price, wanted).run();
+void widen_round_holes(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across, double price,
+                       CurveDemands& wanted) {
+  RoundHoles(fine, curves, across, price, wanted).run();
 }
 
 }  // namespace delquad

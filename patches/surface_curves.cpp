@@ -356,6 +356,11 @@ CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const
       for (const CurveSide& side : loop)
         if (side.begins(chains[side.chain]))
           wanted.demands[side.chain].patches.push_back(static_cast<int>(p));
+  int hint = -1;
+  for (const FlatPatch& map : curves.maps) {
+    wanted.quads.push_back(0);
+    for (const int t : map.fine_triangle) wanted.quads.back() += size.quads_in(fine, t, hint);
+  }
   // The curves of a strip want the mean of what each wants alone.
   wanted.group = group_facing_curves(fine, chains, across, delta);
   std::vector<double> sum(chains.size(), 0), members(chains.size(), 0);

@@ -42,6 +42,7 @@ struct CurveDemands {
   std::vector<double> lengths;  ///< in sizes as asked
   std::vector<int> group;       ///< those that face each other along strips, see group_facing_curves()
   std::vector<CurveDemand> demands;
+  std::vector<double> quads;  ///< of each patch: the integral of dA/delta^2
   /// Of each the places that its nodes were given, as CurveNode::s, both ends included; empty: it is free.
   std::vector<std::vector<double>> divided = {};
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "delquad/mesher.h"
+#include "features/curves/agreement.h"
 #include "features/periodic/periodic.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "fields/sampled_fields.h"
@@ -51,7 +52,8 @@ bool is_symmetric(const MeshProblem& problem);
 /// A planar model of curves, meshed by its size, which is composed on the way: p.size, p.symmetry and
 /// p.plane.background are those of the domain. `spots`: see Refinement.
 PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
-                          const std::vector<SizeSpot>& spots, PreparedProblem& p);
+                          const std::vector<SizeSpot>& spots, const CurveAgreement& agreement,
+                          PreparedProblem& p);
 
 /// The size on a surface, of `base` and all ingredients that follow it. `divisions`: those of the model.
 /// `cut`: null, or the model is the part.

@@ -8,132 +8,180 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/disjoint_sets.h"
 #include "delquad/error.h"
+#include "features/curves/flat_curves.h"
 #include "features/divisions/divisions.h"
 #include "features/embedded/embedded_pieces.h"
 #include "features/grids/grids.h"
 #include "features/periodic/periodic.h"
 #include "features/symmetry/planar_symmetry.h"
 #include "features/thin/facing_nodes.h"
+#include "fields/fields.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/domain_builder.h"
 #include "geometry/planar/face_regions.h"
 #include "geometry/planar/loops_apart.h"
+#include "patches/across_view.h"
 #include "patches/even_counts.h"
 
 namespace delquad {
 
 namespace {
 
-/// Changes numbers of edges by one, where it costs least, until every region has an even number of them.
-/// Throws InputError where what was divided forbids that.
-class EvenCounts {
+/// Numbers of edges for which every region has an even number of them around it.
+class PieceCounts {
  public:
-  EvenCounts(const PlanarModel& model, const Arrangement& arrangement, const FaceRegions& regions,
-             std::vector<CurvePiece>& pieces)
-      : model_(model), arrangement_(arrangement), regions_(regions), pieces_(pieces) {
-    for (const CurvePiece& p : pieces_) {
-      first_line_.push_back(n_lines_);
-      n_lines_ += static_cast<std::size_t>(p.n);
+  /// There is a patch for each face that has a region, in their order.
+  PieceCounts(const PlanarModel& model, const Arrangement& arrangement, const FaceRegions& regions,
+              std::vector<CurvePiece>& pieces)
+      : model_(model), regions_(regions.regions), pieces_(pieces) {
+    std::vector<int> patch_of;  // of each face; -1: none
+    for (const int region : regions.region) {
+      patch_of.push_back(region < 0 ? -1 : static_cast<int>(region_of_patch_.size()));
+      if (region >= 0) region_of_patch_.push_back(region);
     }
-  }
-
-  void of_groups() {
-    for (const std::vector<int>& group : groups()) {
-      int total = 0;
-      for (int i : group) total += pieces_[i].n;
-      if (total % 2 != 0) change_by_one(group);
-    }
-  }
-
-  /// Every face with a region gets an even number of sides at the least cost; the others do not matter.
-  /// `wanted`: edges of each piece; empty: the integrals.
-  void by_t_join(const std::vector<double>& wanted = {}) {
-    // Mirror images have the numbers of their masters.
-    std::vector<char> counts_not(regions_.region.size(), 0);
-    for (std::size_t f = 0; f < counts_not.size(); ++f) counts_not[f] = regions_.region[f] < 0;
-    for (std::size_t i = 0; i < pieces_.size(); ++i)
+    // The patches of mirror images have the numbers of their masters.
+    std::vector<char> is_image(region_of_patch_.size(), 0);
+    std::size_t line = 0;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const CurvePiece& p = pieces[i];
+      const bool is_free = p.is_free();
+      CurveDemand& demand = demands_.emplace_back(
+          CurveDemand{is_free ? p.measure->integral() : p.n, p.least, {}, is_free ? 0 : p.n});
       for (const int side : {0, 1})
-        if (const int face = face_beside(i, side); pieces_[i].image && face >= 0) counts_not[face] = 1;
-    std::vector<std::set<int>> odd_beside(pieces_.size());  // of each with those that follow it
+        if (const int face = arrangement.face_of[2 * line + side]; face >= 0 && patch_of[face] >= 0)
+          demand.patches.push_back(patch_of[face]);
+      if (p.image)
+        for (const int patch : demand.patches) is_image[patch] = 1;
+      if (p.master >= 0) images_.push_back({static_cast<int>(i), p.master, p.runs_as_master, p.motion});
+      line += static_cast<std::size_t>(p.n);
+    }
+    for (CurveDemand& demand : demands_)
+      std::erase_if(demand.patches, [&](int patch) { return is_image[patch] != 0; });
+  }
+
+  /// Changes numbers by one, where it costs least. `wanted`: edges of each piece; empty: the integrals.
+  /// Throws InputError where the numbers that are given forbid it.
+  void make_even(const std::vector<double>& wanted = {}) {
+    std::vector<CurveDemand> demands = demands_;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (demands[i].exact == 0) demands[i].integral = wanted[i];
+    set(even(demands));
+  }
+
+  /// Looks at the pieces as curves of a surface, as they were when this object was made.
+  void look(FlatCurves flat, const SizeField& size) {
+    flat_ = std::move(flat);
+    flat_.curves.images = images_;
+    wanted_.demands = demands_;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      if (pieces_[i].image) continue;
-      auto& odd = odd_beside[pieces_[i].master < 0 ? i : static_cast<std::size_t>(pieces_[i].master)];
-      for (const int side : {0, 1})
-        if (const int face = face_beside(i, side); face >= 0 && !counts_not[face])
-          if (const auto [at, is_new] = odd.insert(face); !is_new) odd.erase(at);
+      const auto lines = static_cast<double>(flat_.curves.chains[i].points.size() - 1);
+      wanted_.integrals.push_back({{{0, 0}, {lines, demands_[i].integral}}});
+      wanted_.lengths.push_back(demands_[i].integral);
     }
-    std::vector<CurveDemand> demands;
-    for (std::size_t i = 0; i < pieces_.size(); ++i)
-      demands.push_back(demand_of(pieces_[i], {odd_beside[i].begin(), odd_beside[i].end()}));
-    for (std::size_t i = 0; i < wanted.size(); ++i) demands[i].integral = wanted[i];
-    std::vector<int> odd_faces;
-    const std::vector<int> counts = even_counts(
-        demands, static_cast<int>(counts_not.size()), *matching_solver(matching_solver_names().front()),
-        odd_faces,
-        [](int n, const CurveDemand& d) { return std::abs(std::log(changed_by_one(n, d) / d.integral)); });
-    if (!odd_faces.empty()) throw odd_error(odd_faces.back());
-    for (std::size_t i = 0; i < pieces_.size(); ++i)
-      if (counts[i] != pieces_[i].n) pieces_[i].set_edges(counts[i]);
+    for (const FlatPatch& map : flat_.curves.maps)
+      wanted_.quads.push_back(expected_quads(map.flat, size, kQuadsError, kCoarsest));
+  }
+
+  std::vector<MappedFace> find_grids(const MappedSpec& spec) const {
+    return find_surface_grids(spec, flat_.fine, flat_.curves, wanted_);
+  }
+
+  /// Gives the sides of grids numbers that fit. `size`: by which these are chosen; empty: as all others.
+  /// Faces that are not asked for may drop out; where all do, numbers stay.
+  void balance(const MappedSpec& spec, const PointSize& size, std::vector<MappedFace>& mapped) {
+    CurveDemands wanted = wanted_;
+    for (const MappedFace& face : mapped)
+      for (const auto& side : face.sides)
+        for (const int i : side)
+          if (const CurvePiece& p = pieces_[i]; size && p.is_free())
+            wanted.demands[i].integral =
+                ArcMeasure(*p.shape, p.from, p.to, size, curve_label(model_, p.curves[0]), kMostEdges)
+                    .integral();
+    std::vector<int> odd;
+    const std::vector<int> counts = grid_counts(spec, flat_.fine, flat_.curves, wanted, mapped, odd);
+    if (mapped.empty()) return;
+    if (!odd.empty()) throw odd_error(odd.back());
+    set(counts);
+  }
+
+  std::vector<MappedPatch> patches_of(const std::vector<MappedFace>& mapped,
+                                      const PlanarDomain& domain) const {
+    return mapped_patches(mapped, flat_.fine, flat_.curves, pieces_, domain.patches, domain.boundary.points);
+  }
+
+  /// Lets numbers agree, and nodes face each other across narrow places. `mapped`: faces that are grids,
+  /// whose sides keep their numbers; none: all numbers are chosen anew.
+  void agree(const CurveAgreement& by, const SizeField& field, const std::vector<MappedFace>& mapped) {
+    const Mesh& fine = flat_.fine;
+    const SurfaceCurves& curves = flat_.curves;
+    const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
+    const SizeOnLine size = [&](int, int, double, const Vec3& x, int& hint) { return field.at(x, hint); };
+    CurveDemands wanted = wanted_;  // each curve by itself: means of strips make numbers that fit worse
+    wanted.group.resize(pieces_.size());
+    std::iota(wanted.group.begin(), wanted.group.end(), 0);
+    if (by.round_holes) widen_round_holes(fine, curves, across, by.price, wanted);
+    std::vector<int> counts;
+    for (const CurvePiece& p : pieces_) counts.push_back(p.n);
+    if (mapped.empty()) counts = even(wanted.demands);
+    std::set<int> kept;
+    for (const MappedFace& face : mapped)
+      for (const auto& side : face.sides) kept.insert(side.begin(), side.end());
+    const double quads = std::accumulate(wanted.quads.begin(), wanted.quads.end(), 0.0);
+    Budget steps(std::min(by.most_steps, static_cast<long long>(kStepsPerQuad * quads)));
+    agree_on_counts(curves, wanted, by.price, kept, steps, counts);
+    Budget looks(by.most_steps);
+    for (const ChainPair& pair : images_) counts[pair.chain] = counts[pair.master];
+    const CurvePlaces equal = equal_places(counts),
+                      places = delquad::face_nodes(fine, curves.chains, across, wanted.integrals, counts,
+                                                   wanted.group, size, looks);
+    set(counts);
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (!pieces_[i].is_free() || places[i] == equal[i]) continue;
+      std::vector<double> at(places[i].begin() + 1, places[i].end() - 1);
+      for (double& x : at) x *= demands_[i].integral / counts[i];
+      pieces_[i].interior = pieces_[i].measure->nodes_at(at);
+    }
   }
 
  private:
-  bool is_filled(int face) const { return face >= 0 && regions_.region[face] >= 0; }
-  static CurveDemand demand_of(const CurvePiece& p, std::vector<int> faces) {
-    const bool is_free = !p.is_divided && p.master < 0 && p.measure;
-    return {p.measure ? p.measure->integral() : 1, p.least, std::move(faces), is_free ? 0 : p.n};
-  }
-  /// Of the first line of a piece, on its left (0) or right.
-  int face_beside(std::size_t piece, int side) const {
-    return arrangement_.face_of[2 * first_line_[piece] + side];
+  /// Error of the number of quads in a patch, and part of its diagonal at which its size is seen at least.
+  static constexpr double kQuadsError = 0.1, kCoarsest = 0.25;
+  /// Steps of agreement: what regions with hundreds of curves gain comes early.
+  static constexpr double kStepsPerQuad = 50;
+  static constexpr double kMostEdges = 1e8;  ///< of a side of a grid
+
+  std::vector<int> even(const std::vector<CurveDemand>& demands) const {
+    std::vector<int> odd;
+    std::vector<int> counts = even_counts(
+        joined_demands(demands, images_), static_cast<int>(region_of_patch_.size()),
+        *matching_solver(matching_solver_names().front()), odd,
+        [](int n, const CurveDemand& d) { return std::abs(std::log(changed_by_one(n, d) / d.integral)); });
+    if (!odd.empty()) throw odd_error(odd.back());
+    return counts;
   }
 
-  /// Pieces whose edges must be even in number, each group by itself, where all loops are apart: components,
-  /// and interfaces.
-  std::vector<std::vector<int>> groups() const {
-    // The plain holes of a region are counted with its outer loop, unless that is an interface, even by
-    // itself.
-    const std::size_t n = arrangement_.faces.size();
-    std::vector<std::vector<int>> outlines(n), holes(n);
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      const int left = face_beside(i, 0), right = face_beside(i, 1);
-      const int inner = left >= 0 && arrangement_.faces[left].around == right ? left : right;
-      const int around = arrangement_.faces[inner].around;
-      if (is_filled(inner))
-        outlines[inner].push_back(static_cast<int>(i));
-      else
-        (is_filled(around) && is_filled(arrangement_.faces[around].around) ? holes : outlines)[around]
-            .push_back(static_cast<int>(i));
-    }
-    outlines.insert(outlines.end(), holes.begin(), holes.end());
-    return outlines;
+  void set(const std::vector<int>& counts) {
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+      if (pieces_[i].is_free() && counts[i] != pieces_[i].n) pieces_[i].set_edges(counts[i]);
   }
 
-  void change_by_one(const std::vector<int>& group) {
-    const auto changed = [&](int i) { return changed_by_one(pieces_[i].n, demand_of(pieces_[i], {})); };
-    const auto cost = [&](int i) {
-      return pieces_[i].is_divided ? std::numeric_limits<double>::infinity()
-                                   : std::abs(std::log(changed(i) / pieces_[i].measure->integral()));
-    };
-    const int best = *std::ranges::min_element(group, {}, cost);
-    if (pieces_[best].is_divided)
-      throw odd_error(is_filled(face_beside(best, 0)) ? face_beside(best, 0) : face_beside(best, 1));
-    pieces_[best].set_edges(changed(best));
-  }
-
-  /// What was divided leaves no way to an even number around that face.
-  InputError odd_error(int face) const {
+  /// Given numbers of edges leave the patch with an odd number around it.
+  InputError odd_error(int patch) const {
     std::set<std::string> names;
     for (std::size_t i = 0; i < pieces_.size(); ++i)
       if ((pieces_[i].is_divided || pieces_[i].master >= 0) &&
-          (face_beside(i, 0) == face || face_beside(i, 1) == face))
+          std::ranges::count(demands_[i].patches, patch) > 0)
         names.insert(curve_label(model_, pieces_[i].curves[0]));
-    const Entity& region = regions_.regions[regions_.region[face]];
+    const Entity& region = regions_[region_of_patch_[patch]];
     return InputError(fmt::format(
         "{}the numbers of edges that are given leave {} with an odd number around it, and quads need an even "
         "one: change that of one of {}",
@@ -143,11 +191,22 @@ class EvenCounts {
   }
 
   const PlanarModel& model_;
-  const Arrangement& arrangement_;
-  const FaceRegions& regions_;
+  const std::vector<Entity> regions_;
   std::vector<CurvePiece>& pieces_;
-  std::vector<std::size_t> first_line_;  ///< of each piece
-  std::size_t n_lines_ = 0;
+  std::vector<int> region_of_patch_;
+  std::vector<CurveDemand> demands_;  ///< of each piece
+  std::vector<ChainPair> images_;
+  FlatCurves flat_;
+  CurveDemands wanted_;
+};
+
+class SizeOfFunction final : public SizeField {
+ public:
+  explicit SizeOfFunction(PointSize size) : size_(std::move(size)) {}
+  double at(const Vec3& x, int&) const override { return size_(x); }
+
+ private:
+  PointSize size_;
 };
 
 class CurveMesher {
@@ -159,6 +218,8 @@ class CurveMesher {
         narrow_grids_(options.narrow_grids),
         thin_rows_(options.thin_rows),
         grid_size_(options.grid_size),
+        agreement_(options.agreement),
+        size_field_(options.size_field ? options.size_field : std::make_shared<SizeOfFunction>(size)),
         chain_(chain_model(model)),
         pieces_(cut_curves(model, chain_)) {
     if (symmetry != nullptr) first_axis_ = static_cast<int>(model.curves.size()) - symmetry->n_planes();
@@ -225,7 +286,7 @@ class CurveMesher {
     domain.pieces = domain_pieces();
     domain.model_curves = of_curve_;
     domain.model_curves.resize(domain.boundary.curves.size());
-    domain.mapped = mapped_patches(mapped_, pieces_, domain.patches, domain.boundary.points);
+    if (!mapped_.empty()) domain.mapped = counts_->patches_of(mapped_, domain);
     if (domain.has_junctions) drop_stray_lines(domain);
     drop_axes(first_axis_, domain);
     for (const auto& curves : domain.model_curves) domain.curve_shapes.push_back(shapes_of(curves));
@@ -393,19 +454,17 @@ class CurveMesher {
     const BoundaryNames names = this->names();
     const Arrangement arrangement = arrange_lines(lines, names);
     const FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
-    if (mapped_spec_.asks() || narrow_grids_)
-      mapped_ = find_mapped_faces(model_, mapped_spec_, lines, arrangement, regions, chain_, pieces_);
-    EvenCounts even(model_, arrangement, regions, pieces_);
+    PieceCounts& counts = counts_.emplace(model_, arrangement, regions, pieces_);
+    const bool may_have_grids = mapped_spec_.asks() || narrow_grids_;
+    if (may_have_grids || agreement_.price > 0)
+      counts.look(flat_curves(lines, arrangement, regions, names, pieces_), *size_field_);
+    if (may_have_grids) mapped_ = counts.find_grids(mapped_spec_);
     const auto number = [&](const std::vector<double>& wanted) {
-      if (!mapped_.empty() && wanted.empty())
-        balance_mapped(model_, mapped_, arrangement, regions, grid_size_, pieces_);
-      if (!mapped_.empty()) return;
-      const bool are_apart =
-          std::ranges::all_of(pieces_at_nodes(pieces_, chain_.nodes.size()), [](int n) { return n == 2; });
-      const bool are_free = std::ranges::all_of(pieces_, [](const CurvePiece& p) { return p.master < 0; });
-      are_apart&& are_free&& wanted.empty() ? even.of_groups() : even.by_t_join(wanted);
+      if (!mapped_.empty() && wanted.empty()) counts.balance(mapped_spec_, grid_size_, mapped_);
+      if (mapped_.empty()) counts.make_even(wanted);
     };
     thin_rows_ ? face_nodes(arrangement, regions, pieces_, number) : number({});
+    if (agreement_.price > 0) counts.agree(agreement_, *size_field_, mapped_);
   }
 
   const PlanarModel& model_;
@@ -413,17 +472,18 @@ class CurveMesher {
   const bool narrow_grids_;
   const bool thin_rows_;
   const PointSize grid_size_;
+  const CurveAgreement agreement_;
+  const std::shared_ptr<const SizeField> size_field_;
   ModelChain chain_;
   std::vector<CurvePiece> pieces_;
-  std::vector<MappedPlanarFace> mapped_;
+  std::optional<PieceCounts> counts_;
+  std::vector<MappedFace> mapped_;
   int first_axis_ = std::numeric_limits<int>::max();  ///< from it on curves of the model are axes
   std::vector<Entity> curves_;                        ///< of the mesh
   std::vector<std::vector<int>> of_curve_;            ///< the model's curves of each
 };
 
-}  // namespace
-
-PlanarDomain make_domain(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options) {
+PlanarDomain mesh_curves(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options) {
   const bool asked = options.symmetry.automatic || !options.symmetry.planes.empty();
   const auto symmetry = asked ? find_symmetry(model, options.symmetry) : std::nullopt;
   if (!symmetry) {
@@ -442,6 +502,19 @@ PlanarDomain make_domain(const PlanarModel& model, const PointSize& size, const 
   std::erase_if(domain.boundary.named_points, [&](const NamedPoint& p) { return p.entity.tag > n_points; });
   domain.images = patch_images(domain.patches, *symmetry, options.symmetry.where);
   return domain;
+}
+
+}  // namespace
+
+PlanarDomain make_domain(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options) {
+  if (options.agreement.price > 0) try {
+      return mesh_curves(model, size, options);
+    } catch (const InputError&) {
+      // Numbers that agree may keep curves apart no longer.
+    }
+  CurveMeshOptions by_size = options;
+  by_size.agreement.price = 0;
+  return mesh_curves(model, size, by_size);
 }
 
 }  // namespace delquad

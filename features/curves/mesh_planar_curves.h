@@ -1,7 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "delquad/fields.h"
+#include "features/curves/agreement.h"
 #include "geometry/planar/planar_model.h"
 
 namespace delquad {
@@ -18,16 +21,20 @@ struct CurveMeshOptions {
   /// By which numbers of edges around grids are chosen; empty: as all others. Sizes that follow the edges of
   /// grids must not make more of these.
   PointSize grid_size = {};
+  CurveAgreement agreement = {};
+  /// The size, for several threads; null: the function is called by one.
+  std::shared_ptr<const SizeField> size_field = nullptr;
 };
 
 /// Meshes the model's curves at equal integrals of ds/delta, and tells what they bound, regions named as in
-/// the model. Each compulsory piece gets n = round(integral) edges, at least one (a closed curve three);
-/// pieces are changed by one, where it costs least (|log((n +- 1)/integral)|), so that every region has an
-/// even number of edges around it. A node that curves share stands once: those first, in the order of the
-/// curves. The curves of a loop may run either way and stand in any order; ends that are equal up to
-/// kJoinTolerance (see model_chain.h) are one node. Throws InputError for open loops, zero-length curves,
-/// sizes not > 0, as build_domain(), and for loops whose curves touch although their edges do not (see
-/// loops_apart.h).
+/// the model. Each compulsory piece gets n = round(integral) edges, at least one (a closed curve three). Then
+/// every region gets an even number of edges around it: pieces change by one, where |log((n +- 1)/integral)|
+/// is least. If `agreement` asks for it, numbers agree, and nodes face each other across narrow places,
+/// unless curves could then not be kept apart. Nodes that curves share come first, each once, in the order of
+/// the curves. The curves of a loop may run either way and stand in any order. Ends that are equal up to
+/// kJoinTolerance (see model_chain.h) are one node. Throws InputError for open
+/// loops, zero-length curves, sizes not > 0, as build_domain(), and for loops whose curves touch although
+/// their edges do not (see loops_apart.h).
 PlanarDomain make_domain(const PlanarModel& model, const PointSize& size,
                          const CurveMeshOptions& options = {});
 

@@ -120,7 +120,7 @@ PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves&
     std::set<int> kept = agreement.kept;
     for (const MappedFace& face : mapped)
       for (const auto& side : face.sides) kept.insert(side.begin(), side.end());
-    agree_on_counts(model.fine, curves, wanted, size, agreement.price, kept, steps, placed.counts);
+    agree_on_counts(curves, wanted, agreement.price, kept, steps, placed.counts);
   }
   for (const ChainPair& pair : curves.images) placed.counts[pair.chain] = placed.counts[pair.master];
   CurvePlaces places = face_nodes(model.fine, curves.chains, across, wanted.integrals, placed.counts,
@@ -308,27 +308,26 @@ class Capping {
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked,
                                   const std::vector<CurveDivision>& divisions, const PeriodicSides& periodic,
-                                  const MappedSpec& mapped, double agreement, long long most_steps,
-                                  bool round_holes) {
+                                  const MappedSpec& mapped, const CurveAgreement& agreement) {
   const Mesh& fine = model.fine;
   SurfaceCurves curves = find_curves(model, std::move(flattening), size.on_maps());
   ChainPairs pairs = pair_chains(model, curves.chains, curves.cut_face, periodic);
   curves.images = std::move(pairs.pairs);
   const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
   CurveDemands wanted = measure_curves(fine, curves, across, size, asked != nullptr ? *asked : size);
-  if (round_holes) widen_round_holes(fine, curves, across, size, agreement, wanted);
+  if (agreement.round_holes) widen_round_holes(fine, curves, across, agreement.price, wanted);
   divide_curves(fine, curves, divisions, wanted);
   SurfaceDomain domain;
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
   std::vector<MappedFace> grids;
-  if (mapped.asks()) grids = find_surface_grids(mapped, fine, curves, wanted, size);
-  Budget steps(most_steps);
-  PatchBoundaries placed =
-      place_sound_boundaries(model, curves, across, wanted, size, solver, mapped, agreement, steps, grids);
-  domain.steps = most_steps - steps.left();
+  if (mapped.asks()) grids = find_surface_grids(mapped, fine, curves, wanted);
+  Budget steps(agreement.most_steps);
+  PatchBoundaries placed = place_sound_boundaries(model, curves, across, wanted, size, solver, mapped,
+                                                  agreement.price, steps, grids);
+  domain.steps = agreement.most_steps - steps.left();
   if (steps.is_spent()) domain.warnings.push_back(warn_of_spent_steps());
-  if (agreement > 0)
-    for (MappedFace& face : find_surface_grids({}, fine, curves, wanted, size))
+  if (agreement.price > 0)
+    for (MappedFace& face : find_surface_grids({}, fine, curves, wanted))
       if (is_balanced(face, placed.counts) &&
           std::ranges::find(grids, face.face, &MappedFace::face) == grids.end())
         grids.push_back(std::move(face));

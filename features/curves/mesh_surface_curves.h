@@ -3,13 +3,11 @@
 #include <vector>
 
 #include "base/matching/matching.h"
+#include "features/curves/agreement.h"
 #include "features/periodic/periodic.h"
 #include "patches/surface_domain.h"
 
 namespace delquad {
-
-/// Steps of agree_counts(), and what face_nodes() takes of them: some ten seconds.
-constexpr long long kMostAgreementSteps = 200'000'000;
 
 /// Meshes the curves of a flattened model once each and gives every patch its boundary. All patches are even
 /// wherever that is possible at all; where a boundary polygon would cross itself in the parameter plane, the
@@ -17,15 +15,12 @@ constexpr long long kMostAgreementSteps = 200'000'000;
 /// `asked` is the size that these refer to (null: `size` itself, which may be less beside such curves).
 /// Curves of `divisions` get these edges, and the second sides of `periodic` the images of the nodes of the
 /// first: faces that are images have no patches, see `boundary.periodic_faces`. Patches that become grids, as
-/// `mapped` asks, get numbers that fit. `agreement`: the price of agree_on_counts(); 0: numbers follow the
-/// size alone; `most_steps`: its budget. `round_holes`: see widen_round_holes(), by that price. Throws
-/// FaceError when no refinement gives a valid boundary, naming the face, and InputError where divisions leave
-/// a patch with an odd number of edges.
+/// `mapped` asks, get numbers that fit. Throws FaceError when no refinement gives a valid boundary, naming
+/// the face, and InputError where divisions leave a patch with an odd number of edges.
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked = nullptr,
                                   const std::vector<CurveDivision>& divisions = {},
                                   const PeriodicSides& periodic = {}, const MappedSpec& mapped = {},
-                                  double agreement = 0, long long most_steps = kMostAgreementSteps,
-                                  bool round_holes = false);
+                                  const CurveAgreement& agreement = {});
 
 }  // namespace delquad

@@ -58,7 +58,8 @@ void check_count_early(const MeshProblem& problem, const PlanarModel& model,
     // The boundary makes sense only at its full resolution, where the same check is made again.
   }
   // Each boundary edge has a quad, which has two at most, but for corners.
-  check_count(coarse ? expected_quads(BackgroundMesh(coarse->patches), *size) : edges / 2, problem);
+  check_count(coarse ? expected_quads(BackgroundMesh(coarse->patches).triangles(), *size) : edges / 2,
+              problem);
 }
 
 Box<Vec3> box_in_space(const PlanarModel& model) {
@@ -96,9 +97,8 @@ class SizedModel {
   SizedModel(const MeshProblem& problem, const PlanarModel& model, PreparedProblem& p)
       : problem_(problem), model_(model), p_(p) {}
 
-  /// Meshes the curves by another size. `grid_size`: of the sides of grids, where that is another one.
-  void mesh_by(std::shared_ptr<const SizeField> size,
-               const std::shared_ptr<const SizeField>& grid_size = nullptr) {
+  /// Meshes the curves by another size.
+  void mesh_by(std::shared_ptr<const SizeField> size) {
     p_.size.field = std::move(size);
     check_count_early(problem_, model_, p_.size.field);
     const CurveOptions curves = curve_options(problem_.options);
@@ -111,14 +111,17 @@ class SizedModel {
     options.narrow_grids = !curves.thin_rows && curves.agreement > 0;
     options.symmetry = problem_.symmetry;
     options.thin_rows = thin_rows;
-    const auto& field = p_.size.field;
-    domain = make_domain(
-        model_, as_function(problem_.seed == 0 ? field : jittered(field, problem_.seed, diagonal_of(model_))),
-        options);
+    options.agreement = agreement;
+    options.size_field = p_.size.field;
+    if (problem_.seed != 0)
+      options.size_field = jittered(std::move(options.size_field), problem_.seed, diagonal_of(model_));
+    domain = make_domain(model_, as_function(options.size_field), options);
   }
 
   PlanarDomain domain;
-  bool thin_rows = false;  ///< from now on
+  std::shared_ptr<const SizeField> grid_size = nullptr;  ///< of the sides of grids, where that is another one
+  bool thin_rows = false;
+  CurveAgreement agreement = {};
 
  private:
   const MeshProblem& problem_;
@@ -137,7 +140,8 @@ std::shared_ptr<const SizeField> planar_base_size(const SizeSpec& spec, const Pl
 }
 
 PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
-                          const std::vector<SizeSpot>& spots, PreparedProblem& p) {
+                          const std::vector<SizeSpot>& spots, const CurveAgreement& agreement,
+                          PreparedProblem& p) {
   const SizeSpec& spec = problem.size;
   PreparedSize& size = p.size;
   SizedModel sized(problem, model, p);
@@ -178,8 +182,8 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   if (curves.gap_rows > 0) {
     const auto gaps = gap_spots(domain, *size.field, curves.gap_rows);
     const BackgroundMesh background(domain.patches);
-    const double before = expected_quads(background, *size.field),
-                 after = expected_quads(background, *finer_near(size.field, gaps));
+    const double before = expected_quads(background.triangles(), *size.field),
+                 after = expected_quads(background.triangles(), *finer_near(size.field, gaps));
     if (after > kManyMore * before)
       p.warnings.emplace_back(fmt::format(
           "{}: {} rows of quads in gaps make about {:.3g} quads, where {:.3g} would do for the size",
@@ -191,14 +195,14 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   if (!fine.empty() || !spots.empty() || !problem.divisions.empty()) {
     if (!size.asked) size.asked = size.field;
     std::vector<FineSpot> all = fine_spots(problem, spots);
-    const auto grid_size = finer_near(size.field, all);
+    sized.grid_size = finer_near(size.field, all);
     all.insert(all.begin(), fine.begin(), fine.end());
-    sized.mesh_by(finer_near(size.field, std::move(all)), grid_size);
+    sized.mesh_by(finer_near(size.field, std::move(all)));
   }
-  if (curves.thin_rows) {
-    sized.thin_rows = true;
-    sized.mesh_by(size.field);
-  }
+  // Rows in thin regions have numbers that agree across these already.
+  sized.thin_rows = curves.thin_rows;
+  if (!curves.thin_rows) sized.agreement = agreement;
+  if (sized.thin_rows || sized.agreement.price > 0) sized.mesh_by(size.field);
   p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
   return std::move(sized.domain);
 }

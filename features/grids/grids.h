@@ -80,37 +80,11 @@ std::vector<UnbalancedFace> balance_grids(std::vector<CountedCurve>& curves,
 std::string why_unbalanced(const UnbalancedFace& bad, const std::string& label, const MappedFace* mapped,
                            const std::vector<CountedCurve>& curves, const std::vector<std::string>& names);
 
-/// A face of a planar domain that is to become a grid.
-struct MappedPlanarFace : MappedFace {
-  std::vector<Vec2> nodes = {};  ///< at which the parts of its outline begin, loop by loop
-};
-
-/// The faces to map, see GridFinder. Throws InputError as it does.
-std::vector<MappedPlanarFace> find_mapped_faces(const PlanarModel& model, const MappedSpec& spec,
-                                                const Mesh& lines, const Arrangement& arrangement,
-                                                const FaceRegions& regions, const ModelChain& chain,
-                                                const std::vector<CurvePiece>& pieces);
-
-/// Numbers of edges so that mapped faces have what they need, and every other region an even one around it.
-/// `grid_size`: see CurveMeshOptions. Faces that are not asked for may drop out; where all do, numbers stay.
-/// Throws InputError where what was divided forbids that.
-void balance_mapped(const PlanarModel& model, std::vector<MappedPlanarFace>& mapped,
-                    const Arrangement& arrangement, const FaceRegions& regions, const PointSize& grid_size,
-                    std::vector<CurvePiece>& pieces);
-
-/// The patches that these faces are, with the points of their boundaries at which sides begin (a ring: none).
-/// `points`: those of the domain's boundary.
-std::vector<MappedPatch> mapped_patches(const std::vector<MappedPlanarFace>& mapped,
-                                        const std::vector<CurvePiece>& pieces,
-                                        const std::vector<PatchBoundary>& patches,
-                                        const std::vector<Vec3>& points);
-
 /// The patches (MappedFace::face) that become grids of their faces, see GridFinder. A face that was cut open
 /// into one patch may be a tube, with the cut on two opposite sides. Throws InputError as GridFinder does,
 /// and for a named face of several patches.
 std::vector<MappedFace> find_surface_grids(const MappedSpec& spec, const Mesh& fine,
-                                           const SurfaceCurves& curves, const CurveDemands& wanted,
-                                           const SurfaceSize& size);
+                                           const SurfaceCurves& curves, const CurveDemands& wanted);
 
 /// Numbers of edges of chains so that mapped patches have what they need, and the others an even number
 /// around; those for which that cannot be are `odd_patches`. Patches that are not asked for may drop out of
@@ -125,6 +99,13 @@ bool is_balanced(const MappedFace& face, const std::vector<int>& counts);
 /// The same by the places where sides begin on the patches' boundaries.
 std::vector<MappedPatch> grid_patches(const std::vector<MappedFace>& mapped, const SurfaceCurves& curves,
                                       const std::vector<int>& counts);
+
+/// The same of a planar domain whose curves were meshed. Chain i of `curves` is piece i; `points` belong to
+/// the domain's boundary.
+std::vector<MappedPatch> mapped_patches(const std::vector<MappedFace>& mapped, const Mesh& fine,
+                                        const SurfaceCurves& curves, const std::vector<CurvePiece>& pieces,
+                                        const std::vector<PatchBoundary>& patches,
+                                        const std::vector<Vec3>& points);
 
 /// Gives patches that are to be grids theirs. In the plane, and in the parameter plane of a surface, nodes
 /// come from transfinite interpolation; on a surface also from that in space, each in the nearest point of

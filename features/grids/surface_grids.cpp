@@ -40,8 +40,7 @@ std::string chain_label(const Mesh& fine, const CurveChain& chain) {
 }  // namespace
 
 std::vector<MappedFace> find_surface_grids(const MappedSpec& spec, const Mesh& fine,
-                                           const SurfaceCurves& curves, const CurveDemands& wanted,
-                                           const SurfaceSize& size) {
+                                           const SurfaceCurves& curves, const CurveDemands& wanted) {
   GridFinder::NamedPlaces points;
   for (const NamedPoint& named : fine.named_points)
     for (const std::string& name : named.entity.names) points.emplace_back(name, fine.points[named.point]);
@@ -52,10 +51,10 @@ std::vector<MappedFace> find_surface_grids(const MappedSpec& spec, const Mesh& f
   std::vector<MappedFace> mapped;
   for (std::size_t p = 0; p < outlines.size(); ++p) {
     const Entity& region = fine.regions[curves.maps[p].face];
-    const auto found =
-        finder.find(static_cast<int>(p), region, outlines[p], expected_quads(fine, curves.maps[p], size));
+    const auto found = finder.find(static_cast<int>(p), region, outlines[p], wanted.quads[p]);
     if (!found) continue;
-    if (found->is_asked && n_patches[curves.maps[p].face] > 1)
+    if (found->is_asked && n_patches[curves.maps[p].face] > 1 &&
+        std::ranges::count(curves.cut_face, curves.maps[p].face) > 0)
       throw InputError(
           fmt::format("{}: '{}' cannot be a grid: it had to be divided into {} parts to be "
                       "flattened",

@@ -14,8 +14,8 @@ const OptionTable<CurveOptions>& curve_table() {
                 .most = 100},
                &CurveOptions::agreement)
           .add({.name = "round_holes",
-                .help = "on surfaces: more edges around small round holes, where that leaves fewer irregular "
-                        "vertices beside them"},
+                .help = "more edges around small round holes, where that leaves fewer irregular vertices "
+                        "beside them"},
                &CurveOptions::round_holes)
           .add({.name = "join_below",
                 .help = "in sizes: shorter curves become one with those that they continue; 0: none",

@@ -6,10 +6,10 @@ namespace delquad {
 
 /// How curves get their edges.
 struct CurveOptions {
-  /// On surfaces, what an irregular vertex less is worth, in quads times eta, see agree_on_counts(); 0: the
-  /// size alone counts, and narrow faces are no grids, as in the plane.
+  /// Worth of an irregular vertex less, in quads times eta, see agree_on_counts(); 0: the size alone counts,
+  /// and narrow faces are no grids.
   double agreement = 3;
-  /// On surfaces small round holes get the edges of the square around them, see widen_round_holes().
+  /// Small round holes get the edges of the square around them, see widen_round_holes().
   bool round_holes = false;
   /// Curves shorter than so many sizes become one with those that they continue, see join_short_curves().
   double join_below = 0.25;

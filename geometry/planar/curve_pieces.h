@@ -40,6 +40,13 @@ struct CurvePiece {
     n = edges;
     interior = measure->interior_nodes(n);
   }
+  /// From its first or last end a little way along it.
+  Vec2 leaving(bool from_last) const {
+    const double from_end = from_last ? to : from, step = 1e-3 * (from_last ? from - to : to - from);
+    return shape->point(from_end + step) - shape->point(from_end);
+  }
+  /// Whether its number of edges may change.
+  bool is_free() const { return measure && !is_divided && master < 0; }
   std::pair<int, int> sorted_ends() const { return std::minmax(ends[0], ends[1]); }
 };
 

@@ -128,23 +128,50 @@ TEST(CurveMeshing, EveryPatchOfRandomModelsIsEven) {
     const double h = std::uniform_real_distribution<double>(0.05, 0.4)(engine);
     const PointSize size = [h](const Vec3& p) { return h * (1 + 0.3 * std::sin(p.x + 2 * p.y)); };
     const PlanarDomain domain = make_domain(model, size);
-    std::vector<int> uses(domain.boundary.lines.size(), 0);
     for (const PatchBoundary& patch : domain.patches) {
       EXPECT_EQ(patch.edges.size() % 2, 0u) << round;
       ++kinds[domain.boundary.regions[&patch - domain.patches.data()].names.at(0)];
     }
-    // Interfaces are even by themselves: loops of inner patches around which another patch lies.
-    std::map<int, int> in_patches;
-    for (const PatchBoundary& patch : domain.patches)
-      for (int v : patch.point_node) ++in_patches[v];
-    std::map<int, int> shared_on_curve;
-    for (const auto& line : domain.boundary.lines)
-      if (in_patches.at(line[0]) == 2)
-        ++shared_on_curve[domain.boundary.line_curve[&line - domain.boundary.lines.data()]];
-    for (const auto& [curve, edges] : shared_on_curve) EXPECT_EQ(edges % 2, 0) << round << " curve " << curve;
   }
   for (const char* kind : {"first", "filling", "core", "domain", "domain_2"})
     EXPECT_GT(kinds[kind], 10) << kind;
+}
+
+CurveMeshOptions agreeing(double size) {
+  CurveMeshOptions options;
+  options.agreement.price = 3;
+  options.size_field = make_constant_size(size);
+  return options;
+}
+
+TEST(CurveMeshing, OppositeSidesAgree) {
+  const PlanarModel wedge = ModelMaker().loop({make_segment({0, 0}, {10, 0}), make_segment({10, 0}, {10, 5}),
+                                               make_segment({10, 5}, {0, 4}), make_segment({0, 4}, {0, 0})});
+  EXPECT_EQ(edges_per_curve(mesh_curves(wedge, constant(0.5))), (std::vector<int>{20, 10, 20, 8}));
+  EXPECT_EQ(edges_per_curve(mesh_curves(wedge, constant(0.5), agreeing(0.5))),
+            (std::vector<int>{20, 9, 20, 9}));
+}
+
+TEST(CurveMeshing, PatchesOfRandomModelsWithNumbersThatAgreeAreEven) {
+  std::mt19937 engine(12);
+  for (int round = 0; round < 100; ++round) {
+    const double h = std::uniform_real_distribution<double>(0.05, 0.4)(engine);
+    for (const PatchBoundary& patch : make_domain(random_model(engine), constant(h), agreeing(h)).patches)
+      EXPECT_EQ(patch.edges.size() % 2, 0u) << round;
+  }
+}
+
+TEST(CurveMeshing, NodesOfCirclesThatAgreeStayOnThem) {
+  const PlanarModel ring = ModelMaker().loop({make_circle({0, 0}, 1)}).loop({make_circle({0, 0}, 0.8)});
+  const Mesh mesh = mesh_curves(ring, constant(0.15), agreeing(0.15));
+  const std::vector<int> edges = edges_per_curve(mesh);
+  EXPECT_EQ(edges[0], edges[1]);
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const Vec3 &a = mesh.points[mesh.lines[l][0]], &b = mesh.points[mesh.lines[l][1]];
+    const double radius = mesh.line_curve[l] == 0 ? 1 : 0.8;
+    EXPECT_NEAR(norm(a), radius, 1e-15);
+    EXPECT_NEAR(norm(b - a), 2 * radius * std::sin(std::numbers::pi / edges[0]), 1e-12);
+  }
 }
 
 TEST(CurveMeshing, EdgesOfACurveAreAllAsLongAsTheSizeSays) {

@@ -1,0 +1,15 @@
+#pragma once
+
+namespace delquad {
+
+/// Steps of agree_counts(), and what face_nodes() takes of them: some ten seconds.
+constexpr long long kMostAgreementSteps = 200'000'000;
+
+/// How far numbers of edges agree.
+struct CurveAgreement {
+  double price = 0;  ///< of agree_on_counts(); 0: numbers follow the size alone
+  long long most_steps = kMostAgreementSteps;
+  bool round_holes = false;  ///< see widen_round_holes()
+};
+
+}  // namespace delquad

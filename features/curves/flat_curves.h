@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/planar/check_lines.h"
+#include "geometry/planar/curve_pieces.h"
+#include "patches/surface_curves.h"
+
+namespace delquad {
+
+/// The curves of a planar model as curves of a surface whose faces are flat. Maps are the identity.
+struct FlatCurves {
+  Mesh fine;             ///< points at z = 0
+  SurfaceCurves curves;  ///< chain i is piece i: its points are the nodes of the piece
+};
+
+/// `lines`: the edges of the pieces. True curves give the angles at corners. There is a patch for each face
+/// that has a region, in their order.
+FlatCurves flat_curves(const Mesh& lines, const Arrangement& arrangement, const FaceRegions& regions,
+                       const BoundaryNames& names, const std::vector<CurvePiece>& pieces);
+
+}  // namespace delquad
