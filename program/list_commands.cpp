@@ -83,7 +83,7 @@ void add_lists(CLI::App& app, Commands& commands) {
 
 void add_example(CLI::App& app, Commands& commands) {
   const auto [example, arguments] = add_command(
-      app, commands, "example", "Write a CAD model that comes with the program", example_command, true);
+      app, commands, "example", "Write a CAD model that the program makes itself", example_command, true);
   CLI::Option* list = example->add_flag("--list", arguments.list, "names of the examples");
   example->add_option("name", arguments.name, "which one")->excludes(list);
   example->add_option("-o,--output", arguments.output, "CAD file to write (.step, .stp or .brep)")

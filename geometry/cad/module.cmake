@@ -10,16 +10,9 @@ endif()
 if(OpenCASCADE_FOUND AND TARGET TKSTEP AND NOT DELQUAD_CAD STREQUAL "OFF")
   # The kernel: a library that the program loads when it needs it, and what the helper program that reads CAD takes of it.
   target_compile_definitions(delquad_geometry_cad PRIVATE DELQUAD_HAS_CAD)
-  file(GLOB sources CONFIGURE_DEPENDS geometry/cad/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS geometry/cad/*.cpp geometry/cad/examples/*.cpp)
   list(FILTER sources EXCLUDE REGEX "(_main|load_kernel|find_worker|example_models)\\.cpp$")
-  # The example models, as bytes inside the kernel.
-  set(cad ${PROJECT_SOURCE_DIR}/geometry/cad)
-  file(GLOB examples CONFIGURE_DEPENDS ${cad}/examples/*.bin)
-  add_custom_command(
-    OUTPUT ${PROJECT_BINARY_DIR}/example_data.cpp
-    COMMAND ${CMAKE_COMMAND} -DFOLDER=${cad}/examples -DOUTPUT=${PROJECT_BINARY_DIR}/example_data.cpp -P ${cad}/embed_examples.cmake
-    DEPENDS ${examples} ${cad}/embed_examples.cmake)
-  add_library(delquad_cad_kernel STATIC ${sources} ${PROJECT_BINARY_DIR}/example_data.cpp)
+  add_library(delquad_cad_kernel STATIC ${sources})
   target_include_directories(delquad_cad_kernel SYSTEM PUBLIC ${OpenCASCADE_INCLUDE_DIR})
   target_link_libraries(delquad_cad_kernel PRIVATE delquad_flags
     PUBLIC fmt::fmt Threads::Threads TKIGES TKSTEP TKSTEPBase TKXSBase TKMesh TKOffset TKFillet TKBO TKPrim TKShHealing

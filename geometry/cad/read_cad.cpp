@@ -16,7 +16,7 @@
 #include "geometry/cad/agree_faces.h"
 #include "geometry/cad/cad_shape.h"
 #include "geometry/cad/example_models.h"
-#include "geometry/cad/examples.h"
+#include "geometry/cad/examples/shapes.h"
 #include "geometry/cad/heal_shape.h"
 #include "geometry/cad/kernel.h"
 #include "geometry/cad/loose_joints.h"

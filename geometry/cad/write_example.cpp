@@ -1,6 +1,5 @@
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepTools.hxx>
-#include <BinTools.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_SequenceOfPrinters.hxx>
@@ -17,37 +16,42 @@
 #include <Transfer_FinderProcess.hxx>
 #include <XSControl_TransferWriter.hxx>
 #include <XSControl_WorkSession.hxx>
-#include <sstream>
+#include <map>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
-#include "geometry/cad/examples.h"
+#include "geometry/cad/examples/shapes.h"
 #include "geometry/cad/kernel.h"
 
 namespace delquad {
 
 namespace cad {
 
-namespace {
-
-/// Its faces have their own names.
 CadShape make_example(const std::string& name) {
-  std::istringstream in{std::string(example_data(name))};
-  std::string line;
-  if (!std::getline(in, line)) throw std::logic_error("no example " + name);
-  std::vector<std::string> names(std::stoul(line));
-  for (std::string& of_face : names) std::getline(in, of_face);
-  CadShape example;
-  BinTools::Read(example.shape, in);
-  const TopTools_IndexedMapOfShape faces = parts(example.shape, TopAbs_FACE);
-  for (std::size_t f = 0; f < names.size(); ++f)
-    if (!names[f].empty()) example.names.add(faces(static_cast<int>(f) + 1), names[f]);
-  return example;
+  static const std::map<std::string, CadShape (*)()> kMakers = {
+      {"bracket", make_bracket},
+      {"hood", make_hood},
+      {"pipe_tee", make_pipe_tee},
+      {"sphere", make_sphere},
+      {"torus", make_torus},
+      {"wing_body", make_wing_body},
+      {"blended_tee", make_blended_tee},
+      {"cone_tip", make_cone_tip},
+      {"cross_drilled", make_cross_drilled},
+      {"elbow", make_elbow},
+      {"fins", make_fins},
+      {"free_form", make_free_form},
+      {"loft", make_loft},
+      {"sheet", make_sheet},
+      {"thin_box", make_thin_box},
+      {"variable_fillet", make_variable_fillet},
+  };
+  const auto at = kMakers.find(name);
+  if (at != kMakers.end()) return at->second();
+  throw std::logic_error("no example " + name);
 }
 
-}  // namespace
-
+/// An example whose faces have its own name first, as those of a product in a STEP file.
 CadShape make_product(const std::string& name) {
   const CadShape example = make_example(name);
   CadShape product{example.shape};

@@ -78,7 +78,7 @@ TomlKeys case_keys() {
                     "curves and points inside of regions, polylines and points on surfaces; at the top of an "
                     "experiment on surfaces alone",
                     "", keys_of<EmbeddedShape>, true},
-                   {"example", "a surface that comes with the program", kText},
+                   {"example", "a surface that the program makes itself", kText},
                    {"mesh", "an MSH file; with 'start' of any format", kText},
                    {"start", "words may begin from the elements of that mesh", kFlag},
                    {"model", "a model file, a surface or an MSH file", kText},

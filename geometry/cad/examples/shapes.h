@@ -1,0 +1,37 @@
+#pragma once
+
+#include <TopoDS_Shape.hxx>
+#include <gp_Dir.hxx>
+#include <gp_Pnt.hxx>
+#include <string>
+
+#include "geometry/cad/cad_shape.h"
+
+namespace delquad::cad {
+
+TopoDS_Shape cylinder(const gp_Pnt& from, const gp_Dir& along, double radius, double length);
+
+/// The example models, in millimetres, with the names of their faces.
+CadShape make_bracket();
+CadShape make_hood();
+CadShape make_pipe_tee();
+CadShape make_sphere();
+CadShape make_torus();
+CadShape make_wing_body();
+CadShape make_blended_tee();
+CadShape make_cone_tip();
+CadShape make_cross_drilled();
+CadShape make_elbow();
+CadShape make_fins();
+CadShape make_free_form();
+CadShape make_loft();
+CadShape make_sheet();
+CadShape make_thin_box();
+CadShape make_variable_fillet();
+
+/// One of all by its name, which must exist.
+CadShape make_example(const std::string& name);
+/// The same whose faces have the example's name first, as those of a product in a STEP file.
+CadShape make_product(const std::string& name);
+
+}  // namespace delquad::cad
