@@ -15,10 +15,10 @@ namespace delquad {
 /// files of other programs have one curve and one region.
 Mesh read_vtu(const std::filesystem::path& path);
 /// Writes VTK XML (base64). Cells are lines, then triangles, then quads; with hexahedra they are these, then
-/// quads, then lines. Arrays of tags tell the curve and the region of each cell, or the volume, face and curve
-/// beside hexahedra (0: none). A cell has one value for each field in `cell_data`. Lines have no
-/// values of `fields` (NaN). Names are field data: an array "curve NAME" or "region NAME" lists the tags. A
-/// known unit of lengths is a comment, here and in OBJ, Abaqus input and Medit text.
+/// quads, then lines. Arrays of tags tell the curve and the region of each cell, or the volume, face and
+/// curve beside hexahedra (0: none). A cell has one value for each field in `cell_data`. Lines have no values
+/// of `fields` (NaN). Names are field data: an array "curve NAME" or "region NAME" lists the tags. A known
+/// unit of lengths is a comment, here and in OBJ, Abaqus input and Medit text.
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data = {},
                const std::vector<MeshField>& fields = {});
