@@ -132,20 +132,25 @@ class PieceCounts {
     std::vector<int> counts;
     for (const CurvePiece& p : pieces_) counts.push_back(p.n);
     if (mapped.empty()) counts = even(wanted.demands);
-    std::set<int> kept;
+    std::set<int> kept, stays;  // sides of all grids, and of those that are asked for
     for (const MappedFace& face : mapped)
-      for (const auto& side : face.sides) kept.insert(side.begin(), side.end());
+      for (const auto& side : face.sides) {
+        kept.insert(side.begin(), side.end());
+        if (face.is_asked) stays.insert(side.begin(), side.end());
+      }
     const double quads = std::accumulate(wanted.quads.begin(), wanted.quads.end(), 0.0);
     Budget steps(std::min(by.most_steps, static_cast<long long>(kStepsPerQuad * quads)));
     agree_on_counts(curves, wanted, by.price, kept, steps, counts);
     Budget looks(by.most_steps);
     for (const ChainPair& pair : images_) counts[pair.chain] = counts[pair.master];
-    const CurvePlaces equal = equal_places(counts),
-                      places = delquad::face_nodes(fine, curves.chains, across, wanted.integrals, counts,
-                                                   wanted.group, size, looks);
+    const CurvePlaces places =
+        delquad::face_nodes(fine, curves.chains, across, wanted.integrals, counts, wanted.group, size, looks);
     set(counts);
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      if (!pieces_[i].is_free() || places[i] == equal[i]) continue;
+      double farthest = 0;
+      for (std::size_t k = 0; k < places[i].size(); ++k)
+        farthest = std::max(farthest, std::abs(places[i][k] - static_cast<double>(k)));
+      if (!pieces_[i].is_free() || farthest < kLeastMove || stays.contains(static_cast<int>(i))) continue;
       std::vector<double> at(places[i].begin() + 1, places[i].end() - 1);
       for (double& x : at) x *= demands_[i].integral / counts[i];
       pieces_[i].interior = pieces_[i].measure->nodes_at(at);
@@ -157,6 +162,8 @@ class PieceCounts {
   static constexpr double kQuadsError = 0.1, kCoarsest = 0.25;
   /// Steps of agreement: what regions with hundreds of curves gain comes early.
   static constexpr double kStepsPerQuad = 50;
+  /// In edges: what lies across is known no better, by chords.
+  static constexpr double kLeastMove = 0.15;
   static constexpr double kMostEdges = 1e8;  ///< of a side of a grid
 
   std::vector<int> even(const std::vector<CurveDemand>& demands) const {

@@ -94,11 +94,13 @@ std::vector<SymmetryPlane> planes_of(const MeshProblem& problem, const PlanarMod
 /// A model whose curves are meshed as often as a decision on their size depends on how they were.
 class SizedModel {
  public:
-  SizedModel(const MeshProblem& problem, const PlanarModel& model, PreparedProblem& p)
-      : problem_(problem), model_(model), p_(p) {}
+  SizedModel(const MeshProblem& problem, const PlanarModel& model, const CurveAgreement& agreement,
+             PreparedProblem& p)
+      : problem_(problem), model_(model), agreement_(agreement), p_(p) {}
 
-  /// Meshes the curves by another size.
-  void mesh_by(std::shared_ptr<const SizeField> size) {
+  /// Meshes the curves by another size. `grid_size`: of the sides of grids, where that is another one.
+  void mesh_by(std::shared_ptr<const SizeField> size,
+               const std::shared_ptr<const SizeField>& grid_size = nullptr) {
     p_.size.field = std::move(size);
     check_count_early(problem_, model_, p_.size.field);
     const CurveOptions curves = curve_options(problem_.options);
@@ -111,7 +113,8 @@ class SizedModel {
     options.narrow_grids = !curves.thin_rows && curves.agreement > 0;
     options.symmetry = problem_.symmetry;
     options.thin_rows = thin_rows;
-    options.agreement = agreement;
+    // Rows in thin regions have numbers that agree across these already.
+    if (!curves.thin_rows) options.agreement = agreement_;
     options.size_field = p_.size.field;
     if (problem_.seed != 0)
       options.size_field = jittered(std::move(options.size_field), problem_.seed, diagonal_of(model_));
@@ -119,13 +122,12 @@ class SizedModel {
   }
 
   PlanarDomain domain;
-  std::shared_ptr<const SizeField> grid_size = nullptr;  ///< of the sides of grids, where that is another one
-  bool thin_rows = false;
-  CurveAgreement agreement = {};
+  bool thin_rows = false;  ///< from now on
 
  private:
   const MeshProblem& problem_;
   const PlanarModel& model_;
+  const CurveAgreement agreement_;
   PreparedProblem& p_;
 };
 
@@ -144,7 +146,7 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
                           PreparedProblem& p) {
   const SizeSpec& spec = problem.size;
   PreparedSize& size = p.size;
-  SizedModel sized(problem, model, p);
+  SizedModel sized(problem, model, agreement, p);
   const PlanarDomain& domain = sized.domain;
   size.field = planar_base_size(spec, model, p.warnings);
   p.symmetry = planes_of(problem, model);
@@ -195,14 +197,14 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   if (!fine.empty() || !spots.empty() || !problem.divisions.empty()) {
     if (!size.asked) size.asked = size.field;
     std::vector<FineSpot> all = fine_spots(problem, spots);
-    sized.grid_size = finer_near(size.field, all);
+    const auto grid_size = finer_near(size.field, all);
     all.insert(all.begin(), fine.begin(), fine.end());
-    sized.mesh_by(finer_near(size.field, std::move(all)));
+    sized.mesh_by(finer_near(size.field, std::move(all)), grid_size);
   }
-  // Rows in thin regions have numbers that agree across these already.
-  sized.thin_rows = curves.thin_rows;
-  if (!curves.thin_rows) sized.agreement = agreement;
-  if (sized.thin_rows || sized.agreement.price > 0) sized.mesh_by(size.field);
+  if (curves.thin_rows) {
+    sized.thin_rows = true;
+    sized.mesh_by(size.field);
+  }
   p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
   return std::move(sized.domain);
 }

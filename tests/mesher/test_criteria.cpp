@@ -116,7 +116,7 @@ TEST(Criteria, AreAnErrorWhenStrict) {
     mesh(judged_problem({{{0, 0}, {6, -0.5}, {6, 0.5}}}, 0.2, c), "DB");
     FAIL() << "a corner of ten degrees passed";
   } catch (const UnsoundError& error) {
-    EXPECT_TRUE(holds(error.what(), "elements have an angle below 20 degrees, the least 9.5"));
+    EXPECT_TRUE(holds(error.what(), "an angle below 20 degrees, the least 9.5"));
     ASSERT_TRUE(error.result->criteria);
     const CriterionResult& angle = result_of(*error.result->criteria, "min_angle");
     EXPECT_EQ(angle.cause, "corner");

@@ -121,8 +121,7 @@ TEST(Limits, AreAnErrorWithPlaces) {
     FAIL() << "a corner of ten degrees passed";
   } catch (const UnsoundError& error) {
     const std::string text = error.what();
-    EXPECT_TRUE(
-        holds(text, "beyond the limits", "elements have an angle below 20 degrees", "the least 9.5", "at ("));
+    EXPECT_TRUE(holds(text, "beyond the limits", "an angle below 20 degrees", "the least 9.5", "at ("));
     EXPECT_EQ(text.find("not sound"), std::string::npos) << text;
     ASSERT_TRUE(error.result);
     EXPECT_TRUE(error.result->soundness.sound());

@@ -196,7 +196,7 @@ std::vector<std::size_t> edges_of_ring(double outer, double agreement) {
   const SurfaceSize size(make_constant_size(0.1));
   Flattening flattening = flatten(ring);
   const SurfaceDomain domain = make_surface_domain(
-      ring, std::move(flattening), size, *make_primal_dual_solver(), nullptr, {}, {}, {}, agreement);
+      ring, std::move(flattening), size, *make_primal_dual_solver(), nullptr, {}, {}, {}, {agreement});
   std::vector<std::size_t> edges;
   for (std::size_t c = 0; c < domain.chains.size(); ++c)
     if (domain.chains[c].closed()) edges.push_back(domain.nodes.on_curve[c].size() - 1);
@@ -240,7 +240,7 @@ std::vector<std::size_t> edges_of_hole(double side, double depth, double agreeme
   Flattening flattening = flatten(model);
   const SurfaceDomain domain = make_surface_domain(
       model, std::move(flattening), SurfaceSize(make_constant_size(1)), *make_primal_dual_solver(), nullptr,
-      {}, {}, {}, agreement, kMostAgreementSteps, true);
+      {}, {}, {}, {agreement, kMostAgreementSteps, true});
   std::map<int, std::size_t> edges;  // cuts part curves
   for (std::size_t c = 0; c < domain.chains.size(); ++c)
     if (std::ranges::all_of(domain.nodes.on_curve[c], [&](const CurveNode& n) {
