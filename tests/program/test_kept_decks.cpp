@@ -328,7 +328,9 @@ TEST(KeptDecks, QuadsOfEightNodesKeepTheirType) {
   EXPECT_GT(moved, 20);
   for (const auto& [side, nodes] : middles) EXPECT_EQ(nodes.size(), 1u);
   for (const auto& [number, at] : before.nodes)
-    if (after.nodes.contains(number)) EXPECT_EQ(after.nodes.at(number), at);
+    if (after.nodes.contains(number)) {
+      EXPECT_EQ(after.nodes.at(number), at);
+    }
 
   write_text(folder / "c.inp", curved_plate("*NSET, NSET=INSIDE\n" + std::to_string(1 + 8 * 17 + 7) + "\n"));
   const auto refused = delquad({"improve", folder / "c.inp", "-o", folder / "d.inp"});
