@@ -138,8 +138,8 @@ void reduce_bandwidth(Mesh& mesh);
 /// Notes for users on changes by a reader, one sentence each.
 using ReadNotes = std::vector<std::string>;
 
-/// Reads a file by its extension: .msh, .vtu, .obj, .inp, .mesh, .mfem, .bdf, .off, .stl, .ply or .3mf, also
-/// .gz. Throws InputError with file and line or byte. The message for another extension names the known ones.
+/// Reads a file whose extension names its format, such as `.msh` or `.vtu`; `delquad formats` lists all.
+/// Throws InputError with file and line or byte. The message for another extension names the known ones.
 Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 
 /// Line elements of an MSH file. deal.II refuses all lines inside the mesh.
@@ -153,7 +153,7 @@ struct MshOptions {
   bool binary = false;
   MshCurves curves = MshCurves::kAll;
   /// Kind of hexahedra in .inp: C3D8, C3D8I or C3D8R; with nodes in the middle of straight edges C3D20 or
-  /// C3D20R; for heat DC3D8 or DC3D20. Empty: C3D8.
+  /// C3D20R; for heat DC3D8 or DC3D20. Empty: C3D8. S4 makes shells of quads in a plane.
   std::string element = {};
 };
 

@@ -139,7 +139,7 @@ struct ModelPoint {
 ///
 /// A curve that touches another one with an end shares a node with it; overlaps of curves are merged. Curves
 /// outside of all loops are embedded in the regions as chains of mesh edges. They may cross any curve and end
-/// anywhere in a region.
+/// anywhere in a region. One with a name that lies on the boundary names that part of it.
 struct PlanarModel {
   std::string source;  ///< file of the model, for messages
   std::vector<ModelCurve> curves;
