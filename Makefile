@@ -10,7 +10,7 @@ CMAKE_FLAGS ?=
 # Seconds of `make fuzz`, for all targets together.
 SECONDS ?= 120
 
-.PHONY: doc-tables fig15 package build dev lint test test-long sanitize python data paper studies peers public public_models suite site bench fuzz
+.PHONY: doc-tables fig15 package build dev lint test test-programs test-long sanitize python data paper studies peers public public_models suite site bench fuzz
 
 # Builds the program, the programs and libraries that it loads, and the library for C++.
 build:
@@ -31,8 +31,8 @@ lint:
 	python3 tests/house/check_house.py .
 	python3 tests/house/check_prose.py
 
-# Builds and runs the tests; names skipped tests and the reasons. TESTS has options of ctest, such as -R "^mesher" or -LE programs.
-TESTS ?= -LE long
+# Builds and runs the tests; names skipped tests and the reasons. TESTS has options of ctest, such as -R "^mesher".
+TESTS ?= -LE "long|programs"
 test:
 	@cmake/install-packages.sh build python test
 	cmake --preset $(PRESET) -DBUILD_TESTING=ON -DDELQUAD_PYTHON=$(if $(filter asan,$(PRESET)),OFF,ON) $(CMAKE_FLAGS)
@@ -40,6 +40,11 @@ test:
 	ctest --preset $(PRESET) -j $$(nproc) $(TESTS); status=$$?; \
 	  sed -n -e '/: Skipped$$/{n;p}' -e 's/^skipped: //p' build/$(PRESET)/Testing/Temporary/LastTest.log | sort | uniq -c; \
 	  exit $$status
+
+# Installs solvers, meshers, browsers and LaTeX, and runs the tests that need them.
+test-programs:
+	@cmake/install-packages.sh programs
+	@$(MAKE) test TESTS="-L programs"
 
 # Runs the tests that take minutes.
 test-long:
