@@ -169,6 +169,10 @@ std::string list(const Json& tags) {
   return tags.size() > kMostTags ? fmt::format("{}, ... ({})", text, tags.size()) : text;
 }
 
+std::string names_of(const Json& part) {
+  return fmt::format("{}", fmt::join(part["names"].get<std::vector<std::string>>(), ", "));
+}
+
 /// Prints the first rows of a list by print(row, its number from 1).
 template <class Print>
 void print_rows(const Json& rows, Print print) {
@@ -207,16 +211,17 @@ void print_parts(const Json& json) {
   print_rows(json["faces"], [&](const Json& face, std::size_t) {
     fmt::print("  {:>4} {:>10.4g} {:>10.4g}  {:<20} {:<28} {}\n", face["tag"].get<int>(),
                number(face["area"]), number(face["width"]), face["topology"].get<std::string>(),
-               list(face["curves"]), fmt::join(face["names"].get<std::vector<std::string>>(), ", "));
+               list(face["curves"]), names_of(face));
   });
   fmt::print("\nboxes of faces\n");
   print_rows(json["faces"], [&](const Json& face, std::size_t) {
     fmt::print("  {:>4} {} to {}\n", face["tag"].get<int>(), show(face["box"][0]), show(face["box"][1]));
   });
-  fmt::print("\ncurves{:>11} {:>10} {:>8}  {}\n", "length", "kind", "closed", "faces");
+  fmt::print("\ncurves{:>11} {:>10} {:>8}  {:<10} {}\n", "length", "kind", "closed", "faces", "names");
   print_rows(json["curves"], [&](const Json& curve, std::size_t) {
-    fmt::print("  {:>4} {:>10.4g} {:>10} {:>8}  {}\n", curve["tag"].get<int>(), number(curve["length"]),
-               curve["kind"].get<std::string>(), yes_or_no(curve["closed"]), list(curve["faces"]));
+    fmt::print("  {:>4} {:>10.4g} {:>10} {:>8}  {:<10} {}\n", curve["tag"].get<int>(),
+               number(curve["length"]), curve["kind"].get<std::string>(), yes_or_no(curve["closed"]),
+               list(curve["faces"]), names_of(curve));
   });
 }
 

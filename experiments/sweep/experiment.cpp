@@ -230,7 +230,10 @@ Word Experiment::find_pipeline(const std::string& text) const {
   try {
     return parse_word(text, word_start_);
   } catch (const InputError& error) {
-    throw InputError(error.what() + suggestion(text, names));
+    const std::string what = error.what() + suggestion(text, names);
+    throw InputError(what + (what.find("did you mean") != std::string::npos
+                                 ? ""
+                                 : "; another mesher needs its file (--peer FILE)"));
   }
 }
 
