@@ -158,11 +158,6 @@ void join_nodes(Deck& deck, double weld) {
   }
 }
 
-int region_of(const Mesh& mesh, int element) {
-  const auto e = static_cast<std::size_t>(element), n = mesh.triangles.size();
-  return e < n ? mesh.triangle_region[e] : mesh.quad_region[e - n];
-}
-
 /// Writes a deck again, edit by edit.
 class DeckRewriter {
  public:
