@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "metrics/shape.h"
 
 namespace delquad {
 namespace {

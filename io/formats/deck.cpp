@@ -9,7 +9,6 @@
 
 #include "base/located.h"
 #include "base/sort_unique.h"
-#include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"

@@ -11,7 +11,6 @@
 
 #include "base/text.h"
 #include "delquad/mesh.h"
-#include "io/mesh_io.h"
 
 namespace delquad {
 

@@ -8,7 +8,6 @@
 #include <map>
 #include <set>
 
-#include "base/located.h"
 #include "base/sort_unique.h"
 #include "base/text.h"
 #include "geometry/mesh/drop_unused_points.h"

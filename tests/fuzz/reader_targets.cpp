@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 
 #include "geometry/mesh/check_mesh.h"
 #include "io/formats/msh.h"
