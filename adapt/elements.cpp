@@ -1,7 +1,5 @@
 #include "adapt/elements.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -116,11 +116,6 @@ class MeshTracer {
   }
 
  private:
-  int region_of(const HalfEdge& side) const {
-    const int n = static_cast<int>(mesh_.triangles.size());
-    return side.element < n ? mesh_.triangle_region[side.element] : mesh_.quad_region[side.element - n];
-  }
-
   /// Refuses two points at the same place, since a curve would close the opening.
   void refuse_cracks() const {
     std::vector<std::array<double, 2>> places;
@@ -149,7 +144,7 @@ class MeshTracer {
       const int lo = edge[0].lo, hi = edge[0].hi;
       std::array<int, 2> regions{-1, -1};
       for (const HalfEdge& side : edge)
-        regions[side.forward == (is_clockwise[side.element] == 0) ? 0 : 1] = region_of(side);
+        regions[side.forward == (is_clockwise[side.element] == 0) ? 0 : 1] = region_of(mesh_, side.element);
       const auto line = curve_of.find({lo, hi});
       if (line == curve_of.end() && regions[0] == regions[1]) return;
       for (const int v : {lo, hi}) sides_at_[v].push_back(static_cast<int>(sides_.size()));

@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "adapt/elements.h"
-#include "base/parallel.h"
 #include "base/parallel_each.h"
 #include "base/sort_unique.h"
 #include "delquad/adapt.h"

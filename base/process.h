@@ -1,10 +1,8 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 // This header starts and ends processes. The program, the bench and readers of files use it.
 

@@ -17,7 +17,6 @@
 #include <mutex>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "base/context.h"
 #include "base/process.h"

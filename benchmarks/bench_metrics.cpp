@@ -3,7 +3,6 @@
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/recombine.h"
 #include "benchmarks/square_case.h"
-#include "metrics/metrics.h"
 
 namespace delquad::benchmarks {
 namespace {

@@ -14,7 +14,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from compare_gmsh import run
+from run_measured import run
 
 ROOT = Path(__file__).resolve().parent.parent
 HEADER = ["model", "part", "order", "quads", "straight, s", "curved, s", "ratio", "least", "least elsewhere", "below .1", "in corners", "unproven",

@@ -21,7 +21,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from compare_gmsh import run
+from run_measured import run
 from scale import AREA, MODEL, PLATE_GEO, ROOT
 
 SURFACE_GEO = 'Merge "{}";\nClassifySurfaces{{40 * Pi / 180, 1, 1, Pi}};\nCreateGeometry;\n'

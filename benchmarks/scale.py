@@ -16,7 +16,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from compare_gmsh import run
+from run_measured import run
 
 ROOT = Path(__file__).resolve().parent.parent
 MODEL = ROOT / "experiments/models/plate_16_holes.toml"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
 
 #include "delquad/fields.h"
 #include "delquad/model.h"

@@ -4,7 +4,6 @@
 #include <CGAL/Delaunay_mesh_face_base_2.h>
 #include <CGAL/Delaunay_mesh_vertex_base_2.h>
 #include <CGAL/Delaunay_mesher_2.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +11,12 @@
 #include <optional>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "base/box_tree.h"
 #include "base/cancel.h"
 #include "base/predicates.h"
 #include "base/segment.h"
 #include "delquad/error.h"
-#include "delquad/mesh.h"
 #include "geometry/mesh/patch_cdt.h"
 
 namespace delquad {

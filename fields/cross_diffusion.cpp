@@ -6,8 +6,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "fields/laplace.h"
-
 namespace delquad {
 
 namespace {

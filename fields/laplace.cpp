@@ -3,7 +3,6 @@
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <optional>
 

@@ -10,7 +10,6 @@
 #include <limits>
 #include <memory_resource>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
 #include "base/context.h"

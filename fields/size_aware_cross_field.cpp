@@ -1,18 +1,13 @@
 #include "fields/size_aware_cross_field.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <map>
 #include <numeric>
-#include <utility>
-#include <vector>
 
 #include "base/cancel.h"
-#include "delquad/fields.h"
 #include "delquad/mesh.h"
-#include "fields/background_mesh.h"
 #include "fields/cross_diffusion.h"
 #include "fields/laplace.h"
 #include "fields/sample_triangle.h"

@@ -1,7 +1,6 @@
 #include "io/boundary_chains.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace delquad {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/text.h"
-#include "delquad/error.h"
 
 namespace delquad {
 

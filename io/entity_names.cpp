@@ -1,7 +1,5 @@
 #include "io/entity_names.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>

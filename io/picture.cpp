@@ -15,7 +15,6 @@
 #include "io/item_buffer.h"
 #include "io/picture.h"
 #include "io/svg.h"
-#include "metrics/metrics.h"
 #include "metrics/regularity.h"
 
 namespace delquad {

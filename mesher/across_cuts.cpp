@@ -14,7 +14,6 @@
 #include "features/given/given_worst.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/nearest_on_regions.h"
-#include "mesher/prepare.h"
 #include "metrics/judgement/poor_quads.h"
 
 namespace delquad {

@@ -2,19 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
-#include <string>
 #include <variant>
-#include <vector>
 
 #include "features/curves/compose_size.h"
-#include "features/curves/surface_input.h"
-#include "features/given/given_surface.h"
 #include "fields/fields.h"
 #include "geometry/mesh/check_mesh.h"
-#include "geometry/surface/triangulated_model.h"
 #include "io/cases/check_described.h"
 #include "io/cases/problem_record.h"
 

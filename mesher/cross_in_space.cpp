@@ -87,10 +87,8 @@ WantedAt wanted_at(const Prepared& prepared, const Mesh& mesh) {
   const MetricAt metric = metric_of(prepared.inside());
   const CrossInSpace cross = cross_in_space(prepared.inside());
   std::vector<int> region(n, 0);
-  const int n_triangles = static_cast<int>(mesh.triangles.size());
   for_each_element(mesh, [&](int e, const auto& v) {
-    for (const int i : v)
-      region[i] = e < n_triangles ? mesh.triangle_region[e] : mesh.quad_region[e - n_triangles];
+    for (const int i : v) region[i] = region_of(mesh, e);
   });
   parallel_ranges(n, [&](std::size_t begin, std::size_t end) {
     int in_size = -1, in_field = -1;

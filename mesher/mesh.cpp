@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/box.h"
 #include "base/context.h"
 #include "base/nearest_name.h"
 #include "base/stopwatch.h"

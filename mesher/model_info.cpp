@@ -1,9 +1,7 @@
-#include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "base/activity.h"
-#include "base/box.h"
 #include "delquad/mesher.h"
 #include "features/curves/mesh_planar_curves.h"
 #include "features/curves/surface_input.h"

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <tuple>
 
 #include "base/calibration.h"
 #include "base/stopwatch.h"

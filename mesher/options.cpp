@@ -7,7 +7,6 @@
 #include <deque>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"

@@ -1,16 +1,13 @@
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "base/counters.h"
 #include "delquad/error.h"
 #include "delquad/extend.h"
-#include "delquad/model.h"
 #include "metrics/judgement/soundness.h"
 #include "metrics/metrics.h"
 #include "metrics/surface/surface_report.h"

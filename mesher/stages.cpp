@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
-#include <memory>
 #include <numeric>
 #include <stdexcept>
 
@@ -20,11 +18,9 @@
 #include "base/activity.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "delquad/error.h"
 #include "features/given/given_worst.h"
 #include "mesher/finish_steps.h"
 #include "metrics/shape.h"
-#include "metrics/size_efficiency.h"
 #include "patches/places_inside.h"
 #include "smoothing/cvt/smooth_points.h"
 #include "smoothing/optimisation/planar_tracks.h"

@@ -1,6 +1,5 @@
 #include "metrics/alignment.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "metrics/shape.h"
 
 namespace delquad {
 namespace {
@@ -80,9 +79,7 @@ std::map<std::string, double> measure_by_metric(const Mesh& mesh, std::span<cons
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;
   for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
     const Vec3 a = mesh.points[edge[0].lo], b = mesh.points[edge[0].hi];
-    const int triangles = static_cast<int>(mesh.triangles.size()), element = edge[0].element;
-    const int region =
-        element < triangles ? mesh.triangle_region[element] : mesh.quad_region[element - triangles];
+    const int region = region_of(mesh, edge[0].element);
     const TangentMetric at_a = metric_at(region, a, hint), at_b = metric_at(region, b, hint);
     const double length = metric_length(b - a, at_a, at_b);
     ++edges;

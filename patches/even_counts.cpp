@@ -5,10 +5,8 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
 
 #include "base/disjoint_sets.h"
-#include "base/matching/edge_counts.h"
 
 namespace delquad {
 

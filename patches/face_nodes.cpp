@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "base/parallel.h"
-#include "patches/narrow_places.h"
 
 namespace delquad {
 

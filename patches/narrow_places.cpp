@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <tuple>
-#include <vector>
 
 #include "base/disjoint_sets.h"
 #include "geometry/mesh/constrained_delaunay.h"

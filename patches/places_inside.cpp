@@ -1,6 +1,5 @@
 #include "patches/places_inside.h"
 
-#include <array>
 #include <cassert>
 #include <limits>
 

@@ -10,16 +10,12 @@
 #include <numeric>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "base/activity.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "fields/fields.h"
-#include "fields/surface/surface_size.h"
 #include "patches/narrow_places.h"
-#include "patches/patch_outline.h"
 #include "patches/surface_domain.h"
 
 namespace delquad {

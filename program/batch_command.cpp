@@ -8,7 +8,6 @@
 #include <set>
 
 #include "base/context.h"
-#include "base/located.h"
 #include "base/text.h"
 #include "experiments/sweep/folders.h"
 #include "io/cases/read_problem.h"

@@ -10,12 +10,8 @@
 #include <filesystem>
 #include <map>
 #include <new>
-#include <optional>
 #include <ranges>
-#include <span>
-#include <string>
 #include <system_error>
-#include <vector>
 
 #include "base/context.h"
 #include "base/located.h"
@@ -26,7 +22,6 @@
 #include "experiments/console/interrupt.h"
 #include "experiments/console/progress.h"
 #include "experiments/sweep/machine.h"
-#include "io/mesh_io.h"
 #include "program/commands.h"
 #include "program/options.h"
 

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "base/box.h"
 #include "base/context.h"
 #include "base/located.h"
 #include "base/parallel.h"

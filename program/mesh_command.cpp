@@ -26,7 +26,6 @@
 #include "experiments/sweep/wanted_fields.h"
 #include "io/cases/case_file.h"
 #include "io/cases/read_problem.h"
-#include "io/entity_names.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "program/commands.h"

@@ -8,7 +8,6 @@
 
 #include "base/parallel.h"
 #include "io/cases/case.h"
-#include "io/mesh_io.h"
 
 namespace delquad {
 

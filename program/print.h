@@ -2,7 +2,6 @@
 
 #include "delquad/mesher.h"
 #include "delquad/options.h"
-#include "metrics/metrics.h"
 #include "metrics/tables/tables.h"
 
 namespace delquad {

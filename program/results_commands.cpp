@@ -13,7 +13,6 @@
 #include "experiments/sweep/verify.h"
 #include "io/cases/case.h"
 #include "io/mesh_io.h"
-#include "metrics/metrics.h"
 #include "metrics/tables/comparison.h"
 #include "metrics/tables/result_records.h"
 #include "metrics/tables/tables.h"

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "base/process.h"
-#include "delquad/error.h"
 #include "io/mesh_io.h"
 #include "program/commands.h"
 #include "program/options.h"

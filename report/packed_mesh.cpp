@@ -11,7 +11,6 @@
 #include "geometry/mesh/element_nodes.h"
 #include "io/picture.h"
 #include "io/xml.h"
-#include "metrics/metrics.h"
 
 namespace delquad {
 namespace {

@@ -10,7 +10,6 @@
 
 #include "base/text.h"
 #include "delquad/error.h"
-#include "experiments/sweep/record.h"
 #include "io/mesh_io.h"
 #include "metrics/tables/samples.h"
 #include "metrics/tables/study_file.h"

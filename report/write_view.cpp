@@ -5,7 +5,6 @@
 
 #include "delquad/error.h"
 #include "io/mesh_io.h"
-#include "metrics/metrics.h"
 #include "report/page.h"
 
 namespace delquad {

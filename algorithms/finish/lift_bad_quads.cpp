@@ -7,7 +7,6 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "algorithms/finish/edit_failing.h"

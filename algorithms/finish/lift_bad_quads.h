@@ -1,7 +1,6 @@
 #pragma once
 
 #include <tuple>
-#include <vector>
 
 #include "base/counters.h"
 #include "patches/places_inside.h"

@@ -12,7 +12,6 @@
 
 #include "base/marks.h"
 #include "geometry/mesh/tri_topology.h"
-#include "patches/prepared.h"
 #include "smoothing/relocation/element_quality.h"
 #include "smoothing/relocation/quad_relocation.h"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 
 #include "algorithms/insertion/vertex_fields.h"
 #include "base/cancel.h"

@@ -1,8 +1,6 @@
 #include "algorithms/insertion/linf_geometry.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
 
 namespace delquad {

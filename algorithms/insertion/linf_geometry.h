@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "delquad/extend.h"
 #include "delquad/mesh.h"

@@ -1,7 +1,6 @@
 #include "algorithms/insertion/frontal_mesher.h"
 
 #include <cmath>
-#include <vector>
 
 #include "algorithms/insertion/linf_geometry.h"
 #include "algorithms/insertion/vertex_fields.h"

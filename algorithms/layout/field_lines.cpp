@@ -1,7 +1,6 @@
 #include "algorithms/layout/field_lines.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
 #include <numbers>
 #include <numeric>
@@ -27,7 +26,6 @@
 #include "geometry/mesh/quad_corners.h"
 #include "geometry/mesh/quad_topology.h"
 #include "smoothing/optimisation/track_optimisation.h"
-#include "smoothing/relocation/element_quality.h"
 #include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {

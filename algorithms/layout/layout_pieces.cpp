@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "algorithms/regularity/patterns.h"
 #include "algorithms/regularity/polygon_sides.h"
 
 namespace delquad {

@@ -1,7 +1,6 @@
 #include "algorithms/layout/layouts_together.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <span>
@@ -17,7 +16,6 @@
 #include "base/matching/edge_counts.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "delquad/error.h"
 
 namespace delquad {
 

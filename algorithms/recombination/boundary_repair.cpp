@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 
-#include "algorithms/recombination/dual_graph.h"
 #include "base/cancel.h"
 
 namespace delquad {

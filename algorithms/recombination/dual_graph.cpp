@@ -1,7 +1,6 @@
 #include "algorithms/recombination/dual_graph.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>

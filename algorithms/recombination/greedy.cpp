@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <tuple>
-#include <vector>
 
-#include "algorithms/recombination/dual_graph.h"
 #include "base/stopwatch.h"
 #include "geometry/mesh/tri_topology.h"
 

@@ -1,12 +1,10 @@
 #include "algorithms/recombination/recombine.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <stdexcept>
 #include <utility>
 
-#include "algorithms/recombination/dual_graph.h"
 #include "base/parallel_collect.h"
 #include "geometry/mesh/tri_topology.h"
 

@@ -6,7 +6,6 @@
 #include <memory>
 #include <mutex>
 #include <utility>
-#include <vector>
 
 #include "algorithms/regularity/visit.h"
 #include "base/parallel.h"

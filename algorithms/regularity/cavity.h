@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/regularity/patterns.h"
 #include "algorithms/treatment/treatment_moves.h"
 #include "base/marks.h"
 #include "geometry/mesh/quad_topology.h"

@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <functional>
 #include <map>
-#include <memory>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>

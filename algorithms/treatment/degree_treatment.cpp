@@ -7,7 +7,6 @@
 #include "algorithms/treatment/treatment_moves.h"
 #include "base/cancel.h"
 #include "base/stopwatch.h"
-#include "smoothing/relocation/quad_relocation.h"
 
 namespace delquad {
 namespace {

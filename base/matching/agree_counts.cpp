@@ -1,14 +1,12 @@
 #include "base/matching/edge_counts.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <map>
 #include <queue>
-#include <utility>
 
 #include "base/cancel.h"
 #include "base/sort_unique.h"

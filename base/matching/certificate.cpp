@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "base/disjoint_sets.h"
 #include "base/matching/wide.h"

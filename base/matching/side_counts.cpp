@@ -6,7 +6,6 @@
 #include <functional>
 #include <limits>
 #include <queue>
-#include <utility>
 
 #include "base/cancel.h"
 #include "base/sort_unique.h"

@@ -6,7 +6,6 @@
 #include <limits>
 #include <queue>
 #include <set>
-#include <utility>
 
 #include "base/cancel.h"
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
 
 #include "base/context.h"

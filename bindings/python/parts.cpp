@@ -1,7 +1,6 @@
 // Registers measures, costs, stages and fields that Python adds.
 #include <pybind11/stl.h>
 
-#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>

@@ -4,7 +4,6 @@
 #include <span>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "base/located.h"
 #include "bindings/python/arrays.h"

@@ -1,7 +1,6 @@
 // Your own sizes and directions: by a function of many points at a time, and by values at nodes.
 #include <delquad/mesher.h>
 
-#include <cmath>
 #include <iostream>
 
 int main() {

@@ -1,9 +1,7 @@
 // Meshes a CAD model, or a sphere of triangles.
 #include <delquad/mesher.h>
 
-#include <cmath>
 #include <iostream>
-#include <numbers>
 
 /// An octahedron whose triangles are cut into four, several times, on the unit sphere.
 delquad::TriangleModel sphere(int times) {

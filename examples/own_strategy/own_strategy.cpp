@@ -4,7 +4,6 @@
 #include <delquad/extend.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace {
 

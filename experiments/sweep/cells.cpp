@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <random>
 
 #include "base/activity.h"
@@ -14,7 +13,6 @@
 #include "geometry/cad/cad_reader.h"
 #include "io/cases/problem_record.h"
 #include "io/digest.h"
-#include "io/mesh_io.h"
 #include "metrics/solve/solver_metrics.h"
 
 namespace delquad {

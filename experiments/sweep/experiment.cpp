@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
 
 #include "base/located.h"
 #include "experiments/sweep/adapt_loop.h"

@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include "base/text.h"
-#include "delquad/error.h"
 #include "io/digest.h"
 #include "io/library_file.h"
 #include "io/mesh_io.h"

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <limits>
 
 #include "base/located.h"
 #include "base/nearest_name.h"
@@ -13,10 +11,8 @@
 #include "experiments/sweep/schema.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/metric_measures.h"
-#include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/samples.h"
-#include "metrics/tables/table.h"
 #include "metrics/tables/tables.h"
 
 // The measures and the peers of an experiment.

@@ -6,11 +6,9 @@
 #include <fstream>
 #include <thread>
 
-#include "base/system.h"
 #include "build_info.h"
 #include "delquad/error.h"
 #include "delquad/mesher.h"
-#include "experiments/sweep/folders.h"
 #include "experiments/sweep/run_program.h"
 #include "geometry/cad/cad_reader.h"
 

@@ -10,7 +10,6 @@
 #include "base/located.h"
 #include "base/system.h"
 #include "delquad/error.h"
-#include "experiments/sweep/folders.h"
 #include "experiments/sweep/verify.h"
 #include "metrics/tables/study_file.h"
 #include "metrics/tables/tables.h"

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -16,7 +14,6 @@
 #include "experiments/sweep/peer.h"
 #include "experiments/sweep/run_program.h"
 #include "io/digest.h"
-#include "metrics/tables/table.h"
 
 namespace delquad {
 namespace {

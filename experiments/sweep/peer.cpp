@@ -16,7 +16,6 @@
 #include "base/system.h"
 #include "delquad/domain.h"
 #include "experiments/sweep/adapt_loop.h"
-#include "experiments/sweep/folders.h"
 #include "experiments/sweep/process_tree.h"
 #include "experiments/sweep/run_program.h"
 #include "geometry/mesh/check_invariants.h"

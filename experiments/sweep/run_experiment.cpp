@@ -6,10 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "base/located.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "experiments/console/progress.h"
 #include "experiments/sweep/cells.h"
 #include "experiments/sweep/experiment_copy.h"
 #include "experiments/sweep/folders.h"

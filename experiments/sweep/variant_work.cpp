@@ -20,8 +20,6 @@
 #include "io/formats/vtu.h"
 #include "io/mesh_io.h"
 #include "io/picture.h"
-#include "metrics/metrics.h"
-#include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/result_records.h"
 
 namespace delquad {

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <sstream>
-#include <system_error>
 
 #include "base/located.h"
 #include "base/parallel.h"
@@ -20,18 +18,13 @@
 #include "delquad/error.h"
 #include "experiments/sweep/cells.h"
 #include "experiments/sweep/draw_figures.h"
-#include "experiments/sweep/experiment.h"
 #include "experiments/sweep/experiment_copy.h"
-#include "experiments/sweep/folders.h"
 #include "experiments/sweep/recorded_cell.h"
-#include "geometry/mesh/half_edges.h"
 #include "io/cases/problem_record.h"
 #include "io/digest.h"
 #include "io/formats/msh.h"
 #include "io/mesh_io.h"
-#include "metrics/metrics.h"
 #include "metrics/tables/result_records.h"
-#include "metrics/tables/study_file.h"
 #include "metrics/tables/tables.h"
 
 namespace delquad {

@@ -7,7 +7,6 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "algorithms/insertion/frontal_mesher.h"
@@ -15,10 +14,8 @@
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "delquad/extend.h"
-#include "fields/size_aware_cross_field.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/surface/compound.h"
-#include "patches/prepared.h"
 
 namespace delquad {
 namespace {

@@ -5,14 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
 #include <numbers>
 #include <set>
-#include <span>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "base/box_tree.h"
 #include "base/segment.h"

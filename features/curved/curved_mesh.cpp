@@ -9,7 +9,6 @@
 #include <numbers>
 #include <set>
 #include <span>
-#include <vector>
 
 #include "base/parallel_each.h"
 #include "base/text.h"

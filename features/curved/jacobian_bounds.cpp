@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cmath>
 #include <queue>
-#include <vector>
 
 #include "geometry/mesh/element_nodes.h"
 

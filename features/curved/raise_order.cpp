@@ -1,7 +1,6 @@
 #include "features/curved/raise_order.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <unordered_map>
 

@@ -9,14 +9,11 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <numeric>
 #include <utility>
-#include <vector>
 
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "base/parallel_each.h"
-#include "delquad/mesh.h"
 #include "geometry/mesh/element_nodes.h"
 
 namespace delquad {

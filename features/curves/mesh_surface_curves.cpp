@@ -10,18 +10,15 @@
 #include <optional>
 #include <set>
 #include <utility>
-#include <vector>
 
 #include "base/activity.h"
 #include "base/box_tree.h"
 #include "base/budget.h"
-#include "base/matching/matching.h"
 #include "base/predicates.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/divisions/divisions.h"
 #include "features/grids/grids.h"
-#include "features/periodic/periodic.h"
 #include "patches/across_view.h"
 #include "patches/boundary_cap.h"
 #include "patches/even_counts.h"

@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include "base/disjoint_sets.h"
@@ -18,7 +17,6 @@
 #include "delquad/error.h"
 #include "features/naming/name_parts.h"
 #include "features/sizes/curve_options.h"
-#include "features/sizes/named_parts.h"
 #include "features/symmetry/symmetry_planes.h"
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
@@ -29,7 +27,6 @@
 #include "geometry/mesh/stray_points.h"
 #include "geometry/surface/compound.h"
 #include "geometry/surface/ignore_small.h"
-#include "geometry/surface/triangulated_model.h"
 
 namespace delquad {
 namespace {

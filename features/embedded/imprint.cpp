@@ -13,7 +13,6 @@
 #include <optional>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "base/box_tree.h"
 #include "base/cancel.h"

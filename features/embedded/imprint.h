@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include "base/warning.h"
 #include "delquad/fields.h"
 #include "geometry/planar/planar_model.h"
 #include "geometry/surface/surface_model.h"

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <limits>
 #include <set>
 #include <utility>
 
 #include "base/cancel.h"
-#include "base/parallel_collect.h"
 #include "base/parallel_each.h"
 #include "base/text.h"
 #include "delquad/error.h"

@@ -5,7 +5,6 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -19,7 +18,6 @@
 #include "base/segment.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "features/extrusion/section.h"
 
 namespace delquad {
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <functional>
-#include <optional>
 #include <vector>
 
 #include "delquad/mesh.h"

@@ -180,15 +180,12 @@ class BadQuadOpening {
 
  private:
   void find_neighbours() {
-    const auto region = [&](int element) {
-      const auto t = mesh_.triangles.size(), e = static_cast<std::size_t>(element);
-      return e < t ? mesh_.triangle_region[e] : mesh_.quad_region[e - t];
-    };
     for_each_edge(sorted_half_edges(mesh_), [&](std::span<const HalfEdge> edge) {
       const int a = edge[0].lo, b = edge[0].hi;
       around_[a].push_back(b);
       around_[b].push_back(a);
-      if (edge.size() != 2 || region(edge[0].element) != region(edge[1].element)) stays_[a] = stays_[b] = 1;
+      if (edge.size() != 2 || region_of(mesh_, edge[0].element) != region_of(mesh_, edge[1].element))
+        stays_[a] = stays_[b] = 1;
     });
     for (const auto& line : mesh_.lines)
       for (const int v : line) stays_[v] = 1;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -100,14 +99,11 @@ using Interfaces = std::map<std::pair<int, int>, std::vector<std::array<int, 2>>
 
 /// Edges between two regions, by these.
 Interfaces edges_between_regions(const Mesh& mesh) {
-  const auto region_of = [&](const HalfEdge& side) {
-    const int n = static_cast<int>(mesh.triangles.size());
-    return side.element < n ? mesh.triangle_region[side.element] : mesh.quad_region[side.element - n];
-  };
   Interfaces interfaces;
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> sides) {
     if (sides.size() != 2) return;
-    const std::pair<int, int> regions = std::minmax(region_of(sides[0]), region_of(sides[1]));
+    const std::pair<int, int> regions =
+        std::minmax(region_of(mesh, sides[0].element), region_of(mesh, sides[1].element));
     if (regions.first != regions.second) interfaces[regions].push_back({sides[0].lo, sides[0].hi});
   });
   return interfaces;

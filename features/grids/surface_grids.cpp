@@ -7,7 +7,6 @@
 
 #include "delquad/error.h"
 #include "geometry/mesh/entity_names.h"
-#include "patches/even_counts.h"
 
 namespace delquad {
 namespace {

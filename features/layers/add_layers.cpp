@@ -3,17 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "base/box.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "features/grids/grids.h"
 #include "features/layers/layer_builder.h"
 #include "features/sizes/fine_spots.h"
 #include "geometry/mesh/entity_names.h"

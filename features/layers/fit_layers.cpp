@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
 
 #include "base/box_tree.h"
 #include "base/cancel.h"

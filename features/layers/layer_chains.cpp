@@ -5,13 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <stdexcept>
-#include <string>
-#include <utility>
 
 #include "base/text.h"
 #include "delquad/error.h"

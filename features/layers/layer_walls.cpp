@@ -4,10 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
-#include <set>
-#include <utility>
 
 #include "base/text.h"
 #include "delquad/error.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -21,7 +20,6 @@
 #include "geometry/planar/curve_span.h"
 #include "geometry/planar/model_chain.h"
 #include "geometry/surface/conformal_maps.h"
-#include "metrics/metric_measures.h"
 
 namespace delquad {
 namespace {

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/warning.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/surface/flatten.h"
 #include "patches/surface_curves.h"

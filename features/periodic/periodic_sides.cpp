@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cassert>
-#include <string>
 #include <utility>
 
 #include "base/nearest_name.h"

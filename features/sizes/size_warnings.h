@@ -2,9 +2,7 @@
 
 #include <vector>
 
-#include "base/warning.h"
 #include "features/sizes/named_parts.h"
-#include "fields/fields.h"
 #include "fields/surface/surface_size.h"
 #include "geometry/planar/planar_model.h"
 #include "patches/prepared.h"

@@ -9,7 +9,6 @@
 
 #include "base/cancel.h"
 #include "base/text.h"
-#include "features/symmetry/symmetry_planes.h"
 
 namespace delquad {
 namespace {

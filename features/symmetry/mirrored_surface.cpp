@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
 
 #include "base/text.h"
 #include "delquad/error.h"
-#include "features/symmetry/mirror_match.h"
 #include "features/symmetry/symmetry_planes.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/mesh/keep_elements.h"

@@ -17,7 +17,6 @@
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/surface_editor.h"
-#include "geometry/surface/triangle_sides.h"
 
 namespace delquad {
 namespace {

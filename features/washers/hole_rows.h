@@ -3,8 +3,6 @@
 #include <array>
 #include <numbers>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "base/box_tree.h"

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <set>
 #include <utility>
 
 #include "base/cancel.h"
@@ -14,7 +11,6 @@
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/nearest_on_regions.h"
 #include "geometry/mesh/triangle_measures.h"
-#include "geometry/surface/chart.h"
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/curve_chains.h"
 

@@ -8,12 +8,10 @@
 #include <tuple>
 
 #include "base/cancel.h"
-#include "base/sort_unique.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/triangle_measures.h"
-#include "geometry/surface/chart.h"
 #include "geometry/surface/improve_triangulation.h"
 
 namespace delquad {

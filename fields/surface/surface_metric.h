@@ -1,10 +1,8 @@
 #pragma once
 
-#include <array>
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 

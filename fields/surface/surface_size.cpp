@@ -4,7 +4,6 @@
 #include <cmath>
 #include <queue>
 #include <unordered_map>
-#include <utility>
 
 #include "base/cancel.h"
 #include "base/parallel.h"

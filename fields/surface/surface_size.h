@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 

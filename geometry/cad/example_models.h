@@ -2,9 +2,7 @@
 
 #include <ostream>
 #include <string>
-#include <vector>
 
-#include "delquad/model.h"
 #include "geometry/cad/cad_reader.h"
 
 namespace delquad {

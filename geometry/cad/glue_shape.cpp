@@ -12,13 +12,11 @@
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
-#include <vector>
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "geometry/cad/cad_shape.h"
 #include "geometry/cad/tessellate.h"
 
 namespace delquad::cad {

@@ -29,11 +29,9 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <vector>
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
-#include "geometry/cad/cad_shape.h"
 
 namespace delquad::cad {
 

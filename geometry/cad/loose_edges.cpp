@@ -16,8 +16,6 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Iterator.hxx>
 
-#include "geometry/cad/cad_shape.h"
-
 namespace delquad::cad {
 
 namespace {

@@ -5,7 +5,6 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <Geom_Surface.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
@@ -22,7 +21,6 @@
 
 #include "base/text.h"
 #include "delquad/error.h"
-#include "geometry/cad/edge_chords.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/mesh/triangle_measures.h"
 

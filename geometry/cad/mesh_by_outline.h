@@ -5,7 +5,6 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 
-#include <array>
 #include <string>
 #include <utility>
 #include <vector>

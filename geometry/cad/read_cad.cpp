@@ -3,7 +3,6 @@
 #include <TopExp_Explorer.hxx>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -15,7 +14,6 @@
 #include "delquad/error.h"
 #include "geometry/cad/agree_faces.h"
 #include "geometry/cad/cad_shape.h"
-#include "geometry/cad/example_models.h"
 #include "geometry/cad/examples/shapes.h"
 #include "geometry/cad/heal_shape.h"
 #include "geometry/cad/kernel.h"

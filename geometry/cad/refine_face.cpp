@@ -4,7 +4,6 @@
 #include <cmath>
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>
-#include <utility>
 
 #include "base/box.h"
 #include "base/cancel.h"

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "geometry/cad/byte_archive.h"
-#include "geometry/cad/cad_shape.h"
 
 namespace delquad::cad {
 

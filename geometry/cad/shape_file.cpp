@@ -34,12 +34,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <sstream>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "base/length_unit.h"
@@ -48,7 +45,6 @@
 #include "base/utf8.h"
 #include "delquad/error.h"
 #include "delquad/mesh.h"
-#include "geometry/cad/cad_shape.h"
 #include "geometry/cad/lost_shapes.h"
 #include "geometry/cad/step_names.h"
 #include "geometry/cad/text_encoding.h"

@@ -19,7 +19,6 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <string>
-#include <vector>
 
 #include "delquad/mesh.h"
 #include "geometry/cad/text_encoding.h"

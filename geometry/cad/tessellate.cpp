@@ -11,13 +11,11 @@
 #include <IMeshTools_MeshAlgo.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Poly_Triangulation.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Shape.hxx>
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "base/activity.h"
 #include "base/context.h"

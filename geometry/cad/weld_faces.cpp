@@ -10,7 +10,6 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
-#include <array>
 #include <set>
 #include <utility>
 

@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <set>
 
-#include "delquad/mesh.h"
-#include "geometry/mesh/half_edges.h"
-
 namespace delquad {
 
 namespace {

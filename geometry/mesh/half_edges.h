@@ -31,6 +31,12 @@ void for_each_element(const Mesh& mesh, Visit visit) {
   for (const auto& v : mesh.quads) visit(element++, v);
 }
 
+/// The region of an element, triangles first.
+inline int region_of(const Mesh& mesh, int element) {
+  const int n_triangles = static_cast<int>(mesh.triangles.size());
+  return element < n_triangles ? mesh.triangle_region[element] : mesh.quad_region[element - n_triangles];
+}
+
 /// All sides of all elements, sorted by (lo, hi, element): the sides of one edge follow each other. Indices
 /// must be in range.
 inline std::vector<HalfEdge> sorted_half_edges(const Mesh& mesh) {

@@ -1,7 +1,5 @@
 #include "delquad/mesh.h"
 
-#include <cmath>
-
 #include "base/box.h"
 
 namespace delquad {

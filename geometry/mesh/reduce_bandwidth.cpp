@@ -8,7 +8,6 @@
 
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
-#include "geometry/mesh/half_edges.h"
 
 namespace delquad {
 

@@ -1,6 +1,5 @@
 #include "geometry/mesh/tri_topology.h"
 
-#include <array>
 #include <cassert>
 #include <map>
 #include <utility>

@@ -4,11 +4,8 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
-#include <utility>
 
 #include "base/located.h"
 #include "delquad/error.h"

@@ -4,7 +4,6 @@
 
 #include "delquad/mesh.h"
 #include "geometry/planar/check_lines.h"
-#include "geometry/planar/planar_model.h"
 
 namespace delquad {
 

@@ -10,7 +10,6 @@
 #include <set>
 #include <utility>
 
-#include "base/box.h"
 #include "base/box_tree.h"
 #include "delquad/error.h"
 #include "geometry/planar/curve_span.h"

@@ -7,10 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
-#include <utility>
 
 #include "base/segment.h"
 #include "geometry/planar/model_chain.h"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
@@ -15,7 +14,6 @@
 #include "geometry/mesh/triangle_measures.h"
 #include "geometry/surface/compound_projector.h"
 #include "geometry/surface/curve_chains.h"
-#include "geometry/surface/triangle_sides.h"
 
 namespace delquad {
 

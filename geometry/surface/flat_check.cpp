@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include "base/predicates.h"
 #include "geometry/planar/arrangement.h"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <queue>
-#include <ranges>
 #include <utility>
 
 #include "base/cancel.h"

@@ -3,15 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <cmath>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
-#include <utility>
 
 #include "base/activity.h"
 #include "base/cancel.h"
@@ -20,7 +16,6 @@
 #include "base/sort_unique.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/flatten_chart.h"
-#include "geometry/surface/improve_triangulation.h"
 #include "geometry/surface/surface_editor.h"
 
 namespace delquad {

@@ -1,7 +1,6 @@
 #include "geometry/surface/improve_triangulation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>

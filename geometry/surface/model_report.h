@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <string>
-#include <vector>
 
 #include "delquad/metrics.h"
 #include "geometry/surface/surface_model.h"

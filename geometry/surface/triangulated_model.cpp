@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
@@ -12,7 +11,6 @@
 
 #include "base/box.h"
 #include "base/text.h"
-#include "delquad/error.h"
 #include "geometry/mesh/triangle_measures.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/feature_noise.h"

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numbers>
 #include <variant>
 
 #include "base/located.h"

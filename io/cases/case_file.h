@@ -4,7 +4,6 @@
 #include <string>
 
 #include "delquad/model.h"
-#include "geometry/surface/surface_model.h"
 #include "io/cases/case.h"
 #include "io/cases/toml_reader.h"
 

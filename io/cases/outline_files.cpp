@@ -5,16 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string>
 #include <utility>
 
 #include "base/located.h"
 #include "base/nearest_name.h"
 #include "base/text.h"
-#include "delquad/error.h"
 #include "geometry/planar/join_outlines.h"
 #include "io/cases/dxf_file.h"
 #include "io/entity_names.h"

@@ -5,7 +5,6 @@
 #include <system_error>
 
 #include "base/text.h"
-#include "delquad/error.h"
 #include "geometry/planar/defined_curve.h"
 #include "io/cases/outline_files.h"
 #include "io/digest.h"

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>

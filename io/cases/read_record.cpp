@@ -1,7 +1,5 @@
 #include "io/cases/read_record.h"
 
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <span>
 

@@ -11,7 +11,6 @@
 
 #include "base/text.h"
 #include "delquad/mesh.h"
-#include "io/mesh_io.h"
 
 namespace delquad {
 
@@ -82,6 +81,9 @@ struct Deck {
     bool forbids_join = false;  ///< of the node of this number with another
     bool counts_nodes = false;  ///< one by one: no two nodes of the set may be joined
     bool may_grow = false;      ///< the set of nodes may get new ones
+
+    /// The set that it may name: "P-1.TOP" is the set TOP.
+    std::string set() const { return text.substr(text.rfind('.') + 1); }
   };
 
   std::string source, text;
@@ -107,6 +109,10 @@ struct Deck {
   int side_of(const Element& element, const std::string& label) const;
   /// The elements that a row of a surface names, if they are read.
   std::vector<int> elements_of(const Side& row) const;
+  /// Whether such a row names sides on curves.
+  bool names_side(const Side& row) const;
+  /// Sets of elements that have a side on a curve: they are made again from these sides.
+  std::set<std::string, LessBlindToCase> sets_of_sides() const;
   /// The regions all of whose nodes a set has, for each set without other nodes of regions.
   DeckSets filled_regions() const;
 };
@@ -139,7 +145,14 @@ class DeckText {
 /// Reads the lines of a file. With `as_deck` its mesh is one to improve. Then elements of a region agree on
 /// their side, and elements that lines name by number have regions of their own. Some nodes must stay, and
 /// their place alone does not tell them. They are named points without names; tags are their numbers.
+///
+/// Abaqus input: *NODE, *ELEMENT of two to four or eight nodes (shells, membranes, plane ones, bars),
+/// *ELSET. Element sets become names of regions, unless their own begins with an underscore; surfaces of
+/// elements' sides (S1 to S4, E1 to E4) become curves. Other keywords are left out.
 Deck read_inp_deck(const std::filesystem::path& path, bool as_deck);
+/// Nastran's bulk data, in free, small and large fields: GRID, CQUAD4, CQUAD8, CTRIA3, and as lines
+/// CBAR, CBEAM, CROD, CTUBE, CONROD and PLOTEL. Properties are tags, names those that write_nastran() leaves
+/// in comments. Nodes must be in the basic coordinate system. Other cards are left out.
 Deck read_nastran_deck(const std::filesystem::path& path, bool as_deck);
 /// Parts the regions, before there is a mesh, and names the points of such a deck.
 void part_elements(Deck& deck);
@@ -163,13 +176,5 @@ void rewrite_nastran(const std::filesystem::path& source, const std::filesystem:
 std::string inp_lines(const std::vector<long long>& numbers);
 /// A coordinate in at most 20 characters: CalculiX cuts off what follows. "0" below `negligible`.
 std::string inp_number(double x, double negligible);
-
-/// A coordinate in 16 characters, with the point that Nastran wants.
-std::string nastran_number(double x);
-/// "SET 5 = 1, 2, 3," in lines of at most 72 characters.
-std::string nastran_set(const std::string& number, const std::vector<long long>& members);
-/// Whether a card is an element, of any kind.
-bool is_nastran_element(const std::string& name);
-inline constexpr long long kMostNastran = 99'999'999;
 
 }  // namespace delquad

@@ -8,7 +8,6 @@
 #include <map>
 #include <set>
 
-#include "base/located.h"
 #include "base/sort_unique.h"
 #include "base/text.h"
 #include "geometry/mesh/drop_unused_points.h"
@@ -16,7 +15,6 @@
 #include "io/entity_names.h"
 #include "io/face_reader.h"
 #include "io/formats/deck.h"
-#include "io/formats/readers.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
 
@@ -503,8 +501,6 @@ class InpText : public DeckText {
 };
 
 }  // namespace
-
-Mesh read_inp(const std::filesystem::path& path) { return InpReader(path, false).read().mesh; }
 
 Deck read_inp_deck(const std::filesystem::path& path, bool as_deck) {
   return InpReader(path, as_deck).read();

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "geometry/mesh/element_nodes.h"
 #include "io/face_reader.h"
 #include "io/formats/msh.h"
 #include "io/formats/msh_raw.h"

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -7,35 +6,12 @@
 
 #include "io/cell_view.h"
 #include "io/formats/deck.h"
+#include "io/formats/nastran_card.h"
 #include "io/mesh_formats.h"
 #include "io/text_writer.h"
 
 namespace delquad {
 namespace {
-
-constexpr std::size_t kSmallField = 8, kLargeField = 16;
-
-/// Left-aligned in a field of eight characters.
-std::string field(const std::string& text) {
-  return text + std::string(kSmallField - std::min(text.size(), kSmallField), ' ');
-}
-std::string field(std::size_t number) { return field(std::to_string(number)); }
-
-/// Eight fields to a line; further ones on continuations.
-void write_card(TextWriter& out, const char* name, const std::vector<std::size_t>& numbers) {
-  out << field(name);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (i > 0 && i % 8 == 0) out << '\n' << field("");
-    out << field(numbers[i]);
-  }
-  out << '\n';
-}
-
-void write_grid(TextWriter& out, std::size_t i, const Vec3& p) {
-  const std::string id = std::to_string(i + 1);
-  out << "GRID*   " << id << std::string(kLargeField - id.size(), ' ') << std::string(kLargeField, ' ')
-      << nastran_number(p.x) << nastran_number(p.y) << "\n*       " << nastran_number(p.z) << '\n';
-}
 
 /// Comments that tell names: a property for each group of the highest dimension, SETs of the nodes of others.
 void write_names(TextWriter& out, const Mesh& mesh, const std::vector<MeshGroup>& groups) {
@@ -69,14 +45,16 @@ void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
   write_text_file(path, [&](TextWriter& out) {
     write_names(out, mesh, groups);
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
-      if (!left_out[i]) write_grid(out, i, mesh.points[i]);
+      if (const Vec3& p = mesh.points[i]; !left_out[i])
+        out << card_text("GRID", {std::to_string(i + 1), "", nastran_number(p.x), nastran_number(p.y),
+                                  nastran_number(p.z)});
     std::size_t n = 0;
     for (const CellBlock& cells : cell_blocks(mesh, places_on_sides(mesh.order))) {
       if (cells.dim != dimension_of(mesh)) continue;
       for (std::size_t i = 0; i < cells.size(); ++i, ++n) {
-        std::vector<std::size_t> numbers{n + 1, static_cast<std::size_t>(property[n])};
-        for (const int v : cells.nodes(i)) numbers.push_back(static_cast<std::size_t>(v) + 1);
-        write_card(out, code_of(cells, kCards), numbers);
+        std::vector<std::string> numbers{std::to_string(n + 1), std::to_string(property[n])};
+        for (const int v : cells.nodes(i)) numbers.push_back(std::to_string(v + 1));
+        out << card_text(code_of(cells, kCards), std::move(numbers));
       }
     }
     out << "ENDDATA\n";

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -18,119 +17,11 @@
 #include "io/entity_names.h"
 #include "io/face_reader.h"
 #include "io/formats/deck.h"
-#include "io/formats/readers.h"
+#include "io/formats/nastran_card.h"
 #include "io/text_scanner.h"
 
 namespace delquad {
 namespace {
-
-constexpr std::size_t kField = 8, kWide = 16;
-
-/// A line with blanks for its tabs, without what stands behind a "$".
-std::string without_tabs(std::string_view line) {
-  std::string result;
-  for (const char c : line.substr(0, line.find('$')))
-    if (c == '\t')
-      result.resize((result.size() / kField + 1) * kField, ' ');
-    else
-      result += c;
-  return result;
-}
-
-/// The name of a card and its fields, from one line or several.
-struct NastranCard {
-  std::string name;                      ///< in capitals, without the star
-  std::vector<std::string> fields = {};  ///< eight of a line, or four wide ones
-  int line = 0;
-  std::size_t begin = 0, end = 0;  ///< of its lines
-  std::string mark = {};           ///< at the end of the last line
-
-  std::string_view field(std::size_t k) const {
-    return k < fields.size() ? std::string_view(fields[k]) : std::string_view();
-  }
-
-  /// Takes a line: the first one, or one that goes on. Returns what is wrong, or nothing.
-  std::string take(const std::string& text) {
-    std::vector<std::string> parts;
-    const bool is_free = text.find(',') != std::string::npos,
-               is_wide = text.substr(0, std::min(text.find(','), kField)).find('*') != std::string::npos;
-    const std::size_t n_fields = is_wide ? 4 : 8;
-    for (std::size_t at = 0; at <= text.size();) {
-      const std::size_t width = parts.empty()             ? kField
-                                : parts.size() > n_fields ? text.size()
-                                : is_wide                 ? kWide
-                                                          : kField,
-                        stop = std::min(is_free ? text.find(',', at) : at + width, text.size());
-      parts.emplace_back(trimmed(std::string_view(text).substr(at, stop - at)));
-      at = stop + (is_free || stop == text.size() ? 1 : 0);
-    }
-    while (parts.size() > n_fields + 2 && parts.back().empty()) parts.pop_back();
-    if (parts.size() > n_fields + 2) return fmt::format("a line of more than {} fields", n_fields + 2);
-    parts.resize(n_fields + 2);
-    const std::string head = parts[0].substr(std::min(parts[0].find_first_not_of("+*"), parts[0].size()));
-    if (!fields.empty() && !mark.empty() && !head.empty() && upper(head) != upper(mark))
-      return fmt::format("a line that goes on with '{}' behind one that ends with '{}'", head, mark);
-    if (fields.empty()) name = upper(parts[0]), std::erase(name, '*');
-    fields.insert(fields.end(), parts.begin() + 1, parts.end() - 1);
-    mark = parts.back().substr(std::min(parts.back().find_first_not_of("+*"), parts.back().size()));
-    return "";
-  }
-};
-
-bool goes_on(const std::string& text) {
-  const std::string_view head = trimmed(std::string_view(text).substr(0, std::min(text.find(','), kField)));
-  return head.empty() || head[0] == '+' || head[0] == '*';
-}
-
-/// The first card of a text that begins with it.
-NastranCard first_card(std::string_view text) {
-  NastranCard card;
-  for (std::size_t at = 0, next = 0; at < text.size(); at = next) {
-    next = std::min(text.find('\n', at), text.size() - 1) + 1;
-    const std::string line = without_tabs(text.substr(at, next - at));
-    if (trimmed(line).empty()) continue;
-    if (!card.fields.empty() && !goes_on(line)) break;
-    card.take(line);
-  }
-  card.fields.resize(std::max<std::size_t>(card.fields.size(), 8));
-  return card;
-}
-
-/// The card in lines of fields that it fits.
-std::string card_text(const std::string& name, std::vector<std::string> fields) {
-  while (!fields.empty() && fields.back().empty()) fields.pop_back();
-  const bool is_wide = std::ranges::any_of(fields, [](const auto& f) { return f.size() > kField; });
-  std::string text = fmt::format("{:<8}", name + (is_wide ? "*" : ""));
-  const std::size_t n = is_wide ? 4 : 8;
-  for (std::size_t k = 0; k < fields.size(); ++k) {
-    if (k > 0 && k % n == 0) text += is_wide ? "\n*       " : "\n        ";
-    text += fmt::format("{:<{}}", fields[k], is_wide ? kWide : kField);
-  }
-  return text + '\n';
-}
-
-std::optional<long long> as_integer(std::string_view text) {
-  long long value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < 1) return std::nullopt;
-  return value;
-}
-
-/// "1.5-3" and "1.5D-3" are 0.0015, and nothing is 0.
-std::optional<double> as_nastran_real(std::string_view text) {
-  std::string digits;
-  for (const char c : text) {
-    const bool is_sign = c == '+' || c == '-';
-    if (is_sign && !digits.empty() && digits.back() != 'e') digits += 'e';
-    if (c != '+') digits += c == 'D' || c == 'd' || c == 'E' ? 'e' : c;
-  }
-  if (text.empty()) return 0;
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
-}
 
 bool is_among(const std::string& name, std::string_view names) {
   return names.find('|' + name + '|') != std::string_view::npos;
@@ -266,7 +157,7 @@ class NastranReader {
 
   /// A line of the bulk data: a card, or what goes on with one.
   void take_bulk(const std::string& text, std::size_t begin, std::size_t end) {
-    if (!goes_on(text)) {
+    if (!continues_card(text)) {
       end_card();
       card_ = {"", {}, in_.line(), begin};
     } else if (card_.name.empty()) {
@@ -299,15 +190,16 @@ class NastranReader {
       const bool has_nodes_of_meshes = is_among(card_.name, "|CTRIA6|CTETRA|CHEXA|CPENTA|CPYRAM|");
       if (has_nodes_of_meshes && unread_.line == 0) unread_ = card_;
       deck_.has_directions |= is_among(card_.name, "|MAT2|MAT8|PCOMP|PCOMPG|");
-      if (is_nastran_element(card_.name)) deck_.unread.insert(as_integer(card_.fields[0]).value_or(0));
-      if (card_.name.starts_with("RB")) rigid_.insert(as_integer(card_.fields[0]).value_or(0));
+      if (is_nastran_element(card_.name))
+        deck_.unread.insert(as_nastran_integer(card_.fields[0]).value_or(0));
+      if (card_.name.starts_with("RB")) rigid_.insert(as_nastran_integer(card_.fields[0]).value_or(0));
       if (as_deck_) cards_.push_back(std::move(card_));
     }
     card_ = {};
   }
 
   long long integer(std::string_view text, const char* what, int line) const {
-    const auto value = as_integer(text);
+    const auto value = as_nastran_integer(text);
     if (!value || *value > NumberedEntities::kMostNumber)
       in_.fail_at(line, "expected {} (an integer from 1 to {}), found {}", what,
                   NumberedEntities::kMostNumber, TextScanner::printable(text));
@@ -414,7 +306,7 @@ class NastranReader {
     for (std::size_t k = 0; k < fields.size(); ++k) {
       if (fields[k].empty()) continue;
       const bool is_range = upper(fields[k]) == "THRU";
-      const auto number = as_integer(fields[std::min(k + (is_range ? 1 : 0), fields.size() - 1)]);
+      const auto number = as_nastran_integer(fields[std::min(k + (is_range ? 1 : 0), fields.size() - 1)]);
       if (!number || (is_range && (numbers.empty() || (of_nodes && deck_.others.contains("SPOINT")))))
         return std::nullopt;
       if (!is_range) {
@@ -422,7 +314,7 @@ class NastranReader {
         continue;
       }
       const bool has_step = k + 3 < fields.size() && upper(fields[k + 2]) == "BY";
-      const auto step = has_step ? as_integer(fields[k + 3]) : 1;
+      const auto step = has_step ? as_nastran_integer(fields[k + 3]) : 1;
       if (!step) return std::nullopt;
       const long long low = numbers.back();
       const auto add = [&](long long i) {
@@ -538,10 +430,10 @@ class NastranReader {
                             std::ranges::find(places, static_cast<int>(k)) != places.end() ||
                             (places.back() < 0 && static_cast<int>(k) > places[places.size() - 2]);
       if (!is_place) continue;
-      if (const auto number = as_integer(fields[k])) add(*number);
+      if (const auto number = as_nastran_integer(fields[k])) add(*number);
       if (upper(fields[k]) != "THRU" || k == 0 || k + 1 == fields.size()) continue;
-      const long long low = as_integer(fields[k - 1]).value_or(0),
-                      high = as_integer(fields[k + 1]).value_or(0);
+      const long long low = as_nastran_integer(fields[k - 1]).value_or(0),
+                      high = as_nastran_integer(fields[k + 1]).value_or(0);
       for (const auto* existing : {&deck_.node_of, &deck_.element_of})
         for (auto i = existing->upper_bound(low); i != existing->end() && i->first < high; ++i)
           if (!of_nodes || existing == &deck_.node_of) add(i->first);
@@ -571,7 +463,7 @@ class NastranReader {
     for (const Set& set : sets_)
       for (const std::string& member : set.members)
         if (is_of_point(set) && !member.empty())
-          points.add(deck_.mesh, node(as_integer(member).value_or(0), set.line), set.told.substr(6));
+          points.add(deck_.mesh, node(as_nastran_integer(member).value_or(0), set.line), set.told.substr(6));
   }
 
   /// Gives the parts of a property tags of their own, and its name, so that they stay together.
@@ -679,34 +571,6 @@ class NastranText : public DeckText {
 };
 
 }  // namespace
-
-bool is_nastran_element(const std::string& name) { return name[0] == 'C' && !name.starts_with("CORD"); }
-
-std::string nastran_number(double x) {
-  char digits[48];
-  for (int n = 16; n > 0; --n) {
-    std::string text(digits,
-                     std::to_chars(digits, digits + sizeof digits, x, std::chars_format::general, n).ptr);
-    const std::size_t exponent = text.find('e');
-    if (text.find('.') == std::string::npos)
-      text.insert(exponent == std::string::npos ? text.size() : exponent, ".");
-    if (text.size() <= kWide) return text + std::string(kWide - text.size(), ' ');
-  }
-  return fmt::format("{:<{}}", "0.", kWide);
-}
-
-std::string nastran_set(const std::string& number, const std::vector<long long>& members) {
-  std::string text, line = "SET " + number + " = ";
-  constexpr std::size_t kLongestLine = 70;
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    const std::string id = std::to_string(members[i]) + (i + 1 < members.size() ? "," : "");
-    if (line.size() + id.size() > kLongestLine) text += line + '\n', line = "        ";
-    line += id;
-  }
-  return text + line + '\n';
-}
-
-Mesh read_nastran(const std::filesystem::path& path) { return NastranReader(path, false).read().mesh; }
 
 Deck read_nastran_deck(const std::filesystem::path& path, bool as_deck) {
   return NastranReader(path, as_deck).read();

@@ -12,11 +12,9 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
-#include <optional>
 #include <sstream>
 
 #include "base/located.h"
-#include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
 #include "io/face_reader.h"

@@ -4,7 +4,6 @@
 #include "io/cell_view.h"
 #include "io/library_file.h"
 #include "io/library_format.h"
-#include "io/mesh_io.h"
 
 #include <cgnslib.h>
 

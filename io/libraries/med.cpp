@@ -5,7 +5,6 @@
 #include "io/cell_view.h"
 #include "io/library_file.h"
 #include "io/library_format.h"
-#include "io/mesh_io.h"
 
 #define OMPI_SKIP_MPICXX  // no C++ bindings, which warn
 #include <med.h>

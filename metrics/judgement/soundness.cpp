@@ -11,7 +11,6 @@
 #include "base/parallel.h"
 #include "base/sort_unique.h"
 #include "base/text.h"
-#include "features/layers/add_layers.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/mesh/keep_elements.h"
 #include "metrics/shape.h"

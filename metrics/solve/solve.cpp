@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <vector>
 
-#include "base/cancel.h"
 #include "delquad/error.h"
 #include "geometry/mesh/half_edges.h"
 #include "metrics/shape.h"

@@ -5,7 +5,6 @@
 
 #include "base/nearest_name.h"
 #include "delquad/error.h"
-#include "metrics/solve/solve.h"
 
 namespace delquad {
 namespace {

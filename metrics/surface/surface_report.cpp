@@ -110,11 +110,6 @@ void for_each_edge_on_curve(const Mesh& mesh, Visit visit) {
   });
 }
 
-int region_of(const Mesh& mesh, int element) {
-  const int n_triangles = static_cast<int>(mesh.triangles.size());
-  return element < n_triangles ? mesh.triangle_region[element] : mesh.quad_region[element - n_triangles];
-}
-
 /// Returns the model without the faces that were left out.
 Mesh without(const Mesh& fine, const std::vector<char>& left_out) {
   Mesh kept;

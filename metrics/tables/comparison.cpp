@@ -10,7 +10,6 @@
 #include "base/located.h"
 #include "base/nearest_name.h"
 #include "base/text.h"
-#include "metrics/metrics.h"
 #include "metrics/tables/samples.h"
 #include "metrics/tables/table.h"
 

@@ -6,10 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <set>
-
-#include "metrics/metrics.h"
 
 namespace delquad {
 

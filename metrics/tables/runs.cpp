@@ -8,7 +8,6 @@
 #include <functional>
 #include <utility>
 
-#include "metrics/metrics.h"
 #include "metrics/tables/inference.h"
 
 namespace delquad {

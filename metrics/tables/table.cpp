@@ -3,12 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-
-#include "delquad/error.h"
-#include "metrics/tables/study_file.h"
 
 namespace delquad {
 

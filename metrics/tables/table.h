@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <set>

@@ -1,12 +1,10 @@
 #include "smoothing/optimisation/track_optimisation.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 
 #include "base/parallel.h"
 #include "geometry/mesh/quad_corners.h"
-#include "smoothing/relocation/quad_relocation.h"
 #include "smoothing/relocation/untangling.h"
 
 namespace delquad {

@@ -1,6 +1,5 @@
 #include "smoothing/relocation/element_quality.h"
 
-#include <array>
 #include <limits>
 
 namespace delquad {

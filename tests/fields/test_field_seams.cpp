@@ -1,4 +1,3 @@
-#include <complex>
 #include "fields/size_aware_cross_field.h"
 #include "tests/fields/backgrounds.h"
 

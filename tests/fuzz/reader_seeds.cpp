@@ -6,7 +6,6 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <vector>
 
 #include "io/mesh_io.h"
 #include "tests/io/msh_files.h"

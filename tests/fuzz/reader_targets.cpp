@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 
 #include "geometry/mesh/check_mesh.h"
 #include "io/formats/msh.h"
@@ -59,6 +58,8 @@ bool try_3mf(std::string_view bytes) {
   });
 }
 
+Mesh inp(const std::filesystem::path& path) { return read_as(".inp", path); }
+Mesh nastran(const std::filesystem::path& path) { return read_as(".bdf", path); }
 Mesh obj(const std::filesystem::path& path) { return read_as(".obj", path); }
 Mesh off(const std::filesystem::path& path) { return read_as(".off", path); }
 Mesh ply(const std::filesystem::path& path) { return read_as(".ply", path); }
@@ -74,10 +75,10 @@ std::vector<Target> reader_targets() {
           {"ply", try_reader<ply>, ply_seeds},
           {"3mf", try_3mf, three_mf_seeds},
           {"vtu", try_reader<read_vtu>, vtu_seeds},
-          {"inp", try_reader<read_inp>, inp_seeds},
+          {"inp", try_reader<inp>, inp_seeds},
           {"medit", try_reader<read_medit>, medit_seeds},
           {"mfem", try_reader<read_mfem>, mfem_seeds},
-          {"nastran", try_reader<read_nastran>, nastran_seeds}};
+          {"nastran", try_reader<nastran>, nastran_seeds}};
 }
 
 }  // namespace delquad::fuzz

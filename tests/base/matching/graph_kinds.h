@@ -1,9 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "delquad/matching.h"

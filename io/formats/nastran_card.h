@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace delquad {
+
+inline constexpr long long kMostNastran = 99'999'999;
+
+/// The name of a card and its fields, from one line or several.
+struct NastranCard {
+  std::string name;                      ///< in capitals, without the star
+  std::vector<std::string> fields = {};  ///< eight of a line, or four wide ones
+  int line = 0;
+  std::size_t begin = 0, end = 0;  ///< of its lines
+  std::string mark = {};           ///< at the end of the last line
+
+  std::string_view field(std::size_t k) const {
+    return k < fields.size() ? std::string_view(fields[k]) : std::string_view();
+  }
+  /// Takes a line: the first one, or one that goes on. Returns what is wrong, or nothing.
+  std::string take(const std::string& text);
+};
+
+/// A line with blanks for its tabs, without what stands behind a "$".
+std::string without_tabs(std::string_view line);
+/// Whether a line goes on with the card before it.
+bool continues_card(const std::string& text);
+/// The first card of a text that begins with it.
+NastranCard first_card(std::string_view text);
+/// The card in lines of fields that it fits.
+std::string card_text(const std::string& name, std::vector<std::string> fields);
+/// Whether a card is an element, of any kind.
+bool is_nastran_element(const std::string& name);
+
+/// A number from 1 on.
+std::optional<long long> as_nastran_integer(std::string_view text);
+/// "1.5-3" and "1.5D-3" are 0.0015, and nothing is 0.
+std::optional<double> as_nastran_real(std::string_view text);
+/// A coordinate in 16 characters, with the point that Nastran wants.
+std::string nastran_number(double x);
+/// "SET 5 = 1, 2, 3," in lines of at most 72 characters.
+std::string nastran_set(const std::string& number, const std::vector<long long>& members);
+
+}  // namespace delquad
