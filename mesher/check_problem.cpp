@@ -22,7 +22,8 @@ namespace delquad {
 namespace {
 
 void check(const PlanarModel& model, const std::string& where) {
-  if (model.loops.empty()) throw InputError(where + ": the model has no loops: nothing bounds a domain");
+  if (model.loops.empty())
+    throw InputError(where + ": the model has no loops: nothing bounds a domain [empty-domain]");
   for (std::size_t i = 0; i < model.curves.size(); ++i)
     if (!model.curves[i].shape)
       throw InputError(fmt::format("{}: curve {} of the model has no shape", where, i + 1));

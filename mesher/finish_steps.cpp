@@ -84,7 +84,7 @@ void keep_better(Finishing& on) {
   const auto tell = [&](const std::string& what) {
     result.warnings.push_back(
         fmt::format("{}: {}: what was made of the given mesh ({}) would be worse ({}); "
-                    "--set repair.keep_given=false takes it all the same",
+                    "--set repair.keep_given=false takes it all the same [would-be-worse]",
                     on.label, what, was, worse));
   };
   // The least harm of what mends a mesh that was not sound.

@@ -89,7 +89,8 @@ void add_spots(const PreparedProblem& prepared, const Soundness& soundness, std:
 Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>& spots) {
   const SizeSpot& least = *std::ranges::min_element(spots, {}, &SizeSpot::size);
   return fmt::format(
-      "{}: around {} place(s) the size is smaller, as the mesh would not be sound: down to {:.3g} at {}",
+      "{}: around {} place(s) the size is smaller, as the mesh would not be sound: down to {:.3g} at {} "
+      "[changed-to-be-sound]",
       prepared.settings.name, spots.size(), least.size,
       show_point(prepared.metric_plane ? prepared.metric_plane->to_plane(least.at) : least.at));
 }
@@ -100,8 +101,8 @@ std::size_t unsound_places(const MeshResult& result) { return result.soundness.p
 Warning warning_of_end(const MeshResult& result, const PreparedProblem& prepared, long long rounds,
                        const char* why) {
   return fmt::format(
-      "{}: smaller sizes around places where the mesh is not sound were tried {} time(s), and {}: {} "
-      "or more such places are left; a model without slivers and spikes there helps",
+      "{}: smaller sizes around places where the mesh is not sound were tried {} time(s), and {}: {} or more "
+      "such places are left. Remove slivers and spikes there from the model [unsound-mesh]",
       prepared.settings.name, rounds, why, unsound_places(result));
 }
 
@@ -254,7 +255,7 @@ void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& wo
       if (!run.soundness.sound()) continue;
       run.warnings.emplace_back(fmt::format(
           "{}: the mesh is made {}, as it would not be sound: {}; --set repair.refine_unsound=false does not "
-          "try this",
+          "try this [changed-to-be-sound]",
           prepared.settings.name, way_of(last, first), result.soundness.text()));
       if (last.feature_angle > 0)
         run.log.summaries.add(kRefining, {{"feature_angle", last.feature_angle}});

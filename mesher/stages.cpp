@@ -435,12 +435,12 @@ WordStart word_start(const Model& model) {
 
 Word parse_word(const std::string& text, WordStart start) {
   const std::string label = "pipeline '" + text + "': ";
-  if (text.empty()) throw InputError("empty pipeline: expected letters of " + known_letters());
+  if (text.empty()) throw InputError("empty pipeline: expected stages of " + known_letters());
   Word word{text, {}, PatchForm::kBoundary};
   for (const char letter : text) {
     const auto stage = std::ranges::find(stages(), letter, &Stage::letter);
     if (stage == stages().end())
-      throw InputError(label + "unknown letter '" + std::string(1, letter) + "'; known: " + known_letters() +
+      throw InputError(label + "unknown stage '" + std::string(1, letter) + "'; known: " + known_letters() +
                        capitals_suggestion(text));
     const bool begins = word.stages.empty() && start == WordStart::kGivenMesh;
     if (stage->from != word.result && !begins)

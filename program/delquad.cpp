@@ -38,7 +38,7 @@ constexpr const char* kExitCodes =
     "rerun), or cells or measures failed (run). 2: bad input. 3: triangles are left among the quads, and "
     "written.\n"
     "4: faces were left out (--keep-going). 5: the mesh is not sound. 130: interrupted (Ctrl-C). 143: "
-    "terminated.";
+    "terminated.\nA message that ends with [an-id] is explained in docs/troubleshooting.md#an-id.";
 
 /// What all commands have in common.
 struct CommonArguments {

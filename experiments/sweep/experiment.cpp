@@ -238,7 +238,7 @@ Word Experiment::find_pipeline(const std::string& text) const {
 }
 
 std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& texts) const {
-  if (texts.empty()) throw InputError("no pipeline given: expected words such as DB");
+  if (texts.empty()) throw InputError("no pipeline given: expected pipelines such as DB");
   std::vector<Word> found;
   for (const std::string& text : texts) {
     if (std::ranges::find(found, text, &Word::text) != found.end())
@@ -280,7 +280,10 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   read_case_keys(table, experiment.defaults_);
   read_study_keys(table, experiment.defaults_);
   if (experiment.cases_.empty())
-    refuse("{}: no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'", file.string());
+    refuse(
+        "{}: no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh' "
+        "[experiment-or-model]",
+        file.string());
   std::vector<std::string> names;
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const std::string name = experiment.cases_[i].text("name");

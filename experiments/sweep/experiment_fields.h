@@ -69,7 +69,7 @@ inline constexpr auto kFields<MetricCommand> =
                ignored(&MetricCommand::folder, "the contents of its files count"));
 template <>
 inline constexpr auto kFields<ExperimentKeys> = std::tuple(
-    field("pipelines", &ExperimentKeys::pipelines, "words of stages and names of peers",
+    field("pipelines", &ExperimentKeys::pipelines, "pipelines and names of peers",
           {.no_result = "the plan has the pipelines that are run"}),
     field("peer", &ExperimentKeys::peers, "other meshers"),
     field("peer_files", &ExperimentKeys::peer_files, "files with further peers",

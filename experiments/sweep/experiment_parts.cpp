@@ -166,7 +166,7 @@ void finish_reading(const TomlTable& table, Peer& peer) {
   check_folder_name(table, peer.name, {});
   if (!std::islower(static_cast<unsigned char>(peer.name[0])))
     throw InputError(table.where("name") + ": '" + peer.name +
-                     "': the name of a peer begins with a small letter, unlike words of stages");
+                     "': the name of a peer begins with a small letter, unlike pipelines");
   check_command(table, "command", peer.command);
   check_command(table, "version", peer.version);
   check_placeholders(table, peer.command, peer_placeholders(), {{"{input}", "{case}"}, {"{output}"}});
@@ -203,7 +203,7 @@ void Experiment::settle_calibration(const TomlTable& table) {
     calibrate_to = *first;
   else if (calibrate)
     throw InputError(table.where("calibrate") +
-                     ": 'pipelines' has no word that makes quads: expected 'calibrate_to = \"DBCO\"'");
+                     ": 'pipelines' has no pipeline that makes quads: expected 'calibrate_to = \"DBCO\"'");
   if (calibrate || table.has("calibrate_to"))
     calibrate_where = table.where(calibrate ? "calibrate" : "calibrate_to");
   add_peers(table.tables("peer"), std::exchange(peers, {}));
@@ -225,7 +225,7 @@ void Experiment::add_peers(const std::vector<TomlTable>& tables, std::vector<Pee
     if (!*peer.calibrate) peer.calibrate_to.clear();
     if (*peer.calibrate && peer.calibrate_to.empty())
       throw InputError(table.where("calibrate") +
-                       ": 'calibrate' needs a word of ours: 'pipelines' has none " +
+                       ": 'calibrate' needs a pipeline of Delquad: 'pipelines' has none " +
                        "that makes quads: expected 'calibrate_to = \"DBCO\"'");
     peers.push_back(std::move(peer));
   }

@@ -193,7 +193,7 @@ Lines check_record(VerifiedCell& cell, const StudyFile& study) {
   const std::string text = file_bytes(cell.file);
   Lines wrong;
   if (!is_sealed(text))
-    wrong.push_back(cell.file.string() + ": was changed: its digest is not that of its text");
+    wrong.push_back(cell.file.string() + ": was changed: its digest does not fit its text");
   try {
     cell.record = Json::parse(text);
     located(cell.file.string(), [&] { check_record_version(cell.record.value("record", 1)); });
@@ -322,7 +322,7 @@ Lines check_tables(const fs::path& folder, const Outcome& outcome, std::string& 
 Lines check_study(const fs::path& folder, std::string& undrawn) {
   Lines wrong;
   if (!is_sealed(file_bytes(folder / "study.json")))
-    wrong.push_back((folder / "study.json").string() + ": was changed: its digest is not that of its text");
+    wrong.push_back((folder / "study.json").string() + ": was changed: its digest does not fit its text");
   std::ranges::move(check_copies(folder), std::back_inserter(wrong));
   try {
     const StudyResults results = read_results(folder);

@@ -279,7 +279,7 @@ class Imprinter {
       const double distance = norm(true_place(places_.find(x, editor_)) - x);
       if (distance <= kFit * diagonal_) continue;
       refuse(line, fmt::format("is {:.4g} away from the surface at {}: expected at most {:.4g}, a thousandth "
-                               "of the model's diagonal",
+                               "of the model's diagonal [off-the-surface]",
                                distance, show_point(x), kFit * diagonal_));
       return std::nullopt;
     }
@@ -453,7 +453,7 @@ class Imprinter {
         refuse(
             *lines[i],
             fmt::format("is nearer than a thousandth of the size, {:g}, to a curve or another point at {}: "
-                        "expected them farther apart, or at the same place",
+                        "expected them farther apart, or at the same place [embedded-too-near]",
                         size, show_point(mesh_.points[points[i]])));
         std::erase_if(placed,
                       [&](const Placed& p) { return p.nodes.size() == 1 && p.nodes[0] == points[i]; });

@@ -58,14 +58,14 @@ void require_beside_axis(const Section& section, const Vec3& point, const Vec3& 
     if (norm(seen[i]) <= kOnAxis * reach)
       throw InputError(
           fmt::format("the node at {} lies on the axis, where hexahedra would have no sides: leave a hole "
-                      "around the axis",
+                      "around the axis [sweep-at-the-axis]",
                       show_point(points[i])));
   for (const auto& quad : section.mesh.quads) {
     std::array<Vec2, 4> corners;
     for (int k = 0; k < 4; ++k) corners[k] = seen[quad[k]];
     for (int k = 0; k < 4; ++k)
       if (distance_to_segment(Vec2{}, corners[k], corners[(k + 1) % 4]) <= kOnAxis * reach)
-        throw InputError(fmt::format("the section crosses its axis between {} and {}",
+        throw InputError(fmt::format("the section crosses its axis between {} and {} [sweep-at-the-axis]",
                                      show_point(points[quad[k]]), show_point(points[quad[(k + 1) % 4]])));
     if (winding(corners) != 0)
       throw InputError(fmt::format("the axis goes through the quad at {}", show_point(points[quad[0]])));

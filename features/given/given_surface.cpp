@@ -113,7 +113,8 @@ void refuse_hanging_nodes(const GivenMesh& given, std::span<const HalfEdge> side
       if (s <= tolerance || s >= length - tolerance) return;
       if (norm(from_start - (s / length) * along) > tolerance) return;
       throw InputError(fmt::format(
-          "{}: the node {} lies on the edge from {} to {}, which is in one element: a hanging node",
+          "{}: the node {} lies on the edge from {} to {}, which is in one element: a hanging node "
+          "[hanging-node]",
           given.source, text_of_place(mesh.points[nodes[i]]), text_of_place(p), text_of_place(q)));
     });
   }

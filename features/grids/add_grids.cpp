@@ -139,7 +139,7 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, P
         grids[i] = maker.make(fold);
         if (grids[i] || !mapped[i].is_asked) return;
         const Vec3 at = maker.place(fold);
-        throw InputError(fmt::format("{}: '{}' cannot be a grid: it would fold at {}", spec.where,
+        throw InputError(fmt::format("{}: '{}' cannot be a grid: it would fold at {} [no-grid]", spec.where,
                                      region_label(p.boundary.regions[p.patches[mapped[i].patch].region]),
                                      show_point(at)));
       },

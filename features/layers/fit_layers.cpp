@@ -218,8 +218,8 @@ class LayerFitter {
         chains, [&](const LayerChain& c) { return std::ranges::find(c.points, p) != c.points.end(); });
     const auto k = static_cast<std::size_t>(std::ranges::find(chain->points, p) - chain->points.begin());
     const LayerSpec& spec = specs_[chain->spec[std::min(k, chain->spec.size() - 1)]];
-    throw InputError(fmt::format("{}: there is no place for the layer on '{}' at {}", spec.where,
-                                 fmt::join(spec.on, "', '"), show_point(patch_.points[p])));
+    throw InputError(fmt::format("{}: there is no place for the layer on '{}' at {} [no-place-for-layers]",
+                                 spec.where, fmt::join(spec.on, "', '"), show_point(patch_.points[p])));
   }
 
   const PatchBoundary& patch_;

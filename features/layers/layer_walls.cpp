@@ -241,7 +241,7 @@ void LayerWalls::join(const std::vector<ChainEnd>& group) {
       const Vec2 at = columns(e).foot(e.chain, point_of(e));
       throw InputError(
           fmt::format("{}: {} layers meet {} of {} on one curve, or on periodic ones, at {}: "
-                      "expected the same number",
+                      "expected the same number [numbers-of-layers]",
                       specs_[spec_of(group[0])].where, number(group[0]), number(e), specs_[spec_of(e)].where,
                       show_point(at)));
     }

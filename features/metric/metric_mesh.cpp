@@ -180,7 +180,7 @@ class MetricMesher {
     if (!(asked <= static_cast<double>(max_elements_)))
       throw InputError(
           fmt::format("{}: the metric asks for about {:.3g} quads, more than the {} that are "
-                      "allowed (max-elements)",
+                      "allowed (max-elements) [too-many-quads]",
                       spec_.where, asked, max_elements_));
   }
   Tensor2 within_limits(const Tensor2& m) const { return limited(times(scale_, m), spec_.limits); }
@@ -382,7 +382,7 @@ class MetricMesher {
     if (model_.fine.points.size() > kMostPoints)
       throw InputError(
           fmt::format("{}: the metric changes too fast to be followed by {} points: a gradation or "
-                      "a larger least length helps",
+                      "a larger least length helps [metric-too-fast]",
                       spec_.where, kMostPoints));
     sample();
     for (const auto& [a, b, node] : made)

@@ -108,7 +108,8 @@ int nearest_of(const std::vector<int>& found, const Parts& parts, const NamedPar
   }
   if (other >= 0)
     throw InputError(
-        fmt::format("{}: {} {} and {} are as near to {} as each other: expected a place nearer to one",
+        fmt::format("{}: {} {} and {} are as near to {} as each other: expected a place nearer to one "
+                    "[two-parts-for-a-name]",
                     asked.where, asked.curves ? "curves" : "faces", parts.entities()[best].tag,
                     parts.entities()[other].tag, show_point(*asked.at)));
   return best;
@@ -136,8 +137,8 @@ std::vector<int> find(const NamedPart& asked, const Mesh& fine) {
     found.push_back(i);
   }
   if (found.empty())
-    throw InputError(fmt::format("{}: no {} of the {} is what '{}' is to name", asked.where,
-                                 asked.curves ? "curve" : "face", all.size(), asked.name));
+    throw InputError(fmt::format("{}: no {} of the {} is what '{}' is to name [no-part-for-a-name]",
+                                 asked.where, asked.curves ? "curve" : "face", all.size(), asked.name));
   if (asked.at) found = {nearest_of(found, parts, asked, tolerance)};
   return found;
 }

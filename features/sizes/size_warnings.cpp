@@ -69,7 +69,7 @@ struct CoarseTurns {
     std::string help = asks < kFewPerTurn ? fmt::format("--curvature {:g}", kFewPerTurn) : "";
     if (needed < least_by_curvature(base, min))
       help += fmt::format("{}--size-min {:.2g}", help.empty() ? "" : " with ", kRoundedUp * needed);
-    if (!help.empty()) warnings.emplace_back(text() + ": " + help + " would help");
+    if (!help.empty()) warnings.emplace_back(text() + ": " + help + " would help [coarse-turns]");
   }
 };
 
@@ -176,8 +176,8 @@ void warn_of_idle_sizes(const std::vector<NamedSize>& named, const NamedParts& p
         largest = std::max(largest, size.at(x, hint));
     if (largest > wanted.size || largest == 0) continue;
     warnings.emplace_back(fmt::format(
-        "{}: the size {:.4g} of '{}' has no effect: it is {:.4g} there, or less, and the smaller one counts; "
-        "for larger quads ask for the larger size overall, and for smaller ones elsewhere by name",
+        "{}: the size {:.4g} of '{}' has no effect: it is {:.4g} there, or less, and the smaller one counts. "
+        "Ask for the larger size overall, and for smaller sizes elsewhere by name [idle-size]",
         wanted.where, wanted.size, wanted.name, largest));
   }
 }
@@ -190,8 +190,8 @@ void warn_of_large_size(const SizeField& size, const Mesh& model, std::vector<Wa
     least = std::min(least, size.at(x, hint));
     if (!(least > extent)) return;
   }
-  warnings.emplace_back(
-      fmt::format("the size, {:.4g}, is larger than the model, whose diagonal is {:.4g}", least, extent));
+  warnings.emplace_back(fmt::format(
+      "the size, {:.4g}, is larger than the model, whose diagonal is {:.4g} [large-size]", least, extent));
 }
 
 void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain, const SizeSpec& spec,
@@ -300,9 +300,8 @@ void warn_of_gaps(const PlanarDomain& domain, std::vector<Warning>& warnings) {
   if (near.empty()) return;
   const auto title = [&](int c) { return curve_title(domain.boundary.curves[c]); };
   warnings.emplace_back(
-      fmt::format("{} and {} leave a gap of {:.2g} between them at {}, far narrower than the "
-                  "edges there{}: "
-                  "where regions should join, their curves must lie on each other",
+      fmt::format("{} and {} leave a gap of {:.2g} between them at {}, far narrower than the edges there{}. "
+                  "If the regions should join, let their curves lie on each other [gap-between-regions]",
                   title(curves.first), title(curves.second), shown, show_point(place),
                   near.size() > 1 ? fmt::format(", and so at {} nodes", near.size()) : ""));
 }

@@ -24,9 +24,9 @@ std::vector<MirrorMatch> matches_at(const MirrorMatcher& matcher, const Symmetry
   for (int k = 0; k < planes.count(); ++k) {
     matches.push_back(matcher.match(planes, k));
     if (!matches.back().failure.empty())
-      throw InputError(
-          fmt::format("{}: the model is not symmetric at the plane through {} with the normal {}: {}", where,
-                      show_point(given[k].point), show_point(given[k].normal), matches.back().failure));
+      throw InputError(fmt::format(
+          "{}: the model is not symmetric at the plane through {} with the normal {}: {} [not-symmetric]",
+          where, show_point(given[k].point), show_point(given[k].normal), matches.back().failure));
   }
   return matches;
 }

@@ -239,14 +239,16 @@ std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSp
   const std::string label = fmt::format("{}: the hole of diameter {:.4g} at {} gets", washer.where,
                                         hole.diameter, show_point(hole.middle()));
   if (rows == 0) {
-    warnings.push_back({"holes without rows", 1,
-                        fmt::format("{} no rows: {}, and a row is {:.3g} high", label, why, asked)});
+    warnings.push_back(
+        {"holes without rows", 1,
+         fmt::format("{} no rows: {}, and a row is {:.3g} high [no-rows]", label, why, asked)});
     return std::nullopt;
   }
   const std::string others = edges == wanted ? "" : fmt::format(" and {} edges", edges);
-  warnings.push_back({"holes with less room for rows than asked for", asked * washer.rows / (rows * high),
-                      fmt::format("{} {} of {:.3g}{}, not {} of {:.3g}: {}", label, counted(rows, "row"),
-                                  high, others, washer.rows, height(wanted, washer.rows), why)});
+  warnings.push_back(
+      {"holes with less room for rows than asked for", asked * washer.rows / (rows * high),
+       fmt::format("{} {} of {:.3g}{}, not {} of {:.3g}: {} [no-rows]", label, counted(rows, "row"), high,
+                   others, washer.rows, height(wanted, washer.rows), why)});
   return HoleRows{rows, high, is_given ? hole.given : share_edges(hole.parts, edges)};
 }
 

@@ -336,7 +336,7 @@ class MetricRule final : public RefinementRule {
     if (fine_.points.size() > kMostPoints)
       throw InputError(fmt::format(
           "{}: the metric changes too fast to be followed by {} points: a gradation or a larger least "
-          "length helps",
+          "length helps [metric-too-fast]",
           metric_.wanted_.spec.where, kMostPoints));
     const std::vector<int> at_a = metric_.sites_at_[a];
     for (const int s : at_a) {

@@ -133,12 +133,12 @@ void glue_shape(CadShape& cad, double tolerance) {
   builder.SetRunParallel(thread_count() > 1);
   builder.Perform();
   if (builder.HasErrors() || builder.Shape().IsNull())
-    throw InputError("its bodies cannot be glued" + why(builder));
+    throw InputError("its bodies cannot be glued" + why(builder) + " [not-glued]");
   const TopoDS_Shape glued = builder.Shape();
   const int n_before = parts(cad.shape, TopAbs_SOLID).Extent(), n_after = parts(glued, TopAbs_SOLID).Extent();
   if (n_after < n_before)
-    throw InputError(
-        fmt::format("its bodies cannot be glued: of {} solids {} would be left", n_before, n_after));
+    throw InputError(fmt::format("its bodies cannot be glued: of {} solids {} would be left [not-glued]",
+                                 n_before, n_after));
   const std::vector<std::string> cut = cut_faces(builder, cad);
   replace_shape(cad, glued, [&](const TopoDS_Shape& part) { return image_of(builder, part); });
   const auto count = [&, before = images_of_bodies(builder, bodies), after = glued_parts(glued)](

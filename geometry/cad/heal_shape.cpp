@@ -175,14 +175,15 @@ void fix(CadShape& cad) {
   const BRepCheck_Analyzer check = check_shape(fixed);
   replace_shape(cad, fixed, [&](const TopoDS_Shape& part) { return fixer.Context()->Apply(part); });
   if (check.IsValid()) {
-    cad.warnings.push_back("the shape was invalid and has been healed");
+    cad.warnings.push_back("the shape was invalid and has been healed [healed-shape]");
     return;
   }
   const TopTools_IndexedMapOfShape faces = parts(fixed, TopAbs_FACE);
   std::string invalid;
   for (int f = 1; f <= faces.Extent(); ++f)
     if (!check.IsValid(faces(f))) invalid += fmt::format("{}{}", invalid.empty() ? ": faces " : ", ", f);
-  cad.warnings.push_back("the shape is invalid and could be healed in part only" + invalid);
+  cad.warnings.push_back("the shape is invalid and could be healed in part only" + invalid +
+                         " [healed-shape]");
 }
 
 /// Sewing drops faces that it takes for too small.

@@ -67,7 +67,8 @@ std::pair<Reply, std::string> ask_worker(const CadRequest& request) {
     activity.hear(Reply{kind}, text);
     if (is_last(kind)) last.emplace(Reply{kind}, text);
   });
-  if (!last) throw InputError("damaged: the CAD kernel crashes or finds no end" + activity.text());
+  if (!last)
+    throw InputError("damaged: the CAD kernel crashes or finds no end" + activity.text() + " [damaged-cad]");
   return *std::move(last);
 }
 

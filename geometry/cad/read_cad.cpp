@@ -127,7 +127,7 @@ void tell_near(SurfaceModel& model, std::vector<LooseJoint> contacts, double dia
   const double digit = std::pow(10, std::floor(std::log10(widest / diagonal)));
   model.warnings.push_back(fmt::format(
       "faces nearly touch at {} and stay apart: {}: move them together in CAD, or try --glue --weld {:.0e} "
-      "(surface.glue, weld_tolerance: a part of the diagonal)",
+      "(surface.glue, weld_tolerance: a part of the diagonal) [near-bodies]",
       counted(std::ssize(contacts), "place"), list_joints(model.fine, contacts),
       (std::floor(widest / diagonal / digit) + 1) * digit));
 }
@@ -142,10 +142,11 @@ void check_joints(SurfaceModel& model, const CadShape& cad, const TopTools_Index
   if (joints.empty()) return;
   const std::string list = list_joints(model.fine, joints);
   if (options.glue)
-    throw InputError(fmt::format("cannot be glued at {}: {}: expected faces that meet along edges or overlap",
-                                 counted(std::ssize(joints), "place"), list));
+    throw InputError(
+        fmt::format("cannot be glued at {}: {}: expected faces that meet along edges or overlap [not-glued]",
+                    counted(std::ssize(joints), "place"), list));
   model.warnings.push_back(
-      fmt::format("faces touch at {} and share no nodes (--glue, surface.glue = true): {}",
+      fmt::format("faces touch at {} and share no nodes (--glue, surface.glue = true): {} [touching-bodies]",
                   counted(std::ssize(joints), "place"), list));
 }
 
@@ -155,7 +156,7 @@ void refuse_joints_at_points(const Mesh& mesh, const TopTools_IndexedMapOfShape&
   if (!joints.empty())
     throw InputError(fmt::format(
         "faces share single points inside of them at {}: {}: expected faces that share edges, or corners of "
-        "both (files of bodies that share nothing are meshed, bodies apart)",
+        "both. Bodies in files that share nothing are meshed apart [contact-at-a-point]",
         counted(std::ssize(joints), "place"), list_joints(mesh, joints)));
 }
 

@@ -126,7 +126,7 @@ class LoopsAround {
         const int other = std::max(parent_[loop], outer);
         throw InputError(
             fmt::format("{}{} and {} overlap: one of two loops may lie inside the other, or they "
-                        "lie side by side",
+                        "lie side by side [overlapping-regions]",
                         names_.prefix(), label(other), label(loop)));
       }
       outer = loop;
@@ -140,8 +140,9 @@ class LoopsAround {
       if (parent < 0 || area_[parent] != area_[l] ||
           loops_[parent].region.empty() != loops_[l].region.empty())
         continue;
-      throw InputError(fmt::format("{}{} and {} consist of the same curves: one of them is too many",
-                                   names_.prefix(), label(parent), label(static_cast<int>(l))));
+      throw InputError(
+          fmt::format("{}{} and {} consist of the same curves: one of them is too many [overlapping-regions]",
+                      names_.prefix(), label(parent), label(static_cast<int>(l))));
     }
   }
 
@@ -195,13 +196,13 @@ FaceRegions regions_of_loops(const Mesh& lines, const Arrangement& arrangement,
     }
     result.region.push_back(region_of[loop]);
   }
-  if (result.regions.empty()) throw InputError(names.prefix() + "the loops enclose nothing");
+  if (result.regions.empty()) throw InputError(names.prefix() + "the loops enclose nothing [empty-domain]");
   for (std::size_t l = 0; l < loops.size(); ++l) {
     if (loops[l].is_hole && filled[l]) {
       const Vec3& at = lines.points[lines.lines[std::ranges::find(lines.line_curve, loops[l].curves.front()) -
                                                 lines.line_curve.begin()][0]];
-      throw InputError(fmt::format("{}: the hole through {} lies outside of every region", loops[l].where,
-                                   show_point(Vec2{at.x, at.y})));
+      throw InputError(fmt::format("{}: the hole through {} lies outside of every region [embedded-outside]",
+                                   loops[l].where, show_point(Vec2{at.x, at.y})));
     }
     if (!loops[l].region.empty() && region_of[l] < 0)
       throw InputError(fmt::format("{}: nothing is left of region '{}': other loops fill its own",

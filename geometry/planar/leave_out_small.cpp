@@ -271,9 +271,10 @@ void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<War
     warnings.push_back({"small holes that were closed", 1 / length,
                         fmt::format("closed a hole of {:.3g} around at {}", length, show_point(at))});
     for (const std::string& name : names_of(model.loops[l]).names)
-      warnings.push_back({"names that went with what is small", 1,
-                          fmt::format("'{}' went with the hole at {} (--keep, or surface.keep, keeps it)",
-                                      name, show_point(at))});
+      warnings.push_back(
+          {"names that went with what is small", 1,
+           fmt::format("'{}' went with the hole at {} (--keep, or surface.keep, keeps it) [lost-names]", name,
+                       show_point(at))});
   };
   std::vector<char> goes(n, 0);
   std::vector<int> host(n, -1);

@@ -80,7 +80,7 @@ TomlKeys case_keys() {
                     "", keys_of<EmbeddedShape>, true},
                    {"example", "a surface that the program makes itself", kText},
                    {"mesh", "an MSH file; with 'start' of any format", kText},
-                   {"start", "words may begin from the elements of that mesh", kFlag},
+                   {"start", "pipelines may begin from the elements of that mesh", kFlag},
                    {"model", "a model file, a surface or an MSH file", kText},
                    {"data", "a surface or MSH file in the folder of --data", kText}};
   for (TomlKey& key : keys_of<MeshProblem>()) {

@@ -124,7 +124,7 @@ class DxfReader {
                        : fmt::format("{} are left out: expected lines, arcs, polylines and splines",
                                      fmt::join(others, ", "));
     if (model_.loops.empty())
-      refuse("{}: no curves close up to an outline{}{}", model_.source,
+      refuse("{}: no curves close up to an outline{}{} [open-outline]", model_.source,
              left_out.empty() ? "" : "; " + left_out,
              loose.empty() ? "" : "; " + loose + ": expected ends that meet");
     if (!left_out.empty()) model_.notes.push_back(model_.source + ": " + left_out);

@@ -410,7 +410,7 @@ void TomlTable::require_known(const TomlKeys& keys) const {
     for (const TomlKey& one : keys) known.push_back(one.name);
     std::ranges::sort(known);
     const std::string near = suggestion(name, known);
-    refuse("{}: unknown key '{}'{}", place, data_->name(name),
+    refuse("{}: unknown key '{}'{} [unknown-key]", place, data_->name(name),
            near.empty() ? fmt::format("; known here: {}", fmt::join(known, " ")) : near);
   }
 }

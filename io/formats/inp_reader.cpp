@@ -165,8 +165,10 @@ class InpReader {
     goes_on_ = false;
     if (card.is_among(kRefused) || (card.name == "NODE" && card.parameters.contains("SYSTEM")) ||
         (card.is_among(kRead) && card.parameters.contains("INPUT")))
-      in_.fail("*{}: expected a file that holds the whole mesh, with Cartesian coordinates of all nodes",
-               card.name);
+      in_.fail(
+          "*{}: expected a file that holds the whole mesh, with Cartesian coordinates of all nodes "
+          "[deck-in-parts]",
+          card.name);
     if (!card.is_among(kRead)) {
       ++deck_.others['*' + card.name];
       for (const auto& [key, value] : card.parameters) other({value});  // REF NODE=17
@@ -255,7 +257,7 @@ class InpReader {
     const auto x = [&](size_t k) { return fields.size() > k ? real(fields[k]) : 0; };
     const int index = static_cast<int>(deck_.nodes.size());
     if (!deck_.node_of.emplace(number, index).second)
-      in_.fail("node {} is there twice; files of several parts cannot be read", number);
+      in_.fail("node {} is there twice; files of several parts cannot be read [deck-in-parts]", number);
     deck_.nodes.push_back({number, {x(1), x(2), x(3)}, place, line_end()});
     mesh_.points.push_back(deck_.nodes.back().at);
     if (set_ != nullptr) set_->push_back(index);
@@ -276,7 +278,8 @@ class InpReader {
     }
     const int index = static_cast<int>(deck_.elements.size());
     if (!deck_.element_of.emplace(pending_[0], index).second)
-      in_.fail("element {} is there twice; files of several parts cannot be read", pending_[0]);
+      in_.fail("element {} is there twice; files of several parts cannot be read [deck-in-parts]",
+               pending_[0]);
     if (set_ != nullptr) set_->push_back(index);
     deck_.elements.push_back(std::move(e));
     pending_.clear();
