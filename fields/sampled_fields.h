@@ -15,7 +15,7 @@
 
 namespace delquad {
 
-/// What is asked of the samples of a function.
+/// Rules for the samples of a function.
 struct SampleRules {
   /// Numbers that the function gives for a point.
   int width = 1;

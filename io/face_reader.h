@@ -34,7 +34,7 @@ class NamedPoints {
   std::map<int, std::size_t> index_;
 };
 
-/// What the readers of text files of points and faces share.
+/// The common part of readers of text files with points and faces.
 class FaceReader {
  protected:
   FaceReader(const std::filesystem::path& path, const char* kind, Strays strays);

@@ -43,7 +43,7 @@ std::string colour(double t);
 /// others.
 std::string_view mark_colour(int index);
 
-/// Of lines that join pairs of irregular vertices.
+/// Color of lines that join pairs of irregular vertices.
 inline constexpr const char* kPairColour = "#e26a00";
 
 /// A dot in the drawing.

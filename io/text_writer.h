@@ -46,7 +46,7 @@ class TextWriter {
   std::string buffer_;
 };
 
-/// What writes a text, for FileToWrite.
+/// Returns a function that writes a text, for FileToWrite.
 inline std::function<void(std::ostream&)> as_text(std::function<void(TextWriter&)> write) {
   return [write = std::move(write)](std::ostream& stream) {
     TextWriter out(stream);

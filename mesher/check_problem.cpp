@@ -89,7 +89,7 @@ void check_curves_are_meshed(const MeshProblem& problem) {
   throw InputError(where + ": grids are for planar models of curves and for surfaces");
 }
 
-/// What cannot be where lines are kept.
+/// Refuses requests that are impossible if lines are kept.
 void check_lines_are_free(const MeshProblem& problem, const std::string& source) {
   if (!problem.divisions.empty())
     throw InputError(fmt::format("{}: '{}' cannot be divided: the lines of {} are kept as they are",
@@ -127,7 +127,7 @@ void check_no_surface(const MeshProblem& problem, bool in_space) {
                      ": sizes by curvature are for curves and surfaces that are meshed anew");
 }
 
-/// What names curves by their number, or pairs them, needs all that there are.
+/// Refuses to leave out small parts if other requests name curves by number, or pair them.
 void check_small_outlines(const MeshProblem& problem) {
   const SurfaceSpec& s = problem.surface;
   if (s.ignore_below == 0 && !s.idealize && s.fill_holes == 0) return;

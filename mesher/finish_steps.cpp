@@ -37,7 +37,7 @@ bool is_word_of_quads(const std::vector<const Stage*>& stages, const Stage* firs
          std::ranges::adjacent_find(stages, follows) == stages.end();
 }
 
-/// What these stages alone make.
+/// Returns the mesh that these stages alone make.
 MeshResult made_by(const Finishing& f, const std::vector<const Stage*>& stages) {
   MeshingState state = begin_meshing(f.prepared);
   for (const Stage* stage : stages) run_stage(*stage, f.prepared, state);

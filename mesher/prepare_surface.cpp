@@ -268,7 +268,7 @@ class GivenSurfaceSteps final : public ModelSteps {
  public:
   GivenSurfaceSteps(const MeshProblem& problem, const GivenMesh& given)
       : problem_(problem), mesh_(given.mesh), source_(&given) {}
-  /// Of a mesh that was read.
+  /// Makes the steps for a mesh that was read.
   GivenSurfaceSteps(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,
                     std::shared_ptr<const SizeField> size)
       : problem_(problem), mesh_(mesh), given_(std::move(given)) {

@@ -39,7 +39,7 @@ constexpr long long kCostPerQuad = 300, kStepsPerQuad = 7500, kLooksPerQuad = 30
 /// Larger ones would ask for little else than the whole model.
 constexpr std::size_t kMostSpots = 1000;
 
-/// What is narrower than this part of the size has no room for an edge, and is left out at last.
+/// Parts narrower than this part of the size have no room for an edge, and are left out at last.
 constexpr double kSmall = 0.1;
 
 /// Places within so many sizes of a face that is an image count where its mesh comes from, too.

@@ -40,7 +40,7 @@ constexpr const char* kExitCodes =
     "4: faces were left out (--keep-going). 5: the mesh is not sound. 130: interrupted (Ctrl-C). 143: "
     "terminated.\nA message that ends with [an-id] is explained in docs/troubleshooting.md#an-id.";
 
-/// What all commands have in common.
+/// The common arguments of all commands.
 struct CommonArguments {
   bool quiet = false, all = false, version = false;
   double time_limit = 0;             ///< seconds; 0: none

@@ -30,7 +30,7 @@ struct RunArguments : SweepArguments {
   bool allow_triangles = false;
 };
 
-/// Of "i/n".
+/// Returns the shard of "i/n".
 std::optional<Shard> shard_of(const std::string& text) {
   const auto slash = text.find('/');
   const auto index = as_number(text.substr(0, slash));
@@ -42,7 +42,7 @@ std::optional<Shard> shard_of(const std::string& text) {
   return Shard{static_cast<std::size_t>(*index), static_cast<std::size_t>(*count)};
 }
 
-/// Those that are named, and the peers of further files: of each the ones that are named, or else all.
+/// Chooses the named pipelines, and the peers of further files: the named ones of each, or else all.
 void choose_pipelines(const RunArguments& arguments, Experiment& experiment) {
   std::vector<std::string> pipelines;
   for (const Word& word : experiment.words) pipelines.push_back(word.text);

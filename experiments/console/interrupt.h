@@ -56,8 +56,8 @@ class TimeLimit {
   std::unique_ptr<Watch> watch_;
 };
 
-/// What this program is at, for its bar, its time limit and signal handlers: the run that main() makes tells
-/// it, and those inside of that.
+/// Returns the current activities of this program, for its bar, its time limit and signal handlers. The run
+/// that main() makes reports them, and runs inside of that run.
 Activities& program_activities();
 
 }  // namespace delquad

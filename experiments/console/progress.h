@@ -39,7 +39,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// What begins now.
+  /// Shows the step that begins now.
   void step(const std::string& label);
   /// Steps that will not be taken.
   void skip(int steps);

@@ -23,7 +23,7 @@
 namespace delquad {
 namespace {
 
-/// What one of the keys is, up to a dot: commands may give several values.
+/// Whether the text is one of the keys, up to a dot: commands may give several values.
 bool is_known(const std::string& metric, const std::vector<std::string>& known) {
   return std::ranges::find(known, metric) != known.end() ||
          std::ranges::find(known, metric.substr(0, metric.find('.'))) != known.end();
@@ -78,7 +78,7 @@ std::vector<PublishedRow> read_published(const std::filesystem::path& file,
   return rows;
 }
 
-/// Those of another experiment first.
+/// Returns the cases of an experiment; cases of another experiment come first.
 std::vector<TomlTable> read_cases(const TomlTable& table) {
   std::vector<TomlTable> own = table.tables("case");
   if (!table.has("cases_of")) return own;

@@ -96,7 +96,7 @@ class Experiment : public TablePlan, public ExperimentKeys {
 const Axis& find_axis(const std::vector<Axis>& axes, const std::string& title, const TomlTable& table,
                       const char* key);
 
-/// What its folder of results says of it.
+/// Returns the description of the experiment for its folder of results.
 StudyFile describe(const Experiment& experiment);
 
 }  // namespace delquad

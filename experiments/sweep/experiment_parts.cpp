@@ -31,7 +31,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// What looks like placeholders, such as "{input}"; not "${input}", which is the shell's.
+/// Returns the placeholders, such as "{input}", but not "${input}", which belongs to the shell.
 std::vector<std::string> names_in_braces(const std::string& word) {
   std::vector<std::string> names;
   const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
@@ -289,7 +289,7 @@ void Experiment::check_hypothesis(const TomlTable& table, const Hypothesis& h) c
 }
 
 void Experiment::check_hypotheses() const {
-  // What a peer can be told is known of these without looking into files.
+  // The keys of a peer tell which cases it can mesh, without a look into files.
   const auto may_mesh = [&](const Word& word, const Case& c) {
     const Peer* peer = peer_of(word);
     if (peer == nullptr) return word.result == PatchForm::kQuads;

@@ -198,7 +198,7 @@ std::string told_version(const Peer& peer) {
   }
 }
 
-/// What a program made of a task.
+/// The result of a program for a task.
 struct PeerRun {
   Mesh mesh;
   ProgramRun program;

@@ -14,7 +14,7 @@ using namespace toml_types;
 using Json = nlohmann::ordered_json;
 
 const std::string kFolderName = R"({"type": "string", "pattern": "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}$"})";
-/// What a model is made of, which does not vary.
+/// Keys of a model that do not vary.
 const std::vector<std::string> kModels = {"name",    "loop", "pattern", "curve", "embed",
                                           "example", "mesh", "model",   "data",  "compare"};
 

@@ -179,7 +179,7 @@ Lines check_place(const VerifiedCell& cell, const StudyFile& study) {
                       address.name, cell.record.at("variant").dump(), address.pipeline)};
 }
 
-/// What the checks of a cell need later on: there may be many.
+/// Returns the parts of a record that later checks need. There may be many records.
 Json essence(const Json& record) {
   Json json = Json::object();
   for (const char* key : {"experiment", "case", "variant", "pipeline", "model", "problem", "digests",
@@ -318,7 +318,7 @@ Lines check_tables(const fs::path& folder, const Outcome& outcome, std::string& 
   return wrong;
 }
 
-/// What concerns no single cell.
+/// Checks the files that belong to no single cell.
 Lines check_study(const fs::path& folder, std::string& undrawn) {
   Lines wrong;
   if (!is_sealed(file_bytes(folder / "study.json")))

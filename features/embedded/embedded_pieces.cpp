@@ -121,7 +121,7 @@ class Surroundings {
     double distance;
     Vec2 at;
   };
-  /// What is next to x, but for one of the points.
+  /// Returns the nearest piece or point to x, without one of the points.
   Nearest nearest(Vec2 x, std::size_t own) const {
     Nearest best{std::numeric_limits<double>::infinity(), x};
     double limit2 = best.distance;
@@ -170,7 +170,7 @@ class Surroundings {
   void take(std::array<Vec2, 2> ends) { taken_.push_back(ends); }
 
  private:
-  /// Of two segments.
+  /// Returns the distance of two segments.
   static double distance(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     if (orient2d(a, b, c) * orient2d(a, b, d) < 0 && orient2d(c, d, a) * orient2d(c, d, b) < 0) return 0;
     return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),

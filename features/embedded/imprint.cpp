@@ -542,7 +542,7 @@ std::shared_ptr<const SizeField> imprint_named(const std::vector<NamedSize>& nam
     imprint_with(size);
     return size;
   }
-  // Of the triangles before they are split: the same sizes to the last bit, whatever is imprinted.
+  // Parts of the triangles before they are split give the same sizes to the last bit, whatever is imprinted.
   NamedParts parts(model.fine);
   const std::size_t n_curves = model.fine.curves.size(), n_points = model.fine.named_points.size();
   // Edges at single points follow their sizes, before the lines have their places on the surface.

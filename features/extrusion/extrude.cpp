@@ -70,7 +70,7 @@ void turn_towards_path(Section& section, const LayeredPoints& layered) {
     if (of_part[section.part[wall.quad]] < 0) std::swap(wall.a, wall.b);
 }
 
-/// Those without a name get one by their number.
+/// Gives nameless entities a name by their number.
 std::vector<Entity> with_names(std::vector<Entity> entities, int dim) {
   const std::vector<std::string> names = group_names(entities, dim);
   for (std::size_t i = 0; i < entities.size(); ++i)

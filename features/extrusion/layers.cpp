@@ -215,8 +215,8 @@ constexpr double kSameNormal = 1e-12;
 /// Two planes fold back where the cosine between their normals is nearer to -1: dihedral angles below two
 /// degrees, whose corners would move by more than 57 times the thickness.
 constexpr double kFoldsBack = 6e-4;
-/// Of the largest eigenvalue of sum n n^T: less is the noise of a smooth surface, whose normals differ by
-/// less than about ten degrees.
+/// Part of the largest eigenvalue of sum n n^T. Smaller eigenvalues are noise of a smooth surface, whose
+/// normals differ by less than about ten degrees.
 constexpr double kLeastEigenvalue = 0.01;
 
 struct CornerNormal {
@@ -224,7 +224,7 @@ struct CornerNormal {
   double angle;  ///< radians, of the corner
 };
 
-/// Of a quad at its corner k; of the quad where the corner is flat.
+/// Returns the normal of a quad at its corner k, or the normal of the quad if the corner is flat.
 CornerNormal corner_normal(const Mesh& mesh, const std::array<int, 4>& quad, int k) {
   const Vec3& at = mesh.points[quad[k]];
   const Vec3 out = mesh.points[quad[(k + 1) % 4]] - at, in = mesh.points[quad[(k + 3) % 4]] - at;

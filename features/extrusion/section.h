@@ -17,7 +17,7 @@ struct WallEdge {
   bool on_boundary;
 };
 
-/// What is swept: quads that run the same way round as their neighbours.
+/// The section that is swept: quads that run the same way round as their neighbors.
 struct Section {
   Mesh mesh;              ///< quads, and points that they use
   std::vector<int> part;  ///< of each quad: those that hang together by edges

@@ -19,8 +19,8 @@
 namespace delquad {
 namespace {
 
-/// What is found of itself is a grid where eta is at least so much at worst and, with more than two rows, in
-/// the mean, and the lengths of edges fit the size so well in the mean: about what a free mesh has.
+/// Limits of automatic grids: mean eta with more than two rows, worst eta, and mean fit of edge lengths to
+/// the size. A free mesh has about these values.
 constexpr double kLeastMeanEta = 0.88, kLeastEta = 0.55, kLeastFit = 0.9;
 
 struct GridQuality {

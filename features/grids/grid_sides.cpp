@@ -16,8 +16,8 @@
 namespace delquad {
 namespace {
 
-/// What is found of itself: angles of corners and of other nodes may be so far from 90 and 180 degrees, and
-/// wanted numbers of edges of opposite sides have at most this ratio.
+/// Limits of automatic grids. Angles of corners and of other nodes may differ so much from 90 and 180
+/// degrees. Wanted numbers of edges of opposite sides have at most this ratio.
 constexpr double kCornerSlack = 35, kStraightSlack = 30, kMostSideRatio = 2.05;
 /// So near to a node a corner is told, in diagonals of the outline.
 constexpr double kCornerReach = 1e-3;
@@ -39,7 +39,7 @@ double turn_from(const OutlinePart& part, double angle) { return std::abs(in_deg
 std::vector<std::size_t> by_turn(const Loop& loop) {
   std::vector<std::size_t> order(loop.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  // What the angle is nearer to a right one than to a straight one.
+  // The value is larger if the angle is nearer to a right one than to a straight one.
   std::ranges::stable_sort(order, std::greater<>(),
                            [&](std::size_t i) { return turn_from(loop[i], 180) - turn_from(loop[i], 90); });
   return order;

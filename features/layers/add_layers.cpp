@@ -372,7 +372,7 @@ void drop_grids(const MeshProblem& problem, const LayerReport& layers, PlanarDom
   });
 }
 
-/// Of what layers leave of the patches.
+/// Returns a background mesh of the parts of patches without layers.
 std::shared_ptr<const BackgroundMesh> mesh_rest(const MeshProblem& problem, const PlanarDomain& domain) {
   try {
     return std::make_shared<BackgroundMesh>(domain.patches);

@@ -12,7 +12,7 @@
 
 namespace delquad {
 
-/// What layers have come to.
+/// The size of finished layers.
 struct LayerCount {
   int columns = 0;         ///< edges of curves with quads on them
   int quads = 0;           ///< all

@@ -26,7 +26,7 @@ constexpr double kLeastFront = 0.4;
 /// How far layers keep from others, by their thickness and by the edges at their feet.
 constexpr double kGap = 0.5;
 
-/// What fronts must not touch, and what must not touch them.
+/// A segment that fronts must not touch.
 struct Segment {
   Vec2 a, b;
   std::array<int, 2> points;              ///< of the patch, to which it belongs: those of a point may touch

@@ -358,7 +358,8 @@ std::vector<std::size_t> LayerWalls::odd_patches() const {
   return odd;
 }
 
-/// Of each wall that is no image, the patches around which one edge more of it makes an odd number.
+/// Returns for each wall that is no image the patches that get an odd number of edges if the wall gets one
+/// more.
 std::vector<std::vector<std::size_t>> LayerWalls::patches_changed_by() const {
   std::vector<std::vector<std::size_t>> changed(walls_.size());
   for (std::size_t id = 0; id < walls_.size(); ++id)

@@ -346,7 +346,7 @@ class CurveSamples {
   }
 
  private:
-  /// What is left of equal parameters after the search for the nearest point.
+  /// Difference of equal parameters after the search for the nearest point.
   static constexpr double kSameParameter = 1e-9;
 
   const PlanarModel& model_;

@@ -22,13 +22,13 @@
 namespace delquad {
 namespace {
 
-/// Of the model's diagonal: boxes hold what is outside by less, and places are equally near.
+/// Tolerance in parts of the model's diagonal, for boxes and for equally near places.
 constexpr double kRoundOff = 1e-6;
 /// Faces look the way that is asked for where all of their normals are within this of it.
 const double kLeastCosine = std::cos(5 * std::numbers::pi / 180);
 
-/// `pattern`: * stands for any text, ? for one letter. What fails goes back to the last *, which takes one
-/// letter more.
+/// Whether a text fits `pattern`: * stands for any text, ? for one character. After a failure the last *
+/// takes one character more.
 bool fits(std::string_view pattern, std::string_view text) {
   std::size_t p = 0, t = 0, star = std::string_view::npos, taken = 0;
   while (t < text.size()) {

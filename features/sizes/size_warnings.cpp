@@ -28,13 +28,13 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 /// By rounding to a whole and even number of edges, curves get a little fewer than wanted.
 constexpr double kRoundedDown = 0.9;
-/// What would be round only with sizes below this part of the size there is too small to tell of.
+/// Details that would be round only with sizes below this part of the size are too small for a warning.
 constexpr double kLeastShown = 0.02;
 
 /// Two digits of a size may be this much more than it.
 constexpr double kRoundedUp = 0.95;
 
-/// What gets few edges to a full turn.
+/// Curves and faces with few edges to a full turn.
 struct CoarseTurns {
   int curves = 0, faces = 0;
   double fewest = kFewPerTurn;
@@ -287,7 +287,7 @@ void warn_of_gaps(const PlanarDomain& domain, std::vector<Warning>& warnings) {
           const double gap = norm(nearest_on_segment(from.a, edge.a, edge.b) - from.a);
           if (!(gap > 0) || gap > std::min(reach, kNarrow * norm(edge.b - edge.a))) return;
           near.insert(node);
-          // Of gaps that are equal, that between curves side by side says most.
+          // If gaps are equal, the gap between curves side by side says most.
           const double aside = std::abs(cross(from.b - from.a, edge.b - edge.a));
           const double blame = gap * (1 + aside / (norm(from.b - from.a) * norm(edge.b - edge.a)));
           if (least > 0 && blame >= least) return;

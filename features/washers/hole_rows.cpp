@@ -49,8 +49,8 @@ std::vector<Vec2> in_its_plane(const std::vector<Vec3>& outline) {
   return flat;
 }
 
-/// Of a round one twice the mean distance from the middle of the outline, else the least width along its
-/// sides.
+/// Returns the diameter of a hole. For a round hole this is twice the mean distance from the middle of the
+/// outline, else the least width along its sides.
 double diameter_of(const std::vector<Vec2>& flat) {
   const std::size_t n = flat.size();
   Vec2 sum;

@@ -28,7 +28,7 @@ constexpr double kMostSagitta = 0.2;
 constexpr double kMostShorter = 1.5;
 /// The growth of lengths where none is asked for: of those by curvature, which jump, and beside curves.
 constexpr double kGradation = 1.5;
-/// What a tensor may be less than gradation asks for, as a part.
+/// Relative amount by which a tensor may be below the demand of gradation.
 constexpr double kGraded = 1e-3;
 constexpr int kMostSweeps = 200, kMostRefinings = 4, kMostScalings = 20;
 /// How near the complexity comes to what is asked.

@@ -49,7 +49,7 @@ class PartNames {
   NCollection_DataMap<TopoDS_Shape, std::vector<std::string>, TopTools_ShapeMapHasher> map_;
 };
 
-/// What a CAD file holds.
+/// The contents of a CAD file.
 struct CadShape {
   TopoDS_Shape shape;
   PartNames names = {};

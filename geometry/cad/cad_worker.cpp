@@ -193,7 +193,7 @@ CadShape read(const CadRequest& request) {
   return read_shape(request.text, request.options);
 }
 
-/// What ends the reading without a shape, for people.
+/// Returns the reason why the reading ended without a shape, for people.
 std::string why_not() {
   try {
     throw;

@@ -31,7 +31,7 @@ std::string why(const BOPAlgo_Builder& builder) {
   return failures.IsEmpty() ? "" : fmt::format(" ({})", failures.First()->GetMessageKey());
 }
 
-/// What has become of a face or an edge: itself, its parts, or nothing, in a compound.
+/// Returns the image of a face or an edge, in a compound: itself, its parts, or nothing.
 TopoDS_Compound image_of(BOPAlgo_Builder& builder, const TopoDS_Shape& part) {
   TopoDS_Compound image = empty_compound();
   const TopTools_ListOfShape& modified = builder.Modified(part);
@@ -40,7 +40,8 @@ TopoDS_Compound image_of(BOPAlgo_Builder& builder, const TopoDS_Shape& part) {
   return image;
 }
 
-/// What is glued: solids and closed shells, of open ones the faces, which may touch each other, too.
+/// Returns the parts to glue: solids, closed shells, and the faces of open shells, which may touch each
+/// other, too.
 TopTools_ListOfShape glued_parts(const TopoDS_Shape& shape) {
   TopTools_ListOfShape all;
   for (const TopoDS_Shape& body : bodies_of(shape)) {
@@ -53,7 +54,7 @@ TopTools_ListOfShape glued_parts(const TopoDS_Shape& shape) {
   return all;
 }
 
-/// What has become of the faces of each of some bodies.
+/// Returns the images of the faces of some bodies.
 TopTools_ListOfShape images_of_bodies(BOPAlgo_Builder& builder, const TopTools_ListOfShape& bodies) {
   TopTools_ListOfShape all;
   for (const TopoDS_Shape& body : bodies) {

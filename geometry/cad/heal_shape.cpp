@@ -68,7 +68,7 @@ std::vector<std::map<int, int>> faces_at_edges(const TopoDS_Shape& shape,
   return faces_of;
 }
 
-/// Of each face the first that runs along the same edges and lies on it, mostly itself.
+/// Returns for each face the first face that runs along the same edges and lies on it, mostly itself.
 std::vector<int> first_of_doubles(const std::vector<std::map<int, int>>& faces_at_edges,
                                   const TopTools_IndexedMapOfShape& faces, double tolerance) {
   std::vector<std::vector<int>> edges_of(static_cast<std::size_t>(faces.Extent()) + 1);
@@ -231,7 +231,7 @@ void sew(CadShape& cad, double tolerance) {
                                        before - count_free_edges(cad.shape), before));
 }
 
-/// Of an edge and its ends.
+/// Returns the largest tolerance of an edge and its ends.
 double tolerance_of(const TopoDS_Edge& edge) {
   double tolerance = BRep_Tool::Tolerance(edge);
   for (const TopoDS_Vertex& end : {TopExp::FirstVertex(edge), TopExp::LastVertex(edge)})

@@ -26,7 +26,7 @@ constexpr unsigned kSeconds = 60, kSecondsPerMegabyte = 60;
 /// So many times a worker begins anew, without what took too long.
 constexpr int kMostTrials = 4;
 
-/// What a worker is at, as told to the run of this thread.
+/// The activity of a worker, as told to the run of this thread.
 class WorkersActivity {
  public:
   void hear(Reply reply, const std::string& text) {

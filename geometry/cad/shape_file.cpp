@@ -148,7 +148,7 @@ std::string beginning(const std::filesystem::path& path) {
   return text;
 }
 
-/// Of what is listed in messages.
+/// Limit of items that messages list.
 constexpr std::size_t kMostNamed = 5;
 
 /// "2 parts of the STEP file cannot be read: ...".

@@ -31,7 +31,7 @@ std::vector<CurvePiece> cut_at_stops(const PlanarModel& model, const ModelChain&
   return pieces;
 }
 
-/// Of two pieces with the same ends, whether some places of one lie on the other.
+/// Whether some places of one piece lie on another piece with the same ends.
 bool are_equal(const CurvePiece& a, const CurvePiece& b, double tolerance) {
   if (a.curves == b.curves) return false;
   const CurveSpan other(*b.shape, b.from, b.to);

@@ -55,7 +55,7 @@ class LoopsAround {
   /// The innermost one; -1: none.
   int innermost(std::size_t face) const { return around_[face].empty() ? -1 : around_[face].back(); }
 
-  /// Of each loop, whether there is a region just inside.
+  /// Returns for each loop whether there is a region just inside.
   std::vector<char> filled() const {
     std::vector<int> order(loops_.size());
     for (std::size_t l = 0; l < order.size(); ++l) order[l] = static_cast<int>(l);
@@ -111,7 +111,7 @@ class LoopsAround {
       for (const auto& cycle : arrangement_.faces[f].cycles) area += signed_area(lines_, cycle);
       for (const int loop : around_[f]) area_[loop] += area;
     }
-    // Of two equal ones that with a name fills the other.
+    // If two loops are equal, the one with a name fills the other.
     for (std::vector<int>& around : around_)
       std::ranges::sort(around, {},
                         [&](int l) { return std::tuple(-area_[l], !loops_[l].region.empty(), l); });
@@ -163,7 +163,7 @@ FaceRegions regions_by_nesting(const Arrangement& arrangement, const FaceNames& 
   std::set<int> known;  // components
   for (std::size_t f = 0; f < names.size(); ++f)
     if (names[f]) known.insert(arrangement.faces[f].component);
-  // What is around a face stands before it.
+  // The face around a face comes before it.
   for (std::size_t f = 0; f < arrangement.faces.size(); ++f) {
     const auto& face = arrangement.faces[f];
     const bool may_be = face.around < 0 || result.region[face.around] < 0;

@@ -286,7 +286,7 @@ void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<War
     const bool alone = std::ranges::all_of(loop.curves, [&](int c) { return uses[c] == 1; });
     goes[l] = length < small.hole && host[l] >= 0 && alone && !small.keep.any_of(names_of(loop));
   }
-  // What holds something that stays, stays.
+  // A loop around something that stays, stays.
   for (std::size_t l = 0; l < n; ++l)
     for (std::size_t k = 0; k < n; ++k)
       if (goes[l] && is_in(k, l) && small.keep.any_of(names_of(model.loops[k]))) goes[l] = 0;

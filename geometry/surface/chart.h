@@ -37,7 +37,7 @@ std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wan
 /// Number of handles: 0 for a disk, an annulus, a sphere.
 int genus(const Chart& chart);
 
-/// Of the side from each vertex of a disk's boundary to the next.
+/// Returns the lengths of the sides of a disk's boundary, from each vertex to the next.
 std::vector<double> boundary_lengths(const Chart& chart);
 
 /// Area of each triangle.

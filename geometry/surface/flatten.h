@@ -50,8 +50,8 @@ struct FlattenOptions {
   /// Called once cuts were made: may split lines, and returns pairs (triangle that was split, half that was
   /// added).
   std::function<std::vector<std::pair<int, int>>()> after_cuts = {};
-  /// Of each fine triangle the element that it is a part of: cuts run along sides between elements, and split
-  /// nothing. Empty: they run anywhere.
+  /// For each fine triangle the element that it is a part of. Cuts run along sides between elements, and
+  /// split nothing. Empty: they run anywhere.
   std::vector<int> element = {};
   /// With `element`, of each fine point: cuts go there only for want of a way around; empty: no point is
   /// such.

@@ -111,7 +111,7 @@ class FaceJoiner {
     }
   };
 
-  /// Of which a set may become part; -1: of none.
+  /// Returns the set that a set may join; -1: none.
   int host_of(const Set& set) const {
     int best = -1;
     double most = 0;

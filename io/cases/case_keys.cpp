@@ -42,7 +42,7 @@ std::string type_of(const OptionKey& key) {
   return limited_type(types[key.value.index()], {.least = key.least, .above = key.above, .most = key.most});
 }
 
-/// Those that begin, then the limits.
+/// Returns the keys, followed by the limits.
 TomlKeys with_criteria(TomlKeys keys) {
   for (const Criterion& criterion : criterion_registry())
     keys.push_back({criterion.key, "limit, by " + criterion.source, kExpression});

@@ -132,8 +132,8 @@ void read_size(SizeSpec& size, const Options& options, const std::string& crs) {
   if (!size.from_boundary) size.field = make_field(size, crs);
 }
 
-/// Of the second differences of a solution that is known as a formula, in diagonals of the domain: far below
-/// what a mesh resolves and far above rounding.
+/// Step of second differences of a solution that is known as a formula, in diagonals of the domain. It is far
+/// below the resolution of a mesh and far above rounding.
 constexpr double kHessianStep = 5e-5;
 
 double hessian_step(const Model& model) {

@@ -241,7 +241,7 @@ const toml::node* take(const toml::node& node, std::variant<std::string, Vec3>& 
   return take(node, value.emplace<Vec3>());
 }
 
-// What is expected of each type.
+// These functions return the expected values of each type.
 const char* expected_of(bool) { return "true or false"; }
 const char* expected_of(int) { return "an integer"; }
 const char* expected_of(long long) { return "an integer"; }

@@ -373,7 +373,7 @@ class InpReader {
     take_numbers(mesh_.regions, 2);
   }
 
-  /// Of shells our writer has the sides along curves in sets "_NAME_E2", and no surfaces of them.
+  /// Adds the sides of shells along curves. Our writer has them in sets "_NAME_E2", without surfaces.
   void add_sides_of_shells() {
     const auto is_used = [&](const std::string& set) {
       return std::ranges::find(deck_.sides, set, &Deck::Side::elements) != deck_.sides.end();
@@ -387,7 +387,7 @@ class InpReader {
     }
   }
 
-  /// What is called by a number of its own, as in our files ("curve_7"), has it again.
+  /// Gives entities that are called by a number, as in our files ("curve_7"), this number again.
   void take_numbers(std::vector<Entity>& entities, int dim) {
     std::map<std::string, std::vector<int>> holders;
     for (size_t i = 0; i < entities.size(); ++i)

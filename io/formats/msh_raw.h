@@ -12,7 +12,7 @@
 
 namespace delquad::msh {
 
-/// What an MSH file says, before tags become indices.
+/// A node as an MSH file has it, before tags become indices.
 struct Node {
   long long tag;
   Vec3 at;
