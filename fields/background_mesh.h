@@ -7,6 +7,8 @@
 #include "base/box.h"
 #include "delquad/mesh.h"
 
+// This header makes coarse triangulations that carry sizes and crosses. Features and fields use it.
+
 namespace delquad {
 
 class TriangleTree;

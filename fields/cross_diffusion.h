@@ -8,6 +8,8 @@
 #include "delquad/mesh.h"
 #include "fields/laplace.h"
 
+// This header diffuses crosses over the triangles of patches. Fields use it.
+
 namespace delquad {
 
 /// The crosses of a patch as unknowns on its sides.

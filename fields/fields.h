@@ -10,6 +10,8 @@
 #include "delquad/mesh.h"
 #include "fields/background_mesh.h"
 
+// This header has sizes and cross fields of simple kinds. Most modules use it.
+
 namespace delquad {
 
 // --- size fields

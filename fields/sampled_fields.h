@@ -13,6 +13,9 @@
 #include "delquad/mesh.h"
 #include "fields/fields.h"
 
+// This header samples expensive functions and interpolates between the samples. The pipeline, features and
+// fields use it.
+
 namespace delquad {
 
 /// Rules for the samples of a function.

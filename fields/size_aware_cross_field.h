@@ -10,6 +10,8 @@
 #include "fields/background_mesh.h"
 #include "fields/fields.h"
 
+// This header makes cross fields that know the size. Features and fields use it.
+
 namespace delquad {
 
 /// Crosses that a field is drawn to.

@@ -12,6 +12,9 @@
 
 #include "delquad/mesh.h"
 
+// This header makes names for formats that restrict them. The program, features and readers and writers use
+// it.
+
 namespace delquad {
 
 /// Returns the name of a nameless entity in files: "point_7" (dimension 0), "curve_7" (1), "region_7" (2) or

@@ -14,6 +14,8 @@
 #include "geometry/mesh/element_nodes.h"
 #include "io/text_scanner.h"
 
+// This header has the common part of readers of points and faces. Readers and writers use it.
+
 namespace delquad {
 
 /// Throws InputError for the first stray point of a mesh, unless they are kept. `place`: where the file has a

@@ -9,6 +9,8 @@
 #include "io/entity_names.h"
 #include "io/mesh_io.h"
 
+// This header lists the formats of meshes. The program, readers and writers and the Python module use it.
+
 namespace delquad {
 
 /// Whether a format has quads of eight nodes: kAlways ones of order 2 have no others.

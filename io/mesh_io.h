@@ -11,6 +11,8 @@
 #include "delquad/mesh.h"
 #include "delquad/model.h"
 
+// This header reads and writes meshes, fields and files. Most modules use it.
+
 namespace delquad {
 
 class TextWriter;

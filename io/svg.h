@@ -9,6 +9,8 @@
 
 #include "delquad/mesh.h"
 
+// This header writes SVG drawings. Readers and writers and the report use it.
+
 namespace delquad::svg {
 
 /// Point of the drawing, in hundredths of a pixel, y down.

@@ -10,6 +10,8 @@
 #include "base/located.h"
 #include "io/mesh_io.h"
 
+// This header cuts text files into tokens. The program, the bench and readers and writers use it.
+
 namespace delquad {
 
 /// The whole file, unpacked when it is compressed by gzip. Throws InputError.

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+// This header writes text files. The bench and readers and writers use it.
+
 namespace delquad {
 
 /// Buffered text output; numbers in the shortest form that reads back to the same value.

@@ -8,6 +8,8 @@
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
 
+// This header has the steps that finish a mesh after its stages. The pipeline uses it.
+
 namespace delquad {
 
 /// Quads of a cavity, if irregular vertices lie far apart: the cavity reaches from one to another.

@@ -12,6 +12,8 @@
 #include "geometry/surface/surface_model.h"
 #include "patches/prepared.h"
 
+// This header makes patches, sizes and fields from a problem. The pipeline uses it.
+
 namespace delquad {
 
 /// Changes to a problem without which its mesh would not be sound.

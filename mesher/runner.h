@@ -17,6 +17,8 @@
 #include "patches/places_inside.h"
 #include "patches/prepared.h"
 
+// This header runs the stages of a pipeline. The pipeline uses it.
+
 namespace delquad {
 
 /// A pipeline on its way: what the stages so far have made of each patch.

@@ -10,6 +10,8 @@
 #include "io/cases/case.h"
 #include "io/mesh_io.h"
 
+// This header has the command-line options of meshing. The program uses it.
+
 namespace delquad {
 
 /// Keys of a problem that the command line sets.

@@ -12,6 +12,8 @@
 #include "metrics/tables/result_records.h"
 #include "metrics/tables/table.h"
 
+// This header makes the data of pages. The report uses it.
+
 namespace delquad {
 
 using Json = nlohmann::ordered_json;

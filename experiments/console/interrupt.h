@@ -6,6 +6,8 @@
 
 #include "base/activity.h"
 
+// This header handles signals and the time limit. The program and the bench use it.
+
 namespace delquad {
 
 /// Exit codes after Ctrl-C (SIGINT) and after SIGTERM: 128 and the signal's number, as shells have it.

@@ -10,6 +10,8 @@
 
 #include "base/warning.h"
 
+// This header prints progress and warnings. The program and the bench use it.
+
 namespace delquad {
 
 /// How much the program tells besides its results: errors only, or warnings of a kind in one line each, or

@@ -14,6 +14,8 @@
 #include "io/cases/toml_reader.h"
 #include "metrics/tables/study_file.h"
 
+// This header has experiments as files describe them. The bench and the report use it.
+
 namespace delquad {
 
 /// An option that an experiment varies.

@@ -9,6 +9,8 @@
 #include "delquad/metrics.h"
 #include "io/cases/case.h"
 
+// This header has measures that other programs take. The bench uses it.
+
 namespace delquad {
 
 /// A measure that another program takes of each mesh of an experiment.

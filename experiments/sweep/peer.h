@@ -10,6 +10,8 @@
 #include "io/cases/case.h"
 #include "metrics/tables/table.h"
 
+// This header runs other meshers. The bench uses it.
+
 namespace delquad {
 
 /// How a domain is handed to a peer.

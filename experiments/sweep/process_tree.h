@@ -7,6 +7,8 @@
 
 #include "delquad/error.h"
 
+// This header runs jobs in forked processes. The bench uses it.
+
 namespace delquad {
 
 /// A process that did not get to its end.

@@ -9,6 +9,8 @@
 #include "experiments/sweep/peer.h"
 #include "io/digest.h"
 
+// This header writes the records of cells. The program, the bench and the report use it.
+
 namespace delquad {
 
 /// The parts of a cell's record that identify the cell, so that it can be found and repeated.

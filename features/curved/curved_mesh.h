@@ -7,6 +7,8 @@
 #include "delquad/metrics.h"
 #include "patches/prepared.h"
 
+// This header makes curved elements from a straight mesh. The pipeline and features use it.
+
 namespace delquad {
 
 /// How a mesh got curved elements.

@@ -8,6 +8,8 @@
 #include "delquad/mesh.h"
 #include "delquad/metrics.h"
 
+// This header proves that curved quads have positive Jacobians. Features use it.
+
 namespace delquad {
 
 /// Bounds of the scaled Jacobian of a curved quad: (x_u x x_v) . n / (|x_u| |x_v|). Here n is the mean normal

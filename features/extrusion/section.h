@@ -7,6 +7,8 @@
 #include "delquad/hexahedra.h"
 #include "delquad/mesh.h"
 
+// This header prepares quads for a sweep. Features use it.
+
 namespace delquad {
 
 /// An edge of the section that a face grows from.

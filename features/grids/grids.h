@@ -13,7 +13,9 @@
 #include "patches/prepared.h"
 #include "patches/surface_curves.h"
 
-/// Faces that become grids: found, given numbers of edges that fit, filled.
+// This header finds faces that become grids, and gives their curves fitting numbers of edges. The pipeline
+// and features use it.
+
 namespace delquad {
 
 /// A part of a face's outline between two nodes that any mesh has, the face on its left.

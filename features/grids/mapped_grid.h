@@ -6,6 +6,8 @@
 
 #include "delquad/extend.h"
 
+// This header fills patches with grids by transfinite interpolation. The pipeline and features use it.
+
 namespace delquad {
 
 /// A grid before anything is known of its quads: the boundary's points, those inside, and the quads.

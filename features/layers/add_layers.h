@@ -10,6 +10,8 @@
 #include "geometry/planar/planar_model.h"
 #include "patches/prepared.h"
 
+// This header puts boundary layers into a domain. The pipeline, features and measures use it.
+
 namespace delquad {
 
 /// The size of finished layers.

@@ -13,6 +13,8 @@
 #include "delquad/model.h"
 #include "geometry/planar/planar_model.h"
 
+// This header finds the chains of edges on which layers stand. Features use it.
+
 namespace delquad {
 
 /// Which layers each curve of a domain has.

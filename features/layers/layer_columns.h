@@ -6,6 +6,8 @@
 
 #include "features/layers/layer_chains.h"
 
+// This header has the columns of nodes of layers. Features use it.
+
 namespace delquad {
 
 /// Nodes above a point of a chain, one for each layer.

@@ -11,6 +11,8 @@
 #include "geometry/planar/planar_model.h"
 #include "geometry/surface/surface_model.h"
 
+// This header finds parts of a model by name. The pipeline and features use it.
+
 namespace delquad {
 
 /// The named parts of a model, as segments (points have length zero) and triangles. Nameless parts are called

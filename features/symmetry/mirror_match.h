@@ -7,6 +7,8 @@
 #include "features/symmetry/symmetry_planes.h"
 #include "geometry/surface/surface_model.h"
 
+// This header finds planes of symmetry of a surface. Features use it.
+
 namespace delquad {
 
 /// A symmetric model's places have their images on it to this part of the model's diagonal; on a

@@ -11,6 +11,9 @@
 #include "geometry/planar/planar_model.h"
 #include "patches/prepared.h"
 
+// This header cuts a symmetric surface, so that one part is meshed. The pipeline, features and measures use
+// it.
+
 namespace delquad {
 
 /// The part of a symmetric model on the positive side of its planes: a half, a quarter or an eighth.

@@ -12,6 +12,8 @@
 #include "geometry/planar/planar_model.h"
 #include "patches/prepared.h"
 
+// This header has the symmetry of planar models. The pipeline and features use it.
+
 namespace delquad {
 
 /// A symmetric model: what lies on the positive sides of all planes, and its mirror images.

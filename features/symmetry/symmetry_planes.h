@@ -7,6 +7,8 @@
 #include "delquad/fields.h"
 #include "delquad/model.h"
 
+// This header reflects points at perpendicular planes. Features use it.
+
 namespace delquad {
 
 /// One to three planes in space, perpendicular to each other. The fundamental part of a symmetric model lies

@@ -15,6 +15,8 @@
 #include "geometry/surface/model_curvature.h"
 #include "geometry/surface/surface_model.h"
 
+// This header has metrics on surfaces. Features and fields use it.
+
 namespace delquad {
 
 /// A metric that is asked for on a surface.

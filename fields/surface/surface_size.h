@@ -14,6 +14,8 @@
 #include "geometry/surface/model_curvature.h"
 #include "geometry/surface/surface_model.h"
 
+// This header has sizes on surfaces. Features, fields and patches use it.
+
 namespace delquad {
 
 class SurfaceMetric;

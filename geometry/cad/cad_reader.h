@@ -7,6 +7,8 @@
 #include "delquad/model.h"
 #include "geometry/surface/surface_model.h"
 
+// This header reads CAD files and data. The bench, features and geometry use it.
+
 namespace delquad {
 
 struct CadOptions {

@@ -7,6 +7,8 @@
 #include "base/worker_process.h"
 #include "geometry/cad/cad_reader.h"
 
+// This header has the messages between program and CAD worker. Geometry uses it.
+
 namespace delquad::cad {
 
 /// The program that works on CAD files: what DELQUAD_CAD_WORKER names, else what set_cad_worker() was given,

@@ -17,6 +17,8 @@
 #include "base/warning.h"
 #include "geometry/surface/surface_model.h"
 
+// This header has CAD shapes with the names of their parts. Geometry uses it.
+
 namespace delquad::cad {
 
 /// A shape as all its instances know it, wherever they are placed.

@@ -9,6 +9,8 @@
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/cad_shape.h"
 
+// This header repairs, sews and glues CAD shapes. Geometry uses it.
+
 namespace delquad::cad {
 
 /// Puts `shape` in the place of the CAD's; `image` tells what has become of a face or an edge, which hands

@@ -14,6 +14,8 @@
 #include "geometry/cad/cad_shape.h"
 #include "geometry/cad/edge_chords.h"
 
+// This header triangulates CAD faces from their outlines. Geometry uses it.
+
 namespace delquad::cad {
 
 /// One passage of a wire along an edge.

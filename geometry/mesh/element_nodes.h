@@ -8,6 +8,8 @@
 
 #include "delquad/mesh.h"
 
+// This header has the order of nodes in curved elements. Most modules use it.
+
 namespace delquad {
 
 /// Nodes of a quad as a square of order + 1 rows, each of order + 1: row j, column i is at

@@ -6,6 +6,8 @@
 #include "delquad/mesh.h"
 #include "geometry/mesh/half_edges.h"
 
+// This header divides quads of a mesh into patches. Geometry and measures use it.
+
 namespace delquad {
 
 /// The quads of a mesh as patches of one region each, connected over edges inside of it. The mesh is cut open

@@ -8,6 +8,8 @@
 #include "delquad/mesh.h"
 #include "geometry/mesh/quad_topology.h"
 
+// This header has angles, lengths and qualities of single quads. Most modules use it.
+
 namespace delquad {
 
 /// A side shorter than this counts as this long: no division by 0.

@@ -8,6 +8,8 @@
 #include "base/marks.h"
 #include "delquad/mesh.h"
 
+// This header edits quad meshes. Features, geometry, stages and smoothing use it.
+
 namespace delquad {
 
 /// A quad mesh of one patch that is edited locally, each edit revocable.

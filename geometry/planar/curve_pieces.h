@@ -15,6 +15,8 @@
 #include "geometry/planar/face_regions.h"
 #include "geometry/planar/model_chain.h"
 
+// This header cuts curves at their compulsory nodes. Features and geometry use it.
+
 namespace delquad {
 
 /// The part of a curve between two compulsory nodes.

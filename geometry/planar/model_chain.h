@@ -7,6 +7,9 @@
 #include "base/box.h"
 #include "geometry/planar/planar_model.h"
 
+// This header finds the compulsory nodes of planar models. The pipeline, features, readers and writers and
+// geometry use it.
+
 namespace delquad {
 
 /// Ends of curves of a loop that lie closer than this, relative to the model's diagonal, are one node: the

@@ -8,6 +8,8 @@
 
 #include "delquad/model.h"
 
+// This header has planar domains, and their curves with nodes. Most modules use it.
+
 namespace delquad {
 
 /// delta at a point, physical length.

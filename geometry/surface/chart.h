@@ -5,6 +5,8 @@
 
 #include "delquad/mesh.h"
 
+// This header has charts, connected pieces of faces. Features, geometry and fields use it.
+
 namespace delquad {
 
 /// A connected piece of one face of a fine triangulation, bounded by lines on all sides. A point that lines

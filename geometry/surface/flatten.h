@@ -12,6 +12,8 @@
 #include "geometry/surface/chart.h"
 #include "geometry/surface/surface_model.h"
 
+// This header maps faces to the plane. Most modules use it.
+
 namespace delquad {
 
 /// No triangle is flipped or flat, and the boundary neither crosses nor touches itself: exact.

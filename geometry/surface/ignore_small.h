@@ -7,6 +7,8 @@
 #include "geometry/surface/surface_model.h"
 #include "geometry/surface/triangulated_model.h"
 
+// This header removes small details of surfaces. Features and geometry use it.
+
 namespace delquad {
 
 struct NarrowOptions {

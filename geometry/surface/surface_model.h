@@ -9,6 +9,8 @@
 #include "base/warning.h"
 #include "delquad/mesh.h"
 
+// This header has surfaces as fine triangulations with their true geometry. Most modules use it.
+
 namespace delquad {
 
 /// Curvatures (1 / length) of a face at a point, along two perpendicular directions; NaN where not known.

@@ -7,6 +7,8 @@
 #include "base/warning.h"
 #include "delquad/mesh.h"
 
+// This header repairs triangulations from files. Features and geometry use it.
+
 namespace delquad {
 
 /// Makes a surface of triangles as files hold them: each edge in one triangle, in two that agree in

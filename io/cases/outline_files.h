@@ -7,6 +7,8 @@
 
 #include "delquad/model.h"
 
+// This header reads outlines. Readers and writers use it.
+
 namespace delquad {
 
 /// Reads a GeoJSON file [RFC 7946]. Each ring of a polygon is a curve of data, inner ones are holes. Without

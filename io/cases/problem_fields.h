@@ -5,8 +5,8 @@
 #include "io/cases/case.h"
 #include "io/cases/description.h"
 
-// The descriptions of all structs that a problem consists of: a new member of one of them needs a line here,
-// or nothing compiles.
+// This header describes all structs of a problem; a new member needs a line here. Readers and writers use
+// it.
 
 namespace delquad {
 

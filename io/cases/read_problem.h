@@ -8,6 +8,9 @@
 
 #include "io/cases/case.h"
 
+// This header turns texts into the parts of a problem. The pipeline, the program, the bench and readers and
+// writers use it.
+
 namespace delquad {
 
 /// Whether the file holds a surface by its extension: CAD or triangles.

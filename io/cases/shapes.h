@@ -9,6 +9,8 @@
 #include "delquad/mesh.h"
 #include "io/cases/description.h"
 
+// This header has the shapes that model files know. Readers and writers use it.
+
 namespace delquad {
 
 // Shapes of curves as model files have them.

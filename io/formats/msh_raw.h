@@ -10,6 +10,8 @@
 #include "delquad/mesh.h"
 #include "io/text_scanner.h"
 
+// This header has the contents of MSH files before tags become indices. Readers and writers use it.
+
 namespace delquad::msh {
 
 /// A node as an MSH file has it, before tags become indices.

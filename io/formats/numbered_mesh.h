@@ -9,6 +9,8 @@
 #include "io/entity_names.h"
 #include "io/face_reader.h"
 
+// This header has the common part of readers of SMS and SCHISM. Readers and writers use it.
+
 namespace delquad {
 
 /// The common part of the readers of SMS and SCHISM: planar nodes and elements by number, in any order.
