@@ -123,8 +123,9 @@ void check_no_surface(const MeshProblem& problem, bool in_space) {
       in_space ? "a mesh that is given keeps its faces, lines and unit" : "the model is planar",
       in_space ? "models" : "surfaces");
   if (!std::holds_alternative<PlanarModel>(problem.model) && follows_curvature(problem.size))
-    throw InputError(problem.size.where +
-                     ": sizes by curvature are for curves and surfaces that are meshed anew");
+    throw InputError(
+        problem.size.where +
+        ": sizes by curvature are for models of curves and for surfaces, not for given lines and meshes");
 }
 
 /// Refuses to leave out small parts if other requests name curves by number, or pair them.
@@ -132,7 +133,7 @@ void check_small_outlines(const MeshProblem& problem) {
   const SurfaceSpec& s = problem.surface;
   if (s.ignore_below == 0 && !s.idealize && s.fill_holes == 0) return;
   const auto refuse = [&](const std::string& other) {
-    throw InputError(fmt::format("{}: what is small in the plane cannot be left out beside {}",
+    throw InputError(fmt::format("{}: small parts of planar models cannot be left out beside {}",
                                  s.where.empty() ? problem.where : s.where, other));
   };
   if (is_symmetric(problem)) refuse("symmetry (" + problem.symmetry.where + ")");

@@ -83,8 +83,8 @@ void keep_better(Finishing& on) {
   const std::string worse = text_of_worst(result), was = text_of_worst(before);
   const auto tell = [&](const std::string& what) {
     result.warnings.push_back(
-        fmt::format("{}: {}: what was made of the given mesh ({}) would be worse ({}); "
-                    "--set repair.keep_given=false takes it all the same [would-be-worse]",
+        fmt::format("{}: {}: the given mesh ({}) would become worse ({}). --set repair.keep_given=false "
+                    "takes the worse mesh [would-be-worse]",
                     on.label, what, was, worse));
   };
   // The least harm of what mends a mesh that was not sound.

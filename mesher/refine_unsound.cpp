@@ -184,10 +184,10 @@ void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& 
     work.spend(work_on(other, run));
     make_finer(anew, word, work, other, run);
     if (run.soundness.sound()) {
-      run.warnings.emplace_back(fmt::format(
-          "{}: what is narrower than {:.3g}, a tenth of the size, is left out, as the mesh would not be "
-          "sound: {}; --set repair.ignore_small=false keeps it",
-          prepared.settings.name, kSmall * least, result.soundness.text()));
+      run.warnings.emplace_back(
+          fmt::format("{}: parts narrower than {:.3g}, a tenth of the size, are left out, as the mesh would "
+                      "not be sound: {}. --set repair.ignore_small=false keeps them [changed-to-be-sound]",
+                      prepared.settings.name, kSmall * least, result.soundness.text()));
       run.log.summaries.add(kRefining, {{"ignored_below", kSmall * least}});
       std::swap(prepared, other);
       std::swap(result, run);

@@ -133,8 +133,7 @@ void print_traced(const Mesh& mesh) {
     return fmt::format("{} {}{} ({} with names)", entities.size(), kind, entities.size() == 1 ? "" : "s",
                        named);
   };
-  fmt::print("  of what the mesh bounds: {}, {}\n", count(mesh.regions, "region"),
-             count(mesh.curves, "curve"));
+  fmt::print("  traced from the mesh: {}, {}\n", count(mesh.regions, "region"), count(mesh.curves, "curve"));
 }
 
 void print_carried(const std::vector<MeshField>& carried) {

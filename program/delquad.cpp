@@ -160,7 +160,7 @@ int run_command_line(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help
-    fmt::print(stderr, "error: {} ('delquad help' and 'delquad help COMMAND' tell what is)\n",
+    fmt::print(stderr, "error: {} ('delquad help' and 'delquad help COMMAND' list commands and options)\n",
                reason_of(error, app, argc, argv));
     return kBadInput;
   }

@@ -219,7 +219,7 @@ int exit_code(const Outcome& outcome, bool allow_triangles) {
   if (outcome.unsound > 0) return kUnsound;
   if (outcome.leftover_triangles == 0 || allow_triangles) return kDone;
   fmt::print(stderr,
-             "error: {} triangles are left among the quads of what was written (--allow-triangles accepts "
+             "error: {} triangles are left among the quads of the written mesh (--allow-triangles accepts "
              "them) [odd-boundary]\n",
              outcome.leftover_triangles);
   return kTrianglesLeft;

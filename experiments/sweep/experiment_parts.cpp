@@ -95,7 +95,7 @@ void check_folder_name(const TomlTable& table, const std::string& name,
                        (other == name ? "" : ": beside '" + other + "' it would share its folder"));
   for (const std::string& file : result_files())
     if (lower_case(name) == file)
-      refuse("{}: '{}' names a folder, but that of a file of results", table.where("name"), name);
+      refuse("{}: '{}' is the name of a file of results: expected another name", table.where("name"), name);
 }
 
 namespace {

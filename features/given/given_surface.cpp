@@ -173,10 +173,10 @@ class BadQuadOpening {
         for (const int v : mesh_.quads[q]) moves = (!stays_[v] && improve(v)) || moves;
     }
     const auto left = std::ranges::count_if(bad_, [&](int q) { return !is_sound(mesh_, q); });
-    warnings.push_back(fmt::format(
-        "{}: {} quads are inverted, folded or without area, the first at {}: {} of them are no more so once "
-        "their nodes are moved",
-        source, bad_.size(), text_of_place(first), static_cast<long>(bad_.size()) - left));
+    warnings.push_back(
+        fmt::format("{}: {} quads are inverted, folded or without area, the first at {}. Moving their nodes "
+                    "repairs {} of them",
+                    source, bad_.size(), text_of_place(first), static_cast<long>(bad_.size()) - left));
   }
 
  private:

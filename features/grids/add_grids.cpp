@@ -157,11 +157,12 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, P
         }))
       p.warnings.push_back(
           {"rings that have no rows", 0,
-           fmt::format("{} has not {} rows: it is no ring, or numbers of edges forbid it", region, rows)});
+           fmt::format("{} did not get {} rows: it is no ring, or the numbers of edges forbid it", region,
+                       rows)});
   }
   const auto has_grid = [](const PreparedPatch& patch) { return patch.grid.has_value(); };
   if (spec.automatic && std::ranges::none_of(p.patches, has_grid))
-    p.warnings.push_back(spec.where + ": no face pays as a grid: all are free");
+    p.warnings.push_back(spec.where + ": no face makes a good grid: all are meshed freely");
 }
 
 }  // namespace delquad

@@ -137,7 +137,7 @@ std::vector<int> find(const NamedPart& asked, const Mesh& fine) {
     found.push_back(i);
   }
   if (found.empty())
-    throw InputError(fmt::format("{}: no {} of the {} is what '{}' is to name [no-part-for-a-name]",
+    throw InputError(fmt::format("{}: no {} of the {} fits the rule for the name '{}' [no-part-for-a-name]",
                                  asked.where, asked.curves ? "curve" : "face", all.size(), asked.name));
   if (asked.at) found = {nearest_of(found, parts, asked, tolerance)};
   return found;

@@ -71,7 +71,7 @@ class DivisionSharing {
           other->second.progression == division.progression && other->second.bump == division.bump)
         continue;
       throw InputError(
-          fmt::format("{}: curve {} is divided, and not as curve {}, of which it is the mirror image",
+          fmt::format("{}: curve {} is divided differently from curve {}, whose mirror image it is",
                       division.where, tag(curve), tag(image)));
     }
   }

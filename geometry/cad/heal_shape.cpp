@@ -159,7 +159,7 @@ TopTools_ListOfShape sew_bodies(CadShape& cad, double tolerance) {
   });
   if (!sewings.empty())
     cad.warnings.push_back(fmt::format(
-        "free edges coincided: closed bodies that touch have been sewn each by itself: {}", sewings.size()));
+        "free edges coincided: closed bodies that touch were sewn one by one: {}", sewings.size()));
   return doubles;
 }
 

@@ -272,7 +272,7 @@ void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<War
                         fmt::format("closed a hole of {:.3g} around at {}", length, show_point(at))});
     for (const std::string& name : names_of(model.loops[l]).names)
       warnings.push_back(
-          {"names that went with what is small", 1,
+          {"names of small parts that are left out", 1,
            fmt::format("'{}' went with the hole at {} (--keep, or surface.keep, keeps it) [lost-names]", name,
                        show_point(at))});
   };
