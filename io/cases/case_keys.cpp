@@ -52,7 +52,7 @@ TomlKeys with_criteria(TomlKeys keys) {
 }  // namespace
 
 TomlKeys named_criteria_keys() {
-  return with_criteria({{"name", "of curves or regions", kText, nullptr, false, true}});
+  return with_criteria({{"name", "name of curves or regions", kText, nullptr, false, true}});
 }
 
 TomlKeys criteria_keys() {
