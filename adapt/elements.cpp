@@ -186,8 +186,10 @@ void require_joined(const Mesh& mesh, const std::string& what) {
     for (const int i : v) is_joined = std::exchange(is_used[i], 1) != 0 || is_joined;
   });
   if (!is_joined)
-    refuse("{}: no two elements share a point, as where a field is discontinuous: expected elements that do",
-           what);
+    refuse(
+        "{}: no two elements share a point, as where a field is discontinuous: expected elements that do "
+        "[discontinuous-field]",
+        what);
 }
 
 void require_values(const Mesh& mesh, std::span<const double> values, const std::string& name) {

@@ -103,8 +103,8 @@ void check_spec(const Mesh& mesh, const AdaptSpec& spec) {
   if (!is_none_or(min, min > 0) || !is_none_or(max, max > 0 && max >= min) ||
       !is_none_or(aspect, aspect >= 1) || !is_none_or(spec.gradation, spec.gradation > 1))
     refuse(
-        "lengths from {} to {}, aspect {}, gradation {}: expected 0 for none, or lengths above 0, the least "
-        "first, an aspect of at least 1 and a gradation above 1",
+        "lengths from {} to {}, aspect {}, gradation {}: expected ascending lengths above 0, an aspect of at "
+        "least 1 and a gradation above 1. A 0 stands for no limit",
         min, max, aspect, spec.gradation);
   if (spec.weight.empty()) return;
   require_values(mesh, spec.weight, "of weights");
@@ -112,7 +112,7 @@ void check_spec(const Mesh& mesh, const AdaptSpec& spec) {
   if (*least < 0)
     refuse("the weight is {} at {}: expected at least 0", *least,
            show_point(mesh.points[least - spec.weight.begin()]));
-  if (std::ranges::max(spec.weight) == 0) refuse("all weights are 0: expected some above");
+  if (std::ranges::max(spec.weight) == 0) refuse("all weights are 0: expected at least one above 0");
 }
 
 }  // namespace

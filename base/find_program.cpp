@@ -52,7 +52,8 @@ fs::path find_program(const HelperProgram& program, const fs::path& chosen, cons
     places += (places.empty() ? "" : ", ") + folder.string();
   }
   throw InputError(
-      fmt::format("the program {}, which reads {}, is not there: expected it in one of {}, or named by {}",
+      fmt::format("the program {}, which reads {}, is not there: expected it in one of {}, or named by {} "
+                  "[no-helper-program]",
                   program.name, program.reads, places, program.variable));
 }
 

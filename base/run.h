@@ -8,6 +8,8 @@
 #include "base/activity.h"
 #include "base/context.h"
 
+// This header has the state of a run. Base uses it.
+
 namespace delquad {
 
 /// State of a run, only for context.cpp, parallel.cpp and activity.cpp.

@@ -45,9 +45,9 @@ constexpr double kSlit = 3e-5;
 // Steps: far more than faces are dropped, or edges listed, one after the other.
 constexpr int kMostInVain = 10000;
 
-/// CGAL's test of an edge by the circle around it, which looks at the vertices on both sides. What lies
-/// across a slit does not count: where slits turn or cross, vertices on one side are in the circles of the
-/// other's edges, and both would be split down to the slit's width in turn.
+/// CGAL's test of an edge by the circle around it, which looks at the vertices on both sides. Vertices across
+/// a slit do not count. If slits turn or cross, vertices on one side are in the circles of the other side's
+/// edges. Both sides would be split in turn, down to the slit's width.
 struct GabrielBesideSlits : CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt> {
   using Gabriel = CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt>;
   using Gabriel::operator();

@@ -7,6 +7,8 @@
 #include "base/box.h"
 #include "delquad/mesh.h"
 
+// This header makes coarse triangulations that carry sizes and crosses. Features and fields use it.
+
 namespace delquad {
 
 class TriangleTree;
@@ -33,12 +35,13 @@ class BackgroundMesh {
     double t = 0;            ///< 0 at `from`, < 1
     Vec2 tangent;            ///< unit direction of that edge
   };
-  /// Of each vertex.
+  /// Returns the point of the boundary of each vertex.
   const std::vector<BoundaryPoint>& boundary_points() const { return boundary_; }
 
-  /// The triangle that contains u (the first of several), or the nearest one when u is outside, and the
-  /// barycentric coordinates there, none negative. What lies further from the bounding box than that is wide
-  /// is moved to there first: the search among all triangles would be exact arithmetic for nothing.
+  /// A place in the mesh: the triangle that contains u (the first of several), or the nearest one if u is
+  /// outside. It has barycentric coordinates there, none negative. Points farther from the bounding box than
+  /// its width are moved to that distance first. Otherwise the search among all triangles would use exact
+  /// arithmetic for nothing.
   struct Location {
     int triangle;
     double b[3];

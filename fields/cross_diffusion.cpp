@@ -10,14 +10,15 @@ namespace delquad {
 
 namespace {
 
-/// What each triangle gives to each of its sides: a sixth of an element.
+/// Part of the mass of a triangle for each of its sides: a sixth of an element.
 constexpr double kMass = 0.5 / 3;
-/// Of conjugate gradients: ordinary patches take 10 to 150, and as many as this cost about as much as a
-/// direct solution.
+/// Limit of iterations of conjugate gradients. Ordinary patches take 10 to 150, and this many cost about as
+/// much as a direct solution.
 constexpr int kMostIterations = 500;
 
 using Complex = CrossDiffusion::Complex;
-/// Of real and imaginary parts in turn: products of complex numbers would be checked for overflow one by one.
+/// A matrix of real and imaginary parts in turn. Products of complex numbers would be checked for overflow
+/// one by one.
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Vector = Eigen::VectorXd;
 

@@ -8,6 +8,8 @@
 #include "delquad/mesh.h"
 #include "fields/laplace.h"
 
+// This header diffuses crosses over the triangles of patches. Fields use it.
+
 namespace delquad {
 
 /// The crosses of a patch as unknowns on its sides.
@@ -16,7 +18,7 @@ struct PatchUnknowns {
   Sides sides;
   std::vector<int> unknown;       ///< of each side; one that is shared is that of another, too
   std::vector<double> direction;  ///< 4 theta that the unknown is counted from, on this side
-  /// Of each triangle: turn of 4 theta from the centroid to the middles of its sides.
+  /// For each triangle, the turn of 4 theta from the centroid to the middles of its sides.
   const std::vector<std::array<double, 3>>* turns;
 
   /// By which 4 theta of the k-th side of triangle t, counted from its direction, is more than at the
@@ -30,8 +32,8 @@ struct PatchUnknowns {
 class CrossDiffusion {
  public:
   using Complex = std::complex<double>;
-  /// What becomes of an unknown: it is given (kGiven), else drawn to its direction with this strength, >= 0,
-  /// a triangle's stiffness being about 1.
+  /// Role of an unknown: it is given (kGiven), else drawn to its direction with this strength, >= 0. A
+  /// triangle's stiffness is about 1.
   static constexpr double kGiven = -1;
 
   /// `z`: the unknowns, of unit length, which must stay; `alignment`: of each.

@@ -7,6 +7,8 @@
 #include "delquad/mesh.h"
 #include "fields/background_mesh.h"
 
+// This header has sizes and cross fields of simple kinds. Most modules use it.
+
 namespace delquad {
 
 // --- size fields
@@ -82,7 +84,8 @@ std::unique_ptr<CrossField> make_gradient_cross(std::shared_ptr<const SizeField>
 double expected_quads(const TriPatch& triangulation, const SizeField& size, double relative_error = 0.01,
                       double coarsest = 1.0 / 64);
 
-/// What curvature asks for at least where the size is else `base`: `min`, or if that is 0 a part of the base.
+/// Returns the least size that curvature may ask for if the size is else `base`: `min`, or a part of the base
+/// if `min` is 0.
 double least_by_curvature(double base, double min);
 /// The base, or less where it takes that to make `per_turn` elements of a full turn with the curvature k
 /// (1/length); 0: as the base.

@@ -160,7 +160,7 @@ Tensor2 TangentMetric::seen(const TangentMetric& other) const {
 double metric_square(const Vec3& d, const TangentMetric& at) {
   const Vec2 x = at.in_plane(d);
   const double flat = dot(x, x), by = at.m.xx * x.x * x.x + 2 * at.m.xy * x.x * x.y + at.m.yy * x.y * x.y;
-  // Of a direction without a part in the plane the mean of all.
+  // A direction without a part in the plane has the mean of all.
   constexpr double kUpright = 1e-12;
   if (!(flat > kUpright * dot(d, d))) return dot(d, d) * (at.m.xx + at.m.yy) / 2;
   return std::max(0.0, by) * dot(d, d) / flat;

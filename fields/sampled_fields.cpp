@@ -61,7 +61,7 @@ void warn_if_cut_short(const SampleTree& tree, const std::string& name, std::vec
   if (!tree.is_cut_short()) return;
   warnings.push_back(
       fmt::format("{} varies so much everywhere that {} samples do not show it well: between "
-                  "them it is interpolated",
+                  "them it is interpolated [rough-size]",
                   name, tree.points().size()));
 }
 

@@ -13,9 +13,12 @@
 #include "delquad/mesh.h"
 #include "fields/fields.h"
 
+// This header samples expensive functions and interpolates between the samples. The pipeline, features and
+// fields use it.
+
 namespace delquad {
 
-/// What is asked of the samples of a function.
+/// Rules for the samples of a function.
 struct SampleRules {
   /// Numbers that the function gives for a point.
   int width = 1;

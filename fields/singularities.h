@@ -15,8 +15,8 @@ namespace delquad {
 /// index. At a vertex on the boundary it is the corner's turn that is compared with the field's.
 struct FieldWinding {
   std::vector<int> of_triangle;
-  /// Of each vertex: turns of the phase; whole numbers, up to rounding, where the field on the boundary lies
-  /// along it.
+  /// For each vertex the turns of the phase. They are whole numbers, up to rounding, if the field on the
+  /// boundary lies along it.
   std::vector<double> of_vertex;
   std::vector<char> is_inside;  ///< of each vertex
 };

@@ -224,7 +224,7 @@ std::vector<JoinedVertices> joined_vertices(const std::vector<FieldPatch>& patch
   return all;
 }
 
-/// Of each patch, with the sums of them all.
+/// Returns the topology of each patch, with the sums over all patches.
 std::vector<FieldTopology> find_topologies(const std::vector<FieldPatch>& patches,
                                            const std::vector<FieldSeam>& seams,
                                            const std::vector<SizeConnection>& connections,
@@ -257,7 +257,8 @@ struct SizeAwareCrossField::Data {
   std::shared_ptr<const BackgroundMesh> background;
   std::shared_ptr<const CrossField> start;  ///< null where the field is the iteration's
   std::vector<Vec2> gradient;               ///< of log delta in each triangle
-  /// Of each triangle, carried from the middle of the side opposite to each vertex to the centroid.
+  /// The crosses of each triangle, carried from the middle of the side opposite to each vertex to the
+  /// centroid.
   std::vector<std::array<Complex, 3>> crosses;
 };
 

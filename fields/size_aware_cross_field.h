@@ -10,6 +10,8 @@
 #include "fields/background_mesh.h"
 #include "fields/fields.h"
 
+// This header makes cross fields that know the size. Features and fields use it.
+
 namespace delquad {
 
 /// Crosses that a field is drawn to.
@@ -21,7 +23,8 @@ using CrossPullAt = std::function<CrossPull(Vec2 u, int& hint)>;
 
 /// A patch of a surface, for a field on all of them.
 struct FieldPatch {
-  /// Of this patch alone; its elements must be small against the length over which delta' varies.
+  /// The background mesh of this patch alone. Its elements must be small against the length over which delta'
+  /// varies.
   std::shared_ptr<const BackgroundMesh> background;
   const ParametricSize* size;
   std::shared_ptr<const CrossField> start;  ///< what the iteration starts from
@@ -53,7 +56,7 @@ class SizeAwareCrossField final : public SolvedCrossField {
   /// for a single row of quads to end.
   SizeAwareCrossField(std::shared_ptr<const BackgroundMesh> background, const ParametricSize& size,
                       std::shared_ptr<const CrossField> start);
-  /// Of about unit length, but zero at singularities.
+  /// Returns a cross of about unit length, but zero at singularities.
   Cross at(Vec2 u, int& hint) const override;
 
  private:

@@ -28,7 +28,7 @@ struct TangentMetric {
   static TangentMetric with_normal(const Vec3& normal);
   Vec2 in_plane(const Vec3& d) const { return {dot(d, e), dot(d, f)}; }
   Vec3 in_space(Vec2 d) const { return d.x * e + d.y * f; }
-  /// What another is here, turned from its plane into this one by the least angle.
+  /// Returns another metric as it is here, turned from its plane into this one by the least angle.
   Tensor2 seen(const TangentMetric& other) const;
 };
 

@@ -1,8 +1,8 @@
 """Blender: Object > Quad remesh (Delquad) makes the active mesh one of quads.
 
 Install this file by Edit > Preferences > Add-ons > Install. It calls the program `delquad`, whose path stands in its preferences.
-Materials stay with their faces, and so does smooth shading; edges that are marked sharp stay edges. What belongs to the old vertices
-and corners is lost, as it says: UV maps, colours, weights of vertex groups.
+Materials stay with their faces, and so does smooth shading; edges that are marked sharp stay edges. Data of the old vertices and
+corners are lost with a message: UV maps, colors, weights of vertex groups.
 """
 
 bl_info = {
@@ -77,7 +77,7 @@ def remesh(program, mesh, *arguments):
 
 
 def losses(item):
-    """What of an object does not outlive its vertices and corners: "UV map UVMap"."""
+    """Returns the data of an object that are lost with its vertices and corners: "UV map UVMap"."""
     kinds = (("UV map", item.data.uv_layers), ("colours", item.data.vertex_colors), ("the weights of vertex group", item.vertex_groups))
     return [f"{kind} {one.name}" for kind, all_of_kind in kinds for one in all_of_kind]
 

@@ -11,7 +11,8 @@
 #include "geometry/mesh/half_edges.h"
 #include "io/entity_names.h"
 
-// A mesh as writers of files see it: elements in blocks of one shape, sides of elements, and groups by name.
+// This header has meshes as writers see them: blocks of elements, sides and named groups. Readers and
+// writers use it.
 
 namespace delquad {
 

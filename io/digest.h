@@ -10,11 +10,11 @@ namespace delquad {
 
 /// Tells contents apart: SHA-1 as a UUID of version 5 (36 characters).
 std::string digest(std::string_view bytes);
-/// Of a file's contents; each file is read once while it stays as it is. Throws InputError when it cannot be
-/// read.
+/// Returns the digest of a file's contents. Each file is read once while it stays as it is. Throws InputError
+/// if it cannot be read.
 std::string file_digest(const std::filesystem::path& file);
 
-/// What tells whether a file is still the same.
+/// Properties that tell whether a file is still the same.
 struct FileMark {
   std::uintmax_t bytes = 0;
   std::string digest;
@@ -22,7 +22,7 @@ struct FileMark {
 };
 /// Reads the file. Throws InputError when it cannot be read.
 FileMark mark_of(const std::filesystem::path& file);
-/// Of the regular files in a folder and in those inside it, by their paths in it.
+/// Returns the marks of the regular files in a folder and in folders inside it, by their paths in it.
 std::map<std::string, FileMark> marks_of(const std::filesystem::path& folder);
 /// How a file differs from its mark, in words ("holds 12 bytes, expected 300"); empty: it does not.
 std::string difference(const std::filesystem::path& file, const FileMark& mark);

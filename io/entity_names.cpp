@@ -137,7 +137,8 @@ bool is_planar(const Mesh& mesh) {
 
 void require_planar(const std::filesystem::path& path, const std::string& format, const Mesh& mesh) {
   if (!is_planar(mesh))
-    refuse("{}: {} is for planar meshes: this is a surface in space, or looks down", path.string(), format);
+    refuse("{}: {} is for planar meshes: this is a surface in space, or looks down [planar-format]",
+           path.string(), format);
 }
 
 void require_terrain(const std::filesystem::path& path, const std::string& format, const Mesh& mesh) {
@@ -147,14 +148,17 @@ void require_terrain(const std::filesystem::path& path, const std::string& forma
     for (std::size_t k = 1; k + 1 < v.size(); ++k)
       area += cross(mesh.points[v[k]] - mesh.points[v[0]], mesh.points[v[k + 1]] - mesh.points[v[0]]).z;
     if (!(area > 0))
-      refuse("{}: {} is for planar meshes and heights over the plane: element {} is upright or looks down",
-             path.string(), format, e + 1);
+      refuse(
+          "{}: {} is for planar meshes and heights over the plane: element {} is upright or looks down "
+          "[planar-format]",
+          path.string(), format, e + 1);
   });
 }
 
 void require_quads(const std::filesystem::path& path, const std::string& format, const Mesh& mesh) {
   if (!mesh.triangles.empty())
-    refuse("{}: {} has quads only, and there are {} triangles", path.string(), format, mesh.triangles.size());
+    refuse("{}: {} has quads only, and there are {} triangles [quads-only]", path.string(), format,
+           mesh.triangles.size());
 }
 
 void require_fits(const std::filesystem::path& path, const std::string& format, std::size_t n,

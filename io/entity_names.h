@@ -12,16 +12,20 @@
 
 #include "delquad/mesh.h"
 
+// This header makes names for formats that restrict them. The program, features and readers and writers use
+// it.
+
 namespace delquad {
 
-/// What an entity without a name is called in files: "point_7" (dimension 0), "curve_7" (1) or "region_7"
-/// (2), "volume_7" (3).
+/// Returns the name of a nameless entity in files: "point_7" (dimension 0), "curve_7" (1), "region_7" (2) or
+/// "volume_7" (3).
 std::string tag_label(int dim, int tag);
 
-/// One name for each entity of one dimension, for formats that take no more. Of several the one that says
-/// most, which the fewest entities have (of equal ones the first): a part's own name, not that of the
-/// product; a colour, or a name that all have, only where there is nothing else. Without any: tag_label(),
-/// with a number behind it where that is taken. Entities have the same name here only if they share it.
+/// Returns one name for each entity of one dimension, for formats that take no more. If an entity has several
+/// names, the name that the fewest entities have is chosen, the first of equal ones. So a part's own name
+/// comes before the name of the product. A color, or a name that all have, is used only if there is nothing
+/// else. A nameless entity gets tag_label(), with a number behind it if that is taken. Entities have the same
+/// name here only if they share it.
 std::vector<std::string> group_names(const std::vector<Entity>& entities, int dim);
 
 /// The tags of the entities that have each name.
@@ -62,7 +66,7 @@ class UniqueLabels {
 /// elements first have them. Numbers are tags where they are positive; others stand behind those.
 class NumberedEntities {
  public:
-  /// What numbers may be: twice as much is still a tag.
+  /// Largest number of an entity; twice as much is still a tag.
   static constexpr long long kMostNumber = 999'999'999;
 
   /// Takes a comment that is `before`, a number, `after` and a name, such as "# curve 3: north", which may
@@ -103,8 +107,8 @@ std::string one_line_label(const std::string& name);
 std::string cgns_label(const std::string& name);
 /// A name for MED, whose readers take letters of other alphabets in several ways.
 std::string ascii_label(const std::string& name);
-/// Labels of formats that have no comments to tell what was renamed. Of CGNS names have at most 32
-/// characters, of MED 80 bytes, of Exodus as many as the file says.
+/// Labels of formats that have no comments to tell what was renamed. Names of CGNS have at most 32
+/// characters, names of MED 80 bytes, names of Exodus as many as the file says.
 inline constexpr UniqueLabels::Rules kExodusLabels{one_line_label, false, 70};
 inline constexpr UniqueLabels::Rules kCgnsLabels{cgns_label, false, 22};
 inline constexpr UniqueLabels::Rules kMedLabels{ascii_label, false, 70};

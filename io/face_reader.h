@@ -14,6 +14,8 @@
 #include "geometry/mesh/element_nodes.h"
 #include "io/text_scanner.h"
 
+// This header has the common part of readers of points and faces. Readers and writers use it.
+
 namespace delquad {
 
 /// Throws InputError for the first stray point of a mesh, unless they are kept. `place`: where the file has a
@@ -34,7 +36,7 @@ class NamedPoints {
   std::map<int, std::size_t> index_;
 };
 
-/// What the readers of text files of points and faces share.
+/// The common part of readers of text files with points and faces.
 class FaceReader {
  protected:
   FaceReader(const std::filesystem::path& path, const char* kind, Strays strays);

@@ -8,6 +8,8 @@
 
 #include "delquad/mesh.h"
 
+// This header finds the nearest triangle at each sample of a raster. Readers and writers use it.
+
 namespace delquad {
 
 /// Which of many triangles is nearest at each sample of a raster. Triangles are given by x, y in samples and

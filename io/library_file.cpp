@@ -30,7 +30,7 @@ TemporaryFolder temporary_folder(const std::filesystem::path& path) {
   }
 }
 
-/// What `work` throws; empty: it was done.
+/// Returns the message of an exception of `work`; empty: it succeeded.
 std::string trouble_of(const std::function<void()>& work) {
   errno = 0;
   try {

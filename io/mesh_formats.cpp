@@ -71,7 +71,7 @@ std::string extensions_of(const Can& can) {
   for (const MeshFormat& format : mesh_formats()) kinds.push_back(format.extensions[0]);
   const std::string kind = path.extension().string();
   const bool is_slip = std::ranges::find(kinds, kind) == kinds.end();
-  refuse("{}: unknown kind of mesh file '{}': expected {}{}", path.string(), kind, known,
+  refuse("{}: unknown kind of mesh file '{}': expected {}{} [unknown-format]", path.string(), kind, known,
          is_slip ? suggestion(kind, kinds) : "");
 }
 
@@ -149,7 +149,7 @@ void check_mesh_format(const std::filesystem::path& path, const MshOptions& opti
   if (!format->package.empty())
     refuse(
         "{}: this program was built without the library for '{}': install Debian's package {} "
-        "and build it again",
+        "and build it again [missing-library]",
         path.string(), kind, format->package);
   if (order > format->most_order)
     refuse("{}: '{}' has no elements of order {} here: expected {}", path.string(), kind, order,

@@ -9,6 +9,8 @@
 #include "io/entity_names.h"
 #include "io/mesh_io.h"
 
+// This header lists the formats of meshes. The program, readers and writers and the Python module use it.
+
 namespace delquad {
 
 /// Whether a format has quads of eight nodes: kAlways ones of order 2 have no others.
@@ -25,8 +27,7 @@ enum NameKinds : unsigned {
   kPeriodicPairs = 32  ///< which nodes are images of others
 };
 
-/// A kind of mesh file. What is written of it stands in its files in io/formats/ and in a line of
-/// mesh_formats.cpp.
+/// A kind of mesh file. Its code is in its files in io/formats/ and in a line of mesh_formats.cpp.
 struct MeshFormat {
   std::vector<std::string> extensions;  ///< in small letters, with the dot; the usual one first
   std::string description;
@@ -94,8 +95,8 @@ std::string others_in_file(const std::filesystem::path& path);
 int most_order_of(const std::filesystem::path& path);
 /// The mesh of its corners, of order 1.
 Mesh straightened(Mesh mesh);
-/// What of a mesh has no place in a file of that name, one line each: an order above those of the format, and
-/// names.
+/// Returns the parts of a mesh that a file of that name cannot hold, one line each: names, and a higher
+/// order.
 std::vector<std::string> lost_in_file(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace delquad

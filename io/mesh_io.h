@@ -11,6 +11,8 @@
 #include "delquad/mesh.h"
 #include "delquad/model.h"
 
+// This header reads and writes meshes, fields and files. Most modules use it.
+
 namespace delquad {
 
 class TextWriter;
@@ -50,8 +52,8 @@ std::string kind_of_file(const std::filesystem::path& path);
 /// Whether a name can stand in an MSH file: it has no double quote and no line break.
 bool fits_msh(std::string_view name);
 
-/// What readers of triangles do with numbers that can hardly be coordinates: those that are not finite, and
-/// stray points (geometry/mesh/stray_points.h).
+/// Treatment of numbers that can hardly be coordinates: values that are not finite, and stray points
+/// (geometry/mesh/stray_points.h).
 enum class Strays {
   kRefused,  ///< InputError with their place
   kKept,     ///< for a caller who leaves them out; the greatest number stands for one that is not finite
@@ -69,12 +71,12 @@ struct NodalValues {
   std::vector<double> values;
 };
 
-/// Reads the field `name` of an MSH file (a view: $NodeData or $ElementData) or a VTU file (an array of
-/// PointData or CellData), or what a SOL file of Medit (Mmg) or an MTR or METRIC file of BAMG has at the
-/// points of the .mesh file beside it; without a name the only one that there is. Values of elements become
-/// means, by area, of the elements at a point. Of several steps in time it is the last one. Throws InputError
-/// where there is none, naming those that there are, where it is no field of numbers, and where points have
-/// none.
+/// Reads the field `name`. An MSH file has it as a view ($NodeData or $ElementData), a VTU file as an array
+/// of PointData or CellData. A SOL file of Medit (Mmg), or an MTR or METRIC file of BAMG, has values at the
+/// points of the .mesh file beside it. Without a name, reads the only field. Values of elements become means,
+/// by area, of the elements at a point. If there are several steps in time, reads the last one. Throws
+/// InputError for a missing field, naming the others, for a field that has no numbers, and for points without
+/// a value.
 NodalValues read_values(const std::filesystem::path& path, const std::string& name);
 /// The same of tensors: xx, xy, xz, yy, yz and zz of each point, from MSH fields of 3 x 3 numbers, VTU arrays
 /// of 3 (xx, yy, xy), 4, 6 or 9, and SOL and BAMG files; those of the plane have no z, and zz = 1.
@@ -92,8 +94,9 @@ struct MeshWithFields {
   Mesh mesh;
   std::vector<MeshField> fields;
 };
-/// All fields of an MSH or VTU file. Of several steps in time it is the last one; points that no element uses
-/// stay. Throws InputError for quads of 8 nodes, and MSH fields of more than 9 components.
+/// Reads all fields of an MSH or VTU file. If there are several steps in time, reads the last one. Points
+/// that no element uses stay. Throws InputError for quads of 8 nodes, and MSH fields of more than 9
+/// components.
 MeshWithFields read_fields(const std::filesystem::path& path);
 /// Writes MSH or VTU with fields, whole or not at all.
 void write_fields(const std::filesystem::path& path, const Mesh& mesh, const std::vector<MeshField>& fields,

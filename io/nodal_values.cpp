@@ -154,7 +154,7 @@ std::size_t choose_field(const std::vector<MeshField>& fields, const std::string
     refuse("{}: has no field: expected $NodeData or $ElementData, or in a VTU file point data or cell data",
            file);
   if (name.empty() && names.size() > 1)
-    refuse("{}: has the fields {}: say which, as {}:NAME", file, fmt::join(names, ", "),
+    refuse("{}: has the fields {}: say which, as {}:NAME [which-field]", file, fmt::join(names, ", "),
            std::filesystem::path(file).filename().string());
   const MeshField* of_elements = nullptr;
   for (std::size_t i = fields.size(); i-- > 0;) {
@@ -168,7 +168,7 @@ std::size_t choose_field(const std::vector<MeshField>& fields, const std::string
            fields[i].n_components, fmt::join(form.n_components, ", "));
   }
   if (of_elements != nullptr)
-    refuse("{}: the field {} is of elements: expected one of points", file,
+    refuse("{}: the field {} is of elements: expected one of points [field-of-elements]", file,
            TextScanner::printable(of_elements->name));
   if (names.empty()) refuse("{}: has no field of points", file);
   refuse("{}: has no field {}: expected {}", file, TextScanner::printable(name), fmt::join(names, ", "));

@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// What is asked of a field.
+/// The form of a field that a caller expects.
 struct FieldForm {
   std::vector<int> n_components = {1};  ///< one of these
   bool of_points = false;               ///< not of elements

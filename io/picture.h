@@ -21,7 +21,7 @@ struct IrregularVertex {
   double size;  ///< mean of the sizes of the elements around it
 };
 
-/// What pictures show.
+/// Irregular vertices that pictures show.
 struct IrregularVertices {
   std::vector<IrregularVertex> vertices;  ///< ascending
   std::vector<std::array<int, 2>> pairs;  ///< of a mesh of quads, see pair_irregular()

@@ -9,6 +9,8 @@
 
 #include "delquad/mesh.h"
 
+// This header writes SVG drawings. Readers and writers and the report use it.
+
 namespace delquad::svg {
 
 /// Point of the drawing, in hundredths of a pixel, y down.
@@ -43,7 +45,7 @@ std::string colour(double t);
 /// others.
 std::string_view mark_colour(int index);
 
-/// Of lines that join pairs of irregular vertices.
+/// Color of lines that join pairs of irregular vertices.
 inline constexpr const char* kPairColour = "#e26a00";
 
 /// A dot in the drawing.

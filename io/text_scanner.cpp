@@ -23,8 +23,8 @@ std::string_view without_plus(std::string_view token) {
   return token.size() > 1 && token[0] == '+' && token[1] != '-' ? token.substr(1) : token;
 }
 
-/// Of UTF-16 with a byte order mark, where each of the first characters is one of ASCII: no bytes of numbers
-/// are taken for it. Returns whether it is, and of which order.
+/// Whether a text is UTF-16 with a byte order mark, and in which order. Each of the first characters must be
+/// one of ASCII, so that no bytes of numbers are taken for it.
 std::optional<bool> utf16_order(std::string_view text) {
   const bool is_big = text.starts_with("\xfe\xff");
   if (!is_big && !text.starts_with("\xff\xfe")) return std::nullopt;

@@ -10,6 +10,8 @@
 #include "base/located.h"
 #include "io/mesh_io.h"
 
+// This header cuts text files into tokens. The program, the bench and readers and writers use it.
+
 namespace delquad {
 
 /// The whole file, unpacked when it is compressed by gzip. Throws InputError.
@@ -47,7 +49,7 @@ class TextScanner {
   std::string_view bytes(size_t count, std::string_view what);
   /// Goes behind the next occurrence of a text; false, and no step, when there is none.
   bool skip_behind(std::string_view text);
-  /// What is left of the line.
+  /// Returns the rest of the line.
   std::string_view rest_of_line();
 
   /// Goes to the beginning of the next line; false, and no step, in the last one.
@@ -78,7 +80,7 @@ class TextScanner {
   bool in_bytes_ = false;  ///< lines mean nothing
 };
 
-/// What the beginning of a file shows it to be, such as "a STEP file"; empty: nothing that is known.
+/// Returns the kind of contents that the beginning of a file shows, such as "a STEP file"; empty: unknown.
 std::string content_kind(std::string_view text);
 inline constexpr const char* kMfemFile = "an MFEM file";
 

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+// This header writes text files. The bench and readers and writers use it.
+
 namespace delquad {
 
 /// Buffered text output; numbers in the shortest form that reads back to the same value.
@@ -46,7 +48,7 @@ class TextWriter {
   std::string buffer_;
 };
 
-/// What writes a text, for FileToWrite.
+/// Returns a function that writes a text, for FileToWrite.
 inline std::function<void(std::ostream&)> as_text(std::function<void(TextWriter&)> write) {
   return [write = std::move(write)](std::ostream& stream) {
     TextWriter out(stream);

@@ -22,8 +22,8 @@ std::size_t points_on_boundary(const PatchMesh& patch) {
   return patch.form == PatchForm::kQuads ? static_cast<std::size_t>(patch.quads.n_boundary) : 0;
 }
 
-/// Those whose quads and boundary may change: not images, grids and quads that stay, none with caps, and none
-/// whose boundary is not just the nodes of its curves.
+/// Returns the patches whose quads and boundary may change. These are no images, grids and quads that stay.
+/// They have no caps, and their boundary has just the nodes of its curves.
 std::vector<char> patches_that_may_change(const PreparedProblem& prepared, const MeshingState& state) {
   std::vector<char> may(prepared.patches.size(), 1);
   for (std::size_t i = 0; i < may.size(); ++i) {
@@ -67,7 +67,7 @@ class CurvesInPatches {
 
  private:
   const SurfaceDomain& domain_;
-  /// Of each patch by chain: of each of its lines the side there.
+  /// The sides of each patch by chain, one for each of its lines.
   std::vector<std::unordered_map<int, std::vector<const CurveSide*>>> sides_;
 };
 
@@ -108,8 +108,8 @@ CurveNetwork network_of(const PreparedProblem& prepared, const MeshingState& sta
   return network;
 }
 
-/// Nodes of curves where the network has them. Those that are no more make room: `number` gets what becomes
-/// of each.
+/// Returns the nodes of curves where the network has them. Removed nodes make room: `number` gets the new
+/// number of each node.
 SurfaceNodes other_nodes(const PreparedSurface& surface, const CurveNetwork& network, const SurfaceNodes& old,
                          std::vector<int>& number) {
   const SurfaceDomain& domain = surface.domain;
@@ -182,8 +182,7 @@ std::shared_ptr<const PreparedProblem> with_nodes(const PreparedProblem& prepare
 
 namespace {
 
-/// What is an image of something else, or was given, keeps its curves, and so does what gets nodes of higher
-/// order.
+/// Whether curves keep their nodes, as in images, given meshes and elements of higher order.
 bool keeps_curves(const PreparedProblem& prepared) {
   const PreparedSurface& surface = *prepared.surface;
   return surface.mirrored || surface.is_part_of || surface.metric || surface.given ||

@@ -73,9 +73,9 @@ UncutMesh without_cuts(const PreparedSurface& surface, Mesh mesh) {
   return without_cuts(std::move(mesh), is_cut);
 }
 
-/// Of each region, whether its mesh can be made anew across its cuts. Not those of symmetric and periodic
-/// surfaces, whose sides must stay images of each other, not those with grids that were asked for, and none
-/// where elements will be curved.
+/// Returns for each region whether its mesh can be repeated across its cuts. This excludes symmetric and
+/// periodic surfaces, whose sides must stay images of each other. It also excludes regions with requested
+/// grids, and all regions if elements will be curved.
 std::vector<char> regions_across_cuts(const PreparedProblem& prepared) {
   std::vector<char> regions(prepared.boundary.regions.size(), 0);
   if (prepared.surface->mirrored || prepared.settings.order > 1 || !prepared.boundary.periodic.empty() ||
@@ -87,8 +87,8 @@ std::vector<char> regions_across_cuts(const PreparedProblem& prepared) {
   return regions;
 }
 
-/// `start` with other cuts. What moves of it, in the `regions`, lies on the surface, or on the facets that
-/// were given first; nodes on curves stay. Throws InputError where that cannot be.
+/// Returns `start` with other cuts. Moved nodes, in the `regions`, lie on the surface, or on the first given
+/// facets. Nodes on curves stay. Throws InputError if that is impossible.
 PreparedProblem with_other_cuts(const PreparedProblem& prepared, const std::vector<char>& regions,
                                 const UncutMesh& start) {
   GivenSurface given = make_given_surface({start.mesh, prepared.settings.name}, kNoFeatures);
@@ -121,7 +121,7 @@ UncutMesh run_stages(PreparedProblem& again, const Stages& stages, const Options
   return made;
 }
 
-/// Those that move nodes of curves, all patches together.
+/// Returns the stages that move nodes of curves, all patches together.
 Stages that_move_nodes(const Stages& stages) {
   Stages found;
   std::ranges::copy_if(stages, std::back_inserter(found),
@@ -129,14 +129,15 @@ Stages that_move_nodes(const Stages& stages) {
   return found;
 }
 
-/// Of a given mesh it is taken where it is better all in all, else where irregular vertices are fewer.
+/// Whether the result is taken. For a given mesh it must be better as a whole, else it must have fewer
+/// irregular vertices.
 bool is_to_be_taken(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
   if (!after.soundness.sound() || !before.soundness.sound()) return after.soundness.sound();
   if (prepared.surface->given) return is_better(prepared, after, before);
   return is_more_regular(prepared, after, before) && keeps_worst_eta(kCleanupFloorEta, after, before);
 }
 
-/// What may be done in cavities in the second run.
+/// Returns the options for cavities in the second run.
 Options with_dearer(const Options& options, double dearer) {
   Options more = options;
   more.set("regularity.tolerance", std::min(dearer * options.number("regularity.tolerance"), kMostDear));

@@ -16,7 +16,8 @@ namespace delquad {
 namespace {
 
 void check(const PlanarModel& model, const std::string& where) {
-  if (model.loops.empty()) throw InputError(where + ": the model has no loops: nothing bounds a domain");
+  if (model.loops.empty())
+    throw InputError(where + ": the model has no loops: nothing bounds a domain [empty-domain]");
   for (std::size_t i = 0; i < model.curves.size(); ++i)
     if (!model.curves[i].shape)
       throw InputError(fmt::format("{}: curve {} of the model has no shape", where, i + 1));
@@ -82,7 +83,7 @@ void check_curves_are_meshed(const MeshProblem& problem) {
   throw InputError(where + ": grids are for planar models of curves and for surfaces");
 }
 
-/// What cannot be where lines are kept.
+/// Refuses requests that are impossible if lines are kept.
 void check_lines_are_free(const MeshProblem& problem, const std::string& source) {
   if (!problem.divisions.empty())
     throw InputError(fmt::format("{}: '{}' cannot be divided: the lines of {} are kept as they are",
@@ -116,16 +117,17 @@ void check_no_surface(const MeshProblem& problem, bool in_space) {
       in_space ? "a mesh that is given keeps its faces, lines and unit" : "the model is planar",
       in_space ? "models" : "surfaces");
   if (!std::holds_alternative<PlanarModel>(problem.model) && follows_curvature(problem.size))
-    throw InputError(problem.size.where +
-                     ": sizes by curvature are for curves and surfaces that are meshed anew");
+    throw InputError(
+        problem.size.where +
+        ": sizes by curvature are for models of curves and for surfaces, not for given lines and meshes");
 }
 
-/// What names curves by their number, or pairs them, needs all that there are.
+/// Refuses to leave out small parts if other requests name curves by number, or pair them.
 void check_small_outlines(const MeshProblem& problem) {
   const SurfaceSpec& s = problem.surface;
   if (s.ignore_below == 0 && !s.idealize && s.fill_holes == 0) return;
   const auto refuse = [&](const std::string& other) {
-    throw InputError(fmt::format("{}: what is small in the plane cannot be left out beside {}",
+    throw InputError(fmt::format("{}: small parts of planar models cannot be left out beside {}",
                                  s.where.empty() ? problem.where : s.where, other));
   };
   if (is_symmetric(problem)) refuse("symmetry (" + problem.symmetry.where + ")");

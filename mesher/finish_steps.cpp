@@ -36,7 +36,7 @@ bool is_word_of_quads(const std::vector<const Stage*>& stages, const Stage* firs
          std::ranges::adjacent_find(stages, follows) == stages.end();
 }
 
-/// What these stages alone make.
+/// Returns the mesh that these stages alone make.
 MeshResult made_by(const Finishing& f, const std::vector<const Stage*>& stages) {
   MeshingState state = begin_meshing(f.prepared);
   for (const Stage* stage : stages) run_stage(*stage, f.prepared, state);
@@ -82,8 +82,8 @@ void keep_better(Finishing& on) {
   const std::string worse = text_of_worst(result), was = text_of_worst(before);
   const auto tell = [&](const std::string& what) {
     result.warnings.push_back(
-        fmt::format("{}: {}: what was made of the given mesh ({}) would be worse ({}); "
-                    "--set repair.keep_given=false takes it all the same",
+        fmt::format("{}: {}: the given mesh ({}) would become worse ({}). --set repair.keep_given=false "
+                    "takes the worse mesh [would-be-worse]",
                     on.label, what, was, worse));
   };
   // The least harm of what mends a mesh that was not sound.
@@ -243,30 +243,27 @@ const OptionTable<RepairOptions>& repair_table() {
   static const auto all =
       OptionTable<RepairOptions>("repair", "what happens beside the stages")
           .add({.name = "part_twins",
-                .help = "of surfaces: whether edges and quads that two faces have in common are parted"},
+                .help = "on surfaces: whether duplicate edges and quads of two faces are separated"},
                &RepairOptions::part_twins)
           .add({.name = "lift_bad_quads",
-                .help = "of surfaces: whether quads that are bad in space are lifted there"},
+                .help = "on surfaces: whether quads that are bad in space are improved there"},
                &RepairOptions::lift_bad_quads)
           .add(
               {.name = "failing_quads",
-               .help = "of surfaces with criteria: whether quads that fail the limits of batch are repaired"},
+               .help = "on surfaces with criteria: whether quads that fail the limits of batch are repaired"},
               &RepairOptions::failing_quads)
           .add({.name = "flat_corners",
-                .help = "of curved elements: whether quads with flat corners get a ring of quads"},
+                .help = "for curved elements: whether quads with flat corners get a ring of quads"},
                &RepairOptions::flat_corners)
-          .add({.name = "across_cuts",
-                .help =
-                    "of surfaces: whether stages run once more with other cuts, where these were in the way"},
+          .add({.name = "across_cuts", .help = "on surfaces: whether stages run once more with other cuts"},
                &RepairOptions::across_cuts)
           .add({.name = "refine_unsound",
                 .help = "whether sizes are made smaller where the mesh would not be sound"},
                &RepairOptions::refine_unsound)
-          .add(
-              {.name = "ignore_small",
-               .help = "of surfaces: whether what is narrower than a tenth of the size is left out where the "
-                       "mesh would not be sound, as by ignore_below"},
-              &RepairOptions::ignore_small)
+          .add({.name = "ignore_small",
+                .help = "on surfaces: whether parts narrower than a tenth of the size are left out if the "
+                        "mesh would not be sound"},
+               &RepairOptions::ignore_small)
           .add({.name = "keep_given", .help = "whether given quads stay where they would become worse"},
                &RepairOptions::keep_given)
           .add({.name = "at_any_price",

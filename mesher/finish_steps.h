@@ -8,12 +8,14 @@
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
 
+// This header has the steps that finish a mesh after its stages. The pipeline uses it.
+
 namespace delquad {
 
 /// Quads of a cavity, if irregular vertices lie far apart: the cavity reaches from one to another.
 inline constexpr long long kFarQuads = 1000;
 
-/// What is done beside the stages of a pipeline: see finish_steps().
+/// Options of the repairs beside the stages of a pipeline: see finish_steps().
 struct RepairOptions {
   bool part_twins = true;
   bool lift_bad_quads = true;
@@ -47,7 +49,7 @@ struct Finishing {
   std::string label = {};      ///< names case and pipeline in warnings
 };
 
-/// What is done to a mesh beside the letters of its word.
+/// A step of a mesh beside the stages of its pipeline.
 struct FinishStep {
   const char* name;             ///< in records
   const char* time;             ///< in records of times
@@ -66,9 +68,9 @@ void run_finish_steps(FinishAt at, Finishing& on);
 /// Notes the seconds of a step, and adds them to "finish".
 void note_seconds(const char* step, double seconds, Summaries& summaries);
 
-/// Whether faces were cut for a word with such stages, which begin from quads, so that it sees too little:
-/// those that fill cavities, none across a cut. Of a given mesh nodes on cuts can move along these only,
-/// whatever the stage.
+/// Whether cuts hinder such stages, which begin from quads. This holds for stages that fill cavities, as no
+/// cavity crosses a cut. In a given mesh, nodes on cuts can only move along these, so cuts hinder every
+/// stage.
 bool are_cuts_in_the_way(const PreparedProblem& prepared, const std::vector<const Stage*>& of_quads);
 
 /// Runs the stages that begin from quads once more with other cuts, in faces that have cuts. The mesh that

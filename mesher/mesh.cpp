@@ -204,7 +204,7 @@ const std::vector<Quality>& quality_registry() {
       Options().set("curves.round_holes", true).set("recombination.settled", 0.05).set("cleanup.rounds", 10);
   static const std::vector<Quality> registry = {
       {"fast", "DB", CrossKind::kBoundary},
-      // What Q and O move after it need not settle in B. Small cavities that cost nothing.
+      // Q and O move vertices after B, which need not settle before. Cavities are small and cost nothing.
       {"good", "DBQO", CrossKind::kSizeAware,
        Options()
            .set("recombination.settled", 0.05)

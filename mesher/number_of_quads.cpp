@@ -89,10 +89,10 @@ void meet_quads(const MeshAnew& mesh_anew, Prepared& prepared, MeshResult& resul
   result.log.summaries.add("number_of_quads", {{"asked", asked}, {"meshes", meshes}});
   const double got = count_of_quads(result.mesh);
   if (std::abs(got / wanted - 1) > kLimits.tolerance)
-    result.warnings.push_back(
-        fmt::format("{}: {} quads were asked for, and of {} meshes the nearest has {}: curves, layers, grids "
-                    "and places that would not be sound need theirs, and numbers of edges change by leaps",
-                    first.name, asked, meshes, got));
+    result.warnings.push_back(fmt::format(
+        "{}: {} quads were asked for, and of {} meshes the nearest has {}. Fixed numbers of edges, layers, "
+        "grids and small sizes at unsound places leave no nearer number [number-of-quads]",
+        first.name, asked, meshes, got));
 }
 
 }  // namespace delquad

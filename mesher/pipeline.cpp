@@ -89,7 +89,7 @@ PointSize size_of(const MeshProblem& problem) {
   return as_function(planar_base_size(problem.size, std::get<PlanarModel>(problem.model), of_size));
 }
 
-/// Of outlines of data, in sizes.
+/// Tolerance for outlines of data, in sizes.
 constexpr double kSimplify = 0.1;
 
 /// Whether what is done to outlines of data, or is asked for, is to be done to this model.
@@ -142,8 +142,9 @@ MeshProblem without_small_outlines(MeshProblem problem, std::vector<Warning>& to
   return problem;
 }
 
-/// Of a surface whose faces are joined, so that rows run on there: what ends them lies far apart in large
-/// faces. Nothing changes where nothing may cost, and quads of cavities stay where they were asked for.
+/// Returns options for a surface whose faces are joined, so that rows run on there. In large faces the ends
+/// of rows lie far apart. Options that allow no cost stay, and so does a requested number of quads of
+/// cavities.
 Options for_compounds(Options options) {
   constexpr double kMostTolerance = 100;
   const RegularityOptions regularity = regularity_options(options);

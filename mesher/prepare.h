@@ -11,9 +11,11 @@
 #include "geometry/surface/surface_model.h"
 #include "patches/prepared.h"
 
+// This header makes patches, sizes and fields from a problem. The pipeline uses it.
+
 namespace delquad {
 
-/// What a problem gets beside what it asks for, because its mesh would not be sound without.
+/// Changes to a problem without which its mesh would not be sound.
 struct Refinement {
   std::vector<SizeSpot> spots = {};
   /// In the spots: of triangulations, see TriangulatedOptions::kept_features, and what is small, see
@@ -63,8 +65,9 @@ PreparedProblem prepare_by(const MeshProblem& problem, ModelSteps& model);
 /// out of range, and things that contradict each other.
 void check_problem(const MeshProblem& problem);
 
-/// Of a mesh that was given, whose nodes on curves stay: patches that end at these and at cuts along sides of
-/// elements, and the elements within. `given`: its curves and regions. Whatever the number of elements.
+/// Prepares a given mesh, whose nodes on curves stay. Patches end at these curves and at cuts along sides of
+/// elements, and contain the elements. `given`: its curves and regions. The number of elements is not
+/// limited.
 PreparedProblem prepare_given_surface(const MeshProblem& problem, GivenSurface surface, const Mesh& given,
                                       std::shared_ptr<const SizeField> size);
 

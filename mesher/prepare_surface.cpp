@@ -69,7 +69,7 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
         for (const int v : fine.triangles[t]) box.add(fine.points[v]);
     failures.add(face,
                  fmt::format("face {} could not be flattened, not even in pieces: look between {} and {} "
-                             "for triangles without area, or for a fold",
+                             "for triangles without area, or for a fold [not-flattened]",
                              fine.regions[face].tag, show_point(box.low), show_point(box.high)));
   }
 }
@@ -268,7 +268,7 @@ class GivenSurfaceSteps final : public ModelSteps {
  public:
   GivenSurfaceSteps(const MeshProblem& problem, const GivenMesh& given)
       : problem_(problem), mesh_(given.mesh), source_(&given) {}
-  /// Of a mesh that was read.
+  /// Makes the steps for a mesh that was read.
   GivenSurfaceSteps(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,
                     std::shared_ptr<const SizeField> size)
       : problem_(problem), mesh_(mesh), given_(std::move(given)) {

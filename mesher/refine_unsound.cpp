@@ -38,7 +38,7 @@ constexpr long long kCostPerQuad = 300, kStepsPerQuad = 7500, kLooksPerQuad = 30
 /// Larger ones would ask for little else than the whole model.
 constexpr std::size_t kMostSpots = 1000;
 
-/// What is narrower than this part of the size has no room for an edge, and is left out at last.
+/// Parts narrower than this part of the size have no room for an edge, and are left out at last.
 constexpr double kSmall = 0.1;
 
 /// Places within so many sizes of a face that is an image count where its mesh comes from, too.
@@ -88,7 +88,8 @@ void add_spots(const PreparedProblem& prepared, const Soundness& soundness, std:
 Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>& spots) {
   const SizeSpot& least = *std::ranges::min_element(spots, {}, &SizeSpot::size);
   return fmt::format(
-      "{}: around {} place(s) the size is smaller, as the mesh would not be sound: down to {:.3g} at {}",
+      "{}: around {} place(s) the size is smaller, as the mesh would not be sound: down to {:.3g} at {} "
+      "[changed-to-be-sound]",
       prepared.settings.name, spots.size(), least.size,
       show_point(prepared.metric_plane ? prepared.metric_plane->to_plane(least.at) : least.at));
 }
@@ -99,8 +100,8 @@ std::size_t unsound_places(const MeshResult& result) { return result.soundness.p
 Warning warning_of_end(const MeshResult& result, const PreparedProblem& prepared, long long rounds,
                        const char* why) {
   return fmt::format(
-      "{}: smaller sizes around places where the mesh is not sound were tried {} time(s), and {}: {} "
-      "or more such places are left; a model without slivers and spikes there helps",
+      "{}: smaller sizes around places where the mesh is not sound were tried {} time(s), and {}: {} or more "
+      "such places are left. Remove slivers and spikes there from the model [unsound-mesh]",
       prepared.settings.name, rounds, why, unsound_places(result));
 }
 
@@ -182,10 +183,10 @@ void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& 
     work.spend(work_on(other, run));
     make_finer(anew, word, work, other, run);
     if (run.soundness.sound()) {
-      run.warnings.emplace_back(fmt::format(
-          "{}: what is narrower than {:.3g}, a tenth of the size, is left out, as the mesh would not be "
-          "sound: {}; --set repair.ignore_small=false keeps it",
-          prepared.settings.name, kSmall * least, result.soundness.text()));
+      run.warnings.emplace_back(
+          fmt::format("{}: parts narrower than {:.3g}, a tenth of the size, are left out, as the mesh would "
+                      "not be sound: {}. --set repair.ignore_small=false keeps them [changed-to-be-sound]",
+                      prepared.settings.name, kSmall * least, result.soundness.text()));
       run.log.summaries.add(kRefining, {{"ignored_below", kSmall * least}});
       std::swap(prepared, other);
       std::swap(result, run);
@@ -253,7 +254,7 @@ void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& wo
       if (!run.soundness.sound()) continue;
       run.warnings.emplace_back(fmt::format(
           "{}: the mesh is made {}, as it would not be sound: {}; --set repair.refine_unsound=false does not "
-          "try this",
+          "try this [changed-to-be-sound]",
           prepared.settings.name, way_of(last, first), result.soundness.text()));
       if (last.feature_angle > 0)
         run.log.summaries.add(kRefining, {{"feature_angle", last.feature_angle}});

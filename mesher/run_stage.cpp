@@ -54,7 +54,7 @@ void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const
     refuse("triangles without neighbours");
 }
 
-/// What a word begins from with this stage.
+/// Returns the mesh of a patch from which a pipeline begins with this stage.
 PatchMesh given_to(const Stage& stage, const PreparedProblem& prepared, const PreparedPatch& patch) {
   if (patch.given.points.empty())
     throw InputError(fmt::format("{}: '{}' cannot begin a pipeline here: no mesh is given to begin from",
@@ -73,7 +73,7 @@ PatchMesh given_to(const Stage& stage, const PreparedProblem& prepared, const Pr
   return start;
 }
 
-/// What a word begins from with this stage, where that is quads or the halves of quads.
+/// Stores the meshes from which a pipeline begins with this stage, if they are quads or halves of quads.
 void note_given_quads(const Stage& stage, const PreparedProblem& prepared, std::vector<PatchMesh>& given) {
   const bool halves = std::ranges::all_of(
       prepared.patches, [](const PreparedPatch& patch) { return patch.given.triangles.empty(); });
@@ -146,7 +146,7 @@ void count_grids(const PreparedProblem& prepared, StageLog& log) {
   if (faces > 0) log.summaries.add("grids", {{"faces", faces}, {"asked", asked}, {"quads", quads}});
 }
 
-/// Of each patch; tells what was stopped.
+/// Adds the log of each patch, and warns of steps that were stopped.
 void add_logs(const PreparedProblem& prepared, const std::vector<StageLog>& logs, MeshingState& state) {
   for (std::size_t i = 0; i < logs.size(); ++i) {
     for (const char* step : {"treatment", "cleanup"})
@@ -214,7 +214,7 @@ void run_on_patches(const Stage& stage, const PreparedProblem& prepared, Meshing
           if (patches[i].form != stage.to) patches[i] = given_to(stage, prepared, prepared.patches[i]);
           return;
         }
-        // Those that were found are quads like others once they are there.
+        // Quads of automatic grids are quads like others once they exist.
         if (const auto& grid = prepared.patches[i].grid;
             grid && (prepared.patches[i].grid_stays || stage.from != PatchForm::kQuads)) {
           if (patches[i].form != stage.to) patches[i] = grid_as(stage.to, *grid);
@@ -229,7 +229,7 @@ void run_on_patches(const Stage& stage, const PreparedProblem& prepared, Meshing
   add_logs(prepared, logs, state);
 }
 
-/// What is done to all patches together.
+/// Runs a stage on all patches together.
 void run_on_all(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
   std::vector<PatchMesh>& patches = state.patches;
   Finishing finishing{prepared, state, regions_left_out(prepared, state.reasons)};

@@ -14,6 +14,8 @@
 #include "patches/places_inside.h"
 #include "patches/prepared.h"
 
+// This header runs the stages of a pipeline. The pipeline uses it.
+
 namespace delquad {
 
 /// A pipeline on its way: what the stages so far have made of each patch.
@@ -30,11 +32,11 @@ struct MeshingState {
   /// The problem with other nodes on curves, once a stage made these; null: as it was prepared.
   std::shared_ptr<const PreparedProblem> other = {};
 
-  /// What the stages go on from.
+  /// Returns the problem from which later stages start.
   const PreparedProblem& now(const PreparedProblem& prepared) const { return other ? *other : prepared; }
 };
 MeshingState begin_meshing(const PreparedProblem& prepared);
-/// Fills cavities over curves of a surface. What lies on curves changes, and state.other with it.
+/// Fills cavities over curves of a surface. Nodes on curves change, and state.other with them.
 void run_across_curves(const PreparedProblem& prepared, MeshingState& state);
 /// Lays all patches of a surface out anew, with other numbers of edges on curves, where that is better.
 void run_layouts_together(const PreparedProblem& prepared, MeshingState& state);
@@ -63,7 +65,7 @@ void measure_straight_form(const PreparedProblem& prepared, const std::vector<ch
                            MeshResult& result);
 /// The mesh gets the curves and regions that were given, and no other lines.
 void put_back_entities(const GivenEntities& given, Mesh& mesh);
-/// Of a step that would have taken too long, and the tag of a face.
+/// Returns the warning about a step that would have taken too long, with the tag of a face.
 Warning stopped_early(const PreparedProblem& prepared, const std::string& step, int face);
 /// By patch: those whose mesh no step edits.
 std::vector<char> without_edits(const PreparedProblem& prepared, const MeshingState& state);
@@ -75,15 +77,14 @@ MeshResult finish_meshing(const PreparedProblem& prepared, const std::string& la
 /// sound. Throws InputError when the mesher had to stop.
 MeshResult run_word(const PreparedProblem& prepared, const Word& word);
 
-/// The patches as one mesh: boundary nodes, which are at `nodes`, stand once, the points inside each patch
-/// follow. Those of the faces that are `left_out` (by region), and what only they use, are missing. `log`
-/// receives the time of bringing the points back to space, as "projection".
+/// Joins the patches into one mesh. Boundary nodes, at `nodes`, occur once; the points inside each patch
+/// follow. Faces that are `left_out` (by region) are missing, with their own nodes. `log` receives the time
+/// of bringing the points back to space, as "projection".
 Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
               const std::vector<PatchMesh>& patches, const std::vector<char>& left_out,
               StageLog* log = nullptr);
 
-/// What was to be inserted is more than max_elements allow; the message does not say where that was asked
-/// for.
+/// More points were to be inserted than max_elements allow. The message has no place of the request.
 class TooManyPoints : public InputError {
  public:
   using InputError::InputError;

@@ -144,7 +144,7 @@ void adapt_and_merge(const StageInput& in, PatchMesh& patch, StageLog& log) {
   merge_greedily(patch, log, {kGoodPair, true, 0});
 }
 
-/// What `work`, clean_up() or make_regular(), makes of a patch, unless it closes too tightly.
+/// Applies `work`, clean_up() or make_regular(), to a patch, unless the result closes too tightly.
 template <class Summary, class Options>
 void lessen_irregular(QuadPatch (*work)(const QuadPatch&, const ParametricSize&, const Options&, Summary*),
                       const Options& options, const char* step, const StageInput& in, PatchMesh& patch,
@@ -154,7 +154,7 @@ void lessen_irregular(QuadPatch (*work)(const QuadPatch&, const ParametricSize&,
     QuadPatch result = work(patch.quads, in.size, options, &summary);
     discarded = closes_too_tightly(result, in.boundary.point_node);
     if (!discarded) patch.quads = std::move(result);
-    // What was taken back has changed nothing, and taken its time.
+    // Discarded work changed nothing, but took its time.
     if (discarded)
       summary = {.irregular_before = summary.irregular_before,
                  .irregular_after = summary.irregular_before,
@@ -171,7 +171,7 @@ void fill_cavities(const StageInput& in, PatchMesh& patch, StageLog& log) {
   lessen_irregular(make_regular, regularity_options(in.options), "regularity", in, patch, log);
 }
 
-/// What has no layout, or one that closes too tightly, is meshed by D and B.
+/// Patches without a layout, and patches whose layout closes too tightly, are meshed by D and B.
 void lay_out_or_insert(const StageInput& in, PatchMesh& patch, StageLog& log) {
   log_step<LayoutSummary>(log, "layout", [&](LayoutSummary& summary) {
     auto mesh = lay_out(in.boundary, in.cross, in.size, layout_options(in.options), &summary);
@@ -203,9 +203,9 @@ void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
 Vec3 as_place(const Vec2& p, double z) { return {p.x, p.y, z}; }
 Vec3 as_place(const Vec3& p, double) { return p; }
 
-/// Vertices of quads that are worse now than the worst that were given go back, by halves of the way at
-/// first. Those of quads that were not sound before stay where they are, as those near quads that are not
-/// sound yet.
+/// Moves vertices back if their quads are worse now than the worst given quad, by halves of the way at first.
+/// Vertices of quads that were unsound before stay where they are, as do vertices near quads that are still
+/// unsound.
 template <class Vec>
 void hold_worst(const PreparedProblem& prepared, const std::vector<Vec>& before,
                 const std::vector<Vec2>& positions, const std::vector<std::array<int, 4>>& quads,
@@ -431,12 +431,12 @@ WordStart word_start(const Model& model) {
 
 Word parse_word(const std::string& text, WordStart start) {
   const std::string label = "pipeline '" + text + "': ";
-  if (text.empty()) throw InputError("empty pipeline: expected letters of " + known_letters());
+  if (text.empty()) throw InputError("empty pipeline: expected stages of " + known_letters());
   Word word{text, {}, PatchForm::kBoundary};
   for (const char letter : text) {
     const auto stage = std::ranges::find(stages(), letter, &Stage::letter);
     if (stage == stages().end())
-      throw InputError(label + "unknown letter '" + std::string(1, letter) + "'; known: " + known_letters() +
+      throw InputError(label + "unknown stage '" + std::string(1, letter) + "'; known: " + known_letters() +
                        capitals_suggestion(text));
     const bool begins = word.stages.empty() && start == WordStart::kGivenMesh;
     if (stage->from != word.result && !begins)

@@ -272,7 +272,8 @@ void refuse_without_length(const Mesh& fine, const SurfaceCurves& curves) {
             curves.maps[p].face,
             fmt::format(
                 "{}: its curve {} has no length: all of it lies at {}. The face touches itself there, or "
-                "the model is damaged: change the model, or leave the face out (--keep-going)",
+                "the model is damaged: change the model, or leave the face out (--keep-going) "
+                "[curve-without-length]",
                 face_name(fine, curves.maps[p]), fine.curves[chain.curve].tag, show_point(at)));
       }
 }

@@ -90,8 +90,8 @@ MeshField transferred(const Mesh& from, const MeshField& field, const Mesh& to, 
   return made;
 }
 
-/// All fields of the files on the next mesh, of those of one name the last. Those whose values are no numbers
-/// are left out, which is told.
+/// Returns all fields of the files on the next mesh. If several have one name, the last one counts. Fields
+/// whose values are no numbers are left out with a warning.
 std::vector<MeshField> carried_over(const Mesh& from, std::span<const SolutionFile> files,
                                     const std::vector<SolutionField>& asked, const Mesh& to, Transfer how,
                                     std::vector<Warning>& warnings) {
@@ -126,15 +126,14 @@ void print_errors(double norm, const Mesh& mesh, const std::vector<NodalField>& 
   }
 }
 
-/// What was meshed, so that names that a file lost on its way are missed.
+/// Prints how many regions and curves the mesh bounds, so that lost names are noticed.
 void print_traced(const Mesh& mesh) {
   const auto count = [](const std::vector<Entity>& entities, const std::string& kind) {
     const auto named = std::ranges::count_if(entities, [](const Entity& e) { return !e.names.empty(); });
     return fmt::format("{} {}{} ({} with names)", entities.size(), kind, entities.size() == 1 ? "" : "s",
                        named);
   };
-  fmt::print("  of what the mesh bounds: {}, {}\n", count(mesh.regions, "region"),
-             count(mesh.curves, "curve"));
+  fmt::print("  traced from the mesh: {}, {}\n", count(mesh.regions, "region"), count(mesh.curves, "curve"));
 }
 
 void print_carried(const std::vector<MeshField>& carried) {

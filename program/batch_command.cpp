@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of all parts in a folder, which make an experiment.
+/// Arguments for all parts in a folder, which make an experiment.
 struct BatchArguments : SweepArguments {
   std::optional<std::string> size;
   std::string quality = "best", criteria = "batch";
@@ -84,7 +84,7 @@ std::string experiment_of(const BatchArguments& arguments, const std::map<std::s
   return text;
 }
 
-/// Of the parts that are done; what an earlier run wrote of others goes.
+/// Writes the meshes of the finished parts, and removes the other files of an earlier run.
 void write_parts(const fs::path& meshes, const std::string& extension,
                  const std::vector<CellRecord>& records) {
   prepare_folder(meshes);

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+// This header has the commands of the program. The program uses it.
+
 namespace delquad {
 
 /// Exit codes of the program, besides those in interrupt.h.

@@ -33,9 +33,9 @@ constexpr const char* kExitCodes =
     "rerun), or cells or measures failed (run). 2: bad input. 3: triangles are left among the quads, and "
     "written.\n"
     "4: faces were left out (--keep-going). 5: the mesh is not sound. 130: interrupted (Ctrl-C). 143: "
-    "terminated.";
+    "terminated.\nA message that ends with [an-id] is explained in docs/troubleshooting.md#an-id.";
 
-/// What all commands have in common.
+/// The common arguments of all commands.
 struct CommonArguments {
   bool quiet = false, all = false, version = false;
   double time_limit = 0;             ///< seconds; 0: none
@@ -155,7 +155,7 @@ int run_command_line(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help
-    fmt::print(stderr, "error: {} ('delquad help' and 'delquad help COMMAND' tell what is)\n",
+    fmt::print(stderr, "error: {} ('delquad help' and 'delquad help COMMAND' list commands and options)\n",
                reason_of(error, app, argc, argv));
     return kBadInput;
   }

@@ -70,8 +70,8 @@ std::vector<Vec3> chain_of(const Mesh& mesh, const std::vector<std::array<int, 2
     points.push_back(mesh.points[at]);
   }
   if (points.size() != lines.size() + 1)
-    refuse("{}: beside one chain of {} lines there are {} that close", where, points.size() - 1,
-           lines.size() + 1 - points.size());
+    refuse("{}: expected one chain of lines, found one of {} lines and {} lines of closed curves", where,
+           points.size() - 1, lines.size() + 1 - points.size());
   return points;
 }
 
@@ -147,7 +147,7 @@ SweepPath path_of(const ExtrudeArguments& arguments, const Mesh& mesh) {
   require_with(arguments.thickness.has_value(), "--thickness", arguments.normals || !arguments.along.empty(),
                "--along and --normals");
   if (arguments.layers == 0 && arguments.curve.empty())
-    throw InputError("--layers is missing: how many there are to be");
+    throw InputError("--layers is missing: expected a number of layers");
   if (!arguments.along.empty()) {
     const auto v = read_list("--along", arguments.along, 3, "0,0,2.5");
     Vec3 shift{v[0], v[1], v[2]};

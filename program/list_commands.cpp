@@ -8,14 +8,39 @@
 #include "io/cases/case_keys.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
+#include "metrics/judgement/criteria.h"
+#include "metrics/metric_measures.h"
+#include "metrics/solve/solver_metrics.h"
+#include "metrics/tables/result_records.h"
 #include "program/commands.h"
 #include "program/options.h"
 
 namespace delquad {
 namespace {
 
-int schema_command(const bool& options) {
-  fmt::print("{}", options ? option_table_text() : experiment_schema());
+struct SchemaArguments {
+  bool options = false, measures = false;
+};
+
+std::string measure_table_text() {
+  std::vector<Metric> all(metric_registry().begin(), metric_registry().end());
+  const auto add = [&](const std::vector<Metric>& more) { all.insert(all.end(), more.begin(), more.end()); };
+  add(metrics_by_metric());
+  add(criteria_metrics());
+  for (const std::string& solver : solver_names()) add(metrics_of_solver(solver));
+  add(columns_of_records());
+  constexpr const char* kBetter[] = {"higher", "lower", "-"};
+  std::string text = "| measure | unit | better | meaning |\n|---|---|---|---|\n";
+  for (const Metric& metric : all)
+    text += fmt::format("| `{}` | {} | {} | {} |\n", metric.key, metric.unit.empty() ? "-" : metric.unit,
+                        kBetter[static_cast<int>(metric.better)], metric.source);
+  return text;
+}
+
+int schema_command(const SchemaArguments& arguments) {
+  fmt::print("{}", arguments.options    ? option_table_text()
+                   : arguments.measures ? measure_table_text()
+                                        : experiment_schema());
   return kDone;
 }
 
@@ -71,10 +96,13 @@ int example_command(const ExampleArguments& arguments) {
 }  // namespace
 
 void add_lists(CLI::App& app, Commands& commands) {
-  const auto [schema, options] =
+  const auto [schema, arguments] =
       add_command(app, commands, "schema",
                   "Print the JSON Schema of experiment files, for editors and checkers", schema_command);
-  schema->add_flag("--options", options, "print the options of the stages as a table (Markdown) instead");
+  CLI::Option* options = schema->add_flag("--options", arguments.options,
+                                          "print the options of the stages as a table (Markdown) instead");
+  schema->add_flag("--measures", arguments.measures, "print the measures as a table (Markdown) instead")
+      ->excludes(options);
   commands.back().only_prints = [] { return true; };
   CLI::App* formats = app.add_subcommand(
       "formats", "List the kinds of mesh files: what is read, what is written, up to which order");

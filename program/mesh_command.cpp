@@ -135,11 +135,12 @@ int tell_what_is_missing(const MeshResult& result, const Word& word, bool quads_
   if (!quads_wanted || result.mesh.triangles.empty()) return kDone;
   const std::size_t n = result.mesh.triangles.size();
   fmt::print(stderr,
-             "error: {} {} left among the quads of what was written (--allow-triangles accepts them{})\n", n,
-             n == 1 ? "triangle is" : "triangles are",
+             "error: {} {} left among the quads of the written mesh (--allow-triangles accepts them{}) "
+             "[odd-boundary]\n",
+             n, n == 1 ? "triangle is" : "triangles are",
              word.stages.front()->from != PatchForm::kQuads
                  ? ""
-                 : "; a word that begins with B, such as BCO, merges triangles");
+                 : "; a pipeline that begins with B, such as BCO, merges triangles");
   return kTrianglesLeft;
 }
 

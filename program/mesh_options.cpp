@@ -160,7 +160,7 @@ void add_set(CLI::App& mesh, MeshArguments& arguments) {
       ->allow_extra_args(false);
 }
 
-/// What comes out, and how.
+/// Adds the options for results and their form.
 void add_mesh_output(CLI::App& mesh, MeshArguments& arguments) {
   mesh.add_option("-o,--output", arguments.output,
                   "write the mesh to this file (.msh, .vtu, .inp, ...: 'delquad formats' lists all), or a "

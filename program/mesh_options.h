@@ -9,6 +9,8 @@
 #include "base/parallel.h"
 #include "io/cases/case.h"
 
+// This header has the command-line options of meshing. The program uses it.
+
 namespace delquad {
 
 /// Keys of a problem that the command line sets.

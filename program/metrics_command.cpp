@@ -108,7 +108,8 @@ int metrics_command(const MetricsArguments& arguments) {
   MeshMetrics metrics = evaluate_metrics(mesh, size.get());
   if (!arguments.solvers.empty() || arguments.links) require_straight(mesh, arguments.mesh.string());
   if (arguments.links && holds_surface(mesh))
-    throw InputError(arguments.mesh.string() + ": --links is for planar meshes: this is a surface in space");
+    throw InputError(arguments.mesh.string() +
+                     ": --links is for planar meshes: this is a surface in space [planar-format]");
   if (mesh.order > 1) add_curved(mesh, metrics);
   for (const std::string& solver : arguments.solvers) add_solver(mesh, solver, metrics);
   FlowLinks links;

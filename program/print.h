@@ -16,7 +16,7 @@ void print_metrics(const MeshMetrics& metrics);
 /// The measures that tell most, in three lines: shapes, sizes, and how quads meet.
 void print_summary(const MeshMetrics& metrics);
 
-/// What parts of a mesh are called, in one line; none where no part has a name.
+/// Prints the names of the parts of a mesh in one line, and nothing if no part has a name.
 void print_names(const Mesh& mesh);
 
 /// How a mesh does by criteria, and why.

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of commands on folders of results, each of which has its own.
+/// Arguments of commands on folders of results; each command has its own copy.
 struct ResultsArguments {
   fs::path folder;  ///< of rerun: a record
   fs::path output, data = kDataFolder;

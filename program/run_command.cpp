@@ -30,7 +30,7 @@ struct RunArguments : SweepArguments {
   bool allow_triangles = false;
 };
 
-/// Of "i/n".
+/// Returns the shard of "i/n".
 std::optional<Shard> shard_of(const std::string& text) {
   const auto slash = text.find('/');
   const auto index = as_number(text.substr(0, slash));
@@ -42,7 +42,7 @@ std::optional<Shard> shard_of(const std::string& text) {
   return Shard{static_cast<std::size_t>(*index), static_cast<std::size_t>(*count)};
 }
 
-/// Those that are named, and the peers of further files: of each the ones that are named, or else all.
+/// Chooses the named pipelines, and the peers of further files: the named ones of each, or else all.
 void choose_pipelines(const RunArguments& arguments, Experiment& experiment) {
   std::vector<std::string> pipelines;
   for (const Word& word : experiment.words) pipelines.push_back(word.text);
@@ -218,10 +218,10 @@ int exit_code(const Outcome& outcome, bool allow_triangles) {
   if (outcome.bad_inputs > 0) return kBadInput;
   if (outcome.unsound > 0) return kUnsound;
   if (outcome.leftover_triangles == 0 || allow_triangles) return kDone;
-  fmt::print(
-      stderr,
-      "error: {} triangles are left among the quads of what was written (--allow-triangles accepts them)\n",
-      outcome.leftover_triangles);
+  fmt::print(stderr,
+             "error: {} triangles are left among the quads of the written mesh (--allow-triangles accepts "
+             "them) [odd-boundary]\n",
+             outcome.leftover_triangles);
   return kTrianglesLeft;
 }
 
@@ -234,7 +234,8 @@ void add_run(CLI::App& app, Commands& commands) {
   run->add_option("-o,--output", arguments.folder,
                   "folder for the results; of several experiments each has its own in it, by its name");
   add_data(*run, arguments.data);
-  run->add_option("--pipelines", arguments.pipelines, "words such as F,D,FB,DB; else as the file says");
+  run->add_option("--pipelines", arguments.pipelines,
+                  "pipelines such as F,D,FB,DB; default: the pipelines of the file");
   run->add_option("--peer", arguments.peers, "file of other meshers, which are run beside; may be repeated")
       ->allow_extra_args(false);
   add_max_elements(*run, arguments.max_elements);

@@ -8,7 +8,7 @@
 
 namespace delquad {
 
-/// Of commands that run experiments.
+/// The common arguments of commands that run experiments.
 struct SweepArguments {
   std::filesystem::path folder, data = kDataFolder;
   int threads = 0;  ///< of each process; 0: the cores, shared out among the processes

@@ -7,7 +7,8 @@
 #include "report/packed_mesh.h"
 #include "report/page_json.h"
 
-// What pages have in common: each is one HTML file, which needs no other and no network.
+// This header has the common parts of pages. Each page is one HTML file, which needs no other file and no
+// network.
 
 namespace delquad {
 

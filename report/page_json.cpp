@@ -351,8 +351,8 @@ Json energies_json(const Json& energies) {
   return json;
 }
 
-/// How many quads are around the vertices inside: shares as d4 counts them, of all vertices inside. Those
-/// with a triangle have an entry of their own.
+/// Returns shares of the vertices inside by the number of quads around them, as d4 counts them. Vertices with
+/// a triangle have an entry of their own.
 Json valences_json(const Json& record) {
   const Json& all = record.at("valences");
   const Json& metrics = record.at("metrics");

@@ -12,6 +12,8 @@
 #include "metrics/tables/result_records.h"
 #include "metrics/tables/table.h"
 
+// This header makes the data of pages. The report uses it.
+
 namespace delquad {
 
 using Json = nlohmann::ordered_json;
@@ -30,7 +32,7 @@ std::optional<PowerLaw> fit_power_law(const std::vector<double>& x, const std::v
 /// follow where there are three sizes or more, the largest at least four times the smallest.
 Json growth_json(const std::vector<CellRecord>& records);
 
-/// What letters and measures mean, and colours by eta.
+/// Returns the meaning of stages and measures, and colors by eta.
 Json glossary_json();
 
 /// The parts that are the same for all pages, from report/page/ and report/three/, those of pages of results
@@ -46,9 +48,9 @@ std::string seed_of(const CellRecord& record);
 /// width of their 95 % confidence intervals, by column key. Empty where no pipeline has two.
 Json means_json(std::span<const CellRecord* const> cells, const std::vector<TableColumn>& columns);
 
-/// What the cells that are done have in each column, for charts of their spread: `sheets` with
-/// their `cases`, `words` and `keys`, and `cells`, each with the places of its sheet and word, then a value
-/// or null for each key.
+/// Returns the values of finished cells in each column, for charts of their spread. `sheets` have `cases`,
+/// `words` and `keys`. `cells` have the places of their sheet and pipeline, then a value or null for each
+/// key.
 Json samples_json(const std::vector<CellRecord>& records, const std::vector<TableColumn>& columns);
 
 /// With five digits, more than a chart shows; null of NaN.
@@ -72,10 +74,10 @@ Json closeups_json(const Mesh& mesh, std::size_t count);
 
 using Json = nlohmann::ordered_json;
 
-/// What a page says of one cell: from its record, and from its mesh where there is one.
+/// Returns the data of a page on one cell, from its record, and from its mesh if there is one.
 Json cell_json(const Json& record, const std::optional<Mesh>& mesh);
 
-/// What holds for a variant of a case, by the record of one of its cells: pairs of texts.
+/// Returns the facts of a variant of a case, by the record of one of its cells: pairs of texts.
 Json facts_json(const Json& record);
 
 }  // namespace delquad

@@ -41,7 +41,7 @@ struct Contents {
 
 bool has_study(const fs::path& folder) { return fs::exists(folder / "study.json"); }
 
-/// Of what there is in a folder, in the order of the names.
+/// Returns the wanted entries of a folder, in the order of the names.
 std::vector<fs::path> list(const fs::path& folder, const std::function<bool(const fs::path&)>& wanted) {
   std::error_code error;
   std::vector<fs::path> found;
@@ -118,7 +118,8 @@ class Page {
     return json;
   }
 
-  /// Of each its name, and its text, or under `left_out` where it lies, when there is no room for it.
+  /// Returns for each drawing its name and its text. If there is no room for it, returns its place under
+  /// `left_out`.
   Json drawings_json(const std::vector<fs::path>& files) {
     Json json = Json::array();
     for (const fs::path& file : files) {
@@ -212,7 +213,7 @@ class Page {
     }
   }
 
-  /// Those beyond the criteria of the case, where it has some.
+  /// Returns the quads beyond the criteria of the case, if it has criteria.
   static std::vector<std::size_t> failing_quads(const Json& record, const Mesh& mesh) {
     std::vector<std::size_t> failing;
     for (const Json& quad : record.value("/criteria/failing_quads"_json_pointer, Json::array()))

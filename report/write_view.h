@@ -9,15 +9,16 @@
 
 namespace delquad {
 
-/// What is known of a mesh besides.
+/// Further data on a mesh.
 struct ViewNotes {
   std::vector<std::string> warnings = {};
   std::vector<std::size_t> failing = {};  ///< quads beyond criteria, which have a colour of their own
 };
 
-/// Makes one HTML file that shows a mesh: shape, sizes, names that are switched on and off, worst quads. Of
-/// meshes above 1.7 million quads it shows some elements, and says so. It is written whole or not at all.
-/// Throws InputError for a mesh without triangles, quads and lines, and for a file that cannot be written.
+/// Writes one HTML file that shows a mesh: shape, sizes, names that are switched on and off, worst quads. If
+/// a mesh has more than 1.7 million quads, the page shows some elements, and says so. The file is written
+/// whole or not at all. Throws InputError for a mesh without triangles, quads and lines, and for a file that
+/// cannot be written.
 void write_view(const std::filesystem::path& file, const Mesh& mesh, const std::string& title,
                 const ViewNotes& notes = {});
 

@@ -293,14 +293,17 @@ namespace {
 const OptionTable<CleanupOptions>& table() {
   static const auto all =
       OptionTable<CleanupOptions>("cleanup", "options of C")
-          .add({.name = "rounds", .help = "of annealing; 0: greedy only", .least = 0, .most = 1e6},
+          .add({.name = "rounds",
+                .help = "rounds of annealing; 0: greedy edits only",
+                .least = 0,
+                .most = 1e6},
                &CleanupOptions::rounds)
           .add({.name = "tolerance",
-                .help = "what an edit may cost in the first round",
+                .help = "quality that an edit may cost in the first round",
                 .above = 0,
                 .most = 1},
                &CleanupOptions::tolerance)
-          .add({.name = "seed", .help = "of the annealing", .least = 0}, &CleanupOptions::seed);
+          .add({.name = "seed", .help = "seed of the annealing", .least = 0}, &CleanupOptions::seed);
   return all;
 }
 

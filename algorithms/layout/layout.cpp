@@ -562,7 +562,7 @@ namespace {
 const OptionTable<LayoutOptions>& table() {
   static const auto all = OptionTable<LayoutOptions>("layout", "options of K and R")
                               .add({.name = "tolerance",
-                                    .help = "what an irregular vertex less may cost, for R: quads times eta",
+                                    .help = "price of an irregular vertex in R, in quads times eta",
                                     .least = 0,
                                     .most = 1e9},
                                    &LayoutOptions::tolerance);

@@ -7,6 +7,8 @@
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
 
+// This header has layouts as arcs and pieces. Stages use it.
+
 namespace delquad {
 
 /// A layout as arcs and pieces. An arc is a row of edges between places where lines meet. The joint choice of

@@ -224,27 +224,26 @@ const OptionTable<RegularityOptions>& table() {
   static const auto all =
       OptionTable<RegularityOptions>("regularity", "options of Q")
           .add({.name = "tolerance",
-                .help = "what an irregular vertex less may cost: quads times eta",
+                .help = "price of an irregular vertex, in quads times eta",
                 .least = 0,
                 .most = 100},
                &RegularityOptions::tolerance)
-          .add({.name = "quads", .help = "of a cavity, at most", .least = 1, .most = 2000},
+          .add({.name = "quads", .help = "most quads of a cavity", .least = 1, .most = 2000},
                &RegularityOptions::quads)
           .add({.name = "rounds", .help = "over which the tolerance grows", .least = 1, .most = 1000},
                &RegularityOptions::rounds)
           .add({.name = "weight",
-                .help =
-                    "of irregular vertices against sizes: times curves.agreement, regularity.tolerance and "
-                    "layout.tolerance",
+                .help = "weight of irregular vertices against sizes: factor of curves.agreement, "
+                        "regularity.tolerance and layout.tolerance",
                 .least = 0,
                 .most = 1000},
                &RegularityOptions::weight)
           .add({.name = "across_curves",
-                .help = "of surfaces: whether cavities go over curves, too, whose numbers of edges change"},
+                .help = "on surfaces: whether cavities go over curves, and change their numbers of edges"},
                &RegularityOptions::across_curves)
           .add({.name = "joined",
-                .help = "of surfaces with compounds: so many times the tolerance, with cavities of up to "
-                        "1000 quads; 1: as elsewhere",
+                .help = "factor of the tolerance on surfaces with compounds, with cavities of up to 1000 "
+                        "quads; 1: no change",
                 .least = 1,
                 .most = 100},
                &RegularityOptions::joined);

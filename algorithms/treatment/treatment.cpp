@@ -412,10 +412,10 @@ const OptionTable<RecombinationOptions>& recombination_table() {
   static const auto all =
       OptionTable<RecombinationOptions>("recombination", "options of B and G")
           .add({.name = "solver",
-                .help = "what matches triangles, and makes counts on curves even",
+                .help = "solver that matches triangles, and makes numbers of edges even",
                 .names = matching_solver_names},
                &RecombinationOptions::solver)
-          .add({.name = "cost", .help = "of merging two triangles, in B", .names = merge_cost_names},
+          .add({.name = "cost", .help = "cost of merging two triangles in B", .names = merge_cost_names},
                &RecombinationOptions::cost)
           .choice({.name = "treatment", .help = "after the matching"}, &RecombinationOptions::treatment,
                   std::vector<std::pair<std::string, Treatment>>{{"none", Treatment::kNone},

@@ -110,16 +110,17 @@ void define_mesh(py::module_& m) {
   c.def(py::init(&make_mesh), arg("points"), arg("lines"), arg("line_curve"), arg("triangles"),
         arg("triangle_region"), arg("quads"), arg("quad_region"), arg("curves"), arg("regions"))
       .def_property_readonly("points", view_of(&Mesh::points), "(n, 3) coordinates")
-      .def_property_readonly("lines", view_of(&Mesh::lines), "(n, 2) points of edges on curves")
-      .def_property_readonly("triangles", view_of(&Mesh::triangles), "(n, 3) points")
-      .def_property_readonly("quads", view_of(&Mesh::quads), "(n, 4) points")
-      .def_property_readonly("line_curve", view_of(&Mesh::line_curve), "index into curves of each line")
-      .def_property_readonly("triangle_region", view_of(&Mesh::triangle_region), "index into regions")
-      .def_property_readonly("quad_region", view_of(&Mesh::quad_region), "index into regions")
+      .def_property_readonly("lines", view_of(&Mesh::lines), "(n, 2) indices of points: edges on curves")
+      .def_property_readonly("triangles", view_of(&Mesh::triangles), "(n, 3) indices of points")
+      .def_property_readonly("quads", view_of(&Mesh::quads), "(n, 4) indices of points")
+      .def_property_readonly("line_curve", view_of(&Mesh::line_curve), "index into curves for each line")
+      .def_property_readonly("triangle_region", view_of(&Mesh::triangle_region),
+                             "index into regions for each triangle")
+      .def_property_readonly("quad_region", view_of(&Mesh::quad_region), "index into regions for each quad")
       .def_property_readonly("periodic", &periodic_of,
-                             "(index into curves, that of the master, (n, 2) nodes)")
+                             "(index of a curve, index of its master, (n, 2) pairs of nodes)")
       .def_property_readonly("periodic_faces", &periodic_faces_of,
-                             "(index into regions, that of the master, (n, 2) nodes)")
+                             "(index of a region, index of its master, (n, 2) pairs of nodes)")
       .def_readonly("order", &Mesh::order, "of the elements, 1 to 4; lines and quads are their corners")
       .def_readonly("unit", &Mesh::unit, "of lengths; empty: not known")
       .def("_write_file", &write, arg("path"), arg("binary") = false);
@@ -162,9 +163,10 @@ void define_hexahedra(py::module_& m) {
       .def_property_readonly("quads", view_of<Hexahedra>(&Mesh::quads), "(n, 4) points of quads on faces")
       .def_property_readonly("quad_face", view_of<Hexahedra>(&Mesh::quad_region),
                              "index into faces of each quad")
-      .def_property_readonly("lines", view_of<Hexahedra>(&Mesh::lines), "(n, 2) points of edges on curves")
+      .def_property_readonly("lines", view_of<Hexahedra>(&Mesh::lines),
+                             "(n, 2) indices of points: edges on curves")
       .def_property_readonly("line_curve", view_of<Hexahedra>(&Mesh::line_curve),
-                             "index into curves of each line")
+                             "index into curves for each line")
       .def_property_readonly(
           "unit", [](const Hexahedra& self) { return self.unit; }, "of lengths; empty: not known")
       .def_property_readonly(

@@ -13,6 +13,8 @@
 
 #include "delquad/mesher.h"
 
+// This header turns Python's arguments into problems. The Python module uses it.
+
 namespace delquad::python {
 
 /// Python's thread while it waits for work in another thread. It runs callbacks and notices Ctrl-C, which

@@ -21,6 +21,9 @@ All of these keys may also stand at the top of an experiment, for every case. Mo
 OF_AN_EXPERIMENT = """## Keys of an experiment
 
 `[matrix]` has keys of a model, each with a list of values. `[[variant]]` has a name and keys of a model."""
+MEASURES = """## Measures
+
+These are the keys of `columns`, claims and records. `[[metric]]` and programs add others. "Paper" is [remacle2013](bibliography.bib); the [glossary](glossary.md) has the terms. Measures of metrics, criteria and solvers need a case with these."""
 # Pages that explain a key, or a table of keys.
 EXPLAINED = {
     **dict.fromkeys(["loop", "pattern", "curve", "embed"], "models.md#shapes"),
@@ -89,6 +92,7 @@ def main():
     seen = set()
     print(HEAD, *rows(OF_A_MODEL, case, seen, EXPLAINED), *rows(OF_AN_EXPERIMENT, {"properties": own}, seen, {**EXPLAINED, "metric": "experiments.md#metrics-by-command"}), sep="", end="")
     print("\n## Options of the stages\n\n" + said("--options"), end="")
+    print(f"\n{MEASURES}\n\n" + said("--measures"), end="")
 
 
 if __name__ == "__main__":

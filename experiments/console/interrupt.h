@@ -6,6 +6,8 @@
 
 #include "base/activity.h"
 
+// This header handles signals and the time limit. The program and the bench use it.
+
 namespace delquad {
 
 /// Exit codes after Ctrl-C (SIGINT) and after SIGTERM: 128 and the signal's number, as shells have it.
@@ -56,8 +58,8 @@ class TimeLimit {
   std::unique_ptr<Watch> watch_;
 };
 
-/// What this program is at, for its bar, its time limit and signal handlers: the run that main() makes tells
-/// it, and those inside of that.
+/// Returns the current activities of this program, for its bar, its time limit and signal handlers. The run
+/// that main() makes reports them, and runs inside of that run.
 Activities& program_activities();
 
 }  // namespace delquad

@@ -10,6 +10,8 @@
 
 #include "base/warning.h"
 
+// This header prints progress and warnings. The program and the bench use it.
+
 namespace delquad {
 
 /// How much the program tells besides its results: errors only, or warnings of a kind in one line each, or
@@ -39,7 +41,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// What begins now.
+  /// Shows the step that begins now.
   void step(const std::string& label);
   /// Steps that will not be taken.
   void skip(int steps);

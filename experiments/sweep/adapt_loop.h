@@ -18,9 +18,9 @@ void check_adapt(const Case& c);
 /// Its solution with the gradient; empty where it has none. `c` need not outlive it.
 Solution solution_of(const Case& c);
 
-/// What `make` makes of the case; where this asks for a loop, the last of the meshes of it: Poisson's
-/// equation is solved on each, and its solution asks for the next one. Times are those of all. A seed does
-/// not turn the domain, but asks for up to 3 % more quads.
+/// Returns the mesh that `make` makes of the case. If the case asks for a loop, returns the last mesh of the
+/// loop. Poisson's equation is solved on each mesh, and its solution asks for the next one. Times are sums
+/// over all meshes. A seed does not turn the domain, but asks for up to 3 % more quads.
 MeshResult mesh_in_loop(const Case& c, const std::function<MeshResult(const Case&)>& make);
 
 }  // namespace delquad

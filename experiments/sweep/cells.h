@@ -12,8 +12,8 @@ namespace delquad {
 /// Digest of what a case is made from: the bytes of its file, or its curves, loops and names.
 std::string model_digest(const Case& c);
 
-/// Of parts that are in no file of the program: the text counts as the program's bytes do, and cells made
-/// with another are made anew. To be called before cells are identified.
+/// Sets the text of parts that are in no file of the program. The text counts as the program's bytes do, and
+/// cells made with another text are repeated. Call this before cells are identified.
 void set_added_parts(const std::string& text);
 
 /// The cell of a pipeline on a variant of a case.

@@ -13,14 +13,14 @@
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/inference.h"
 
-// What a run would do, and what it could prove.
+// This file tells which cells a run would make, and which differences it could prove.
 
 namespace delquad {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// What is measured of a case beside the registry.
+/// Returns the measures of a case that are not in the registry.
 std::vector<Metric> own_measures_of(const Experiment& experiment, const Case& c) {
   std::vector<Metric> own;
   const auto add = [&](const std::vector<Metric>& more) { own.insert(own.end(), more.begin(), more.end()); };

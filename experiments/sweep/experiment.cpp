@@ -22,7 +22,7 @@
 namespace delquad {
 namespace {
 
-/// What one of the keys is, up to a dot: commands may give several values.
+/// Whether the text is one of the keys, up to a dot: commands may give several values.
 bool is_known(const std::string& metric, const std::vector<std::string>& known) {
   return std::ranges::find(known, metric) != known.end() ||
          std::ranges::find(known, metric.substr(0, metric.find('.'))) != known.end();
@@ -77,7 +77,7 @@ std::vector<PublishedRow> read_published(const std::filesystem::path& file,
   return rows;
 }
 
-/// Those of another experiment first.
+/// Returns the cases of an experiment; cases of another experiment come first.
 std::vector<TomlTable> read_cases(const TomlTable& table) {
   std::vector<TomlTable> own = table.tables("case");
   if (!table.has("cases_of")) return own;
@@ -237,7 +237,7 @@ Word Experiment::find_pipeline(const std::string& text) const {
 }
 
 std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& texts) const {
-  if (texts.empty()) throw InputError("no pipeline given: expected words such as DB");
+  if (texts.empty()) throw InputError("no pipeline given: expected pipelines such as DB");
   std::vector<Word> found;
   for (const std::string& text : texts) {
     if (std::ranges::find(found, text, &Word::text) != found.end())
@@ -279,7 +279,10 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   read_case_keys(table, experiment.defaults_);
   read_study_keys(table, experiment.defaults_);
   if (experiment.cases_.empty())
-    refuse("{}: no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh'", file.string());
+    refuse(
+        "{}: no cases: expected [[case]] tables; a model by itself goes to 'delquad mesh' "
+        "[experiment-or-model]",
+        file.string());
   std::vector<std::string> names;
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {
     const std::string name = experiment.cases_[i].text("name");

@@ -12,6 +12,8 @@
 #include "io/cases/toml_reader.h"
 #include "metrics/tables/study_file.h"
 
+// This header has experiments as files describe them. The bench and the report use it.
+
 namespace delquad {
 
 /// An option that an experiment varies.
@@ -94,7 +96,7 @@ class Experiment : public TablePlan, public ExperimentKeys {
 const Axis& find_axis(const std::vector<Axis>& axes, const std::string& title, const TomlTable& table,
                       const char* key);
 
-/// What its folder of results says of it.
+/// Returns the description of the experiment for its folder of results.
 StudyFile describe(const Experiment& experiment);
 
 }  // namespace delquad

@@ -15,7 +15,7 @@ namespace delquad {
 /// the experiment's file, as seen from `folder`. Throws InputError when something cannot be written.
 std::filesystem::path keep_experiment(const Experiment& experiment, const std::filesystem::path& folder);
 
-/// What is wrong with the copies in a folder of results, a line each.
+/// Returns the errors in the copies in a folder of results, a line each.
 std::vector<std::string> check_copies(const std::filesystem::path& folder);
 
 }  // namespace delquad

@@ -44,8 +44,8 @@ inline constexpr auto kFields<Peer> = std::tuple(
     field("exit_codes", &Peer::exit_codes, "exit codes with which its mesh is worth a look",
           {.least = 0, .most = 255}),
     field("keeps_boundary", &Peer::keeps_boundary, "whether it has the boundary's edges"),
-    field("planar", &Peer::planar, "what it gets of planar domains", {.words = "boundary|triangles|none"}),
-    field("surfaces", &Peer::surfaces, "what it gets of surfaces", {.words = "file|triangles|none"}),
+    field("planar", &Peer::planar, "input for planar domains", {.words = "boundary|triangles|none"}),
+    field("surfaces", &Peer::surfaces, "input for surfaces", {.words = "file|triangles|none"}),
     field("size_field", &Peer::size_field, "format of the file that {size_field} stands for",
           {.words = "pos|sol|points"}),
     field("metrics", &Peer::metrics, "whether it knows metrics, and finds their tensors in that file"),
@@ -68,7 +68,7 @@ inline constexpr auto kFields<MetricCommand> =
                ignored(&MetricCommand::folder, "the contents of its files count"));
 template <>
 inline constexpr auto kFields<ExperimentKeys> = std::tuple(
-    field("pipelines", &ExperimentKeys::pipelines, "words of stages and names of peers",
+    field("pipelines", &ExperimentKeys::pipelines, "pipelines and names of peers",
           {.no_result = "the plan has the pipelines that are run"}),
     field("peer", &ExperimentKeys::peers, "other meshers"),
     field("peer_files", &ExperimentKeys::peer_files, "files with further peers",

@@ -27,7 +27,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// What looks like placeholders, such as "{input}"; not "${input}", which is the shell's.
+/// Returns the placeholders, such as "{input}", but not "${input}", which belongs to the shell.
 std::vector<std::string> names_in_braces(const std::string& word) {
   std::vector<std::string> names;
   const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
@@ -91,7 +91,7 @@ void check_folder_name(const TomlTable& table, const std::string& name,
                        (other == name ? "" : ": beside '" + other + "' it would share its folder"));
   for (const std::string& file : result_files())
     if (lower_case(name) == file)
-      refuse("{}: '{}' names a folder, but that of a file of results", table.where("name"), name);
+      refuse("{}: '{}' is the name of a file of results: expected another name", table.where("name"), name);
 }
 
 namespace {
@@ -162,7 +162,7 @@ void finish_reading(const TomlTable& table, Peer& peer) {
   check_folder_name(table, peer.name, {});
   if (!std::islower(static_cast<unsigned char>(peer.name[0])))
     throw InputError(table.where("name") + ": '" + peer.name +
-                     "': the name of a peer begins with a small letter, unlike words of stages");
+                     "': the name of a peer begins with a small letter, unlike pipelines");
   check_command(table, "command", peer.command);
   check_command(table, "version", peer.version);
   check_placeholders(table, peer.command, peer_placeholders(), {{"{input}", "{case}"}, {"{output}"}});
@@ -199,7 +199,7 @@ void Experiment::settle_calibration(const TomlTable& table) {
     calibrate_to = *first;
   else if (calibrate)
     throw InputError(table.where("calibrate") +
-                     ": 'pipelines' has no word that makes quads: expected 'calibrate_to = \"DBCO\"'");
+                     ": 'pipelines' has no pipeline that makes quads: expected 'calibrate_to = \"DBCO\"'");
   if (calibrate || table.has("calibrate_to"))
     calibrate_where = table.where(calibrate ? "calibrate" : "calibrate_to");
   add_peers(table.tables("peer"), std::exchange(peers, {}));
@@ -221,7 +221,7 @@ void Experiment::add_peers(const std::vector<TomlTable>& tables, std::vector<Pee
     if (!*peer.calibrate) peer.calibrate_to.clear();
     if (*peer.calibrate && peer.calibrate_to.empty())
       throw InputError(table.where("calibrate") +
-                       ": 'calibrate' needs a word of ours: 'pipelines' has none " +
+                       ": 'calibrate' needs a pipeline of Delquad: 'pipelines' has none " +
                        "that makes quads: expected 'calibrate_to = \"DBCO\"'");
     peers.push_back(std::move(peer));
   }
@@ -285,7 +285,7 @@ void Experiment::check_hypothesis(const TomlTable& table, const Hypothesis& h) c
 }
 
 void Experiment::check_hypotheses() const {
-  // What a peer can be told is known of these without looking into files.
+  // The keys of a peer tell which cases it can mesh, without a look into files.
   const auto may_mesh = [&](const Word& word, const Case& c) {
     const Peer* peer = peer_of(word);
     if (peer == nullptr) return word.result == PatchForm::kQuads;

@@ -120,7 +120,7 @@ void FolderLock::lock(const std::filesystem::path& path, bool shared) {
   if (errno != EWOULDBLOCK)
     refuse("{}: cannot be locked: {}", path.string(), std::generic_category().message(errno));
   throw InputError(path.parent_path().string() +
-                   ": another run works on this folder: wait for it, or give another folder");
+                   ": another run works on this folder: wait for it, or give another folder [folder-in-use]");
 }
 
 }  // namespace delquad

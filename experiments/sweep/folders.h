@@ -11,10 +11,10 @@ namespace delquad {
 /// its record lists, and those that runs without a record leave. Files of others stay.
 void remove_cell(const std::filesystem::path& folder);
 
-/// Makes a cell's folder anew: `write` fills a temporary folder beside it, which then takes its place, so
-/// that the files appear together or not at all (one by one where the folder holds files of others, which
-/// stay). What an earlier run left there is removed in any case. Ctrl-C waits meanwhile. Throws InputError
-/// when something cannot be written.
+/// Replaces a cell's folder. `write` fills a temporary folder beside it, which then takes its place. So the
+/// files appear together or not at all. If the folder holds files of others, they stay, and new files appear
+/// one by one. Files of an earlier run are removed in any case. Ctrl-C waits meanwhile. Throws InputError if
+/// something cannot be written.
 void write_cell(const std::filesystem::path& folder,
                 const std::function<void(const std::filesystem::path&)>& write);
 

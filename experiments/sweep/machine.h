@@ -9,7 +9,7 @@
 
 namespace delquad {
 
-/// What the program runs on.
+/// The machine that the program runs on.
 struct Machine : SystemNames {
   unsigned processors = 0;
 };

@@ -59,7 +59,7 @@ void count_cells(StudyFile& study) {
   for (const auto& [title, values] : study.axes) study.cells *= values.size();
 }
 
-/// Of the model and the mesh.
+/// Returns the digests of the model and the mesh.
 std::array<std::string, 2> digests_of(const CellRecord& record) {
   std::ifstream in(record.folder / "record.json");
   try {

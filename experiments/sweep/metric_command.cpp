@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of what a program printed: as much as is read, and as much as is shown in a message.
+/// Limits for the output of a program: bytes that are read, and bytes that a message shows.
 constexpr std::size_t kMostRead = std::size_t{1} << 20, kMostShown = 200;
 
 std::string told_size(const Case& c) {

@@ -9,6 +9,8 @@
 #include "delquad/metrics.h"
 #include "io/cases/case.h"
 
+// This header has measures that other programs take. The bench uses it.
+
 namespace delquad {
 
 /// A measure that another program takes of each mesh of an experiment.
@@ -23,10 +25,10 @@ struct MetricCommand {
   std::filesystem::path folder = {};    ///< of the experiment
 };
 
-/// What stands for something in the words of its command.
+/// Returns the placeholders in the arguments of a metric's command.
 const std::vector<std::string>& metric_placeholders();
 
-/// What it said of one mesh.
+/// The output of the command for one mesh.
 struct MetricOutcome {
   /// By key: that of the metric, or, when it gave several, "metric.name". NaN: it is not defined.
   std::map<std::string, double> values = {};

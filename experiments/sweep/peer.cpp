@@ -41,7 +41,7 @@ std::optional<nlohmann::json> valid_record(const ReferenceCell& cell) {
 
 /// Found in a process of its own: whatever becomes of that, it is not the peer that failed.
 std::optional<double> quads_of_word(const Prepared& prepared, const std::string& word) {
-  const DoingStage counting("our word that the peer is calibrated to");
+  const DoingStage counting("our pipeline that the peer is calibrated to");
   const TemporaryFolder scratch;
   const std::filesystem::path file = scratch.path() / "quads";
   std::optional<ProcessFailure> failure;
@@ -52,7 +52,7 @@ std::optional<double> quads_of_word(const Prepared& prepared, const std::string&
   if (failure && failure->kind == "bad input") return std::nullopt;
   if (failure)
     throw JobFailed(
-        {failure->kind, fmt::format("our word {}, whose number of quads it was to have, failed: {}; "
+        {failure->kind, fmt::format("our pipeline {}, whose number of quads it was to have, failed: {}; "
                                     "the peer was not run",
                                     word, failure->reason)});
   double quads = 0;
@@ -197,7 +197,7 @@ std::string told_version(const Peer& peer) {
   }
 }
 
-/// What a program made of a task.
+/// The result of a program for a task.
 struct PeerRun {
   Mesh mesh;
   ProgramRun program;

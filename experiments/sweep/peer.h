@@ -10,6 +10,8 @@
 #include "io/cases/case.h"
 #include "metrics/tables/table.h"
 
+// This header runs other meshers. The bench uses it.
+
 namespace delquad {
 
 /// How a domain is handed to a peer.
@@ -59,14 +61,14 @@ class PeerError : public Error {
   using Error::Error;
 };
 
-/// What stands for something in the words of its command.
+/// Returns the placeholders in the arguments of a peer's command.
 const std::vector<std::string>& peer_placeholders();
 
 /// The peer's own word on its version, in one line: it is asked once. Throws PeerError, and InputError where
 /// there is no room for what it prints.
 std::string peer_version(const Peer& peer);
 
-/// What a peer is told of a case.
+/// The task that a peer gets for a case.
 struct PeerTask {
   const Peer& peer;
   const Case& c;
@@ -111,7 +113,7 @@ struct SampledSize {
   std::vector<double> delta;    ///< at its points; none of a metric
   std::vector<Tensor2> metric;  ///< the same of that
 };
-/// What the peer is told.
+/// Returns the sizes that the peer gets.
 SampledSize sample_sizes(const PeerTask& task);
 
 /// Writes size.FORMAT and returns the file. "pos" is a view of Gmsh, "sol" has values for Medit's size.mesh

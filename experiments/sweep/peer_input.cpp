@@ -162,8 +162,8 @@ void write_points(TextWriter& out, const SampledSize& size) {
   }
 }
 
-/// The triangles of F, of the wanted size: in the plane, or on the surface. Of a metric those that it is
-/// known at: others might be inverted where it bends.
+/// Returns the triangles of F, of the wanted size, in the plane or on the surface. If there is a metric,
+/// returns the triangles on which it is known, because others might be inverted.
 Mesh triangles_of_domain(const Prepared& prepared) {
   if (std::optional<NodalMetric> metric = followed_metric(prepared)) return std::move(metric->mesh);
   Meshing meshing(prepared);

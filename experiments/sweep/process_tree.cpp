@@ -77,7 +77,7 @@ std::string bytes_text(long long bytes) {
   return fmt::format("{:.3g} GiB", static_cast<double>(bytes) / (1LL << 30));
 }
 
-/// What the handler of a process whose time is up must know.
+/// Data for the handler of a process whose time is up.
 struct TimeIsUp {
   int report = -1;
   char text[200] = {};  ///< "timeout", a line break and what to say

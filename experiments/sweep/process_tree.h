@@ -7,9 +7,11 @@
 
 #include "delquad/error.h"
 
+// This header runs jobs in forked processes. The bench uses it.
+
 namespace delquad {
 
-/// What becomes of a process that did not get to its end.
+/// A process that did not get to its end.
 struct ProcessFailure {
   /// "bad input", "unsound", "peer", "internal error", "timeout", "memory", "crash"; "not applicable", where
   /// a peer cannot be told the case, which is no failure; or "interrupted", where somebody else ended it, as
@@ -31,8 +33,8 @@ class JobFailed : public Error {
 /// Something that runs in a process of its own, and what follows from it.
 struct Job {
   std::function<void()> work;
-  /// What starts from the state that work() has left, each in a process of its own, forked from this one: so
-  /// that jobs share what they have in common and die alone.
+  /// Jobs that start from the state that work() has left. Each is a process of its own, forked from this one,
+  /// so that jobs share common data and die alone.
   std::function<std::vector<Job>()> next = {};
   /// Called in the process that started this one, when it did not get to its end.
   std::function<void(const ProcessFailure&)> failed;

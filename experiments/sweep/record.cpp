@@ -120,7 +120,7 @@ Json fields_json(const SummaryStep& step) {
   return json;
 }
 
-/// What the steps did, by step. Throws InputError where one from outside has the name of another part.
+/// Adds the summaries of the steps, by step. Throws InputError if an added step has the name of another part.
 void add_summaries(Json& json, const Summaries& summaries) {
   for (const SummaryStep& step : summaries.steps()) {
     if (json.contains(step.name))

@@ -9,9 +9,11 @@
 #include "experiments/sweep/peer.h"
 #include "io/digest.h"
 
+// This header writes the records of cells. The program, the bench and the report use it.
+
 namespace delquad {
 
-/// What the record of a cell of an experiment has besides, so that it can be found and made again.
+/// The parts of a cell's record that identify the cell, so that it can be found and repeated.
 struct CellIdentity {
   std::string key;  ///< digest of everything that determines the result
   std::string model_digest, program_digest;
@@ -44,9 +46,9 @@ std::string failure_record(const Case& c, const Word& word, const std::string& s
 /// The metrics of a mesh from a file; `criteria`: null where it was not judged.
 std::string metrics_record(const std::string& mesh_file, const Mesh& mesh, const std::string& size,
                            const MeshMetrics& metrics, const CriteriaReport* criteria = nullptr);
-/// What determines the mesh of a peer's cell besides the case, in one line of JSON.
+/// Returns the inputs that determine the mesh of a peer's cell besides the case, in one line of JSON.
 std::string peer_record(const CellIdentity& cell);
-/// What determines the values of a cell's measures by command and by solvers, in one line of JSON.
+/// Returns the inputs that determine a cell's measures by command and by solvers, in one line of JSON.
 std::string metrics_by_command_record(const CellIdentity& cell);
 /// Version, commit, compiler and libraries in one line of JSON.
 std::string versions_record();

@@ -62,7 +62,7 @@ void say_why(const std::string& folder, const Cell& cell, const ProcessFailure& 
                   why.reason));
 }
 
-/// What reports a failure for all cells of a branch that were not done.
+/// Returns a function that reports a failure for all unfinished cells of a branch.
 std::function<void(const ProcessFailure&)> failure_of(const std::shared_ptr<VariantWork>& work,
                                                       const Branch& branch) {
   return [work, &branch](const ProcessFailure& why) {

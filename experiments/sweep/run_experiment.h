@@ -10,6 +10,8 @@
 #include "experiments/sweep/process_tree.h"
 #include "metrics/tables/tables.h"
 
+// This header runs the cells of an experiment. The program and the bench use it.
+
 namespace delquad {
 
 /// One of several runs that share an experiment and its folder.

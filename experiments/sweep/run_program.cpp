@@ -22,7 +22,7 @@
 namespace delquad {
 namespace {
 
-/// What the watcher tells of the program.
+/// The watcher's report on the program.
 struct Report {
   int error, status;
   rusage usage;

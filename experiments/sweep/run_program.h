@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+// This header runs other programs and watches them. The bench uses it.
+
 namespace delquad {
 
 struct ProgramRun {

@@ -14,7 +14,7 @@ using namespace toml_types;
 using Json = nlohmann::ordered_json;
 
 const std::string kFolderName = R"({"type": "string", "pattern": "^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}$"})";
-/// What a model is made of, which does not vary.
+/// Keys of a model that do not vary.
 const std::vector<std::string> kModels = {"name",    "loop", "pattern", "curve", "embed",
                                           "example", "mesh", "model",   "data",  "compare"};
 
@@ -44,7 +44,7 @@ Json whole_matrix_schema() {
 
 TomlKeys experiment_case_keys() {
   TomlKeys keys = case_keys();
-  keys.insert(keys.begin(), {"name", "of its folder", kFolderName, nullptr, false, true});
+  keys.insert(keys.begin(), {"name", "name of the case and its folder", kFolderName, nullptr, false, true});
   std::ranges::move(keys_of<CaseOfStudy>(), std::back_inserter(keys));
   return keys;
 }
@@ -66,7 +66,7 @@ TomlKeys experiment_keys() {
   // A matrix has the keys of cases, see whole_matrix_schema().
   add({{"matrix", "what varies", R"({"type": "object"})"},
        {"variant", "keys of cases that vary together", "", variant_keys, true},
-       {"case", "what is meshed", "", experiment_case_keys, true},
+       {"case", "cases: models with their keys", "", experiment_case_keys, true},
        {"cases_of", "another experiment whose cases come before these", kText}},
       "");
   add(keys_of<CaseOfStudy>(), "domain");  // it belongs to one case

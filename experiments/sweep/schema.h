@@ -12,16 +12,16 @@ namespace delquad {
 /// The keys of an experiment file, and those of its tables that models lack.
 TomlKeys experiment_keys();
 TomlKeys experiment_case_keys();
-/// Of a [[variant]].
+/// Returns the keys of a [[variant]].
 TomlKeys variant_keys();
 
 /// The JSON Schema (draft 2020-12) of experiment files, made from the keys that they are read against. Ends
 /// with a newline.
 std::string experiment_schema();
 
-/// What stands in braces in the words of `command`: throws InputError with file and line for what is none of
-/// `known`, and where all of one of the groups of `needed` are missing. Words that are text of a program may
-/// have braces of their own.
+/// Checks the placeholders in the arguments of `command`. Throws InputError with file and line for a
+/// placeholder that is not in `known`, and if all of one of the groups of `needed` are missing. Arguments
+/// that are text of a program may have braces of their own.
 void check_placeholders(const TomlTable& table, const std::vector<std::string>& command,
                         const std::vector<std::string>& known,
                         const std::vector<std::vector<std::string>>& needed);

@@ -105,7 +105,7 @@ fs::path scratch_of(const fs::path& cell) {
   return cell.parent_path() / ("." + cell.filename().string() + ".work");
 }
 
-/// Those of a folder that need not be there.
+/// Moves the files of a folder that need not exist.
 void move_files(const fs::path& from, const fs::path& to) {
   if (!fs::exists(from)) return;
   for (const auto& entry : fs::directory_iterator(from)) fs::rename(entry, to / entry.path().filename());
@@ -153,7 +153,7 @@ void VariantWork::finish(const Cell& cell) {
   if (const std::string& why = cell.identity.no_peer_version; !why.empty())
     result.warnings.push_back(name + ": its version is unknown: " + why);
   say_warnings(c, result.warnings_on_mesh());
-  // What others make is shown as it is.
+  // Meshes of peers are shown as they are.
   if (peer == nullptr && !allow_unsound) require_sound(name, result);
   if (!result.soundness.accepted()) say(fmt::format("warning: {}: {}", name, result.soundness.complaint()));
   for (const std::string& failure : measure_by_solvers(cell.identity, c, result))

@@ -13,6 +13,8 @@
 #include "experiments/sweep/peer.h"
 #include "experiments/sweep/process_tree.h"
 
+// This header has the work on the cells of one variant. The bench uses it.
+
 namespace delquad {
 
 /// How many cells of a sweep are done, counted by every process that works on it. A bar on the last line of a

@@ -172,7 +172,7 @@ Lines check_place(const VerifiedCell& cell, const StudyFile& study) {
                       address.name, cell.record.at("variant").dump(), address.pipeline)};
 }
 
-/// What the checks of a cell need later on: there may be many.
+/// Returns the parts of a record that later checks need. There may be many records.
 Json essence(const Json& record) {
   Json json = Json::object();
   for (const char* key : {"experiment", "case", "variant", "pipeline", "model", "problem", "digests",
@@ -186,7 +186,7 @@ Lines check_record(VerifiedCell& cell, const StudyFile& study) {
   const std::string text = file_bytes(cell.file);
   Lines wrong;
   if (!is_sealed(text))
-    wrong.push_back(cell.file.string() + ": was changed: its digest is not that of its text");
+    wrong.push_back(cell.file.string() + ": was changed: its digest does not fit its text");
   try {
     cell.record = Json::parse(text);
     located(cell.file.string(), [&] { check_record_version(cell.record.value("record", 1)); });
@@ -311,11 +311,11 @@ Lines check_tables(const fs::path& folder, const Outcome& outcome, std::string& 
   return wrong;
 }
 
-/// What concerns no single cell.
+/// Checks the files that belong to no single cell.
 Lines check_study(const fs::path& folder, std::string& undrawn) {
   Lines wrong;
   if (!is_sealed(file_bytes(folder / "study.json")))
-    wrong.push_back((folder / "study.json").string() + ": was changed: its digest is not that of its text");
+    wrong.push_back((folder / "study.json").string() + ": was changed: its digest does not fit its text");
   std::ranges::move(check_copies(folder), std::back_inserter(wrong));
   try {
     const StudyResults results = read_results(folder);

@@ -15,7 +15,7 @@
 namespace delquad {
 namespace {
 
-/// What a maker from outside made, refused where it is no cross.
+/// A field by a maker from outside. It refuses values that are no crosses.
 class Checked final : public CrossField {
  public:
   Checked(std::shared_ptr<const CrossField> made, std::string where)

@@ -5,7 +5,7 @@
 
 namespace delquad {
 
-/// Replaces each patch's field by that of the spec's maker. What was known of singularities goes.
+/// Replaces each patch's field by the field of the spec's maker. Known singularities are dropped.
 void use_made_crosses(const CrossSpec& spec, PreparedProblem& prepared);
 
 }  // namespace delquad

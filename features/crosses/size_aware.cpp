@@ -30,7 +30,7 @@ struct FieldGroup {
 /// CrossDiffusion; measured, see docs/algorithms.md.
 constexpr double kSmoothAlignment = 1, kCutAlignment = 0.03;
 
-/// Of each curve, how much fields are drawn to it; none where fields are given there.
+/// Returns for each curve how strongly fields are drawn to it, and nothing if fields are given there.
 std::vector<std::optional<double>> alignments(const PreparedProblem& prepared) {
   std::vector<std::optional<double>> of_curve(prepared.boundary.curves.size());
   if (!prepared.surface) return of_curve;

@@ -31,7 +31,7 @@ class CurveSearch {
   };
   /// The parameter of the point next to x.
   Found nearest(Vec2 x) const;
-  /// Of a closed curve any parameter, of another one those nearest to [0, 1].
+  /// Returns the point at a parameter. A closed curve takes any parameter, another one the nearest in [0, 1].
   Vec2 point(double t) const;
   /// The part of the curve between two points of it; of a closed curve the shorter one.
   struct Span {

@@ -8,6 +8,8 @@
 #include "delquad/mesh.h"
 #include "patches/prepared.h"
 
+// This header has the true curves and faces behind a mesh. Features use it.
+
 namespace delquad {
 
 /// The true model behind a mesh: where nodes of curved elements go. Safe to call from several threads.

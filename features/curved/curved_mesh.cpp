@@ -222,7 +222,7 @@ double distance_to_model(const Mesh& mesh, const ModelGeometry& geometry) {
   return most / diagonal(mesh);
 }
 
-/// What corners of the model allow the scaled Jacobian of each quad to be.
+/// Returns the scaled Jacobian that corners of the model allow for each quad.
 std::vector<double> allowed_by(const std::vector<CurveCorner>& corners, std::size_t n_quads) {
   std::vector<double> allowed(n_quads, 1);
   for (const CurveCorner& corner : corners)

@@ -7,6 +7,8 @@
 #include "delquad/metrics.h"
 #include "patches/prepared.h"
 
+// This header makes curved elements from a straight mesh. The pipeline and features use it.
+
 namespace delquad {
 
 /// How a mesh got curved elements.
@@ -45,9 +47,9 @@ struct Counters<CurvingSummary> {
 /// Returns how many.
 int part_flat_corners(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh& mesh);
 
-/// Gives a sound mesh the elements of the problem's order. Those that are not proven to be positive are a
-/// reason why it is not sound. Returns whether vertices of the straight mesh moved. Throws InputError where
-/// triangles are left.
+/// Gives a sound mesh the elements of the problem's order. Elements that are not proven to be positive make
+/// the mesh unsound. Returns whether vertices of the straight mesh moved. Throws InputError if triangles are
+/// left.
 bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh& mesh, Soundness& soundness,
                 std::vector<Warning>& warnings, CurvingSummary& summary);
 

@@ -8,12 +8,14 @@
 #include "delquad/mesh.h"
 #include "delquad/metrics.h"
 
+// This header proves that curved quads have positive Jacobians. Features use it.
+
 namespace delquad {
 
-/// What is certain of the scaled Jacobian of a curved quad: (x_u x x_v) . n / (|x_u| |x_v|), where n is the
-/// mean normal of the element (of a planar one: up or down, as it runs). It is in [-1, 1], and 1 where the
-/// element's lines cross at right angles, square to n. Positive everywhere: the element does not fold, seen
-/// along n.
+/// Bounds of the scaled Jacobian of a curved quad: (x_u x x_v) . n / (|x_u| |x_v|). Here n is the mean normal
+/// of the element; a planar element has n up or down, as it runs. The value is in [-1, 1], and 1 if the
+/// element's lines cross at right angles, perpendicular to n. If it is positive everywhere, the element does
+/// not fold, seen along n.
 struct JacobianBounds {
   double proven = -1;  ///< it is nowhere less
   double found = 1;    ///< it is so little at some place; at least `proven`
@@ -28,8 +30,8 @@ ProvenJacobians proven_jacobians(std::span<const JacobianBounds> bounds);
 /// `enough`: bounds that prove so much are not made closer.
 JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order, double enough = 1);
 
-/// Of an element of order 2 bounds that hold with its middle node and without, as formats of eight nodes
-/// have it; of other orders the same as jacobian_bounds().
+/// Returns bounds of an element. Bounds of order 2 hold with and without its middle node, as formats of eight
+/// nodes leave it out. For other orders see jacobian_bounds().
 JacobianBounds element_bounds(std::span<const Vec3> nodes, int order, double enough = 1);
 
 /// Integral of x_u x x_v, as a unit vector; (0, 0, 0) where it vanishes.

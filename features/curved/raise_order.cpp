@@ -24,7 +24,7 @@ struct Side {
   std::vector<Vec3> points = {};  ///< strictly inside
 };
 
-/// What a side gets of a line's bend, by how near it is: 1 on the line, 0 out of reach.
+/// The part of a line's bend that a side gets, by its distance: 1 on the line, 0 out of reach.
 struct Bend {
   double part = 0;
   std::vector<Vec3> shift = {};
@@ -137,9 +137,9 @@ class OrderRaiser {
       const double part = 1 - height / (kReach * length(line));
       const int reached = quad_sides_[4 * quad + (k + 2) % 4];
       if (part <= 0 || sides_[reached].line >= 0) return;
-      // Of the same curvature a side has a bend that grows with the square of its length.
+      // At equal curvature the bend of a side grows with the square of its length.
       const double shorter = std::min(1.0, std::pow(length(sides_[reached]) / length(line), 2));
-      // Of several lines that bend a side the nearest counts.
+      // If several lines bend a side, the nearest counts.
       Bend& now = added[reached];
       if (part > now.part) {
         now = {part, std::vector<Vec3>(parts_.size())};

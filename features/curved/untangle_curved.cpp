@@ -32,13 +32,13 @@ struct DistortionTarget {
   std::array<double, 4> inverse{};  ///< of the parallelogram's sides in that plane, by rows
 };
 
-/// What an element should be like.
+/// The target shape of an element.
 enum class Likeness {
   kStraight,     ///< the parallelogram in the middle of its straight form
   kRightAngled,  ///< a rectangle with sides as long as those of its straight form are in the mean
 };
 
-/// What counts in a distortion.
+/// Weights of the terms of a distortion.
 struct DistortionWeights {
   double shape;  ///< w below: that of shapes against scaled Jacobians, 0 to 1
   int power;     ///< k below: how much more the worst count
@@ -51,8 +51,8 @@ struct FreeNode {
   std::array<Vec3, 2> axes = {};
 };
 
-/// What counts as hardly positive: det T below this, or below this part of the least one where all are
-/// positive, so that they stay so.
+/// Limits below which det T counts as hardly positive. The second is a part of the least determinant if all
+/// are positive, so that they stay positive.
 constexpr double kSoftness = 0.05, kSoftPart = 0.2;
 /// Places at which an element's distortion is measured, along each side.
 constexpr int kSamples = 7;
@@ -109,10 +109,11 @@ bool make_target(const Mesh& mesh, std::size_t quad, Likeness likeness, Distorti
   return true;
 }
 
-/// The distortion of elements by where their free nodes are, two parameters each: the sum over places of all
-/// of (w |T|^2 / (2 det T) + (1 - w) |p| |q| / det T)^k, T being the element's map by that of its target
-/// [Knupp 2001], p and q its columns, and det T regularised where it is not positive [Escobar et al. 2003].
-/// Of targets that are rectangles the second term is one over the scaled Jacobian.
+/// The distortion of elements as a function of their free nodes, with two parameters for each node. It is the
+/// sum over places of (w |T|^2 / (2 det T) + (1 - w) |p| |q| / det T)^k. T is the element's map divided by
+/// the map of its target [Knupp 2001], and p and q are its columns. If det T is not positive, it is
+/// regularized [Escobar et al. 2003]. If targets are rectangles, the second term is one over the scaled
+/// Jacobian.
 class DistortionEnergy final : public ceres::FirstOrderFunction {
  public:
   /// All but the weights outlive it.
@@ -233,12 +234,13 @@ constexpr int kDescents = 5;
 constexpr int kDescentSteps = 60;
 /// A descent ends where the energy falls by no more, as a part of it, in a step.
 constexpr double kHardlyLess = 1e-3;
-/// Of what the energy wants, so much is done, the first that is better: energies know planes only.
+/// Parts of the energy's step that are tried; the first that improves the quads counts. Energies know planes
+/// only.
 constexpr std::array kPartsOfStep{1.0, 0.5, 0.25, 0.1};
 /// A node on a curve moves at most by this part of the way to its neighbours there.
 constexpr double kMostOfWay = 0.5;
 
-/// What is tried, one after the other, where elements stay poor.
+/// One trial; trials follow each other while elements stay poor.
 struct Trial {
   int rings;            ///< of quads around poor ones that move with them
   bool moves_vertices;  ///< else only the nodes between them
@@ -249,7 +251,7 @@ constexpr std::array kTrials{
     Trial{2, false, Likeness::kStraight, {1, 3}},      Trial{2, true, Likeness::kRightAngled, {0.2, 3}},
     Trial{3, true, Likeness::kRightAngled, {0.05, 4}}, Trial{6, true, Likeness::kRightAngled, {0.1, 4}},
     Trial{3, true, Likeness::kRightAngled, {0.05, 8}}, Trial{2, true, Likeness::kRightAngled, {0.2, 4}}};
-/// Those that follow the first are about elements with less.
+/// Trials after the first treat elements below this bound.
 constexpr double kPoorStill = 1.2 * kLowJacobian;
 
 class CurvedUntangler {
@@ -278,7 +280,7 @@ class CurvedUntangler {
       summary.moved_vertices =
           summary.moved_vertices || (trial.moves_vertices && std::ranges::count(moved, 1) > 0);
     }
-    // What is better than poor was not looked at closely.
+    // Quads that are better than poor have rough bounds so far.
     parallel_each(bounds_.size(), [&](std::size_t q) {
       if (is_rough_[q]) bounds_[q] = bounds_of_quad(static_cast<int>(q), 1);
     });
@@ -377,8 +379,8 @@ class CurvedUntangler {
     return all;
   }
 
-  /// What is proven of some quads, all in all: a sum of logarithms, in which more than enough is no more than
-  /// enough, and nothing makes up for one that is not positive.
+  /// Returns a score of proven bounds of some quads: a sum of logarithms. Bounds above kPoorJacobian count as
+  /// kPoorJacobian, and nothing makes up for a bound that is not positive.
   static double score(const std::vector<JacobianBounds>& bounds) {
     constexpr double kNext = 1e-9, kNotPositive = -1e6;
     double sum = 0;

@@ -22,7 +22,7 @@ struct UntanglingSummary {
   bool moved_vertices = false;  ///< those of the straight mesh, too
 };
 
-/// What untangling may do, and can reach.
+/// Limits of untangling.
 struct UntanglingLimits {
   std::vector<double> allowed;  ///< of each quad: corners of the model allow no more; 0: next to nothing
   std::vector<int> stay = {};   ///< nodes
@@ -31,12 +31,12 @@ struct UntanglingLimits {
 /// Bounds of all quads of a curved mesh, by element_bounds().
 std::vector<JacobianBounds> jacobian_bounds(const Mesh& mesh);
 
-/// Moves nodes of curved quads that are inverted or poor, and of those around, to where the elements' maps
-/// are nearest to those of the straight ones, see DistortionEnergy. Nodes inside of faces slide on these,
-/// nodes between the ends of a line on its curve. Where quads stay below kLowJacobian, more rings of quads
-/// and their vertices move, too, which may slide along curves as ModelGeometry::slides() says. `bounds`: of
-/// all quads, kept up to date. What does not make the quads of a neighbourhood better, all in all, is taken
-/// back: no other quad becomes one that is not positive.
+/// Moves nodes of curved quads that are inverted or poor, and nodes around them. The elements' maps approach
+/// the maps of the straight elements, see DistortionEnergy. Nodes inside of faces slide on these, nodes
+/// between the ends of a line slide on its curve. If quads stay below kLowJacobian, more rings of quads and
+/// their vertices move, too. Vertices may slide along curves as ModelGeometry::slides() says. `bounds`: of
+/// all quads, kept up to date. A step that does not improve the quads of a neighborhood as a whole is undone.
+/// No other quad loses its positive bound.
 UntanglingSummary untangle_curved(Mesh& mesh, const ModelGeometry& geometry, const UntanglingLimits& limits,
                                   std::vector<JacobianBounds>& bounds);
 

@@ -42,8 +42,9 @@ void check_count(double quads, const MeshProblem& problem) {
   }
   const std::string count =
       std::isfinite(quads) ? fmt::format("about {:.3g} quads", quads) : "more quads than can be counted";
-  throw InputError(fmt::format("{}: the size asks for {}, more than the {} that are allowed (max-elements)",
-                               problem.size.where, count, problem.max_elements));
+  throw InputError(fmt::format(
+      "{}: the size asks for {}, more than the {} that are allowed (max-elements) [too-many-quads]",
+      problem.size.where, count, problem.max_elements));
 }
 
 bool is_symmetric(const MeshProblem& problem) {

@@ -188,12 +188,12 @@ class PieceCounts {
           std::ranges::count(demands_[i].patches, patch) > 0)
         names.insert(curve_label(model_, pieces_[i].curves[0]));
     const Entity& region = regions_[region_of_patch_[patch]];
-    return InputError(fmt::format(
-        "{}the numbers of edges that are given leave {} with an odd number around it, and quads need an even "
-        "one: change that of one of {}",
-        message_prefix(model_),
-        region.names.empty() ? fmt::format("region {}", region.tag) : "'" + region.names[0] + "'",
-        fmt::join(names, ", ")));
+    return InputError(
+        fmt::format("{}the given numbers of edges leave {} with an odd number around it, and quads need an "
+                    "even one. Change the number on one of {} [odd-numbers]",
+                    message_prefix(model_),
+                    region.names.empty() ? fmt::format("region {}", region.tag) : "'" + region.names[0] + "'",
+                    fmt::join(names, ", ")));
   }
 
   const PlanarModel& model_;

@@ -209,8 +209,8 @@ PatchBoundaries place_sound_boundaries(const SurfaceModel& model, const SurfaceC
 
 Warning warn_of_spent_steps() {
   return {"steps that were stopped before their end", 0,
-          "the numbers and places of nodes on curves were compared no longer, as that would take too long: "
-          "more vertices than need be may be irregular; fewer and wider faces, or a larger size, help"};
+          "the search for better numbers and places of nodes on curves has used up its work. Some vertices "
+          "may be irregular without need; wider faces or a larger size help [search-stopped]"};
 }
 
 /// Nodes of a patch where two curves meet that have it on one side only.

@@ -93,9 +93,9 @@ KeptNames names_that_stay(const MeshProblem& problem, const std::vector<Entity>&
     for (const Entity& e : *entities) known.insert(known.end(), e.names.begin(), e.names.end());
   for (const std::string& name : spec.keep)
     if (std::ranges::find(known, name) == known.end())
-      throw InputError(fmt::format("{}: '{}' is to stay, and no curve and no region is called that{}",
-                                   spec.where.empty() ? problem.where : spec.where, name,
-                                   suggestion_or_all(name, known)));
+      throw InputError(
+          fmt::format("{}: '{}' is to stay, and no curve and no region is called that{} [unknown-name]",
+                      spec.where.empty() ? problem.where : spec.where, name, suggestion_or_all(name, known)));
   return {curve_options(problem.options).keep_named, spec.keep};
 }
 
@@ -134,8 +134,8 @@ void convert(const std::string& source, const SurfaceSpec& spec, Mesh& mesh) {
   if (spec.unit.empty()) return;
   if (mesh.unit.empty())
     throw InputError(
-        fmt::format("{}: {} does not say its unit, so that lengths cannot be in {}: leave it out", spec.where,
-                    source, spec.unit));
+        fmt::format("{}: {} does not say its unit, so that lengths cannot be in {}: leave it out [no-unit]",
+                    spec.where, source, spec.unit));
   const double factor = length_unit(mesh.unit).metres / length_unit(spec.unit).metres;
   for (Vec3& p : mesh.points) p = factor * p;
   mesh.unit = spec.unit;
@@ -181,7 +181,7 @@ void tell_penetrating(const std::string& source, SurfaceModel& model) {
   if (!places.empty())
     model.warnings.push_back(
         fmt::format("{}: {} of bodies touch or go through each other and share no nodes: {}: unite them "
-                    "before, or delete copies",
+                    "before, or delete copies [crossing-bodies]",
                     source, counted(std::ssize(places), "pair"), first_of(places, kMostPlaces, "; ")));
 }
 

@@ -90,9 +90,8 @@ void check_divisions_even(const Mesh& fine, const SurfaceCurves& curves, const C
     for (std::size_t c = 0; c < curves.chains.size(); ++c)
       if (wanted.demands[c].exact > 0 && std::ranges::count(wanted.demands[c].patches, p) > 0)
         throw InputError(
-            fmt::format("{}: the numbers of edges that are given leave {} with an odd number around it, and "
-                        "quads need an "
-                        "even one: change that of curve {}",
+            fmt::format("{}: the given numbers of edges leave {} with an odd number around it, and quads "
+                        "need an even one. Change the number on curve {} [odd-numbers]",
                         divisions.front().where, face_name(fine, curves.maps[static_cast<std::size_t>(p)]),
                         fine.curves[curves.chains[c].curve].tag));
 }
@@ -225,7 +224,7 @@ std::vector<std::vector<double>> division_places(const CurveDivision& division,
   if (n < m)
     throw InputError(
         fmt::format("{}: {} edges for {}, which corners and other curves cut into {} pieces: "
-                    "expected at least {}",
+                    "expected at least {} [too-few-edges]",
                     division.where, n, label, m, m));
   const double length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
   const std::vector<double> ends = division_ends(division);

@@ -76,22 +76,23 @@ void check_embedded(const PlanarModel& model, const ModelChain& chain, const std
     if (is_inside) continue;
     if (piece.curve < 0) {
       const auto at = std::ranges::find(chain.point_nodes, piece.ends[0]) - chain.point_nodes.begin();
-      throw InputError(fmt::format("{}{} at ({:.10g}, {:.10g}) lies outside of every region",
-                                   message_prefix(model), point_label(model, static_cast<int>(at)), a.x,
-                                   a.y));
+      throw InputError(
+          fmt::format("{}{} at ({:.10g}, {:.10g}) lies outside of every region [embedded-outside]",
+                      message_prefix(model), point_label(model, static_cast<int>(at)), a.x, a.y));
     }
     const auto embedded =
         std::ranges::find_if(piece.curves, [&](int c) { return loops[c].empty() && c < first_axis; });
     const auto bounding = std::ranges::find_if(piece.curves, [&](int c) { return !loops[c].empty(); });
     if (embedded != piece.curves.end() && !is_filled(2 * line) && !is_filled(2 * line + 1))
       throw InputError(
-          fmt::format("{}{} lies outside of every region from ({:.10g}, {:.10g}) to ({:.10g}, {:.10g})",
+          fmt::format("{}{} lies outside of every region from ({:.10g}, {:.10g}) to ({:.10g}, {:.10g}) "
+                      "[embedded-outside]",
                       message_prefix(model), curve_label(model, *embedded), a.x, a.y, b.x, b.y));
     if (embedded == piece.curves.end() || bounding == piece.curves.end()) continue;
     if (const ModelCurve& curve = model.curves[*embedded]; !curve.name.empty() && !curve.is_crack) continue;
     throw InputError(fmt::format(
-        "{}{} lies on the boundary, {}, between ({:.10g}, {:.10g}) and ({:.10g}, {:.10g}): "
-        "expected a name, which is given to that part of the boundary, or a curve inside of a region",
+        "{}{} lies on the boundary, {}, between ({:.10g}, {:.10g}) and ({:.10g}, {:.10g}). Give it a name, "
+        "which that part of the boundary gets, or move it into a region [embedded-on-a-boundary]",
         message_prefix(model), curve_label(model, *embedded), curve_label(model, *bounding), a.x, a.y, b.x,
         b.y));
   }
@@ -119,7 +120,7 @@ class Surroundings {
     double distance;
     Vec2 at;
   };
-  /// What is next to x, but for one of the points.
+  /// Returns the nearest piece or point to x, without one of the points.
   Nearest nearest(Vec2 x, std::size_t own) const {
     Nearest best{std::numeric_limits<double>::infinity(), x};
     double limit2 = best.distance;
@@ -168,7 +169,7 @@ class Surroundings {
   void take(std::array<Vec2, 2> ends) { taken_.push_back(ends); }
 
  private:
-  /// Of two segments.
+  /// Returns the distance of two segments.
   static double distance(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     if (orient2d(a, b, c) * orient2d(a, b, d) < 0 && orient2d(c, d, a) * orient2d(c, d, b) < 0) return 0;
     return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
@@ -201,10 +202,10 @@ std::vector<std::array<Vec2, 2>> whisker_ends(const std::vector<CurveSpan>& curv
         if (around.has_room(i, along)) ends.push_back({points[i] + along, points[i] - along});
       }
     if (ends.size() == i)
-      throw InputError(
-          fmt::format("{} at ({:.10g}, {:.10g}) is nearer than a thousandth of the size, {:g}, to a "
-                      "curve or another point: expected them farther apart, or at the same place",
-                      labels[i], points[i].x, points[i].y, sizes[i]));
+      throw InputError(fmt::format(
+          "{} at ({:.10g}, {:.10g}) is nearer than a thousandth of the size, {:g}, to a "
+          "curve or another point: expected them farther apart, or at the same place [embedded-too-near]",
+          labels[i], points[i].x, points[i].y, sizes[i]));
     around.take(ends.back());
   }
   return ends;

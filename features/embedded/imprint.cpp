@@ -278,7 +278,7 @@ class Imprinter {
       const double distance = norm(true_place(places_.find(x, editor_)) - x);
       if (distance <= kFit * diagonal_) continue;
       refuse(line, fmt::format("is {:.4g} away from the surface at {}: expected at most {:.4g}, a thousandth "
-                               "of the model's diagonal",
+                               "of the model's diagonal [off-the-surface]",
                                distance, show_point(x), kFit * diagonal_));
       return std::nullopt;
     }
@@ -452,7 +452,7 @@ class Imprinter {
         refuse(
             *lines[i],
             fmt::format("is nearer than a thousandth of the size, {:g}, to a curve or another point at {}: "
-                        "expected them farther apart, or at the same place",
+                        "expected them farther apart, or at the same place [embedded-too-near]",
                         size, show_point(mesh_.points[points[i]])));
         std::erase_if(placed,
                       [&](const Placed& p) { return p.nodes.size() == 1 && p.nodes[0] == points[i]; });
@@ -541,7 +541,7 @@ std::shared_ptr<const SizeField> imprint_named(const std::vector<NamedSize>& nam
     imprint_with(size);
     return size;
   }
-  // Of the triangles before they are split: the same sizes to the last bit, whatever is imprinted.
+  // Parts of the triangles before they are split give the same sizes to the last bit, whatever is imprinted.
   NamedParts parts(model.fine);
   const std::size_t n_curves = model.fine.curves.size(), n_points = model.fine.named_points.size();
   // Edges at single points follow their sizes, before the lines have their places on the surface.

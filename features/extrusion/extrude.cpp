@@ -68,7 +68,7 @@ void turn_towards_path(Section& section, const LayeredPoints& layered) {
     if (of_part[section.part[wall.quad]] < 0) std::swap(wall.a, wall.b);
 }
 
-/// Those without a name get one by their number.
+/// Gives nameless entities a name by their number.
 std::vector<Entity> with_names(std::vector<Entity> entities, int dim) {
   const std::vector<std::string> names = group_names(entities, dim);
   for (std::size_t i = 0; i < entities.size(); ++i)
@@ -113,7 +113,7 @@ void require_positive(const Section& section, const std::vector<Entity>& volumes
   const std::size_t n = section.mesh.quads.size();
   throw InputError(fmt::format(
       "{} of {} hexahedra are inverted or flat, the worst in layer {} of '{}' at {} with a scaled Jacobian "
-      "of {:.3g}: the sweep is too thick, or bends too much, for the section",
+      "of {:.3g}. The sweep is too thick, or bends too much, for the section [inverted-hexahedra]",
       n_bad, hexahedra.size(), worst / n + 1, volumes[section.mesh.quad_region[worst % n]].names[0],
       show_point(centre), least));
 }
@@ -147,7 +147,8 @@ void require_no_crossing(const Section& section, const LayeredPoints& layered) {
     return false;
   };
   if (const auto crossing = find_crossing(layered.points, triangles, are_neighbours))
-    throw InputError(fmt::format("the swept body meets itself at {}", show_point(crossing->at)));
+    throw InputError(
+        fmt::format("the swept body meets itself at {} [inverted-hexahedra]", show_point(crossing->at)));
 }
 
 void add_walls(const Section& section, const LayeredPoints& layered, Mesh& result) {

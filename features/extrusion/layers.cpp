@@ -56,14 +56,14 @@ void require_beside_axis(const Section& section, const Vec3& point, const Vec3& 
     if (norm(seen[i]) <= kOnAxis * reach)
       throw InputError(
           fmt::format("the node at {} lies on the axis, where hexahedra would have no sides: leave a hole "
-                      "around the axis",
+                      "around the axis [sweep-at-the-axis]",
                       show_point(points[i])));
   for (const auto& quad : section.mesh.quads) {
     std::array<Vec2, 4> corners;
     for (int k = 0; k < 4; ++k) corners[k] = seen[quad[k]];
     for (int k = 0; k < 4; ++k)
       if (distance_to_segment(Vec2{}, corners[k], corners[(k + 1) % 4]) <= kOnAxis * reach)
-        throw InputError(fmt::format("the section crosses its axis between {} and {}",
+        throw InputError(fmt::format("the section crosses its axis between {} and {} [sweep-at-the-axis]",
                                      show_point(points[quad[k]]), show_point(points[quad[(k + 1) % 4]])));
     if (winding(corners) != 0)
       throw InputError(fmt::format("the axis goes through the quad at {}", show_point(points[quad[0]])));
@@ -213,8 +213,8 @@ constexpr double kSameNormal = 1e-12;
 /// Two planes fold back where the cosine between their normals is nearer to -1: dihedral angles below two
 /// degrees, whose corners would move by more than 57 times the thickness.
 constexpr double kFoldsBack = 6e-4;
-/// Of the largest eigenvalue of sum n n^T: less is the noise of a smooth surface, whose normals differ by
-/// less than about ten degrees.
+/// Part of the largest eigenvalue of sum n n^T. Smaller eigenvalues are noise of a smooth surface, whose
+/// normals differ by less than about ten degrees.
 constexpr double kLeastEigenvalue = 0.01;
 
 struct CornerNormal {
@@ -222,7 +222,7 @@ struct CornerNormal {
   double angle;  ///< radians, of the corner
 };
 
-/// Of a quad at its corner k; of the quad where the corner is flat.
+/// Returns the normal of a quad at its corner k, or the normal of the quad if the corner is flat.
 CornerNormal corner_normal(const Mesh& mesh, const std::array<int, 4>& quad, int k) {
   const Vec3& at = mesh.points[quad[k]];
   const Vec3 out = mesh.points[quad[(k + 1) % 4]] - at, in = mesh.points[quad[(k + 3) % 4]] - at;

@@ -55,9 +55,10 @@ void orient(Section& section, std::span<const HalfEdge> sides) {
   });
   const Turned turned = turn_to_agree(quads.size(), neighbours);
   if (turned.clash >= 0)
-    throw InputError(fmt::format(
-        "the surface has one side only, as a Moebius strip, and cannot be swept: see the edge at {}",
-        show_point(middles[turned.clash])));
+    throw InputError(
+        fmt::format("the surface has one side only, as a Moebius strip, and cannot be swept: see the edge at "
+                    "{} [one-side]",
+                    show_point(middles[turned.clash])));
   section.n_parts = static_cast<int>(turned.pieces.size());
   section.part.resize(quads.size());
   for (int p = 0; p < section.n_parts; ++p)

@@ -6,6 +6,8 @@
 #include "delquad/hexahedra.h"
 #include "delquad/mesh.h"
 
+// This header prepares quads for a sweep. Features use it.
+
 namespace delquad {
 
 /// An edge of the section that a face grows from.
@@ -16,7 +18,7 @@ struct WallEdge {
   bool on_boundary;
 };
 
-/// What is swept: quads that run the same way round as their neighbours.
+/// The section that is swept: quads that run the same way round as their neighbors.
 struct Section {
   Mesh mesh;              ///< quads, and points that they use
   std::vector<int> part;  ///< of each quad: those that hang together by edges

@@ -193,8 +193,9 @@ class PatchMaker {
   /// The elements around a point hang together more than once.
   [[noreturn]] void refuse_overlap(int v) const {
     const Vec3& p = mesh_.points[v];
-    throw InputError(fmt::format("{}: elements around ({:.10g}, {:.10g}, {:.10g}) cover each other", source_,
-                                 p.x, p.y, p.z));
+    throw InputError(
+        fmt::format("{}: elements around ({:.10g}, {:.10g}, {:.10g}) cover each other [overlapping-elements]",
+                    source_, p.x, p.y, p.z));
   }
   int start(const Side& s) const { return polygons_.at(s.element, s.corner); }
   int end(const Side& s) const { return start(next(s)); }
@@ -342,7 +343,7 @@ void check_free_edges(const GivenMesh& given, std::span<const HalfEdge> sides) {
   const auto [i, j] = *arrangement.conflict;
   throw InputError(
       fmt::format("{}: the edges {} and {}, which are in one element each, meet in more than "
-                  "common nodes: a hanging node, or elements that overlap",
+                  "common nodes: a hanging node, or elements that overlap [hanging-node]",
                   given.source, text(i), text(j)));
 }
 
@@ -421,7 +422,7 @@ GivenDomain make_given_domain(const GivenMesh& given) {
     if (!runs_round_one_piece(patch) || !meshable(patch))
       throw InputError(
           fmt::format("{}: the outline through ({:.10g}, {:.10g}) crosses itself or is turned inside "
-                      "out: elements cover each other",
+                      "out: elements cover each other [overlapping-elements]",
                       given.source, patch.points[0].x, patch.points[0].y));
   return result;
 }
@@ -491,8 +492,8 @@ TriPatch as_triangles(const QuadPatch& elements) {
   }
   if (inverted > 0)
     throw InputError(
-        fmt::format("{} triangles or halves of quads are inverted or flat, the first at ({:.10g}, "
-                    "{:.10g}); of quads alone, words that begin with C or O mend such",
+        fmt::format("{} triangles or halves of quads are inverted or flat, the first at ({:.10g}, {:.10g}). "
+                    "A pipeline that begins with C or O repairs meshes of quads alone [inverted-triangles]",
                     inverted, first.x, first.y));
   link_neighbours(tri);
   return tri;
@@ -507,7 +508,7 @@ PatchMesh start_from(const QuadPatch& elements, PatchForm form) {
   if (form == PatchForm::kQuads) {
     if (elements.quads.empty())
       throw InputError(
-          fmt::format("a region has {} triangles and no quads: a word that begins with B merges them",
+          fmt::format("a region has {} triangles and no quads: a pipeline that begins with B merges them",
                       elements.triangles.size()));
     start.quads = elements;
   }

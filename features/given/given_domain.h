@@ -26,8 +26,9 @@ GivenDomain make_given_domain(const GivenMesh& given);
 /// rings around each point.
 std::vector<double> sizes_of_elements(const Mesh& mesh, const std::string& source);
 
-/// What a word begins from: the elements in this form, quads halved where it is triangles. Throws InputError
-/// that names places: `triangles` need positive areas, `quads` are needed where they are the form.
+/// Returns the mesh from which a pipeline begins: the elements in this form, with halved quads if the form is
+/// triangles. Throws InputError that names places: `triangles` need positive areas, and the form `quads`
+/// needs quads.
 PatchMesh start_from(const QuadPatch& elements, PatchForm form);
 
 }  // namespace delquad

@@ -113,7 +113,8 @@ void refuse_hanging_nodes(const GivenMesh& given, std::span<const HalfEdge> side
       if (s <= tolerance || s >= length - tolerance) return;
       if (norm(from_start - (s / length) * along) > tolerance) return;
       throw InputError(fmt::format(
-          "{}: the node {} lies on the edge from {} to {}, which is in one element: a hanging node",
+          "{}: the node {} lies on the edge from {} to {}, which is in one element: a hanging node "
+          "[hanging-node]",
           given.source, text_of_place(mesh.points[nodes[i]]), text_of_place(p), text_of_place(q)));
     });
   }
@@ -172,10 +173,10 @@ class BadQuadOpening {
         for (const int v : mesh_.quads[q]) moves = (!stays_[v] && improve(v)) || moves;
     }
     const auto left = std::ranges::count_if(bad_, [&](int q) { return !is_sound(mesh_, q); });
-    warnings.push_back(fmt::format(
-        "{}: {} quads are inverted, folded or without area, the first at {}: {} of them are no more so once "
-        "their nodes are moved",
-        source, bad_.size(), text_of_place(first), static_cast<long>(bad_.size()) - left));
+    warnings.push_back(
+        fmt::format("{}: {} quads are inverted, folded or without area, the first at {}. Moving their nodes "
+                    "repairs {} of them",
+                    source, bad_.size(), text_of_place(first), static_cast<long>(bad_.size()) - left));
   }
 
  private:

@@ -32,7 +32,8 @@ bool is_in_space(const Mesh& mesh);
 /// first, as far as nodes that do not stay can be moved over the other elements.
 GivenSurface make_given_surface(const GivenMesh& given, double feature_angle);
 
-/// What a patch holds, its boundary's points first; `inside` receives the places of the others.
+/// Returns the elements of a patch, with points of its boundary first. `inside` receives the places of the
+/// other points.
 QuadPatch elements_within(const GivenSurface& surface, const SurfacePatch& patch, std::vector<Vec3>& inside);
 
 /// The domain of a model whose curves are kept point by point: all their points are nodes, and no stage moves

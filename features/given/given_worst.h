@@ -8,7 +8,7 @@
 
 namespace delquad {
 
-/// Of a mesh, planar ones seen from above.
+/// Returns the worst values of a mesh. Planar meshes are seen from above.
 GivenWorst worst_of_given(const Mesh& mesh, bool is_in_plane, const SizeField& size);
 
 /// Whether a quad is worse than the worst of the given ones, or below an eta that is poor and that of these
@@ -29,7 +29,7 @@ Harm harm_of(const MeshResult& after, const MeshResult& before);
 /// Whether what is worse is that of a poor quad, see poor_quads.h, or the number of quads.
 bool costs_too_much(const MeshResult& after, const MeshResult& before);
 
-/// What it costs that quads are sound now, and where: "the worst eta goes from ...; ...".
+/// Returns the loss of quality that soundness costs, with its place: "the worst eta goes from ...; ...".
 std::string text_of_price(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before);
 
 }  // namespace delquad

@@ -18,8 +18,8 @@
 namespace delquad {
 namespace {
 
-/// What is found of itself is a grid where eta is at least so much at worst and, with more than two rows, in
-/// the mean, and the lengths of edges fit the size so well in the mean: about what a free mesh has.
+/// Limits of automatic grids: mean eta with more than two rows, worst eta, and mean fit of edge lengths to
+/// the size. A free mesh has about these values.
 constexpr double kLeastMeanEta = 0.88, kLeastEta = 0.55, kLeastFit = 0.9;
 
 struct GridQuality {
@@ -138,7 +138,7 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, P
         grids[i] = maker.make(fold);
         if (grids[i] || !mapped[i].is_asked) return;
         const Vec3 at = maker.place(fold);
-        throw InputError(fmt::format("{}: '{}' cannot be a grid: it would fold at {}", spec.where,
+        throw InputError(fmt::format("{}: '{}' cannot be a grid: it would fold at {} [no-grid]", spec.where,
                                      region_label(p.boundary.regions[p.patches[mapped[i].patch].region]),
                                      show_point(at)));
       },
@@ -156,11 +156,12 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, P
         }))
       p.warnings.push_back(
           {"rings that have no rows", 0,
-           fmt::format("{} has not {} rows: it is no ring, or numbers of edges forbid it", region, rows)});
+           fmt::format("{} did not get {} rows: it is no ring, or the numbers of edges forbid it", region,
+                       rows)});
   }
   const auto has_grid = [](const PreparedPatch& patch) { return patch.grid.has_value(); };
   if (spec.automatic && std::ranges::none_of(p.patches, has_grid))
-    p.warnings.push_back(spec.where + ": no face pays as a grid: all are free");
+    p.warnings.push_back(spec.where + ": no face makes a good grid: all are meshed freely");
 }
 
 }  // namespace delquad

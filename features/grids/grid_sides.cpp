@@ -16,8 +16,8 @@
 namespace delquad {
 namespace {
 
-/// What is found of itself: angles of corners and of other nodes may be so far from 90 and 180 degrees, and
-/// wanted numbers of edges of opposite sides have at most this ratio.
+/// Limits of automatic grids. Angles of corners and of other nodes may differ so much from 90 and 180
+/// degrees. Wanted numbers of edges of opposite sides have at most this ratio.
 constexpr double kCornerSlack = 35, kStraightSlack = 30, kMostSideRatio = 2.05;
 /// So near to a node a corner is told, in diagonals of the outline.
 constexpr double kCornerReach = 1e-3;
@@ -39,7 +39,7 @@ double turn_from(const OutlinePart& part, double angle) { return std::abs(in_deg
 std::vector<std::size_t> by_turn(const Loop& loop) {
   std::vector<std::size_t> order(loop.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  // What the angle is nearer to a right one than to a straight one.
+  // The value is larger if the angle is nearer to a right one than to a straight one.
   std::ranges::stable_sort(order, std::greater<>(),
                            [&](std::size_t i) { return turn_from(loop[i], 180) - turn_from(loop[i], 90); });
   return order;
@@ -119,8 +119,8 @@ GridFinder::GridFinder(const MappedSpec& spec, const std::vector<Entity>& region
       if (has_name(region, name)) return;
       known.push_back(region_label(region));
     }
-    throw InputError(
-        fmt::format("{}: no region is called '{}'{}", where, name, suggestion_or_all(name, known)));
+    throw InputError(fmt::format("{}: no region is called '{}'{} [unknown-name]", where, name,
+                                 suggestion_or_all(name, known)));
   };
   for (const std::string& name : spec.names) check_name(spec.where, name);
   for (const GridCorners& asked : spec.corners) {
@@ -201,7 +201,7 @@ std::optional<MappedFace> GridFinder::find(int face, const Entity& region, const
   }
   if (outline.size() != 1 || outline[0].size() < 3 || rows > 0) {
     if (!asked) return std::nullopt;
-    throw InputError(fmt::format("{}: '{}' cannot be a grid: {}", spec_.where, region_label(region),
+    throw InputError(fmt::format("{}: '{}' cannot be a grid: {} [no-grid]", spec_.where, region_label(region),
                                  why_no_grid(outline)));
   }
   const std::vector<std::size_t> corners = corners_by_angle(outline[0]);
@@ -214,10 +214,10 @@ std::optional<MappedFace> GridFinder::find(int face, const Entity& region, const
 void GridFinder::finish() const {
   for (const Corners& told : corners_)
     if (!told.is_used)
-      throw InputError(fmt::format(
-          "{}: {}", told.asked->where,
-          told.missing.empty() ? fmt::format("'{}' cannot be a grid: {}", told.asked->region, why_no_grid({}))
-                               : told.missing));
+      throw InputError(fmt::format("{}: {}", told.asked->where,
+                                   told.missing.empty() ? fmt::format("'{}' cannot be a grid: {} [no-grid]",
+                                                                      told.asked->region, why_no_grid({}))
+                                                        : told.missing));
 }
 
 namespace {
@@ -308,10 +308,12 @@ std::string why_unbalanced(const UnbalancedFace& bad, const std::string& label, 
     const std::string text = fmt::format("'{}' ({} edges)", names[curve], curves[curve].n);
     if (std::ranges::find(fixed, text) == fixed.end()) fixed.push_back(text);
   }
-  if (fixed.empty()) return fmt::format("the numbers of edges of its curves leave '{}' {}", label, what);
+  if (fixed.empty())
+    return fmt::format("the numbers of edges of its curves leave '{}' {} [odd-numbers]", label, what);
   if (fixed.size() > kMostCurvesNamed) fixed.resize(kMostCurvesNamed);
-  return fmt::format("the numbers of edges that are given leave '{}' {}: change or leave out that of {}",
-                     label, what, fmt::join(fixed, " or "));
+  return fmt::format(
+      "the given numbers of edges leave '{}' {}. Change or leave out the number on {} [odd-numbers]", label,
+      what, fmt::join(fixed, " or "));
 }
 
 }  // namespace delquad

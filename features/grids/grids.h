@@ -13,7 +13,9 @@
 #include "patches/prepared.h"
 #include "patches/surface_curves.h"
 
-/// Faces that become grids: found, given numbers of edges that fit, filled.
+// This header finds faces that become grids, and gives their curves fitting numbers of edges. The pipeline
+// and features use it.
+
 namespace delquad {
 
 /// A part of a face's outline between two nodes that any mesh has, the face on its left.
@@ -36,13 +38,13 @@ struct MappedFace {
   int rows = 0;                     ///< see MappedSpec::rings; 0: no one told
 };
 
-/// Tells which faces become grids, and where these have their corners: at the points that are told; else a
-/// face with just three nodes that turn by more than 30 degrees, or three at all, has these, any other the
-/// four nodes at which it turns most as a rectangle does. Two loops that turn nowhere are a ring. What is
-/// asked for by `automatic` has four corners within 35 degrees of right angles, all else within 30 degrees of
-/// straight, and opposite sides that want numbers of edges within a factor of two, or of one. So has what is
-/// found of itself, narrow faces: strips, up to two and a half sizes wide and longer than that, and rings of
-/// that width.
+/// Finds the faces that become grids, and their corners. Given points are corners. Else a face with just
+/// three nodes that turn by more than 30 degrees, or three nodes at all, has these. Any other face has the
+/// four nodes at which it turns most as a rectangle does. Two loops that turn nowhere are a ring.
+/// Faces that `automatic` asks for have four corners within 35 degrees of right angles, and other nodes
+/// within 30 degrees of straight. The wanted numbers of edges of their opposite sides differ at most by a
+/// factor of two, or by one. The same limits hold for narrow faces that become grids unasked. They are
+/// strips, up to two and a half sizes wide and longer than that, and rings of that width.
 class GridFinder {
  public:
   using NamedPlaces = std::vector<std::pair<std::string, Vec3>>;

@@ -6,6 +6,8 @@
 
 #include "delquad/extend.h"
 
+// This header fills patches with grids by transfinite interpolation. The pipeline and features use it.
+
 namespace delquad {
 
 /// A grid before anything is known of its quads: the boundary's points, those inside, and the quads.
@@ -15,13 +17,13 @@ struct MappedGrid {
   std::vector<std::array<int, 4>> quads;
 };
 
-/// The grid of a patch whose boundary, counterclockwise, has its points at `places`, in the plane or in
-/// space, by transfinite interpolation [Gordon and Hall 1973], its parameters by the lengths along opposite
-/// sides. `corners`: the points at which its sides begin. Of four, opposite sides have equal numbers of
-/// edges. Of three, the sides are divided so that three grids fit, which meet in the mean of the places of
-/// division [midpoint subdivision]. None: two loops of as many edges each, joined by straight lines with
-/// nodes at `layers`, parts of the way from the outer loop, ends excluded. Nothing where the numbers of edges
-/// do not fit.
+/// Returns the grid of a patch by transfinite interpolation [Gordon and Hall 1973]. The points of the
+/// boundary, counterclockwise, are at `places`, in the plane or in space. The parameters of the grid follow
+/// the lengths along opposite sides. `corners`: the points at which its sides begin. If there are four,
+/// opposite sides have equal numbers of edges. If there are three, the sides are divided so that three grids
+/// fit, which meet in the mean of the places of division [midpoint subdivision]. If there is none, two loops
+/// of equally many edges are joined by straight lines with nodes at `layers`. These are parts of the way from
+/// the outer loop, without the ends. Returns nothing if the numbers of edges do not fit.
 template <class Vec>
 std::optional<MappedGrid<Vec>> interpolated_grid(const PatchBoundary& boundary,
                                                  const std::vector<Vec>& places,

@@ -56,7 +56,7 @@ std::vector<MappedFace> find_surface_grids(const MappedSpec& spec, const Mesh& f
         std::ranges::count(curves.cut_face, curves.maps[p].face) > 0)
       throw InputError(
           fmt::format("{}: '{}' cannot be a grid: it had to be divided into {} parts to be "
-                      "flattened",
+                      "flattened [no-grid]",
                       spec.where, region_label(region), n_patches[curves.maps[p].face]));
     mapped.push_back(*found);
   }

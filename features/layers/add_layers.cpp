@@ -171,7 +171,7 @@ void check_thickness(const PlanarDomain& domain, std::span<const LayerSpec> spec
     if (heights[s].back() >= width)
       throw InputError(
           fmt::format("{}: the layers on '{}' are {:.6g} thick and the domain is {:.6g} wide: expected "
-                      "thinner layers",
+                      "thinner layers [no-place-for-layers]",
                       specs[s].where, fmt::join(specs[s].on, "', '"), heights[s].back(), width));
 }
 
@@ -184,7 +184,7 @@ void check_number(const std::vector<PatchLayers>& patches, std::span<const Layer
   if (quads <= most) return;
   throw InputError(
       fmt::format("{}: the layers need about {:.3g} quads, more than the {:.3g} that are allowed "
-                  "(max-elements)",
+                  "(max-elements) [too-many-quads]",
                   specs[0].where, quads, most));
 }
 
@@ -345,13 +345,13 @@ void warn_of_layers(const MeshProblem& problem, const LayerReport& layers, std::
   if (layers.count.least_scale < 1)
     warnings.emplace_back(
         fmt::format("{}: layers are lower where there is no room for them, down to {:.2g} of their height at "
-                    "{} on {}",
+                    "{} on {} [low-layers]",
                     where, layers.count.least_scale, show_point(layers.least_at), layers.least_on));
   if (layers.largest_jump > kLargeJump)
-    warnings.emplace_back(fmt::format(
-        "{}: edges on the last layer are up to {:.3g} times as long as it is high, on {}: more layers, or "
-        "a smaller size there, would help",
-        where, layers.largest_jump, layers.jump_on));
+    warnings.emplace_back(
+        fmt::format("{}: edges on the last layer are up to {:.3g} times as long as it is high, on {}. Ask "
+                    "for more layers, or a smaller size there [long-last-layer]",
+                    where, layers.largest_jump, layers.jump_on));
 }
 
 /// Regions that got layers are no grids any more. Throws InputError where they were asked to be.
@@ -368,15 +368,16 @@ void drop_grids(const MeshProblem& problem, const LayerReport& layers, PlanarDom
   });
 }
 
-/// Of what layers leave of the patches.
+/// Returns a background mesh of the parts of patches without layers.
 std::shared_ptr<const BackgroundMesh> mesh_rest(const MeshProblem& problem, const PlanarDomain& domain) {
   try {
     return std::make_shared<BackgroundMesh>(domain.patches);
   } catch (const InputError& error) {
     std::vector<std::string> on;
     for (const LayerSpec& layer : problem.layers) on.insert(on.end(), layer.on.begin(), layer.on.end());
-    throw InputError(fmt::format("{}: there is no place for the layers on '{}': beside them, {}",
-                                 problem.layers[0].where, fmt::join(on, "', '"), error.what()));
+    throw InputError(
+        fmt::format("{}: there is no place for the layers on '{}': beside them, {} [no-place-for-layers]",
+                    problem.layers[0].where, fmt::join(on, "', '"), error.what()));
   }
 }
 

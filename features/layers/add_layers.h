@@ -10,9 +10,11 @@
 #include "geometry/planar/planar_model.h"
 #include "patches/prepared.h"
 
+// This header puts boundary layers into a domain. The pipeline, features and measures use it.
+
 namespace delquad {
 
-/// What layers have come to.
+/// The size of finished layers.
 struct LayerCount {
   int columns = 0;         ///< edges of curves with quads on them
   int quads = 0;           ///< all

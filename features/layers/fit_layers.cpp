@@ -23,7 +23,7 @@ constexpr double kLeastFront = 0.4;
 /// How far layers keep from others, by their thickness and by the edges at their feet.
 constexpr double kGap = 0.5;
 
-/// What fronts must not touch, and what must not touch them.
+/// A segment that fronts must not touch.
 struct Segment {
   Vec2 a, b;
   std::array<int, 2> points;              ///< of the patch, to which it belongs: those of a point may touch
@@ -215,8 +215,8 @@ class LayerFitter {
         chains, [&](const LayerChain& c) { return std::ranges::find(c.points, p) != c.points.end(); });
     const auto k = static_cast<std::size_t>(std::ranges::find(chain->points, p) - chain->points.begin());
     const LayerSpec& spec = specs_[chain->spec[std::min(k, chain->spec.size() - 1)]];
-    throw InputError(fmt::format("{}: there is no place for the layer on '{}' at {}", spec.where,
-                                 fmt::join(spec.on, "', '"), show_point(patch_.points[p])));
+    throw InputError(fmt::format("{}: there is no place for the layer on '{}' at {} [no-place-for-layers]",
+                                 spec.where, fmt::join(spec.on, "', '"), show_point(patch_.points[p])));
   }
 
   const PatchBoundary& patch_;

@@ -258,7 +258,7 @@ LayerWall make_layer_wall(const PlanarDomain& domain, std::size_t patch, std::ve
   if (piece->is_divided)
     throw InputError(
         fmt::format("{}: the layer ends on {} at {}, of which 'divide' gives the number of edges: expected "
-                    "one of the two",
+                    "one of the two [layer-at-a-divided-curve]",
                     where, curve_title(domain.boundary.curves[curve]), show_point(places[0])));
   return {std::move(points),
           curve,

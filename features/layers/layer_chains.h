@@ -13,6 +13,8 @@
 #include "delquad/model.h"
 #include "geometry/planar/planar_model.h"
 
+// This header finds the chains of edges on which layers stand. Features use it.
+
 namespace delquad {
 
 /// Which layers each curve of a domain has.
@@ -89,14 +91,14 @@ struct LayerChain {
   std::array<int, 2> wall = {-1, -1};  ///< at its first and last point; -1 where it is closed
 
   int n_points() const { return static_cast<int>(points.size()); }
-  /// Of the edge before a point and that after it: -1: none.
+  /// Returns the specs of the edge before a point and of the edge after it; -1: none.
   std::array<int, 2> specs_at(int k) const {
     const int n = n_points();
     return {k > 0 ? spec[k - 1] : is_closed ? spec[n - 1] : -1, k + 1 < n || is_closed ? spec[k] : -1};
   }
 };
 
-/// What lies beside a chain, up to the next corner.
+/// The layers along a chain, up to the next corner.
 struct LayerWall {
   std::vector<int> points;  ///< of the patch
   int curve;                ///< of the mesh; -1: an axis of symmetry
@@ -117,7 +119,7 @@ struct LayerChains {
   std::vector<LayerWall> walls;
 };
 
-/// Of one patch. Throws InputError where the boundary meets itself at a layer, or a crack does.
+/// Returns the chains of one patch. Throws InputError if the boundary or a crack meets itself at a layer.
 LayerChains find_layer_chains(const PlanarDomain& domain, std::size_t patch, std::span<const LayerSpec> specs,
                               const CurveLayers& layers, const BoundaryGraph& graph);
 

@@ -15,8 +15,8 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 /// Ends of layers lie on walls up to this angle; beyond it they stand free.
 constexpr double kWidestWall = 150 * kDegree;
-/// What a quad at the corner of a fan spans, and the least that it does so that edges of the front are no
-/// more than kLongFront times as long as those of the curve.
+/// The angle of a quad at the corner of a fan, and its least value. With it edges of the front are at most
+/// kLongFront times as long as edges of the curve.
 constexpr double kFanQuad = 100 * kDegree, kThinFanQuad = 45 * kDegree;
 constexpr double kLongFront = 1.5;
 /// The diagonal of such a quad, by its height; that of a square.
@@ -204,7 +204,7 @@ std::vector<double> LayerColumns::leans(int c) const {
   return leans;
 }
 
-/// Of a corner's column, as its neighbours on one side see it.
+/// Returns the lean of a corner's column, as its neighbors on one side see it.
 double LayerColumns::lean_of(int c, int k, bool forward) const {
   const ChainCorner& corner = corners_[c][k];
   if (corner.kind == ChainCorner::kMitre) return (forward ? 1 : -1) / std::tan(corner.angle / 2);
@@ -246,7 +246,7 @@ std::vector<double> layer_heights(const LayerSpec& spec) {
   if (spec.number == 0 && spec.thickness < spec.first)
     throw InputError(fmt::format("{}: thickness {} is less than the first height, {}", spec.where,
                                  spec.thickness, spec.first));
-  // What rounding of the sums may take or add.
+  // This leaves room for the rounding of the sums.
   const double enough = spec.thickness * (1 - 1e-9);
   std::vector<double> heights;
   double height = spec.first, sum = 0;

@@ -6,6 +6,8 @@
 
 #include "features/layers/layer_chains.h"
 
+// This header has the columns of nodes of layers. Features use it.
+
 namespace delquad {
 
 /// Nodes above a point of a chain, one for each layer.
@@ -45,15 +47,15 @@ class LayerColumns {
   /// Layers on the edge from a point, and at a point: the more of those at its edges.
   int layers_on(int c, int k) const { return n_of(chain(c).spec[k]); }
   int layers_at(int c, int k) const;
-  /// Of two columns side by side.
+  /// Returns the number of layers between two neighboring columns.
   int layers_between(int c, int a, int b) const;
   Vec2 foot(int c, int k) const { return patch_.points[chain(c).points[k]]; }
   /// Lengths of the edges at a point; at an end both are of its edge.
   std::array<double, 2> edges_at(int c, int k) const;
 
-  /// What the heights at each point of each chain are multiplied by.
+  /// Factors of the heights at each point of each chain.
   std::vector<std::vector<double>> scales;
-  /// Of a node above a point.
+  /// Returns the height of a node above a point.
   double height(int c, int k, int layer) const;
   double thickness(int c, int k) const { return height(c, k, layers_at(c, k)); }
 

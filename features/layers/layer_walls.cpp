@@ -237,7 +237,7 @@ void LayerWalls::join(const std::vector<ChainEnd>& group) {
       const Vec2 at = columns(e).foot(e.chain, point_of(e));
       throw InputError(
           fmt::format("{}: {} layers meet {} of {} on one curve, or on periodic ones, at {}: "
-                      "expected the same number",
+                      "expected the same number [numbers-of-layers]",
                       specs_[spec_of(group[0])].where, number(group[0]), number(e), specs_[spec_of(e)].where,
                       show_point(at)));
     }
@@ -354,7 +354,8 @@ std::vector<std::size_t> LayerWalls::odd_patches() const {
   return odd;
 }
 
-/// Of each wall that is no image, the patches around which one edge more of it makes an odd number.
+/// Returns for each wall that is no image the patches that get an odd number of edges if the wall gets one
+/// more.
 std::vector<std::vector<std::size_t>> LayerWalls::patches_changed_by() const {
   std::vector<std::vector<std::size_t>> changed(walls_.size());
   for (std::size_t id = 0; id < walls_.size(); ++id)

@@ -9,6 +9,8 @@
 
 #include "features/layers/layer_columns.h"
 
+// This header makes layers of adjacent patches fit. Features use it.
+
 namespace delquad {
 
 /// The layers of one patch, and its walls that layers of others end on.

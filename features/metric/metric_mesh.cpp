@@ -41,7 +41,7 @@ constexpr int kMostRounds = 200, kGradationSweeps = 200;
 constexpr double kMorePoints = 1.2;
 /// The growth of lengths away from bends, where none is asked for.
 constexpr double kBendGradation = 1.5;
-/// What a tensor may be less than gradation asks for, as a part.
+/// Relative amount by which a tensor may be below the demand of gradation.
 constexpr double kGraded = 1e-3;
 constexpr std::size_t kMostPoints = 4'000'000;
 /// How near the complexity comes to what is asked.
@@ -156,7 +156,7 @@ class MetricMesher {
     given_.insert(given_.end(), metric.begin(), metric.end());
   }
 
-  /// Of what was given: scaled to the complexity, within the limits, graded.
+  /// Makes the metric from the given one: scaled to the complexity, within the limits, graded.
   void update_metric() {
     if (spec_.complexity > 0 && complexity_ > 0)
       scale_ *= std::clamp(spec_.complexity / complexity_, 0.25, 4.0);
@@ -166,7 +166,7 @@ class MetricMesher {
     shortened_ = {};
     follow_bends(is_less);
     follow_curves(is_less);
-    // What bends ask for must not jump.
+    // Demands of bends must not jump.
     if (spec_.gradation > 1)
       grade(spec_.gradation, std::vector<char>(metric_.size(), 1));
     else if (std::ranges::find(is_less, 1) != is_less.end())
@@ -180,7 +180,7 @@ class MetricMesher {
     if (!(asked <= static_cast<double>(max_elements_)))
       throw InputError(
           fmt::format("{}: the metric asks for about {:.3g} quads, more than the {} that are "
-                      "allowed (max-elements)",
+                      "allowed (max-elements) [too-many-quads]",
                       spec_.where, asked, max_elements_));
   }
   Tensor2 within_limits(const Tensor2& m) const { return limited(times(scale_, m), spec_.limits); }
@@ -321,7 +321,7 @@ class MetricMesher {
       else if (probed_.insert(key_of(a, b)).second)
         unknown.push_back(split), middles.push_back(split.middle);
     }
-    // What lies between the ends.
+    // This is the given metric at the middles.
     const std::vector<Tensor2> between = given_at(middles);
     for (std::size_t i = 0; i < unknown.size(); ++i) {
       const auto& [length, a, b, middle] = unknown[i];
@@ -382,7 +382,7 @@ class MetricMesher {
     if (model_.fine.points.size() > kMostPoints)
       throw InputError(
           fmt::format("{}: the metric changes too fast to be followed by {} points: a gradation or "
-                      "a larger least length helps",
+                      "a larger least length helps [metric-too-fast]",
                       spec_.where, kMostPoints));
     sample();
     for (const auto& [a, b, node] : made)

@@ -80,7 +80,8 @@ void check(const MetricSpec& metric) {
 
 [[noreturn]] void refuse_with_metric(const MeshProblem& problem, const std::string& what,
                                      const std::string& where) {
-  throw InputError(fmt::format("{}: {} not go with a metric ({}) yet", where, what, problem.metric.where));
+  throw InputError(fmt::format("{}: {} not go with a metric ({}) yet [not-with-a-metric]", where, what,
+                               problem.metric.where));
 }
 
 }  // namespace
@@ -144,7 +145,7 @@ std::vector<Chart> metric_charts(const MetricMesh& made, const MeshProblem& prob
       if (std::exchange(is_seen[node], 1) != 0)
         throw InputError(
             fmt::format("{}: the domain hangs together by a single point at {}, which does not go with a "
-                        "metric yet",
+                        "metric yet [not-with-a-metric]",
                         problem.metric.where, show_point(whole.points[node])));
     for (const auto& v : chart.triangles) {
       auto& sides = chart.sides.emplace_back();
@@ -203,8 +204,8 @@ ConformalMap flatten_chart(const Chart& chart, const MeshProblem& problem) {
   }
   if (!map)
     throw InputError(fmt::format(
-        "{}: the metric bends the domain so much that it cannot be laid flat in one piece: expected a metric "
-        "that changes less, a gradation nearer to 1, or a domain that is divided",
+        "{}: the metric bends the domain so much that it cannot be laid flat in one piece. Divide the "
+        "domain, or give a metric that changes less or a gradation nearer to 1 [metric-too-fast]",
         problem.metric.where));
   return *std::move(map);
 }
@@ -343,7 +344,7 @@ class CurveSamples {
   }
 
  private:
-  /// What is left of equal parameters after the search for the nearest point.
+  /// Difference of equal parameters after the search for the nearest point.
   static constexpr double kSameParameter = 1e-9;
 
   const PlanarModel& model_;

@@ -15,9 +15,10 @@
 #include "fields/size_aware_cross_field.h"
 #include "metrics/metric_measures.h"
 
-// A plane with a metric is a surface, and conformally flat: a domain is laid into a plane in which the metric
-// is the square of a scalar times the identity, and is meshed there as any other. What is near 1 there is
-// near 1 in the metric: lengths over the size, and all measures of shapes.
+// This header maps a plane with a metric to a plane with sizes. A plane with a metric is a surface, and
+// conformally flat. The domain is laid into a plane in which the metric is the square of a scalar times the
+// identity. It is meshed there as any other. Values near 1 there are near 1 in the metric: lengths over the
+// size, and all measures of shapes.
 
 namespace delquad {
 

@@ -12,7 +12,7 @@
 
 namespace delquad {
 
-/// The metric of a model, the spots being where sizes are less. Of `model` as it was read.
+/// Returns the metric of a model; sizes are smaller at the spots. `model`: the model as it was read.
 WantedMetric wanted_metric(const MeshProblem& problem, const SurfaceModel& model,
                            const std::vector<SizeSpot>& spots);
 

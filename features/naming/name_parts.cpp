@@ -21,13 +21,13 @@
 namespace delquad {
 namespace {
 
-/// Of the model's diagonal: boxes hold what is outside by less, and places are equally near.
+/// Tolerance in parts of the model's diagonal, for boxes and for equally near places.
 constexpr double kRoundOff = 1e-6;
 /// Faces look the way that is asked for where all of their normals are within this of it.
 const double kLeastCosine = std::cos(5 * std::numbers::pi / 180);
 
-/// `pattern`: * stands for any text, ? for one letter. What fails goes back to the last *, which takes one
-/// letter more.
+/// Whether a text fits `pattern`: * stands for any text, ? for one character. After a failure the last *
+/// takes one character more.
 bool fits(std::string_view pattern, std::string_view text) {
   std::size_t p = 0, t = 0, star = std::string_view::npos, taken = 0;
   while (t < text.size()) {
@@ -107,7 +107,8 @@ int nearest_of(const std::vector<int>& found, const Parts& parts, const NamedPar
   }
   if (other >= 0)
     throw InputError(
-        fmt::format("{}: {} {} and {} are as near to {} as each other: expected a place nearer to one",
+        fmt::format("{}: {} {} and {} are as near to {} as each other: expected a place nearer to one "
+                    "[two-parts-for-a-name]",
                     asked.where, asked.curves ? "curves" : "faces", parts.entities()[best].tag,
                     parts.entities()[other].tag, show_point(*asked.at)));
   return best;
@@ -135,8 +136,8 @@ std::vector<int> find(const NamedPart& asked, const Mesh& fine) {
     found.push_back(i);
   }
   if (found.empty())
-    throw InputError(fmt::format("{}: no {} of the {} is what '{}' is to name", asked.where,
-                                 asked.curves ? "curve" : "face", all.size(), asked.name));
+    throw InputError(fmt::format("{}: no {} of the {} fits the rule for the name '{}' [no-part-for-a-name]",
+                                 asked.where, asked.curves ? "curve" : "face", all.size(), asked.name));
   if (asked.at) found = {nearest_of(found, parts, asked, tolerance)};
   return found;
 }

@@ -126,7 +126,7 @@ class CornerMatcher {
     const Vec3& at = fine_.points[v];
     throw InputError(fmt::format(
         "{}: the sides do not match: the image of ({:.10g}, {:.10g}, {:.10g}) on a curve of '{}', "
-        "({:.10g}, {:.10g}, {:.10g}), is {:.3g} away from the curves of '{}'",
+        "({:.10g}, {:.10g}, {:.10g}), is {:.3g} away from the curves of '{}' [periodic-mismatch]",
         pair.of.where, at.x, at.y, at.z, from, x.x, x.y, x.z, off, to));
   }
 

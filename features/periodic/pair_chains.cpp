@@ -60,15 +60,16 @@ class ChainImages {
     for (const int m : masters) {
       const auto found = stays(m, pair.motion) ? ChainPair{m, m, true, pair.motion} : image(pair, m, others);
       if (!taken.insert(found.chain).second)
-        throw InputError(fmt::format("{}: the sides do not match: curve {} would be an image twice",
-                                     pair.where, fine_.curves[chains_[found.chain].curve].tag));
+        throw InputError(
+            fmt::format("{}: the sides do not match: curve {} would be an image twice [periodic-mismatch]",
+                        pair.where, fine_.curves[chains_[found.chain].curve].tag));
       pairs.push_back(found);
     }
     for (const int i : others)
       if (!taken.contains(i))
-        throw InputError(
-            fmt::format("{}: the sides do not match: {} of '{}' is the image of no curve of '{}'", pair.where,
-                        label(i), pair.to, pair.from));
+        throw InputError(fmt::format(
+            "{}: the sides do not match: {} of '{}' is the image of no curve of '{}' [periodic-mismatch]",
+            pair.where, label(i), pair.to, pair.from));
     return pairs;
   }
 
@@ -112,8 +113,9 @@ class ChainImages {
       least = std::min(least, distance);
     }
     if (!best)
-      throw InputError(fmt::format("{}: the sides do not match: {} of '{}' has no image in '{}'", pair.where,
-                                   label(master), pair.from, pair.to));
+      throw InputError(
+          fmt::format("{}: the sides do not match: {} of '{}' has no image in '{}' [periodic-mismatch]",
+                      pair.where, label(master), pair.from, pair.to));
     return *best;
   }
 

@@ -122,7 +122,7 @@ void check_apart(const Mesh& fine, const PairedFace& a, const Motion& motion, co
   if (!(worst.distance > worst.allowed)) return;
   throw InputError(
       fmt::format("{}: the faces do not match: the image of face {} at ({:.10g}, {:.10g}, {:.10g}) is {:.3g} "
-                  "away from face {}, and {:.3g} is the most there may be",
+                  "away from face {}, and {:.3g} is the most there may be [periodic-mismatch]",
                   pair.where, fine.regions[a.face()].tag, at.x, at.y, at.z, worst.distance,
                   fine.regions[b.face()].tag, worst.allowed));
 }

@@ -97,7 +97,7 @@ class Pairing {
     throw InputError(fmt::format(
         "{}: the sides do not match: {} of '{}' from ({:.10g}, {:.10g}) to ({:.10g}, {:.10g}) has no image "
         "in "
-        "'{}', which would run from ({:.10g}, {:.10g}) to ({:.10g}, {:.10g})",
+        "'{}', which would run from ({:.10g}, {:.10g}) to ({:.10g}, {:.10g}) [periodic-mismatch]",
         pair.where, label(master), pair.from, chain_.nodes[m.ends[0]].x, chain_.nodes[m.ends[0]].y,
         chain_.nodes[m.ends[1]].x, chain_.nodes[m.ends[1]].y, pair.to, a.x, a.y, b.x, b.y));
   }

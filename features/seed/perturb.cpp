@@ -25,7 +25,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// What is rotated, and by what.
+/// Rotates a field by an angle.
 template <class Base>
 class Rotated : public Base {
  public:

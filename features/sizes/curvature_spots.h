@@ -7,9 +7,9 @@
 
 namespace delquad {
 
-/// Of each curve of the model the elements per full turn that are asked for, by its name, by that of a region
-/// it bounds in the domain, or overall; 0: none. Throws InputError for a name that neither a curve has nor a
-/// region.
+/// Returns for each curve of the model the requested elements per full turn; 0: none. The request is by its
+/// name, by the name of a region that it bounds in the domain, or overall. Throws InputError for a name that
+/// no curve and no region has.
 std::vector<double> turns_asked(const PlanarModel& model, const PlanarDomain& domain, const SizeSpec& spec);
 
 /// Curves of the plane whose elements turn by more than curvature allows, in short parts, each with the size

@@ -9,7 +9,7 @@ const OptionTable<CurveOptions>& curve_table() {
   static const auto all =
       OptionTable<CurveOptions>("curves", "edges on curves")
           .add({.name = "agreement",
-                .help = "what an irregular vertex less is worth: quads times eta; 0: by the size alone",
+                .help = "price of an irregular vertex, in quads times eta; 0: numbers follow the size alone",
                 .least = 0,
                 .most = 100},
                &CurveOptions::agreement)
@@ -28,7 +28,7 @@ const OptionTable<CurveOptions>& curve_table() {
                   &CurveOptions::thin_rows,
                   std::vector<std::pair<std::string, bool>>{{"refine", false}, {"rows", true}})
           .add({.name = "aspect",
-                .help = "of quads at the ends of such rows, beyond which sizes are smaller",
+                .help = "aspect of quads at the ends of such rows, above which sizes shrink",
                 .least = 1,
                 .most = 100},
                &CurveOptions::aspect)

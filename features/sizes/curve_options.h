@@ -19,7 +19,7 @@ struct CurveOptions {
   double aspect = 3;  ///< of quads in such rows, beyond which sizes become smaller
   /// Rows of quads for which sizes make room between curves that face each other, see gap_spots(); 0: none.
   int gap_rows = 0;
-  /// What has a name stays, however small, see ignore_small().
+  /// Curves with a name stay, however small, see ignore_small().
   bool keep_named = false;
 };
 

@@ -102,7 +102,7 @@ std::vector<FineSpot> NamedParts::spots(const std::vector<NamedSize>& wanted) co
     if (parts_.contains(w.name)) continue;
     std::vector<std::string> known;
     for (const auto& [name, parts] : parts_) known.push_back(name);
-    throw InputError(fmt::format("{}: nothing is called '{}'{}", w.where, w.name,
+    throw InputError(fmt::format("{}: nothing is called '{}'{} [unknown-name]", w.where, w.name,
                                  suggestion_or_all(w.name, std::move(known))));
   }
   return known_spots(wanted);

@@ -11,10 +11,12 @@
 #include "geometry/planar/planar_model.h"
 #include "geometry/surface/surface_model.h"
 
+// This header finds parts of a model by name. The pipeline and features use it.
+
 namespace delquad {
 
-/// What has names in a model, as segments (of points, without length) and triangles. What has none goes by
-/// its number, as in files: curve_7, region_3.
+/// The named parts of a model, as segments (points have length zero) and triangles. Nameless parts are called
+/// by their number, as in files: curve_7, region_3.
 class NamedParts {
  public:
   /// Lines, triangles and named points of a mesh.
@@ -27,9 +29,9 @@ class NamedParts {
   /// Lines and points that are yet to be imprinted, straight.
   explicit NamedParts(const std::vector<LooseLine>& loose);
 
-  /// Those of a mesh from this curve and this named point on.
+  /// Adds the lines of a mesh from this curve and this named point on.
   void add_lines(const Mesh& mesh, std::size_t first_curve = 0, std::size_t first_point = 0);
-  /// What is asked of sizes by names. Throws InputError for a name that nothing has.
+  /// Returns the sizes that are requested by names. Throws InputError for an unknown name.
   std::vector<FineSpot> spots(const std::vector<NamedSize>& wanted) const;
   /// Without those that nothing has.
   std::vector<FineSpot> known_spots(const std::vector<NamedSize>& wanted) const;

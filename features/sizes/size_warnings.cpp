@@ -28,13 +28,13 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 /// By rounding to a whole and even number of edges, curves get a little fewer than wanted.
 constexpr double kRoundedDown = 0.9;
-/// What would be round only with sizes below this part of the size there is too small to tell of.
+/// Details that would be round only with sizes below this part of the size are too small for a warning.
 constexpr double kLeastShown = 0.02;
 
 /// Two digits of a size may be this much more than it.
 constexpr double kRoundedUp = 0.95;
 
-/// What gets few edges to a full turn.
+/// Curves and faces with few edges to a full turn.
 struct CoarseTurns {
   int curves = 0, faces = 0;
   double fewest = kFewPerTurn;
@@ -69,7 +69,7 @@ struct CoarseTurns {
     std::string help = asks < kFewPerTurn ? fmt::format("--curvature {:g}", kFewPerTurn) : "";
     if (needed < least_by_curvature(base, min))
       help += fmt::format("{}--size-min {:.2g}", help.empty() ? "" : " with ", kRoundedUp * needed);
-    if (!help.empty()) warnings.emplace_back(text() + ": " + help + " would help");
+    if (!help.empty()) warnings.emplace_back(text() + ": " + help + " would help [coarse-turns]");
   }
 };
 
@@ -176,8 +176,8 @@ void warn_of_idle_sizes(const std::vector<NamedSize>& named, const NamedParts& p
         largest = std::max(largest, size.at(x, hint));
     if (largest > wanted.size || largest == 0) continue;
     warnings.emplace_back(fmt::format(
-        "{}: the size {:.4g} of '{}' has no effect: it is {:.4g} there, or less, and the smaller one counts; "
-        "for larger quads ask for the larger size overall, and for smaller ones elsewhere by name",
+        "{}: the size {:.4g} of '{}' has no effect: it is {:.4g} there, or less, and the smaller one counts. "
+        "Ask for the larger size overall, and for smaller sizes elsewhere by name [idle-size]",
         wanted.where, wanted.size, wanted.name, largest));
   }
 }
@@ -190,8 +190,8 @@ void warn_of_large_size(const SizeField& size, const Mesh& model, std::vector<Wa
     least = std::min(least, size.at(x, hint));
     if (!(least > extent)) return;
   }
-  warnings.emplace_back(
-      fmt::format("the size, {:.4g}, is larger than the model, whose diagonal is {:.4g}", least, extent));
+  warnings.emplace_back(fmt::format(
+      "the size, {:.4g}, is larger than the model, whose diagonal is {:.4g} [large-size]", least, extent));
 }
 
 void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain, const SizeSpec& spec,
@@ -287,7 +287,7 @@ void warn_of_gaps(const PlanarDomain& domain, std::vector<Warning>& warnings) {
           const double gap = norm(nearest_on_segment(from.a, edge.a, edge.b) - from.a);
           if (!(gap > 0) || gap > std::min(reach, kNarrow * norm(edge.b - edge.a))) return;
           near.insert(node);
-          // Of gaps that are equal, that between curves side by side says most.
+          // If gaps are equal, the gap between curves side by side says most.
           const double aside = std::abs(cross(from.b - from.a, edge.b - edge.a));
           const double blame = gap * (1 + aside / (norm(from.b - from.a) * norm(edge.b - edge.a)));
           if (least > 0 && blame >= least) return;
@@ -300,9 +300,8 @@ void warn_of_gaps(const PlanarDomain& domain, std::vector<Warning>& warnings) {
   if (near.empty()) return;
   const auto title = [&](int c) { return curve_title(domain.boundary.curves[c]); };
   warnings.emplace_back(
-      fmt::format("{} and {} leave a gap of {:.2g} between them at {}, far narrower than the "
-                  "edges there{}: "
-                  "where regions should join, their curves must lie on each other",
+      fmt::format("{} and {} leave a gap of {:.2g} between them at {}, far narrower than the edges there{}. "
+                  "If the regions should join, let their curves lie on each other [gap-between-regions]",
                   title(curves.first), title(curves.second), shown, show_point(place),
                   near.size() > 1 ? fmt::format(", and so at {} nodes", near.size()) : ""));
 }

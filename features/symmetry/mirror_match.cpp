@@ -377,7 +377,7 @@ SymmetryPlane MirrorMatcher::adjusted(const SymmetryPlane& plane) const {
       a += row * row.transpose();
       b -= row * (dot(normal, x - y) / t.diagonal);
     }
-    // What does not matter stays as it is.
+    // A small diagonal keeps changes at zero that do not matter.
     a.diagonal().array() += 1e-9 * (a.trace() + 1e-300);
     const Eigen::Vector3d change = a.ldlt().solve(b);
     at.point = at.point + (change[2] * t.diagonal) * n;

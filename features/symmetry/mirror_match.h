@@ -7,6 +7,8 @@
 #include "features/symmetry/symmetry_planes.h"
 #include "geometry/surface/surface_model.h"
 
+// This header finds planes of symmetry of a surface. Features use it.
+
 namespace delquad {
 
 /// A symmetric model's places have their images on it to this part of the model's diagonal; on a
@@ -14,13 +16,13 @@ namespace delquad {
 /// that are narrow, and on their curves, it is this part of the width.
 inline constexpr double kSymmetric = 1e-4, kSymmetricOfWidth = 0.05;
 
-/// What of a model is the image of what, at one plane.
+/// Images of the parts of a model at one plane.
 struct MirrorMatch {
   std::string failure;       ///< why the model is not symmetric; empty: it is
   std::vector<int> face;     ///< of each face, its image
   std::vector<char> turned;  ///< of each face: its image looks to the other side
-  /// Of each curve, those that its image lies on, ascending. None of those that need no image: whiskers, and
-  /// nameless seams, which have the same face on both sides.
+  /// For each curve the curves that its image lies on, ascending. Curves that need no image have none:
+  /// dangling curves, and nameless seams, which have the same face on both sides.
   std::vector<std::vector<int>> curves;
   std::vector<char> is_loose_seam;  ///< of each curve: such a seam, without an image
   bool by_embedded = false;         ///< all but embedded curves and single points is symmetric
@@ -50,9 +52,8 @@ struct FoundPlanes {
   std::string spoiled;  ///< a plane that would be one more, and the embedded item without an image; or empty
 };
 
-/// The planes at which a model is symmetric; none where none are found. They go
-/// through the middle of the model or the centroid of its surface. Of those that are equally good, the ones
-/// that are perpendicular to x, y and z come first.
+/// Returns the planes at which a model is symmetric, or none. They go through the middle of the model or the
+/// centroid of its surface. If several are equally good, planes perpendicular to x, y and z come first.
 FoundPlanes find_symmetry_planes(const SurfaceModel& model, const MirrorMatcher& matcher);
 
 }  // namespace delquad

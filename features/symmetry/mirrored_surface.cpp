@@ -22,9 +22,9 @@ std::vector<MirrorMatch> matches_at(const MirrorMatcher& matcher, const Symmetry
   for (int k = 0; k < planes.count(); ++k) {
     matches.push_back(matcher.match(planes, k));
     if (!matches.back().failure.empty())
-      throw InputError(
-          fmt::format("{}: the model is not symmetric at the plane through {} with the normal {}: {}", where,
-                      show_point(given[k].point), show_point(given[k].normal), matches.back().failure));
+      throw InputError(fmt::format(
+          "{}: the model is not symmetric at the plane through {} with the normal {}: {} [not-symmetric]",
+          where, show_point(given[k].point), show_point(given[k].normal), matches.back().failure));
   }
   return matches;
 }
@@ -69,7 +69,7 @@ class DivisionSharing {
           other->second.progression == division.progression && other->second.bump == division.bump)
         continue;
       throw InputError(
-          fmt::format("{}: curve {} is divided, and not as curve {}, of which it is the mirror image",
+          fmt::format("{}: curve {} is divided differently from curve {}, whose mirror image it is",
                       division.where, tag(curve), tag(image)));
     }
   }

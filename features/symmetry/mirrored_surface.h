@@ -10,9 +10,12 @@
 #include "geometry/planar/planar_model.h"
 #include "patches/prepared.h"
 
+// This header cuts a symmetric surface, so that one part is meshed. The pipeline, features and measures use
+// it.
+
 namespace delquad {
 
-/// What of a symmetric model lies on the positive side of its planes: a half, a quarter or an eighth.
+/// The part of a symmetric model on the positive side of its planes: a half, a quarter or an eighth.
 struct SymmetricHalf {
   /// With the faces of the whole, some without triangles, and the pieces of its curves; sections at the
   /// planes are curves of their own. All of its places on planes lie on them to rounding.

@@ -177,9 +177,10 @@ std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySp
     for (int k = 0; k < symmetry.n_planes(); ++k)
       if (const ModelPoint* p = point_without_image(model, curves, symmetry, k)) {
         const Vec2 image = symmetry.reflect({k}, p->at);
-        throw InputError(fmt::format(
-            "{}: the model is not symmetric: the point '{}' ({}) has no mirror image at ({:.10g}, {:.10g})",
-            spec.where, p->name, p->where, image.x, image.y));
+        throw InputError(
+            fmt::format("{}: the model is not symmetric: the point '{}' ({}) has no mirror image at "
+                        "({:.10g}, {:.10g}) [not-symmetric]",
+                        spec.where, p->name, p->where, image.x, image.y));
       }
     return symmetry;
   }
@@ -399,10 +400,10 @@ void pair_symmetric(const PlanarModel& model, const Symmetry& symmetry, const st
     const std::vector<int> folds = symmetry.folds_of(middle);
     if (folds.empty()) continue;
     if (!pairs.pair(piece, folds))
-      throw InputError(
-          fmt::format("{}: the model is not symmetric: {} has no mirror image at ({:.10g}, {:.10g})", where,
-                      curve_label(model, piece.curves.front()), symmetry.reflect(folds, middle).x,
-                      symmetry.reflect(folds, middle).y));
+      throw InputError(fmt::format(
+          "{}: the model is not symmetric: {} has no mirror image at ({:.10g}, {:.10g}) [not-symmetric]",
+          where, curve_label(model, piece.curves.front()), symmetry.reflect(folds, middle).x,
+          symmetry.reflect(folds, middle).y));
   }
   for (const CurvePiece& piece : pieces)
     if (piece.master >= 0 && piece.is_divided &&
@@ -454,7 +455,8 @@ std::vector<PatchImage> patch_images(const std::vector<PatchBoundary>& patches, 
     }
     if (image.master < 0)
       throw InputError(
-          fmt::format("{}: the model is not symmetric: the region at ({:.4g}, {:.4g}) has no mirror image",
+          fmt::format("{}: the model is not symmetric: the region at ({:.4g}, {:.4g}) has no mirror image "
+                      "[not-symmetric]",
                       where, mean(patches[p]).x, mean(patches[p]).y));
     images.push_back(std::move(image));
   }

@@ -11,6 +11,8 @@
 #include "geometry/planar/planar_model.h"
 #include "patches/prepared.h"
 
+// This header has the symmetry of planar models. The pipeline and features use it.
+
 namespace delquad {
 
 /// A symmetric model: what lies on the positive sides of all planes, and its mirror images.
@@ -47,8 +49,8 @@ class Symmetry {
 /// the model is not symmetric.
 std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySpec& spec);
 
-/// Of a model in which no plane is found: one that its loops have, and what in the regions has no image
-/// there, for a warning; empty: its loops have none.
+/// Returns a warning if no plane is found for the model, but its loops have one. The warning names the parts
+/// in the regions without an image. It is empty if the loops have no plane.
 std::string what_spoils_symmetry(const PlanarModel& model);
 
 /// The model with the planes' axes as curves after its own, and with points, after its own, where its nodes
@@ -66,8 +68,8 @@ void drop_axes(int first_axis, PlanarDomain& domain);
 void pair_symmetric(const PlanarModel& model, const Symmetry& symmetry, const std::string& where,
                     ModelChain& chain, std::vector<CurvePiece>& pieces);
 
-/// Of each patch that is a mirror image, of which one and how. Throws InputError for patches that are none,
-/// behind a plane.
+/// Returns for each patch that is a mirror image its original and its reflection. Throws InputError for
+/// patches behind a plane that are no images.
 std::vector<PatchImage> patch_images(const std::vector<PatchBoundary>& patches, const Symmetry& symmetry,
                                      const std::string& where);
 

@@ -271,10 +271,10 @@ class SymmetricCutter {
       if (put_corner(editor, planes_.reflect_all(folds, fine.points[p]))) continue;
       const bool is_point = named.contains(p);
       if (!is_point && !of_others[p]) continue;
-      throw InputError(fmt::format("{}: the model is not symmetric: {} at {} has no mirror image at {}",
-                                   where_, is_point ? "the point '" + name_of(p) + "'" : "the corner",
-                                   show_point(fine.points[p]),
-                                   show_point(planes_.reflect_all(folds, fine.points[p]))));
+      throw InputError(
+          fmt::format("{}: the model is not symmetric: {} at {} has no mirror image at {} [not-symmetric]",
+                      where_, is_point ? "the point '" + name_of(p) + "'" : "the corner",
+                      show_point(fine.points[p]), show_point(planes_.reflect_all(folds, fine.points[p]))));
     }
     editor.finish();
   }

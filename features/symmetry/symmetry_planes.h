@@ -7,10 +7,12 @@
 #include "delquad/fields.h"
 #include "delquad/model.h"
 
+// This header reflects points at perpendicular planes. Features use it.
+
 namespace delquad {
 
-/// Planes of space that are perpendicular to each other, one to three. What lies on the positive side of all
-/// is the fundamental part of a symmetric model.
+/// One to three planes in space, perpendicular to each other. The fundamental part of a symmetric model lies
+/// on their positive sides.
 class SymmetryPlanes {
  public:
   explicit SymmetryPlanes(const std::vector<SymmetryPlane>& planes);

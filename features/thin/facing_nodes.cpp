@@ -28,8 +28,8 @@ constexpr double kAside = 0.6, kParallel = 0.8;
 constexpr double kSharp = kLeastSharedAngle, kWedge = 0.5;
 /// So many edges behind a wedge nodes are free to come from one way of facing each other to the other.
 constexpr double kBehind = 3;
-/// What edges count that are longer or shorter than the size, of nodes that do not face each other a size
-/// away; of those nearer to each other the square of the slope counts, up to so much.
+/// Weight of edges that are longer or shorter than the size. A pair of facing nodes has the square of size
+/// over gap as its weight, up to a limit, which is higher in wedges.
 constexpr double kStiffness = 20, kMostWeight = 4, kMostInWedges = 1e4;
 /// Where the difference of phases jumps by more, as at the beginning of a closed curve, a new strip begins.
 constexpr double kJump = 0.75;
@@ -37,7 +37,7 @@ constexpr int kNumberings = 2, kSweeps = 3;
 /// Edges are no shorter than this part of equal ones.
 constexpr double kShortest = 0.3;
 
-/// Of a sample to the place across from it.
+/// A link from a sample to the place across from it.
 struct Link {
   int at;           ///< sample
   double other_at;  ///< place between samples of the other piece

@@ -34,7 +34,7 @@ class PatchGaps {
     tree_ = BoxTree<Vec2>(boxes);
   }
 
-  /// Of the gap before the middle of an edge; `reach` where there is none.
+  /// Returns the width of the gap before the middle of an edge, or `reach` if there is no gap.
   double width(std::size_t edge, double reach) const {
     const Vec2 x = 0.5 * (begin(edge) + end(edge)), d = end(edge) - begin(edge);
     double width = reach, limit2 = reach * reach;

@@ -48,8 +48,8 @@ std::vector<Vec2> in_its_plane(const std::vector<Vec3>& outline) {
   return flat;
 }
 
-/// Of a round one twice the mean distance from the middle of the outline, else the least width along its
-/// sides.
+/// Returns the diameter of a hole. For a round hole this is twice the mean distance from the middle of the
+/// outline, else the least width along its sides.
 double diameter_of(const std::vector<Vec2>& flat) {
   const std::size_t n = flat.size();
   Vec2 sum;
@@ -238,14 +238,16 @@ std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSp
   const std::string label = fmt::format("{}: the hole of diameter {:.4g} at {} gets", washer.where,
                                         hole.diameter, show_point(hole.middle()));
   if (rows == 0) {
-    warnings.push_back({"holes without rows", 1,
-                        fmt::format("{} no rows: {}, and a row is {:.3g} high", label, why, asked)});
+    warnings.push_back(
+        {"holes without rows", 1,
+         fmt::format("{} no rows: {}, and a row is {:.3g} high [no-rows]", label, why, asked)});
     return std::nullopt;
   }
   const std::string others = edges == wanted ? "" : fmt::format(" and {} edges", edges);
-  warnings.push_back({"holes with less room for rows than asked for", asked * washer.rows / (rows * high),
-                      fmt::format("{} {} of {:.3g}{}, not {} of {:.3g}: {}", label, counted(rows, "row"),
-                                  high, others, washer.rows, height(wanted, washer.rows), why)});
+  warnings.push_back(
+      {"holes with less room for rows than asked for", asked * washer.rows / (rows * high),
+       fmt::format("{} {} of {:.3g}{}, not {} of {:.3g}: {} [no-rows]", label, counted(rows, "row"), high,
+                   others, washer.rows, height(wanted, washer.rows), why)});
   return HoleRows{rows, high, is_given ? hole.given : share_edges(hole.parts, edges)};
 }
 

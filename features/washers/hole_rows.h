@@ -10,6 +10,8 @@
 #include "delquad/fields.h"
 #include "delquad/model.h"
 
+// This header plans rows of quads around holes. Features use it.
+
 namespace delquad {
 
 /// Outlines turn by no more at a point, in radians, or have a corner there.

@@ -303,8 +303,8 @@ void SurfaceWashers::cut() {
     if (found == triangles.end()) {
       model_.warnings.push_back(
           {"holes without rows", 1,
-           fmt::format("{}: the hole at {} gets no rows: its ring is not whole on one face", ring.where,
-                       ring.at)});
+           fmt::format("{}: the hole at {} gets no rows: its ring is not whole on one face [no-rows]",
+                       ring.where, ring.at)});
       continue;
     }
     for (const int t : found->second) mesh.triangle_region[t] = static_cast<int>(mesh.regions.size());

@@ -14,6 +14,8 @@
 #include "geometry/surface/chart.h"
 #include "geometry/surface/surface_model.h"
 
+// This header adds rings around holes of surfaces. The pipeline and features use it.
+
 namespace delquad {
 
 /// A chart, and of each side of its loops the curve that it is of.

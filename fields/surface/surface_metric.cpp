@@ -26,7 +26,7 @@ constexpr double kMostSagitta = 0.2;
 constexpr double kMostShorter = 1.5;
 /// The growth of lengths where none is asked for: of those by curvature, which jump, and beside curves.
 constexpr double kGradation = 1.5;
-/// What a tensor may be less than gradation asks for, as a part.
+/// Relative amount by which a tensor may be below the demand of gradation.
 constexpr double kGraded = 1e-3;
 constexpr int kMostSweeps = 200, kMostRefinings = 4, kMostScalings = 20;
 /// How near the complexity comes to what is asked.
@@ -334,7 +334,7 @@ class MetricRule final : public RefinementRule {
     if (fine_.points.size() > kMostPoints)
       throw InputError(fmt::format(
           "{}: the metric changes too fast to be followed by {} points: a gradation or a larger least "
-          "length helps",
+          "length helps [metric-too-fast]",
           metric_.wanted_.spec.where, kMostPoints));
     const std::vector<int> at_a = metric_.sites_at_[a];
     for (const int s : at_a) {

@@ -13,6 +13,8 @@
 #include "geometry/surface/model_curvature.h"
 #include "geometry/surface/surface_model.h"
 
+// This header has metrics on surfaces. Features and fields use it.
+
 namespace delquad {
 
 /// A metric that is asked for on a surface.
@@ -29,11 +31,11 @@ class SurfaceMetric final : public SizeField {
  public:
   SurfaceMetric(const SurfaceModel& model, const WantedMetric& wanted);
 
-  /// Of a point of a face, or one next to it.
+  /// Returns the metric at a point of a face, or at a point next to it.
   TangentMetric in_face(int face, const Vec3& x) const;
-  /// Of a fine point of the model it was made for, or of one that a cut has added.
+  /// Returns the metric at a fine point of its model, or at a point that a cut added.
   TangentMetric at_node(const Mesh& fine, int face, int node) const;
-  /// Of a side of a triangle of the face.
+  /// Returns the length of a side of a triangle of the face.
   double length(const Mesh& fine, int face, int a, int b) const;
   double area(const Mesh& fine, int triangle) const;
   /// By how much each line is longer than in space, by its ends, the lower first: the most of the faces

@@ -37,7 +37,7 @@ struct Incidence {
   friend auto operator<=>(const Incidence&, const Incidence&) = default;
 };
 
-/// What is wanted at each point by all faces and curves there, without the limit of gradation.
+/// Returns the size at each point that all faces and curves there ask for, without the limit of gradation.
 std::vector<double> wanted_at_points(const Mesh& fine, const WantedSize& wanted) {
   std::vector<Incidence> in_faces, on_curves;
   for (std::size_t t = 0; t < fine.triangles.size(); ++t)
@@ -145,14 +145,14 @@ class SizeRule final : public RefinementRule {
     return most > kMiss * linear || linear > kMiss * in_middle;
   }
 
-  /// What a curve alone wants on its side from a to b, as its ends may belong to shorter ones; where sizes
-  /// follow curvature, the most that is wanted at these.
+  /// Returns the size that a curve alone asks for on its side from a to b, as the ends may belong to shorter
+  /// curves. If sizes follow curvature, this is the largest size at both ends.
   double raw_on(int curve, int a, int b) const {
     if (wanted_.curvature) return std::max(raw_[a], raw_[b]);
     return std::max(wanted_.on_curve(curve, fine_.points[a]), wanted_.on_curve(curve, fine_.points[b]));
   }
 
-  /// What the face alone wants at one of its points.
+  /// Returns the size that the face alone asks for at one of its points.
   double raw(int face, int node) const {
     if (!wanted_.curvature) return wanted_.in_face(face, fine_.points[node]);
     const auto [at, fresh] = face_raw_.try_emplace(static_cast<long long>(face) << 32 | node, 0.0);

@@ -12,6 +12,8 @@
 #include "geometry/surface/model_curvature.h"
 #include "geometry/surface/surface_model.h"
 
+// This header has sizes on surfaces. Features, fields and patches use it.
+
 namespace delquad {
 
 class SurfaceMetric;
@@ -22,7 +24,7 @@ struct SizeSpot {
   double reach = 0, size = 0;
 };
 
-/// What is asked of the sizes on a surface.
+/// The demands on sizes on a surface.
 struct WantedSize {
   std::shared_ptr<const SizeField> base;            ///< in space; the largest size anywhere
   std::shared_ptr<const ModelCurvature> curvature;  ///< null: sizes do not follow curvature
@@ -36,7 +38,7 @@ struct WantedSize {
   /// The most |grad delta| along the surface; 0: no limit, and then no curvature either, whose sizes jump
   /// between faces.
   double gradation = 0;
-  /// Of each curve (index into Mesh::curves), the largest size on it; empty: as the base.
+  /// For each curve (index into Mesh::curves), the largest size on it; empty: as the base.
   std::vector<double> curve_limit;
   std::vector<SizeSpot> spots = {};
   /// Edges of curves should turn by no more, in radians; 0: by any angle. It changes no size inside of faces.
@@ -75,7 +77,7 @@ class SurfaceSize final : public SizeField {
   double at(const Vec3& x, int& hint) const override;
   double edge_turn() const { return edge_turn_; }
   bool has_metric() const { return metric_ != nullptr; }
-  /// What maps are measured by: `at`, or 1 of a metric.
+  /// Returns the size by which maps are measured: `at`, or 1 if there is a metric.
   const SizeField& on_maps() const { return metric_ ? *base_ : static_cast<const SizeField&>(*this); }
 
  private:
@@ -87,9 +89,10 @@ class SurfaceSize final : public SizeField {
   std::optional<NearestTriangle> triangles_;            ///< where sizes are less than the base
 };
 
-/// What the size on each curve of a model may be at most so that edges beside a curve that is shorter than
-/// the size are no more than a few times as long as its own; not below a part of the base. Empty where that
-/// asks for nothing, and for a base that varies: it says itself what is wanted.
+/// Returns the largest size on each curve of a model that keeps edges beside short curves in proportion. If a
+/// curve is shorter than the size, edges beside it are at most a few times as long as its own. Sizes do not
+/// fall below a part of the base. Empty if nothing is limited, and for a base that varies, since it states
+/// its own sizes.
 std::vector<double> sizes_beside_short_curves(const Mesh& fine, const SizeField& base);
 
 /// Refines the fine triangulation until sizes that are linear on it are within 25 % of what they should be,

@@ -7,6 +7,8 @@
 #include "delquad/model.h"
 #include "geometry/surface/surface_model.h"
 
+// This header reads CAD files and data. The bench, features and geometry use it.
+
 namespace delquad {
 
 struct CadOptions {
@@ -24,7 +26,7 @@ struct CadOptions {
   /// The same for checking and healing all of the shape; then it is taken as it is. Forty times what any of
   /// these models took.
   double healing_seconds = 60;
-  /// Of lengths, see length_unit.h; empty: millimetres, or as BREP files have them.
+  /// Unit of lengths, see length_unit.h; empty: millimeters, or the unit of a BREP file.
   std::string unit = {};
   /// Bodies share the faces, curves and points at which they touch: see glue_shape().
   bool glue = false;

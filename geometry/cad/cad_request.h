@@ -7,13 +7,15 @@
 #include "base/worker_process.h"
 #include "geometry/cad/cad_reader.h"
 
+// This header has the messages between program and CAD worker. Geometry uses it.
+
 namespace delquad::cad {
 
 /// The program that works on CAD files: what DELQUAD_CAD_WORKER names, else what set_cad_worker() was given,
 /// else see find_program().
 std::filesystem::path find_worker();
 
-/// What a worker is asked for: to read, heal and triangulate a shape.
+/// The task of a worker: to read, heal and triangulate a shape.
 struct CadRequest {
   enum class Source { kFile, kBytes, kShape };
   Source source = Source::kFile;
@@ -21,7 +23,7 @@ struct CadRequest {
   CadOptions options;
   int threads = 1;
   unsigned seconds = 0;  ///< of processor time, then the worker ends
-  /// What it leaves out, because it took too long before.
+  /// Whether the worker heals the shape, and faces that it leaves out. It skips what took too long before.
   bool heals = true;
   std::vector<int> late_faces = {};  ///< ascending
 };

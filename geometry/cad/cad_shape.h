@@ -17,6 +17,8 @@
 #include "base/warning.h"
 #include "geometry/surface/surface_model.h"
 
+// This header has CAD shapes with the names of their parts. Geometry uses it.
+
 namespace delquad::cad {
 
 /// A shape as all its instances know it, wherever they are placed.
@@ -49,7 +51,7 @@ class PartNames {
   NCollection_DataMap<TopoDS_Shape, std::vector<std::string>, TopTools_ShapeMapHasher> map_;
 };
 
-/// What a CAD file holds.
+/// The contents of a CAD file.
 struct CadShape {
   TopoDS_Shape shape;
   PartNames names = {};

@@ -60,11 +60,11 @@ double diagonal_of(const TopoDS_Shape& shape) {
 
 /// A face needs a surface, and a boundary unless its surface ends by itself.
 void check_faces(const CadShape& cad, const TopTools_IndexedMapOfShape& faces) {
-  if (faces.IsEmpty()) throw InputError("the model holds no face");
+  if (faces.IsEmpty()) throw InputError("the model holds no face [no-face]");
   for (int f = 1; f <= faces.Extent(); ++f) {
     const Handle(Geom_Surface) surface = BRep_Tool::Surface(TopoDS::Face(faces(f)));
     const std::string title = face_title(f, cad.names.of(faces(f)));
-    if (surface.IsNull()) throw InputError(title + " has no surface");
+    if (surface.IsNull()) throw InputError(title + " has no surface [no-face]");
     double u0, u1, v0, v1;
     surface->Bounds(u0, u1, v0, v1);
     if (TopExp_Explorer(faces(f), TopAbs_EDGE).More()) continue;
@@ -193,7 +193,7 @@ CadShape read(const CadRequest& request) {
   return read_shape(request.text, request.options);
 }
 
-/// What ends the reading without a shape, for people.
+/// Returns the reason why the reading ended without a shape, for people.
 std::string why_not() {
   try {
     throw;

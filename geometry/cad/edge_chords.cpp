@@ -21,7 +21,7 @@ namespace {
 /// something.
 constexpr int kDegenerateChords = 12, kClosedPoints = 5;
 
-/// Those of a triangulation that the edge takes part in; empty: there is none.
+/// Returns the parameters of a triangulation that the edge takes part in; empty: there is none.
 std::vector<double> known_parameters(const TopoDS_Edge& edge) {
   Handle(Poly_PolygonOnTriangulation) polygon;
   Handle(Poly_Triangulation) triangulation;

@@ -95,7 +95,7 @@ class OutlineBuilder {
     if (bounds) ends_[vertices_.Add(vertex)].push_back({point, arrives});
   }
 
-  /// Of the ends at a vertex pairs become one, nearest first: one that arrives and one that leaves.
+  /// Joins the ends at a vertex in pairs, nearest first: one that arrives and one that leaves.
   void join(int vertex, const std::vector<End>& ends) {
     std::vector<std::pair<double, std::pair<int, int>>> pairs;
     for (const End& a : ends)

@@ -10,7 +10,7 @@ namespace delquad {
 
 namespace {
 
-/// What the program around has said, once for all its threads.
+/// The worker that the surrounding program has chosen, once for all its threads.
 struct Chosen {
   std::mutex mutex;
   std::filesystem::path program;

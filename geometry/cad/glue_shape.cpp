@@ -29,7 +29,7 @@ std::string why(const BOPAlgo_Builder& builder) {
   return failures.IsEmpty() ? "" : fmt::format(" ({})", failures.First()->GetMessageKey());
 }
 
-/// What has become of a face or an edge: itself, its parts, or nothing, in a compound.
+/// Returns the image of a face or an edge, in a compound: itself, its parts, or nothing.
 TopoDS_Compound image_of(BOPAlgo_Builder& builder, const TopoDS_Shape& part) {
   TopoDS_Compound image = empty_compound();
   const TopTools_ListOfShape& modified = builder.Modified(part);
@@ -38,7 +38,8 @@ TopoDS_Compound image_of(BOPAlgo_Builder& builder, const TopoDS_Shape& part) {
   return image;
 }
 
-/// What is glued: solids and closed shells, of open ones the faces, which may touch each other, too.
+/// Returns the parts to glue: solids, closed shells, and the faces of open shells, which may touch each
+/// other, too.
 TopTools_ListOfShape glued_parts(const TopoDS_Shape& shape) {
   TopTools_ListOfShape all;
   for (const TopoDS_Shape& body : bodies_of(shape)) {
@@ -51,7 +52,7 @@ TopTools_ListOfShape glued_parts(const TopoDS_Shape& shape) {
   return all;
 }
 
-/// What has become of the faces of each of some bodies.
+/// Returns the images of the faces of some bodies.
 TopTools_ListOfShape images_of_bodies(BOPAlgo_Builder& builder, const TopTools_ListOfShape& bodies) {
   TopTools_ListOfShape all;
   for (const TopoDS_Shape& body : bodies) {
@@ -131,12 +132,12 @@ void glue_shape(CadShape& cad, double tolerance) {
   builder.SetRunParallel(thread_count() > 1);
   builder.Perform();
   if (builder.HasErrors() || builder.Shape().IsNull())
-    throw InputError("its bodies cannot be glued" + why(builder));
+    throw InputError("its bodies cannot be glued" + why(builder) + " [not-glued]");
   const TopoDS_Shape glued = builder.Shape();
   const int n_before = parts(cad.shape, TopAbs_SOLID).Extent(), n_after = parts(glued, TopAbs_SOLID).Extent();
   if (n_after < n_before)
-    throw InputError(
-        fmt::format("its bodies cannot be glued: of {} solids {} would be left", n_before, n_after));
+    throw InputError(fmt::format("its bodies cannot be glued: of {} solids {} would be left [not-glued]",
+                                 n_before, n_after));
   const std::vector<std::string> cut = cut_faces(builder, cad);
   replace_shape(cad, glued, [&](const TopoDS_Shape& part) { return image_of(builder, part); });
   const auto count = [&, before = images_of_bodies(builder, bodies), after = glued_parts(glued)](

@@ -66,7 +66,7 @@ std::vector<std::map<int, int>> faces_at_edges(const TopoDS_Shape& shape,
   return faces_of;
 }
 
-/// Of each face the first that runs along the same edges and lies on it, mostly itself.
+/// Returns for each face the first face that runs along the same edges and lies on it, mostly itself.
 std::vector<int> first_of_doubles(const std::vector<std::map<int, int>>& faces_at_edges,
                                   const TopTools_IndexedMapOfShape& faces, double tolerance) {
   std::vector<std::vector<int>> edges_of(static_cast<std::size_t>(faces.Extent()) + 1);
@@ -157,7 +157,7 @@ TopTools_ListOfShape sew_bodies(CadShape& cad, double tolerance) {
   });
   if (!sewings.empty())
     cad.warnings.push_back(fmt::format(
-        "free edges coincided: closed bodies that touch have been sewn each by itself: {}", sewings.size()));
+        "free edges coincided: closed bodies that touch were sewn one by one: {}", sewings.size()));
   return doubles;
 }
 
@@ -173,14 +173,15 @@ void fix(CadShape& cad) {
   const BRepCheck_Analyzer check = check_shape(fixed);
   replace_shape(cad, fixed, [&](const TopoDS_Shape& part) { return fixer.Context()->Apply(part); });
   if (check.IsValid()) {
-    cad.warnings.push_back("the shape was invalid and has been healed");
+    cad.warnings.push_back("the shape was invalid and has been healed [healed-shape]");
     return;
   }
   const TopTools_IndexedMapOfShape faces = parts(fixed, TopAbs_FACE);
   std::string invalid;
   for (int f = 1; f <= faces.Extent(); ++f)
     if (!check.IsValid(faces(f))) invalid += fmt::format("{}{}", invalid.empty() ? ": faces " : ", ", f);
-  cad.warnings.push_back("the shape is invalid and could be healed in part only" + invalid);
+  cad.warnings.push_back("the shape is invalid and could be healed in part only" + invalid +
+                         " [healed-shape]");
 }
 
 /// Sewing drops faces that it takes for too small.
@@ -228,7 +229,7 @@ void sew(CadShape& cad, double tolerance) {
                                        before - count_free_edges(cad.shape), before));
 }
 
-/// Of an edge and its ends.
+/// Returns the largest tolerance of an edge and its ends.
 double tolerance_of(const TopoDS_Edge& edge) {
   double tolerance = BRep_Tool::Tolerance(edge);
   for (const TopoDS_Vertex& end : {TopExp::FirstVertex(edge), TopExp::LastVertex(edge)})

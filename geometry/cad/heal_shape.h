@@ -9,6 +9,8 @@
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/cad_shape.h"
 
+// This header repairs, sews and glues CAD shapes. Geometry uses it.
+
 namespace delquad::cad {
 
 /// Puts `shape` in the place of the CAD's; `image` tells what has become of a face or an edge, which hands
@@ -39,11 +41,11 @@ std::vector<LooseLine> loose_edges(const CadShape& cad, double deflection);
 /// with them.
 void drop_inner_edges(CadShape& cad);
 
-/// Makes bodies (solids, closed shells, and all other faces one by one) that touch or cut each other share
-/// faces, edges and vertices there: the kernel's general fuse. Edges that end inside of a face stand in it.
-/// What is nearer than `tolerance` (a length) touches. Names go with the faces; common ones get those of
-/// both. Warnings tell how many faces are common, and which were cut into parts. Throws InputError when the
-/// kernel cannot do it or a body gets lost.
+/// Makes bodies that touch or cut each other share faces, edges and vertices there, by the kernel's general
+/// fuse. Bodies are solids, closed shells, and all other faces one by one. Edges that end inside of a face
+/// stand in it. Parts nearer than `tolerance` (a length) touch. Names go with the faces; common faces get the
+/// names of both. Warnings tell how many faces are common, and which were cut into parts. Throws InputError
+/// if the kernel cannot do it or a body gets lost.
 void glue_shape(CadShape& cad, double tolerance);
 
 /// The solids, then the shells outside of them, then the faces outside of these.

@@ -13,15 +13,17 @@ struct LostShapes {
   std::vector<std::string> doubtful;  ///< became shapes, but not without errors
 };
 
-/// Of a STEP or IGES reader whose roots are transferred: what faces are made of and cannot be read ("#17
-/// (Direction): ..."; in IGES numbers of the directory, "D23"), and faces that became none.
+/// Returns the losses of a STEP or IGES reader whose roots are transferred. These are parts of faces that
+/// cannot be read ("#17 (Direction): ..."; in IGES numbers of the directory, "D23"), and parts that gave no
+/// face.
 LostShapes lost_shapes(XSControl_Reader& reader);
 
 /// Returns the parts of a loaded file that faces need and that cannot be read, each with its number and the
 /// reason. Shells of which faces are missing are not among them.
 std::vector<std::string> unreadable_parts(XSControl_Reader& reader);
 
-/// Of a BREP file's text ("line 12: '3..5' is no number"), of which `n_faces` faces were read.
+/// Returns the errors in a BREP file's text ("line 12: '3..5' is no number"), of which `n_faces` faces were
+/// read.
 std::vector<std::string> lost_in_brep(const std::string& text, int n_faces);
 
 }  // namespace delquad::cad

@@ -32,7 +32,7 @@ namespace {
 constexpr int kMostPoints = 200000;
 /// Each halves the chords that cross.
 constexpr int kMostRounds = 12;
-/// Of an edge; no finer chords help then.
+/// Limit of chords of an edge; finer chords would not help.
 constexpr int kMostChords = 2000;
 
 /// A face that is not placed and looks forward.
@@ -114,7 +114,7 @@ class OutlineMesher {
   OutlineMesher(const CadShape& cad, double deflection, double angle)
       : bounds_{deflection, angle, kMostPoints}, chords_(cad.shape, deflection, angle) {}
 
-  /// What its edges have now is kept in mind: it may be their only face with a triangulation.
+  /// Adds a face. Keeps the chords that its edges have now: it may be their only face with a triangulation.
   void want(const TopoDS_Shape& face) {
     const TopoDS_Face own = plain(face);
     if (waiting_.Contains(own)) return;
@@ -246,7 +246,7 @@ class OutlineMesher {
 
 OutlineMeshes mesh_by_outline(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
                               const std::vector<int>& wanted, double deflection, double angle) {
-  // What is there is of no use, and must not tell how edges are cut.
+  // Present triangulations are of no use, and must not tell how edges are cut.
   for (const int f : wanted) BRepTools::Clean(faces(f));
   OutlineMesher mesher(cad, deflection, angle);
   for (const int f : wanted) mesher.want(faces(f));

@@ -13,6 +13,8 @@
 #include "geometry/cad/cad_shape.h"
 #include "geometry/cad/edge_chords.h"
 
+// This header triangulates CAD faces from their outlines. Geometry uses it.
+
 namespace delquad::cad {
 
 /// One passage of a wire along an edge.
@@ -46,7 +48,7 @@ PatchBoundary boundary_of(const FaceOutline& outline, Vec2 scale);
 /// Chords that cross, overlap, or touch elsewhere than at their ends.
 std::vector<OutlineChord> crossing_chords(const FaceOutline& outline, Vec2 scale);
 
-/// What the triangles of a face are to keep to.
+/// Bounds for the triangles of a face.
 struct FaceBounds {
   double deflection = 0;  ///< largest distance between a triangle and its surface, a length
   double angle = 0;       ///< between the normals at the ends of a side inside, radians
@@ -67,17 +69,17 @@ RefinedFace refine_face(const Geom_Surface& surface, const TriPatch& start, std:
 /// Factors by which parameters become about lengths: the mean speeds of the surface around these parameters.
 Vec2 parameter_scale(const Geom_Surface& surface, const std::vector<Vec2>& uv);
 
-/// What has become of faces that were triangulated from their outlines. Numbers in the map.
+/// Faces that were triangulated from their outlines, as numbers in the map.
 struct OutlineMeshes {
   std::vector<int> meshed;                          ///< ascending; more than were asked for: see below
   std::vector<int> coarse;                          ///< of these, those with too few points for the bounds
   std::vector<std::pair<int, std::string>> failed;  ///< with the reason
 };
 
-/// Triangulates faces (numbers in the map) without the kernel's mesher: their edges are cut into the chords
-/// that their neighbours have, the outline is triangulated in the parameter plane, and points are put on the
+/// Triangulates faces (numbers in the map) without the kernel's mesher. Their edges are cut into the chords
+/// that their neighbors have, and the outline is triangulated in the parameter plane. Points are put on the
 /// surface until `deflection` (a length) and `angle` (radians) are kept. Chords that cross are halved; then
-/// all faces of their edges are triangulated so. What they had before is replaced.
+/// all faces of their edges are triangulated so. Earlier triangulations are replaced.
 OutlineMeshes mesh_by_outline(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
                               const std::vector<int>& wanted, double deflection, double angle);
 

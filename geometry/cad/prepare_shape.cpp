@@ -25,7 +25,7 @@ constexpr unsigned kSeconds = 60, kSecondsPerMegabyte = 60;
 /// So many times a worker begins anew, without what took too long.
 constexpr int kMostTrials = 4;
 
-/// What a worker is at, as told to the run of this thread.
+/// The activity of a worker, as told to the run of this thread.
 class WorkersActivity {
  public:
   void hear(Reply reply, const std::string& text) {
@@ -66,7 +66,8 @@ std::pair<Reply, std::string> ask_worker(const CadRequest& request) {
     activity.hear(Reply{kind}, text);
     if (is_last(kind)) last.emplace(Reply{kind}, text);
   });
-  if (!last) throw InputError("damaged: the CAD kernel crashes or finds no end" + activity.text());
+  if (!last)
+    throw InputError("damaged: the CAD kernel crashes or finds no end" + activity.text() + " [damaged-cad]");
   return *std::move(last);
 }
 

@@ -71,8 +71,8 @@ bool has_own_name(const Mesh& mesh, const std::vector<int>& group) {
   });
 }
 
-/// Of several solids, names those that have none of their own: "solid 1", ... by their order in the file.
-/// Faces that solids share have the names of both. `groups`: the faces of each body; solids come first.
+/// If there are several solids, names the nameless ones "solid 1", ... by their order in the file. Faces that
+/// solids share have the names of both. `groups`: the faces of each body; solids come first.
 void name_solids(const TopTools_ListOfShape& bodies, const std::vector<std::vector<int>>& groups,
                  Mesh& mesh) {
   const auto n_solids = std::count_if(bodies.begin(), bodies.end(), [](const TopoDS_Shape& body) {
@@ -114,7 +114,7 @@ void tell_near(SurfaceModel& model, std::vector<LooseJoint> contacts, double dia
     for (const int v : model.fine.triangles[t])
       corners[model.fine.triangle_region[t]].push_back(model.fine.points[v]);
   const auto length_of = [&](int face) { return norm(Box<Vec3>::around(corners[face]).size()); };
-  // What is small may stand as far from others as it is long.
+  // Contacts farther than a part of the smaller face or of the size do not count.
   std::erase_if(contacts, [&](const LooseJoint& c) {
     const double shorter = std::min(length_of(c.faces[0]), length_of(c.faces[1]));
     return c.distance > kPartOfSize * shorter ||
@@ -125,7 +125,7 @@ void tell_near(SurfaceModel& model, std::vector<LooseJoint> contacts, double dia
   const double digit = std::pow(10, std::floor(std::log10(widest / diagonal)));
   model.warnings.push_back(fmt::format(
       "faces nearly touch at {} and stay apart: {}: move them together in CAD, or try --glue --weld {:.0e} "
-      "(surface.glue, weld_tolerance: a part of the diagonal)",
+      "(surface.glue, weld_tolerance: a part of the diagonal) [near-bodies]",
       counted(std::ssize(contacts), "place"), list_joints(model.fine, contacts),
       (std::floor(widest / diagonal / digit) + 1) * digit));
 }
@@ -140,20 +140,21 @@ void check_joints(SurfaceModel& model, const CadShape& cad, const TopTools_Index
   if (joints.empty()) return;
   const std::string list = list_joints(model.fine, joints);
   if (options.glue)
-    throw InputError(fmt::format("cannot be glued at {}: {}: expected faces that meet along edges or overlap",
-                                 counted(std::ssize(joints), "place"), list));
+    throw InputError(
+        fmt::format("cannot be glued at {}: {}: expected faces that meet along edges or overlap [not-glued]",
+                    counted(std::ssize(joints), "place"), list));
   model.warnings.push_back(
-      fmt::format("faces touch at {} and share no nodes (--glue, surface.glue = true): {}",
+      fmt::format("faces touch at {} and share no nodes (--glue, surface.glue = true): {} [touching-bodies]",
                   counted(std::ssize(joints), "place"), list));
 }
 
-/// What was fragmented before has common points that no node can join.
+/// Refuses common points that no node can join, as fragmented shapes have them.
 void refuse_joints_at_points(const Mesh& mesh, const TopTools_IndexedMapOfShape& faces) {
   const std::vector<LooseJoint> joints = joints_at_points(faces);
   if (!joints.empty())
     throw InputError(fmt::format(
         "faces share single points inside of them at {}: {}: expected faces that share edges, or corners of "
-        "both (files of bodies that share nothing are meshed, bodies apart)",
+        "both. Bodies in files that share nothing are meshed apart [contact-at-a-point]",
         counted(std::ssize(joints), "place"), list_joints(mesh, joints)));
 }
 

@@ -144,7 +144,7 @@ std::string beginning(const std::filesystem::path& path) {
   return text;
 }
 
-/// Of what is listed in messages.
+/// Limit of items that messages list.
 constexpr std::size_t kMostNamed = 5;
 
 /// "2 parts of the STEP file cannot be read: ...".
@@ -194,7 +194,7 @@ void warn_of_unit(const std::vector<std::string>& in_file, const LengthUnit& wan
   if (!is_same)
     cad.warnings.push_back(
         fmt::format("the file's lengths are in {}: the model, --size and the mesh are in {} "
-                    "(--unit chooses another unit)",
+                    "(--unit chooses another unit) [other-unit]",
                     fmt::join(in_file, " and "), wanted.name));
 }
 
@@ -218,7 +218,7 @@ CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& opt
     cad.warnings.push_back(fmt::format("{} of {} entries of the {} file are no faces and cannot be read{}",
                                        roots - transferred, roots, kind, complaint->why()));
   if (!lost.doubtful.empty())
-    cad.warnings.push_back(fmt::format("parts of the {} file were read with errors: {}", kind,
+    cad.warnings.push_back(fmt::format("parts of the {} file were read with errors: {} [damaged-cad]", kind,
                                        first_of(lost.doubtful, kMostNamed)));
   if (!lost.unused.empty())
     cad.warnings.push_back(fmt::format("{} faces of the {} file belong to no shape and are left out: {}",
@@ -240,7 +240,7 @@ CadShape read_step(const CadOptions& options, const std::string& bytes) {
     if (status == IFSelect_RetDone)
       if (const auto lost = unreadable_parts(r); !lost.empty())
         throw InputError(unread("STEP", lost, first_failure(r)) +
-                         ": expected a whole file; export it again from CAD");
+                         ": expected a whole file; export it again from CAD [damaged-cad]");
     return status;
   });
   const bool is_ascii =
@@ -279,9 +279,9 @@ CadShape read_brep(const std::string& bytes, const CadOptions& options) {
   try {
     BRepTools::Read(cad.shape, in, BRep_Builder());
   } catch (const std::ios::failure&) {
-    throw InputError("not a readable BREP file (it ends too early or is damaged)");
+    throw InputError("not a readable BREP file (it ends too early or is damaged) [damaged-cad]");
   }
-  if (cad.shape.IsNull()) throw InputError("not a readable BREP file" + complaint->why());
+  if (cad.shape.IsNull()) throw InputError("not a readable BREP file" + complaint->why() + " [damaged-cad]");
   TopTools_MapOfShape faces;
   for (TopExp_Explorer face(cad.shape, TopAbs_FACE); face.More(); face.Next())
     faces.Add(unplaced(face.Current()));

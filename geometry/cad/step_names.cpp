@@ -27,7 +27,7 @@ namespace delquad::cad {
 
 namespace {
 
-/// What a writer puts where there is no name.
+/// Whether a writer puts this text in place of a missing name.
 bool says_nothing(const std::string& name) {
   return name.find_first_not_of(' ') == std::string::npos || name == "NONE" ||
          name.starts_with("Open CASCADE STEP translator");

@@ -29,8 +29,9 @@ std::string face_title(int number, const std::vector<std::string>& names);
 void triangulate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double deflection,
                  double angle);
 
-/// The triangulations of the faces, in the map's order. `why_not` receives for each why it cannot be used,
-/// having none, or no area; else an empty text. Those that cannot be used have no triangles.
+/// Returns the triangulations of the faces, in the map's order. `why_not` receives for each face the reason
+/// why its triangulation cannot be used: it is missing or has no area. Else the text is empty. Faces with a
+/// reason have no triangles.
 std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
                                   std::vector<std::string>& why_not);
 

@@ -11,8 +11,8 @@ namespace delquad::cad {
 /// all are UTF-8.
 std::string decode_texts(std::vector<std::string>& texts);
 
-/// The same of texts whose bytes the kernel took for ISO 8859-1. Those with characters beyond it, for which
-/// only escapes (\X2\...\X0\) can stand, stay as they are.
+/// Decodes texts whose bytes the kernel took for ISO 8859-1, in the same way. Texts with characters beyond
+/// it, which only escapes (\X2\...\X0\) can express, stay as they are.
 std::string decode_kernel_texts(std::vector<std::string>& texts);
 
 }  // namespace delquad::cad

@@ -4,6 +4,8 @@
 #include <memory>
 #include <vector>
 
+// This header watches the work of the CAD kernel. Geometry uses it.
+
 namespace delquad::cad {
 
 /// Stages of the kernel's work, as they are told (see activity.h).

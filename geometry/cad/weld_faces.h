@@ -11,6 +11,8 @@
 #include "geometry/cad/tessellate.h"
 #include "geometry/surface/surface_model.h"
 
+// This header joins the triangulations of CAD faces. Geometry uses it.
+
 namespace delquad::cad {
 
 /// An edge that is a curve of the model.

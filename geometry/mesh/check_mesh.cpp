@@ -46,7 +46,7 @@ void require_straight(const Mesh& mesh, const std::string& where) {
   if (mesh.order > 1)
     throw InputError(
         fmt::format("{}: the mesh has elements of order {}: expected straight ones, of order 1; 'delquad "
-                    "convert' to .obj writes their corners alone",
+                    "convert' to .obj writes their corners alone [curved-elements]",
                     where, mesh.order));
 }
 

@@ -6,6 +6,8 @@
 
 #include "delquad/mesh.h"
 
+// This header inserts points into a constrained Delaunay triangulation. Geometry and stages use it.
+
 namespace delquad {
 
 /// Indexed constrained Delaunay triangulation that grows by single points (Bowyer-Watson with exact

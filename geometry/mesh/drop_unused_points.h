@@ -5,6 +5,9 @@
 
 #include "delquad/mesh.h"
 
+// This header removes points that no element uses. The pipeline, features, readers and writers and geometry
+// use it.
+
 namespace delquad {
 
 /// Named points and pairs of periodic nodes get new numbers; those of points that are gone (-1) go.

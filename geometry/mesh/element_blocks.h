@@ -7,6 +7,8 @@
 
 #include "delquad/mesh.h"
 
+// This header divides meshes into blocks for threads. Geometry and smoothing use it.
+
 namespace delquad {
 
 /// Elements by one number: quads first, then triangles.

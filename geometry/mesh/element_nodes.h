@@ -8,6 +8,8 @@
 
 #include "delquad/mesh.h"
 
+// This header has the order of nodes in curved elements. Most modules use it.
+
 namespace delquad {
 
 /// Nodes of a quad as a square of order + 1 rows, each of order + 1: row j, column i is at
@@ -56,7 +58,7 @@ int order_of_quad(std::size_t n_nodes);
 
 /// Whether an element of this order fits to those of the mesh, which takes the order of the first one.
 bool takes_order(Mesh& mesh, int order);
-/// What to say of one that does not.
+/// Returns the message for an element that does not fit.
 std::string other_order(int order, int of_mesh);
 
 /// Adds a line of the mesh's order by its nodes, both ends first.

@@ -12,18 +12,18 @@ struct KeptNames {
   bool all = false;
   std::vector<std::string> names = {};
 
-  /// Those of an entity that stay.
+  /// Returns the remaining names of an entity.
   std::vector<std::string> of(const Entity& entity) const;
   bool any_of(const Entity& entity) const { return !of(entity).empty(); }
 };
 
-/// What messages call a region.
+/// Returns the title of a region in messages.
 std::string region_label(const Entity& region);
 
 /// Whether a region has that name, or number as in files: "region_2".
 bool has_name(const Entity& region, const std::string& name);
 
-/// What messages call a curve: its first name, or its number.
+/// Returns the title of a curve in messages: its first name, or its number.
 std::string curve_title(const Entity& curve);
 
 /// The indices of those with that name, or of that number as it is in files. `kind`: "curve" or "region".

@@ -11,6 +11,8 @@
 #include "base/parallel.h"
 #include "delquad/mesh.h"
 
+// This header has the sides of elements, sorted by their nodes. Most modules use it.
+
 namespace delquad {
 
 /// One side of a triangle or quad.

@@ -8,6 +8,8 @@
 #include "delquad/mesh.h"
 #include "geometry/mesh/half_edges.h"
 
+// This header removes elements from meshes. Most modules use it.
+
 namespace delquad {
 
 /// Keeps the elements of one kind of which keep(index) holds, with the entities that they are of, in their

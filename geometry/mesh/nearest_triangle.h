@@ -8,6 +8,8 @@
 #include "base/box_tree.h"
 #include "delquad/mesh.h"
 
+// This header finds the triangle nearest to a point. Most modules use it.
+
 namespace delquad {
 
 /// Finds the triangle nearest to a point of space.

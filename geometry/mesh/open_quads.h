@@ -6,14 +6,15 @@
 #include "delquad/mesh.h"
 #include "geometry/mesh/half_edges.h"
 
+// This header divides quads of a mesh into patches. Geometry and measures use it.
+
 namespace delquad {
 
-/// The quads of a mesh as patches: those of one region that hang together over edges inside of it. The mesh
-/// is cut open where an edge is not in two quads of one region that run along it in opposite directions;
-/// lines within a region, such as cuts, do not matter. What is one vertex of the mesh may so be several
-/// nodes, each with quads that follow each other.
-///
-/// Half-edge h = 4 * quad + corner runs counterclockwise from its corner to the next.
+/// The quads of a mesh as patches of one region each, connected over edges inside of it. The mesh is cut open
+/// along an edge unless it is in two quads of one region that run along it in opposite directions. Lines
+/// within a region, such as cuts, do not matter. So one vertex of the mesh may be several nodes, each with
+/// quads that follow each other. Half-edge h = 4 * quad + corner runs counterclockwise from its corner to the
+/// next.
 class OpenQuads {
  public:
   /// `sides`: the mesh's sorted_half_edges().

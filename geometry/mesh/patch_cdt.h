@@ -46,7 +46,8 @@ std::vector<typename Cdt::Vertex_handle> insert(Cdt& cdt, const PatchBoundary& b
       cdt.insert_constraint(vertex[i], vertex[j]);
     } catch (const typename Cdt::Intersection_of_constraints_exception&) {
       throw InputError(
-          fmt::format("the boundary crosses itself on the edge ({}, {}) - ({}, {})", a.x, a.y, b.x, b.y));
+          fmt::format("the boundary crosses itself on the edge ({}, {}) - ({}, {}) [crossing-curves]", a.x,
+                      a.y, b.x, b.y));
     }
     if (!cdt.is_edge(vertex[i], vertex[j]))
       throw InputError(fmt::format("the boundary passes through a point at ({}, {})", a.x, a.y));

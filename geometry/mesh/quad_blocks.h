@@ -9,6 +9,8 @@
 #include "delquad/mesh.h"
 #include "geometry/mesh/element_blocks.h"
 
+// This header divides quad meshes into blocks that threads edit. Geometry, stages and smoothing use it.
+
 namespace delquad {
 
 /// Some elements of a quad mesh as a mesh of their own, which one thread works on. Its boundary's points are

@@ -8,6 +8,8 @@
 #include "delquad/mesh.h"
 #include "geometry/mesh/quad_topology.h"
 
+// This header has angles, lengths and qualities of single quads. Most modules use it.
+
 namespace delquad {
 
 /// A side shorter than this counts as this long: no division by 0.
@@ -42,8 +44,8 @@ struct QuadCorner<Vec3> {
 /// eta of a quad whose worst corner is so far from a right angle [equation (4)]; radians.
 inline double eta_of_deviation(double radians) { return 1 - radians * 2 / std::numbers::pi; }
 
-/// Of a quad, by the sine of its worst corner: eta is 1 for 90 degrees, 0 for 0 and for 180, and negative
-/// where the corner is reflex. A sine beyond +-1, by rounding, counts as that.
+/// Returns eta of a quad by the sine of its worst corner. It is 1 for 90 degrees, 0 for 0 and for 180, and
+/// negative if the corner is reflex. A sine beyond +-1, by rounding, counts as +-1.
 inline double eta_of_sine(double sine) {
   return 2 / std::numbers::pi * std::asin(std::clamp(sine, -1.0, 1.0));
 }
@@ -63,8 +65,8 @@ inline int ideal_quads(double right_angles) {
 /// only.
 inline constexpr double kShortSide = 0.1, kKeptSide = 1.25 * kShortSide;
 
-/// What engineers ask of quads (criteria "batch"): sides over the wanted size, longest over shortest side,
-/// corners from 40 to 140 degrees, the warpage (quad_warp(), radians).
+/// Usual limits of engineers for quads (criteria "batch"): sides over the wanted size, and longest over
+/// shortest side. Then come eta of corners from 40 to 140 degrees, and the warpage (quad_warp(), radians).
 inline constexpr double kAskedShort = 0.33, kAskedLong = 1.75, kAskedAspect = 5, kAskedEta = 4.0 / 9,
                         kAskedWarp = std::numbers::pi / 9;
 /// Whether a quad is beyond that. `shortest`, `longest`: sides over the wanted size; `sine`: the least.

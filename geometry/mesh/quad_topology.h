@@ -8,6 +8,8 @@
 #include "base/marks.h"
 #include "delquad/mesh.h"
 
+// This header edits quad meshes. Features, geometry, stages and smoothing use it.
+
 namespace delquad {
 
 /// A quad mesh of one patch that is edited locally, each edit revocable.
@@ -107,7 +109,7 @@ class QuadTopology {
   /// The outline of these quads passes no vertex twice.
   bool can_pillow(std::span<const int> quads) const;
   /// Shrinks the quads and fills the gap with a ring of quads, one for each side of their outline. The new
-  /// vertices, one for each on the outline, are the last slots. Of a single quad: one becomes five.
+  /// vertices, one for each on the outline, are the last slots. A single quad becomes five.
   void pillow(std::span<const int> quads);
 
   /// Puts other quads in place of some. `rim`: the half-edges of their outline, one loop, in its order

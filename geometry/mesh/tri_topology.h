@@ -4,6 +4,8 @@
 
 #include "delquad/mesh.h"
 
+// This header has neighbors and edits of triangles. Features, geometry, stages and smoothing use it.
+
 namespace delquad {
 
 /// The side of triangle t that faces triangle u, -1 when they share none.

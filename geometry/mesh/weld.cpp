@@ -117,7 +117,7 @@ std::string tell_unjoined(const Mesh& mesh) {
   if (count.empty()) return {};
   return fmt::format(
       "{} coincide with others within {:g} of the diagonal and are not joined (the first at {}): a crack, or "
-      "a torn mesh; --weld {:g} joins them",
+      "a torn mesh; --weld {:g} joins them [torn-mesh]",
       count, kCoincident, place, kCoincident);
 }
 

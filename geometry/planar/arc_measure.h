@@ -5,6 +5,8 @@
 
 #include "geometry/planar/planar_model.h"
 
+// This header divides curves into edges of the wanted size. Geometry uses it.
+
 namespace delquad {
 
 /// The integral of ds/delta along a piece of a curve: how many edges of size delta fit on it.

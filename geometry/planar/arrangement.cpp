@@ -176,7 +176,7 @@ class Arranger {
       face[c] = static_cast<int>(result.faces.size());
       result.faces.push_back({{cycles_[c].sides}});
     }
-    // What lies below a contour's first point begins farther to the left: its cycle comes before.
+    // A contour below another one's first point begins farther to the left: its cycle comes before.
     for (std::size_t c = 0; c < cycles_.size(); ++c) {
       if (!cycles_[c].is_contour) continue;
       const int below = sweep_.below(fans_.start(cycles_[c].sides[0]));

@@ -8,8 +8,8 @@
 
 namespace delquad {
 
-/// What straight lines of a plane enclose. Line l has two sides: side 2 l runs along it as given, side 2 l +
-/// 1 against it. What lies on the left of a side is the side's face.
+/// The faces that straight lines of a plane enclose. Line l has two sides: side 2 l runs along it as given,
+/// side 2 l + 1 against it. The face of a side lies on its left.
 struct Arrangement {
   /// Sides one after the other, with the same face on their left, from the lexicographically smallest point
   /// on.

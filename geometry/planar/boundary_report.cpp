@@ -52,10 +52,10 @@ std::vector<std::string> odd_boundaries(const PlanarDomain& domain) {
     std::vector<std::string> odd;
     for (const auto& loop : loops_of_edges(patch))
       if (loop.size() % 2 == 1) odd.push_back(loop_name(loop, patch, domain.boundary));
-    lines.push_back(
-        fmt::format("region {}: an odd number of boundary edges ({}) leaves one triangle at least; {}",
-                    entity_name(domain.boundary.regions[domain.patch_region[i]], "region"),
-                    patch.edges.size(), fmt::join(odd, "; ")));
+    lines.push_back(fmt::format(
+        "region {}: an odd number of boundary edges ({}) leaves one triangle at least; {} [odd-boundary]",
+        entity_name(domain.boundary.regions[domain.patch_region[i]], "region"), patch.edges.size(),
+        fmt::join(odd, "; ")));
   }
   return lines;
 }

@@ -60,7 +60,7 @@ class LineArranger {
   }
 
   void check_ranges() const {
-    if (mesh_.lines.empty()) fail("there are no lines: nothing bounds a domain");
+    if (mesh_.lines.empty()) fail("there are no lines: nothing bounds a domain [empty-domain]");
     if (mesh_.line_curve.size() != mesh_.lines.size())
       fail("{} lines have {} curves; one each was expected", mesh_.lines.size(), mesh_.line_curve.size());
     for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
@@ -92,7 +92,8 @@ class LineArranger {
     }
     const Vec3 size = box.size();
     if (size.z > kFlatness * std::max(size.x, size.y))
-      fail("the lines are not in a plane z = constant: z goes from {} to {}", box.low.z, box.high.z);
+      fail("the lines are not in a plane z = constant: z goes from {} to {} [not-planar]", box.low.z,
+           box.high.z);
   }
 
   void check_lines() const {
@@ -109,7 +110,8 @@ class LineArranger {
     for (std::size_t i = 1; i < used_.size(); ++i) {
       const int v = used_[i - 1], w = used_[i];
       if (at(v) != at(w)) continue;
-      if (cross_there(v, w)) fail("lines of {} and {} cross at {}", curve_at(v), curve_at(w), place(v));
+      if (cross_there(v, w))
+        fail("lines of {} and {} cross at {} [crossing-curves]", curve_at(v), curve_at(w), place(v));
       fail("two nodes coincide at {}, on {} and on {}: lines that touch share a node there", place(v),
            curve_at(v), curve_at(w));
     }
@@ -154,10 +156,11 @@ class LineArranger {
     std::vector<int> ends;
     for (int v : used_)
       if (valence(v) == 1 && is_open(lines_at_[v][0])) ends.push_back(v);
-    if (ends.size() == 1) fail("{} ends at {}, outside of every region", curve_at(ends[0]), place(ends[0]));
+    if (ends.size() == 1)
+      fail("{} ends at {}, outside of every region [embedded-outside]", curve_at(ends[0]), place(ends[0]));
     if (ends.size() > 1)
-      fail("the boundary is open: it has {} loose ends, at {} of {} and at {} of {}", ends.size(),
-           place(ends[0]), curve_at(ends[0]), place(ends[1]), curve_at(ends[1]));
+      fail("the boundary is open: it has {} loose ends, at {} of {} and at {} of {} [open-outline]",
+           ends.size(), place(ends[0]), curve_at(ends[0]), place(ends[1]), curve_at(ends[1]));
     for (int l = 0; l < static_cast<int>(mesh_.lines.size()); ++l)
       if (is_open(l))
         fail("{} bounds nothing from {} to {}, and lies in no region", curve(l), place(line(l)[0]),
@@ -179,7 +182,8 @@ class LineArranger {
     if (oc * od != 0 && oa * ob != 0) {
       const Vec2 u = at(b) - at(a), w = at(d) - at(c);
       const Vec2 x = at(a) + (cross(at(c) - at(a), w) / cross(u, w)) * u;
-      fail("lines of {} and {} cross at ({:.10g}, {:.10g}){}", curve(l), curve(m), x.x, x.y, hint);
+      fail("lines of {} and {} cross at ({:.10g}, {:.10g}){} [crossing-curves]", curve(l), curve(m), x.x, x.y,
+           hint);
     }
     const bool on_first = oc == 0 || od == 0;
     const int node = oc == 0 ? c : od == 0 ? d : oa == 0 ? a : b;

@@ -17,16 +17,17 @@ struct BoundaryNames {
   std::string crossing_hint;              ///< added where lines meet; may be empty
   int whiskers = -1;                      ///< a curve whose lines may be anywhere
 
-  /// What begins messages.
+  /// Returns the beginning of messages.
   std::string prefix() const { return source.empty() ? "" : source + ": "; }
 };
 
 /// Curves by their groups, or by their tags.
 BoundaryNames names_of_curves(const Mesh& lines, const std::string& source);
 
-/// What the lines of a mesh enclose. Throws InputError, naming curves and coordinates, for lines that cross,
-/// touch or overlap, without length or there twice, coincident nodes, coordinates that are not finite, z not
-/// constant; and where a line has no bounded face on either side: there the boundary is open.
+/// Returns the faces that the lines of a mesh enclose. Throws InputError, naming curves and coordinates, for
+/// lines that cross, touch, overlap or occur twice, and for lines without length. The same holds for
+/// coincident nodes, coordinates that are not finite, and different z. It also throws if a line has no
+/// bounded face on either side: there the boundary is open.
 Arrangement arrange_lines(const Mesh& lines, const BoundaryNames& names);
 
 /// The edges of a patch's boundary, loop by loop, each from its first point on.

@@ -31,7 +31,7 @@ std::vector<CurvePiece> cut_at_stops(const PlanarModel& model, const ModelChain&
   return pieces;
 }
 
-/// Of two pieces with the same ends, whether some places of one lie on the other.
+/// Whether some places of one piece lie on another piece with the same ends.
 bool are_equal(const CurvePiece& a, const CurvePiece& b, double tolerance) {
   if (a.curves == b.curves) return false;
   const CurveSpan other(*b.shape, b.from, b.to);
@@ -97,12 +97,11 @@ void check_angles(const PlanarModel& model, const ModelChain& chain, const std::
       const double turn = next->angle - e->angle + (next == first ? 2 * std::numbers::pi : 0);
       if (next == e || turn >= kLeast || !apart(*e->piece, *next->piece)) continue;
       const Vec2 at = chain.nodes[e->node];
-      throw InputError(
-          fmt::format("{}{} and {} touch at ({:.4g}, {:.4g}), without an angle between them: move "
-                      "them apart, or join polylines that are nearer than PART of the diagonal "
-                      "by --weld PART",
-                      message_prefix(model), curve_label(model, e->piece->curves[0]),
-                      curve_label(model, next->piece->curves[0]), at.x, at.y));
+      throw InputError(fmt::format(
+          "{}{} and {} touch at ({:.4g}, {:.4g}), without an angle between them. Move them apart, or join "
+          "polylines that are nearer than PART of the diagonal by --weld PART [touching-curves]",
+          message_prefix(model), curve_label(model, e->piece->curves[0]),
+          curve_label(model, next->piece->curves[0]), at.x, at.y));
     }
     first = last;
   }
@@ -161,10 +160,11 @@ void follow_masters(const PlanarModel& model, std::vector<CurvePiece>& pieces) {
       const CurveSpan::Place place = span.nearest(piece.images.back());
       piece.interior.push_back(place.t);
       if (place.distance > tolerance)
-        throw InputError(fmt::format(
-            "{}the sides do not match: the image of {} is {:.3g} away from {} at ({:.10g}, {:.10g})",
-            message_prefix(model), curve_label(model, master.curves.front()), place.distance,
-            curve_label(model, piece.curves.front()), place.at.x, place.at.y));
+        throw InputError(
+            fmt::format("{}the sides do not match: the image of {} is {:.3g} away from {} at ({:.10g}, "
+                        "{:.10g}) [periodic-mismatch]",
+                        message_prefix(model), curve_label(model, master.curves.front()), place.distance,
+                        curve_label(model, piece.curves.front()), place.at.x, place.at.y));
     }
     if (piece.runs_as_master) continue;
     std::ranges::reverse(piece.images);

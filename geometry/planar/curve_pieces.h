@@ -14,6 +14,8 @@
 #include "geometry/planar/face_regions.h"
 #include "geometry/planar/model_chain.h"
 
+// This header cuts curves at their compulsory nodes. Features and geometry use it.
+
 namespace delquad {
 
 /// The part of a curve between two compulsory nodes.
@@ -49,7 +51,7 @@ struct CurvePiece {
   std::pair<int, int> sorted_ends() const { return std::minmax(ends[0], ends[1]); }
 };
 
-/// The curves cut at their compulsory nodes. Of pieces that lie on each other the first one stays. Throws
+/// Returns the curves cut at their compulsory nodes. If pieces lie on each other, the first one stays. Throws
 /// InputError for curves of different loops that touch without an angle between them.
 std::vector<CurvePiece> cut_curves(const PlanarModel& model, const ModelChain& chain);
 
@@ -68,7 +70,7 @@ std::vector<int> pieces_at_nodes(const std::vector<CurvePiece>& pieces, std::siz
 /// The model's curves with their names and numbers.
 std::vector<Entity> curve_entities(const PlanarModel& model);
 
-/// What begins messages on a model: its file.
+/// Returns the beginning of messages on a model: its file.
 std::string message_prefix(const PlanarModel& model);
 
 }  // namespace delquad

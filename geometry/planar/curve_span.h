@@ -5,6 +5,8 @@
 #include "base/box.h"
 #include "delquad/model.h"
 
+// This header finds the nearest places on curves. Features and geometry use it.
+
 namespace delquad {
 
 /// A part of a curve without compulsory nodes, as chords from which it hardly strays.

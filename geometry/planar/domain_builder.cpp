@@ -67,7 +67,8 @@ class DomainBuilder {
       if (region_at(side) >= 0 || region_at(side + 1) >= 0) continue;
       const Vec3 &a = mesh().points[mesh().lines[l][0]], &b = mesh().points[mesh().lines[l][1]];
       throw InputError(
-          fmt::format("{}{} lies outside of every region from ({:.10g}, {:.10g}) to ({:.10g}, {:.10g})",
+          fmt::format("{}{} lies outside of every region from ({:.10g}, {:.10g}) to ({:.10g}, {:.10g}) "
+                      "[embedded-outside]",
                       names_.prefix(), names_.curve(mesh().line_curve[l]), a.x, a.y, b.x, b.y));
     }
   }

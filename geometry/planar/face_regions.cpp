@@ -55,7 +55,7 @@ class LoopsAround {
   /// The innermost one; -1: none.
   int innermost(std::size_t face) const { return around_[face].empty() ? -1 : around_[face].back(); }
 
-  /// Of each loop, whether there is a region just inside.
+  /// Returns for each loop whether there is a region just inside.
   std::vector<char> filled() const {
     std::vector<int> order(loops_.size());
     for (std::size_t l = 0; l < order.size(); ++l) order[l] = static_cast<int>(l);
@@ -111,7 +111,7 @@ class LoopsAround {
       for (const auto& cycle : arrangement_.faces[f].cycles) area += signed_area(lines_, cycle);
       for (const int loop : around_[f]) area_[loop] += area;
     }
-    // Of two equal ones that with a name fills the other.
+    // If two loops are equal, the one with a name fills the other.
     for (std::vector<int>& around : around_)
       std::ranges::sort(around, {},
                         [&](int l) { return std::tuple(-area_[l], !loops_[l].region.empty(), l); });
@@ -126,7 +126,7 @@ class LoopsAround {
         const int other = std::max(parent_[loop], outer);
         throw InputError(
             fmt::format("{}{} and {} overlap: one of two loops may lie inside the other, or they "
-                        "lie side by side",
+                        "lie side by side [overlapping-regions]",
                         names_.prefix(), label(other), label(loop)));
       }
       outer = loop;
@@ -140,8 +140,9 @@ class LoopsAround {
       if (parent < 0 || area_[parent] != area_[l] ||
           loops_[parent].region.empty() != loops_[l].region.empty())
         continue;
-      throw InputError(fmt::format("{}{} and {} consist of the same curves: one of them is too many",
-                                   names_.prefix(), label(parent), label(static_cast<int>(l))));
+      throw InputError(
+          fmt::format("{}{} and {} consist of the same curves: one of them is too many [overlapping-regions]",
+                      names_.prefix(), label(parent), label(static_cast<int>(l))));
     }
   }
 
@@ -162,7 +163,7 @@ FaceRegions regions_by_nesting(const Arrangement& arrangement, const FaceNames& 
   std::set<int> known;  // components
   for (std::size_t f = 0; f < names.size(); ++f)
     if (names[f]) known.insert(arrangement.faces[f].component);
-  // What is around a face stands before it.
+  // The face around a face comes before it.
   for (std::size_t f = 0; f < arrangement.faces.size(); ++f) {
     const auto& face = arrangement.faces[f];
     const bool may_be = face.around < 0 || result.region[face.around] < 0;
@@ -195,13 +196,13 @@ FaceRegions regions_of_loops(const Mesh& lines, const Arrangement& arrangement,
     }
     result.region.push_back(region_of[loop]);
   }
-  if (result.regions.empty()) throw InputError(names.prefix() + "the loops enclose nothing");
+  if (result.regions.empty()) throw InputError(names.prefix() + "the loops enclose nothing [empty-domain]");
   for (std::size_t l = 0; l < loops.size(); ++l) {
     if (loops[l].is_hole && filled[l]) {
       const Vec3& at = lines.points[lines.lines[std::ranges::find(lines.line_curve, loops[l].curves.front()) -
                                                 lines.line_curve.begin()][0]];
-      throw InputError(fmt::format("{}: the hole through {} lies outside of every region", loops[l].where,
-                                   show_point(Vec2{at.x, at.y})));
+      throw InputError(fmt::format("{}: the hole through {} lies outside of every region [embedded-outside]",
+                                   loops[l].where, show_point(Vec2{at.x, at.y})));
     }
     if (!loops[l].region.empty() && region_of[l] < 0)
       throw InputError(fmt::format("{}: nothing is left of region '{}': other loops fill its own",

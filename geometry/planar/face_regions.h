@@ -19,9 +19,9 @@ struct FaceRegions {
 /// Names of each face, where something is known of it.
 using FaceNames = std::vector<std::optional<std::vector<std::string>>>;
 
-/// Regions of lines that say nothing else: each face is one if it has names, or if there is no region around
-/// what it belongs to and nothing is known of the faces beside it. Those without a name are called "domain",
-/// or "domain_1", "domain_2", ... when there are more.
+/// Returns the regions of lines without other information. A face is a region if it has names. It is also one
+/// if there is no region around the part that it belongs to and nothing is known of the faces beside it.
+/// Nameless regions are called "domain", or "domain_1", "domain_2", ... if there are more.
 FaceRegions regions_by_nesting(const Arrangement& arrangement, const FaceNames& names);
 
 /// Regions of loops: each face belongs to the innermost loop around it, and has a region if that loop has a

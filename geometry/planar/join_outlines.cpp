@@ -206,7 +206,7 @@ class OutlineJoiner {
       if (area < least) least = area, outer = cycle;
     }
     std::ranges::sort(outer);
-    // What has that face on both sides is no outline.
+    // Curves with that face on both sides are no outlines.
     std::erase_if(outer, [&, all = outer](int c) { return std::ranges::equal_range(all, c).size() > 1; });
     return outer;
   }

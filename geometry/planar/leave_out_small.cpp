@@ -271,9 +271,10 @@ void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<War
     warnings.push_back({"small holes that were closed", 1 / length,
                         fmt::format("closed a hole of {:.3g} around at {}", length, show_point(at))});
     for (const std::string& name : names_of(model.loops[l]).names)
-      warnings.push_back({"names that went with what is small", 1,
-                          fmt::format("'{}' went with the hole at {} (--keep, or surface.keep, keeps it)",
-                                      name, show_point(at))});
+      warnings.push_back(
+          {"names of small parts that are left out", 1,
+           fmt::format("'{}' went with the hole at {} (--keep, or surface.keep, keeps it) [lost-names]", name,
+                       show_point(at))});
   };
   std::vector<char> goes(n, 0);
   std::vector<int> host(n, -1);
@@ -285,7 +286,7 @@ void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<War
     const bool alone = std::ranges::all_of(loop.curves, [&](int c) { return uses[c] == 1; });
     goes[l] = length < small.hole && host[l] >= 0 && alone && !small.keep.any_of(names_of(loop));
   }
-  // What holds something that stays, stays.
+  // A loop around something that stays, stays.
   for (std::size_t l = 0; l < n; ++l)
     for (std::size_t k = 0; k < n; ++k)
       if (goes[l] && is_in(k, l) && small.keep.any_of(names_of(model.loops[k]))) goes[l] = 0;

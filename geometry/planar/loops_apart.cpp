@@ -90,7 +90,7 @@ void check_loops_apart(const std::vector<LoopEdge>& edges, const BoundaryNames& 
       if (!at) return;
       throw InputError(fmt::format(
           "{}the loops of {} and {} touch at ({:.4g}, {:.4g}): expected a common place, or more than "
-          "{:.3g} between them",
+          "{:.3g} between them [touching-curves]",
           names.prefix(), names.curve(e.curve), names.curve(f.curve), at->x, at->y, tolerance));
     });
   }

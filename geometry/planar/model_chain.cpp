@@ -194,9 +194,10 @@ class Chainer {
       }
       ModelLoop& twin = merged[at->second];
       if (twin.region.empty() == loop.region.empty())
-        throw InputError(fmt::format("{}{} and {} consist of the same curves: one of them is too many",
-                                     prefix(model_.source), loop_label(model_, first_index[at->second]),
-                                     loop_label(model_, static_cast<int>(l))));
+        throw InputError(fmt::format(
+            "{}{} and {} consist of the same curves: one of them is too many [overlapping-regions]",
+            prefix(model_.source), loop_label(model_, first_index[at->second]),
+            loop_label(model_, static_cast<int>(l))));
       if (twin.region.empty()) twin.region = loop.region;
     }
     for (std::size_t c = 0; c < has_loop.size(); ++c)
@@ -257,9 +258,9 @@ class Chainer {
     const End nearest = *std::min_element(loose.begin() + 1, loose.end(), [&](End a, End b) {
       return norm(at(a) - at(e)) < norm(at(b) - at(e));
     });
-    throw InputError(fmt::format("{}the loop is open between ({}, {}), an end of {}, and ({}, {}) of {}",
-                                 where, at(e).x, at(e).y, label(e), at(nearest).x, at(nearest).y,
-                                 label(nearest)));
+    throw InputError(
+        fmt::format("{}the loop is open between ({}, {}), an end of {}, and ({}, {}) of {} [open-outline]",
+                    where, at(e).x, at(e).y, label(e), at(nearest).x, at(nearest).y, label(nearest)));
   }
 
   const PlanarModel& model_;
@@ -289,7 +290,7 @@ std::string point_label(const PlanarModel& model, int point) {
 
 ModelChain chain_model(const PlanarModel& model) {
   if (model.loops.empty())
-    throw InputError(prefix(model.source) + "the model has no loops: nothing bounds a domain");
+    throw InputError(prefix(model.source) + "the model has no loops: nothing bounds a domain [empty-domain]");
   return Chainer(model).run();
 }
 

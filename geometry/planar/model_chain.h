@@ -7,6 +7,9 @@
 #include "base/box.h"
 #include "geometry/planar/planar_model.h"
 
+// This header finds the compulsory nodes of planar models. The pipeline, features, readers and writers and
+// geometry use it.
+
 namespace delquad {
 
 /// Ends of curves of a loop that lie closer than this, relative to the model's diagonal, are one node: the
@@ -23,7 +26,7 @@ struct CurveStop {
 struct ModelChain {
   std::vector<Vec2> nodes;                     ///< where curves join: the end point of the first curve listed
   std::vector<std::array<int, 2>> curve_ends;  ///< nodes at the start and end of each curve
-  /// Of each curve, ascending: its corners, and where others end on it or stand across it.
+  /// For each curve, ascending, its corners and the places where others end on it or stand across it.
   std::vector<std::vector<CurveStop>> stops;
   std::vector<int> point_nodes;  ///< of the model's points
   /// The model's loops. A loop listed twice, once with a region (the filling of a hole), stands once.
@@ -40,7 +43,7 @@ std::string curve_label(const PlanarModel& model, int curve);
 /// The same for a point.
 std::string point_label(const PlanarModel& model, int point);
 
-/// Of the curves, by so many chords each.
+/// Returns the bounding box of the curves, by so many chords each.
 Box<Vec2> box_of(const PlanarModel& model, int chords);
 
 }  // namespace delquad

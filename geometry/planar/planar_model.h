@@ -8,6 +8,8 @@
 
 #include "delquad/model.h"
 
+// This header has planar domains, and their curves with nodes. Most modules use it.
+
 namespace delquad {
 
 /// delta at a point, physical length.
@@ -57,8 +59,8 @@ struct PlanarDomain {
   std::vector<PatchImage> images;
   bool has_junctions = false;  ///< some node has other than two lines
   std::vector<int> on_crack;   ///< nodes along cracks, those that were doubled and the others
-  /// Of each curve the curves of the model that lie there; empty where the lines were given, and for second
-  /// lips of cracks.
+  /// For each curve the curves of the model that lie there. It is empty if the lines were given, and for
+  /// second lips of cracks.
   std::vector<std::vector<int>> model_curves;
   /// Their shapes; of a second lip those of all cracks.
   std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes = {};

@@ -28,7 +28,7 @@ using Triangulation = CGAL::Constrained_triangulation_plus_2<
 /// Chords of a curve that is no polyline, which stays.
 constexpr int kChordsThatStay = 256;
 
-/// Of each point that was given the least of its curves.
+/// For each given point the least tolerance of its curves.
 using Tolerances = std::map<Point, double>;
 
 /// The largest distance of points that went from the chord in their place, in tolerances, squared.

@@ -69,7 +69,7 @@ std::vector<Vec2> fill_polygon(const LaplaceSolver& solver, const std::vector<do
   return flat;
 }
 
-/// Of a chart with its boundary's vertices.
+/// Returns the solver of a chart with a fixed boundary.
 LaplaceSolver solver_inside(const Chart& chart) {
   std::vector<char> fixed(chart.points.size(), 0);
   std::fill_n(fixed.begin(), chart.n_boundary, 1);

@@ -5,6 +5,8 @@
 
 #include "delquad/mesh.h"
 
+// This header has charts, connected pieces of faces. Features, geometry and fields use it.
+
 namespace delquad {
 
 /// A connected piece of one face of a fine triangulation, bounded by lines on all sides. A point that lines
@@ -37,7 +39,7 @@ std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wan
 /// Number of handles: 0 for a disk, an annulus, a sphere.
 int genus(const Chart& chart);
 
-/// Of the side from each vertex of a disk's boundary to the next.
+/// Returns the lengths of the sides of a disk's boundary, from each vertex to the next.
 std::vector<double> boundary_lengths(const Chart& chart);
 
 /// Area of each triangle.

@@ -86,7 +86,7 @@ std::vector<Entity> merged(const std::vector<Entity>& entities, const Groups& me
   return all;
 }
 
-/// Of several with one tag, the first keeps it.
+/// Sets tags. If several curves have one tag, the first keeps it.
 void set_tags_of_pieces(std::vector<Entity>& curves) {
   int greatest = 0;
   for (const Entity& curve : curves) greatest = std::max(greatest, curve.tag);

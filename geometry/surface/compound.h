@@ -20,8 +20,9 @@ struct CompoundOptions {
 SurfaceModel make_compound(SurfaceModel model, const std::vector<std::vector<int>>& groups,
                            const CompoundOptions& options = {});
 
-/// Of each curve, whether two faces join smoothly there: all along it the normals of both, averaged over the
-/// triangles at each line, or those of the true surfaces, differ by less than `angle` (degrees).
+/// Returns for each curve whether two faces join smoothly there. All along it, their normals differ by less
+/// than `angle` (degrees). The normals are averages over the triangles at each line, or normals of the true
+/// surfaces.
 std::vector<char> tangent_curves(const SurfaceModel& model, double angle = 5);
 
 /// Groups of two faces or more that join smoothly at some curve. With 180 all faces that hang together are a

@@ -6,6 +6,9 @@
 
 #include "geometry/surface/surface_model.h"
 
+// This header joins lines of a triangulation into curves. The pipeline, features, geometry and fields use
+// it.
+
 namespace delquad {
 
 /// Angle, in radians from 0 to pi, by which the way a, b, c turns at b.

@@ -6,6 +6,8 @@
 
 #include "geometry/surface/chart.h"
 
+// This header has paths across charts, along which they are cut. Geometry uses it.
+
 namespace delquad {
 
 /// A point on a vertex (b < 0) or inside an edge of a triangulation: (1 - t) a + t b.

@@ -17,11 +17,11 @@ namespace delquad {
 namespace {
 
 constexpr int kMaxStarts = 16;  ///< paths tried from one loop
-/// What a path costs more, in parts of its length, for an end that becomes a corner only because of it.
+/// Extra cost of a path, in parts of its length, for an end that becomes a corner only because of it.
 constexpr double kNewCorner = 0.15, kNewCornerAtStart = 0.05;
 /// The same for a path that runs into a third loop.
 constexpr double kWrongLoop = 2;
-/// What is missing around a sharp tip, at least (radians), and the angle around a blunt one.
+/// The least angular defect of a sharp tip (radians), and the angle around a blunt one.
 constexpr double kTipDefect = 0.5, kBluntTip = 200 * std::numbers::pi / 180;
 
 class PathChoice {

@@ -25,7 +25,7 @@ constexpr double kDetour = 8;
 /// Levels that are tried.
 constexpr int kLevels = 16;
 
-/// What a cut along the side from v to w costs.
+/// Returns the cost of a cut along the side from v to w.
 double cost_of_side(const Chart& chart, const ChartElements& elements, int v, int w) {
   return norm(chart.points[w] - chart.points[v]) * (elements.avoided[v] || elements.avoided[w] ? kDetour : 1);
 }
@@ -96,7 +96,7 @@ std::pair<std::vector<int>, std::vector<int>> components(const ElementGraph& gra
   return {std::move(component), std::move(sizes)};
 }
 
-/// Of both parts the largest component stays; others join what is around.
+/// Keeps the largest component of both parts; other components join their surroundings.
 void join_islands(const ElementGraph& graph, Parts& part) {
   const auto [component, sizes] = components(graph, part);
   std::array<int, 2> largest{-1, -1};

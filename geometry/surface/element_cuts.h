@@ -7,7 +7,7 @@
 
 namespace delquad {
 
-/// What a chart's triangles make up: it is cut along sides between these only.
+/// Elements that consist of a chart's triangles. The chart is cut only along sides between them.
 struct ChartElements {
   std::vector<int> element;        ///< of each triangle; those of one element hang together
   std::vector<char> avoided = {};  ///< of each vertex, whether cuts should go around it
@@ -18,9 +18,9 @@ struct ChartElements {
 std::optional<CutPath> path_beside_elements(const Chart& chart, const ChartElements& elements,
                                             const std::vector<char>& from, const std::vector<char>& to);
 
-/// Parts a chart where the way between both parts is short for their areas, by level curves of its slowest
-/// vibration: for each triangle 0 or 1. Of a chart of triangles alone with an even number of them both parts
-/// have an even number where one triangle can make them so. Empty for a single element.
+/// Divides a chart if the way between both parts is short for their areas, by level curves of its slowest
+/// vibration. Returns 0 or 1 for each triangle. If a chart has an even number of triangles and nothing else,
+/// both parts have an even number if one triangle can achieve it. Empty for a single element.
 std::vector<char> plan_division(const Chart& chart, const ChartElements& elements);
 
 }  // namespace delquad

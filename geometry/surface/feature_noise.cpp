@@ -14,9 +14,9 @@ namespace {
 
 /// Longer networks and borders are features (part of the model's diagonal).
 constexpr double kLongest = 0.1;
-/// What is beside is smooth below this (radians): then even the smallest feature was meant.
+/// Surroundings below this angle (radians) are smooth. There even the smallest feature was meant.
 constexpr double kSmooth = 3 * std::numbers::pi / 180;
-/// Of scans, loops are 2 to 6 times as sharp as what is beside them; of machined parts 8 times and more.
+/// In scans, loops are 2 to 6 times as sharp as their surroundings; on machined parts 8 times and more.
 constexpr double kStandsOut = 6;
 /// A vertex that sticks out has so many sharp edges around it, however sharp.
 constexpr std::size_t kFewEdges = 6;

@@ -7,11 +7,12 @@
 
 namespace delquad {
 
-/// What lies along a side of a triangle: nothing, a cut that was found, or else the index of a given curve.
+/// Kinds of sides of a triangle: nothing lies along it, a cut that was found, or else the index of a given
+/// curve.
 constexpr int kNoCut = -2, kNewCut = -1;
 
-/// Of each triangle its part of the surface between cuts, in the order of their first triangles. `twin`: see
-/// side_twins; `cut`: of each side.
+/// Returns for each triangle its part of the surface between cuts, in the order of their first triangles.
+/// `twin`: see side_twins; `cut`: for each side.
 std::vector<int> parts_between_cuts(const std::vector<int>& twin, const std::vector<int>& cut);
 
 struct DroppedFeatures {

@@ -94,8 +94,8 @@ class FlatRemover {
     for (const int v : mesh_.triangles[t]) std::erase(triangles_at_[v], t);
   }
 
-  /// A triangle has new corners. Of two on the same ones both go; of two without area one, for what lies
-  /// beside has still to be cut.
+  /// Handles a triangle with new corners. If two triangles have the same corners, both are removed. If both
+  /// have no area, one is removed, because the neighbors have still to be cut.
   void settle(int t) {
     const Corners v = mesh_.triangles[t];
     if (repeats_vertex(v)) return remove(t);

@@ -414,8 +414,9 @@ class Flattener {
   void report(const Flattening& result) {
     if (options_.element.empty()) report_cuts(result);
     for (int f : result.failed)
-      model_.warnings.push_back({"faces that could not be flattened", 0,
-                                 fmt::format("face {}: could not be flattened", mesh_.regions[f].tag)});
+      model_.warnings.push_back(
+          {"faces that could not be flattened", 0,
+           fmt::format("face {}: could not be flattened [not-flattened]", mesh_.regions[f].tag)});
   }
 
   void report_cuts(const Flattening& result) {
@@ -428,7 +429,8 @@ class Flattener {
       if (p.quality.area_ratio > options_.max_area_ratio || p.quality.sigma_95 > options_.max_sigma)
         model_.warnings.push_back(
             {"maps of faces that distort", p.quality.area_ratio * p.quality.sigma_95,
-             fmt::format("face {}: its map distorts: area scale varies {:.3g} times, angles by {:.3g}",
+             fmt::format("face {}: its map distorts: area scale varies {:.3g} times, angles by {:.3g} "
+                         "[distorted-map]",
                          mesh_.regions[p.face].tag, p.quality.area_ratio, p.quality.sigma_95)});
   }
 

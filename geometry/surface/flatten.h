@@ -12,6 +12,8 @@
 #include "geometry/surface/chart.h"
 #include "geometry/surface/surface_model.h"
 
+// This header maps faces to the plane. Most modules use it.
+
 namespace delquad {
 
 /// No triangle is flipped or flat, and the boundary neither crosses nor touches itself: exact.
@@ -50,8 +52,8 @@ struct FlattenOptions {
   /// Called once cuts were made: may split lines, and returns pairs (triangle that was split, half that was
   /// added).
   std::function<std::vector<std::pair<int, int>>()> after_cuts = {};
-  /// Of each fine triangle the element that it is a part of: cuts run along sides between elements, and split
-  /// nothing. Empty: they run anywhere.
+  /// For each fine triangle the element that it is a part of. Cuts run along sides between elements, and
+  /// split nothing. Empty: they run anywhere.
   std::vector<int> element = {};
   /// With `element`, of each fine point: cuts go there only for want of a way around; empty: no point is
   /// such.

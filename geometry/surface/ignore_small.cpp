@@ -111,7 +111,7 @@ class FaceJoiner {
     }
   };
 
-  /// Of which a set may become part; -1: of none.
+  /// Returns the set that a set may join; -1: none.
   int host_of(const Set& set) const {
     int best = -1;
     double most = 0;
@@ -318,9 +318,9 @@ void report_lost_names(const char* kind, const std::vector<Entity>& before, cons
   for (const Entity& entity : before)
     for (const std::string& name : entity.names)
       if (there.insert(name).second)
-        warnings.push_back({"names that went with what is small", 1,
+        warnings.push_back({"names of small parts that are left out", 1,
                             fmt::format("no {} has the name '{}' any more: {} {} was too small "
-                                        "(--keep, or surface.keep, keeps it)",
+                                        "(--keep, or surface.keep, keeps it) [lost-names]",
                                         kind, name, kind, entity.tag)});
 }
 

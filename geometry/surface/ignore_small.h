@@ -7,6 +7,8 @@
 #include "geometry/surface/surface_model.h"
 #include "geometry/surface/triangulated_model.h"
 
+// This header removes small details of surfaces. Features and geometry use it.
+
 namespace delquad {
 
 struct NarrowOptions {
@@ -34,16 +36,16 @@ struct NarrowOptions {
 SurfaceModel ignore_small(SurfaceModel model, const NarrowOptions& narrow,
                           const CompoundOptions& options = {});
 
-/// The model without holes of which the outline is shorter than `length`: where it bounds nothing else, or
-/// leads into a tube or a pocket. A tube is a group of faces that hang together, all of whose outlines are so
-/// short, and whose area is not much more than that of a tube of such a girth and their extent; it goes. The
-/// hole is closed by triangles of the face around it. What has several faces around it stays. Warnings name
-/// each hole.
+/// Returns the model without holes whose outline is shorter than `length`, if the outline bounds nothing
+/// else, or leads into a tube or a pocket. A tube is a group of connected faces whose outlines are all so
+/// short. Its area is not much more than the area of a tube of such a girth and extent; it is removed. The
+/// hole is closed by triangles of the face around it. A hole with several faces around it stays. Warnings
+/// name each hole.
 SurfaceModel close_small_holes(SurfaceModel model, const NarrowOptions& narrow);
 
-/// Cuts faces where they become narrower than that for a while and have a neighbour that they may become part
-/// of. What is so narrow becomes faces of their own, and so do all that is left but the largest, behind the
-/// others. Returns for each face the one that it was a part of.
+/// Cuts faces at places where they are narrower than that for a while and have a neighbor to join. The narrow
+/// parts become faces of their own. So do all other parts but the largest, behind the others. Returns for
+/// each face the one that it was a part of.
 std::vector<int> cut_narrow_parts(SurfaceModel& model, const NarrowOptions& narrow);
 
 /// Whether a triangle reaches into what is kept.

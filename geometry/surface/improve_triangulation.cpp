@@ -100,7 +100,7 @@ class Improver {
     return dot(u, v) / std::max(norm(cross(u, v)), std::numeric_limits<double>::min());
   }
 
-  /// Of a face at one of its points, any length.
+  /// Returns the normal of a face at one of its points, of any length.
   Vec3 normal_at(int v, int face) const {
     Vec3 sum;
     for (const int t : editor_.triangles_at(v)) {

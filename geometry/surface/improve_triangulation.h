@@ -4,6 +4,8 @@
 
 #include "geometry/surface/surface_model.h"
 
+// This header refines and improves fine triangulations. The pipeline, geometry and fields use it.
+
 namespace delquad {
 
 struct ImproveOptions {

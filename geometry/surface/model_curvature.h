@@ -8,6 +8,8 @@
 #include "geometry/mesh/nearest_triangle.h"
 #include "geometry/surface/surface_model.h"
 
+// This header has curvatures of models. Geometry and fields use it.
+
 namespace delquad {
 
 /// How strongly the faces and curves of a model are curved, wherever one asks. Make it from a model as it was

@@ -85,7 +85,7 @@ class ChartView {
   }
   const Vec3& point(int vertex) const { return chart_.points[vertex]; }
 
-  /// What lies straight across within the reach, where it faces this side.
+  /// Returns the place straight across within the reach, if it faces this side.
   std::optional<LoopPlace> look(const LoopPlace& from) const {
     auto [t, k] = triangle_at_[from.loop][from.side];
     const auto [p, q] = ends(from);
@@ -392,9 +392,9 @@ class FaceCutter {
   std::map<std::array<int, 2>, std::vector<std::pair<double, int>>> splits_;  ///< how far, and the node
 };
 
-/// Makes each part into which cuts (curves from `first_cut` on) divide faces a face, but for the largest one
-/// that is not narrow: the narrow ones come last. Of faces that are narrow everywhere, and where nothing is
-/// cut, all stays. `is_cut`: of each face. Returns the former face of each.
+/// Makes each part into which cuts (curves from `first_cut` on) divide faces a face, except the largest one
+/// that is not narrow. The narrow ones come last. Faces that are narrow everywhere, and faces without cuts,
+/// stay whole. `is_cut`: for each face. Returns the former face of each.
 std::vector<int> number_parts(Mesh& mesh, int first_cut, const std::vector<char>& is_cut,
                               const NarrowOptions& options) {
   const std::vector<Chart> charts = extract_charts(mesh, std::vector<char>(mesh.triangles.size(), 1));

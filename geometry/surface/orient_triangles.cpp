@@ -39,7 +39,7 @@ bool run_alike(const Mesh& mesh, int side, int twin) {
   throw InputError(
       fmt::format("{}: the surface has one side only, like a Moebius band (found at the edge from {} "
                   "to {}): expected two "
-                  "sides",
+                  "sides [one-side]",
                   source, show_point(mesh.points[side_start(mesh, side)]),
                   show_point(mesh.points[side_end(mesh, side)])));
 }

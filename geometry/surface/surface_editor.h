@@ -6,6 +6,8 @@
 
 #include "geometry/surface/surface_model.h"
 
+// This header edits fine triangulations. Features and geometry use it.
+
 namespace delquad {
 
 /// Refines the fine triangulation of a model in place: sides are split and flipped, curves are added, and

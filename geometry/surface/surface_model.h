@@ -9,6 +9,8 @@
 #include "base/warning.h"
 #include "delquad/mesh.h"
 
+// This header has surfaces as fine triangulations with their true geometry. Most modules use it.
+
 namespace delquad {
 
 /// Curvatures (1 / length) of a face at a point, along two perpendicular directions; NaN where not known.
@@ -28,8 +30,8 @@ class SurfaceProjector {
   /// The point of a curve (index into SurfaceModel::fine.curves) nearest to x; safe to call from several
   /// threads.
   virtual Vec3 to_curve(int curve, const Vec3& x) const = 0;
-  /// Of a face near x, a point next to it; not known at singular points of the parametrisation. Safe to call
-  /// from several threads.
+  /// Returns the curvatures of a face at a point next to x; not known at singular points of the
+  /// parametrization. Several threads may call it.
   virtual PrincipalCurvatures curvatures([[maybe_unused]] int face, [[maybe_unused]] const Vec3& x) const {
     return {};
   }

@@ -79,7 +79,7 @@ void tell_branches(const Mesh& mesh, const std::string& source, std::vector<Warn
   if (2 * count > n_edges)
     throw InputError(fmt::format(
         "{}: {} of {} edges have three triangles or more (the first at {}): expected a surface, not "
-        "the sides of cells in a volume",
+        "the sides of cells in a volume [cells-of-a-volume]",
         source, count, n_edges, show_point(first)));
   warnings.push_back(fmt::format("the surface branches at {} with three triangles or more (the first at {})",
                                  counted(count, "edge"), show_point(first)));
@@ -231,7 +231,7 @@ void report_gaps(const Mesh& mesh, const std::string& source, std::vector<Warnin
     if (left < open)
       warnings.push_back(fmt::format(
           "{} at open edges no more than {:.2g} from others, the first at {}: --weld {:.0e} (weld_tolerance, "
-          "a part of the diagonal) closes {} of {}",
+          "a part of the diagonal) closes {} of {} [near-open-edges]",
           counted(gaps, "point"), widest, show_point(first), part, open - left, counted(open, "open edge")));
   } catch (const InputError&) {
     // Welded it would be no surface.

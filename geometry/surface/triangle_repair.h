@@ -7,6 +7,8 @@
 #include "base/warning.h"
 #include "delquad/mesh.h"
 
+// This header repairs triangulations from files. Features and geometry use it.
+
 namespace delquad {
 
 /// Makes a surface of triangles as files hold them: each edge in one triangle, in two that agree in
@@ -41,13 +43,12 @@ struct FlatTriangles {
   Vec3 first;
 };
 
-/// Takes out the triangles without area so that no gap opens: the ends of a side without length become one
-/// vertex, and where a triangle has its third vertex between the others, all triangles on its longest side
-/// are cut there. Once they are, its boundary is zero modulo two, so that each edge stays in an even or an
-/// odd number of triangles: what is closed stays closed. Of triangles that come to lie on the same vertices,
-/// two go. Lines on what is cut are cut, too. `count` is that of the triangles that were given. Throws
-/// InputError, beginning with `source`, where such triangles lie on each other in so many ways that there is
-/// no end.
+/// Removes the triangles without area so that no gap opens. The ends of a side without length become one
+/// vertex. If a triangle has its third vertex between the others, all triangles on its longest side are cut
+/// there. Afterwards its boundary is zero modulo two. So each edge stays in an even or an odd number of
+/// triangles, and closed parts stay closed. If triangles come to lie on the same vertices, two are removed.
+/// Lines on cut sides are cut, too. `count`: number of given triangles. Throws InputError, beginning with
+/// `source`, if such triangles lie on each other in so many ways that there is no end.
 FlatTriangles take_out_flat_triangles(Mesh& mesh, const std::string& source);
 
 /// Turns triangles so that neighbours agree, each component as most of its triangles run, closed ones

@@ -153,7 +153,8 @@ std::vector<int> number_faces(Mesh& mesh, const std::vector<int>& twin, const st
   return region_of_face;
 }
 
-/// What lies along a standing line of one of n given curves (kNewCut: of none), beyond all cuts; and back.
+/// Returns the kind of a standing line of one of n given curves (kNewCut: of none), beyond all cuts; and
+/// back.
 int standing_kind(int n_curves, int curve) { return n_curves + 1 + curve; }
 bool is_standing_kind(int n_curves, int kind) { return kind >= n_curves; }
 int given_curve_of(int n_curves, int kind) {

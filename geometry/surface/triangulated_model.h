@@ -5,6 +5,9 @@
 
 #include "geometry/surface/surface_model.h"
 
+// This header makes surface models from triangles. The pipeline, features, readers and writers and geometry
+// use it.
+
 namespace delquad {
 
 /// A ball in which sharp edges stay features, wherever they lead.

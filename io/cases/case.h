@@ -10,6 +10,8 @@
 #include "delquad/adapt.h"
 #include "delquad/mesher.h"
 
+// This header has cases of experiments. The program, the bench and readers and writers use it.
+
 namespace delquad {
 
 /// Where data lies, seen from the folder that the program is called in, unless it is told otherwise.

@@ -285,10 +285,11 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
     throw InputError(file.string() + ": unknown kind of model '" + file.extension().string() +
                      "'; known: .toml (curves and loops), .msh (lines or triangles), " + surface_files() +
                      ", and outlines: " + outline_files() +
-                     "; 'delquad metrics' and 'delquad improve' read other meshes");
+                     "; 'delquad metrics' and 'delquad improve' read other meshes [unknown-format]");
   const TomlTable table = TomlTable::read(file);
   if (table.has("case"))
-    refuse("{}: this is an experiment with cases of its own: run it with 'delquad run'", table.where("case"));
+    refuse("{}: this is an experiment with cases of its own: run it with 'delquad run' [experiment-or-model]",
+           table.where("case"));
   table.require_known(case_keys());
   if (table.has("model") && kind_of_file(table.text("model")) == ".toml")
     throw InputError(table.where("model") + ": a model file cannot take its model from another one");

@@ -9,9 +9,9 @@
 
 namespace delquad {
 
-/// Takes over the keys of a case that the table has: model, data, mesh, curve, loop, pattern, surface, size,
-/// cross, insertion, smoothing, recombination, compare. What it lacks stays as it is. Paths count from the
-/// table's file.
+/// Reads the keys of a case that the table has: model, data, mesh, curve, loop, pattern, surface, size,
+/// cross, insertion, smoothing, recombination, compare. Other keys of the case stay as they are. Paths count
+/// from the table's file.
 void read_case_keys(const TomlTable& table, Case& target);
 
 /// A model file by itself: the keys of a case, at the top level; or a mesh of lines (.msh). `defaults`: what

@@ -42,7 +42,7 @@ std::string type_of(const OptionKey& key) {
   return limited_type(types[key.value.index()], {.least = key.least, .above = key.above, .most = key.most});
 }
 
-/// Those that begin, then the limits.
+/// Returns the keys, followed by the limits.
 TomlKeys with_criteria(TomlKeys keys) {
   for (const Criterion& criterion : criterion_registry())
     keys.push_back({criterion.key, "limit, by " + criterion.source, kExpression});
@@ -52,7 +52,7 @@ TomlKeys with_criteria(TomlKeys keys) {
 }  // namespace
 
 TomlKeys named_criteria_keys() {
-  return with_criteria({{"name", "of curves or regions", kText, nullptr, false, true}});
+  return with_criteria({{"name", "name of curves or regions", kText, nullptr, false, true}});
 }
 
 TomlKeys criteria_keys() {
@@ -80,7 +80,7 @@ TomlKeys case_keys() {
                     "", keys_of<EmbeddedShape>, true},
                    {"example", "a surface that the program makes itself", kText},
                    {"mesh", "an MSH file; with 'start' of any format", kText},
-                   {"start", "words may begin from the elements of that mesh", kFlag},
+                   {"start", "pipelines may begin from the elements of that mesh", kFlag},
                    {"model", "a model file, a surface or an MSH file", kText},
                    {"data", "a surface or MSH file in the folder of --data", kText}};
   for (TomlKey& key : keys_of<MeshProblem>()) {

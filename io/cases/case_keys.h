@@ -8,6 +8,9 @@
 #include "delquad/options.h"
 #include "io/cases/toml_reader.h"
 
+// This header lists the keys of models and cases. The program, the bench, readers and writers and the Python
+// module use it.
+
 namespace delquad {
 
 /// The keys of a model, which are those of a case but for its name. Throws std::logic_error where options

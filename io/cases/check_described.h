@@ -8,7 +8,8 @@
 
 #include "io/cases/problem_fields.h"
 
-// Values against the limits of their descriptions, wherever they come from.
+// This header checks values against the limits of their descriptions. The pipeline and readers and writers
+// use it.
 
 namespace delquad {
 

@@ -124,7 +124,7 @@ class DxfReader {
                        : fmt::format("{} are left out: expected lines, arcs, polylines and splines",
                                      fmt::join(others, ", "));
     if (model_.loops.empty())
-      refuse("{}: no curves close up to an outline{}{}", model_.source,
+      refuse("{}: no curves close up to an outline{}{} [open-outline]", model_.source,
              left_out.empty() ? "" : "; " + left_out,
              loose.empty() ? "" : "; " + loose + ": expected ends that meet");
     if (!left_out.empty()) model_.notes.push_back(model_.source + ": " + left_out);
@@ -257,7 +257,7 @@ class DxfReader {
 
   void add(const std::string& kind) {
     constexpr double kDegree = std::numbers::pi / 180;
-    // Of shapes that have a plane: seen from below x points to the left.
+    // If the plane of a shape is seen from below, x points to the left.
     const double side = value(230, 1) < 0 ? -1 : 1;
     const Vec2 centre{side * value(10), value(20)};
     if (kind == "LINE") {

@@ -25,7 +25,7 @@ std::string excerpt(const std::string& text, std::size_t first) {
 
 [[noreturn]] void fail(const std::string& text, const std::string& reason, int position) {
   if (position < 0) refuse("expression '{}': {}", excerpt(text, 0), reason);
-  // Of a long text, what stands around the position.
+  // A long text is shown around the position.
   constexpr std::size_t kBefore = Expression::kMostShown / 2;
   const std::size_t at = std::min(static_cast<std::size_t>(position), text.size());
   const std::size_t first = text.size() > Expression::kMostShown && at > kBefore ? at - kBefore : 0;

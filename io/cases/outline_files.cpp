@@ -43,7 +43,7 @@ class GeoJsonReader {
       read(root, path_, {});
       if (model_.loops.empty())
         if (const std::string loose = join_outlines(model_); model_.loops.empty())
-          refuse("{}: there are no polygons, and no lines join to one{}", path_,
+          refuse("{}: there are no polygons, and no lines join to one{} [open-outline]", path_,
                  loose.empty() ? "" : ": " + loose + ": expected ends that meet");
       check_unit(root, file);
     } catch (const Json::exception& error) {
@@ -185,9 +185,9 @@ class GeoJsonReader {
     if (file.in_degrees || crs_.ends_with("CRS84") || crs_.ends_with(":4326") ||
         (crs_.empty() && are_degrees_))
       refuse(
-          "{0}: the coordinates are degrees of longitude and latitude: expected lengths, which {0}@utm or "
-          "{0}@EPSG:CODE make of them; if they are lengths, say so by a coordinate system (in GeoJSON a "
-          "\"crs\" of any other name)",
+          "{0}: the coordinates are degrees of longitude and latitude: expected lengths. Write {0}@utm or "
+          "{0}@EPSG:CODE to convert them. If they are lengths, name another coordinate system in the file "
+          "(GeoJSON: \"crs\") [degrees-as-lengths]",
           path_);
   }
 

@@ -7,6 +7,8 @@
 
 #include "delquad/model.h"
 
+// This header reads outlines. Readers and writers use it.
+
 namespace delquad {
 
 /// Reads a GeoJSON file [RFC 7946]. Each ring of a polygon is a curve of data, inner ones are holes. Without
@@ -22,7 +24,8 @@ namespace delquad {
 /// Such are all coordinates within 180 and 90, unless the file has a "crs" of another name.
 PlanarModel read_geojson(const std::filesystem::path& path);
 
-/// What "FILE", "FILE:LAYER", "FILE@CRS" and "FILE:LAYER@CRS" mean, where FILE ends as files of outlines do.
+/// The parts of "FILE", "FILE:LAYER", "FILE@CRS" and "FILE:LAYER@CRS", where FILE ends as files of outlines
+/// do.
 struct OutlineFile {
   std::filesystem::path path;
   std::string layer;    ///< empty: the only one
@@ -38,8 +41,8 @@ std::string outline_files();
 /// it is.
 Model read_outlines(const OutlineFile& file, std::string& crs);
 
-/// Points, one a line: x and y, with comments behind '#'. Of an airfoil the first line may be its name, and
-/// two counts may follow, of points on the upper side and the lower, both from the nose.
+/// Returns points, one a line: x and y, with comments behind '#'. The first line may be the name of an
+/// airfoil. Two counts may follow, of points on the upper side and the lower, both from the nose.
 std::vector<Vec2> read_points(const std::filesystem::path& path);
 
 }  // namespace delquad

@@ -5,8 +5,8 @@
 #include "io/cases/case.h"
 #include "io/cases/description.h"
 
-// The descriptions of all structs that a problem consists of: a new member of one of them needs a line here,
-// or nothing compiles.
+// This header describes all structs of a problem; a new member needs a line here. Readers and writers use
+// it.
 
 namespace delquad {
 
@@ -177,7 +177,7 @@ inline constexpr auto kFields<MetricSpec> =
                field("gradation", &MetricSpec::gradation,
                      "factor by which lengths grow per unit length at most", {.least = 1}),
                field("complexity", &MetricSpec::complexity,
-                     "about the number of quads: lengths are scaled to it", {.above = 0}),
+                     "approximate number of quads, to which lengths are scaled", {.above = 0}),
                inner("scale", &MetricSpec::scale), place(&MetricSpec::where),
                ignored(&MetricSpec::plane, "it is made from the other fields"));
 template <>

@@ -16,6 +16,8 @@
 #include "io/cases/problem_fields.h"
 #include "io/cases/read_problem.h"
 
+// This header writes problems into records. The pipeline, the bench and readers and writers use it.
+
 namespace delquad {
 
 using RecordJson = nlohmann::ordered_json;

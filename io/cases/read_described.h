@@ -19,7 +19,8 @@
 #include "io/cases/outline_files.h"
 #include "io/cases/toml_reader.h"
 
-// Tables of files by the descriptions of structs: their keys, and reading them.
+// This header reads tables of files by the descriptions of structs. The bench, readers and writers and the
+// Python module use it.
 
 namespace delquad {
 

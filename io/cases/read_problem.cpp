@@ -84,9 +84,11 @@ std::function<double(const Vec3&)> raster_function(const SizeFile& file, const s
   const auto raster = std::make_shared<const Raster>(read_raster(file.path, crs));
   return [formula, raster, path = file.path.string()](const Vec3& x) {
     const Vec2 p{x.x, x.y};
-    if (!raster->grid.covers(p)) refuse("{}: the raster does not cover {}", path, show_point(p));
+    if (!raster->grid.covers(p))
+      refuse("{}: the raster does not cover {} [no-raster-data]", path, show_point(p));
     const double values[] = {x.x, x.y, x.z, raster->at(p)};
-    if (std::isnan(values[3])) refuse("{}: the raster has no data around {}", path, show_point(p));
+    if (std::isnan(values[3]))
+      refuse("{}: the raster has no data around {} [no-raster-data]", path, show_point(p));
     return formula(values);
   };
 }
@@ -129,8 +131,8 @@ void read_size(SizeSpec& size, const Options& options, const std::string& crs) {
   if (!size.from_boundary) size.field = make_field(size, crs);
 }
 
-/// Of the second differences of a solution that is known as a formula, in diagonals of the domain: far below
-/// what a mesh resolves and far above rounding.
+/// Step of second differences of a solution that is known as a formula, in diagonals of the domain. It is far
+/// below the resolution of a mesh and far above rounding.
 constexpr double kHessianStep = 5e-5;
 
 double hessian_step(const Model& model) {

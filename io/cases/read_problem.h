@@ -8,6 +8,9 @@
 
 #include "io/cases/case.h"
 
+// This header turns texts into the parts of a problem. The pipeline, the program, the bench and readers and
+// writers use it.
+
 namespace delquad {
 
 /// Whether the file holds a surface by its extension: CAD or triangles.
@@ -36,8 +39,8 @@ struct SizeFile {
   std::string field;  ///< empty: the only one that it has
 };
 
-/// What "FILE" or "FILE:FIELD" means, where FILE ends as meshes or rasters do, and counts from `folder`;
-/// nothing for other texts.
+/// Returns the parts of "FILE" or "FILE:FIELD", where FILE ends as meshes or rasters do, and counts from
+/// `folder`; nothing for other texts.
 std::optional<SizeFile> size_file_of(const std::string& text, const std::filesystem::path& folder);
 
 /// Depths of water at points, positive downwards, of "FILE" or "FILE: FORMULA" in x, y, z and value. The

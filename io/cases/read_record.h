@@ -16,6 +16,8 @@
 
 #include "io/cases/problem_record.h"
 
+// This header reads problems from records. The bench, readers and writers and measures use it.
+
 namespace delquad {
 
 /// Reads structs from records. Fields that determine no result stay as they are, as Recorder leaves them out.

@@ -9,6 +9,8 @@
 #include "delquad/mesh.h"
 #include "io/cases/description.h"
 
+// This header has the shapes that model files know. Readers and writers use it.
+
 namespace delquad {
 
 // Shapes of curves as model files have them.
@@ -70,7 +72,7 @@ template <>
 inline constexpr auto kFields<ArcShape> =
     std::tuple(field("", &ArcShape::circle),
                field("from", &ArcShape::from, "degrees", {.form = Form::kDegrees, .required = true}),
-               field("to", &ArcShape::to, "degrees; counterclockwise where it is more",
+               field("to", &ArcShape::to, "degrees; counterclockwise if it is larger",
                      {.form = Form::kDegrees, .required = true}));
 template <>
 inline constexpr auto kFields<ExpressionShape> =
@@ -87,12 +89,11 @@ inline constexpr auto kFields<CurveShape> = std::tuple(
     field("arc", &CurveShape::arc, "a part of a circle"), field("circle", &CurveShape::circle, "a circle"),
     field("expression", &CurveShape::expression, "formulas"));
 template <>
-inline constexpr auto kFields<NamedShape> = std::tuple(field("name", &NamedShape::name, "what loops call it",
-                                                             {.form = Form::kGroup, .required = true}),
-                                                       field("boundary", &NamedShape::boundary,
-                                                             "its name in all but loops; else 'name'",
-                                                             {.form = Form::kGroup}),
-                                                       field("", &NamedShape::shape));
+inline constexpr auto kFields<NamedShape> = std::tuple(
+    field("name", &NamedShape::name, "name of the curve for loops", {.form = Form::kGroup, .required = true}),
+    field("boundary", &NamedShape::boundary, "its name in all but loops; else 'name'",
+          {.form = Form::kGroup}),
+    field("", &NamedShape::shape));
 template <>
 inline constexpr auto kFields<EmbeddedShape> = std::tuple(
     field("name", &EmbeddedShape::name, "its physical group", {.form = Form::kGroup}),
@@ -105,7 +106,7 @@ inline constexpr auto kFields<ClosedShape> = std::tuple(
     field("circle", &ClosedShape::circle, "a circle"),
     field("boundary", &ClosedShape::boundary,
           "name of its curves, or one for each; not with 'curves', which have names", {.form = Form::kGroup}),
-    field("region", &ClosedShape::region, "name of what is inside", {.form = Form::kGroup}),
+    field("region", &ClosedShape::region, "name of the inside", {.form = Form::kGroup}),
     field("hole", &ClosedShape::is_hole, "whether it must be a hole"));
 template <>
 inline constexpr auto kFields<LoopShape> = std::tuple(field("", &LoopShape::closed),

@@ -241,7 +241,7 @@ const toml::node* take(const toml::node& node, std::variant<std::string, Vec3>& 
   return take(node, value.emplace<Vec3>());
 }
 
-// What is expected of each type.
+// These functions return the expected values of each type.
 const char* expected_of(bool) { return "true or false"; }
 const char* expected_of(int) { return "an integer"; }
 const char* expected_of(long long) { return "an integer"; }
@@ -410,7 +410,7 @@ void TomlTable::require_known(const TomlKeys& keys) const {
     for (const TomlKey& one : keys) known.push_back(one.name);
     std::ranges::sort(known);
     const std::string near = suggestion(name, known);
-    refuse("{}: unknown key '{}'{}", place, data_->name(name),
+    refuse("{}: unknown key '{}'{} [unknown-key]", place, data_->name(name),
            near.empty() ? fmt::format("; known here: {}", fmt::join(known, " ")) : near);
   }
 }

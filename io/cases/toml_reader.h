@@ -14,6 +14,9 @@
 #include "base/nearest_name.h"
 #include "delquad/mesh.h"
 
+// This header reads TOML files with messages about places and keys. The bench and readers and writers use
+// it.
+
 namespace delquad {
 
 /// A key that a table of a TOML file may have. Lists of them are what tables are read against, and what the

@@ -55,7 +55,7 @@ void write_gr3(const std::filesystem::path& path, const Mesh& mesh) {
   if (is_adcirc && !mesh.quads.empty())
     refuse(
         "{}: ADCIRC has triangles only, and there are {} quads: expected triangles, of --pipeline D, or "
-        ".gr3, for SCHISM, which has both",
+        ".gr3, for SCHISM, which has both [triangles-only]",
         path.string(), mesh.quads.size());
   require_terrain(path, "SCHISM's and ADCIRC's grid", mesh);
   std::vector<CoastPiece> pieces = coast_pieces(mesh);

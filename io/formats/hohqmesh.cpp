@@ -15,8 +15,8 @@ namespace {
 /// Trixi's symbols of boundaries, at most 32 characters.
 constexpr UniqueLabels::Rules kHohqLabels{plain_label, false, 22};
 
-/// What HOHQMesh's formats have: corners, curves of sides, and the names of sides. Sides 3 and 4 run from
-/// corner 4 to 3 and from 1 to 4, as the element's coordinates do.
+/// The contents of HOHQMesh's formats: corners, curves of sides, and the names of sides. Sides 3 and 4 run
+/// from corner 4 to 3 and from 1 to 4, as the element's coordinates do.
 class HohqMesh {
  public:
   HohqMesh(const std::filesystem::path& path, const Mesh& mesh)

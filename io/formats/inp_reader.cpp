@@ -163,8 +163,10 @@ class InpReader {
     goes_on_ = false;
     if (card.is_among(kRefused) || (card.name == "NODE" && card.parameters.contains("SYSTEM")) ||
         (card.is_among(kRead) && card.parameters.contains("INPUT")))
-      in_.fail("*{}: expected a file that holds the whole mesh, with Cartesian coordinates of all nodes",
-               card.name);
+      in_.fail(
+          "*{}: expected a file that holds the whole mesh, with Cartesian coordinates of all nodes "
+          "[deck-in-parts]",
+          card.name);
     if (!card.is_among(kRead)) {
       ++deck_.others['*' + card.name];
       for (const auto& [key, value] : card.parameters) other({value});  // REF NODE=17
@@ -253,7 +255,7 @@ class InpReader {
     const auto x = [&](size_t k) { return fields.size() > k ? real(fields[k]) : 0; };
     const int index = static_cast<int>(deck_.nodes.size());
     if (!deck_.node_of.emplace(number, index).second)
-      in_.fail("node {} is there twice; files of several parts cannot be read", number);
+      in_.fail("node {} is there twice; files of several parts cannot be read [deck-in-parts]", number);
     deck_.nodes.push_back({number, {x(1), x(2), x(3)}, place, line_end()});
     mesh_.points.push_back(deck_.nodes.back().at);
     if (set_ != nullptr) set_->push_back(index);
@@ -274,7 +276,8 @@ class InpReader {
     }
     const int index = static_cast<int>(deck_.elements.size());
     if (!deck_.element_of.emplace(pending_[0], index).second)
-      in_.fail("element {} is there twice; files of several parts cannot be read", pending_[0]);
+      in_.fail("element {} is there twice; files of several parts cannot be read [deck-in-parts]",
+               pending_[0]);
     if (set_ != nullptr) set_->push_back(index);
     deck_.elements.push_back(std::move(e));
     pending_.clear();
@@ -368,7 +371,7 @@ class InpReader {
     take_numbers(mesh_.regions, 2);
   }
 
-  /// Of shells our writer has the sides along curves in sets "_NAME_E2", and no surfaces of them.
+  /// Adds the sides of shells along curves. Our writer has them in sets "_NAME_E2", without surfaces.
   void add_sides_of_shells() {
     const auto is_used = [&](const std::string& set) {
       return std::ranges::find(deck_.sides, set, &Deck::Side::elements) != deck_.sides.end();
@@ -382,7 +385,7 @@ class InpReader {
     }
   }
 
-  /// What is called by a number of its own, as in our files ("curve_7"), has it again.
+  /// Gives entities that are called by a number, as in our files ("curve_7"), this number again.
   void take_numbers(std::vector<Entity>& entities, int dim) {
     std::map<std::string, std::vector<int>> holders;
     for (size_t i = 0; i < entities.size(); ++i)

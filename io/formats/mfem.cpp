@@ -35,7 +35,7 @@ struct MfemSpace {
   bool is_uniform = false;  ///< or at the points of Gauss and Lobatto
 };
 
-/// Of a collection's name, as "H1_2D_P3"; nothing for others.
+/// Returns the space of a collection's name, such as "H1_2D_P3"; nothing for others.
 std::optional<MfemSpace> mfem_space(std::string_view name) {
   if (name == "Linear") return MfemSpace{1, true, false};
   if (name == "Quadratic") return MfemSpace{2, true, false};
@@ -169,7 +169,7 @@ class MfemReader {
     }
   }
 
-  /// What follows a title such as "VDim:".
+  /// Returns the text behind a title such as "VDim:".
   std::string_view entry(const char* title) {
     skip_comments();
     if (in_.token(title) != title) in_.fail("expected {}", title);

@@ -10,9 +10,11 @@
 #include "delquad/mesh.h"
 #include "io/text_scanner.h"
 
+// This header has the contents of MSH files before tags become indices. Readers and writers use it.
+
 namespace delquad::msh {
 
-/// What an MSH file says, before tags become indices.
+/// A node as an MSH file has it, before tags become indices.
 struct Node {
   long long tag;
   Vec3 at;

@@ -224,7 +224,7 @@ class SectionReader {
     } else if (version == "4.1") {
       version_ = Version::k41;
     } else {
-      in_.fail("MSH version {}: expected 2.2 or 4.1 (in Gmsh: Mesh.MshFileVersion = 4.1)",
+      in_.fail("MSH version {}: expected 2.2 or 4.1 (in Gmsh: Mesh.MshFileVersion = 4.1) [format-version]",
                in_.printable(version));
     }
     const bool binary = in_.integer("the file type", 0, 1) == 1;

@@ -101,7 +101,8 @@ class NastranReader {
     const std::string text = without_tabs(line);
     if (trimmed(text).empty()) return;
     const std::string title = upper(trimmed(text));
-    if (title.starts_with("INCLUDE")) in_.fail("INCLUDE: expected a file that holds the whole mesh");
+    if (title.starts_with("INCLUDE"))
+      in_.fail("INCLUDE: expected a file that holds the whole mesh [deck-in-parts]");
     if (title.starts_with("ENDDATA")) is_over_ = true;
     if (title.starts_with("BEGIN")) in_bulk_ = true;
     if (is_over_ || title.starts_with("BEGIN")) return;

@@ -9,10 +9,12 @@
 #include "io/entity_names.h"
 #include "io/face_reader.h"
 
+// This header has the common part of readers of SMS and SCHISM. Readers and writers use it.
+
 namespace delquad {
 
-/// What the readers of SMS and SCHISM share: planar nodes and elements by number, in any order; depths are
-/// left out.
+/// The common part of the readers of SMS and SCHISM: planar nodes and elements by number, in any order.
+/// Depths are left out.
 class NumberedMesh {
  public:
   void read_node(TextScanner& in) {
@@ -28,7 +30,7 @@ class NumberedMesh {
     for (; corners > 0; --corners)
       elements_.back().nodes.push_back(in.integer("a node's number", 0, LLONG_MAX));
   }
-  /// Of the element that was read last.
+  /// Sets the material of the element that was read last.
   void set_material(long long material) { elements_.back().material = material; }
   Mesh finished(const TextScanner& in, NumberedEntities entities = {}) {
     for (const Element& element : elements_) {

@@ -40,7 +40,7 @@ class ObjReader : FaceReader {
   }
 
  private:
-  /// Of the numbers on the line.
+  /// Whether the numbers on the line end.
   bool ends() { return in_.at_end_of_line() || in_.next_is('#'); }
 
   /// In a file of the plane all points have two coordinates; a lone one that has may have lost its third.

@@ -227,7 +227,9 @@ class DeckRewriter {
 
   void find_gone_nodes() {
     const auto require_free = [&](int pin, const char* what, long long number) {
-      if (pin > 0) refuse("{}:{}: {} {} is named and would be gone", deck_.source, pin, what, number);
+      if (pin > 0)
+        refuse("{}:{}: {} {} is named and would be gone [deck-names-an-element]", deck_.source, pin, what,
+               number);
     };
     for (const Deck::Node& node : deck_.nodes)
       if (node.joined >= 0) gone_nodes_.insert(node.number);

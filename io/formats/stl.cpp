@@ -110,7 +110,7 @@ class TextReader {
     return std::move(mesh_);
   }
 
-  /// Of each corner.
+  /// Returns the line of the file for each corner.
   const std::vector<int>& lines() const { return lines_; }
 
  private:

@@ -39,7 +39,8 @@ void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
       {kLine, 2, 3}, {kTriangle, 3, 5}, {kQuad, 4, 9}, {kHexahedron, 8, 12}};
   const int dim = dimension_of(mesh);
   if (dim == 2 && !is_planar(mesh))
-    refuse("{}: SU2 computes in planar meshes or in volumes: this is a surface in space", path.string());
+    refuse("{}: SU2 computes in planar meshes or in volumes: this is a surface in space [planar-format]",
+           path.string());
   const CellSides sides(mesh);
   std::vector<MeshGroup> groups = mesh_groups(mesh, {plain_label});
   std::erase_if(groups, [&](const MeshGroup& group) { return group.dim != dim - 1; });

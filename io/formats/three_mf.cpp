@@ -82,7 +82,8 @@ class Archive {
 
   const std::string& path() const { return path_; }
 
-  /// Nothing where there is no such file. What the archive says of its size counts for nothing.
+  /// Returns the text of a file, and nothing if there is no such file. Sizes that the archive states do not
+  /// count.
   std::optional<std::string> text_of(const std::string& name) const {
     const zip_int64_t at = zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_NOCASE);
     if (at < 0) return std::nullopt;
@@ -124,8 +125,8 @@ class Archive {
   std::unique_ptr<zip_t, ZipCloser> archive_;
 };
 
-/// What the XML of a file of the archive says, gathered while it is read; objects of other files when they
-/// are named.
+/// The contents of an XML file of the archive, gathered while it is read. Objects of other files follow when
+/// they are named.
 class ModelParser {
  public:
   using Objects = std::map<ObjectId, Object>;

@@ -39,7 +39,7 @@ void add_name_arrays(const char* kind, const std::vector<Entity>& entities,
   }
 }
 
-/// What becomes of names there, as renamed_in_file() tells it.
+/// Returns the changes of names in the file, as renamed_in_file() does.
 std::vector<std::string> renamed_in_vtk(const Mesh& mesh) {
   std::vector<std::string> lines;
   for (const auto& [kind, entities] : {std::pair{"curve", &mesh.curves}, {"region", &mesh.regions}}) {
@@ -71,7 +71,7 @@ void write_vtk(const std::filesystem::path& path, const Mesh& mesh) {
     for (const Vec3& p : mesh.points) out << p.x << ' ' << p.y << ' ' << p.z << '\n';
     size_t n = 0, n_numbers = 0;
     for (const CellBlock& cells : blocks) n += cells.size(), n_numbers += cells.size() * (1 + cells.n_nodes);
-    // What `write` writes of each cell.
+    // This calls `write` for each cell.
     const auto each = [&](const auto& write) {
       for (const CellBlock& cells : blocks)
         for (size_t i = 0; i < cells.size(); ++i) write(cells, i), out << '\n';

@@ -22,7 +22,7 @@ namespace {
 
 using NumbersOfNames = std::map<std::string, std::vector<std::int32_t>>;
 
-/// What a file says, whatever cells it holds.
+/// The contents of a file, whatever cells it has.
 struct VtuContent {
   const std::vector<Vec3>& points;
   const std::string& unit;  ///< empty: not known

@@ -41,7 +41,7 @@ std::string run_gdal(const Words& words, const std::string& opens = "") {
   try {
     end = run_to_end(words, kSeconds);
   } catch (const InputError& error) {
-    refuse("{}: GDAL's programs read this file: install them (Debian: gdal-bin)", error.what());
+    refuse("{}: GDAL's programs read this file: install them (Debian: gdal-bin) [no-gdal]", error.what());
   }
   std::string text = as_utf8(end.printed);
   const std::string error = between(between(text, "ERROR ", "\n"), ": ", "\n");
@@ -56,7 +56,10 @@ std::string run_gdal(const Words& words, const std::string& opens = "") {
 std::string system_named(const std::string& name) try {
   return std::string(trimmed(run_gdal({"gdalsrsinfo", "-o", "wkt2_2019", name})));
 } catch (const InputError&) {
-  refuse("'{}' is no coordinate system that PROJ knows: expected \"utm\" or one such as EPSG:32631", name);
+  refuse(
+      "'{}' is no coordinate system that PROJ knows: expected \"utm\" or one such as EPSG:32631 "
+      "[unknown-projection]",
+      name);
 }
 
 /// "EPSG:32631", which WKT has at its end: ID["EPSG",32631]] or AUTHORITY["EPSG","32631"]]; else all of it.
@@ -114,8 +117,8 @@ Layer layer_of(const std::string& file, const std::string& name) {
     if (layer.system.starts_with("(unknown)")) layer.system.clear();
     if (name == layer.name || (name.empty() && names.size() == 1 && next == std::string::npos)) return layer;
   }
-  if (names.empty()) refuse("there is no layer");
-  refuse("{}: expected FILE:LAYER with one of {}",
+  if (names.empty()) refuse("there is no layer [several-layers]");
+  refuse("{}: expected FILE:LAYER with one of {} [several-layers]",
          name.empty() ? "there are several layers" : fmt::format("there is no layer '{}'", name),
          fmt::join(names, ", "));
 }

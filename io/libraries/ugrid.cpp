@@ -152,7 +152,7 @@ void put_ugrid(NetcdfFile& file, const Mesh& mesh) {
   names(0, "mesh2d_node_point", "node", nodes, group_numbers(mesh, groups, 0));
 }
 
-/// What a netCDF file holds, as text and numbers.
+/// The contents of a netCDF file, as text and numbers.
 class NetcdfInput {
  public:
   explicit NetcdfInput(const std::filesystem::path& path) : path_(path) {

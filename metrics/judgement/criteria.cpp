@@ -133,21 +133,20 @@ Criteria& Criteria::set(const std::string& key, const std::string& value, const 
 
 const std::vector<Criteria>& criteria_presets() {
   static const std::vector<Criteria> all = {
-      preset(
-          "batch",
-          "lengths and warpage: Altair, BatchMesher, Guidelines and Recommended Practices (2017); aspect: "
-          "Altair, HyperMesh, Element Quality Calculations; angles: Siemens, NX Open, sample criteria of its "
-          "batch mesher; Jacobian: the same, at corners",
-          {{"min_length", fmt::format("{} size", kAskedShort)},
-           {"max_length", fmt::format("{} size", kAskedLong)},
-           {"max_aspect", fmt::format("{}", kAskedAspect)},
-           {"min_angle", fmt::format("{}", 90 * kAskedEta)},
-           {"max_angle", fmt::format("{}", 180 - 90 * kAskedEta)},
-           {"max_warpage", "20"},
-           {"min_jacobian", "0.5"}}),
+      preset("batch",
+             "Lengths and warpage: Altair, BatchMesher, Guidelines and Recommended Practices (2017). Aspect: "
+             "Altair, HyperMesh, Element Quality Calculations. Angles and Jacobian at corners: Siemens, NX "
+             "Open, sample criteria of its batch mesher",
+             {{"min_length", fmt::format("{} size", kAskedShort)},
+              {"max_length", fmt::format("{} size", kAskedLong)},
+              {"max_aspect", fmt::format("{}", kAskedAspect)},
+              {"min_angle", fmt::format("{}", 90 * kAskedEta)},
+              {"max_angle", fmt::format("{}", 180 - 90 * kAskedEta)},
+              {"max_warpage", "20"},
+              {"min_jacobian", "0.5"}}),
       preset("crash",
-             "lengths and aspect: Altair, HyperMesh 2021, *rebuild_mesh, example of 5 mm criteria; all else: "
-             "Siemens, NX Open, sample criteria of its batch mesher for closures of cars at 12 mm",
+             "Lengths and aspect: Altair, HyperMesh 2021, *rebuild_mesh, example of 5 mm criteria. Other "
+             "limits: Siemens, NX Open, sample criteria of its batch mesher for closures of cars at 12 mm",
              {{"min_length", "0.6 size"},
               {"max_length", "1.8 size"},
               {"max_aspect", "5"},
@@ -157,7 +156,7 @@ const std::vector<Criteria>& criteria_presets() {
               {"max_skew", "60"},
               {"min_jacobian_ratio", "0.5"}}),
       preset("static",
-             "angles: Altair, OptiStruct, CQUAD4 Element Check, warnings; all else: Altair, Engineering "
+             "Angles: Altair, OptiStruct, CQUAD4 Element Check, warnings. Other limits: Altair, Engineering "
              "Solutions 2021, Global Model Validation",
              {{"max_aspect", "5"},
               {"min_angle", "15"},
@@ -204,7 +203,7 @@ void check_criteria(const Criteria& criteria, const Mesh& mesh, const SizeField&
   }
   for (const CriterionLimit& limit : criteria.limits) {
     if (!limit.on.empty() && std::ranges::find(known, limit.on) == known.end())
-      refuse("{}: no curve and no region is called '{}'{}", limit.where, limit.on,
+      refuse("{}: no curve and no region is called '{}'{} [unknown-name]", limit.where, limit.on,
              suggestion_or_all(limit.on, known));
     const CriterionKind kind = criterion_kind(limit.key);
     const Criterion& criterion = criterion_registry()[kind];
@@ -220,11 +219,13 @@ void check_criteria(const Criteria& criteria, const Mesh& mesh, const SizeField&
 const std::vector<Metric>& criteria_metrics() {
   static const std::vector<Metric> all = [] {
     std::vector<Metric> metrics = {
-        {"failing", "failing", "%", Better::kLower, 100, "elements beyond the criteria", 2}};
+        {"failing", "failing", "%", Better::kLower, 100, "elements beyond a limit of the criteria", 2}};
     for (const Criterion& c : criterion_registry())
-      metrics.push_back({"failing_" + c.key, "failing " + c.key, "%", Better::kLower, 100, c.source, 2});
+      metrics.push_back({"failing_" + c.key, "failing " + c.key, "%", Better::kLower, 100,
+                         fmt::format("elements with {} the limit ({})", c.fails, c.source), 2});
     metrics.push_back({"time_step", "time step", "", Better::kHigher, 0,
-                       "critical, over that of squares of the least wanted size", 3});
+                       "critical time step, divided by the time step of squares of the least wanted size",
+                       3});
     return metrics;
   }();
   return all;

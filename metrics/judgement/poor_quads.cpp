@@ -71,7 +71,7 @@ void warn_of_poor_quads(const std::string& label, const FailingElements& poor, c
   for (int cause = 0; cause < kFailingCauses; ++cause)
     if (const std::string why = poor.text_of(static_cast<FailingCause>(cause), false); !why.empty())
       text += "; " + why;
-  warnings.emplace_back(std::move(text));
+  warnings.emplace_back(text + " [poor-quads]");
 }
 
 /// Warns of quads that are sound, but not after rounding.
@@ -91,9 +91,9 @@ void warn_of_single_precision(const std::string& label, const Mesh& mesh, const 
   const bool is_far = norm(centre) > norm(box.size());
   const std::string help = is_far ? fmt::format("move the model's origin near to {}", show_point(centre))
                                   : "read the mesh in double precision";
-  warnings.emplace_back(
-      fmt::format("{}: rounded to single precision, as many programs read coordinates, {}; {}", label,
-                  describe(mesh, spoilt, "1 quad is inverted or flat", "quads are inverted or flat"), help));
+  warnings.emplace_back(fmt::format(
+      "{}: rounded to single precision, as many programs read coordinates, {}; {} [single-precision]", label,
+      describe(mesh, spoilt, "1 quad is inverted or flat", "quads are inverted or flat"), help));
 }
 
 /// Names the parts of the model that cause inverted or flat quads.

@@ -144,7 +144,7 @@ int euler_characteristic(const PreparedProblem& prepared, const std::map<Edge, i
 void compare_euler(int mesh, int model, Soundness& result) {
   if (mesh != model)
     result.reasons.push_back(
-        fmt::format("its Euler characteristic is {}, that of the model {}", mesh, model));
+        fmt::format("its Euler characteristic is {}, but the model has {}", mesh, model));
 }
 
 /// Returns the number of wrong edges.
@@ -231,9 +231,10 @@ void check_surface(const Mesh& fine, const Mesh& mesh, const SurfaceReport& repo
 std::string Soundness::text() const { return fmt::format("{}", fmt::join(reasons, "; ")); }
 
 std::string Soundness::complaint() const {
-  std::string text = sound() ? "" : "the mesh is not sound: " + this->text();
+  std::string text = sound() ? "" : "the mesh is not sound: " + this->text() + " [unsound-mesh]";
   if (!beyond.empty())
-    text += fmt::format("{}it is beyond the limits: {}", text.empty() ? "" : "; ", fmt::join(beyond, "; "));
+    text += fmt::format("{}it is beyond the limits: {} [beyond-limits]", text.empty() ? "" : "; ",
+                        fmt::join(beyond, "; "));
   return text;
 }
 

@@ -32,10 +32,10 @@ struct Part {
 };
 
 constexpr Part kParts[] = {
-    {"_l2", " L2", "error over solution in L2", 6, [](const SolverErrors& e) { return e.l2; }},
-    {"_h1", " H1", "error over solution, of the gradients, in L2", 6,
+    {"_l2", " L2", "error in L2, divided by the solution", 6, [](const SolverErrors& e) { return e.l2; }},
+    {"_h1", " H1", "error of the gradients in L2, divided by the gradients of the solution", 6,
      [](const SolverErrors& e) { return e.h1; }},
-    {"_condition", " condition", "of the stiffness matrix with Jacobi's scaling by node", 1,
+    {"_condition", " condition", "condition number of the stiffness matrix with Jacobi's scaling by node", 1,
      [](const SolverErrors& e) { return e.condition; }},
     {"_cg_iterations", " CG", "iterations of conjugate gradients with Jacobi's preconditioner to 1e-8", 0,
      [](const SolverErrors& e) { return static_cast<double>(e.cg_iterations); }}};

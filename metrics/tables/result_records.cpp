@@ -76,7 +76,7 @@ const std::vector<Derived>& derived() {
   static const std::vector<Derived> all = {
       {{"row_ends", "row ends", "", kNeither, kNoNumber, "rows of quads that are expected to end", 0},
        [](const Json& r) { return at(r, "/cross_field/row_ends"); }},
-      {{kFinishSeconds, "finish s", "s", kNeither, kNoNumber, "what finish steps took, of all threads", 2},
+      {{kFinishSeconds, "finish s", "s", kNeither, kNoNumber, "processor time of the finish steps", 2},
        [](const Json& r) { return at(r, "/finish/seconds"); }},
       {{"deviation", "deviation, sizes", "delta", kNeither, kNoNumber, "largest distance of mesh and surface",
         3},
@@ -85,7 +85,7 @@ const std::vector<Derived>& derived() {
          return std::fmax(at(r, (distances + "mesh_to_surface/max_in_sizes").c_str()),
                           at(r, (distances + "surface_to_mesh/max_in_sizes").c_str()));
        }},
-      {{"warnings", "warnings", "", kNeither, kNoNumber, "count", 0},
+      {{"warnings", "warnings", "", kNeither, kNoNumber, "number of warnings", 0},
        [](const Json& r) {
          return r.contains("warnings") ? static_cast<double>(r["warnings"].size()) : kNoNumber;
        }},
@@ -170,7 +170,7 @@ CellRecord read_record(const fs::path& file, const std::optional<StudyFile>& stu
     const Json json = Json::parse(text);
     record =
         json.contains("digest") && !is_sealed(text)
-            ? damaged_record(file, file.string() + ": was changed: its digest is not that of its text", study)
+            ? damaged_record(file, file.string() + ": was changed: its digest does not fit its text", study)
             : parse(json);
   } catch (const std::exception& error) {  // from Json, or InputError
     record = damaged_record(file, json_problem(file, "", error), study);
@@ -186,7 +186,7 @@ const std::vector<Metric>& columns_of_records() {
     std::vector<Metric> columns;
     for (const Derived& one : derived()) columns.push_back(one.column);
     columns.push_back({"seconds", "s", "s", Better::kLower, HUGE_VAL,
-                       "from insertion to projection, by the clock; not of peers", 2});
+                       "time on the clock from insertion to projection; not for peers", 2});
     for (const auto& [key, title, step] : step_times_of_tables())
       columns.push_back({key, title, "s", Better::kLower, HUGE_VAL,
                          *step == 0 ? "processor time from the start of the program to the written mesh"

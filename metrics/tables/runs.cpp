@@ -73,8 +73,9 @@ class RunColumns {
     add_text("case", "its name in the experiment", [](const CellRecord& r) { return r.name; });
     add_text("domain", "what counts as one in claims: the first case of the same geometry", domain_of);
     add_text("model", "digest of what the case is made from", [](const CellRecord& r) { return r.model; });
-    add_text("pipeline", "the word, or the name of the peer", [](const CellRecord& r) { return r.pipeline; });
-    add_text("kind", "word or peer",
+    add_text("pipeline", "the pipeline, or the name of the peer",
+             [](const CellRecord& r) { return r.pipeline; });
+    add_text("kind", "word (a pipeline) or peer",
              [](const CellRecord& r) -> std::string { return r.is_peer ? "peer" : "word"; });
     for (const auto& [title, values] : study.axes)
       if (title != kSeedAxis)

@@ -26,11 +26,11 @@ inline constexpr auto kFields<Metric> = std::tuple(
           {.least = 0, .most = kMostDigits}));
 template <>
 inline constexpr auto kFields<Hypothesis> = std::tuple(
-    field("better", &Hypothesis::better, "what is expected to be better: a pipeline, or a value of 'along'",
+    field("better", &Hypothesis::better, "pipeline, or value of 'along', that is expected to be better",
           {.form = Form::kFormula, .required = true}),
-    field("than", &Hypothesis::than, "what it is expected to be better than",
+    field("than", &Hypothesis::than, "pipeline or value that it is compared with",
           {.form = Form::kFormula, .required = true}),
-    field("along", &Hypothesis::along, "what varies, by its title; default: pipelines are compared"),
+    field("along", &Hypothesis::along, "title of the axis whose values are compared; default: pipelines"),
     field("measures", &Hypothesis::measures, "keys of measures, each of them a test",
           {.least = 1, .required = true, .unique = true}));
 template <>
@@ -52,7 +52,7 @@ inline constexpr auto kFields<TablePlan> = std::tuple(
           {.no_result = "it chooses columns"}),
     field("columns", &TablePlan::columns, "columns of tables in Markdown and LaTeX, by key",
           {.least = 1, .unique = true, .no_result = "it chooses columns"}),
-    field("pairs", &TablePlan::pairs, "what varies, by titles: compared as pipelines are",
+    field("pairs", &TablePlan::pairs, "titles of axes whose values are compared as pipelines are",
           {.least = 1, .unique = true}),
     field("hypotheses", &TablePlan::hypotheses, "claims that are fixed before the run"),
     field("may_fail", &TablePlan::may_fail, "cells that may fail",

@@ -135,7 +135,7 @@ const OptionTable<SmoothingOptions>& table() {
       OptionTable<SmoothingOptions>("smoothing", "options of L")
           .add({.name = "p", .help = "norm", .allowed = {2, 4, 6, 8, 10, 12, 14, 16}}, &SmoothingOptions::p)
           .add({.name = "outer_iterations",
-                .help = "how often size and directions are taken anew",
+                .help = "number of updates of size and directions",
                 .least = 0,
                 .most = kMostRounds},
                &SmoothingOptions::outer_iterations)

@@ -72,7 +72,7 @@ const OptionTable<OptimisationOptions>& table() {
       OptionTable<OptimisationOptions>("optimisation", "options of O")
           .add({.name = "passes", .help = "how often, at most", .least = 0, .most = 1000},
                &OptimisationOptions::passes)
-          .add({.name = "iterations", .help = "of L-BFGS in each", .least = 1, .most = 1e5},
+          .add({.name = "iterations", .help = "iterations of L-BFGS in each pass", .least = 1, .most = 1e5},
                &OptimisationOptions::iterations)
           .add({.name = "size", .help = "weight of the edges' lengths", .least = 0},
                &OptimisationOptions::size)

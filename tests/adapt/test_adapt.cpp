@@ -216,7 +216,7 @@ TEST(Adapt, WrongInput) {
   refused({{"u", bent}}, {.quads = 100, .weight = std::vector<double>(25, -1)},
           {"weight is -1 at (0, 0, 0)"});
   for (const MetricLimits& limits : {MetricLimits{0.5, 0.1}, {-1}, {0, 0, 0.5}})
-    refused({{"u", bent}}, {.quads = 100, .limits = limits, .isotropic = true}, {"expected 0 for none"});
+    refused({{"u", bent}}, {.quads = 100, .limits = limits, .isotropic = true}, {"0 stands for no limit"});
   refused({{"u", bent}}, {.quads = 100, .gradation = 0.5}, {"gradation 0.5"});
   refused({{"u", bent}}, {.error = 1e-9, .limits = {.min = 0.1}}, {"1e-09 is not reached"});
   Mesh curved = mesh;

@@ -2,7 +2,9 @@
 """Checks README and docs: links lead somewhere, messages exist, the reference of keys is up to date, and every block of code runs.
 The site's tables lead to records, and tables of measurements are what `make doc-tables` writes.
 
-Usage: check_docs.py links|messages|keys|blocks|tables|measured [--build FOLDER] [--slow] [PAGE ...]
+Usage: check_docs.py links|messages|list|keys|blocks|tables|measured [--build FOLDER] [--slow] [PAGE ...]
+
+`list` prints all messages of the sources with their places and ids.
 
 A block is fenced, or indented by four spaces and more. Those of a page run in their order, in one empty folder that looks like the repository:
 shell by bash, Python in one process, C++ as one program. TOML is checked against `delquad schema`, and saved where its first line is a comment
@@ -84,15 +86,47 @@ def check_links():
     return wrong
 
 
+LITERAL = r'"(?:\\.|[^"\\\n])*"'
+IDS = re.compile(r'\[([a-z]+(?:-[a-z]+)+)\](?=(?:\\n)?")')  # at the end of a literal
+MAKER = r'(?:\b(?:throw \w*Error|refuse|fail|cannot_write|Warning \w+|warn\w*)\(|warnings\.\w+\(|fmt::print\(stderr)'
+MOST_IDS = 90
+
+
+def message_sources():
+    for path in files(".h", ".cpp", ".py"):
+        if path.relative_to(ROOT).parts[0] not in ("tests", "docs"):
+            yield path, path.read_text(errors="replace")
+
+
+def list_messages():
+    """Print the place, the ids and the text of each message in the sources, as a table."""
+    statement = re.compile(rf'{MAKER}(?:{LITERAL}|[^";])*;|(?:{LITERAL}\s*)*"[^"\n]*{IDS.pattern}.*?"')
+    for path, text in message_sources():
+        for m in statement.finditer(text):
+            said = "".join(one[1:-1] for one in re.findall(LITERAL, m[0]))
+            ids = IDS.findall(m[0])
+            if ids or re.search(r"[a-z]+ [a-z]+", said):
+                print(f"{path.relative_to(ROOT)}:{text.count(chr(10), 0, m.start()) + 1}", " ".join(ids) or "-", said, sep="\t")
+
+
 def check_messages():
-    """Each message of the page of troubleshooting stands in the sources; "..." stands for names and numbers."""
-    sources = [path for path in files(".h", ".cpp", ".py") if path.relative_to(ROOT).parts[0] not in ("tests", "docs")]
-    texts = [re.sub(r'"\s*"', "", path.read_text(errors="replace")).replace('\\"', '"') for path in sources]
-    for line in re.findall(r"^`.*`$", (ROOT / "docs/troubleshooting.md").read_text(), re.MULTILINE):
-        for message in re.findall(r"`([^`]+)`", line):
+    """The sections of the page of troubleshooting have the ids that messages end with. Each quoted message stands in a source with the id of its
+    section; "..." stands for names and numbers."""
+    sources = [(re.sub(r'"\s*"', "", text).replace('\\"', '"'), set(IDS.findall(text))) for _, text in message_sources()]
+    known = set()
+    for section in re.split(r"^### ", (ROOT / "docs/troubleshooting.md").read_text(), flags=re.MULTILINE)[1:]:
+        title = section.partition("\n")[0]
+        id_ = title.lower().replace(" ", "-")
+        quoted = [message for line in re.findall(r"^`.*`$", section, re.MULTILINE) for message in re.findall(r"`([^`]+)`", line)]
+        known |= {id_} if quoted else set()
+        for message in quoted:
             parts = [part.strip() for part in message.split("...")]
-            if not any(all(part in text for part in parts) for text in texts):
-                yield f"docs/troubleshooting.md: {message}: there is no such message"
+            if not any(id_ in ids and all(part in text for part in parts) for text, ids in sources):
+                yield f"docs/troubleshooting.md: {message}: no source has this message and the id [{id_}]"
+    for id_ in sorted(set().union(*(ids for _, ids in sources)) - known):
+        yield f"docs/troubleshooting.md: no section for the id [{id_}]"
+    if len(known) > MOST_IDS:
+        yield f"docs/troubleshooting.md: {len(known)} ids: expected at most {MOST_IDS}"
 
 
 def check_keys(build):
@@ -359,7 +393,7 @@ def check_measured(build):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("what", choices=["links", "messages", "keys", "blocks", "tables", "measured"])
+    parser.add_argument("what", choices=["links", "messages", "list", "keys", "blocks", "tables", "measured"])
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
     parser.add_argument("--slow", action="store_true")
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
@@ -369,6 +403,8 @@ def main():
         wrong = check_links()
     elif given.what == "messages":
         wrong = list(check_messages())
+    elif given.what == "list":
+        wrong = list_messages() or []
     elif given.what == "keys":
         wrong = check_keys(build)
     elif given.what == "tables":

@@ -39,7 +39,7 @@ TEST(CheckProblem, RefusesWhatMakesNoSense) {
   using P = MeshProblem;
   const std::vector<Refusal> refusals = {
       {square_problem, [](P& p) { p.model = PlanarModel{}; },
-       "model: the model has no loops: nothing bounds a domain"},
+       "model: the model has no loops: nothing bounds a domain [empty-domain]"},
       {square_problem, [](P& p) { std::get<PlanarModel>(p.model).loops[0].curves = {1}; },
        "model: loop 1 has curve 1: there are 1, counted from 0"},
       {square_problem, [](P& p) { std::get<PlanarModel>(p.model).curves[0].shape = nullptr; },

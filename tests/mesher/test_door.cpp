@@ -48,7 +48,7 @@ TEST(Door, WhatNobodySaysIsGood) {
   expect_same(mesh(said, "good").mesh, mesh(as_good, good.word).mesh);
   as_good.cross.kind = good.cross;
   expect_same(mesh(plate()).mesh, mesh(as_good, good.word).mesh);
-  expect_refused(plate(), "god", {"unknown letter"});
+  expect_refused(plate(), "god", {"unknown stage"});
 }
 
 TEST(Door, TextsMeanWhatTheirFieldsMean) {

@@ -97,7 +97,7 @@ MeshProblem needle(double angle) {
 TEST(RefineUnsound, LeavesOutWhatIsNarrowAtLastAndSaysSo) {
   MeshProblem problem = needle(1e-5 * std::numbers::pi / 180);
   const MeshResult result = mesh(problem, "DBCO");
-  EXPECT_TRUE(is_told(result.warnings, "what is narrower than 0.06, a tenth of the size, is left out"));
+  EXPECT_TRUE(is_told(result.warnings, "parts narrower than 0.06, a tenth of the size, are left out"));
   problem.options.set("repair.refine_unsound", false);
   try {
     mesh(problem, "DBCO");

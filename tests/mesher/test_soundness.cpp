@@ -127,7 +127,7 @@ TEST_F(SoundCube, AMissingQuadAndOneTooMany) {
   mesh_.quad_region.erase(mesh_.quad_region.begin() + q);
   Soundness soundness = check();
   EXPECT_TRUE(has(soundness, "4 edges are in more or fewer elements than the model asks for"));
-  EXPECT_TRUE(has(soundness, "its Euler characteristic is 1, that of the model 2")) << soundness.text();
+  EXPECT_TRUE(has(soundness, "its Euler characteristic is 1, but the model has 2")) << soundness.text();
   EXPECT_TRUE(has(soundness, "4 open edges, the model none")) << soundness.text();
 }
 
@@ -248,7 +248,7 @@ TEST_F(SoundDomain, AHoleMustStayAndOthersMustNotCome) {
     mesh_.triangle_region.push_back(0);
   }
   ASSERT_GT(mesh_.triangles.size(), 4u);
-  EXPECT_TRUE(has(check(), "its Euler characteristic is 1, that of the model 0")) << check().text();
+  EXPECT_TRUE(has(check(), "its Euler characteristic is 1, but the model has 0")) << check().text();
 }
 
 TEST_F(SoundDomain, WhatLiesOnAnInterfaceIsInTwoElements) {

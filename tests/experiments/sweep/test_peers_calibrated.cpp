@@ -103,8 +103,9 @@ TEST_F(CalibratedPeers, AreNotBlamedForOurWord) {
   EXPECT_EQ(run_experiment(experiment(text), out()).others_failed, 1);
   const CellRecord cell = records().at("grid");
   EXPECT_EQ(cell.kind, "crash");
-  EXPECT_EQ(cell.reason.find("our word DBX, whose number of quads it was to have, failed: ended by signal 9"),
-            0u)
+  EXPECT_EQ(
+      cell.reason.find("our pipeline DBX, whose number of quads it was to have, failed: ended by signal 9"),
+      0u)
       << cell.reason;
   EXPECT_TRUE(holds(cell.reason, "; the peer was not run"));
   EXPECT_FALSE(fs::exists(out() / "square" / "grid" / "peer.log"));

@@ -351,8 +351,7 @@ TEST(MappedFaces, NarrowFacesAreNoDemand) {
   EXPECT_TRUE(mesh(problem, "DBCO").mesh.triangles.empty());
   for (const char* name : {"begin", "end"}) problem.divisions.push_back({name, 1, 1, 1, "d 3"});
   problem.divisions[1].edges = 13;
-  expect_refused(problem, "DBCO",
-                 {"the numbers of edges that are given leave 'band' with an odd number around it"});
+  expect_refused(problem, "DBCO", {"the given numbers of edges leave 'band' with an odd number around it"});
 }
 
 TEST(MappedFaces, WhatWouldFoldIsSmoothed) {

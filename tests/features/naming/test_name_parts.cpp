@@ -69,7 +69,7 @@ TEST(NamedParts, RefuseWhatDoesNotFit) {
     expect_input_error([&] { named_by(part); }, says);
   };
   refuses({.name = "a", .numbers = {7}}, {"m.toml:4", "no face 7"});
-  refuses({.name = "a", .like = "inlet*"}, {"no face of the 6 is what 'a' is to name"});
+  refuses({.name = "a", .like = "inlet*"}, {"no face of the 6 fits the rule for the name 'a'"});
   refuses({.name = "a", .at = Vec3{3, 2, 0.5}}, {"as near to"});
   refuses({.name = "a", .at = Vec3{NAN, 2, 0.5}}, {"not finite"});
   refuses({.name = "a"}, {"nothing says what 'a' is"});

@@ -90,7 +90,7 @@ TEST_F(CadBadInput, BoundaryThatCrossesItselfIsCutAtTheCrossing) {
   EXPECT_EQ(model.fine.regions.size(), 2u);
   EXPECT_NEAR(count(model.fine).area, 0.5, 1e-12);
   ASSERT_FALSE(model.warnings.empty());
-  EXPECT_EQ(model.warnings[0].text, "the shape was invalid and has been healed");
+  EXPECT_EQ(model.warnings[0].text, "the shape was invalid and has been healed [healed-shape]");
 }
 
 TEST_F(CadBadInput, FaceThatNoFinenessHelps) {

@@ -24,7 +24,7 @@ class TouchingCad : public ::testing::Test {
       EXPECT_EQ(counts.crowded_sides, 0);
       EXPECT_EQ(counts.euler, 2 * static_cast<int>(bodies.size()));
       ASSERT_FALSE(model.warnings.empty());
-      EXPECT_TRUE(holds(model.warnings[0].text, "sewn each by itself: " + std::to_string(bodies.size())));
+      EXPECT_TRUE(holds(model.warnings[0].text, "sewn one by one: " + std::to_string(bodies.size())));
     }
   }
 

@@ -201,7 +201,7 @@ TEST(Flatten, NamesFacesThatCannotBe) {
   EXPECT_TRUE(f.patches.empty());
   EXPECT_EQ(f.failed, std::vector<int>{0});
   ASSERT_EQ(model.warnings.size(), 1u);
-  EXPECT_EQ(model.warnings[0].text, "face 1: could not be flattened");
+  EXPECT_EQ(model.warnings[0].text, "face 1: could not be flattened [not-flattened]");
 }
 
 }  // namespace
