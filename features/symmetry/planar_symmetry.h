@@ -10,6 +10,7 @@
 #include "delquad/extend.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/planar_model.h"
+#include "patches/curve_nodes.h"
 #include "patches/prepared.h"
 
 namespace delquad {
@@ -64,8 +65,9 @@ void drop_axes_outside(const Mesh& lines, int first_axis, ModelChain& chain, std
 void drop_axes(int first_axis, PlanarDomain& domain);
 
 /// Pieces behind a plane get the images of those before it. Throws InputError for pieces without one.
-void pair_symmetric(const PlanarModel& model, const Symmetry& symmetry, const std::string& where,
-                    ModelChain& chain, std::vector<CurvePiece>& pieces);
+std::vector<ChainPair> pair_symmetric(const PlanarModel& model, const Symmetry& symmetry,
+                                      const std::string& where, ModelChain& chain,
+                                      std::vector<CurvePiece>& pieces);
 
 /// Of each patch that is a mirror image, of which one and how. Throws InputError for patches that are none,
 /// behind a plane.
