@@ -1,13 +1,13 @@
 #include "features/curves/mesh_planar_curves.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -35,59 +35,47 @@ namespace delquad {
 
 namespace {
 
-/// Numbers of edges for which every region has an even number of them around it.
+/// Numbers of edges of pieces, which are curves of a surface here.
 class PieceCounts {
  public:
-  /// There is a patch for each face that has a region, in their order.
-  PieceCounts(const PlanarModel& model, const Arrangement& arrangement, const FaceRegions& regions,
-              std::vector<CurvePiece>& pieces)
-      : model_(model), regions_(regions.regions), pieces_(pieces) {
-    std::vector<int> patch_of;  // of each face; -1: none
-    for (const int region : regions.region) {
-      patch_of.push_back(region < 0 ? -1 : static_cast<int>(region_of_patch_.size()));
-      if (region >= 0) region_of_patch_.push_back(region);
-    }
-    // The patches of mirror images have the numbers of their masters.
-    std::vector<char> is_image(region_of_patch_.size(), 0);
-    std::size_t line = 0;
+  PieceCounts(const PlanarModel& model, FlatCurves flat, const std::vector<ChainPair>& images,
+              const SizeField& size, std::vector<CurvePiece>& pieces)
+      : model_(model), pieces_(pieces), flat_(std::move(flat)) {
+    flat_.curves.images = images;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const CurvePiece& p = pieces[i];
       const bool is_free = p.is_free();
-      CurveDemand& demand = demands_.emplace_back(
-          CurveDemand{is_free ? p.measure->integral() : p.n, p.least, {}, is_free ? 0 : p.n});
-      for (const int side : {0, 1})
-        if (const int face = arrangement.face_of[2 * line + side]; face >= 0 && patch_of[face] >= 0)
-          demand.patches.push_back(patch_of[face]);
-      if (p.image)
-        for (const int patch : demand.patches) is_image[patch] = 1;
-      if (p.master >= 0) images_.push_back({static_cast<int>(i), p.master, p.runs_as_master, p.motion});
-      line += static_cast<std::size_t>(p.n);
+      const double integral = is_free ? p.measure->integral() : p.n;
+      const auto lines = static_cast<double>(flat_.curves.chains[i].points.size() - 1);
+      wanted_.demands.push_back({integral, p.least, {}, is_free ? 0 : p.n});
+      wanted_.integrals.push_back({{{0, 0}, {lines, integral}}});
+      wanted_.lengths.push_back(integral);
+      // Each by itself: means of strips make numbers that fit worse.
+      wanted_.group.push_back(static_cast<int>(i));
     }
-    for (CurveDemand& demand : demands_)
-      std::erase_if(demand.patches, [&](int patch) { return is_image[patch] != 0; });
+    for (std::size_t p = 0; p < flat_.curves.maps.size(); ++p) {
+      wanted_.quads.push_back(expected_quads(flat_.curves.maps[p].flat, size, kQuadsError, kCoarsest));
+      std::vector<CurveSide> around;
+      for (const auto& loop : flat_.curves.outlines[p])
+        for (const CurveSide& side : loop)
+          if (side.begins(flat_.curves.chains[side.chain])) around.push_back(side);
+      // The patches of mirror images have the numbers of their masters.
+      if (std::ranges::any_of(around, [&](const CurveSide& s) { return pieces[s.chain].is_mirrored; }))
+        continue;
+      for (const CurveSide& side : around) {
+        std::vector<int>& patches = wanted_.demands[side.chain].patches;
+        patches.insert(side.forward ? patches.begin() : patches.end(), static_cast<int>(p));
+      }
+    }
   }
 
   /// Changes numbers by one, where it costs least. `wanted`: edges of each piece; empty: the integrals.
   /// Throws InputError where the numbers that are given forbid it.
   void make_even(const std::vector<double>& wanted = {}) {
-    std::vector<CurveDemand> demands = demands_;
+    std::vector<CurveDemand> demands = wanted_.demands;
     for (std::size_t i = 0; i < wanted.size(); ++i)
       if (demands[i].exact == 0) demands[i].integral = wanted[i];
     set(even(demands));
-  }
-
-  /// Looks at the pieces as curves of a surface, as they were when this object was made.
-  void look(FlatCurves flat, const SizeField& size) {
-    flat_ = std::move(flat);
-    flat_.curves.images = images_;
-    wanted_.demands = demands_;
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      const auto lines = static_cast<double>(flat_.curves.chains[i].points.size() - 1);
-      wanted_.integrals.push_back({{{0, 0}, {lines, demands_[i].integral}}});
-      wanted_.lengths.push_back(demands_[i].integral);
-    }
-    for (const FlatPatch& map : flat_.curves.maps)
-      wanted_.quads.push_back(expected_quads(map.flat, size, kQuadsError, kCoarsest));
   }
 
   std::vector<MappedFace> find_grids(const MappedSpec& spec) const {
@@ -108,14 +96,11 @@ class PieceCounts {
     std::vector<int> odd;
     const std::vector<int> counts = grid_counts(spec, flat_.fine, flat_.curves, wanted, mapped, odd);
     if (mapped.empty()) return;
-    if (!odd.empty()) throw odd_error(odd.back());
+    check_even(odd);
     set(counts);
   }
 
-  std::vector<MappedPatch> patches_of(const std::vector<MappedFace>& mapped,
-                                      const PlanarDomain& domain) const {
-    return mapped_patches(mapped, flat_.fine, flat_.curves, pieces_, domain.patches, domain.boundary.points);
-  }
+  const SurfaceCurves& curves() const { return flat_.curves; }
 
   /// Lets numbers agree, and nodes face each other across narrow places. `mapped`: faces that are grids,
   /// whose sides keep their numbers; none: all numbers are chosen anew.
@@ -124,9 +109,7 @@ class PieceCounts {
     const SurfaceCurves& curves = flat_.curves;
     const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
     const SizeOnLine size = [&](int, int, double, const Vec3& x, int& hint) { return field.at(x, hint); };
-    CurveDemands wanted = wanted_;  // each curve by itself: means of strips make numbers that fit worse
-    wanted.group.resize(pieces_.size());
-    std::iota(wanted.group.begin(), wanted.group.end(), 0);
+    CurveDemands wanted = wanted_;
     if (by.round_holes) widen_round_holes(fine, curves, across, by.price, wanted);
     std::vector<int> counts;
     for (const CurvePiece& p : pieces_) counts.push_back(p.n);
@@ -141,7 +124,7 @@ class PieceCounts {
     Budget steps(std::min(by.most_steps, static_cast<long long>(kStepsPerQuad * quads)));
     agree_on_counts(curves, wanted, by.price, kept, steps, counts);
     Budget looks(by.most_steps);
-    for (const ChainPair& pair : images_) counts[pair.chain] = counts[pair.master];
+    for (const ChainPair& pair : curves.images) counts[pair.chain] = counts[pair.master];
     const CurvePlaces places =
         delquad::face_nodes(fine, curves.chains, across, wanted.integrals, counts, wanted.group, size, looks);
     set(counts);
@@ -151,7 +134,7 @@ class PieceCounts {
         farthest = std::max(farthest, std::abs(places[i][k] - static_cast<double>(k)));
       if (!pieces_[i].is_free() || farthest < kLeastMove || stays.contains(static_cast<int>(i))) continue;
       std::vector<double> at(places[i].begin() + 1, places[i].end() - 1);
-      for (double& x : at) x *= demands_[i].integral / counts[i];
+      for (double& x : at) x *= wanted_.demands[i].integral / counts[i];
       pieces_[i].interior = pieces_[i].measure->nodes_at(at);
     }
   }
@@ -168,11 +151,15 @@ class PieceCounts {
   std::vector<int> even(const std::vector<CurveDemand>& demands) const {
     std::vector<int> odd;
     std::vector<int> counts = even_counts(
-        joined_demands(demands, images_), static_cast<int>(region_of_patch_.size()),
+        joined_demands(demands, flat_.curves.images), static_cast<int>(flat_.curves.maps.size()),
         *matching_solver(matching_solver_names().front()), odd,
         [](int n, const CurveDemand& d) { return std::abs(std::log(changed_by_one(n, d) / d.integral)); });
-    if (!odd.empty()) throw odd_error(odd.back());
+    check_even(odd);
     return counts;
+  }
+
+  void check_even(const std::vector<int>& odd) const {
+    check_divisions_even(message_prefix(model_), flat_.fine, flat_.curves, wanted_, odd);
   }
 
   void set(const std::vector<int>& counts) {
@@ -180,28 +167,8 @@ class PieceCounts {
       if (pieces_[i].is_free() && counts[i] != pieces_[i].n) pieces_[i].set_edges(counts[i]);
   }
 
-  /// Given numbers of edges leave the patch with an odd number around it.
-  InputError odd_error(int patch) const {
-    std::set<std::string> names;
-    for (std::size_t i = 0; i < pieces_.size(); ++i)
-      if ((pieces_[i].is_divided || pieces_[i].master >= 0) &&
-          std::ranges::count(demands_[i].patches, patch) > 0)
-        names.insert(curve_label(model_, pieces_[i].curves[0]));
-    const Entity& region = regions_[region_of_patch_[patch]];
-    return InputError(
-        fmt::format("{}the given numbers of edges leave {} with an odd number around it, and quads need an "
-                    "even one. Change the number on one of {} [odd-numbers]",
-                    message_prefix(model_),
-                    region.names.empty() ? fmt::format("region {}", region.tag) : "'" + region.names[0] + "'",
-                    fmt::join(names, ", ")));
-  }
-
   const PlanarModel& model_;
-  const std::vector<Entity> regions_;
   std::vector<CurvePiece>& pieces_;
-  std::vector<int> region_of_patch_;
-  std::vector<CurveDemand> demands_;  ///< of each piece
-  std::vector<ChainPair> images_;
   FlatCurves flat_;
   CurveDemands wanted_;
 };
@@ -235,37 +202,45 @@ class CurveMesher {
     divide_pieces(model_, options.divisions, pieces_);
     for (CurvePiece& p : pieces_)
       if (!p.is_divided) p.set_edges(std::max(p.least, static_cast<int>(std::lround(p.measure->integral()))));
-    pair_pieces(model_, options.periodic, chain_, pieces_);
+    if (!options.periodic.empty())
+      images_ = pair_pieces(model_, options.periodic, mesh(), node_chains(), chain_, pieces_);
     if (symmetry != nullptr) {
       drop_axes_outside(mesh(), first_axis_, chain_, pieces_);
-      pair_symmetric(model_, *symmetry, options.symmetry.where, chain_, pieces_);
+      images_ = pair_symmetric(model_, *symmetry, options.symmetry.where, chain_, pieces_);
     }
-    follow_masters(model_, pieces_);
+    follow_masters(model_, images_, pieces_);
     const auto fold = [&](Vec2 at, Vec2 x) {
       return symmetry != nullptr ? symmetry->reflect(symmetry->folds_of(at), x) : x;
     };
     add_whiskers(model_, size, fold, chain_, pieces_);
     make_even();
-    follow_masters(model_, pieces_);
+    follow_masters(model_, images_, pieces_);
+  }
+
+  /// The nodes of each piece, numbered as in mesh().
+  std::vector<CurveChain> node_chains() const {
+    std::vector<CurveChain> chains;
+    int next = static_cast<int>(chain_.nodes.size());
+    for (const CurvePiece& piece : pieces_) {
+      CurveChain& chain = chains.emplace_back(CurveChain{piece.curve, {piece.ends[0]}});
+      for (std::size_t k = 0; k < piece.interior.size(); ++k) chain.points.push_back(next++);
+      chain.points.push_back(piece.ends[1]);
+    }
+    return chains;
   }
 
   Mesh mesh() const {
     Mesh mesh;
-    for (Vec2 p : chain_.nodes) mesh.points.push_back({p.x, p.y, 0});
-    for (const CurvePiece& piece : pieces_) {
-      int last = piece.ends[0];
-      for (std::size_t k = 0; k < piece.interior.size(); ++k) {
-        const Vec2 p = piece.master < 0 ? piece.shape->point(piece.interior[k]) : piece.images[k];
-        const int next = static_cast<int>(mesh.points.size());
-        mesh.points.push_back({p.x, p.y, 0});
-        mesh.lines.push_back({last, next});
-        last = next;
+    const auto add = [&](Vec2 p) { mesh.points.push_back({p.x, p.y, 0}); };
+    std::ranges::for_each(chain_.nodes, add);
+    for (const CurvePiece& piece : pieces_)
+      for (std::size_t k = 0; k < piece.interior.size(); ++k) add(piece.node(k));
+    for (const CurveChain& chain : node_chains())
+      for (std::size_t k = 1; k < chain.points.size(); ++k) {
+        mesh.lines.push_back({chain.points[k - 1], chain.points[k]});
+        mesh.line_curve.push_back(chain.curve < 0 ? whisker_curve() : chain.curve);
       }
-      mesh.lines.push_back({last, piece.ends[1]});
-      mesh.line_curve.resize(mesh.lines.size(), piece.curve < 0 ? whisker_curve() : piece.curve);
-    }
     mesh.curves = curves_;
-    add_pairs_of_pieces(pieces_, chain_.nodes.size(), mesh);
     if (has_whiskers()) mesh.curves.push_back({whisker_curve() + 1, {}});
     for (std::size_t i = 0; i < model_.points.size(); ++i) {
       const ModelPoint& point = model_.points[i];
@@ -279,10 +254,17 @@ class CurveMesher {
   /// Regions, patches and places of the meshed curves.
   PlanarDomain domain() const {
     Mesh lines = mesh();
+    if (const bool is_symmetric = first_axis_ < static_cast<int>(model_.curves.size()); !is_symmetric) {
+      std::vector<ChainPair> by_piece = images_;
+      std::ranges::sort(by_piece, {}, &ChainPair::chain);
+      add_pairs_of_chains(node_chains(), by_piece, lines.periodic);
+    }
     const BoundaryNames names = this->names();
     const Arrangement arrangement = arrange_lines(lines, names);
     FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
     check_embedded(model_, chain_, pieces_, first_axis_, lines, arrangement, regions);
+    std::vector<MappedPatch> mapped =
+        mapped_patches(mapped_, counts_->curves(), pieces_, arrangement, regions);
     PlanarDomain domain = build_domain(std::move(lines), arrangement, std::move(regions), names,
                                        {cracks(), has_whiskers() ? whisker_curve() : -1, true});
     check_loops_apart(loop_edges(), names);
@@ -292,7 +274,7 @@ class CurveMesher {
     domain.pieces = domain_pieces();
     domain.model_curves = of_curve_;
     domain.model_curves.resize(domain.boundary.curves.size());
-    if (!mapped_.empty()) domain.mapped = counts_->patches_of(mapped_, domain);
+    domain.mapped = std::move(mapped);
     if (domain.has_junctions) drop_stray_lines(domain);
     drop_axes(first_axis_, domain);
     for (const auto& curves : domain.model_curves) domain.curve_shapes.push_back(shapes_of(curves));
@@ -323,22 +305,14 @@ class CurveMesher {
             has_whiskers() ? whisker_curve() : -1};
   }
 
-  /// Of each piece, whether its nodes stay in all stages: they were asked for, or are paired.
-  std::vector<char> staying() const {
-    std::vector<char> stays(pieces_.size(), 0);
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      if (pieces_[i].is_divided) stays[i] = 1;
-      if (pieces_[i].master >= 0) stays[i] = stays[pieces_[i].master] = 1;
-    }
-    return stays;
-  }
-
   /// Of the mesh's points.
   std::vector<CurvePlace> places() const {
     std::vector<CurvePlace> places(chain_.nodes.size());
     for (const CurvePiece& piece : pieces_)
       if (piece.curve < 0) places[piece.ends[1]].is_free = true;
-    const std::vector<char> stays = staying();
+    std::vector<char> stays;
+    for (const CurvePiece& piece : pieces_) stays.push_back(piece.is_divided);
+    for (const ChainPair& pair : images_) stays[pair.chain] = stays[pair.master] = 1;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const CurvePiece& piece = pieces_[i];
       for (const double t : piece.interior)
@@ -349,16 +323,19 @@ class CurveMesher {
 
   std::vector<DomainPiece> domain_pieces() const {
     std::vector<DomainPiece> pieces;
-    int next = static_cast<int>(chain_.nodes.size());
-    for (const CurvePiece& piece : pieces_) {
-      std::vector<int> nodes(piece.interior.size());
-      std::iota(nodes.begin(), nodes.end(), next);
-      next += static_cast<int>(nodes.size());
-      const bool is_divided = piece.is_divided || (piece.master >= 0 && pieces_[piece.master].is_divided);
-      if (piece.curve >= 0)
-        pieces.push_back(
-            {piece.ends, piece.shape, piece.from, piece.to, std::move(nodes), piece.interior, is_divided});
-    }
+    const std::vector<CurveChain> chains = node_chains();
+    std::vector<char> is_divided;
+    for (const CurvePiece& piece : pieces_) is_divided.push_back(piece.is_divided);
+    for (const ChainPair& pair : images_) is_divided[pair.chain] = is_divided[pair.master];
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+      if (const CurvePiece& p = pieces_[i]; p.curve >= 0)
+        pieces.push_back({p.ends,
+                          p.shape,
+                          p.from,
+                          p.to,
+                          {chains[i].points.begin() + 1, chains[i].points.end() - 1},
+                          p.interior,
+                          is_divided[i] != 0});
     return pieces;
   }
 
@@ -460,11 +437,9 @@ class CurveMesher {
     const BoundaryNames names = this->names();
     const Arrangement arrangement = arrange_lines(lines, names);
     const FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
-    PieceCounts& counts = counts_.emplace(model_, arrangement, regions, pieces_);
-    const bool may_have_grids = mapped_spec_.asks() || narrow_grids_;
-    if (may_have_grids || agreement_.price > 0)
-      counts.look(flat_curves(lines, arrangement, regions, names, pieces_), *size_field_);
-    if (may_have_grids) mapped_ = counts.find_grids(mapped_spec_);
+    PieceCounts& counts = counts_.emplace(model_, flat_curves(lines, arrangement, regions, names, pieces_),
+                                          images_, *size_field_, pieces_);
+    if (mapped_spec_.asks() || narrow_grids_) mapped_ = counts.find_grids(mapped_spec_);
     const auto number = [&](const std::vector<double>& wanted) {
       if (!mapped_.empty() && wanted.empty()) counts.balance(mapped_spec_, grid_size_, mapped_);
       if (mapped_.empty()) counts.make_even(wanted);
@@ -482,6 +457,7 @@ class CurveMesher {
   const std::shared_ptr<const SizeField> size_field_;
   ModelChain chain_;
   std::vector<CurvePiece> pieces_;
+  std::vector<ChainPair> images_;
   std::optional<PieceCounts> counts_;
   std::vector<MappedFace> mapped_;
   int first_axis_ = std::numeric_limits<int>::max();  ///< from it on curves of the model are axes

@@ -329,7 +329,8 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
           std::ranges::find(grids, face.face, &MappedFace::face) == grids.end())
         grids.push_back(std::move(face));
   domain.mapped = grid_patches(grids, curves, placed.counts);
-  check_divisions_even(model.fine, curves, wanted, placed.odd_patches, divisions);
+  if (!divisions.empty())
+    check_divisions_even(divisions[0].where + ": ", fine, curves, wanted, placed.odd_patches);
   for (const int p : placed.odd_patches)
     domain.warnings.push_back(
         {"faces with an odd boundary that no curve can make even", 0,
@@ -358,7 +359,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   }
   if (!divisions.empty()) warn_of_lost_nodes(fine, curves, wanted, divisions, domain);
   domain.boundary = boundary_mesh(fine, curves.chains, domain.nodes);
-  add_pairs_of_chains(curves, pairs.faces, domain);
+  add_pairs(curves, periodic, pairs.of_sides, domain);
   domain.chains = std::move(curves.chains);
   for (const auto& places : wanted.divided) domain.chain_stays.push_back(!places.empty());
   for (const ChainPair& pair : curves.images)

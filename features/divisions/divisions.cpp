@@ -1,6 +1,7 @@
 #include "features/divisions/divisions.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,16 +85,21 @@ void divide_curves(const Mesh& fine, const SurfaceCurves& curves, const std::vec
         wanted.demands[c].integral = at->second;
 }
 
-void check_divisions_even(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
-                          const std::vector<int>& odd_patches, const std::vector<CurveDivision>& divisions) {
-  for (const int p : odd_patches)
+void check_divisions_even(const std::string& prefix, const Mesh& fine, const SurfaceCurves& curves,
+                          const CurveDemands& wanted, const std::vector<int>& odd_patches) {
+  for (const int p : odd_patches) {
+    std::set<std::string> names;
     for (std::size_t c = 0; c < curves.chains.size(); ++c)
       if (wanted.demands[c].exact > 0 && std::ranges::count(wanted.demands[c].patches, p) > 0)
-        throw InputError(
-            fmt::format("{}: the given numbers of edges leave {} with an odd number around it, and quads "
-                        "need an even one. Change the number on curve {} [odd-numbers]",
-                        divisions.front().where, face_name(fine, curves.maps[static_cast<std::size_t>(p)]),
-                        fine.curves[curves.chains[c].curve].tag));
+        names.insert(curve_title(fine.curves[curves.chains[c].curve]));
+    if (names.empty()) continue;
+    const Entity& face = fine.regions[curves.maps[p].face];
+    throw InputError(
+        fmt::format("{}the given numbers of edges leave {} with an odd number around it, and quads need an "
+                    "even one. Change the number on {} [odd-numbers]",
+                    prefix, face.names.empty() ? face_name(fine, curves.maps[p]) : "'" + face.names[0] + "'",
+                    fmt::join(names, " or ")));
+  }
 }
 
 void warn_of_lost_nodes(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,

@@ -26,9 +26,10 @@ std::vector<std::vector<double>> divide_chains(const Mesh& fine, const std::vect
 void divide_curves(const Mesh& fine, const SurfaceCurves& curves, const std::vector<CurveDivision>& divisions,
                    CurveDemands& wanted);
 
-/// Refuses divisions that leave a patch with an odd boundary.
-void check_divisions_even(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
-                          const std::vector<int>& odd_patches, const std::vector<CurveDivision>& divisions);
+/// Refuses numbers that are given and leave a patch with an odd boundary, in an InputError that begins with
+/// `prefix`.
+void check_divisions_even(const std::string& prefix, const Mesh& fine, const SurfaceCurves& curves,
+                          const CurveDemands& wanted, const std::vector<int>& odd_patches);
 
 /// Tells of divided curves that lost nodes to caps: those near the tip of a cone.
 void warn_of_lost_nodes(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,

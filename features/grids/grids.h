@@ -102,12 +102,10 @@ bool is_balanced(const MappedFace& face, const std::vector<int>& counts);
 std::vector<MappedPatch> grid_patches(const std::vector<MappedFace>& mapped, const SurfaceCurves& curves,
                                       const std::vector<int>& counts);
 
-/// The same of a planar domain whose curves were meshed. Chain i of `curves` is piece i; `points` belong to
-/// the domain's boundary.
-std::vector<MappedPatch> mapped_patches(const std::vector<MappedFace>& mapped, const Mesh& fine,
-                                        const SurfaceCurves& curves, const std::vector<CurvePiece>& pieces,
-                                        const std::vector<PatchBoundary>& patches,
-                                        const std::vector<Vec3>& points);
+/// The same of a planar domain whose curves were meshed. Chain i of `curves` is piece i.
+std::vector<MappedPatch> mapped_patches(const std::vector<MappedFace>& mapped, const SurfaceCurves& curves,
+                                        const std::vector<CurvePiece>& pieces, const Arrangement& arrangement,
+                                        const FaceRegions& regions);
 
 /// Gives patches that are to be grids theirs. In the plane, and in the parameter plane of a surface, nodes
 /// come from transfinite interpolation; on a surface also from that in space, each in the nearest point of

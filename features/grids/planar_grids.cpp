@@ -1,76 +1,36 @@
 #include <algorithm>
-#include <numeric>
 
 #include "features/grids/grids.h"
 
 namespace delquad {
-namespace {
 
-/// Where on a patch's outline parts with these numbers of edges begin, the first of them at `nodes`; -1: it
-/// is another patch.
-int outline_begin(const std::vector<Vec2>& nodes, const std::vector<int>& counts, const PatchBoundary& patch,
-                  const std::vector<Vec3>& points) {
-  const int n = std::accumulate(counts.begin(), counts.end(), 0);
-  // Points moved apart along a cut are told by the nodes that they stand for.
-  const auto is_at = [&](int i, Vec2 x) {
-    const Vec3& node = points[patch.point_node[i % n]];
-    return node.x == x.x && node.y == x.y;
-  };
-  for (int first = 0; first < n; ++first) {
-    int at = first;
-    bool fits = true;
-    for (std::size_t k = 0; fits && k < counts.size(); at += counts[k++]) fits = is_at(at, nodes[k]);
-    if (fits) return first;
-  }
-  return -1;
-}
-
-/// Where the parts of its outline begin, loop by loop.
-std::vector<Vec2> nodes_of(const MappedFace& face, const Mesh& fine, const SurfaceCurves& curves) {
-  std::vector<Vec2> nodes;
-  for (const auto& loop : curves.outlines[face.face])
-    for (const CurveSide& side : loop) {
-      const CurveChain& chain = curves.chains[side.chain];
-      if (!side.begins(chain)) continue;
-      const Vec3& x = fine.points[side.forward ? chain.points.front() : chain.points.back()];
-      nodes.push_back({x.x, x.y});
-    }
-  return nodes;
-}
-
-}  // namespace
-
-std::vector<MappedPatch> mapped_patches(const std::vector<MappedFace>& mapped, const Mesh& fine,
-                                        const SurfaceCurves& curves, const std::vector<CurvePiece>& pieces,
-                                        const std::vector<PatchBoundary>& patches,
-                                        const std::vector<Vec3>& points) {
-  std::vector<MappedPatch> found;
+std::vector<MappedPatch> mapped_patches(const std::vector<MappedFace>& mapped, const SurfaceCurves& curves,
+                                        const std::vector<CurvePiece>& pieces, const Arrangement& arrangement,
+                                        const FaceRegions& regions) {
+  std::vector<int> first_line{0};
+  for (const CurvePiece& piece : pieces) first_line.push_back(first_line.back() + piece.n);
+  std::vector<MappedPatch> patches;
   for (const MappedFace& face : mapped) {
-    std::vector<int> counts;  // of the parts of its outline, from that on at which the first side begins
-    for (const auto& side : face.sides)
-      for (const int piece : side) counts.push_back(pieces[piece].n);
-    const int n_edges = std::accumulate(counts.begin(), counts.end(), 0);
-    std::vector<Vec2> nodes = nodes_of(face, fine, curves);
-    if (face.begins.empty())
-      counts.resize(face.sides[0].size());
-    else
-      std::ranges::rotate(nodes, nodes.begin() + static_cast<long>(face.begins[0]));
-    for (std::size_t p = 0; p < patches.size(); ++p) {
-      const int n = static_cast<int>(patches[p].points.size());
-      if (n != n_edges) continue;
-      const int first = outline_begin(nodes, counts, patches[p], points);
-      if (first < 0) continue;
-      MappedPatch& patch = found.emplace_back(MappedPatch{static_cast<int>(p), {}, face.is_asked, face.rows});
-      int at = first;
-      for (const auto& side : face.sides) {
-        if (face.begins.empty()) break;
-        patch.corners.push_back(at % n);
-        for (const int piece : side) at += pieces[piece].n;
-      }
-      break;
+    std::vector<CurveSide> begins;
+    for (const CurveSide& side : curves.outlines[face.face][0])
+      if (side.begins(curves.chains[side.chain])) begins.push_back(side);
+    const CurveSide& first = begins[face.begins.empty() ? 0 : face.begins[0]];
+    const int side = first.forward ? 2 * first_line[first.chain] : 2 * (first_line[first.chain + 1] - 1) + 1;
+    const int of = arrangement.face_of[side];
+    const auto n_before =
+        std::count_if(regions.region.begin(), regions.region.begin() + of, [](int r) { return r >= 0; });
+    MappedPatch& patch =
+        patches.emplace_back(MappedPatch{static_cast<int>(n_before), {}, face.is_asked, face.rows});
+    if (face.begins.empty()) continue;
+    const Arrangement::Cycle& outline = arrangement.faces[of].cycles[0];
+    const int n = static_cast<int>(outline.size());
+    auto at = static_cast<int>(std::ranges::find(outline, side) - outline.begin());
+    for (const auto& parts : face.sides) {
+      patch.corners.push_back(at % n);
+      for (const int piece : parts) at += pieces[piece].n;
     }
   }
-  return found;
+  return patches;
 }
 
 }  // namespace delquad

@@ -16,9 +16,6 @@
 namespace delquad {
 namespace {
 
-/// Corners are images of corners that are images, and so on.
-constexpr int kRoundsOfChains = 8;
-
 /// The pieces that begin with one of the lines.
 std::vector<int> chains_on(const Mesh& fine, const std::vector<CurveChain>& chains,
                            const std::vector<int>& lines) {
@@ -194,25 +191,32 @@ class PairForest {
 
 }  // namespace
 
+ChainPairs pair_chains(const Mesh& fine, const std::vector<CurveChain>& chains,
+                       const std::vector<PairedChains>& sides) {
+  const ChainImages images(fine, chains);
+  ChainPairs result;
+  std::vector<PairForest::Asked> asked;
+  for (const PairedChains& side : sides) {
+    const std::vector<ChainPair>& found =
+        result.of_sides.emplace_back(images.pair(side.of, side.from, side.to));
+    for (const ChainPair& pair : found)
+      if (pair.chain != pair.master) asked.push_back({pair, &side.of});
+  }
+  result.pairs = PairForest(images, chains, std::move(asked)).sorted();
+  return result;
+}
+
 ChainPairs pair_chains(const SurfaceModel& model, const std::vector<CurveChain>& chains,
                        const std::vector<int>& cut_face, const PeriodicSides& periodic) {
   const auto first_cut = std::ranges::find_if(cut_face, [](int f) { return f >= 0; });
   const auto n_curves = static_cast<std::size_t>(first_cut - cut_face.begin());
-  const ChainImages images(model.fine, chains);
-  ChainPairs result;
-  std::vector<PairForest::Asked> asked;
+  std::vector<PairedChains> sides;
   for (std::size_t i = 0; i < n_pairs(periodic); ++i) {
-    const bool of_curves = i < periodic.curves.size();
-    const PeriodicPair& of = of_curves ? periodic.curves[i] : periodic.faces[i - periodic.curves.size()].of;
     const PairedLines lines = paired_lines(model.fine, periodic, i, n_curves);
-    const std::vector<ChainPair> found =
-        images.pair(of, chains_on(model.fine, chains, lines.from), chains_on(model.fine, chains, lines.to));
-    for (const ChainPair& pair : found)
-      if (pair.chain != pair.master) asked.push_back({pair, &of});
-    if (!of_curves) result.faces.push_back({periodic.faces[i - periodic.curves.size()], found});
+    sides.push_back(
+        {chains_on(model.fine, chains, lines.from), chains_on(model.fine, chains, lines.to), lines.of});
   }
-  result.pairs = PairForest(images, chains, std::move(asked)).sorted();
-  return result;
+  return pair_chains(model.fine, chains, sides);
 }
 
 void place_as_masters(const Mesh& fine, const SurfaceCurves& curves,
@@ -251,7 +255,7 @@ void place_images(const SurfaceModel& model, const SurfaceCurves& curves, Surfac
         if (off > tolerance)
           throw InputError(fmt::format(
               "periodic sides do not match: the image of curve {} is {:.3g} away from curve {} at ({:.10g}, "
-              "{:.10g}, {:.10g}), and {:.3g} is the most there may be",
+              "{:.10g}, {:.10g}), and {:.3g} is the most there may be [periodic-mismatch]",
               fine.curves[curves.chains[pair.master].curve].tag, off,
               fine.curves[curves.chains[pair.chain].curve].tag, x.x, x.y, x.z, tolerance));
         x = image;
@@ -261,17 +265,9 @@ void place_images(const SurfaceModel& model, const SurfaceCurves& curves, Surfac
 
 namespace {
 
-/// The nodes of a piece, in the direction of its master.
-std::vector<int> nodes_as_master(const SurfaceNodes& nodes, int chain, bool forward) {
-  std::vector<int> on_chain;
-  for (const CurveNode& n : nodes.on_curve[chain]) on_chain.push_back(n.node);
-  if (!forward) std::ranges::reverse(on_chain);
-  return on_chain;
-}
-
 /// An image of a face has the sharp corners of that.
-void add_image_corners(const SurfaceCurves& curves, const ImageFace& image, const PeriodicFaces& face,
-                       std::vector<SharpCorner>& corners) {
+void add_image_corners(const SurfaceCurves& curves, const std::vector<ChainPair>& chains,
+                       const PeriodicFaces& face, std::vector<SharpCorner>& corners) {
   for (std::size_t i = 0, n = corners.size(); i < n; ++i) {
     SharpCorner corner = corners[i];
     if (corner.face != face.master) continue;
@@ -280,37 +276,54 @@ void add_image_corners(const SurfaceCurves& curves, const ImageFace& image, cons
       if (of == corners[i].node) corner.node = node;
     for (int& curve : corner.curves) {
       const auto at = std::ranges::find(
-          image.chains, curve, [&](const ChainPair& pair) { return curves.chains[pair.master].curve; });
-      if (at != image.chains.end()) curve = curves.chains[at->chain].curve;
+          chains, curve, [&](const ChainPair& pair) { return curves.chains[pair.master].curve; });
+      if (at != chains.end()) curve = curves.chains[at->chain].curve;
     }
     corners.push_back(corner);
   }
 }
 
+/// The nodes of an image, each beside its master. `nodes`: the nodes of all chains.
+std::vector<std::array<int, 2>> node_pairs(const std::vector<CurveChain>& nodes, const ChainPair& pair) {
+  std::vector<int> images = nodes[pair.chain].points;
+  const std::vector<int>& masters = nodes[pair.master].points;
+  if (images.size() != masters.size()) throw std::logic_error("a periodic curve has lost nodes");
+  if (!pair.forward) std::ranges::reverse(images);
+  std::vector<std::array<int, 2>> pairs;
+  for (std::size_t k = 0; k < images.size(); ++k) pairs.push_back({images[k], masters[k]});
+  return pairs;
+}
+
 }  // namespace
 
-void add_pairs_of_chains(const SurfaceCurves& curves, const std::vector<ImageFace>& faces,
-                         SurfaceDomain& domain) {
-  const auto both = [&](const ChainPair& pair) {
-    std::array two{nodes_as_master(domain.nodes, pair.chain, pair.forward),
-                   nodes_as_master(domain.nodes, pair.master, true)};
-    if (two[0].size() != two[1].size()) throw std::logic_error("a periodic curve has lost nodes");
-    return two;
-  };
-  for (const ChainPair& pair : curves.images) {
-    const auto [images, masters] = both(pair);
-    add_node_pairs(curves.chains[pair.chain].curve, curves.chains[pair.master].curve, pair.motion, images,
-                   masters, domain.boundary.periodic);
+void add_pairs_of_chains(const std::vector<CurveChain>& nodes, const std::vector<ChainPair>& pairs,
+                         std::vector<PeriodicNodes>& all) {
+  for (const ChainPair& pair : pairs) {
+    const int curve = nodes[pair.chain].curve, master = nodes[pair.master].curve;
+    auto at = std::ranges::find_if(
+        all, [&](const PeriodicNodes& p) { return p.curve == curve && p.master == master; });
+    if (at == all.end()) at = all.insert(all.end(), {curve, master, pair.motion, {}});
+    for (const std::array<int, 2>& two : node_pairs(nodes, pair))
+      if (std::ranges::find(at->nodes, two) == at->nodes.end()) at->nodes.push_back(two);
   }
-  for (const ImageFace& image : faces) {
-    const FacePair& pair = image.pair;
+}
+
+void add_pairs(const SurfaceCurves& curves, const PeriodicSides& periodic,
+               const std::vector<std::vector<ChainPair>>& of_sides, SurfaceDomain& domain) {
+  std::vector<CurveChain> nodes;
+  for (std::size_t c = 0; c < curves.chains.size(); ++c) {
+    nodes.push_back({curves.chains[c].curve, {}});
+    for (const CurveNode& n : domain.nodes.on_curve[c]) nodes[c].points.push_back(n.node);
+  }
+  add_pairs_of_chains(nodes, curves.images, domain.boundary.periodic);
+  for (std::size_t i = 0; i < periodic.faces.size(); ++i) {
+    const FacePair& pair = periodic.faces[i];
+    const std::vector<ChainPair>& chains = of_sides[periodic.curves.size() + i];
     PeriodicFaces face{pair.face, pair.master, pair.of.motion, pair.is_reversed, {}};
-    for (const ChainPair& chains : image.chains) {
-      const auto [images, masters] = both(chains);
-      for (std::size_t k = 0; k < images.size(); ++k) face.nodes.push_back({images[k], masters[k]});
-    }
+    for (const ChainPair& both : chains)
+      for (const std::array<int, 2>& two : node_pairs(nodes, both)) face.nodes.push_back(two);
     sort_unique(face.nodes);
-    add_image_corners(curves, image, face, domain.sharp_corners);
+    add_image_corners(curves, chains, face, domain.sharp_corners);
     domain.boundary.periodic_faces.push_back(std::move(face));
   }
 }

@@ -18,6 +18,9 @@ std::vector<FacePair> pair_faces(const SurfaceModel& model, const std::vector<in
 /// Images may lie so far from what they are images of, in diagonals of the model.
 inline constexpr double kPeriodicTolerance = 1e-6;
 
+/// Corners of curves are images of corners that are images, and so on.
+inline constexpr int kRoundsOfChains = 8;
+
 /// Two points of a line, the lower first.
 inline std::array<int, 2> side_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
@@ -32,9 +35,5 @@ std::size_t n_pairs(const PeriodicSides& sides);
 /// count.
 PairedLines paired_lines(const Mesh& fine, const PeriodicSides& sides, std::size_t pair,
                          std::size_t n_curves);
-
-/// Adds the nodes of a piece of a curve, each beside that of which it is the image, to those of both curves.
-void add_node_pairs(int curve, int master, const Motion& motion, const std::vector<int>& images,
-                    const std::vector<int>& masters, std::vector<PeriodicNodes>& all);
 
 }  // namespace delquad

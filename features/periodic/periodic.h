@@ -11,15 +11,6 @@
 /// Sides that are images of others, with the same nodes: what is called for it, in this order.
 namespace delquad {
 
-/// Pairs the pieces of periodic curves, and puts the ends of those that are images where these are. Throws
-/// InputError where they do not match.
-void pair_pieces(const PlanarModel& model, const std::vector<PeriodicPair>& periodic, ModelChain& chain,
-                 std::vector<CurvePiece>& pieces);
-
-/// Adds the nodes of these pairs to Mesh::periodic. `mesh` has the ends of pieces first, `n_ends`, then their
-/// nodes between, piece by piece.
-void add_pairs_of_pieces(const std::vector<CurvePiece>& pieces, std::size_t n_ends, Mesh& mesh);
-
 /// A face that gets the mesh of another, moved.
 struct FacePair {
   int face, master;  ///< indices into SurfaceModel::fine.regions
@@ -44,23 +35,31 @@ PeriodicSides find_periodic_sides(const SurfaceModel& model, const std::vector<P
 /// side.
 Flattening flatten_periodic(SurfaceModel& model, const PeriodicSides& periodic);
 
-/// The pieces of the curves around and in a face, beside those of its master.
-struct ImageFace {
-  FacePair pair;
-  std::vector<ChainPair> chains;  ///< a piece may be its own image
+/// Pieces of curves on two sides.
+struct PairedChains {
+  std::vector<int> from, to;
+  PeriodicPair of;  ///< who asked for it
 };
 
 /// What is an image on the curves.
 struct ChainPairs {
-  std::vector<ChainPair> pairs;  ///< each image once, behind the pair that its master is the image of
-  std::vector<ImageFace> faces;
+  std::vector<ChainPair> pairs;                  ///< each image once, behind the pair of its master
+  std::vector<std::vector<ChainPair>> of_sides;  ///< all of each pair of sides; a piece may be its own image
 };
 
+/// Throws InputError for pieces without an image, and where images of images do not agree.
+ChainPairs pair_chains(const Mesh& fine, const std::vector<CurveChain>& chains,
+                       const std::vector<PairedChains>& sides);
 /// The pairs of pieces that periodic sides consist of, of a model that was flattened so. `cut_face`: of each
-/// curve, -1 where it is no cut. Throws InputError for names that no curve has, for pieces without an image,
-/// and where images of images do not agree.
+/// curve, -1 where it is no cut.
 ChainPairs pair_chains(const SurfaceModel& model, const std::vector<CurveChain>& chains,
                        const std::vector<int>& cut_face, const PeriodicSides& periodic);
+
+/// Pairs the pieces of periodic curves, and puts the ends of those that are images where these are. `chains`:
+/// the nodes of the pieces in `lines`. Throws InputError as pair_chains(), and for regions.
+std::vector<ChainPair> pair_pieces(const PlanarModel& model, const std::vector<PeriodicPair>& periodic,
+                                   const Mesh& lines, const std::vector<CurveChain>& chains, ModelChain& ends,
+                                   std::vector<CurvePiece>& pieces);
 
 /// Puts the nodes of images where those of their masters are; both have as many edges.
 void place_as_masters(const Mesh& fine, const SurfaceCurves& curves,
@@ -69,10 +68,17 @@ void place_as_masters(const Mesh& fine, const SurfaceCurves& curves,
 /// Puts nodes where the images are. Throws InputError where that is off the curve.
 void place_images(const SurfaceModel& model, const SurfaceCurves& curves, SurfaceNodes& nodes);
 
-/// Adds the pairs of nodes by curve and by face, those inside of faces left out; images of faces get the
-/// sharp corners of their masters.
-void add_pairs_of_chains(const SurfaceCurves& curves, const std::vector<ImageFace>& faces,
-                         SurfaceDomain& domain);
+/// Gives pieces the images of the nodes of their masters. Throws InputError where they are off the piece.
+void follow_masters(const PlanarModel& model, const std::vector<ChainPair>& images,
+                    std::vector<CurvePiece>& pieces);
+
+/// Adds the pairs of nodes by curve. `nodes`: of each chain.
+void add_pairs_of_chains(const std::vector<CurveChain>& nodes, const std::vector<ChainPair>& pairs,
+                         std::vector<PeriodicNodes>& all);
+/// Adds the pairs of nodes by curve and by face, without nodes inside of faces. Images of faces get the
+/// sharp corners of their masters. `of_sides`: see ChainPairs.
+void add_pairs(const SurfaceCurves& curves, const PeriodicSides& periodic,
+               const std::vector<std::vector<ChainPair>>& of_sides, SurfaceDomain& domain);
 
 /// Gives the faces of `mesh.periodic_faces` the elements of their masters, moved, which must be there, and
 /// adds the nodes inside to the pairs. Faces that are `left_out` (by region) lose their pair.

@@ -317,14 +317,14 @@ class SymmetricPairs {
   void become(CurvePiece& piece, int index, const std::vector<int>& folds) {
     CurvePiece& master = pieces_[index];
     piece.master = index;
-    piece.image = [folds, symmetry = symmetry_](Vec2 x) { return symmetry.reflect(folds, x); };
-    piece.shape = std::make_shared<ImageCurve>(master.shape, piece.image);
+    piece.is_mirrored = true;
+    const auto image = [folds, symmetry = symmetry_](Vec2 x) { return symmetry.reflect(folds, x); };
+    piece.shape = std::make_shared<ImageCurve>(master.shape, image);
     piece.from = master.from;
     piece.to = master.to;
     master.least = std::max(master.least, piece.least);
     for (const int k : {0, 1})
-      if (piece.ends[k] != master.ends[k])
-        chain_.nodes[piece.ends[k]] = piece.image(chain_.nodes[master.ends[k]]);
+      if (piece.ends[k] != master.ends[k]) chain_.nodes[piece.ends[k]] = image(chain_.nodes[master.ends[k]]);
   }
 
   const Symmetry& symmetry_;
@@ -389,8 +389,9 @@ InputError unlike_division(const PlanarModel& model, const std::string& where,
 
 }  // namespace
 
-void pair_symmetric(const PlanarModel& model, const Symmetry& symmetry, const std::string& where,
-                    ModelChain& chain, std::vector<CurvePiece>& pieces) {
+std::vector<ChainPair> pair_symmetric(const PlanarModel& model, const Symmetry& symmetry,
+                                      const std::string& where, ModelChain& chain,
+                                      std::vector<CurvePiece>& pieces) {
   for (Vec2& x : chain.nodes)
     for (int k = 0; k < symmetry.n_planes(); ++k)
       if (symmetry.is_on(k, x)) x = symmetry.put_on(k, x);
@@ -409,8 +410,13 @@ void pair_symmetric(const PlanarModel& model, const Symmetry& symmetry, const st
     if (piece.master >= 0 && piece.is_divided &&
         (!pieces[piece.master].is_divided || pieces[piece.master].n != piece.n))
       throw unlike_division(model, where, pieces, piece);
-  for (CurvePiece& piece : pieces)
-    if (piece.master >= 0) piece.is_divided = false;
+  std::vector<ChainPair> images;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (pieces[i].master < 0) continue;
+    pieces[i].is_divided = false;
+    images.push_back({static_cast<int>(i), pieces[i].master, true, {}});
+  }
+  return images;
 }
 
 std::vector<PatchImage> patch_images(const std::vector<PatchBoundary>& patches, const Symmetry& symmetry,

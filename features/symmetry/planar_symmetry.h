@@ -9,6 +9,7 @@
 #include "delquad/extend.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/planar_model.h"
+#include "patches/curve_nodes.h"
 #include "patches/prepared.h"
 
 // This header has the symmetry of planar models. The pipeline and features use it.
@@ -65,8 +66,9 @@ void drop_axes_outside(const Mesh& lines, int first_axis, ModelChain& chain, std
 void drop_axes(int first_axis, PlanarDomain& domain);
 
 /// Pieces behind a plane get the images of those before it. Throws InputError for pieces without one.
-void pair_symmetric(const PlanarModel& model, const Symmetry& symmetry, const std::string& where,
-                    ModelChain& chain, std::vector<CurvePiece>& pieces);
+std::vector<ChainPair> pair_symmetric(const PlanarModel& model, const Symmetry& symmetry,
+                                      const std::string& where, ModelChain& chain,
+                                      std::vector<CurvePiece>& pieces);
 
 /// Returns for each patch that is a mirror image its original and its reflection. Throws InputError for
 /// patches behind a plane that are no images.

@@ -113,11 +113,6 @@ std::string message_prefix(const PlanarModel& model) {
   return model.source.empty() ? "" : model.source + ": ";
 }
 
-Vec2 moved(const Motion& motion, Vec2 p) {
-  const Vec3 x = motion({p.x, p.y, 0});
-  return {x.x, x.y};
-}
-
 std::vector<Entity> curve_entities(const PlanarModel& model) {
   std::vector<Entity> curves;
   for (const ModelCurve& curve : model.curves) {
@@ -139,37 +134,6 @@ std::vector<CurvePiece> cut_curves(const PlanarModel& model, const ModelChain& c
   std::vector<CurvePiece> pieces = join_equal_pieces(cut_at_stops(model, chain), tolerance);
   check_angles(model, chain, pieces);
   return pieces;
-}
-
-void follow_masters(const PlanarModel& model, std::vector<CurvePiece>& pieces) {
-  for (CurvePiece& piece : pieces) {
-    if (piece.master < 0) continue;
-    const CurvePiece& master = pieces[piece.master];
-    piece.n = master.n;
-    piece.images.clear();
-    piece.interior.clear();
-    if (piece.image) {
-      piece.interior = master.interior;
-      for (const double t : piece.interior) piece.images.push_back(piece.shape->point(t));
-      continue;
-    }
-    const CurveSpan span(*piece.shape, piece.from, piece.to);
-    const double tolerance = kTouch * norm(span.box().size());
-    for (const double t : master.interior) {
-      piece.images.push_back(moved(piece.motion, master.shape->point(t)));
-      const CurveSpan::Place place = span.nearest(piece.images.back());
-      piece.interior.push_back(place.t);
-      if (place.distance > tolerance)
-        throw InputError(
-            fmt::format("{}the sides do not match: the image of {} is {:.3g} away from {} at ({:.10g}, "
-                        "{:.10g}) [periodic-mismatch]",
-                        message_prefix(model), curve_label(model, master.curves.front()), place.distance,
-                        curve_label(model, piece.curves.front()), place.at.x, place.at.y));
-    }
-    if (piece.runs_as_master) continue;
-    std::ranges::reverse(piece.images);
-    std::ranges::reverse(piece.interior);
-  }
 }
 
 std::vector<int> pieces_at_nodes(const std::vector<CurvePiece>& pieces, std::size_t n_nodes) {

@@ -30,17 +30,15 @@ struct CurvePiece {
   bool is_divided = false;            ///< its nodes were asked for: neither n nor they change
   std::vector<double> interior = {};  ///< parameters of its nodes
   int curve = -1;                     ///< of the mesh; -1: a whisker
-  /// Index of the piece whose nodes it has the images of; -1: none. Then these count, in its direction.
-  int master = -1;
-  Motion motion = {};                    ///< that takes the master here, of periodic curves
-  std::function<Vec2(Vec2)> image = {};  ///< that does, of symmetric ones
-  bool runs_as_master = true;            ///< else the other way
-  std::vector<Vec2> images = {};
+  int master = -1;                    ///< the piece whose nodes it has the images of; -1: none
+  bool is_mirrored = false;           ///< it has the shape of the master, mirrored, and the same parameters
+  std::vector<Vec2> images = {};      ///< its nodes, where they are images by a motion
 
   void set_edges(int edges) {
     n = edges;
     interior = measure->interior_nodes(n);
   }
+  Vec2 node(std::size_t k) const { return images.empty() ? shape->point(interior[k]) : images[k]; }
   /// From its first or last end a little way along it.
   Vec2 leaving(bool from_last) const {
     const double from_end = from_last ? to : from, step = 1e-3 * (from_last ? from - to : to - from);
@@ -57,12 +55,6 @@ std::vector<CurvePiece> cut_curves(const PlanarModel& model, const ModelChain& c
 
 /// The loops that have each curve of the model.
 std::vector<std::vector<int>> loops_of_model_curves(const PlanarModel& model, const ModelChain& chain);
-
-/// A place of the plane, moved.
-Vec2 moved(const Motion& motion, Vec2 p);
-
-/// Gives pieces with a master its images. Throws InputError where they are off the piece.
-void follow_masters(const PlanarModel& model, std::vector<CurvePiece>& pieces);
 
 /// Ends of pieces at each node.
 std::vector<int> pieces_at_nodes(const std::vector<CurvePiece>& pieces, std::size_t n_nodes);

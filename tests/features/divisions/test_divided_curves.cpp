@@ -67,7 +67,7 @@ TEST(DividedCurves, StayAsTheyAreInSpace) {
 
 TEST(DividedCurves, ThatMakeAnOddBoundaryAreRefused) {
   expect_refused(problem_of(tube_wall(), 0.2, {{"curve_1", 21, 1, 1, "d 1"}, {"curve_2", 44, 1, 1, "d 2"}}),
-                 "DBCO", {"face 1 with an odd number", "curve"});
+                 "DBCO", {"'wall' with an odd number", "curve"});
   expect_refused(problem_of(tube_wall(), 0.2, {{"rim", 20, 1, 1, "d 1"}}), "DBCO",
                  {"d 1: no curve is called 'rim'"});
 }

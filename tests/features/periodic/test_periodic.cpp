@@ -64,6 +64,21 @@ TEST(Periodic, SizesOnTheFirstSideCount) {
   expect_images(r.mesh, "left", "right");
 }
 
+TEST(Periodic, ImagesMayHaveImages) {
+  const auto square = [](double x) { return std::vector<Vec2>{{x, 0}, {x + 1, 0}, {x + 1, 1}, {x, 1}}; };
+  MeshProblem problem = problem_of(ModelMaker()
+                                       .polygon(square(0), {"low", "second", "high", "first"}, "one")
+                                       .polygon(square(2), {"base", "end", "top", "third"}, "two"));
+  problem.size.field =
+      make_function_size([](const Vec3& x) { return 0.03 + 0.1 * (x.x - 1.7) * (x.x - 1.7) * x.y; }, "size");
+  problem.periodic = {{"second", "third", {{1, 0, 0}}, "p 1"}, {"first", "second", {{1, 0, 0}}, "p 2"}};
+  const MeshResult r = mesh(problem, "DBCO");
+  expect_images(r.mesh, "first", "second");
+  expect_images(r.mesh, "second", "third");
+  problem.periodic[1].to = "third";
+  expect_refused(problem, "DBCO", {"p 2: the sides do not match"});
+}
+
 TEST(Periodic, SectorsTurn) {
   const double third = 2 * std::numbers::pi / 3;
   const Vec2 e{std::cos(third), std::sin(third)};
