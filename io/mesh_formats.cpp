@@ -133,12 +133,23 @@ MshOptions options_after(const std::filesystem::path& source, MshOptions options
   return options;
 }
 
-std::string others_in_file(const std::filesystem::path& path) {
+ShellSections carry_sections(const std::filesystem::path& source, const std::filesystem::path& path,
+                             const Mesh& mesh) {
+  const MeshFormat *from = find_format(kind_of_file(source)), *to = find_format(kind_to_write(path));
+  if (from == nullptr || from->sections == nullptr || to->add_sections == nullptr) return {};
+  ShellSections sections = from->sections(source);
+  if (!sections.sections.empty()) to->add_sections(path, mesh, sections);
+  return sections;
+}
+
+std::string others_in_file(const std::filesystem::path& path, const std::map<std::string, int>& carried) {
   const MeshFormat* format = find_format(kind_of_file(path));
   if (format == nullptr || format->others == nullptr) return "";
   std::vector<std::string> others;
-  for (const auto& [name, count] : format->others(path))
-    others.push_back(fmt::format("{} ({})", name, count));
+  for (auto [name, count] : format->others(path)) {
+    if (const auto some = carried.find(name); some != carried.end()) count -= some->second;
+    if (count > 0) others.push_back(fmt::format("{} ({})", name, count));
+  }
   return fmt::format("{}", fmt::join(others, ", "));
 }
 
@@ -156,6 +167,24 @@ void check_mesh_format(const std::filesystem::path& path, const MshOptions& opti
            extensions_of([&](const MeshFormat& f) { return can_write(f) && f.most_order >= order; }));
   if (options.binary && !format->has_binary)
     throw InputError(path.string() + ": '" + kind + "' has no binary form here: expected .msh with --binary");
+}
+
+std::vector<std::string> missing_in_file(const std::filesystem::path& path, const Mesh& mesh,
+                                         bool gets_depths) {
+  const MeshFormat* format = find_format(kind_to_write(path));
+  const bool is_flat = std::ranges::all_of(mesh.points, [](const Vec3& p) { return p.z == 0; });
+  bool is_open = false;
+  for (const Entity& curve : mesh.curves)
+    for (const std::string& name : curve.names) is_open |= name_says(name, "open");
+  std::vector<std::string> missing;
+  if (format->has_depths && !gets_depths && is_flat)
+    missing.push_back(fmt::format(
+        "{}: all depths are 0: 'delquad mesh --depth FILE' takes the depths from a raster", path.string()));
+  if (format->has_open_sides && !is_open)
+    missing.push_back(
+        fmt::format("{}: no side is open: where water comes and goes, give the side a name with 'open' in it",
+                    path.string()));
+  return missing;
 }
 
 void check_depths(const std::filesystem::path& path) {

@@ -7,6 +7,7 @@
 
 #include "delquad/mesh.h"
 #include "io/entity_names.h"
+#include "io/formats/shell_sections.h"
 #include "io/mesh_io.h"
 
 // This header lists the formats of meshes. The program, readers and writers and the Python module use it.
@@ -40,7 +41,8 @@ struct MeshFormat {
   bool has_shells = false;  ///< triangles and quads are shells, even in a plane
   EightNodes eight_nodes = EightNodes::kNever;
   bool has_binary = false;
-  bool has_depths = false;  ///< z of a planar mesh may be heights of the ground
+  bool has_depths = false;      ///< z of a planar mesh may be heights of the ground
+  bool has_open_sides = false;  ///< water comes and goes through sides whose names say so
   /// As renamed_in_file(). Either, where the file itself does not tell: labels of mesh_groups(), or a
   /// function.
   const UniqueLabels::Rules* labels = nullptr;
@@ -50,6 +52,9 @@ struct MeshFormat {
   Mesh (*read_given)(const std::filesystem::path&, ReadNotes*) = nullptr;
   void (*rewrite)(const std::filesystem::path& source, const std::filesystem::path&, const Mesh&,
                   double weld) = nullptr;
+  /// Sections of shells, see carry_sections(); null: files hold none.
+  ShellSections (*sections)(const std::filesystem::path&) = nullptr;
+  void (*add_sections)(const std::filesystem::path&, const Mesh&, ShellSections&) = nullptr;
   /// See others_in_file(); null: there is nothing.
   std::map<std::string, int> (*others)(const std::filesystem::path&) = nullptr;
 };
@@ -88,8 +93,13 @@ bool keeps_file(const std::filesystem::path& source, const std::filesystem::path
 /// weld_open_edges() joined points of it. Throws InputError if a line names something that is gone.
 void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh,
                   double weld);
-/// Keywords of a file that are no part of a mesh, and how many: "*CLOAD (2), *MATERIAL (1)".
-std::string others_in_file(const std::filesystem::path& path);
+/// Adds the sections of a deck to one of another program that write_mesh() made of its mesh. Returns what it
+/// carried and what it lost; nothing if one of both formats has no sections.
+ShellSections carry_sections(const std::filesystem::path& source, const std::filesystem::path& path,
+                             const Mesh& mesh);
+/// Keywords of a file that are no part of a mesh, and how many: "*CLOAD (2), *MATERIAL (1)". Leaves out those
+/// that were carried.
+std::string others_in_file(const std::filesystem::path& path, const std::map<std::string, int>& carried = {});
 
 /// The highest order of elements that write_mesh() writes there. Throws as check_mesh_format().
 int most_order_of(const std::filesystem::path& path);
@@ -98,5 +108,9 @@ Mesh straightened(Mesh mesh);
 /// Returns the parts of a mesh that a file of that name cannot hold, one line each: names, and a higher
 /// order.
 std::vector<std::string> lost_in_file(const std::filesystem::path& path, const Mesh& mesh);
+/// Returns one line, with the remedy, for depths and for an open side if programs need them and the mesh has
+/// none. `gets_depths`: depths come later.
+std::vector<std::string> missing_in_file(const std::filesystem::path& path, const Mesh& mesh,
+                                         bool gets_depths = false);
 
 }  // namespace delquad

@@ -61,12 +61,11 @@ int convert_command(const ConvertArguments& arguments) {
   std::string joined =
       arguments.weld > 0 ? weld_open_edges(mesh, arguments.weld * diagonal(mesh)) : tell_unjoined(mesh);
   if (!joined.empty()) notes.push_back(std::move(joined));
+  for (const std::string& what : missing_in_file(arguments.output, mesh)) notes.push_back(what);
   if (!is_kept) {
     for (const std::string& what : lost_in_file(arguments.output, mesh)) lost.push_back(what);
     for (const std::string& name : renamed_in_file(arguments.output, mesh))
       lost.push_back("a name as it was: " + name);
-    if (const auto others = others_in_file(arguments.mesh); !others.empty())
-      lost.push_back("keywords and how many: " + others);
   }
   if (mesh.order > most_order_of(arguments.output)) mesh = straightened(std::move(mesh));
   if (is_kept)
@@ -75,6 +74,12 @@ int convert_command(const ConvertArguments& arguments) {
     write_mesh(arguments.output, mesh, options_after(arguments.mesh, arguments.msh));
   else
     write_fields(arguments.output, mesh, fields, arguments.msh);
+  if (!is_kept) {
+    const ShellSections sections = carry_sections(arguments.mesh, arguments.output, mesh);
+    lost.insert(lost.end(), sections.lost.begin(), sections.lost.end());
+    if (const auto others = others_in_file(arguments.mesh, sections.carried); !others.empty())
+      lost.push_back("keywords and how many: " + others);
+  }
   if (verbosity() != Verbosity::kQuiet) {
     for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
     for (const std::string& what : lost) fmt::print(stderr, "lost: {}\n", what);

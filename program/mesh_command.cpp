@@ -97,7 +97,8 @@ void name_points_as_given(const Mesh& given, Mesh& mesh) {
       mesh.named_points.push_back({index[{p.x, p.y, p.z}], entity});
 }
 
-/// Returns whether the given file is kept. Else tells which names change, and what of this file gets lost.
+/// Returns whether the given file is kept. Else tells which names change, what of this file gets lost, and
+/// what the other one misses.
 bool keeps_given(const MeshArguments& arguments, const std::optional<Mesh>& given, MeshResult& result,
                  Progress& progress) {
   if (given && keeps_file(arguments.model, arguments.output)) return true;
@@ -110,6 +111,8 @@ bool keeps_given(const MeshArguments& arguments, const std::optional<Mesh>& give
     lost.push_back(fmt::format("{} loses the nodes on the sides of elements", output));
   if (const auto names = lost_in_file(arguments.output, result.mesh); !names.empty())
     lost.push_back(fmt::format("{} loses {}", output, fmt::join(names, "; ")));
+  for (const std::string& what : missing_in_file(arguments.output, result.mesh, !arguments.depth.empty()))
+    lost.push_back(what);
   if (const auto others = given ? others_in_file(arguments.model) : ""; !others.empty())
     lost.push_back(fmt::format("{} loses what {} holds: {}", output, arguments.model.string(), others));
   result.warnings.insert(result.warnings.end(), lost.begin(), lost.end());

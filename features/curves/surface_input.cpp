@@ -159,7 +159,7 @@ std::string leave_out_strays(Mesh& mesh) {
                      gone == 1 ? "is" : "are", why);
 }
 
-/// Warns of parts that hang together and go through each other.
+/// Warns of parts that hang together and go through each other, or lie on each other.
 void tell_penetrating(const std::string& source, SurfaceModel& model) {
   const Mesh& mesh = model.fine;
   DisjointSets parts(mesh.triangles.size());
@@ -169,13 +169,16 @@ void tell_penetrating(const std::string& source, SurfaceModel& model) {
   const std::vector<int> part = parts.roots();
   if (std::ranges::all_of(part, [&](int p) { return p == part[0]; })) return;
   std::map<std::pair<int, int>, Crossing> first;  // by parts
-  for (const Crossing& crossing :
-       find_crossings(mesh.points, mesh.triangles, [&](int t, int u) { return part[t] == part[u]; }))
+  constexpr double kContact = 1e-6;               // of the diagonal: single precision
+  for (const Crossing& crossing : find_crossings(
+           mesh.points, mesh.triangles, [&](int t, int u) { return part[t] == part[u]; },
+           kContact * diagonal(mesh)))
     first.try_emplace(std::minmax(part[crossing.first], part[crossing.second]), crossing);
   std::vector<std::string> places;
   const auto face = [&](int t) { return mesh.regions[mesh.triangle_region[t]].tag; };
   for (const auto& [pair, crossing] : first)
-    places.push_back(fmt::format("face {} through face {} at {}", face(crossing.first), face(crossing.second),
+    places.push_back(fmt::format("face {} {} face {} at {}", face(crossing.first),
+                                 crossing.is_flat ? "on" : "through", face(crossing.second),
                                  show_point(crossing.at)));
   constexpr std::size_t kMostPlaces = 20;
   if (!places.empty())

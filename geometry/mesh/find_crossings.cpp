@@ -1,7 +1,9 @@
 #include "geometry/mesh/find_crossings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/box_tree.h"
 #include "base/cancel.h"
@@ -32,10 +34,26 @@ std::optional<Vec3> edge_through(const Corners& edges, const Corners& triangle) 
   return std::nullopt;
 }
 
+/// Whether triangles lie in one plane, and their insides overlap there by more than a length.
+bool lie_on_each_other(const Corners& a, const Corners& b, double contact) {
+  for (const auto& [own, other] : {std::pair(&a, &b), {&b, &a}}) {
+    const Vec3 normal = cross((*own)[1] - (*own)[0], (*own)[2] - (*own)[0]);
+    const double length = norm(normal);
+    for (const Vec3& p : *other)
+      if (!(std::abs(dot(p - (*own)[0], normal)) <= contact * length)) return false;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 &from = (*own)[k], out = cross((*own)[(k + 1) % 3] - from, normal);
+      const auto is_beyond = [&](const Vec3& p) { return dot(p - from, out) >= -contact * norm(out); };
+      if (std::ranges::all_of(*other, is_beyond)) return false;
+    }
+  }
+  return true;
+}
+
 /// `most`: after so many a range of triangles is left.
 std::vector<Crossing> crossings_of(const std::vector<Vec3>& points,
                                    const std::vector<std::array<int, 3>>& triangles,
-                                   const MayCross& may_cross, std::size_t most) {
+                                   const MayCross& may_cross, double contact, std::size_t most) {
   const auto corners_of = [&](std::size_t t) {
     return Corners{points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]]};
   };
@@ -57,9 +75,13 @@ std::vector<Crossing> crossings_of(const std::vector<Vec3>& points,
           std::vector<Crossing> of_this;
           tree.search(0, far, [&](int other) {
             if (other == static_cast<int>(t) || !boxes[other].overlaps(boxes[t])) return;
-            const auto place = edge_through(at, corners_of(static_cast<std::size_t>(other)));
-            if (place && !may_cross(static_cast<int>(t), other))
+            const Corners corners = corners_of(static_cast<std::size_t>(other));
+            const auto place = edge_through(at, corners);
+            if ((!place && contact == 0) || may_cross(static_cast<int>(t), other)) return;
+            if (place)
               of_this.push_back({static_cast<int>(t), other, *place});
+            else if (lie_on_each_other(at, corners, contact))
+              of_this.push_back({static_cast<int>(t), other, (1.0 / 3) * (at[0] + at[1] + at[2]), true});
           });
           if (of_this.empty()) continue;
           found.push_back(*std::ranges::min_element(of_this, {}, &Crossing::second));
@@ -71,14 +93,14 @@ std::vector<Crossing> crossings_of(const std::vector<Vec3>& points,
 
 std::vector<Crossing> find_crossings(const std::vector<Vec3>& points,
                                      const std::vector<std::array<int, 3>>& triangles,
-                                     const MayCross& may_cross) {
-  return crossings_of(points, triangles, may_cross, triangles.size());
+                                     const MayCross& may_cross, double contact) {
+  return crossings_of(points, triangles, may_cross, contact, triangles.size());
 }
 
 std::optional<Crossing> find_crossing(const std::vector<Vec3>& points,
                                       const std::vector<std::array<int, 3>>& triangles,
                                       const MayCross& may_cross) {
-  const std::vector<Crossing> crossings = crossings_of(points, triangles, may_cross, 1);
+  const std::vector<Crossing> crossings = crossings_of(points, triangles, may_cross, 0, 1);
   return crossings.empty() ? std::nullopt : std::optional(crossings.front());
 }
 

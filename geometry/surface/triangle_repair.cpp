@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <set>
+#include <span>
 #include <utility>
 
 #include "base/box.h"
@@ -64,6 +67,62 @@ void take_out_twins(Mesh& mesh, std::vector<Warning>& warnings) {
   if (dropped.count == 0) return;
   warnings.push_back(fmt::format("left out {} on the vertices of another (the first at {})",
                                  counted(dropped.count, "triangle"), show_point(dropped.first)));
+}
+
+/// Whether the points of triangles lie in one plane, but for single precision.
+bool are_in_plane(const Mesh& mesh, const std::vector<int>& triangles, double tolerance) {
+  Vec3 normal{};
+  const auto corner = [&](int t, int k) { return mesh.points[mesh.triangles[t][k]]; };
+  for (const int t : triangles) {
+    const Vec3 area = cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
+    if (norm(area) > norm(normal)) normal = area;
+  }
+  const Vec3 from = corner(triangles[0], 0);
+  return std::ranges::all_of(triangles, [&](int t) {
+    return std::ranges::all_of(mesh.triangles[t], [&](int v) {
+      return std::abs(dot(mesh.points[v] - from, normal)) <= tolerance * norm(normal);
+    });
+  });
+}
+
+/// Takes out flat parts that have the outline of another part, such as the face in which two bodies touch with
+/// other diagonals. Branching edges are their outlines. The first part stays.
+void take_out_flat_copies(Mesh& mesh, std::vector<Warning>& warnings) {
+  DisjointSets sets(mesh.triangles.size());
+  std::vector<std::pair<int, std::array<int, 2>>> bounds;  // a triangle and its branching edge
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() == 2) sets.join(edge[0].element, edge[1].element);
+    for (const HalfEdge& half : edge)
+      if (edge.size() != 2) bounds.push_back({half.element, {half.lo, half.hi}});
+  });
+  const std::vector<int> part = sets.roots();
+  std::map<int, std::vector<std::array<int, 2>>> outlines;
+  for (const auto& [t, edge] : bounds) outlines[part[t]].push_back(edge);
+  std::map<std::vector<std::array<int, 2>>, std::vector<int>> alike;  // parts by their outline
+  for (const auto& [p, outline] : outlines) alike[outline].push_back(p);
+  std::map<int, std::vector<int>> triangles_of;  // of parts with the outline of another
+  for (const auto& [outline, parts] : alike)
+    for (const int p : parts)
+      if (parts.size() > 1) triangles_of[p];
+  if (triangles_of.empty()) return;
+  for (int t = 0; t < static_cast<int>(part.size()); ++t)
+    if (const auto of_part = triangles_of.find(part[t]); of_part != triangles_of.end())
+      of_part->second.push_back(t);
+  constexpr double kFlat = 1e-6;  // of the diagonal: some units in the last place of single precision
+  const double tolerance = kFlat * diagonal(mesh.points);
+  std::set<int> copies;
+  for (const auto& [outline, parts] : alike) {
+    bool is_first = true;
+    for (const int p : parts)
+      if (parts.size() > 1 && are_in_plane(mesh, triangles_of[p], tolerance))
+        if (!std::exchange(is_first, false)) copies.insert(p);
+  }
+  const Dropped dropped = drop_triangles(mesh, [&](size_t t) { return !copies.contains(part[t]); });
+  if (dropped.count == 0) return;
+  warnings.push_back(fmt::format("left out {} of {} that lie on others of the same outline (the first at {})",
+                                 counted(dropped.count, "triangle"), counted(std::ssize(copies), "flat part"),
+                                 show_point(dropped.first)));
 }
 
 /// Edges in more than two triangles: shells with ribs, bodies that touch. Where most are, these are the sides
@@ -192,6 +251,7 @@ Mesh repaired(Mesh mesh, double weld_tolerance, const std::string& source, std::
     warnings.push_back(std::move(welded));
   take_out_twins(mesh, warnings);
   leave_out_flat(mesh, source, warnings);
+  take_out_flat_copies(mesh, warnings);
   if (mesh.triangles.empty()) throw InputError(source + ": no triangle has an area");
   settle_triangles(mesh, source, warnings);
   const auto unused = std::ranges::count(drop_unused_points(mesh), -1);

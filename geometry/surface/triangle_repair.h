@@ -19,6 +19,7 @@ namespace delquad {
 ///   warning tells what tolerance closes the gaps, if it does;
 /// - of triangles on the same vertices the first stays;
 /// - triangles without area go, and no gap opens (take_out_flat_triangles);
+/// - flat parts between branching edges that have the same outline are one place: the first stays;
 /// - triangles that run against their neighbours are turned, the fewer in each component; a closed component
 ///   is turned outwards, unless it lies in the bounding box of the largest one and may be a cavity; where
 ///   neighbours cannot agree, sharp edges between them stay as joints of sheets;

@@ -86,7 +86,14 @@ struct Deck {
     std::string set() const { return text.substr(text.rfind('.') + 1); }
   };
 
+  /// A card PSHELL or MAT1 of Nastran. Blank fields are 0, and those that are no numbers are NaN.
+  struct Property {
+    std::string name;
+    std::vector<double> fields;
+  };
+
   std::string source, text;
+  std::vector<Property> properties;
   std::vector<Card> cards = {{}};  ///< the first stands for lines before all cards
   std::vector<Node> nodes;
   std::vector<Element> elements;

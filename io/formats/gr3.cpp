@@ -129,6 +129,7 @@ MeshFormat gr3_format() {
           .read = read_gr3,
           .write = write_by<write_gr3>,
           .has_depths = true,
+          .has_open_sides = true,
           .names = kBoundaryNames};
 }
 

@@ -325,6 +325,8 @@ MeshFormat inp_format() {
           .read_given = [](const std::filesystem::path& path,
                            ReadNotes* notes) { return given_mesh(read_inp_deck(path, true), notes); },
           .rewrite = rewrite_inp,
+          .sections = inp_sections,
+          .add_sections = add_inp_sections,
           .others = [](const std::filesystem::path& path) { return read_inp_deck(path, false).others; }};
 }
 

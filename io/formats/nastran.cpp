@@ -81,6 +81,8 @@ MeshFormat nastran_format() {
           .read_given = [](const std::filesystem::path& path,
                            ReadNotes* notes) { return given_mesh(read_nastran_deck(path, true), notes); },
           .rewrite = rewrite_nastran,
+          .sections = nastran_sections,
+          .add_sections = add_nastran_sections,
           .others = [](const std::filesystem::path& path) { return read_nastran_deck(path, false).others; }};
 }
 

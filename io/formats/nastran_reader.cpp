@@ -191,6 +191,7 @@ class NastranReader {
       const bool has_nodes_of_meshes = is_among(card_.name, "|CTRIA6|CTETRA|CHEXA|CPENTA|CPYRAM|");
       if (has_nodes_of_meshes && unread_.line == 0) unread_ = card_;
       deck_.has_directions |= is_among(card_.name, "|MAT2|MAT8|PCOMP|PCOMPG|");
+      if (is_among(card_.name, "|PSHELL|MAT1|")) property();
       if (is_nastran_element(card_.name))
         deck_.unread.insert(as_nastran_integer(card_.fields[0]).value_or(0));
       if (card_.name.starts_with("RB")) rigid_.insert(as_nastran_integer(card_.fields[0]).value_or(0));
@@ -213,6 +214,14 @@ class NastranReader {
       in_.fail_at(card_.line, "expected a coordinate (a finite number), found {}",
                   TextScanner::printable(text));
     return *value;
+  }
+
+  void property() {
+    deck_.properties.push_back({card_.name, {}});
+    Deck::Property& property = deck_.properties.back();
+    for (const std::string& field : card_.fields)
+      property.fields.push_back(as_nastran_real(field).value_or(std::nan("")));
+    property.fields.resize(std::max<std::size_t>(property.fields.size(), 16), 0);
   }
 
   /// The card that stands for all those with the same properties.
@@ -261,6 +270,9 @@ class NastranReader {
                                            : integer(property, "a property's number", card_.line));
     for (std::size_t k = 0; k < n_nodes; ++k)
       numbers_.push_back(integer(card_.field(first + k), "a node's number", card_.line));
+    const std::span behind = std::span(card_.fields).subspan(std::min(first + n_nodes, card_.fields.size()));
+    if (n_nodes > 2 && !std::ranges::all_of(behind, &std::string::empty))
+      ++deck_.others["angles, offsets or thicknesses of " + card_.name];
     if (as_deck_) {
       if (!deck_.element_of.emplace(e.number, static_cast<int>(deck_.elements.size())).second)
         in_.fail_at(card_.line, "element {} is there twice", e.number);

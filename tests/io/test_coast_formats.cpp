@@ -135,6 +135,22 @@ TEST(CoastFormats, HoldDepths) {
   expect_input_error([] { check_depths("b.msh"); }, {"b.msh: no depths", ".2dm, .gr3 or .nc"});
 }
 
+TEST(CoastFormats, MissDepthsAndOpenSides) {
+  Mesh mesh = quad_grid(1, 1);
+  const auto missing = [&](const char* path) { return missing_in_file(path, mesh); };
+  ASSERT_EQ(missing("a.gr3").size(), 2u);
+  EXPECT_TRUE(holds(missing("a.gr3")[0], "a.gr3: all depths are 0", "--depth"));
+  EXPECT_TRUE(holds(missing("a.gr3")[1], "a.gr3: no side is open", "'open'"));
+  EXPECT_EQ(missing("a.14").size(), 2u);
+  EXPECT_EQ(missing("a.2dm").size(), 1u);
+  EXPECT_EQ(missing("a.msh").size(), 0u);
+  EXPECT_EQ(missing_in_file("a.2dm", mesh, true).size(), 0u);
+  mesh.points[3].z = -2.5;
+  EXPECT_EQ(missing("a.gr3").size(), 1u);
+  mesh.curves[0].names = {"Open sea"};
+  EXPECT_EQ(missing("a.gr3").size(), 0u);
+}
+
 TEST(Adcirc, TakesTrianglesOnly) {
   const Folder folder;
   write_mesh(folder / "fort.14", triangle_grid(2, 2));

@@ -229,6 +229,33 @@ TEST(TriangleRepair, WeldingIsNotAdvisedWhereItClosesNothing) {
   EXPECT_FALSE(is_told(model.warnings, "--weld"));
 }
 
+/// Boxes of n x n squares a side that share their nodes at x = 1. There the squares of the second one have
+/// the other diagonals, and its nodes inside of the face lie at 1 + bulge.
+Mesh touching_boxes(int n, double bulge) {
+  TriangulatedShape both;
+  both.region();
+  const Mesh mesh = box(n);
+  const auto mirrored = [&](int v) {
+    const Vec3& p = mesh.points[v];
+    const bool is_inside = p.x == 0 && p.y > 0 && p.y < 1 && p.z > 0 && p.z < 1;
+    return Vec3{1 + p.x + (is_inside ? bulge : 0), 1 - p.y, p.z};
+  };
+  for (const auto& [a, b, c] : mesh.triangles) both.triangle(mesh.points[a], mesh.points[b], mesh.points[c]);
+  for (const auto& [a, b, c] : mesh.triangles) both.triangle(mirrored(a), mirrored(c), mirrored(b));
+  return both.mesh;
+}
+
+TEST(TriangleRepair, OneFaceStaysWhereBodiesTouchWithOtherDiagonals) {
+  for (const int n : {1, 3}) {
+    const SurfaceModel model = triangulated(touching_boxes(n, 0));
+    expect_counts(model, 11, 20, 12);
+    EXPECT_EQ(model.fine.triangles.size(), 11u * 2 * n * n);
+    EXPECT_TRUE(is_told(model.warnings, fmt::format("left out {} triangles of {} that lie on others",
+                                                    2 * n * n, n == 1 ? "1 flat part" : "9 flat parts")));
+  }
+  expect_counts(triangulated(touching_boxes(3, 0.1)), 12, 20, 12);
+}
+
 TEST(TriangleRepair, DegenerateAndDuplicateTrianglesAndUnusedPointsGo) {
   Mesh mesh = without_regions(box(2));
   const auto first = mesh.triangles[0];
