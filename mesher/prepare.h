@@ -30,9 +30,9 @@ struct Refinement {
 /// Nothing; CAD need not be read again.
 Refinement as_read(const PreparedProblem& prepared);
 
-/// Boundary, background mesh and fields of a problem whose files are read. Throws InputError for models and
-/// fields that cannot be meshed, and for a size that would need more than problem.max_elements, with the
-/// estimate, before that work begins. `refinement`: of surfaces and of planar models of curves.
+/// Prepares the boundary, background mesh and fields of a problem whose files are read. Throws InputError for
+/// models and fields that cannot be meshed. If the size needs more than problem.max_elements, it throws with
+/// the estimate before the work begins. `refinement`: of surfaces and of planar models of curves.
 PreparedProblem prepare_problem(const MeshProblem& problem, const Refinement& refinement = {});
 
 /// A model on its way to patches: planar curves, lines and meshes; surfaces; meshes in space that were given.

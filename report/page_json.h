@@ -35,8 +35,8 @@ Json growth_json(const std::vector<CellRecord>& records);
 /// Returns the meaning of stages and measures, and colors by eta.
 Json glossary_json();
 
-/// The parts that are the same for all pages, from report/page/ and report/three/, those of pages of results
-/// and those of pages of one mesh.
+/// Scripts and styles of all pages, then of pages of results, then of pages of one mesh. They come from
+/// report/page/ and report/three/.
 extern const std::string_view kPageStyle, kPageScript, kThreeScript;
 extern const std::string_view kPageBody, kReportScript;
 extern const std::string_view kViewStyle, kViewBody, kViewScript;

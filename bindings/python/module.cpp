@@ -118,9 +118,9 @@ void define_mesh(py::module_& m) {
                              "index into regions for each triangle")
       .def_property_readonly("quad_region", view_of(&Mesh::quad_region), "index into regions for each quad")
       .def_property_readonly("periodic", &periodic_of,
-                             "(index of a curve, index of its master, (n, 2) pairs of nodes)")
+                             "(index of a curve, index of the master curve, (n, 2) pairs of nodes)")
       .def_property_readonly("periodic_faces", &periodic_faces_of,
-                             "(index of a region, index of its master, (n, 2) pairs of nodes)")
+                             "(index of a region, index of the master region, (n, 2) pairs of nodes)")
       .def_readonly("order", &Mesh::order, "of the elements, 1 to 4; lines and quads are their corners")
       .def_readonly("unit", &Mesh::unit, "of lengths; empty: not known")
       .def("_write_file", &write, arg("path"), arg("binary") = false);

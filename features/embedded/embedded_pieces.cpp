@@ -135,8 +135,8 @@ class Surroundings {
     return best;
   }
 
-  /// Whether two edges from a point to both sides keep away from all else by kRoom of their length, at their
-  /// ends; nearer to the point by less. Other points lie well aside.
+  /// Returns whether two edges from a point to both sides have room. Their ends keep away from all else by
+  /// kRoom of their length, places nearer to the point by less. Other points lie well aside.
   bool has_room(std::size_t point, Vec2 along) const {
     const Vec2 x = points_[point];
     constexpr int kPlaces = 4;

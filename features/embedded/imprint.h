@@ -14,8 +14,9 @@ namespace delquad {
 /// Points go to the nearest place of the surface. Between two of them a line runs where the plane through
 /// both and the mean of their normals cuts the surface, the shortest way: decided by which side of that plane
 /// each vertex lies on. It becomes embedded curves, one in each face that it runs through, which share nodes
-/// with all that they cross. Single points on no curve get a nameless curve of about the size to either side,
-/// away from what is near (as whisker_ends() in the plane), so that any mesh has them as nodes.
+/// with all that they cross. Each single point on no curve gets a nameless curve, so that any mesh has it as
+/// a node. The curve reaches about one size to either side, away from curves and points that are near (as
+/// whisker_ends() in the plane).
 ///
 /// Throws InputError for lines that were asked for and that are further than a thousandth of the model's
 /// diagonal from the surface, leave it or run along another curve, have length zero, or points nearer to each

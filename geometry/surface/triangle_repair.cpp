@@ -85,8 +85,8 @@ bool are_in_plane(const Mesh& mesh, const std::vector<int>& triangles, double to
   });
 }
 
-/// Takes out flat parts that have the outline of another part, such as the face in which two bodies touch with
-/// other diagonals. Branching edges are their outlines. The first part stays.
+/// Takes out flat parts that have the outline of another part, such as the face in which two bodies touch
+/// with other diagonals. Branching edges are their outlines. The first part stays.
 void take_out_flat_copies(Mesh& mesh, std::vector<Warning>& warnings) {
   DisjointSets sets(mesh.triangles.size());
   std::vector<std::pair<int, std::array<int, 2>>> bounds;  // a triangle and its branching edge

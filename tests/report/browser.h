@@ -26,7 +26,7 @@ inline ProgramResult browse(const std::string& browser, const TemporaryFolder& f
   return run_program(browser, {arguments, 0, {}});
 }
 
-/// What a page consists of after everything in it was drawn.
+/// Returns the contents of a page after everything in it was drawn.
 inline ProgramResult open_page(const std::string& browser, const TemporaryFolder& folder,
                                const std::string& page) {
   return browse(browser, folder, page, {"--dump-dom", "--virtual-time-budget=60000"});
@@ -56,7 +56,7 @@ inline const Browser& find_browser() {
   const std::string& browser = find_browser().program; \
   if (browser.empty()) GTEST_SKIP() << find_browser().missing
 
-/// What a reader has: an `all` for document.querySelectorAll, clicks, choices, and files that are saved, as
+/// Stands for a reader in the page: `all` for document.querySelectorAll, clicks, choices, and saved files as
 /// base64 by name.
 inline constexpr const char* kReadersHands = R"(
 const all = (selector, of = document) => [...of.querySelectorAll(selector)];
