@@ -19,7 +19,7 @@
 #include "features/sizes/fine_spots.h"
 #include "features/sizes/named_parts.h"
 #include "features/sizes/size_warnings.h"
-#include "features/thin/facing_nodes.h"
+#include "features/thin/cut_wedges.h"
 #include "fields/fields.h"
 #include "fields/sampled_fields.h"
 #include "geometry/planar/check_lines.h"

@@ -22,7 +22,6 @@
 #include "features/grids/grids.h"
 #include "features/periodic/periodic.h"
 #include "features/symmetry/planar_symmetry.h"
-#include "features/thin/facing_nodes.h"
 #include "fields/fields.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/domain_builder.h"
@@ -69,14 +68,9 @@ class PieceCounts {
     }
   }
 
-  /// Changes numbers by one, where it costs least. `wanted`: edges of each piece; empty: the integrals.
-  /// Throws InputError where the numbers that are given forbid it.
-  void make_even(const std::vector<double>& wanted = {}) {
-    std::vector<CurveDemand> demands = wanted_.demands;
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (demands[i].exact == 0) demands[i].integral = wanted[i];
-    set(even(demands));
-  }
+  /// Changes numbers by one, where it costs least. Throws InputError where the numbers that are given forbid
+  /// it.
+  void make_even() { set(even(wanted_.demands)); }
 
   std::vector<MappedFace> find_grids(const MappedSpec& spec) const {
     return find_surface_grids(spec, flat_.fine, flat_.curves, wanted_);
@@ -126,7 +120,7 @@ class PieceCounts {
     Budget looks(by.most_steps);
     for (const ChainPair& pair : curves.images) counts[pair.chain] = counts[pair.master];
     const CurvePlaces places =
-        delquad::face_nodes(fine, curves.chains, across, wanted.integrals, counts, wanted.group, size, looks);
+        face_nodes(fine, curves.chains, across, wanted.integrals, counts, wanted.group, size, looks);
     set(counts);
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       double farthest = 0;
@@ -189,7 +183,6 @@ class CurveMesher {
       : model_(model),
         mapped_spec_(options.mapped),
         narrow_grids_(options.narrow_grids),
-        thin_rows_(options.thin_rows),
         grid_size_(options.grid_size),
         agreement_(options.agreement),
         size_field_(options.size_field ? options.size_field : std::make_shared<SizeOfFunction>(size)),
@@ -440,18 +433,14 @@ class CurveMesher {
     PieceCounts& counts = counts_.emplace(model_, flat_curves(lines, arrangement, regions, names, pieces_),
                                           images_, *size_field_, pieces_);
     if (mapped_spec_.asks() || narrow_grids_) mapped_ = counts.find_grids(mapped_spec_);
-    const auto number = [&](const std::vector<double>& wanted) {
-      if (!mapped_.empty() && wanted.empty()) counts.balance(mapped_spec_, grid_size_, mapped_);
-      if (mapped_.empty()) counts.make_even(wanted);
-    };
-    thin_rows_ ? face_nodes(arrangement, regions, pieces_, number) : number({});
+    if (!mapped_.empty()) counts.balance(mapped_spec_, grid_size_, mapped_);
+    if (mapped_.empty()) counts.make_even();
     if (agreement_.price > 0) counts.agree(agreement_, *size_field_, mapped_);
   }
 
   const PlanarModel& model_;
   const MappedSpec mapped_spec_;
   const bool narrow_grids_;
-  const bool thin_rows_;
   const PointSize grid_size_;
   const CurveAgreement agreement_;
   const std::shared_ptr<const SizeField> size_field_;

@@ -16,7 +16,6 @@ struct CurveMeshOptions {
   std::vector<PeriodicPair> periodic = {};
   MappedSpec mapped = {};
   bool narrow_grids = false;  ///< narrow faces become grids, too, see GridFinder
-  bool thin_rows = false;     ///< nodes face each other across thin regions, see face_nodes()
   SymmetrySpec symmetry = {};
   /// By which numbers of edges around grids are chosen; empty: as all others. Sizes that follow the edges of
   /// grids must not make more of these.

@@ -112,9 +112,7 @@ class SizedModel {
     options.mapped = problem_.mapped;
     options.narrow_grids = !curves.thin_rows && curves.agreement > 0;
     options.symmetry = problem_.symmetry;
-    options.thin_rows = thin_rows;
-    // Rows in thin regions have numbers that agree across these already.
-    if (!curves.thin_rows) options.agreement = agreement_;
+    options.agreement = agreement_;
     options.size_field = p_.size.field;
     if (problem_.seed != 0)
       options.size_field = jittered(std::move(options.size_field), problem_.seed, diagonal_of(model_));
@@ -122,7 +120,6 @@ class SizedModel {
   }
 
   PlanarDomain domain;
-  bool thin_rows = false;  ///< from now on
 
  private:
   const MeshProblem& problem_;
@@ -200,10 +197,6 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
     const auto grid_size = finer_near(size.field, all);
     all.insert(all.begin(), fine.begin(), fine.end());
     sized.mesh_by(finer_near(size.field, std::move(all)), grid_size);
-  }
-  if (curves.thin_rows) {
-    sized.thin_rows = true;
-    sized.mesh_by(size.field);
   }
   p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
   return std::move(sized.domain);

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "geometry/planar/planar_model.h"
+
+namespace delquad {
+
+/// Takes sharp corners out of patches that stages mesh, where nodes face each other, as far as they are
+/// narrower than half an edge. Their quads go to domain.boundary, see cap_corners(), and their nodes stay.
+void cut_wedges(PlanarDomain& domain);
+
+}  // namespace delquad
