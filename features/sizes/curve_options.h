@@ -13,8 +13,8 @@ struct CurveOptions {
   bool round_holes = false;
   /// Curves shorter than so many sizes become one with those that they continue, see join_short_curves().
   double join_below = 0.25;
-  /// In the plane, nodes face each other across regions thinner than the size, see face_nodes(). These
-  /// regions get whole rows of quads; else sizes become smaller where they end.
+  /// In the plane, regions thinner than the size get whole rows of quads. Else sizes become smaller where
+  /// these regions end.
   bool thin_rows = false;
   double aspect = 3;  ///< of quads in such rows, beyond which sizes become smaller
   /// Rows of quads for which sizes make room between curves that face each other, see gap_spots(); 0: none.
