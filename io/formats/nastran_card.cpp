@@ -71,10 +71,11 @@ std::string card_text(const std::string& name, std::vector<std::string> fields) 
   while (!fields.empty() && fields.back().empty()) fields.pop_back();
   const bool is_wide = std::ranges::any_of(fields, [](const auto& f) { return f.size() > kField; });
   std::string text = fmt::format("{:<8}", name + (is_wide ? "*" : ""));
-  const std::size_t n = is_wide ? 4 : 8;
+  const std::size_t n = is_wide ? 4 : 8, width = is_wide ? kWide : kField;
   for (std::size_t k = 0; k < fields.size(); ++k) {
     if (k > 0 && k % n == 0) text += is_wide ? "\n*       " : "\n        ";
-    text += fmt::format("{:<{}}", fields[k], is_wide ? kWide : kField);
+    text += fields[k];
+    text.append(width - std::min(width, fields[k].size()), ' ');
   }
   return text + '\n';
 }
