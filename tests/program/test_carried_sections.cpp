@@ -4,7 +4,7 @@ namespace delquad::testing_support {
 namespace {
 
 /// Four shells in a row. The first two are in the set WEB, the others in FLANGE.
-const std::string kRow =
+const std::string kRowOfQuads =
     "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 2, 0, 0\n4, 3, 0, 1\n5, 4, 0, 1\n"
     "11, 0, 1, 0\n12, 1, 1, 0\n13, 2, 1, 0\n14, 3, 1, 1\n15, 4, 1, 1\n"
     "*ELEMENT, TYPE=S4, ELSET=WEB\n1, 1, 2, 12, 11\n2, 2, 3, 13, 12\n"
@@ -24,7 +24,7 @@ Strings lines_with(const std::string& text, const std::string& word) {
 
 TEST(CarriedSections, FromInpToBdfAndBack) {
   const Workplace folder;
-  write_text(folder / "a.inp", kRow + kMaterials +
+  write_text(folder / "a.inp", kRowOfQuads + kMaterials +
                                    "*SHELL SECTION, ELSET=WEB, MATERIAL=STEEL\n0.8, 5\n"
                                    "*SHELL SECTION, ELSET=FLANGE, MATERIAL=ALU\n2.5\n");
   const auto there = folder.run("convert a.inp b.bdf");
@@ -63,7 +63,7 @@ TEST(CarriedSections, TellsWhatAKeywordCannotCarry) {
        "*SHELL SECTION, ELSET=WEB, MATERIAL=PLY\n1.\n",
        "its *ELASTIC is of type LAMINA"}};
   for (const auto& [section, why] : sections) {
-    write_text(folder / "a.inp", kRow + kMaterials + section);
+    write_text(folder / "a.inp", kRowOfQuads + kMaterials + section);
     const auto result = folder.run("convert a.inp b.bdf");
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(holds(result.err, std::string("lost: *SHELL SECTION of WEB: ") + why, "*SHELL SECTION (1)"))
