@@ -17,7 +17,7 @@ constexpr int kFewestRings = 2, kMostRings = 6;
 constexpr double kWellDetermined = 0.02;
 
 /// Returns the mesh with points between regions repeated for each region.
-Recovery parted(const Mesh& mesh, std::span<const double> values) {
+Recovery recover_by_part(const Mesh& mesh, std::span<const double> values) {
   Recovery made;
   made.mesh = mesh;
   made.origin.resize(mesh.points.size());
@@ -150,7 +150,7 @@ Recovery recover(const Mesh& mesh, std::span<const double> values) {
   require_planar(mesh, "the mesh of the field");
   require_joined(mesh, "the mesh of the field");
   require_values(mesh, values, "that is to be recovered");
-  Recovery made = parted(mesh, values);
+  Recovery made = recover_by_part(mesh, values);
   const std::size_t n = made.mesh.points.size();
   made.gradient.assign(n, {0, 0});
   made.hessian.assign(n, {0, 0, 0});

@@ -11,7 +11,7 @@
 namespace delquad {
 
 /// Content of an entry, without copies of its texts.
-struct SeenFace {
+struct FaceSnapshot {
   const char *stage, *kind;
   int tag;
   long long since;
@@ -19,7 +19,7 @@ struct SeenFace {
 
 namespace {
 
-constexpr std::size_t kMostTold = 4;  // faces in a text for people
+constexpr std::size_t kMostListed = 4;  // faces in a text for people
 
 constexpr long long kNanosecondsPerSecond = 1'000'000'000;
 
@@ -59,7 +59,7 @@ class Text {
   }
   /// Adds the number of faces after the first few of `n`.
   void add_others(int n) {
-    const int others = n - static_cast<int>(kMostTold);
+    const int others = n - static_cast<int>(kMostListed);
     if (others <= 0) return;
     add(" and ");
     add(std::int64_t{others});
@@ -85,7 +85,7 @@ struct Activities::Entry {
   std::atomic<ThreadClock> cpu_clock{0};
   std::atomic<bool> is_elsewhere{false};
 
-  bool look(SeenFace& seen) const {
+  bool look(FaceSnapshot& seen) const {
     if (!filled.load(std::memory_order_acquire)) return false;
     seen = {stage, kind, tag, since};
     return seen.kind != nullptr;
@@ -124,10 +124,10 @@ void Activities::release(int i) {
 }
 
 /// Writes up to `most` faces that have been at work longest. Returns the number of all faces.
-int Activities::longest(std::size_t most, SeenFace* first) const {
+int Activities::longest(std::size_t most, FaceSnapshot* first) const {
   std::size_t n = 0;
   for (const Entry& entry : entries_) {
-    SeenFace seen;
+    FaceSnapshot seen;
     if (!entry.look(seen)) continue;
     std::size_t at = std::min(n, most);
     for (; at > 0 && first[at - 1].since > seen.since; --at)
@@ -138,23 +138,23 @@ int Activities::longest(std::size_t most, SeenFace* first) const {
   return static_cast<int>(n);
 }
 
-std::vector<FaceAtWork> Activities::faces() const {
-  std::vector<FaceAtWork> faces;
+std::vector<ActiveFace> Activities::faces() const {
+  std::vector<ActiveFace> faces;
   const long long at = ticks();
   for (const Entry& entry : entries_) {
-    SeenFace seen;
+    FaceSnapshot seen;
     if (!entry.look(seen)) continue;
     const double cpu = entry.is_elsewhere ? 0 : seconds_of(nanoseconds_of(entry.cpu_clock) - entry.cpu_since);
     faces.push_back(
         {seen.stage != nullptr ? seen.stage : "", seen.kind, seen.tag, seconds_of(at - seen.since), cpu});
   }
-  std::ranges::stable_sort(faces, std::ranges::greater{}, &FaceAtWork::seconds);
+  std::ranges::stable_sort(faces, std::ranges::greater{}, &ActiveFace::seconds);
   return faces;
 }
 
 std::size_t Activities::describe(char* text, std::size_t size) const noexcept {
-  std::array<SeenFace, kMostTold> first;
-  const int n = longest(kMostTold, first.data());
+  std::array<FaceSnapshot, kMostListed> first;
+  const int n = longest(kMostListed, first.data());
   Text out(text, size);
   if (n == 0) {
     const char* stage = stage_;
@@ -162,8 +162,8 @@ std::size_t Activities::describe(char* text, std::size_t size) const noexcept {
     if (stage != nullptr) out.add_age(since_);
   }
   const char* last = nullptr;
-  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(n), kMostTold); ++i) {
-    const SeenFace& seen = first[i];
+  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(n), kMostListed); ++i) {
+    const FaceSnapshot& seen = first[i];
     if (i > 0) out.add(", ");
     if (seen.stage != nullptr && seen.stage != last) {
       out.add(seen.stage);
@@ -185,11 +185,11 @@ std::string Activities::text() const {
 }
 
 std::string Activities::faces_text() const {
-  std::array<SeenFace, kMostTold> first;
-  const int n = longest(kMostTold, first.data());
+  std::array<FaceSnapshot, kMostListed> first;
+  const int n = longest(kMostListed, first.data());
   char text[200];
   Text out(text, sizeof text);
-  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(n), kMostTold); ++i) {
+  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(n), kMostListed); ++i) {
     if (i > 0) out.add(", ");
     out.add(first[i].kind);
     out.add(" ");
@@ -209,7 +209,7 @@ void Activities::clear() {
   for (std::size_t i = 0; i < entries_.size(); ++i) release(static_cast<int>(i));
 }
 
-DoingStage::DoingStage(const char* name) : name_(nullptr) {
+StageScope::StageScope(const char* name) : name_(nullptr) {
   Activities* activities = current_activities();
   if (activities == nullptr) return;
   const int entry = this_thread().entry;
@@ -220,11 +220,11 @@ DoingStage::DoingStage(const char* name) : name_(nullptr) {
   if (activities->on_stage) activities->on_stage(name);
 }
 
-DoingStage::~DoingStage() {
+StageScope::~StageScope() {
   if (name_ != nullptr) *name_ = before_;
 }
 
-DoingFace::DoingFace(int tag, const char* kind) : activities_(current_activities()), tag_(tag) {
+FaceScope::FaceScope(int tag, const char* kind) : activities_(current_activities()), tag_(tag) {
   if (activities_ == nullptr) return;
   ThreadState& thread = this_thread();
   const char* stage = thread.entry < 0
@@ -236,7 +236,7 @@ DoingFace::DoingFace(int tag, const char* kind) : activities_(current_activities
   if (activities_->on_face) activities_->on_face(tag, true);
 }
 
-DoingFace::~DoingFace() {
+FaceScope::~FaceScope() {
   if (activities_ == nullptr) return;
   if (entry_ >= 0) {
     activities_->release(entry_);
@@ -245,11 +245,11 @@ DoingFace::~DoingFace() {
   if (activities_->on_face) activities_->on_face(tag_, false);
 }
 
-FaceElsewhere::FaceElsewhere(int tag, const char* stage) : activities_(current_activities()) {
+RemoteFaceScope::RemoteFaceScope(int tag, const char* stage) : activities_(current_activities()) {
   if (activities_ != nullptr) entry_ = activities_->take_entry(tag, "face", stage, false);
 }
 
-FaceElsewhere::~FaceElsewhere() {
+RemoteFaceScope::~RemoteFaceScope() {
   if (entry_ >= 0) activities_->release(entry_);
 }
 

@@ -11,10 +11,10 @@
 
 namespace delquad {
 
-struct SeenFace;
+struct FaceSnapshot;
 
 /// A face that a thread works on.
-struct FaceAtWork {
+struct ActiveFace {
   std::string stage, kind;
   int tag = 0;
   double seconds = 0;      ///< wall-clock time
@@ -31,7 +31,7 @@ class Activities {
   Activities& operator=(const Activities&) = delete;
 
   /// Returns the faces, longest at work first.
-  std::vector<FaceAtWork> faces() const;
+  std::vector<ActiveFace> faces() const;
   /// Returns the stage and its faces, longest first: "treatment of face 12 (4.2 s), face 3 (0.1 s)".
   std::string text() const;
   /// Writes the same text, as far as it fits, with a final zero. Signal handlers may call it. Returns its
@@ -52,13 +52,13 @@ class Activities {
   std::function<void(const char* name)> on_stage;
 
  private:
-  friend class DoingStage;
-  friend class DoingFace;
-  friend class FaceElsewhere;
+  friend class StageScope;
+  friend class FaceScope;
+  friend class RemoteFaceScope;
   struct Entry;
   int take_entry(int tag, const char* kind, const char* stage, bool is_of_this_thread);
   void release(int entry);
-  int longest(std::size_t most, SeenFace* first) const;
+  int longest(std::size_t most, FaceSnapshot* first) const;
 
   std::atomic<const char*> stage_{nullptr};
   std::atomic<long long> since_{0};  ///< nanoseconds of the clock
@@ -66,13 +66,13 @@ class Activities {
 };
 
 /// Scope of a stage: of this thread's face or, outside of faces, of the whole run.
-class DoingStage {
+class StageScope {
  public:
   /// `name` must outlive the activities of the run.
-  explicit DoingStage(const char* name);
-  ~DoingStage();
-  DoingStage(const DoingStage&) = delete;
-  DoingStage& operator=(const DoingStage&) = delete;
+  explicit StageScope(const char* name);
+  ~StageScope();
+  StageScope(const StageScope&) = delete;
+  StageScope& operator=(const StageScope&) = delete;
 
  private:
   std::atomic<const char*>* name_;  ///< null: not recorded
@@ -80,13 +80,13 @@ class DoingStage {
 };
 
 /// Scope of a face that this thread works on.
-class DoingFace {
+class FaceScope {
  public:
   /// `kind`, such as "region", must outlive the activities of the run.
-  explicit DoingFace(int tag, const char* kind = "face");
-  ~DoingFace();
-  DoingFace(const DoingFace&) = delete;
-  DoingFace& operator=(const DoingFace&) = delete;
+  explicit FaceScope(int tag, const char* kind = "face");
+  ~FaceScope();
+  FaceScope(const FaceScope&) = delete;
+  FaceScope& operator=(const FaceScope&) = delete;
 
  private:
   Activities* activities_;
@@ -94,12 +94,12 @@ class DoingFace {
 };
 
 /// Scope of a face that another process works on for this thread's run.
-class FaceElsewhere {
+class RemoteFaceScope {
  public:
-  FaceElsewhere(int tag, const char* stage);
-  ~FaceElsewhere();
-  FaceElsewhere(const FaceElsewhere&) = delete;
-  FaceElsewhere& operator=(const FaceElsewhere&) = delete;
+  RemoteFaceScope(int tag, const char* stage);
+  ~RemoteFaceScope();
+  RemoteFaceScope(const RemoteFaceScope&) = delete;
+  RemoteFaceScope& operator=(const RemoteFaceScope&) = delete;
 
  private:
   Activities* activities_;

@@ -109,14 +109,14 @@ Activities* current_activities() noexcept {
   return run != nullptr ? run->activities : nullptr;
 }
 
-WorksFor::WorksFor(Run* run) noexcept
+WorkerScope::WorkerScope(Run* run) noexcept
     : run_before_(this_thread().run),
       entry_before_(this_thread().entry),
       in_arena_before_(this_thread().in_arena) {
   this_thread() = {run, run == run_before_ ? entry_before_ : -1, false};
 }
 
-WorksFor::~WorksFor() { this_thread() = {run_before_, entry_before_, in_arena_before_}; }
+WorkerScope::~WorkerScope() { this_thread() = {run_before_, entry_before_, in_arena_before_}; }
 
 bool is_cancelled() noexcept {
   const Run* run = current_run();

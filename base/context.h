@@ -48,12 +48,12 @@ class RunScope {
 Run* current_run() noexcept;
 
 /// Scope in which a thread not started by parallel_for() works for `run`, which may be null.
-class WorksFor {
+class WorkerScope {
  public:
-  explicit WorksFor(Run* run) noexcept;
-  ~WorksFor();
-  WorksFor(const WorksFor&) = delete;
-  WorksFor& operator=(const WorksFor&) = delete;
+  explicit WorkerScope(Run* run) noexcept;
+  ~WorkerScope();
+  WorkerScope(const WorkerScope&) = delete;
+  WorkerScope& operator=(const WorkerScope&) = delete;
 
  private:
   Run* run_before_;

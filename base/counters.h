@@ -49,15 +49,15 @@ inline void append_counter(std::vector<SummaryField>& fields, const char*,
 }
 
 namespace counters_detail {
-struct Anything {
+struct AnyMember {
   template <class T>
   operator T() const;  // NOLINT: converts to the type of any member
 };
 /// Returns the number of members of an aggregate.
 template <class T, class... Members>
 consteval std::size_t n_members() {
-  if constexpr (requires { T{Members{}..., Anything{}}; })
-    return n_members<T, Members..., Anything>();
+  if constexpr (requires { T{Members{}..., AnyMember{}}; })
+    return n_members<T, Members..., AnyMember>();
   else
     return sizeof...(Members);
 }

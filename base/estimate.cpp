@@ -3,8 +3,8 @@
 namespace delquad {
 
 std::function<void(double quads)>& on_estimate() {
-  static thread_local std::function<void(double quads)> told;
-  return told;
+  static thread_local std::function<void(double quads)> callback;
+  return callback;
 }
 
 }  // namespace delquad

@@ -39,14 +39,14 @@ double own_cpu() { return 1e-9 * static_cast<double>(nanoseconds_of_this_thread(
 std::atomic<bool> threads_started = false;
 
 /// Calls run() for each worker on the threads of the run, or on its own arena outside of runs.
-void work_together(int workers, const std::function<void()>& run) {
+void run_workers(int workers, const std::function<void()>& run) {
   threads_started = true;
   const ThreadState state = this_thread();
   const auto all = [&] {
     tbb::parallel_for(
         0, workers,
         [&](int) {
-          const WorksFor works(state.run);
+          const WorkerScope works(state.run);
           this_thread().in_arena = true;
           run();
         },
@@ -105,7 +105,7 @@ void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
     const double of_others = cpu_of_others, begin = own_cpu();
     std::mutex mutex;
     double spent = 0;
-    work_together(workers, [&] {
+    run_workers(workers, [&] {
       const double before = own_cpu() + cpu_of_others;
       run();
       const std::scoped_lock lock(mutex);

@@ -37,7 +37,7 @@ inline int orient2d(Vec2 a, Vec2 b, Vec2 c) {
 }
 
 /// Returns in_circle(), or 0 if rounding leaves the sign open. It is always fast.
-inline int in_circle_or_unsure(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+inline int in_circle_filtered(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const Vec2 ad = a - d, bd = b - d, cd = c - d;
   const double bc1 = bd.x * cd.y, bc2 = cd.x * bd.y;
   const double ca1 = cd.x * ad.y, ca2 = ad.x * cd.y;
@@ -55,7 +55,7 @@ inline int in_circle_or_unsure(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 /// Returns +1 if d lies strictly inside the circle through the counterclockwise triangle a, b, c, 0 on it, -1
 /// outside.
 inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const int sign = in_circle_or_unsure(a, b, c, d);
+  const int sign = in_circle_filtered(a, b, c, d);
   return sign != 0 ? sign : exact::in_circle(a, b, c, d);
 }
 

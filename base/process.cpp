@@ -23,7 +23,7 @@ Pipe::Pipe() {
   write_end = ends[1];
 }
 
-void end_with(int parent, int signal_number) {
+void end_with_parent(int parent, int signal_number) {
   prctl(PR_SET_PDEATHSIG, signal_number);
   if (getppid() != parent) _exit(1);
 }
@@ -35,34 +35,34 @@ int wait_for_end(int child) {
   return status;
 }
 
-std::optional<std::string> call_apart(const std::function<std::string()>& work) {
+std::optional<std::string> call_in_child(const std::function<std::string()>& work) {
   constexpr char kDone = '\n';  // a line that only the child can end
   const Pipe pipe;
   const int parent = getpid(), child = fork();
   if (child == 0) {
-    end_with(parent, SIGKILL);
+    end_with_parent(parent, SIGKILL);
     const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
-    const std::string told = work() + kDone;
-    _exit(write(pipe.write_end, told.data(), told.size()) < 0);
+    const std::string output = work() + kDone;
+    _exit(write(pipe.write_end, output.data(), output.size()) < 0);
   }
   const int error = errno;
   close(pipe.write_end);
-  std::string told;
+  std::string output;
   std::array<char, 4096> block;
   ssize_t n = 0;
   while ((n = read(pipe.read_end, block.data(), block.size())) > 0 || (n < 0 && errno == EINTR))
-    told.append(block.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+    output.append(block.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
   close(pipe.read_end);
   if (child < 0) throw std::system_error(error, std::generic_category(), "fork");
   wait_for_end(child);
-  if (!told.ends_with(kDone)) return std::nullopt;
-  told.pop_back();
-  return told;
+  if (!output.ends_with(kDone)) return std::nullopt;
+  output.pop_back();
+  return output;
 }
 
-void start_apart(std::string program, std::string argument) {
+void start_detached(std::string program, std::string argument) {
   std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};
   posix_spawn_file_actions_t silent;
   posix_spawn_file_actions_init(&silent);

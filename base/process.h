@@ -17,15 +17,15 @@ struct Pipe {
 };
 
 /// Sends this new process a signal when its parent, the process of this number, ends or has ended.
-void end_with(int parent, int signal_number);
+void end_with_parent(int parent, int signal_number);
 /// Waits for the end of a child. Returns its status as by waitpid(); -1: no such child.
 int wait_for_end(int child);
 
 /// Calls `work` in a child process, which prints nothing. Returns its result; nothing if the child died.
 /// Throws std::system_error if no child can start.
-std::optional<std::string> call_apart(const std::function<std::string()>& work);
+std::optional<std::string> call_in_child(const std::function<std::string()>& work);
 
 /// Starts a program that prints nothing and outlives this process. A missing program is no error.
-void start_apart(std::string program, std::string argument);
+void start_detached(std::string program, std::string argument);
 
 }  // namespace delquad

@@ -106,7 +106,7 @@ class Spawning {
 };
 
 /// Takes complete replies from the front of the buffer. Returns whether the last one was among them.
-bool hear_all(std::string& buffer, const std::function<void(char, const std::string&)>& hear) {
+bool handle_replies(std::string& buffer, const std::function<void(char, const std::string&)>& on_reply) {
   std::size_t at = 0;
   bool last = false;
   while (!last && buffer.size() - at >= kHead) {
@@ -116,7 +116,7 @@ bool hear_all(std::string& buffer, const std::function<void(char, const std::str
       buffer.reserve(at + kHead + length);
       break;
     }
-    hear(head[0], buffer.substr(at + kHead, length));
+    on_reply(head[0], buffer.substr(at + kHead, length));
     last = is_last(head[0]);
     at += kHead + length;
   }
@@ -126,7 +126,7 @@ bool hear_all(std::string& buffer, const std::function<void(char, const std::str
 
 /// Ends the worker when nobody listens, so that it cannot run forever.
 void end_with_listener(int parent, int socket) {
-  end_with(parent, SIGKILL);
+  end_with_parent(parent, SIGKILL);
   std::thread([socket] {
     pollfd entry{socket, POLLRDHUP, 0};
     while (poll(&entry, 1, -1) <= 0) {
@@ -192,7 +192,7 @@ bool WorkerProcess::read_some(std::string& buffer) const {
 }
 
 void WorkerProcess::ask(const std::string& request,
-                        const std::function<void(char, const std::string&)>& hear) {
+                        const std::function<void(char, const std::string&)>& on_reply) {
   const std::string message = framed('?', request);
   std::string buffer;
   for (std::size_t sent = 0;;) {
@@ -208,7 +208,7 @@ void WorkerProcess::ask(const std::string& request,
     // A process forked meanwhile may keep the other end open.
     const bool ended = ready == 0 && has_ended();
     const bool more = (ready <= 0 && !ended) || (entry.revents & ~POLLOUT) == 0 || read_some(buffer);
-    if (hear_all(buffer, hear) || !more || ended) return;
+    if (handle_replies(buffer, on_reply) || !more || ended) return;
   }
 }
 
@@ -245,8 +245,8 @@ void limit_to(unsigned seconds) {
   setrlimit(RLIMIT_CORE, &no_core);
 }
 
-void work_for(int socket, int parent, const std::function<void(const std::string&)>& answer,
-              const std::function<std::string()>& why_not) {
+void run_worker(int socket, int parent, const std::function<void(const std::string&)>& answer,
+                const std::function<std::string()>& why_not) {
   end_with_listener(parent, socket);
   try {
     answer(receive_request(socket));

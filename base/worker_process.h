@@ -29,9 +29,9 @@ class WorkerProcess {
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-  /// Sends the request and calls `hear` with each reply and its kind, until the last one or the end of the
-  /// process. Throws Cancelled.
-  void ask(const std::string& request, const std::function<void(char, const std::string&)>& hear);
+  /// Sends the request and calls `on_reply` with each reply and its kind, until the last one or the end of
+  /// the process. Throws Cancelled.
+  void ask(const std::string& request, const std::function<void(char, const std::string&)>& on_reply);
 
  private:
   friend ProgramEnd run_to_end(const std::vector<std::string>&, unsigned);
@@ -51,8 +51,8 @@ inline bool is_last(char kind) { return kind < 'a'; }
 
 /// Runs a worker: it calls `answer` with the only request from the socket, and ends with its parent, the
 /// process of this number. `why_not` returns the message of an exception, sent as kMessage.
-[[noreturn]] void work_for(int socket, int parent, const std::function<void(const std::string&)>& answer,
-                           const std::function<std::string()>& why_not);
+[[noreturn]] void run_worker(int socket, int parent, const std::function<void(const std::string&)>& answer,
+                             const std::function<std::string()>& why_not);
 constexpr char kMessage = 'M';
 /// Limits the worker to this many more seconds of processor time.
 void limit_to(unsigned seconds);

@@ -70,7 +70,7 @@ std::vector<CoastPiece> coast_pieces(const Mesh& mesh) {
       const Vec3 first = mesh.points[loop[0]], a = mesh.points[loop[i]], b = mesh.points[loop[i + 1]];
       area += cross(a - first, b - first).z;
       length += norm(b - a);
-      any_open = any_open || name_says(name_at(i), "open");
+      any_open = any_open || name_contains(name_at(i), "open");
     }
     // A barrier in the water has no area: both of its sides are there.
     constexpr double kNoArea = 1e-9;
@@ -88,7 +88,7 @@ std::vector<CoastPiece> coast_pieces(const Mesh& mesh) {
     }
     for (std::size_t i = 0; i < n; ++i) {
       if (i == 0 || name_at(i) != name_at(i - 1) || (single && i == n / 2))
-        pieces.push_back({{loop[i]}, name_at(i), name_says(name_at(i), "open"), false});
+        pieces.push_back({{loop[i]}, name_at(i), name_contains(name_at(i), "open"), false});
       pieces.back().nodes.push_back(loop[i + 1]);
     }
   }

@@ -39,7 +39,7 @@ std::map<std::string, std::vector<std::int32_t>> tags_of_names(const std::vector
   return tags;
 }
 
-bool name_says(std::string name, std::string_view word) {
+bool name_contains(std::string name, std::string_view word) {
   for (char& c : name)
     if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return name.find(word) != std::string::npos;
@@ -78,22 +78,22 @@ std::vector<std::string> group_names(const std::vector<Entity>& entities, int di
 UniqueLabels::UniqueLabels(const std::vector<Key>& keys, const Rules& rules) {
   const auto plain = [&](const Key& key) { return cut(rules.plain(key.second), rules.longest); };
   for (const Key& key : keys)
-    if (plain(key) == key.second && !label_of_.contains(key) && take(key.second, rules.blind_to_case))
+    if (plain(key) == key.second && !label_of_.contains(key) && take(key.second, rules.ignores_case))
       label_of_[key] = key.second;
   for (const Key& key : keys) {
     if (label_of_.contains(key)) continue;
     const std::string label = plain(key);
     std::string candidate = label;
-    for (int k = 2; !take(candidate, rules.blind_to_case); ++k) candidate = label + "_" + std::to_string(k);
+    for (int k = 2; !take(candidate, rules.ignores_case); ++k) candidate = label + "_" + std::to_string(k);
     label_of_[key] = candidate;
     renamed_.emplace_back(key, candidate);
   }
 }
 
-bool UniqueLabels::take(const std::string& label, bool blind_to_case) {
+bool UniqueLabels::take(const std::string& label, bool ignores_case) {
   std::string text = label;
   for (char& c : text)
-    if (blind_to_case && c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+    if (ignores_case && c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
   return taken_.insert(text).second;
 }
 

@@ -32,7 +32,7 @@ std::vector<std::string> group_names(const std::vector<Entity>& entities, int di
 std::map<std::string, std::vector<std::int32_t>> tags_of_names(const std::vector<Entity>& entities);
 
 /// Whether a name has the word in it, in small letters or large ones.
-bool name_says(std::string name, std::string_view word);
+bool name_contains(std::string name, std::string_view word);
 
 /// The name in one line of at most 200 bytes, for comments.
 std::string one_line(std::string_view name);
@@ -45,7 +45,7 @@ class UniqueLabels {
   using Key = std::pair<int, std::string>;
   struct Rules {
     std::string (*plain)(const std::string&);  ///< turns every name into one that the format can hold
-    bool blind_to_case = false;                ///< whether the format takes "A" and "a" for the same
+    bool ignores_case = false;                 ///< whether the format takes "A" and "a" for the same
     size_t longest = 70;                       ///< bytes; numbers may make labels ten bytes longer
   };
   UniqueLabels(const std::vector<Key>& keys, const Rules& rules);
@@ -55,7 +55,7 @@ class UniqueLabels {
   const std::vector<std::pair<Key, std::string>>& renamed() const { return renamed_; }
 
  private:
-  bool take(const std::string& label, bool blind_to_case);
+  bool take(const std::string& label, bool ignores_case);
 
   std::map<Key, std::string> label_of_;
   std::set<std::string> taken_;

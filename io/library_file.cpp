@@ -31,7 +31,7 @@ TemporaryFolder temporary_folder(const std::filesystem::path& path) {
 }
 
 /// Returns the message of an exception of `work`; empty: it succeeded.
-std::string trouble_of(const std::function<void()>& work) {
+std::string error_of(const std::function<void()>& work) {
   errno = 0;
   try {
     work();
@@ -43,15 +43,15 @@ std::string trouble_of(const std::function<void()>& work) {
 
 /// Does it in a process of its own: HDF5 cannot close a file after a failed write and crashes at the end of
 /// the program for it, and MED prints pages about it. Throws InputError with what `work` threw there.
-void do_apart(const std::filesystem::path& path, const std::function<void()>& work) {
-  std::optional<std::string> told;
+void do_in_child(const std::filesystem::path& path, const std::function<void()>& work) {
+  std::optional<std::string> what_failed;
   try {
-    told = call_apart([&] { return trouble_of(work); });
+    what_failed = call_in_child([&] { return error_of(work); });
   } catch (const std::system_error& error) {
     cannot_write(path, error.code().message());
   }
-  if (!told) cannot_write(path, "the library that writes it crashed");
-  if (!told->empty()) throw InputError(*told);
+  if (!what_failed) cannot_write(path, "the library that writes it crashed");
+  if (!what_failed->empty()) throw InputError(*what_failed);
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ std::function<void(std::ostream&)> by_library(
   return [path, name = "mesh" + path.extension().string(), write = std::move(write)](std::ostream& out) {
     const TemporaryFolder folder = temporary_folder(path);
     const std::filesystem::path temporary = folder.path() / name;
-    do_apart(path, [&] { write(temporary); });
+    do_in_child(path, [&] { write(temporary); });
     copy_into(out, temporary);
   };
 }

@@ -127,7 +127,7 @@ void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::pa
   find_format(kind_to_write(path))->rewrite(source, path, mesh, weld);
 }
 
-MshOptions options_after(const std::filesystem::path& source, MshOptions options) {
+MshOptions options_for_source(const std::filesystem::path& source, MshOptions options) {
   if (const MeshFormat* format = find_format(kind_of_file(source)); format != nullptr && format->has_shells)
     options.element = kShell;
   return options;
@@ -142,7 +142,7 @@ ShellSections carry_sections(const std::filesystem::path& source, const std::fil
   return sections;
 }
 
-std::string others_in_file(const std::filesystem::path& path, const std::map<std::string, int>& carried) {
+std::string ignored_keywords(const std::filesystem::path& path, const std::map<std::string, int>& carried) {
   const MeshFormat* format = find_format(kind_of_file(path));
   if (format == nullptr || format->others == nullptr) return "";
   std::vector<std::string> others;
@@ -175,7 +175,7 @@ std::vector<std::string> missing_in_file(const std::filesystem::path& path, cons
   const bool is_flat = std::ranges::all_of(mesh.points, [](const Vec3& p) { return p.z == 0; });
   bool is_open = false;
   for (const Entity& curve : mesh.curves)
-    for (const std::string& name : curve.names) is_open |= name_says(name, "open");
+    for (const std::string& name : curve.names) is_open |= name_contains(name, "open");
   std::vector<std::string> missing;
   if (format->has_depths && !gets_depths && is_flat)
     missing.push_back(fmt::format(
@@ -255,7 +255,7 @@ Mesh straightened(Mesh mesh) {
   return mesh;
 }
 
-std::vector<std::string> lost_in_file(const std::filesystem::path& path, const Mesh& mesh) {
+std::vector<std::string> unsupported_in_file(const std::filesystem::path& path, const Mesh& mesh) {
   const std::string kind = kind_to_write(path);
   std::vector<std::string> lost;
   if (const int most = most_order_of(path); mesh.order > most)

@@ -15,7 +15,7 @@
 namespace delquad {
 
 /// Whether a format has quads of eight nodes: kAlways ones of order 2 have no others.
-enum class EightNodes { kNever, kWhenAsked, kAlways };
+enum class EightNodes { kNever, kOnRequest, kAlways };
 
 /// Whose names a format holds, and whether pairs.
 enum NameKinds : unsigned {
@@ -55,7 +55,7 @@ struct MeshFormat {
   /// Sections of shells, see carry_sections(); null: files hold none.
   ShellSections (*sections)(const std::filesystem::path&) = nullptr;
   void (*add_sections)(const std::filesystem::path&, const Mesh&, ShellSections&) = nullptr;
-  /// See others_in_file(); null: there is nothing.
+  /// See ignored_keywords(); null: there is nothing.
   std::map<std::string, int> (*others)(const std::filesystem::path&) = nullptr;
 };
 
@@ -75,7 +75,7 @@ const std::vector<std::string>& inp_hexahedra();
 /// The value for shells, even in a plane.
 inline constexpr const char* kShell = "S4";
 /// Adds that shells of the source stay shells in .inp.
-MshOptions options_after(const std::filesystem::path& source, MshOptions options);
+MshOptions options_for_source(const std::filesystem::path& source, MshOptions options);
 
 /// By this program, or by one with its library.
 bool can_write(const MeshFormat& format);
@@ -99,7 +99,8 @@ ShellSections carry_sections(const std::filesystem::path& source, const std::fil
                              const Mesh& mesh);
 /// Keywords of a file that are no part of a mesh, and how many: "*CLOAD (2), *MATERIAL (1)". Leaves out those
 /// that were carried.
-std::string others_in_file(const std::filesystem::path& path, const std::map<std::string, int>& carried = {});
+std::string ignored_keywords(const std::filesystem::path& path,
+                             const std::map<std::string, int>& carried = {});
 
 /// The highest order of elements that write_mesh() writes there. Throws as check_mesh_format().
 int most_order_of(const std::filesystem::path& path);
@@ -107,7 +108,7 @@ int most_order_of(const std::filesystem::path& path);
 Mesh straightened(Mesh mesh);
 /// Returns the parts of a mesh that a file of that name cannot hold, one line each: names, and a higher
 /// order.
-std::vector<std::string> lost_in_file(const std::filesystem::path& path, const Mesh& mesh);
+std::vector<std::string> unsupported_in_file(const std::filesystem::path& path, const Mesh& mesh);
 /// Returns one line, with the remedy, for depths and for an open side if programs need them and the mesh has
 /// none. `gets_depths`: depths come later.
 std::vector<std::string> missing_in_file(const std::filesystem::path& path, const Mesh& mesh,

@@ -267,7 +267,7 @@ class ElementLayers {
       const auto visibility = raster != nullptr ? raster->of(v) : Raster::Visibility::kWholly;
       if (visibility == Raster::Visibility::kHidden) return;
       const int step = step_of_width(pixel_size(mesh, v, picture));
-      std::vector<svg::Spot> corners;
+      std::vector<svg::PixelPoint> corners;
       double depth = 0;
       for (const int i : v) depth += mesh.points[i].z / static_cast<double>(v.size());
       for (const Vec3& p : outline_of(mesh, element)) corners.push_back(picture.spot(p));
@@ -277,13 +277,13 @@ class ElementLayers {
         behind_.push_back({depth, element, step, std::move(corners)});
       }
     });
-    std::sort(behind_.begin(), behind_.end(), [](const Behind& a, const Behind& b) {
+    std::sort(behind_.begin(), behind_.end(), [](const SortedElement& a, const SortedElement& b) {
       return a.depth != b.depth ? a.depth < b.depth : a.element < b.element;
     });
   }
 
   void draw(Picture& picture, bool with_edges) const {
-    for (const Behind& one : behind_) {
+    for (const SortedElement& one : behind_) {
       Path path;
       path.polygon(one.corners);
       add_elements(picture, path, fill_[one.element], one.step, with_edges);
@@ -292,13 +292,13 @@ class ElementLayers {
   }
 
  private:
-  struct Behind {
+  struct SortedElement {
     double depth;
     int element, step;
-    std::vector<svg::Spot> corners;
+    std::vector<svg::PixelPoint> corners;
   };
   std::vector<std::string> fill_;
-  std::vector<Behind> behind_;
+  std::vector<SortedElement> behind_;
   std::map<std::pair<int, std::string>, Path> front_;  // large elements first
 };
 

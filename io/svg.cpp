@@ -20,7 +20,7 @@ constexpr double kBarWidth = 16, kBarHeight = 180, kLineHeight = 20;
 
 }  // namespace
 
-void Path::step(char command, Spot s) {
+void Path::step(char command, PixelPoint s) {
   // A command letter holds for what follows it, and a minus sign separates numbers.
   const bool same = command == last_ || (command == 'l' && last_ == 'm');
   const int dx = s.x - at_.x, dy = s.y - at_.y;
@@ -31,13 +31,13 @@ void Path::step(char command, Spot s) {
   at_ = s;
 }
 
-void Path::move_to(Spot s) {
+void Path::move_to(PixelPoint s) {
   last_ = 0;
   step('m', s);
   start_ = s;
 }
 
-void Path::line_to(Spot s) { step('l', s); }
+void Path::line_to(PixelPoint s) { step('l', s); }
 
 void Path::close() {
   data_ += 'z';
@@ -45,7 +45,7 @@ void Path::close() {
   at_ = start_;
 }
 
-void Path::polygon(const std::vector<Spot>& corners) {
+void Path::polygon(const std::vector<PixelPoint>& corners) {
   move_to(corners[0]);
   for (size_t k = 1; k < corners.size(); ++k) line_to(corners[k]);
   close();
@@ -93,7 +93,7 @@ Picture::Picture(const std::vector<Vec3>& points, const std::string& title) : ti
   legend_y_ = 0;
 }
 
-Spot Picture::spot(double x, double y) const {
+PixelPoint Picture::spot(double x, double y) const {
   const auto hundredths = [](double pixels) {
     constexpr double kFarOut = 1e6;
     return static_cast<int>(std::lround(100 * std::clamp(pixels, -kFarOut, kFarOut)));
@@ -112,7 +112,7 @@ void Picture::add_marks(const std::vector<Mark>& marks) {
   std::map<std::pair<int, int>, Path> paths;  // by radius in half pixels and by index
   for (const Mark& mark : marks) {
     const int half_pixels = std::max(1, static_cast<int>(std::lround(2 * mark.radius)));
-    const Spot s = spot(mark.at);
+    const PixelPoint s = spot(mark.at);
     // A stroke of almost no length with round caps is a dot.
     paths[{half_pixels, mark.index}].segment(s, {s.x + 1, s.y});
   }

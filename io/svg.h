@@ -14,27 +14,27 @@
 namespace delquad::svg {
 
 /// Point of the drawing, in hundredths of a pixel, y down.
-struct Spot {
+struct PixelPoint {
   int x, y;
 };
 
 /// Data of an SVG path, in relative coordinates: many shapes in few bytes.
 class Path {
  public:
-  void move_to(Spot s);
-  void line_to(Spot s);
+  void move_to(PixelPoint s);
+  void line_to(PixelPoint s);
   void close();
-  void segment(Spot a, Spot b) {
+  void segment(PixelPoint a, PixelPoint b) {
     move_to(a);
     line_to(b);
   }
-  void polygon(const std::vector<Spot>& corners);
+  void polygon(const std::vector<PixelPoint>& corners);
   const std::string& data() const { return data_; }
 
  private:
-  void step(char command, Spot s);
+  void step(char command, PixelPoint s);
   std::string data_;
-  Spot at_{0, 0}, start_{0, 0};
+  PixelPoint at_{0, 0}, start_{0, 0};
   char last_ = 0;
 };
 
@@ -61,9 +61,9 @@ class Picture {
   /// Shows the bounding box of the points, at the largest scale that fits the page.
   Picture(const std::vector<Vec3>& points, const std::string& title);
 
-  Spot spot(double x, double y) const;
-  Spot spot(Vec2 p) const { return spot(p.x, p.y); }
-  Spot spot(const Vec3& p) const { return spot(p.x, p.y); }
+  PixelPoint spot(double x, double y) const;
+  PixelPoint spot(Vec2 p) const { return spot(p.x, p.y); }
+  PixelPoint spot(const Vec3& p) const { return spot(p.x, p.y); }
   /// Pixels a unit of length.
   double scale() const { return scale_; }
 

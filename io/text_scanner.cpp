@@ -40,7 +40,7 @@ constexpr char kJoint = '\v';
 constexpr size_t kBlock = 1 << 16;
 constexpr std::string_view kGzip = "\x1f\x8b";
 
-std::string small_letters(std::string text) {
+std::string lower(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
   return text;
@@ -113,7 +113,7 @@ std::string_view TextScanner::bytes(size_t count, std::string_view what) {
   return result;
 }
 
-bool TextScanner::skip_behind(std::string_view text) {
+bool TextScanner::skip_past(std::string_view text) {
   const size_t found = text_.find(text, at_);
   if (found == std::string::npos) return false;
   at_ = found + text.size();
@@ -226,8 +226,8 @@ std::string read_whole_file(const std::filesystem::path& path) {
 }
 
 std::string kind_of_file(const std::filesystem::path& path) {
-  const std::string kind = small_letters(path.extension().string());
-  return kind == ".gz" ? small_letters(path.stem().extension().string()) : kind;
+  const std::string kind = lower(path.extension().string());
+  return kind == ".gz" ? lower(path.stem().extension().string()) : kind;
 }
 
 std::string content_kind(std::string_view text) {

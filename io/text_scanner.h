@@ -48,7 +48,7 @@ class TextScanner {
   /// The next bytes, as they are; `what` names them in errors.
   std::string_view bytes(size_t count, std::string_view what);
   /// Goes behind the next occurrence of a text; false, and no step, when there is none.
-  bool skip_behind(std::string_view text);
+  bool skip_past(std::string_view text);
   /// Returns the rest of the line.
   std::string_view rest_of_line();
 

@@ -1,5 +1,5 @@
 #include "algorithms/regularity/across_curves.h"
-#include "algorithms/layout/layouts_together.h"
+#include "algorithms/layout/joint_layouts.h"
 
 #include <algorithm>
 #include <map>
@@ -24,10 +24,10 @@ std::size_t points_on_boundary(const PatchMesh& patch) {
 
 /// Returns the patches whose quads and boundary may change. These are no images, grids and quads that stay.
 /// They have no caps, and their boundary has just the nodes of its curves.
-std::vector<char> patches_that_may_change(const PreparedProblem& prepared, const MeshingState& state) {
+std::vector<char> patches_that_may_change(const MeshingSetup& prepared, const PipelineState& state) {
   std::vector<char> may(prepared.patches.size(), 1);
   for (std::size_t i = 0; i < may.size(); ++i) {
-    const PreparedPatch& patch = prepared.patches[i];
+    const PatchSetup& patch = prepared.patches[i];
     if (!state.reasons[i].empty() || patch.image || patch.given_stays || (patch.grid && patch.grid_stays))
       may[i] = 0;
   }
@@ -71,7 +71,7 @@ class CurvesInPatches {
   std::vector<std::unordered_map<int, std::vector<const CurveSide*>>> sides_;
 };
 
-CurveNetwork network_of(const PreparedProblem& prepared, const MeshingState& state) {
+CurveNetwork network_of(const MeshingSetup& prepared, const PipelineState& state) {
   const SurfaceDomain& domain = prepared.surface->domain;
   const std::vector<char> may_change = patches_that_may_change(prepared, state);
   CurveNetwork network;
@@ -110,7 +110,7 @@ CurveNetwork network_of(const PreparedProblem& prepared, const MeshingState& sta
 
 /// Returns the nodes of curves where the network has them. Removed nodes make room: `number` gets the new
 /// number of each node.
-SurfaceNodes other_nodes(const PreparedSurface& surface, const CurveNetwork& network, const SurfaceNodes& old,
+SurfaceNodes other_nodes(const SurfaceSetup& surface, const CurveNetwork& network, const SurfaceNodes& old,
                          std::vector<int>& number) {
   const SurfaceDomain& domain = surface.domain;
   SurfaceNodes nodes;
@@ -144,11 +144,10 @@ SurfaceNodes other_nodes(const PreparedSurface& surface, const CurveNetwork& net
 }
 
 /// The problem with these nodes.
-std::shared_ptr<const PreparedProblem> with_nodes(const PreparedProblem& prepared, const SurfaceNodes& nodes,
-                                                  const std::vector<int>& number,
-                                                  const CurveNetwork& network) {
-  auto surface = std::make_shared<PreparedSurface>(*prepared.surface);
-  auto other = std::make_shared<PreparedProblem>(prepared);
+std::shared_ptr<const MeshingSetup> with_nodes(const MeshingSetup& prepared, const SurfaceNodes& nodes,
+                                               const std::vector<int>& number, const CurveNetwork& network) {
+  auto surface = std::make_shared<SurfaceSetup>(*prepared.surface);
+  auto other = std::make_shared<MeshingSetup>(prepared);
   SurfaceDomain& domain = surface->domain;
   const auto renumber = [&](int& node) { node = number[node]; };
   for (std::size_t p = 0; p < domain.patches.size(); ++p) {
@@ -183,15 +182,15 @@ std::shared_ptr<const PreparedProblem> with_nodes(const PreparedProblem& prepare
 namespace {
 
 /// Whether curves keep their nodes, as in images, given meshes and elements of higher order.
-bool keeps_curves(const PreparedProblem& prepared) {
-  const PreparedSurface& surface = *prepared.surface;
-  return surface.mirrored || surface.is_part_of || surface.metric || surface.given ||
+bool keeps_curves(const MeshingSetup& prepared) {
+  const SurfaceSetup& surface = *prepared.surface;
+  return surface.mirrored || surface.full_model || surface.metric || surface.given ||
          prepared.settings.order > 1 || !prepared.boundary.periodic.empty() ||
          !prepared.boundary.periodic_faces.empty();
 }
 
 /// The network's nodes and the meshes that changed become the state's.
-void take_over(const PreparedProblem& prepared, CurveNetwork network, MeshingState& state) {
+void take_over(const MeshingSetup& prepared, CurveNetwork network, PipelineState& state) {
   std::vector<int> number;
   SurfaceNodes nodes = other_nodes(*prepared.surface, network, state.nodes, number);
   state.other = with_nodes(prepared, nodes, number, network);
@@ -230,10 +229,10 @@ std::vector<double> spaced(const std::vector<CurveNode>& nodes, int edges) {
 
 }  // namespace
 
-void run_across_curves(const PreparedProblem& prepared, MeshingState& state) {
+void run_across_curves(const MeshingSetup& prepared, PipelineState& state) {
   const RegularityOptions options = regularity_options(prepared.settings.options);
   if (!options.across_curves || keeps_curves(prepared)) return;
-  const DoingStage doing("across curves");
+  const StageScope doing("across curves");
   CurveNetwork network = network_of(prepared, state);
   const CurvesInPatches curves(prepared.surface->domain);
   network.at = [&](int patch, int chain, double s) { return curves.at(patch, chain, s); };
@@ -244,10 +243,10 @@ void run_across_curves(const PreparedProblem& prepared, MeshingState& state) {
   if (summary.accepted > 0) take_over(prepared, std::move(network), state);
 }
 
-void run_layouts_together(const PreparedProblem& prepared, MeshingState& state) {
+void run_joint_layouts(const MeshingSetup& prepared, PipelineState& state) {
   // Where meshes are not sound, fewer irregular vertices are not what is missing, and there may be many
   // rounds.
-  if (keeps_curves(prepared) || prepared.surface->is_anew) return;
+  if (keeps_curves(prepared) || prepared.surface->is_retry) return;
   const SurfaceDomain& domain = prepared.surface->domain;
   const Stopwatch watch;
   const std::vector<char> may_change = patches_that_may_change(prepared, state);
@@ -283,10 +282,10 @@ void run_layouts_together(const PreparedProblem& prepared, MeshingState& state) 
         place_boundary(domain.patches[p].map, domain.patches[p].outline, domain.chains, nodes);
     return meshable(boundary) ? std::optional(std::move(boundary)) : std::nullopt;
   };
-  layouts.may_be = [](const QuadPatch& mesh, const PatchBoundary& boundary) {
-    return !closes_too_tightly(mesh, boundary.point_node);
+  layouts.is_allowed = [](const QuadPatch& mesh, const PatchBoundary& boundary) {
+    return !has_duplicate_quads(mesh, boundary.point_node);
   };
-  const TogetherSummary summary = lay_out_together(layouts, layout_options(prepared.settings.options));
+  const JointLayoutSummary summary = lay_out_jointly(layouts, layout_options(prepared.settings.options));
   add_summary(state.log, summary);
   state.log.add_time("layout", watch.time());
   if (summary.accepted == 0) return;

@@ -22,8 +22,8 @@ namespace {
 constexpr double kNoFeatures = 180;
 /// With other cuts an irregular vertex less may cost so many times as much as before: few are left then, and
 /// far apart. The next one where one spoils too much.
-constexpr std::array kDearer = {8.0, 4.0};
-constexpr double kMostDear = 100;
+constexpr std::array kPriceFactors = {8.0, 4.0};
+constexpr double kHighestPrice = 100;
 /// A worst eta below this is worth a third run.
 constexpr double kGoodEta = 0.6;
 
@@ -67,7 +67,7 @@ UncutMesh without_cuts(Mesh mesh, const std::vector<char>& is_cut) {
   return {std::move(mesh), std::move(on_cuts)};
 }
 
-UncutMesh without_cuts(const PreparedSurface& surface, Mesh mesh) {
+UncutMesh without_cuts(const SurfaceSetup& surface, Mesh mesh) {
   std::vector<char> is_cut(mesh.curves.size(), 0);
   for (const SurfaceCut& cut : surface.cuts) is_cut[cut.curve] = 1;
   return without_cuts(std::move(mesh), is_cut);
@@ -76,21 +76,21 @@ UncutMesh without_cuts(const PreparedSurface& surface, Mesh mesh) {
 /// Returns for each region whether its mesh can be repeated across its cuts. This excludes symmetric and
 /// periodic surfaces, whose sides must stay images of each other. It also excludes regions with requested
 /// grids, and all regions if elements will be curved.
-std::vector<char> regions_across_cuts(const PreparedProblem& prepared) {
+std::vector<char> regions_across_cuts(const MeshingSetup& prepared) {
   std::vector<char> regions(prepared.boundary.regions.size(), 0);
   if (prepared.surface->mirrored || prepared.settings.order > 1 || !prepared.boundary.periodic.empty() ||
       !prepared.boundary.periodic_faces.empty())
     return regions;
   for (const SurfaceCut& cut : prepared.surface->cuts) regions[cut.face] = 1;
-  for (const PreparedPatch& patch : prepared.patches)
+  for (const PatchSetup& patch : prepared.patches)
     if (patch.grid && patch.grid_stays) regions[patch.region] = 0;
   return regions;
 }
 
 /// Returns `start` with other cuts. Moved nodes, in the `regions`, lie on the surface, or on the first given
 /// facets. Nodes on curves stay. Throws InputError if that is impossible.
-PreparedProblem with_other_cuts(const PreparedProblem& prepared, const std::vector<char>& regions,
-                                const UncutMesh& start) {
+MeshingSetup with_other_cuts(const MeshingSetup& prepared, const std::vector<char>& regions,
+                             const UncutMesh& start) {
   GivenSurface given = make_given_surface({start.mesh, prepared.settings.name}, kNoFeatures);
   for (const Vec3& p : given.model.fine.points)
     given.avoided.push_back(start.on_cuts.contains({p.x, p.y, p.z}) ? 1 : 0);
@@ -100,29 +100,29 @@ PreparedProblem with_other_cuts(const PreparedProblem& prepared, const std::vect
   problem.where = prepared.settings.where;
   problem.max_elements = prepared.settings.max_elements;
   problem.criteria = prepared.settings.criteria;
-  PreparedProblem again = prepare_given_surface(problem, std::move(given), start.mesh, prepared.size.field);
+  MeshingSetup again = prepare_given_surface(problem, std::move(given), start.mesh, prepared.size.field);
   again.given_worst = prepared.given_worst;
   again.size.asked = prepared.size.asked;
-  for (PreparedPatch& patch : again.patches)
+  for (PatchSetup& patch : again.patches)
     patch.given_stays = regions[again.surface->given->region_of[patch.region]] == 0;
   return again;
 }
 
 /// `is_given`: what there was before the stages is to be kept where it would become worse.
-UncutMesh run_stages(PreparedProblem& again, const Stages& stages, const Options& options, bool is_given) {
+UncutMesh run_stages(MeshingSetup& again, const Stages& stages, const Options& options, bool is_given) {
   again.settings.options = options;
   again.settings.options.set("repair.keep_given", is_given);
-  MeshingState state = begin_meshing(again);
+  PipelineState state = begin_meshing(again);
   for (const Stage* stage : stages) run_stage(*stage, again, state);
   const std::vector<char> none(again.boundary.regions.size(), 0);
-  Finishing on{state.now(again), state, none};
-  UncutMesh made = without_cuts(*again.surface, put_together(on));
+  FinishContext on{state.now(again), state, none};
+  UncutMesh made = without_cuts(*again.surface, finish_patches(on));
   put_back_entities(*again.surface->given, made.mesh);
   return made;
 }
 
 /// Returns the stages that move nodes of curves, all patches together.
-Stages that_move_nodes(const Stages& stages) {
+Stages moving_stages(const Stages& stages) {
   Stages found;
   std::ranges::copy_if(stages, std::back_inserter(found),
                        [](const Stage* stage) { return bool(stage->finish); });
@@ -131,36 +131,36 @@ Stages that_move_nodes(const Stages& stages) {
 
 /// Whether the result is taken. For a given mesh it must be better as a whole, else it must have fewer
 /// irregular vertices.
-bool is_to_be_taken(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
+bool should_take(const MeshingSetup& prepared, const MeshResult& after, const MeshResult& before) {
   if (!after.soundness.sound() || !before.soundness.sound()) return after.soundness.sound();
   if (prepared.surface->given) return is_better(prepared, after, before);
   return is_more_regular(prepared, after, before) && keeps_worst_eta(kCleanupFloorEta, after, before);
 }
 
 /// Returns the options for cavities in the second run.
-Options with_dearer(const Options& options, double dearer) {
+Options with_higher_price(const Options& options, double factor) {
   Options more = options;
-  more.set("regularity.tolerance", std::min(dearer * options.number("regularity.tolerance"), kMostDear));
+  more.set("regularity.tolerance", std::min(factor * options.number("regularity.tolerance"), kHighestPrice));
   more.set("regularity.quads", std::max(options.integer("regularity.quads"), kFarQuads));
   return more;
 }
 
 /// `again`: what was made before, with other cuts.
-MeshResult made_across_cuts(const Finishing& f, PreparedProblem& again, const Options& options,
+MeshResult mesh_across_cuts(const FinishContext& f, MeshingSetup& again, const Options& options,
                             const std::vector<char>& regions) {
-  const PreparedProblem& prepared = f.prepared;
+  const MeshingSetup& prepared = f.prepared;
   const bool is_given =
       prepared.surface->given.has_value() && repair_options(prepared.settings.options).keep_given;
   UncutMesh made = run_stages(again, f.state.of_quads, options, is_given);
   MeshResult after;
   after.mesh = made.mesh;
   measure(prepared, f.left_out, after);
-  const Stages moving = that_move_nodes(f.state.of_quads);
+  const Stages moving = moving_stages(f.state.of_quads);
   if (prepared.surface->given || moving.empty() || !is_more_regular(prepared, after, f.result) ||
       keeps_worst_eta(kGoodEta, after, f.result))
     return after;
   // Nodes on these cuts could not go anywhere.
-  PreparedProblem third = with_other_cuts(prepared, regions, made);
+  MeshingSetup third = with_other_cuts(prepared, regions, made);
   made = run_stages(third, moving, options, is_given);
   after.mesh = std::move(made.mesh);
   measure(prepared, f.left_out, after);
@@ -168,35 +168,36 @@ MeshResult made_across_cuts(const Finishing& f, PreparedProblem& again, const Op
 }
 
 /// Whether what is made is better, and taken.
-bool take_across_cuts(Finishing& on, PreparedProblem& again, const Options& options,
+bool take_across_cuts(FinishContext& on, MeshingSetup& again, const Options& options,
                       const std::vector<char>& regions) {
-  MeshResult after = made_across_cuts(on, again, options, regions);
-  if (!is_to_be_taken(on.prepared, after, on.result)) return false;
+  MeshResult after = mesh_across_cuts(on, again, options, regions);
+  if (!should_take(on.prepared, after, on.result)) return false;
   take_mesh(std::move(after), on.result);
   return true;
 }
 
 }  // namespace
 
-bool are_cuts_in_the_way(const PreparedProblem& prepared, const Stages& of_quads) {
+bool cuts_obstruct(const MeshingSetup& prepared, const Stages& of_quads) {
   if (!prepared.surface || prepared.surface->all_cuts().empty()) return false;
   return prepared.surface->given ? !of_quads.empty() : std::ranges::any_of(of_quads, &Stage::fills_cavities);
 }
 
-void run_across_cuts(Finishing& on) {
-  const PreparedProblem& prepared = on.prepared;
+void run_across_cuts(FinishContext& on) {
+  const MeshingSetup& prepared = on.prepared;
   const std::vector<char> regions = regions_across_cuts(prepared);
   const auto irregular = [&] { return static_cast<long long>(on.result.metrics.values.at("n_irregular")); };
   const long long before = irregular();
   long long faces = on.result.failures.empty() ? std::ranges::count(regions, 1) : 0;  // on which stages ran
   bool is_taken = false;
   if (faces > 0) try {
-      PreparedProblem again =
+      MeshingSetup again =
           with_other_cuts(prepared, regions, without_cuts(*prepared.surface, on.result.mesh));
       if (prepared.surface->given) is_taken = take_across_cuts(on, again, prepared.settings.options, regions);
-      for (const double dearer : kDearer)
+      for (const double factor : kPriceFactors)
         if (!prepared.surface->given && !is_taken)
-          is_taken = take_across_cuts(on, again, with_dearer(prepared.settings.options, dearer), regions);
+          is_taken =
+              take_across_cuts(on, again, with_higher_price(prepared.settings.options, factor), regions);
     } catch (const InputError&) {
       faces = 0;  // what there was stays
     }
@@ -229,7 +230,7 @@ double score(const MeshResult& run) {
 
 bool is_worse(const MeshResult& after, const MeshResult& before) {
   if (before.soundness.sound() && !after.soundness.sound()) return true;
-  if (harm_of(after, before).sum() > 0) return true;
+  if (degradation_of(after, before).sum() > 0) return true;
   if (after.soundness.sound() && !before.soundness.sound()) return false;
   bool worse = false;
   for (const char* key : {"eta_mean", "eta_worst", "d4"}) {
@@ -241,12 +242,12 @@ bool is_worse(const MeshResult& after, const MeshResult& before) {
   return worse;
 }
 
-bool is_better(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
+bool is_better(const MeshingSetup& prepared, const MeshResult& after, const MeshResult& before) {
   const double is = failing_part(prepared, after.mesh), was = failing_part(prepared, before.mesh);
   return (is == was ? score(after) > score(before) : is < was) && !is_worse(after, before);
 }
 
-bool is_more_regular(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before) {
+bool is_more_regular(const MeshingSetup& prepared, const MeshResult& after, const MeshResult& before) {
   return failing_part(prepared, after.mesh) <= failing_part(prepared, before.mesh) &&
          value(after, "n_irregular") < value(before, "n_irregular") &&
          is_kept("tau", kGoodTau, after, before);

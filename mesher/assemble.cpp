@@ -16,13 +16,13 @@
 #include "geometry/mesh/keep_elements.h"
 #include "mesher/cross_in_space.h"
 #include "mesher/runner.h"
-#include "metrics/metric_measures.h"
+#include "metrics/anisotropic_measures.h"
 
 namespace delquad {
 namespace {
 
 /// Mesh node of each point of a patch; nodes are made for the points inside.
-std::vector<int> add_points(const std::vector<Vec3>& inside, const PreparedPatch& patch, Mesh& mesh) {
+std::vector<int> add_points(const std::vector<Vec3>& inside, const PatchSetup& patch, Mesh& mesh) {
   std::vector<int> node = patch.boundary.point_node;
   for (const Vec3& x : inside) {
     node.push_back(static_cast<int>(mesh.points.size()));
@@ -62,16 +62,16 @@ void add_caps(const SurfaceDomain& domain, const std::vector<PatchMesh>& patches
 
 }  // namespace
 
-Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
+Mesh assemble(const MeshingSetup& prepared, const std::vector<Vec3>& nodes,
               const std::vector<PatchMesh>& patches, const std::vector<char>& left_out, StageLog* log) {
   const Stopwatch projection;
-  const DoingStage projecting("projection");
+  const StageScope projecting("projection");
   std::vector<std::vector<Vec3>> inside(patches.size());
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
         if (left_out[prepared.patches[i].region]) return;
-        const DoingFace face = doing_patch(prepared, i);
+        const FaceScope face = patch_scope(prepared, i);
         inside[i] =
             patches[i].inside.empty() ? places_inside(prepared, i, patches[i], nodes) : patches[i].inside;
       },
@@ -105,8 +105,8 @@ Mesh assemble(const PreparedProblem& prepared, const std::vector<Vec3>& nodes,
   return mesh;
 }
 
-void measure(const PreparedProblem& prepared, const std::vector<char>& left_out, MeshResult& result) {
-  const DoingStage measuring("report");
+void measure(const MeshingSetup& prepared, const std::vector<char>& left_out, MeshResult& result) {
+  const StageScope measuring("report");
   TimeSpent metrics_time, report_time, soundness_time;
   // A place that is not finite is nowhere near a surface.
   const bool has_report = prepared.surface && has_finite_points(result.mesh);
@@ -122,7 +122,7 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
       [&] {
         const Stopwatch watch;
         if (has_report) {
-          const PreparedSurface& surface = *prepared.surface;
+          const SurfaceSetup& surface = *prepared.surface;
           result.surface = report_surface(
               surface.whole(), surface.all_cuts(),
               surface.mirrored ? with_images(*surface.mirrored, left_out) : left_out, result.mesh, sides,
@@ -140,38 +140,38 @@ void measure(const PreparedProblem& prepared, const std::vector<char>& left_out,
   result.log.add_time("soundness", soundness_time);
 }
 
-void add_misalignment(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides,
+void add_misalignment(const MeshingSetup& prepared, const Mesh& mesh, std::span<const HalfEdge> sides,
                       MeshMetrics& metrics) {
   if (mesh.quads.empty() || !has_finite_points(mesh)) return;
   if (const CrossInSpace cross_at = cross_in_space(prepared))
     metrics.values["misalignment"] = mean_misalignment(mesh, sides, cross_at);
 }
 
-MeshMetrics metrics_of(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides) {
+MeshMetrics metrics_of(const MeshingSetup& prepared, const Mesh& mesh, std::span<const HalfEdge> sides) {
   const MetricAt metric = metric_of(prepared);
   if (!metric) {
-    MeshMetrics metrics = own_measures(mesh, prepared.size.field.get(), prepared.size.asked.get(), sides,
-                                       quads_in_layers(prepared, mesh));
+    MeshMetrics metrics = measure_builtin(mesh, prepared.size.field.get(), prepared.size.asked.get(), sides,
+                                          quads_in_layers(prepared, mesh));
     add_misalignment(prepared, mesh, sides, metrics);
     return metrics;
   }
-  MeshMetrics metrics = own_measures(mesh, nullptr, nullptr, sides);
-  metrics.values.merge(measure_by_metric(mesh, sides, metric));
+  MeshMetrics metrics = measure_builtin(mesh, nullptr, nullptr, sides);
+  metrics.values.merge(measure_anisotropic(mesh, sides, metric));
   return metrics;
 }
 
-void measure_from_outside(const PreparedProblem& prepared, const Mesh& mesh, const std::string& word,
-                          MeshMetrics& metrics) {
-  const DoingStage measuring("metrics");
+void measure_added_metrics(const MeshingSetup& prepared, const Mesh& mesh, const std::string& word,
+                           MeshMetrics& metrics) {
+  const StageScope measuring("metrics");
   const bool by_size = !metric_of(prepared);
-  measure_from_outside(
+  measure_added_metrics(
       {mesh, by_size ? prepared.size.field.get() : nullptr, by_size ? prepared.size.asked.get() : nullptr,
        prepared.settings.options, prepared.settings.name, word,
        prepared.surface ? &prepared.surface->whole().fine : nullptr},
       metrics);
 }
 
-void measure_straight_form(const PreparedProblem& prepared, const std::vector<char>& left_out,
+void measure_straight_form(const MeshingSetup& prepared, const std::vector<char>& left_out,
                            MeshResult& result) {
   MeshResult straight;
   straight.mesh = straight_form(result.mesh);

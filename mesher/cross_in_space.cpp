@@ -12,7 +12,7 @@
 namespace delquad {
 namespace {
 
-CrossInSpace in_plane(const PreparedProblem& prepared) {
+CrossInSpace in_plane(const MeshingSetup& prepared) {
   return [&](const Vec3& x, double reach, int& hint) -> std::optional<std::array<Vec3, 2>> {
     const BackgroundMesh& background = *prepared.plane.background;
     const auto [t, b] = background.locate({x.x, x.y}, hint);
@@ -33,9 +33,9 @@ struct Maps {
   std::unique_ptr<const NearestTriangle> nearest;
 };
 
-CrossInSpace on_surface(const PreparedProblem& prepared) {
+CrossInSpace on_surface(const MeshingSetup& prepared) {
   const auto maps = std::make_shared<Maps>();
-  const PreparedSurface& surface = *prepared.surface;
+  const SurfaceSetup& surface = *prepared.surface;
   std::vector<std::array<int, 3>> triangles;
   for (std::size_t p = 0; p < prepared.patches.size(); ++p) {
     const FlatPatch& map = surface.domain.patches[p].map;
@@ -76,7 +76,7 @@ CrossInSpace on_surface(const PreparedProblem& prepared) {
 
 }  // namespace
 
-CrossInSpace cross_in_space(const PreparedProblem& prepared) {
+CrossInSpace cross_in_space(const MeshingSetup& prepared) {
   if (prepared.surface) return prepared.surface->metric ? nullptr : on_surface(prepared);
   return prepared.metric_plane || !prepared.plane.background ? nullptr : in_plane(prepared);
 }

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "metrics/alignment.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 namespace delquad {
 
 /// The fields of all patches; null where the problem has a metric in place of sizes. `prepared` has to
 /// outlive it.
-CrossInSpace cross_in_space(const PreparedProblem& prepared);
+CrossInSpace cross_in_space(const MeshingSetup& prepared);
 
 }  // namespace delquad

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "algorithms/finish/lift_bad_quads.h"
-#include "algorithms/finish/part_twins.h"
+#include "algorithms/finish/separate_duplicates.h"
 #include "algorithms/treatment/treatment.h"
 #include "base/activity.h"
 #include "base/option_table.h"
@@ -30,27 +30,26 @@ std::string text_of_worst(const MeshResult& run) {
 }
 
 /// Whether the first begins from what is given, and each from what the one before leaves.
-bool is_word_of_quads(const std::vector<const Stage*>& stages, const Stage* first) {
+bool continues_quads(const std::vector<const Stage*>& stages, const Stage* first) {
   const auto follows = [](const Stage* before, const Stage* after) { return before->to != after->from; };
   return stages[0]->from == first->from && stages.back()->to == PatchForm::kQuads &&
          std::ranges::adjacent_find(stages, follows) == stages.end();
 }
 
 /// Returns the mesh that these stages alone make.
-MeshResult made_by(const Finishing& f, const std::vector<const Stage*>& stages) {
-  MeshingState state = begin_meshing(f.prepared);
+MeshResult mesh_of_stages(const FinishContext& f, const std::vector<const Stage*>& stages) {
+  PipelineState state = begin_meshing(f.prepared);
   for (const Stage* stage : stages) run_stage(*stage, f.prepared, state);
-  Finishing on{f.prepared, state, f.left_out};
-  on.result.mesh = put_together(on);
+  FinishContext on{f.prepared, state, f.left_out};
+  on.result.mesh = finish_patches(on);
   measure(f.prepared, f.left_out, on.result);
-  if (repair_options(f.prepared.settings.options).across_cuts &&
-      are_cuts_in_the_way(f.prepared, state.of_quads))
+  if (repair_options(f.prepared.settings.options).across_cuts && cuts_obstruct(f.prepared, state.of_quads))
     run_across_cuts(on);
   return std::move(on.result);
 }
 
 /// Quads of the result are sound that were not before.
-void tell_price(Finishing& on, const MeshResult& before) {
+void warn_of_price(FinishContext& on, const MeshResult& before) {
   const std::string price = text_of_price(on.prepared, on.result, before);
   if (costs_too_much(on.result, before) && !repair_options(on.prepared.settings.options).at_any_price)
     on.result.soundness.beyond.push_back(
@@ -65,7 +64,7 @@ void tell_price(Finishing& on, const MeshResult& before) {
 /// Replaces the mesh that the stages made of given quads if it is worse than these, see is_worse(). If
 /// criteria were given and fewer quads fail by them, it stays. Takes the mesh of fewer stages if it is not
 /// worse, else the given mesh. A warning says so.
-void keep_better(Finishing& on) {
+void keep_better(FinishContext& on) {
   MeshResult& result = on.result;
   MeshResult given;
   given.mesh = assemble(on.prepared, on.prepared.boundary.points, on.state.given, on.left_out);
@@ -80,7 +79,7 @@ void keep_better(Finishing& on) {
   };
   if (!is_harmful(result)) return;
   const std::string worse = text_of_worst(result), was = text_of_worst(before);
-  const auto tell = [&](const std::string& what) {
+  const auto warn = [&](const std::string& what) {
     result.warnings.push_back(
         fmt::format("{}: {}: the given mesh ({}) would become worse ({}). --set repair.keep_given=false "
                     "takes the worse mesh [would-be-worse]",
@@ -89,13 +88,13 @@ void keep_better(Finishing& on) {
   // The least harm of what mends a mesh that was not sound.
   std::optional<MeshResult> best;
   double least =
-      result.soundness.sound() ? harm_of(result, before).sum() : std::numeric_limits<double>::max();
+      result.soundness.sound() ? degradation_of(result, before).sum() : std::numeric_limits<double>::max();
   const auto is_good = [&](MeshResult& run) {
-    const bool is_mended = run.soundness.sound() || !(result.soundness.sound() || best);
-    if (is_mended && !is_harmful(run)) return true;
-    const double harm = harm_of(run, before).sum();
-    if (!run.soundness.sound() || before.soundness.sound() || harm >= least) return false;
-    least = harm;
+    const bool is_repaired = run.soundness.sound() || !(result.soundness.sound() || best);
+    if (is_repaired && !is_harmful(run)) return true;
+    const double degradation = degradation_of(run, before).sum();
+    if (!run.soundness.sound() || before.soundness.sound() || degradation >= least) return false;
+    least = degradation;
     best = std::move(run);
     return false;
   };
@@ -108,60 +107,59 @@ void keep_better(Finishing& on) {
       std::string word;
       for (std::size_t i = 0; i < stages.size(); ++i)
         if ((mask >> i & 1U) != 0) fewer.push_back(stages[i]), word += stages[i]->letter;
-      if (std::popcount(mask) != n || !is_word_of_quads(fewer, stages[0])) continue;
-      MeshResult run = made_by(on, fewer);
+      if (std::popcount(mask) != n || !continues_quads(fewer, stages[0])) continue;
+      MeshResult run = mesh_of_stages(on, fewer);
       if (!is_good(run)) continue;
-      tell(fmt::format("{} alone ({})", word, text_of_worst(run)));
+      warn(fmt::format("{} alone ({})", word, text_of_worst(run)));
       take_mesh(std::move(run), result);
       return;
     }
   if (is_good(given)) {
-    tell("the given mesh is kept");
+    warn("the given mesh is kept");
     take_mesh(std::move(given), result);
     return;
   }
   if (best) take_mesh(std::move(*best), result);
-  if (result.soundness.sound()) tell_price(on, before);
+  if (result.soundness.sound()) warn_of_price(on, before);
 }
 
-bool is_surface(const Finishing& f) { return f.prepared.surface != nullptr; }
-bool is_curved(const Finishing& f) { return f.prepared.settings.order > 1; }
-bool is_to_be_curved(const Finishing& f) { return is_curved(f) && f.result.soundness.sound(); }
-bool was_given(const Finishing& f) { return !f.state.given.empty(); }
+bool is_surface(const FinishContext& f) { return f.prepared.surface != nullptr; }
+bool is_curved(const FinishContext& f) { return f.prepared.settings.order > 1; }
+bool should_curve(const FinishContext& f) { return is_curved(f) && f.result.soundness.sound(); }
+bool starts_from_given(const FinishContext& f) { return !f.state.given.empty(); }
 /// Before a treatment quads are bad in the plane, too.
-bool is_treated(const Finishing& f) {
+bool is_treated(const FinishContext& f) {
   return is_surface(f) && !f.prepared.surface->metric &&
          recombination_options(f.prepared.settings.options).treatment == Treatment::kPaper;
 }
 /// If a sheet was given. Straight limits say nothing of curved elements, and words that end with a matching
 /// are the paper's.
-bool has_criteria(const Finishing& f) {
+bool has_criteria(const FinishContext& f) {
   return is_treated(f) && !f.prepared.settings.criteria.empty() && !is_curved(f) && !f.state.of_quads.empty();
 }
 /// A mesh that is not sound is made anew, see refine_unsound(): until then this takes time for nothing.
-bool is_worth_other_cuts(const Finishing& f) {
-  return !(f.prepared.surface && f.prepared.surface->metric) &&
-         are_cuts_in_the_way(f.prepared, f.state.of_quads) &&
+bool may_try_other_cuts(const FinishContext& f) {
+  return !(f.prepared.surface && f.prepared.surface->metric) && cuts_obstruct(f.prepared, f.state.of_quads) &&
          (f.result.soundness.sound() || f.prepared.surface->given);
 }
 
-void part(Finishing& on) {
-  const std::vector<char> left_out = without_edits(on.prepared, on.state);
-  const PartingSummary parted =
-      part_twins({on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes});
-  add_summary(on.result.log, parted);
+void part(FinishContext& on) {
+  const std::vector<char> left_out = unedited_patches(on.prepared, on.state);
+  const SeparationSummary separated = separate_duplicates(
+      {on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes});
+  add_summary(on.result.log, separated);
 }
 
 /// By patch.
-std::vector<char> without_lifting(const Finishing& f) {
+std::vector<char> unlifted_patches(const FinishContext& f) {
   std::vector<char> left_out;
-  for (const PreparedPatch& patch : f.prepared.patches)
+  for (const PatchSetup& patch : f.prepared.patches)
     left_out.push_back(f.left_out[patch.region] || (patch.grid && patch.grid_stays) || patch.given_stays);
   return left_out;
 }
 
-void lift(Finishing& on) {
-  const std::vector<char> left_out = without_lifting(on);
+void lift(FinishContext& on) {
+  const std::vector<char> left_out = unlifted_patches(on);
   const LiftingSummary lifted =
       lift_bad_quads({on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes});
   if (lifted.stopped > 0) on.result.warnings.push_back(stopped_early(on.prepared, "lifting", lifted.stopped));
@@ -169,19 +167,19 @@ void lift(Finishing& on) {
   add_summary(on.result.log, lifted);
 }
 
-void repair_failing(Finishing& on) {
-  const std::vector<char> left_out = without_lifting(on);
+void repair_failing(FinishContext& on) {
+  const std::vector<char> left_out = unlifted_patches(on);
   add_summary(on.result.log, repair_failing_quads({on.prepared, on.prepared.settings.options,
                                                    on.state.patches, left_out, on.state.nodes},
-                                                  asked_size(on.prepared)));
+                                                  requested_size(on.prepared)));
 }
 
-void part_corners(Finishing& on) {
-  const int rings = part_flat_corners(on.prepared, on.state.nodes, on.result.mesh);
+void split_corners(FinishContext& on) {
+  const int rings = split_flat_corners(on.prepared, on.state.nodes, on.result.mesh);
   on.result.log.summaries.add("flat_corners", {{"rings", static_cast<long long>(rings)}});
 }
 
-void curve(Finishing& on) {
+void curve(FinishContext& on) {
   MeshResult& result = on.result;
   CurvingSummary summary;
   const bool moved =
@@ -190,8 +188,8 @@ void curve(Finishing& on) {
   if (moved) measure_straight_form(on.prepared, on.left_out, on.result);
 }
 
-void run(const FinishStep& step, Finishing& on) {
-  const DoingStage doing(step.time);
+void run(const FinishStep& step, FinishContext& on) {
+  const StageScope doing(step.time);
   const Stopwatch watch;
   step.run(on);
   const TimeSpent time = watch.time();
@@ -205,27 +203,27 @@ void run(const FinishStep& step, Finishing& on) {
 const std::vector<FinishStep>& finish_steps() {
   using R = RepairOptions;
   static const std::vector<FinishStep> all = {
-      {"part_twins", "parting", &R::part_twins, FinishAt::kEveryStage, is_surface, part},
+      {"part_twins", "parting", &R::separate_duplicates, FinishAt::kEveryStage, is_surface, part},
       {"lift_bad_quads", "lifting", &R::lift_bad_quads, FinishAt::kPatches, is_treated, lift},
       {"failing_quads", "repairing", &R::failing_quads, FinishAt::kPatches, has_criteria, repair_failing},
-      {"flat_corners", "flat corners", &R::flat_corners, FinishAt::kMesh, is_curved, part_corners},
-      {"across_cuts", "other cuts", &R::across_cuts, FinishAt::kMeasured, is_worth_other_cuts,
+      {"flat_corners", "flat corners", &R::flat_corners, FinishAt::kMesh, is_curved, split_corners},
+      {"across_cuts", "other cuts", &R::across_cuts, FinishAt::kMeasured, may_try_other_cuts,
        run_across_cuts},
-      {"keep_given", "keeping", &R::keep_given, FinishAt::kMeasured, was_given, keep_better},
-      {"curving", "curving", nullptr, FinishAt::kMeasured, is_to_be_curved, curve},
+      {"keep_given", "keeping", &R::keep_given, FinishAt::kMeasured, starts_from_given, keep_better},
+      {"curving", "curving", nullptr, FinishAt::kMeasured, should_curve, curve},
       {"refine_unsound", "refining", &R::refine_unsound, FinishAt::kProblem, nullptr, nullptr},
   };
   return all;
 }
 
-void run_finish_steps(FinishAt at, Finishing& on) {
+void run_finish_steps(FinishAt at, FinishContext& on) {
   const RepairOptions options = repair_options(on.prepared.settings.options);
   const auto runs = [&](const FinishStep& step) {
     return step.at == at && (step.option == nullptr || options.*step.option) && step.applies(on);
   };
   if (at == FinishAt::kPatches && std::ranges::any_of(finish_steps(), runs)) {
     const Stopwatch watch;
-    const std::vector<char> left_out = without_lifting(on);
+    const std::vector<char> left_out = unlifted_patches(on);
     place_inside({on.prepared, on.prepared.settings.options, on.state.patches, left_out, on.state.nodes});
     on.result.log.add_time("projection", watch.time());
   }
@@ -244,7 +242,7 @@ const OptionTable<RepairOptions>& repair_table() {
       OptionTable<RepairOptions>("repair", "what happens beside the stages")
           .add({.name = "part_twins",
                 .help = "on surfaces: whether duplicate edges and quads of two faces are separated"},
-               &RepairOptions::part_twins)
+               &RepairOptions::separate_duplicates)
           .add({.name = "lift_bad_quads",
                 .help = "on surfaces: whether quads that are bad in space are improved there"},
                &RepairOptions::lift_bad_quads)

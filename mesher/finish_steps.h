@@ -17,14 +17,14 @@ inline constexpr long long kFarQuads = 1000;
 
 /// Options of the repairs beside the stages of a pipeline: see finish_steps().
 struct RepairOptions {
-  bool part_twins = true;
+  bool separate_duplicates = true;
   bool lift_bad_quads = true;
   bool failing_quads = true;
   bool flat_corners = true;
   bool across_cuts = true;
   bool refine_unsound = true;
   bool ignore_small = true;
-  bool keep_given = true;  ///< see hold_worst() in stages.cpp, too
+  bool keep_given = true;  ///< see forbid_degradation() in stages.cpp, too
   bool at_any_price = false;
 };
 
@@ -41,9 +41,9 @@ enum class FinishAt {
 };
 
 /// A mesh on its way from the letters to its result.
-struct Finishing {
-  const PreparedProblem& prepared;
-  MeshingState& state;
+struct FinishContext {
+  const MeshingSetup& prepared;
+  PipelineState& state;
   std::vector<char> left_out;  ///< by region
   MeshResult result = {};      ///< the mesh from FinishAt::kMesh on, its measures from FinishAt::kMeasured on
   std::string label = {};      ///< names case and pipeline in warnings
@@ -55,15 +55,15 @@ struct FinishStep {
   const char* time;             ///< in records of times
   bool RepairOptions::*option;  ///< false switches it off, and it alone; null: elements of order 1 do
   FinishAt at;
-  bool (*applies)(const Finishing& to);
-  void (*run)(Finishing& on);  ///< null: see FinishAt::kProblem
+  bool (*applies)(const FinishContext& to);
+  void (*run)(FinishContext& on);  ///< null: see FinishAt::kProblem
 };
 
 /// All of them, in the order in which they run.
 const std::vector<FinishStep>& finish_steps();
 
 /// Runs the steps of one place. The log gets the time of each.
-void run_finish_steps(FinishAt at, Finishing& on);
+void run_finish_steps(FinishAt at, FinishContext& on);
 
 /// Notes the seconds of a step, and adds them to "finish".
 void note_seconds(const char* step, double seconds, Summaries& summaries);
@@ -71,18 +71,18 @@ void note_seconds(const char* step, double seconds, Summaries& summaries);
 /// Whether cuts hinder such stages, which begin from quads. This holds for stages that fill cavities, as no
 /// cavity crosses a cut. In a given mesh, nodes on cuts can only move along these, so cuts hinder every
 /// stage.
-bool are_cuts_in_the_way(const PreparedProblem& prepared, const std::vector<const Stage*>& of_quads);
+bool cuts_obstruct(const MeshingSetup& prepared, const std::vector<const Stage*>& of_quads);
 
 /// Runs the stages that begin from quads once more with other cuts, in faces that have cuts. The mesh that
 /// they made is replaced where that is better; it has no lines on cuts then.
-void run_across_cuts(Finishing& on);
+void run_across_cuts(FinishContext& on);
 
 /// prepare_problem() of the same problem.
-using PrepareAnew = std::function<PreparedProblem(const Refinement&)>;
+using PrepareWithHints = std::function<MeshingSetup(const RetryHints&)>;
 
 /// The work on a mesh as a number of quads that take as long. It counts quads, lifting, looks of stages,
 /// steps of curves and triangles of maps, so that it is the same on every machine.
-long long work_on(const PreparedProblem& prepared, const MeshResult& result);
+long long work_on(const MeshingSetup& prepared, const MeshResult& result);
 
 /// If the mesh of a surface is not sound, the size is too large for what is there. Halves it around these
 /// places and meshes anew, as long as there get fewer such places, within a budget of work_on(). If that does
@@ -91,7 +91,7 @@ long long work_on(const PreparedProblem& prepared, const MeshResult& result);
 /// narrower than a tenth of the size is left out. Last, another size, fewer stages or, of triangulations,
 /// another feature angle are tried. Each is taken if the mesh is sound, with a warning. If the problem says
 /// keep_going, faces with such places are left out if others remain.
-void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
+void refine_unsound(const PrepareWithHints& prepare_with_hints, const Word& word, MeshingSetup& prepared,
                     MeshResult& result);
 
 /// Whether what was made of a given mesh is worse: not sound where that was, with harm, or with none of eta
@@ -100,10 +100,10 @@ bool is_worse(const MeshResult& after, const MeshResult& before);
 
 /// Whether it is not worse, and fewer quads fail, see failing_part(), or as many, and the sum of eta mean,
 /// eta worst and the share of regular vertices is larger.
-bool is_better(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before);
+bool is_better(const MeshingSetup& prepared, const MeshResult& after, const MeshResult& before);
 
 /// Whether there are fewer irregular vertices, no more quads fail, and edges are as near to their size.
-bool is_more_regular(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before);
+bool is_more_regular(const MeshingSetup& prepared, const MeshResult& after, const MeshResult& before);
 
 /// Whether the worst eta is above this or what it was.
 bool keeps_worst_eta(double eta, const MeshResult& after, const MeshResult& before);

@@ -22,7 +22,7 @@
 #include "metrics/judgement/soundness.h"
 #include "metrics/metrics.h"
 #include "metrics/surface/surface_report.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 namespace delquad {
 namespace {
@@ -58,21 +58,21 @@ Prepared prepare_now(MeshProblem problem, Steps& steps) {
   }
   problem = refined(std::move(problem));
   const TimeSpent time = reading.time();
-  PreparedProblem made = problem.quads ? prepare_for_quads(problem) : prepare_problem(problem);
+  MeshingSetup made = problem.quads ? prepare_for_quads(problem) : prepare_problem(problem);
   StageLog log;
   log.add_time("read", time);
   add_times(made.times, log);
   made.times = std::move(log.times);
   made.warnings.insert(made.warnings.begin(), of_metric.begin(), of_metric.end());
   return {std::make_shared<const MeshProblem>(std::move(problem)),
-          std::make_shared<const PreparedProblem>(std::move(made))};
+          std::make_shared<const MeshingSetup>(std::move(made))};
 }
 
 void make_sound(const Word& word, Prepared& prepared, MeshResult& result) {
   if (result.soundness.sound()) return;
   const auto problem = std::make_shared<const MeshProblem>(prepared.problem());
-  PreparedProblem best = prepared.inside();
-  const auto anew = [&](const Refinement& r) {
+  MeshingSetup best = prepared.inside();
+  const auto anew = [&](const RetryHints& r) {
     if (r.size_part != 1) return prepare_problem(with_scaled_sizes(*problem, r.size_part), r);
     if (r.ignore_below == 0 && r.feature_angle == 0) return prepare_problem(*problem, r);
     MeshProblem other = *problem;
@@ -86,7 +86,7 @@ void make_sound(const Word& word, Prepared& prepared, MeshResult& result) {
     return prepare_problem(other, r);
   };
   refine_unsound(anew, word, best, result);
-  prepared = {problem, std::make_shared<const PreparedProblem>(std::move(best))};
+  prepared = {problem, std::make_shared<const MeshingSetup>(std::move(best))};
 }
 
 MeshResult mesh_now(Prepared prepared, const Word& word, Steps& steps) {
@@ -107,7 +107,7 @@ MeshResult mesh_now(Prepared prepared, const Word& word, Steps& steps) {
 }
 
 /// A mesh that is given is improved.
-Word ask_for(const Quality& quality, MeshProblem& problem) {
+Word pipeline_of_quality(const Quality& quality, MeshProblem& problem) {
   if (word_start(problem.model) == WordStart::kGivenMesh) {
     problem = read_files(std::move(problem));
     const Mesh& given = std::get<GivenMesh>(problem.model).mesh;
@@ -134,7 +134,7 @@ const char* version() { return DELQUAD_VERSION; }
 struct Meshing::State {
   Prepared prepared;
   Word word = {};
-  MeshingState patches = begin_meshing(prepared.inside());
+  PipelineState patches = begin_meshing(prepared.inside());
 };
 
 Meshing::Meshing(Prepared prepared) : state_(new State{std::move(prepared)}) {}
@@ -150,7 +150,7 @@ void Meshing::run(const Stage& stage) {
 }
 
 Mesh Meshing::mesh() const {
-  const PreparedProblem& prepared = state_->patches.now(state_->prepared.inside());
+  const MeshingSetup& prepared = state_->patches.now(state_->prepared.inside());
   Mesh mesh = assemble(prepared, state_->patches.nodes.points, state_->patches.patches,
                        std::vector<char>(prepared.boundary.regions.size()));
   if (prepared.metric_plane) to_plane(*prepared.metric_plane, mesh);
@@ -164,12 +164,12 @@ MeshResult Meshing::finish() {
                                      std::move(state_->patches));
   make_sound(word, prepared, result);
   if (prepared.problem().quads)
-    meet_quads(
+    match_quad_count(
         [&](MeshProblem problem) {
-          const Refinement read = as_read(prepared.inside());
+          const RetryHints read = no_hints(prepared.inside());
           Prepared other(std::make_shared<const MeshProblem>(problem),
-                         std::make_shared<const PreparedProblem>(prepare_problem(problem, read)));
-          MeshResult run = run_word(other.inside(), word);
+                         std::make_shared<const MeshingSetup>(prepare_problem(problem, read)));
+          MeshResult run = run_pipeline(other.inside(), word);
           make_sound(word, other, run);
           return std::pair(std::move(other), std::move(run));
         },
@@ -192,8 +192,8 @@ MeshResult mesh(const Prepared& prepared, const std::string& text, const Context
 
 MeshResult mesh(MeshProblem problem, const std::string& text, const Context& context) {
   const Quality* quality = find_quality(text);
-  const Word word =
-      quality != nullptr ? ask_for(*quality, problem) : parse_word(text, word_start(problem.model));
+  const Word word = quality != nullptr ? pipeline_of_quality(*quality, problem)
+                                       : parse_word(text, word_start(problem.model));
   Steps steps(context, word.stages.size() + 2);
   return mesh_now(prepare_now(std::move(problem), steps), word, steps);
 }
@@ -276,7 +276,7 @@ std::vector<DomainCurve> domain_curves(const Prepared& prepared) {
 
 MeshMetrics Prepared::metrics(const Mesh& made, const std::string& word) const {
   MeshMetrics metrics = metrics_of(*made_, made, sorted_half_edges(made));
-  measure_from_outside(*made_, made, word, metrics);
+  measure_added_metrics(*made_, made, word, metrics);
   return metrics;
 }
 
@@ -287,10 +287,10 @@ MeshResult Prepared::measure(Mesh of_others) const {
   if (metric_of(*made_)) {
     result.metrics = metrics_of(*made_, result.mesh, sides);
   } else {  // its first quads are no layers of ours
-    result.metrics = own_measures(result.mesh, made_->size.field.get(), made_->size.asked.get(), sides);
+    result.metrics = measure_builtin(result.mesh, made_->size.field.get(), made_->size.asked.get(), sides);
     add_misalignment(*made_, result.mesh, sides, result.metrics);
   }
-  measure_from_outside(*made_, result.mesh, "", result.metrics);
+  measure_added_metrics(*made_, result.mesh, "", result.metrics);
   result.soundness = check_elements(*made_, result.mesh);
   result.bad_elsewhere = static_cast<int>(
       std::ranges::count_if(quad_etas(result.mesh), [](double eta) { return eta < kBadEta; }));

@@ -51,7 +51,7 @@ SurfaceModel as_model(const PlanarDomain& domain, const std::string& source) {
 }
 
 SurfaceModel load(const MeshProblem& problem) {
-  const DoingStage stage("reading");
+  const StageScope stage("reading");
   if (const auto* model = std::get_if<PlanarModel>(&problem.model)) {
     const double edge = kPlanarEdge * norm(box_of(*model, kChordsOfCurve).size());
     return as_model(make_domain(*model, [edge](const Vec3&) { return edge; }), model->source);

@@ -8,7 +8,7 @@
 #include "features/scaling/scale_sizes.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 namespace delquad {
 namespace {
@@ -28,7 +28,7 @@ bool has_size(const MeshProblem& problem) {
 
 }  // namespace
 
-PreparedProblem prepare_for_quads(MeshProblem& problem) {
+MeshingSetup prepare_for_quads(MeshProblem& problem) {
   const long long wanted = *problem.quads;
   if (wanted < 1 || wanted > problem.max_elements)
     throw InputError(fmt::format("{}: {} quads: expected 1 to {} (max-elements)", problem.where, wanted,
@@ -42,12 +42,12 @@ PreparedProblem prepare_for_quads(MeshProblem& problem) {
     problem.size.field = make_constant_size(std::sqrt(area / static_cast<double>(wanted)));
     before.emplace_back("read", reading.time());
   }
-  PreparedProblem made = prepare_problem(problem);
+  MeshingSetup made = prepare_problem(problem);
   for (int guess = 0; guess < kMostGuesses; ++guess) {
     const double share = made.size.expected_quads / static_cast<double>(wanted);
     if (std::abs(share - 1) <= kNearGuess) break;
     MeshProblem other = with_scaled_sizes(problem, std::sqrt(share));
-    PreparedProblem next = prepare_problem(other, as_read(made));
+    MeshingSetup next = prepare_problem(other, no_hints(made));
     // Less than half of the way: curves alone need more, however large the size.
     const bool follows = share < 1 || next.size.expected_quads < made.size.expected_quads / std::sqrt(share);
     const StepTimes& lost = follows ? made.times : next.times;
@@ -60,7 +60,7 @@ PreparedProblem prepare_for_quads(MeshProblem& problem) {
   return made;
 }
 
-void meet_quads(const MeshAnew& mesh_anew, Prepared& prepared, MeshResult& result) {
+void match_quad_count(const Remesh& remesh, Prepared& prepared, MeshResult& result) {
   const MeshProblem first = prepared.problem();
   const long long asked = *first.quads;
   const auto wanted = static_cast<double>(asked);
@@ -72,7 +72,7 @@ void meet_quads(const MeshAnew& mesh_anew, Prepared& prepared, MeshResult& resul
   const auto quads_at = [&](double scale) -> std::optional<double> {
     if (scale == 1) return count_of_quads(result.mesh);
     try {
-      auto [other, run] = mesh_anew(with_scaled_sizes(first, scale));
+      auto [other, run] = remesh(with_scaled_sizes(first, scale));
       const double quads = count_of_quads(run.mesh);
       seconds += run.seconds;
       if (worth(run) < worth(result)) std::swap(prepared, other), std::swap(result, run);

@@ -38,7 +38,7 @@ namespace delquad {
 namespace {
 
 /// Adds the faces of the patches that have a reason to be left out; marks all that are.
-std::vector<char> collect_failures(const PreparedProblem& prepared, const std::vector<std::string>& reasons,
+std::vector<char> collect_failures(const MeshingSetup& prepared, const std::vector<std::string>& reasons,
                                    MeshResult& result) {
   result.failures = prepared.failures;
   for (std::size_t i = 0; i < reasons.size(); ++i)
@@ -55,13 +55,13 @@ std::vector<char> collect_failures(const PreparedProblem& prepared, const std::v
   std::vector<char> left_out(prepared.boundary.regions.size(), 0);
   for (const FaceFailure& failure : result.failures)
     if (failure.face >= 0) left_out[failure.face] = 1;
-  if (std::ranges::none_of(prepared.patches, [&](const PreparedPatch& p) { return !left_out[p.region]; }))
+  if (std::ranges::none_of(prepared.patches, [&](const PatchSetup& p) { return !left_out[p.region]; }))
     throw InputError("no face can be meshed: " + result.failures.at(0).reason);
   return left_out;
 }
 
 /// Refuses what images of meshes have no nodes for.
-void check_order(const PreparedProblem& p) {
+void check_order(const MeshingSetup& p) {
   if (p.settings.order == 1 || !p.surface) return;
   const char* other = p.surface->given                     ? "a mesh that is given"
                       : p.surface->mirrored                ? "planes of symmetry of a surface"
@@ -73,14 +73,14 @@ void check_order(const PreparedProblem& p) {
 }
 
 /// The steps of the kind of model.
-std::unique_ptr<ModelSteps> steps_of(const MeshProblem& problem, const Refinement& refinement) {
+std::unique_ptr<ModelSteps> steps_of(const MeshProblem& problem, const RetryHints& hints) {
   if (const auto* given = std::get_if<GivenMesh>(&problem.model)) {
     if (is_in_space(given->mesh)) return given_surface_steps(problem, *given);
-    return planar_steps(problem, refinement);
+    return planar_steps(problem, hints);
   }
   const bool is_planar =
       std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
-  return is_planar ? planar_steps(problem, refinement) : surface_steps(problem, refinement);
+  return is_planar ? planar_steps(problem, hints) : surface_steps(problem, hints);
 }
 
 /// As it is asked for, of a planar model, before its curves make it smaller.
@@ -93,22 +93,22 @@ PointSize size_of(const MeshProblem& problem) {
 constexpr double kSimplify = 0.1;
 
 /// Whether what is done to outlines of data, or is asked for, is to be done to this model.
-bool is_asked(const MeshProblem& problem, const std::optional<double>& asked) {
+bool is_requested(const MeshProblem& problem, const std::optional<double>& asked) {
   const auto* model = std::get_if<PlanarModel>(&problem.model);
   if (model == nullptr || problem.metric.plane) return false;
   return asked ? *asked > 0 : std::ranges::any_of(model->curves, &ModelCurve::is_data);
 }
 
-MeshProblem snapped(MeshProblem problem, std::vector<Warning>& told) {
+MeshProblem snapped(MeshProblem problem, std::vector<Warning>& model_warnings) {
   constexpr int kChords = 64;
   auto& model = std::get<PlanarModel>(problem.model);
   const auto asked = std::exchange(problem.surface.weld_tolerance, 0);
-  model = snap_outlines(std::move(model), asked.value_or(kHair) * norm(box_of(model, kChords).size()),
-                        asked.has_value(), told);
+  model = snap_outlines(std::move(model), asked.value_or(kCoincidence) * norm(box_of(model, kChords).size()),
+                        asked.has_value(), model_warnings);
   return problem;
 }
 
-MeshProblem simplified(MeshProblem problem, std::vector<Warning>& told) {
+MeshProblem simplified(MeshProblem problem, std::vector<Warning>& model_warnings) {
   const double part = problem.surface.simplify.value_or(kSimplify);
   const PlanarModel& model = std::get<PlanarModel>(problem.model);
   std::vector<double> named(model.curves.size(), std::numeric_limits<double>::infinity());
@@ -119,13 +119,13 @@ MeshProblem simplified(MeshProblem problem, std::vector<Warning>& told) {
     return part * std::min(named[curve], size(x));
   };
   problem.model = simplify_outlines(std::move(std::get<PlanarModel>(problem.model)), tolerance,
-                                    problem.surface.simplify.has_value(), told);
+                                    problem.surface.simplify.has_value(), model_warnings);
   problem.surface.simplify = 0;
   return problem;
 }
 
 /// The problem of a planar model without what is small in its outlines.
-MeshProblem without_small_outlines(MeshProblem problem, std::vector<Warning>& told) {
+MeshProblem without_small_outlines(MeshProblem problem, std::vector<Warning>& model_warnings) {
   PlanarModel& model = std::get<PlanarModel>(problem.model);
   std::vector<Vec3> ends;
   std::vector<Entity> curves, regions;
@@ -137,7 +137,8 @@ MeshProblem without_small_outlines(MeshProblem problem, std::vector<Warning>& to
   for (const ModelLoop& loop : model.loops) regions.push_back({0, {loop.region}});
   const double length = length_of_small(problem, ends);
   const double hole = std::max(length, std::numbers::pi * problem.surface.fill_holes);
-  model = leave_out_small(std::move(model), {length, hole, names_that_stay(problem, curves, regions)}, told);
+  model = leave_out_small(std::move(model), {length, hole, names_that_stay(problem, curves, regions)},
+                          model_warnings);
   problem.surface = {};
   return problem;
 }
@@ -161,15 +162,15 @@ Options for_compounds(Options options) {
 // letters of the word; the steps that finish the mesh; its measures and what is to be said of it; once more
 // from the problem, with smaller sizes, where it is not sound.
 
-PreparedProblem prepare_by(const MeshProblem& problem, ModelSteps& model) {
-  PreparedProblem p;
+MeshingSetup run_model_steps(const MeshProblem& problem, ModelSteps& model) {
+  MeshingSetup p;
   p.metric_plane = problem.metric.plane;
   p.settings = {problem.name,       problem.where, problem.options, problem.max_elements,
                 problem.keep_going, problem.order, problem.criteria};
   if (problem.surface.compounds != Compounds::kNone) p.settings.options = for_compounds(p.settings.options);
-  const auto timed = [&](const char* time, const char* doing, void (ModelSteps::*step)(PreparedProblem&)) {
+  const auto timed = [&](const char* time, const char* doing, void (ModelSteps::*step)(MeshingSetup&)) {
     const Stopwatch watch;
-    const DoingStage stage(doing);
+    const StageScope stage(doing);
     (model.*step)(p);
     p.times.emplace_back(time, watch.time());
   };
@@ -180,33 +181,34 @@ PreparedProblem prepare_by(const MeshProblem& problem, ModelSteps& model) {
   return p;
 }
 
-Refinement as_read(const PreparedProblem& prepared) {
+RetryHints no_hints(const MeshingSetup& prepared) {
   return {.cad = prepared.surface ? prepared.surface->cad : nullptr};
 }
 
-PreparedProblem prepare_problem(const MeshProblem& problem, const Refinement& refinement) {
+MeshingSetup prepare_problem(const MeshProblem& problem, const RetryHints& hints) {
   check_problem(problem);
   check_criteria(problem.criteria);
   const SurfaceSpec& s = problem.surface;
   const bool has_small = s.ignore_below > 0 || s.idealize || s.fill_holes > 0,
-             is_to_be_snapped = is_asked(problem, s.weld_tolerance),
-             is_to_be_simplified = is_asked(problem, s.simplify);
+             is_to_be_snapped = is_requested(problem, s.weld_tolerance),
+             is_to_be_simplified = is_requested(problem, s.simplify);
   if (std::holds_alternative<PlanarModel>(problem.model) &&
       (has_small || is_to_be_snapped || is_to_be_simplified || !problem.washers.empty())) {
-    std::vector<Warning> told;
-    MeshProblem other = is_to_be_snapped ? snapped(problem, told) : problem;
-    if (is_to_be_simplified) other = simplified(std::move(other), told);
+    std::vector<Warning> model_warnings;
+    MeshProblem other = is_to_be_snapped ? snapped(problem, model_warnings) : problem;
+    if (is_to_be_simplified) other = simplified(std::move(other), model_warnings);
     for (ModelCurve& curve : std::get<PlanarModel>(other.model).curves) curve.is_data = false;
-    if (has_small) other = without_small_outlines(std::move(other), told);
-    if (!problem.washers.empty()) other = with_planar_washers(std::move(other), size_of(problem), told);
-    PreparedProblem prepared = prepare_problem(other, refinement);
+    if (has_small) other = without_small_outlines(std::move(other), model_warnings);
+    if (!problem.washers.empty())
+      other = with_planar_washers(std::move(other), size_of(problem), model_warnings);
+    MeshingSetup prepared = prepare_problem(other, hints);
     prepared.plane.ignores_small = has_small;
-    prepared.warnings.insert(prepared.warnings.begin(), told.begin(), told.end());
+    prepared.warnings.insert(prepared.warnings.begin(), model_warnings.begin(), model_warnings.end());
     return prepared;
   }
-  PreparedProblem prepared = prepare_by(problem, *steps_of(problem, refinement));
+  MeshingSetup prepared = run_model_steps(problem, *steps_of(problem, hints));
   check_order(prepared);
-  check_criteria(problem.criteria, prepared.boundary, asked_size(prepared));
+  check_criteria(problem.criteria, prepared.boundary, requested_size(prepared));
   return prepared;
 }
 
@@ -214,8 +216,8 @@ void add_times(const StepTimes& times, StageLog& log) {
   for (const auto& [step, time] : times) log.add_time(step, time);
 }
 
-MeshResult run_word(const PreparedProblem& prepared, const Word& word) {
-  MeshingState state = begin_meshing(prepared);
+MeshResult run_pipeline(const MeshingSetup& prepared, const Word& word) {
+  PipelineState state = begin_meshing(prepared);
   for (const Stage* stage : word.stages) run_stage(*stage, prepared, state);
   return finish_meshing(prepared, prepared.settings.name + " " + word.text, std::move(state));
 }
@@ -224,7 +226,7 @@ void require_sound(const std::string& label, const MeshResult& result) {
   if (!result.soundness.accepted()) throw UnsoundError(label + ": " + result.soundness.complaint());
 }
 
-Mesh put_together(Finishing& on) {
+Mesh finish_patches(FinishContext& on) {
   run_finish_steps(FinishAt::kPatches, on);
   return assemble(on.prepared, on.state.nodes.points, on.state.patches, on.left_out, &on.result.log);
 }
@@ -232,7 +234,7 @@ Mesh put_together(Finishing& on) {
 namespace {
 
 /// Brings what was made in the flat plane of a metric to the domain's own.
-void to_plane(const PreparedProblem& prepared, SurfaceNodes& nodes, Mesh& mesh) {
+void to_plane(const MeshingSetup& prepared, SurfaceNodes& nodes, Mesh& mesh) {
   Mesh curves = prepared.boundary;
   curves.points = std::move(nodes.points);
   for (Mesh* flat : {&curves, &mesh}) to_plane(*prepared.metric_plane, *flat);
@@ -240,7 +242,7 @@ void to_plane(const PreparedProblem& prepared, SurfaceNodes& nodes, Mesh& mesh) 
 }
 
 /// Tells how far nodes lie from a model as it was read, where what is small in it went.
-void tell_farthest_node(const PreparedProblem& prepared, MeshResult& result) {
+void report_farthest_node(const MeshingSetup& prepared, MeshResult& result) {
   if (!prepared.surface || !prepared.surface->model.before || !has_finite_points(result.mesh)) return;
   const Mesh& fine = *prepared.surface->model.before;
   const NearestTriangle nearest(fine.points, fine.triangles);
@@ -256,22 +258,22 @@ void tell_farthest_node(const PreparedProblem& prepared, MeshResult& result) {
 
 }  // namespace
 
-MeshResult finish_meshing(const PreparedProblem& given, const std::string& label, MeshingState state) {
-  const PreparedProblem& prepared = state.now(given);
-  Finishing on{prepared, state, {}, {}, label};
+MeshResult finish_meshing(const MeshingSetup& given, const std::string& label, PipelineState state) {
+  const MeshingSetup& prepared = state.now(given);
+  FinishContext on{prepared, state, {}, {}, label};
   MeshResult& result = on.result;
   const Stopwatch watch;
   on.left_out = collect_failures(prepared, state.reasons, result);
   result.warnings = std::move(state.warnings);
   result.log = std::move(state.log);
-  result.mesh = put_together(on);
+  result.mesh = finish_patches(on);
   state.patches.clear();
   if (prepared.metric_plane) to_plane(prepared, state.nodes, result.mesh);
   run_finish_steps(FinishAt::kMesh, on);
   result.seconds = state.seconds + watch.seconds();
   measure(prepared, on.left_out, result);
   run_finish_steps(FinishAt::kMeasured, on);
-  tell_farthest_node(prepared, result);
+  report_farthest_node(prepared, result);
   result.peak_memory = peak_memory();
   const BadQuads bad =
       judge_quads(prepared, label, result.mesh, result.metrics, result.warnings, result.soundness);
@@ -284,7 +286,7 @@ MeshResult finish_meshing(const PreparedProblem& given, const std::string& label
   std::string word;
   for (const Stage* stage : state.stages) word += stage->letter;
   const Stopwatch measuring;
-  measure_from_outside(prepared, result.mesh, word, result.metrics);
+  measure_added_metrics(prepared, result.mesh, word, result.metrics);
   result.log.add_time("metrics", measuring.time());
   return std::move(on.result);
 }

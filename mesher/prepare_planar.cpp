@@ -34,7 +34,7 @@ namespace {
 /// coordinates, far below any feature that a mesh could show.
 constexpr double kGradientStep = 1e-6;
 
-PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, PreparedProblem& p) {
+PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, MeshingSetup& p) {
   const Mesh& mesh = model.mesh;
   if (mesh.lines.empty())
     throw InputError(model.source + ": holds no line elements: expected the boundary of a planar domain");
@@ -49,7 +49,7 @@ PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, P
                            [&] { return make_boundary_size(p.plane.background, domain.boundary); });
   if (!spec.named.empty()) {
     const NamedParts parts(domain);
-    warn_of_idle_sizes(spec.named, parts, *p.size.field, p.warnings);
+    warn_of_ineffective_sizes(spec.named, parts, *p.size.field, p.warnings);
     p.size.field = finer_near(p.size.field, parts.spots(spec.named));
   }
   if (spec.gradation > 0) p.size.field = limit_gradation(p.size.field, p.plane.background, spec.gradation);
@@ -62,7 +62,7 @@ PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, P
 }
 
 /// `given`: receives what the patches hold.
-PlanarDomain prepare_given(const MeshProblem& problem, const GivenMesh& model, PreparedProblem& p,
+PlanarDomain prepare_given(const MeshProblem& problem, const GivenMesh& model, MeshingSetup& p,
                            std::vector<QuadPatch>& given) {
   p.warnings.insert(p.warnings.end(), model.notes.begin(), model.notes.end());
   GivenDomain domain = make_given_domain(model);
@@ -83,7 +83,7 @@ PlanarDomain prepare_given(const MeshProblem& problem, const GivenMesh& model, P
 }
 
 /// Says so when the indices of a cross field do not add up to the Euler characteristic.
-void check_index_sum(const MeshProblem& problem, PreparedProblem& p) {
+void check_index_sum(const MeshProblem& problem, MeshingSetup& p) {
   const auto [sum, expected] = *p.crosses.index_sum_and_expected;
   if (sum == expected) return;
   p.warnings.push_back(
@@ -93,8 +93,7 @@ void check_index_sum(const MeshProblem& problem, PreparedProblem& p) {
 }
 
 /// The field of crosses that the problem has; null: none.
-std::shared_ptr<const CrossField> given_cross(const CrossSpec& spec, const Mesh& boundary,
-                                              PreparedProblem& p) {
+std::shared_ptr<const CrossField> given_cross(const CrossSpec& spec, const Mesh& boundary, MeshingSetup& p) {
   if (!spec.function) return spec.field;
   return sample_cross(spec.function, {Box<Vec3>::around(boundary.points)}, *p.size.field,
                       spec.where + ": the cross function", p.warnings);
@@ -103,7 +102,7 @@ std::shared_ptr<const CrossField> given_cross(const CrossSpec& spec, const Mesh&
 /// The field of the whole domain.
 std::shared_ptr<const CrossField> make_cross(const MeshProblem& problem,
                                              const std::shared_ptr<const CrossField>& given,
-                                             PreparedProblem& p) {
+                                             MeshingSetup& p) {
   const CrossSpec& cross = problem.cross;
   if (cross.kind == CrossKind::kGradient)
     return make_gradient_cross(p.size.field, kGradientStep * diagonal(p.boundary));
@@ -117,8 +116,7 @@ std::shared_ptr<const CrossField> make_cross(const MeshProblem& problem,
 }
 
 /// Turns domain, elements and size by the problem's seed.
-void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatch>& given,
-          PreparedProblem& p) {
+void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatch>& given, MeshingSetup& p) {
   const Rotation rotation = Rotation::by_seed(problem.seed);
   rotate(rotation, domain);
   for (QuadPatch& patch : given)
@@ -132,11 +130,11 @@ void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatc
     };
 }
 
-PlanarDomain planar_domain(const MeshProblem& problem, const Refinement& refinement,
-                           std::vector<QuadPatch>& given, PreparedProblem& p) {
+PlanarDomain planar_domain(const MeshProblem& problem, const RetryHints& hints, std::vector<QuadPatch>& given,
+                           MeshingSetup& p) {
   if (const auto* model = std::get_if<PlanarModel>(&problem.model)) {
     p.warnings.insert(p.warnings.end(), model->notes.begin(), model->notes.end());
-    return mesh_by_size(problem, *model, refinement.spots, agreement_of(problem, refinement), p);
+    return mesh_by_size(problem, *model, hints.spots, agreement_of(problem, hints), p);
   }
   const auto* start = std::get_if<GivenMesh>(&problem.model);
   if (start == nullptr) return prepare_lines(problem, std::get<LineModel>(problem.model), p);
@@ -145,14 +143,13 @@ PlanarDomain planar_domain(const MeshProblem& problem, const Refinement& refinem
 
 class PlanarSteps final : public ModelSteps {
  public:
-  PlanarSteps(const MeshProblem& problem, const Refinement& refinement)
-      : problem_(problem), refinement_(refinement) {}
+  PlanarSteps(const MeshProblem& problem, const RetryHints& hints) : problem_(problem), hints_(hints) {}
 
-  void read(PreparedProblem&) override {}
+  void read(MeshingSetup&) override {}
   bool is_surface() const override { return false; }
 
-  void mesh_curves(PreparedProblem& p) override {
-    domain_ = planar_domain(problem_, refinement_, given_, p);
+  void mesh_curves(MeshingSetup& p) override {
+    domain_ = planar_domain(problem_, hints_, given_, p);
     for (const std::string& note : domain_.notes) p.warnings.emplace_back(note);
     if (!std::holds_alternative<GivenMesh>(problem_.model)) warn_of_gaps(domain_, p.warnings);
     if (!problem_.layers.empty())
@@ -172,7 +169,7 @@ class PlanarSteps final : public ModelSteps {
     given_cross_ = given_cross(problem_.cross, domain_.boundary, p);
     auto shapes = domain_.curve_shapes;
     if (problem_.seed != 0) turn(problem_, domain_, given_, p);
-    if (std::holds_alternative<PlanarModel>(problem_.model)) seed_narrow(agreement_of(problem_, refinement_));
+    if (std::holds_alternative<PlanarModel>(problem_.model)) seed_narrow(agreement_of(problem_, hints_));
     p.boundary = std::move(domain_.boundary);
     p.plane.curve_places = std::move(domain_.places);
     p.plane.outlines = std::move(domain_.outlines);
@@ -181,7 +178,7 @@ class PlanarSteps final : public ModelSteps {
         p.metric_plane ? true_curves(*p.metric_plane, std::move(shapes)) : std::move(domain_.curve_shapes);
   }
 
-  void make_patches(PreparedProblem& p) override {
+  void make_patches(MeshingSetup& p) override {
     const auto cross = make_cross(problem_, given_cross_, p);
     const double z = p.boundary.points[0].z;
     const auto size = std::make_shared<PlanarSize>(p.size.field, z);
@@ -197,7 +194,7 @@ class PlanarSteps final : public ModelSteps {
     for (std::size_t i = 0; i < given_.size(); ++i) p.patches[i].given = std::move(given_[i]);
     if (std::ranges::any_of(p.patches, [](const auto& patch) { return !patch.given.quads.empty(); })) {
       std::vector<PatchMesh> given;
-      for (const PreparedPatch& patch : p.patches) given.push_back({PatchForm::kQuads, {}, patch.given, {}});
+      for (const PatchSetup& patch : p.patches) given.push_back({PatchForm::kQuads, {}, patch.given, {}});
       const std::vector<char> none(p.boundary.regions.size(), 0);
       p.given_worst = worst_of_given(assemble(p, p.boundary.points, given, none), true, *p.size.field);
     }
@@ -222,7 +219,7 @@ class PlanarSteps final : public ModelSteps {
   }
 
   const MeshProblem& problem_;
-  const Refinement& refinement_;
+  const RetryHints& hints_;
   PlanarDomain domain_;
   std::vector<QuadPatch> given_;  ///< what the patches hold of a mesh
   std::shared_ptr<const CrossField> given_cross_;
@@ -230,8 +227,8 @@ class PlanarSteps final : public ModelSteps {
 
 }  // namespace
 
-std::unique_ptr<ModelSteps> planar_steps(const MeshProblem& problem, const Refinement& refinement) {
-  return std::make_unique<PlanarSteps>(problem, refinement);
+std::unique_ptr<ModelSteps> planar_steps(const MeshProblem& problem, const RetryHints& hints) {
+  return std::make_unique<PlanarSteps>(problem, hints);
 }
 
 }  // namespace delquad

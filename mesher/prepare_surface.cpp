@@ -104,14 +104,14 @@ void check_surface_cross(const CrossSpec& cross) {
 /// Maps of given elements are taken when they distort less: these may be large, and every cut holds nodes.
 constexpr double kMaxSigmaOfGiven = 1.6;
 
-void prepare_patches(const std::shared_ptr<PreparedSurface>& surface, PreparedProblem& p) {
+void prepare_patches(const std::shared_ptr<SurfaceSetup>& surface, MeshingSetup& p) {
   const std::vector<SurfacePatch>& patches = surface->domain.patches;
   p.patches.resize(patches.size());
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
         const SurfacePatch& patch = patches[i];
-        const DoingFace face(surface->model.fine.regions[patch.map.face].tag);
+        const FaceScope face(surface->model.fine.regions[patch.map.face].tag);
         p.patches[i] = {
             patch.boundary, patch.map.face, std::make_shared<HarmonicCrossField>(patch.background),
             std::make_shared<SurfacePatchSize>(patch, surface->model.fine, *surface->size),
@@ -126,10 +126,9 @@ void append(std::vector<Warning>& warnings, const std::vector<Warning>& more) {
 
 class SurfaceSteps final : public ModelSteps {
  public:
-  SurfaceSteps(const MeshProblem& problem, const Refinement& refinement)
-      : problem_(problem), refinement_(refinement) {}
+  SurfaceSteps(const MeshProblem& problem, const RetryHints& hints) : problem_(problem), hints_(hints) {}
 
-  void read(PreparedProblem& p) override {
+  void read(MeshingSetup& p) override {
     read_model(p.warnings);
     check_surface_cross(problem_.cross);
     check_count(expected_quads(model_.fine, SurfaceSize(asked_)), problem_);
@@ -137,14 +136,14 @@ class SurfaceSteps final : public ModelSteps {
     if (cut_) divisions_ = divisions_of_part(problem_.divisions, *cut_);
     if (cut_) model_ = std::move(cut_->half.model);
     if (problem_.metric.asks())
-      metric_ = wanted_metric(problem_, model_, refinement_.spots);
+      metric_ = wanted_metric(problem_, model_, hints_.spots);
     else
-      wanted_ = surface_size(problem_, model_, asked_, divisions_, refinement_.spots, part());
+      wanted_ = surface_size(problem_, model_, asked_, divisions_, hints_.spots, part());
   }
 
   bool is_surface() const override { return true; }
 
-  void flatten(PreparedProblem&) override {
+  void flatten(MeshingSetup&) override {
     improve_triangulation(model_);
     if (metric_) {
       wanted_.base = make_constant_size(1);
@@ -159,7 +158,7 @@ class SurfaceSteps final : public ModelSteps {
     add_unflattened(flattening_, model_, failures_);
   }
 
-  void mesh_curves(PreparedProblem& p) override {
+  void mesh_curves(MeshingSetup& p) override {
     surface_->cuts = flattening_.cuts;
     set_size(p);
     auto on_curves = surface_->size;
@@ -171,8 +170,8 @@ class SurfaceSteps final : public ModelSteps {
     surface_->domain =
         mesh_curves_of(model_, std::move(flattening_), *on_curves,
                        wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_, divisions_,
-                       washers_, mapped_, periodic_, agreement_of(problem_, refinement_), failures_);
-    surface_->is_anew = !refinement_.spots.empty();
+                       washers_, mapped_, periodic_, agreement_of(problem_, hints_), failures_);
+    surface_->is_retry = !hints_.spots.empty();
     surface_->model = std::move(model_);
     surface_->cad = cad_;
     surface_->metric = wanted_.metric;
@@ -189,7 +188,7 @@ class SurfaceSteps final : public ModelSteps {
     p.boundary.unit = surface_->model.fine.unit;
   }
 
-  void make_patches(PreparedProblem& p) override {
+  void make_patches(MeshingSetup& p) override {
     prepare_patches(surface_, p);
     add_grids(mapped_, surface_->domain.mapped, p);
     for (std::size_t i = 0; i < p.patches.size(); ++i)
@@ -210,9 +209,9 @@ class SurfaceSteps final : public ModelSteps {
 
   void read_model(std::vector<Warning>& warnings) {
     std::vector<FeatureBall> kept;
-    if (refinement_.keep_features)
-      for (const SizeSpot& spot : refinement_.spots) kept.push_back({spot.at, spot.reach});
-    cad_ = refinement_.cad;
+    if (hints_.keep_features)
+      for (const SizeBall& spot : hints_.spots) kept.push_back({spot.at, spot.reach});
+    cad_ = hints_.cad;
     model_ = make_surface(problem_, kept, cad_);
     if (problem_.metric.asks()) {
       asked_ = std::make_shared<SurfaceMetric>(model_, wanted_metric(problem_, model_, {}));
@@ -234,12 +233,12 @@ class SurfaceSteps final : public ModelSteps {
     washers_.cut();
   }
 
-  void set_size(PreparedProblem& p) {
+  void set_size(MeshingSetup& p) {
     surface_->size = std::make_shared<SurfaceSize>(model_, wanted_);
     p.size.field = surface_->size;
     if (!wanted_.curve_limit.empty()) p.size.adapted_to.push_back("short curves");
     if (wanted_.curvature) p.size.adapted_to.push_back("curvature");
-    if (!refinement_.spots.empty()) p.size.adapted_to.push_back("sound quads");
+    if (!hints_.spots.empty()) p.size.adapted_to.push_back("sound quads");
     if (!divisions_.empty()) p.size.adapted_to.push_back("given edges");
     if (!p.size.adapted_to.empty()) p.size.asked = asked_;
     p.size.expected_quads = expected_quads(model_.fine, *surface_->size, periodic_.faces, part());
@@ -247,10 +246,10 @@ class SurfaceSteps final : public ModelSteps {
   }
 
   const MeshProblem& problem_;
-  const Refinement& refinement_;
+  const RetryHints& hints_;
   Failures failures_{problem_};
   SurfaceModel model_;
-  std::shared_ptr<const SurfaceModel> cad_;  ///< PreparedSurface::cad
+  std::shared_ptr<const SurfaceModel> cad_;  ///< SurfaceSetup::cad
   std::shared_ptr<const SizeField> asked_;
   std::optional<CutSurface> cut_;                              ///< of a symmetric one, whose part is `model_`
   std::vector<CurveDivision> divisions_ = problem_.divisions;  ///< of the part
@@ -261,7 +260,7 @@ class SurfaceSteps final : public ModelSteps {
   PeriodicSides periodic_;
   std::vector<Warning> of_periodic_;
   Flattening flattening_;
-  std::shared_ptr<PreparedSurface> surface_ = std::make_shared<PreparedSurface>();
+  std::shared_ptr<SurfaceSetup> surface_ = std::make_shared<SurfaceSetup>();
 };
 
 class GivenSurfaceSteps final : public ModelSteps {
@@ -275,7 +274,7 @@ class GivenSurfaceSteps final : public ModelSteps {
     wanted_.base = std::move(size);
   }
 
-  void read(PreparedProblem& p) override {
+  void read(MeshingSetup& p) override {
     check_surface_cross(problem_.cross);
     if (source_ != nullptr) read_mesh(p.warnings);
     wanted_.gradation = problem_.size.gradation;
@@ -283,7 +282,7 @@ class GivenSurfaceSteps final : public ModelSteps {
 
   bool is_surface() const override { return true; }
 
-  void flatten(PreparedProblem&) override {
+  void flatten(MeshingSetup&) override {
     FlattenOptions options;
     options.max_sigma = kMaxSigmaOfGiven;
     options.element = given_.element;
@@ -293,7 +292,7 @@ class GivenSurfaceSteps final : public ModelSteps {
     if (flattening_.patches.empty()) throw InputError(given_.model.source + ": no face can be meshed");
   }
 
-  void mesh_curves(PreparedProblem& p) override {
+  void mesh_curves(MeshingSetup& p) override {
     SurfaceModel& model = given_.model;
     surface_->cuts = flattening_.cuts;
     surface_->size = std::make_shared<SurfaceSize>(model, wanted_);
@@ -316,7 +315,7 @@ class GivenSurfaceSteps final : public ModelSteps {
     p.surface = surface_;
   }
 
-  void make_patches(PreparedProblem& p) override {
+  void make_patches(MeshingSetup& p) override {
     prepare_patches(surface_, p);
     for (std::size_t i = 0; i < inside_.size(); ++i) {
       p.patches[i].given = std::move(elements_[i]);
@@ -355,31 +354,31 @@ class GivenSurfaceSteps final : public ModelSteps {
   Flattening flattening_;
   std::vector<QuadPatch> elements_;        ///< of each patch
   std::vector<std::vector<Vec3>> inside_;  ///< of each patch, the places of its points
-  std::shared_ptr<PreparedSurface> surface_ = std::make_shared<PreparedSurface>();
+  std::shared_ptr<SurfaceSetup> surface_ = std::make_shared<SurfaceSetup>();
 };
 
 }  // namespace
 
-CurveAgreement agreement_of(const MeshProblem& problem, const Refinement& refinement) {
+CurveAgreement agreement_of(const MeshProblem& problem, const RetryHints& hints) {
   // A mesh that was not sound does not lack regularity, and there may be many rounds.
-  constexpr long long kStepsAnew = kMostAgreementSteps / 10;
+  constexpr long long kRetrySteps = kMostAgreementSteps / 10;
   const CurveOptions curves = curve_options(problem.options);
   return {regularity_options(problem.options).weight * curves.agreement,
-          refinement.spots.empty() ? kMostAgreementSteps : kStepsAnew, curves.round_holes};
+          hints.spots.empty() ? kMostAgreementSteps : kRetrySteps, curves.round_holes};
 }
 
-std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const Refinement& refinement) {
-  return std::make_unique<SurfaceSteps>(problem, refinement);
+std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const RetryHints& hints) {
+  return std::make_unique<SurfaceSteps>(problem, hints);
 }
 
 std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem, const GivenMesh& given) {
   return std::make_unique<GivenSurfaceSteps>(problem, given);
 }
 
-PreparedProblem prepare_given_surface(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,
-                                      std::shared_ptr<const SizeField> size) {
+MeshingSetup prepare_given_surface(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,
+                                   std::shared_ptr<const SizeField> size) {
   GivenSurfaceSteps steps(problem, std::move(given), mesh, std::move(size));
-  return prepare_by(problem, steps);
+  return run_model_steps(problem, steps);
 }
 
 }  // namespace delquad

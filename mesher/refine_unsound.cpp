@@ -45,7 +45,7 @@ constexpr double kSmall = 0.1;
 constexpr double kBeside = 3;
 
 /// Where meshes of faces are made whose images are at these places.
-std::vector<Vec3> places_of_masters(const PreparedProblem& prepared, const std::vector<Place>& places) {
+std::vector<Vec3> places_of_masters(const MeshingSetup& prepared, const std::vector<Place>& places) {
   std::vector<Vec3> found;
   for (const PeriodicFaces& pair : prepared.boundary.periodic_faces) {
     const Mesh& fine = prepared.surface->model.fine;
@@ -62,13 +62,13 @@ std::vector<Vec3> places_of_masters(const PreparedProblem& prepared, const std::
 }
 
 /// Adds a ball around each place where the mesh is not sound, but for those inside of another new one.
-void add_spots(const PreparedProblem& prepared, const Soundness& soundness, std::vector<SizeSpot>& spots) {
+void add_spots(const MeshingSetup& prepared, const Soundness& soundness, std::vector<SizeBall>& spots) {
   const std::size_t first_new = spots.size();
   int hint = -1;
   const auto add = [&](const Vec3& place) {
     const Vec3 at = prepared.metric_plane ? prepared.metric_plane->to_flat(place) : place;
     const bool is_known = std::any_of(spots.begin() + static_cast<std::ptrdiff_t>(first_new), spots.end(),
-                                      [&](const SizeSpot& s) { return norm(s.at - at) < s.size; });
+                                      [&](const SizeBall& s) { return norm(s.at - at) < s.size; });
     if (is_known || spots.size() == kMostSpots) return;
     const double size = kPart * prepared.size.field->at(at, hint);
     if (prepared.surface && prepared.surface->mirrored) {
@@ -85,8 +85,8 @@ void add_spots(const PreparedProblem& prepared, const Soundness& soundness, std:
   for (const Vec3& at : places_of_masters(prepared, soundness.places)) add(at);
 }
 
-Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>& spots) {
-  const SizeSpot& least = *std::ranges::min_element(spots, {}, &SizeSpot::size);
+Warning warning_of(const MeshingSetup& prepared, const std::vector<SizeBall>& spots) {
+  const SizeBall& least = *std::ranges::min_element(spots, {}, &SizeBall::size);
   return fmt::format(
       "{}: around {} place(s) the size is smaller, as the mesh would not be sound: down to {:.3g} at {} "
       "[changed-to-be-sound]",
@@ -97,7 +97,7 @@ Warning warning_of(const PreparedProblem& prepared, const std::vector<SizeSpot>&
 /// Where it is not sound, the first hundred for each reason.
 std::size_t unsound_places(const MeshResult& result) { return result.soundness.places.size(); }
 
-Warning warning_of_end(const MeshResult& result, const PreparedProblem& prepared, long long rounds,
+Warning warning_of_end(const MeshResult& result, const MeshingSetup& prepared, long long rounds,
                        const char* why) {
   return fmt::format(
       "{}: smaller sizes around places where the mesh is not sound were tried {} time(s), and {}: {} or more "
@@ -105,17 +105,17 @@ Warning warning_of_end(const MeshResult& result, const PreparedProblem& prepared
       prepared.settings.name, rounds, why, unsound_places(result));
 }
 
-void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& work, PreparedProblem& prepared,
-                MeshResult& result) {
+void make_finer(const PrepareWithHints& prepare_with_hints, const Word& word, Budget& work,
+                MeshingSetup& prepared, MeshResult& result) {
   // Lines that were given are kept.
   const bool can_be_finer =
       (prepared.surface && !prepared.surface->given) || !prepared.plane.curve_places.empty();
   if (result.soundness.sound() || !can_be_finer || !repair_options(prepared.settings.options).refine_unsound)
     return;
   const bool ignores_small = prepared.surface && prepared.surface->model.before;
-  Refinement refinement = as_read(prepared);
-  add_spots(prepared, result.soundness, refinement.spots);
-  if (refinement.spots.empty()) return;
+  RetryHints hints = no_hints(prepared);
+  add_spots(prepared, result.soundness, hints.spots);
+  if (hints.spots.empty()) return;
   StageLog lost;  // the times of all meshes but the best
   double seconds = result.seconds;
   long long rounds = 0, idle = 0;  // in all, and since the best
@@ -127,16 +127,16 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& work,
         why = "more would take too long";
         break;
       }
-      if (idle == kMostIdle && (refinement.keep_features || (refinement.cad && !ignores_small))) break;
-      if (idle == kMostIdle) idle = 0, refinement.keep_features = true;
-      if (++rounds >= kFirstWithFeatures || ignores_small) refinement.keep_features = true;
-      const std::vector<SizeSpot> spots = refinement.spots;
-      PreparedProblem finer = prepare_anew(refinement);
-      MeshResult run = run_word(finer, word);
+      if (idle == kMostIdle && (hints.keep_features || (hints.cad && !ignores_small))) break;
+      if (idle == kMostIdle) idle = 0, hints.keep_features = true;
+      if (++rounds >= kFirstWithFeatures || ignores_small) hints.keep_features = true;
+      const std::vector<SizeBall> spots = hints.spots;
+      MeshingSetup finer = prepare_with_hints(hints);
+      MeshResult run = run_pipeline(finer, word);
       seconds += run.seconds;
       last = work_on(finer, run);
       work.spend(last);
-      add_spots(finer, run.soundness, refinement.spots);
+      add_spots(finer, run.soundness, hints.spots);
       const bool is_better =
           run.soundness.sound() || (unsound_places(run) > 0 && unsound_places(run) < unsound_places(result));
       idle = is_better ? 0 : idle + 1;
@@ -149,22 +149,22 @@ void make_finer(const PrepareAnew& prepare_anew, const Word& word, Budget& work,
       }
       add_times(finer.times, lost);
       add_times(run.log.times, lost);
-      if (refinement.spots.size() == spots.size()) break;
+      if (hints.spots.size() == spots.size()) break;
     }
   } catch (const InputError&) {
     // Too many elements, or a boundary that cannot be: what there was stays.
   }
   result.seconds = seconds;
   add_times(lost.times, result.log);
-  double lost_seconds = 0;
-  for (const auto& [step, time] : lost.times) lost_seconds += time.seconds;
-  note_seconds(kRefining, lost_seconds, result.log.summaries);
+  double failed_seconds = 0;
+  for (const auto& [step, time] : lost.times) failed_seconds += time.seconds;
+  note_seconds(kRefining, failed_seconds, result.log.summaries);
   if (!result.soundness.sound()) result.warnings.push_back(warning_of_end(result, prepared, rounds, why));
 }
 
 /// Meshes without what is small beside the size, where that makes the mesh sound.
-void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& work,
-                     PreparedProblem& prepared, MeshResult& result) {
+void leave_out_small(const PrepareWithHints& prepare_with_hints, const Word& word, Budget& work,
+                     MeshingSetup& prepared, MeshResult& result) {
   const RepairOptions options = repair_options(prepared.settings.options);
   if (!options.refine_unsound || !options.ignore_small || !prepared.surface || prepared.surface->given ||
       prepared.surface->model.before || result.soundness.places.empty())
@@ -172,14 +172,14 @@ void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& 
   double least = std::numeric_limits<double>::infinity();
   int hint = -1;
   for (const Place& place : result.soundness.places)
-    least = std::min(least, asked_size(prepared).at(place.at, hint));
-  const auto anew = [&](Refinement refinement) {
-    refinement.ignore_below = kSmall * least;
-    return prepare_anew(refinement);
+    least = std::min(least, requested_size(prepared).at(place.at, hint));
+  const auto anew = [&](RetryHints hints) {
+    hints.ignore_below = kSmall * least;
+    return prepare_with_hints(hints);
   };
   try {
-    PreparedProblem other = anew(as_read(prepared));
-    MeshResult run = run_word(other, word);
+    MeshingSetup other = anew(no_hints(prepared));
+    MeshResult run = run_pipeline(other, word);
     work.spend(work_on(other, run));
     make_finer(anew, word, work, other, run);
     if (run.soundness.sound()) {
@@ -201,24 +201,24 @@ void leave_out_small(const PrepareAnew& prepare_anew, const Word& word, Budget& 
 
 /// A last try, which may be sound by chance: other sizes, as a part of all sizes, or the stages alone that
 /// make quads. A triangulation has other curves by another feature angle (0: as asked).
-struct LastTry {
+struct Fallback {
   double size_part;
   bool makes_quads_only;
   double feature_angle = 0;
 };
 constexpr std::size_t kMostByChance = 20;  // places that are not sound
-constexpr std::array kLastTries = {LastTry{0.8, false}, LastTry{1, true}, LastTry{0.5, false},
-                                   LastTry{1, false, 60}, LastTry{1, false, 25}};
+constexpr std::array kFallbacks = {Fallback{0.8, false}, Fallback{1, true}, Fallback{0.5, false},
+                                   Fallback{1, false, 60}, Fallback{1, false, 25}};
 
 /// "by the stages DB alone".
-std::string way_of(const LastTry& last, const Word& first) {
+std::string fallback_text(const Fallback& last, const Word& first) {
   if (last.makes_quads_only) return fmt::format("by the stages {} alone", first.text);
   if (last.feature_angle > 0) return fmt::format("with a feature angle of {:g} degrees", last.feature_angle);
   return fmt::format("with all sizes times {:g}", last.size_part);
 }
 
 /// The stages of a word up to its first quads.
-Word until_quads(const Word& word) {
+Word pipeline_until_quads(const Word& word) {
   Word first{"", {}, PatchForm::kQuads};
   for (const Stage* stage : word.stages) {
     first.text += stage->letter;
@@ -229,24 +229,24 @@ Word until_quads(const Word& word) {
 }
 
 /// Takes the first of the last tries that makes the mesh sound.
-void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& work, PreparedProblem& prepared,
-                   MeshResult& result) {
+void take_fallback(const PrepareWithHints& prepare_with_hints, const Word& word, Budget& work,
+                   MeshingSetup& prepared, MeshResult& result) {
   if (!repair_options(prepared.settings.options).refine_unsound || !prepared.surface ||
       prepared.surface->given || prepared.surface->model.before || unsound_places(result) > kMostByChance)
     return;
   const double once = static_cast<double>(result.mesh.quads.size());
-  const Word first = until_quads(word);
-  for (const LastTry& last : kLastTries) {
+  const Word first = pipeline_until_quads(word);
+  for (const Fallback& last : kFallbacks) {
     const double part = last.size_part;
     if (last.makes_quads_only && first.text == word.text) continue;
     if (last.feature_angle > 0 && prepared.surface->cad) continue;
     if (once / (part * part) > static_cast<double>(work.left())) continue;
     try {
-      Refinement refinement = as_read(prepared);
-      refinement.size_part = part;
-      refinement.feature_angle = last.feature_angle;
-      PreparedProblem other = prepare_anew(refinement);
-      MeshResult run = run_word(other, last.makes_quads_only ? first : word);
+      RetryHints hints = no_hints(prepared);
+      hints.size_part = part;
+      hints.feature_angle = last.feature_angle;
+      MeshingSetup other = prepare_with_hints(hints);
+      MeshResult run = run_pipeline(other, last.makes_quads_only ? first : word);
       work.spend(work_on(other, run));
       add_times(other.times, result.log);
       add_times(run.log.times, result.log);
@@ -255,7 +255,7 @@ void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& wo
       run.warnings.emplace_back(fmt::format(
           "{}: the mesh is made {}, as it would not be sound: {}; --set repair.refine_unsound=false does not "
           "try this [changed-to-be-sound]",
-          prepared.settings.name, way_of(last, first), result.soundness.text()));
+          prepared.settings.name, fallback_text(last, first), result.soundness.text()));
       if (last.feature_angle > 0)
         run.log.summaries.add(kRefining, {{"feature_angle", last.feature_angle}});
       else
@@ -272,7 +272,7 @@ void take_last_try(const PrepareAnew& prepare_anew, const Word& word, Budget& wo
 }
 
 /// Meshes without the faces where the mesh is not sound, while that leaves some.
-void leave_out_unsound(const Word& word, PreparedProblem& prepared, MeshResult& result) {
+void leave_out_unsound(const Word& word, MeshingSetup& prepared, MeshResult& result) {
   if (!prepared.settings.keep_going || !prepared.surface || prepared.surface->mirrored ||
       prepared.surface->given)
     return;
@@ -288,7 +288,7 @@ void leave_out_unsound(const Word& word, PreparedProblem& prepared, MeshResult& 
           prepared.failures.push_back(
               {place.face, fmt::format("the mesh of {} is not sound", show_place(run.mesh, place))});
       if (prepared.failures.size() == n_known) break;
-      run = run_word(prepared, word);
+      run = run_pipeline(prepared, word);
       seconds += run.seconds;
     }
   } catch (const InputError&) {
@@ -301,18 +301,18 @@ void leave_out_unsound(const Word& word, PreparedProblem& prepared, MeshResult& 
   result.seconds = seconds;
 }
 
-void stay_within_patches(PreparedProblem& prepared) {
+void stay_within_patches(MeshingSetup& prepared) {
   prepared.settings.options.set("regularity.across_curves", false);
 }
 
 /// Meshes without cavities over curves where these were filled: what they gain is not worth an unsound mesh.
-void undo_across_curves(const Word& word, Budget& work, PreparedProblem& prepared, MeshResult& result) {
+void undo_across_curves(const Word& word, Budget& work, MeshingSetup& prepared, MeshResult& result) {
   const Summaries& summaries = result.log.summaries;
   if (!repair_options(prepared.settings.options).refine_unsound || !summaries.has("across_curves") ||
       summaries.number("across_curves", "accepted") == 0)
     return;
   stay_within_patches(prepared);
-  MeshResult run = run_word(prepared, word);
+  MeshResult run = run_pipeline(prepared, word);
   work.spend(work_on(prepared, run));
   run.seconds += result.seconds;
   add_times(result.log.times, run.log);
@@ -322,7 +322,7 @@ void undo_across_curves(const Word& word, Budget& work, PreparedProblem& prepare
 
 }  // namespace
 
-long long work_on(const PreparedProblem& prepared, const MeshResult& result) {
+long long work_on(const MeshingSetup& prepared, const MeshResult& result) {
   double looks = 0;
   for (const char* step : {"treatment", "cleanup", "regularity"})
     if (result.log.summaries.has(step)) looks += result.log.summaries.number(step, "looks");
@@ -334,14 +334,14 @@ long long work_on(const PreparedProblem& prepared, const MeshResult& result) {
   return work;
 }
 
-void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedProblem& prepared,
+void refine_unsound(const PrepareWithHints& prepare_with_hints, const Word& word, MeshingSetup& prepared,
                     MeshResult& result) {
   const long long once = work_on(prepared, result),
                   most = std::max(kLeastWork, kMostTimes * static_cast<long long>(result.mesh.quads.size()));
   Budget finer(most - once), others(most / 2);
   undo_across_curves(word, finer, prepared, result);
-  const auto within_patches = [&prepare_anew](const Refinement& refinement) {
-    PreparedProblem anew = prepare_anew(refinement);
+  const auto within_patches = [&prepare_with_hints](const RetryHints& hints) {
+    MeshingSetup anew = prepare_with_hints(hints);
     stay_within_patches(anew);
     return anew;
   };
@@ -349,7 +349,7 @@ void refine_unsound(const PrepareAnew& prepare_anew, const Word& word, PreparedP
   others.spend(std::max(-finer.left(), 0LL));
   if (!result.soundness.sound() && once < others.left())
     leave_out_small(within_patches, word, others, prepared, result);
-  if (!result.soundness.sound()) take_last_try(within_patches, word, others, prepared, result);
+  if (!result.soundness.sound()) take_fallback(within_patches, word, others, prepared, result);
   if (!result.soundness.sound()) leave_out_unsound(word, prepared, result);
 }
 

@@ -55,11 +55,11 @@ void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const
 }
 
 /// Returns the mesh of a patch from which a pipeline begins with this stage.
-PatchMesh given_to(const Stage& stage, const PreparedProblem& prepared, const PreparedPatch& patch) {
+PatchMesh initial_mesh(const Stage& stage, const MeshingSetup& prepared, const PatchSetup& patch) {
   if (patch.given.points.empty())
     throw InputError(fmt::format("{}: '{}' cannot begin a pipeline here: no mesh is given to begin from",
                                  prepared.settings.where, stage.letter));
-  const auto has_quads = [](const PreparedPatch& other) { return !other.given.quads.empty(); };
+  const auto has_quads = [](const PatchSetup& other) { return !other.given.quads.empty(); };
   PatchMesh start;
   // In space regions may be small, and cuts may part triangles from quads: they stay.
   if (prepared.surface && stage.from == PatchForm::kQuads &&
@@ -74,25 +74,25 @@ PatchMesh given_to(const Stage& stage, const PreparedProblem& prepared, const Pr
 }
 
 /// Stores the meshes from which a pipeline begins with this stage, if they are quads or halves of quads.
-void note_given_quads(const Stage& stage, const PreparedProblem& prepared, std::vector<PatchMesh>& given) {
+void note_given_quads(const Stage& stage, const MeshingSetup& prepared, std::vector<PatchMesh>& given) {
   const bool halves = std::ranges::all_of(
-      prepared.patches, [](const PreparedPatch& patch) { return patch.given.triangles.empty(); });
-  for (const PreparedPatch& patch : prepared.patches)
+      prepared.patches, [](const PatchSetup& patch) { return patch.given.triangles.empty(); });
+  for (const PatchSetup& patch : prepared.patches)
     if (stage.from == PatchForm::kQuads)
-      given.push_back(given_to(stage, prepared, patch));
+      given.push_back(initial_mesh(stage, prepared, patch));
     else if (prepared.given_worst && halves)
       given.push_back({PatchForm::kQuads, {}, patch.given, patch.given_inside});
 }
 
 /// Takes a patch through one stage. Returns why its face has to be left out, naming it; empty: it has not.
-std::string run_on_patch(const Stage& stage, const PreparedProblem& prepared, std::size_t i, PatchMesh& mesh,
+std::string run_on_patch(const Stage& stage, const MeshingSetup& prepared, std::size_t i, PatchMesh& mesh,
                          StageLog& log) {
-  const PreparedPatch& patch = prepared.patches[i];
+  const PatchSetup& patch = prepared.patches[i];
   const StageInput input{patch.boundary, *patch.cross, *patch.size, prepared.settings.options,
                          kPointsPerElement * prepared.settings.max_elements};
   const auto run = [&] {
     if (mesh.form != stage.from) {
-      mesh = given_to(stage, prepared, patch);
+      mesh = initial_mesh(stage, prepared, patch);
       mesh.inside.clear();
     }
     stage.run(input, mesh, log);
@@ -135,9 +135,9 @@ double rough_quads(const PatchBoundary& boundary) {
   return double_area / 2 / (edge * edge);
 }
 
-void count_grids(const PreparedProblem& prepared, StageLog& log) {
+void count_grids(const MeshingSetup& prepared, StageLog& log) {
   long long faces = 0, asked = 0, quads = 0;
-  for (const PreparedPatch& patch : prepared.patches) {
+  for (const PatchSetup& patch : prepared.patches) {
     if (!patch.grid) continue;
     ++faces;
     asked += patch.grid_stays;
@@ -147,7 +147,7 @@ void count_grids(const PreparedProblem& prepared, StageLog& log) {
 }
 
 /// Adds the log of each patch, and warns of steps that were stopped.
-void add_logs(const PreparedProblem& prepared, const std::vector<StageLog>& logs, MeshingState& state) {
+void add_logs(const MeshingSetup& prepared, const std::vector<StageLog>& logs, PipelineState& state) {
   for (std::size_t i = 0; i < logs.size(); ++i) {
     for (const char* step : {"treatment", "cleanup"})
       if (logs[i].summaries.has(step) && logs[i].summaries.number(step, "stopped") > 0)
@@ -158,7 +158,7 @@ void add_logs(const PreparedProblem& prepared, const std::vector<StageLog>& logs
 }
 
 /// By region.
-std::vector<char> regions_left_out(const PreparedProblem& prepared, const std::vector<std::string>& reasons) {
+std::vector<char> regions_left_out(const MeshingSetup& prepared, const std::vector<std::string>& reasons) {
   std::vector<char> left_out(prepared.boundary.regions.size(), 0);
   for (std::size_t i = 0; i < reasons.size(); ++i)
     if (!reasons[i].empty()) left_out[prepared.patches[i].region] = 1;
@@ -167,24 +167,24 @@ std::vector<char> regions_left_out(const PreparedProblem& prepared, const std::v
 
 }  // namespace
 
-Warning stopped_early(const PreparedProblem& prepared, const std::string& step, int face) {
+Warning stopped_early(const MeshingSetup& prepared, const std::string& step, int face) {
   return {"steps that were stopped before their end", 0,
           fmt::format("{}: {} of face {} was stopped before its end, as it would take too long: quads there "
                       "may be poor; a model without slivers and spikes there, or a smaller size, helps",
                       prepared.settings.name, step, face)};
 }
 
-std::vector<char> without_edits(const PreparedProblem& prepared, const MeshingState& state) {
+std::vector<char> unedited_patches(const MeshingSetup& prepared, const PipelineState& state) {
   std::vector<char> left_out;
   for (std::size_t i = 0; i < state.patches.size(); ++i) {
-    const PreparedPatch& patch = prepared.patches[i];
+    const PatchSetup& patch = prepared.patches[i];
     left_out.push_back(!state.reasons[i].empty() || patch.grid || patch.image || patch.given_stays);
   }
   return left_out;
 }
 
-MeshingState begin_meshing(const PreparedProblem& prepared) {
-  MeshingState state;
+PipelineState begin_meshing(const MeshingSetup& prepared) {
+  PipelineState state;
   state.patches.resize(prepared.patches.size());
   state.reasons.resize(prepared.patches.size());
   if (prepared.surface) state.nodes = prepared.surface->domain.nodes;
@@ -196,7 +196,7 @@ MeshingState begin_meshing(const PreparedProblem& prepared) {
 
 namespace {
 
-void run_on_patches(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
+void run_on_patches(const Stage& stage, const MeshingSetup& prepared, PipelineState& state) {
   state.stages.push_back(&stage);
   if (stage.from == PatchForm::kQuads) state.of_quads.push_back(&stage);
   std::vector<PatchMesh>& patches = state.patches;
@@ -207,11 +207,11 @@ void run_on_patches(const Stage& stage, const PreparedProblem& prepared, Meshing
       patches.size(),
       [&](std::size_t i) {
         std::string& reason = state.reasons[i];
-        const DoingFace face = doing_patch(prepared, i);
+        const FaceScope face = patch_scope(prepared, i);
         patches[i].inside.clear();
         if (prepared.patches[i].image) return;
         if (prepared.patches[i].given_stays) {
-          if (patches[i].form != stage.to) patches[i] = given_to(stage, prepared, prepared.patches[i]);
+          if (patches[i].form != stage.to) patches[i] = initial_mesh(stage, prepared, prepared.patches[i]);
           return;
         }
         // Quads of automatic grids are quads like others once they exist.
@@ -230,16 +230,16 @@ void run_on_patches(const Stage& stage, const PreparedProblem& prepared, Meshing
 }
 
 /// Runs a stage on all patches together.
-void run_on_all(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
+void run_on_all(const Stage& stage, const MeshingSetup& prepared, PipelineState& state) {
   std::vector<PatchMesh>& patches = state.patches;
-  Finishing finishing{prepared, state, regions_left_out(prepared, state.reasons)};
+  FinishContext finishing{prepared, state, regions_left_out(prepared, state.reasons)};
   run_finish_steps(FinishAt::kEveryStage, finishing);
   state.log.add(finishing.result.log);
   if (stage.finish) {
-    std::vector<char> held = without_edits(prepared, state);
+    std::vector<char> held = unedited_patches(prepared, state);
     // When points of quads move, those of most grids do, too.
     for (std::size_t i = 0; stage.from == PatchForm::kQuads && i < held.size(); ++i)
-      if (const PreparedPatch& patch = prepared.patches[i]; patch.grid && !patch.grid_stays && !patch.image)
+      if (const PatchSetup& patch = prepared.patches[i]; patch.grid && !patch.grid_stays && !patch.image)
         held[i] = 0;
     stage.finish({prepared, prepared.settings.options, patches, held, state.nodes, !state.given.empty()},
                  state.log);
@@ -256,11 +256,11 @@ void run_on_all(const Stage& stage, const PreparedProblem& prepared, MeshingStat
 
 }  // namespace
 
-void run_stage(const Stage& stage, const PreparedProblem& prepared, MeshingState& state) {
+void run_stage(const Stage& stage, const MeshingSetup& prepared, PipelineState& state) {
   const Stopwatch watch;
-  const DoingStage running(stage.name.c_str());
+  const StageScope running(stage.name.c_str());
   run_on_patches(stage, state.now(prepared), state);
-  if (stage.letter == 'R' && prepared.surface) run_layouts_together(state.now(prepared), state);
+  if (stage.letter == 'R' && prepared.surface) run_joint_layouts(state.now(prepared), state);
   if (stage.fills_cavities && prepared.surface) run_across_curves(state.now(prepared), state);
   run_on_all(stage, state.now(prepared), state);
   state.seconds += watch.seconds();

@@ -28,7 +28,7 @@
 #include "smoothing/surface/surface_tracks.h"
 
 namespace delquad {
-bool closes_too_tightly(const QuadPatch& mesh, const std::vector<int>& point_node) {
+bool has_duplicate_quads(const QuadPatch& mesh, const std::vector<int>& point_node) {
   std::vector<int> nodes = point_node;
   std::ranges::sort(nodes);
   if (std::ranges::adjacent_find(nodes) == nodes.end()) return false;
@@ -94,20 +94,20 @@ void merge_by(PatchMesh& patch, StageLog& log, const Merge& merge) {
 }
 
 void merge_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
-  const DoingStage matching("matching");
+  const StageScope matching("matching");
   const RecombinationOptions options = recombination_options(in.options);
   merge_by(patch, log, [&](RecombineSummary& summary) {
-    const bool astray = is_astray(in.boundary, in.cross, in.size);
+    const bool misaligned = is_misaligned(in.boundary, in.cross, in.size);
     return recombine(patch.triangles, *matching_solver(options.solver, in.options), &summary,
-                     astray ? kAstrayExtraEdgeCost : kExtraEdgeCost, added_cost(options.cost, in));
+                     misaligned ? kMisalignedExtraEdgeCost : kExtraEdgeCost, added_cost(options.cost, in));
   });
   if (options.treatment == Treatment::kNone) return;
 
-  const DoingStage treating("treatment");
+  const StageScope treating("treatment");
   log_step<TreatmentSummary>(log, "treatment", [&](TreatmentSummary& treated) {
     TreatmentOptions treatment_options{.settled = options.settled};
     QuadPatch result = treat_paper(patch.quads, in.size, treatment_options, &treated);
-    const bool discarded = closes_too_tightly(result, in.boundary.point_node);
+    const bool discarded = has_duplicate_quads(result, in.boundary.point_node);
     if (discarded) {
       treatment_options.max_rounds = 0;
       const double in_vain = treated.seconds;
@@ -128,7 +128,7 @@ void merge_and_treat(const StageInput& in, PatchMesh& patch, StageLog& log) {
   merge_greedily(patch, log, {});
   const RecombinationOptions options = recombination_options(in.options);
   if (options.treatment == Treatment::kNone) return;
-  const DoingStage treating("treatment");
+  const StageScope treating("treatment");
   log_step<TreatmentSummary>(log, "treatment", [&](TreatmentSummary& treated) {
     patch.quads = treat_by_degrees(patch.quads, in.size, {}, &treated);
   });
@@ -146,13 +146,13 @@ void adapt_and_merge(const StageInput& in, PatchMesh& patch, StageLog& log) {
 
 /// Applies `work`, clean_up() or make_regular(), to a patch, unless the result closes too tightly.
 template <class Summary, class Options>
-void lessen_irregular(QuadPatch (*work)(const QuadPatch&, const ParametricSize&, const Options&, Summary*),
+void reduce_irregular(QuadPatch (*work)(const QuadPatch&, const ParametricSize&, const Options&, Summary*),
                       const Options& options, const char* step, const StageInput& in, PatchMesh& patch,
                       StageLog& log) {
   bool discarded = false;
   log_step<Summary>(log, step, [&](Summary& summary) {
     QuadPatch result = work(patch.quads, in.size, options, &summary);
-    discarded = closes_too_tightly(result, in.boundary.point_node);
+    discarded = has_duplicate_quads(result, in.boundary.point_node);
     if (!discarded) patch.quads = std::move(result);
     // Discarded work changed nothing, but took its time.
     if (discarded)
@@ -164,18 +164,18 @@ void lessen_irregular(QuadPatch (*work)(const QuadPatch&, const ParametricSize&,
 }
 
 void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
-  lessen_irregular(clean_up, cleanup_options(in.options), "clean-up", in, patch, log);
+  reduce_irregular(clean_up, cleanup_options(in.options), "clean-up", in, patch, log);
 }
 
 void fill_cavities(const StageInput& in, PatchMesh& patch, StageLog& log) {
-  lessen_irregular(make_regular, regularity_options(in.options), "regularity", in, patch, log);
+  reduce_irregular(make_regular, regularity_options(in.options), "regularity", in, patch, log);
 }
 
 /// Patches without a layout, and patches whose layout closes too tightly, are meshed by D and B.
 void lay_out_or_insert(const StageInput& in, PatchMesh& patch, StageLog& log) {
   log_step<LayoutSummary>(log, "layout", [&](LayoutSummary& summary) {
     auto mesh = lay_out(in.boundary, in.cross, in.size, layout_options(in.options), &summary);
-    if (mesh && closes_too_tightly(*mesh, in.boundary.point_node)) mesh = std::nullopt, summary.without = 1;
+    if (mesh && has_duplicate_quads(*mesh, in.boundary.point_node)) mesh = std::nullopt, summary.without = 1;
     if (mesh) patch.quads = *std::move(mesh), patch.form = PatchForm::kQuads;
   });
   if (patch.form == PatchForm::kQuads) return;
@@ -188,7 +188,7 @@ void lay_out_where_better(const StageInput& in, PatchMesh& patch, StageLog& log)
   log_step<LayoutSummary>(log, "layout", [&](LayoutSummary& summary) {
     auto mesh =
         more_regular(patch.quads, in.boundary, in.cross, in.size, layout_options(in.options), &summary);
-    if (mesh && closes_too_tightly(*mesh, in.boundary.point_node)) mesh = std::nullopt, summary.worse = 1;
+    if (mesh && has_duplicate_quads(*mesh, in.boundary.point_node)) mesh = std::nullopt, summary.worse = 1;
     if (mesh) patch.quads = *std::move(mesh);
   });
 }
@@ -207,9 +207,9 @@ Vec3 as_place(const Vec3& p, double) { return p; }
 /// Vertices of quads that were unsound before stay where they are, as do vertices near quads that are still
 /// unsound.
 template <class Vec>
-void hold_worst(const PreparedProblem& prepared, const std::vector<Vec>& before,
-                const std::vector<Vec2>& positions, const std::vector<std::array<int, 4>>& quads,
-                VertexTracks<Vec>& tracks, std::vector<Vec>& points) {
+void forbid_degradation(const MeshingSetup& prepared, const std::vector<Vec>& before,
+                        const std::vector<Vec2>& positions, const std::vector<std::array<int, 4>>& quads,
+                        VertexTracks<Vec>& tracks, std::vector<Vec>& points) {
   constexpr double kLeastPart = 1.0 / 64;
   constexpr int kNear = 2;  // rings of quads
   const auto corners = [&](const std::vector<Vec>& at, const std::array<int, 4>& quad) {
@@ -263,12 +263,12 @@ OptimisationSummary optimise(const AllPatches& in, std::vector<Vec>& points,
   for (std::size_t v = 0; keep && v < points.size(); ++v)
     positions.push_back(tracks.position(static_cast<int>(v)));
   const auto summary = optimise_on_tracks(points, quads, tracks, optimisation_options(in.options));
-  if (keep) hold_worst(in.prepared, before, positions, quads, tracks, points);
+  if (keep) forbid_degradation(in.prepared, before, positions, quads, tracks, points);
   return summary;
 }
 
 OptimisationSummary optimise_surface(const AllPatches& in) {
-  const PreparedSurface& surface = *in.prepared.surface;
+  const SurfaceSetup& surface = *in.prepared.surface;
   parallel_for(in.patches.size(), [&](std::size_t i) {
     if (!in.left_out[i]) in.patches[i].inside = places_inside(in.prepared, i, in.patches[i], in.nodes.points);
   });
@@ -289,7 +289,7 @@ std::vector<OptimisationSummary> optimise_by_metric(const AllPatches& in) {
   std::vector<OptimisationSummary> summaries(in.patches.size());
   parallel_for(in.patches.size(), [&](std::size_t i) {
     if (in.left_out[i]) return;
-    const PreparedPatch& prepared = in.prepared.patches[i];
+    const PatchSetup& prepared = in.prepared.patches[i];
     std::vector<int> own(prepared.boundary.points.size());
     std::iota(own.begin(), own.end(), 0);
     PlanarTracks tracks(prepared.boundary.points, {}, {{&in.patches[i].quads, own, prepared.cross.get()}},
@@ -308,7 +308,7 @@ OptimisationSummary optimise_plane(const AllPatches& in) {
   std::vector<PlanarTracks::Patch> patches;
   for (std::size_t i = 0; i < in.patches.size(); ++i) {
     if (in.left_out[i]) continue;
-    const PreparedPatch& prepared = in.prepared.patches[i];
+    const PatchSetup& prepared = in.prepared.patches[i];
     patches.push_back({&in.patches[i].quads, prepared.boundary.point_node, prepared.cross.get()});
   }
   PlanarTracks tracks(std::move(nodes), in.prepared.plane.curve_places, std::move(patches),
@@ -378,7 +378,7 @@ std::string form_name(PatchForm form) {
   return "";
 }
 
-std::string known_letters() {
+std::string known_stages() {
   std::string known;
   for (const Stage& stage : stage_registry())
     known += (known.empty() ? "" : ", ") + std::string(1, stage.letter) + " (" + stage.name + ")";
@@ -431,12 +431,12 @@ WordStart word_start(const Model& model) {
 
 Word parse_word(const std::string& text, WordStart start) {
   const std::string label = "pipeline '" + text + "': ";
-  if (text.empty()) throw InputError("empty pipeline: expected stages of " + known_letters());
+  if (text.empty()) throw InputError("empty pipeline: expected stages of " + known_stages());
   Word word{text, {}, PatchForm::kBoundary};
   for (const char letter : text) {
     const auto stage = std::ranges::find(stages(), letter, &Stage::letter);
     if (stage == stages().end())
-      throw InputError(label + "unknown stage '" + std::string(1, letter) + "'; known: " + known_letters() +
+      throw InputError(label + "unknown stage '" + std::string(1, letter) + "'; known: " + known_stages() +
                        capitals_suggestion(text));
     const bool begins = word.stages.empty() && start == WordStart::kGivenMesh;
     if (stage->from != word.result && !begins)

@@ -253,8 +253,8 @@ std::deque<Metric>& metrics() {
   return registry;
 }
 
-std::deque<OwnMetric>& measures() {
-  static std::deque<OwnMetric> all;
+std::deque<AddedMetric>& measures() {
+  static std::deque<AddedMetric> all;
   return all;
 }
 
@@ -262,13 +262,13 @@ std::deque<OwnMetric>& measures() {
 
 MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const SizeField* given,
                              const Options& options) {
-  MeshMetrics metrics = own_measures(mesh, size, given, sorted_half_edges(mesh));
-  measure_from_outside({mesh, size, given, options}, metrics);
+  MeshMetrics metrics = measure_builtin(mesh, size, given, sorted_half_edges(mesh));
+  measure_added_metrics({mesh, size, given, options}, metrics);
   return metrics;
 }
 
-void measure_from_outside(const MetricInput& input, MeshMetrics& metrics) {
-  for (const OwnMetric& metric : own_metrics()) {
+void measure_added_metrics(const MetricInput& input, MeshMetrics& metrics) {
+  for (const AddedMetric& metric : added_metrics()) {
     const auto fail = [&](const std::string& why) { metrics.failures[metric.key] = why; };
     try {
       const double value = metric.measure(input);
@@ -298,8 +298,8 @@ MeshMetrics evaluate_shapes(const Mesh& mesh, std::span<const HalfEdge> sides) {
   return metrics;
 }
 
-MeshMetrics own_measures(const Mesh& mesh, const SizeField* size, const SizeField* given,
-                         std::span<const HalfEdge> sides, const std::vector<char>& in_layers) {
+MeshMetrics measure_builtin(const Mesh& mesh, const SizeField* size, const SizeField* given,
+                            std::span<const HalfEdge> sides, const std::vector<char>& in_layers) {
   MeshMetrics metrics = evaluate_shapes(mesh, sides);
   const double n_quads = static_cast<double>(mesh.quads.size());
   const double n_elements = n_quads + static_cast<double>(mesh.triangles.size());
@@ -343,7 +343,7 @@ const Metric* find_metric(const std::string& key) {
   return at == metrics().end() ? nullptr : &*at;
 }
 
-const std::deque<OwnMetric>& own_metrics() { return measures(); }
+const std::deque<AddedMetric>& added_metrics() { return measures(); }
 
 void add_metric(Metric metric, std::function<double(const MetricInput&)> measure) {
   check_part_name("metric", metric.key);

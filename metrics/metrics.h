@@ -13,19 +13,19 @@ namespace delquad {
 
 /// Measures a mesh by the built-in measures; `sides` is its sorted_half_edges(). Quads with `in_layers` are
 /// flat on purpose, and left out of measures by size. Empty: none.
-MeshMetrics own_measures(const Mesh& mesh, const SizeField* size, const SizeField* given,
-                         std::span<const HalfEdge> sides, const std::vector<char>& in_layers = {});
+MeshMetrics measure_builtin(const Mesh& mesh, const SizeField* size, const SizeField* given,
+                            std::span<const HalfEdge> sides, const std::vector<char>& in_layers = {});
 /// Adds the added measures.
-void measure_from_outside(const MetricInput& input, MeshMetrics& metrics);
+void measure_added_metrics(const MetricInput& input, MeshMetrics& metrics);
 
 /// Returns only the measures of shapes of elements and of valences.
 MeshMetrics evaluate_shapes(const Mesh& mesh, std::span<const HalfEdge> sides);
 
 /// An added measure with its key.
-struct OwnMetric {
+struct AddedMetric {
   std::string key;
   std::function<double(const MetricInput&)> measure;
 };
-const std::deque<OwnMetric>& own_metrics();
+const std::deque<AddedMetric>& added_metrics();
 
 }  // namespace delquad

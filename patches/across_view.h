@@ -59,8 +59,9 @@ class AcrossView {
 /// far as their numbers allow; elsewhere edges stay of equal integrals, and between the two they change
 /// gradually. Ends of curves stay. `group` is group_facing_curves(). Each look from a node takes of the
 /// `steps`; once these are spent, nodes stay where they are.
-CurvePlaces face_nodes(const Mesh& fine, const std::vector<CurveChain>& chains, const AcrossView& across,
-                       const std::vector<SizeIntegral>& integrals, const std::vector<int>& counts,
-                       const std::vector<int>& group, const SizeOnLine& size, Budget& steps);
+CurvePlaces align_opposite_nodes(const Mesh& fine, const std::vector<CurveChain>& chains,
+                                 const AcrossView& across, const std::vector<SizeIntegral>& integrals,
+                                 const std::vector<int>& counts, const std::vector<int>& group,
+                                 const SizeOnLine& size, Budget& steps);
 
 }  // namespace delquad

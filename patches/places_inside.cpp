@@ -93,13 +93,13 @@ std::vector<Vec3> places_inside(const SurfacePatch& patch, const SurfaceModel& m
   return places;
 }
 
-std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface) {
+std::vector<const FlatPatch*> maps_of(const SurfaceSetup& surface) {
   std::vector<const FlatPatch*> maps;
   for (const SurfacePatch& patch : surface.domain.patches) maps.push_back(&patch.map);
   return maps;
 }
 
-std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t patch, const PatchMesh& mesh,
+std::vector<Vec3> places_inside(const MeshingSetup& prepared, std::size_t patch, const PatchMesh& mesh,
                                 const std::vector<Vec3>& nodes) {
   const bool of_triangles = mesh.form == PatchForm::kTriangles;
   const std::vector<Vec2>& points = points_of(mesh);
@@ -117,12 +117,12 @@ std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t pat
   };
   add_sides(of_triangles ? mesh.triangles.triangles : mesh.quads.triangles);
   add_sides(mesh.quads.quads);
-  const PreparedSurface& surface = *prepared.surface;
+  const SurfaceSetup& surface = *prepared.surface;
   return places_inside(surface.domain.patches[patch], surface.model, points, sides, nodes);
 }
 
 StageInput input_of(const AllPatches& all, std::size_t patch) {
-  const PreparedPatch& p = all.prepared.patches.at(patch);
+  const PatchSetup& p = all.prepared.patches.at(patch);
   return {p.boundary, *p.cross, *p.size, all.options, std::numeric_limits<long long>::max()};
 }
 
@@ -135,7 +135,7 @@ void place_inside(const AllPatches& all) {
       [&](std::size_t i) {
         PatchMesh& patch = all.patches[i];
         if (patch.form != PatchForm::kQuads || all.left_out[i] || !patch.inside.empty()) return;
-        const DoingFace face = doing_patch(all.prepared, i);
+        const FaceScope face = patch_scope(all.prepared, i);
         patch.inside = places_inside(all.prepared, i, patch, all.nodes.points);
       },
       [&](std::size_t i) { return static_cast<double>(all.patches[i].quads.points.size()); });

@@ -7,7 +7,7 @@
 
 #include "base/counters.h"
 #include "delquad/extend.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 #include "patches/surface_domain.h"
 
 namespace delquad {
@@ -27,7 +27,7 @@ inline const std::vector<Vec2>& points_of(const PatchMesh& patch) {
 }
 
 /// The places in space of the points inside a patch (by its index); `nodes` are those of the boundaries.
-std::vector<Vec3> places_inside(const PreparedProblem& prepared, std::size_t patch, const PatchMesh& mesh,
+std::vector<Vec3> places_inside(const MeshingSetup& prepared, std::size_t patch, const PatchMesh& mesh,
                                 const std::vector<Vec3>& nodes);
 
 /// Adds what a step counted to the log.

@@ -295,7 +295,7 @@ void for_each_patch(const Mesh& fine, const std::vector<FlatPatch>& maps,
   parallel_for(
       maps.size(),
       [&](std::size_t p) {
-        const DoingFace face(fine.regions[maps[p].face].tag);
+        const FaceScope face(fine.regions[maps[p].face].tag);
         work(p);
       },
       [&](std::size_t p) { return static_cast<double>(maps[p].flat.points.size()); });

@@ -40,7 +40,7 @@ struct SurfaceDomain {
   std::vector<PatchCap> caps;              ///< at tips of cones, in sharp corners
   std::vector<SharpCorner> sharp_corners;  ///< whose bound is below kBadEta
   std::vector<MappedPatch> mapped;         ///< those that become grids
-  long long steps = 0;  ///< that agree_counts() and face_nodes() took, where curves were meshed
+  long long steps = 0;  ///< that agree_counts() and align_opposite_nodes() took, where curves were meshed
   std::vector<Warning> warnings;
 };
 

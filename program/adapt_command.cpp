@@ -101,13 +101,14 @@ std::vector<MeshField> carried_over(const Mesh& from, std::span<const SolutionFi
   last.erase({true, "eta"});  // write_mesh()'s of the old quads
   std::vector<MeshField> carried;
   for (const auto& [key, field] : last) {
-    const bool is_asked = field->is_of_points && std::ranges::any_of(asked, [&](const SolutionField& other) {
-                            return other.field.name == field->name;
-                          });
+    const bool is_requested =
+        field->is_of_points && std::ranges::any_of(asked, [&](const SolutionField& other) {
+          return other.field.name == field->name;
+        });
     try {
       carried.push_back(transferred(from, *field, to, how));
     } catch (const InputError& error) {
-      if (is_asked) throw;
+      if (is_requested) throw;
       warnings.emplace_back(fmt::format("the field {} is not carried over: {}", field->name, error.what()));
     }
   }

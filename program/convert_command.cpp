@@ -59,11 +59,11 @@ int convert_command(const ConvertArguments& arguments) {
   }
   if (arguments.weld > 0) require_straight(mesh, arguments.mesh.string());
   std::string joined =
-      arguments.weld > 0 ? weld_open_edges(mesh, arguments.weld * diagonal(mesh)) : tell_unjoined(mesh);
+      arguments.weld > 0 ? weld_open_edges(mesh, arguments.weld * diagonal(mesh)) : describe_unjoined(mesh);
   if (!joined.empty()) notes.push_back(std::move(joined));
   for (const std::string& what : missing_in_file(arguments.output, mesh)) notes.push_back(what);
   if (!is_kept) {
-    for (const std::string& what : lost_in_file(arguments.output, mesh)) lost.push_back(what);
+    for (const std::string& what : unsupported_in_file(arguments.output, mesh)) lost.push_back(what);
     for (const std::string& name : renamed_in_file(arguments.output, mesh))
       lost.push_back("a name as it was: " + name);
   }
@@ -71,13 +71,13 @@ int convert_command(const ConvertArguments& arguments) {
   if (is_kept)
     rewrite_mesh(arguments.mesh, arguments.output, mesh, arguments.weld);
   else if (fields.empty())
-    write_mesh(arguments.output, mesh, options_after(arguments.mesh, arguments.msh));
+    write_mesh(arguments.output, mesh, options_for_source(arguments.mesh, arguments.msh));
   else
     write_fields(arguments.output, mesh, fields, arguments.msh);
   if (!is_kept) {
     const ShellSections sections = carry_sections(arguments.mesh, arguments.output, mesh);
     lost.insert(lost.end(), sections.lost.begin(), sections.lost.end());
-    if (const auto others = others_in_file(arguments.mesh, sections.carried); !others.empty())
+    if (const auto others = ignored_keywords(arguments.mesh, sections.carried); !others.empty())
       lost.push_back("keywords and how many: " + others);
   }
   if (verbosity() != Verbosity::kQuiet) {

@@ -171,7 +171,7 @@ int run_command_line(int argc, char** argv) {
   if (common.all) set_verbosity(Verbosity::kAll);
   const Command& command = *std::ranges::find_if(commands, [](const Command& c) { return c.app->parsed(); });
   if (common.quiet) be_quiet(command.only_prints());
-  const RunScope told({.activities = &program_activities()});
+  const RunScope run_scope({.activities = &program_activities()});
   std::optional<TimeLimit> limit;
   if (common.time_limit > 0) limit.emplace(common.time_limit);
   return command.run();

@@ -214,7 +214,7 @@ int extrude_command(const ExtrudeArguments& arguments) {
   });
   for (const std::string& name : renamed_in_file(arguments.output, hexahedra))
     notes.push_back(arguments.output.string() + " cannot hold all names as they are: " + name);
-  if (const auto others = others_in_file(arguments.mesh); !others.empty())
+  if (const auto others = ignored_keywords(arguments.mesh); !others.empty())
     notes.push_back(fmt::format("{} loses these keywords of {}: {}", arguments.output.string(),
                                 arguments.mesh.string(), others));
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);

@@ -8,8 +8,8 @@
 #include "io/cases/case_keys.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
+#include "metrics/anisotropic_measures.h"
 #include "metrics/judgement/criteria.h"
-#include "metrics/metric_measures.h"
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/result_records.h"
 #include "program/commands.h"
@@ -25,7 +25,7 @@ struct SchemaArguments {
 std::string measure_table_text() {
   std::vector<Metric> all(metric_registry().begin(), metric_registry().end());
   const auto add = [&](const std::vector<Metric>& more) { all.insert(all.end(), more.begin(), more.end()); };
-  add(metrics_by_metric());
+  add(anisotropic_measures());
   add(criteria_metrics());
   for (const std::string& solver : solver_names()) add(metrics_of_solver(solver));
   add(columns_of_records());

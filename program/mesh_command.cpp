@@ -37,13 +37,13 @@
 namespace delquad {
 namespace {
 
-void tell_left_out(const std::vector<FaceFailure>& failures) {
+void print_left_out(const std::vector<FaceFailure>& failures) {
   for (const FaceFailure& failure : failures) fmt::print(stderr, "error: left out: {}\n", failure.reason);
 }
 
 /// Meshes; of what is left out is told, too, when that fails.
-MeshResult mesh_or_tell(const MeshArguments& arguments, const Prepared& prepared, const Word& word,
-                        const Context& context, Progress& progress) {
+MeshResult mesh_or_report(const MeshArguments& arguments, const Prepared& prepared, const Word& word,
+                          const Context& context, Progress& progress) {
   std::vector<FaceFailure> left_out = prepared->failures;
   try {
     MeshResult result = mesh(prepared, word.text, context);
@@ -60,7 +60,7 @@ MeshResult mesh_or_tell(const MeshArguments& arguments, const Prepared& prepared
     return result;
   } catch (...) {
     progress.finish();
-    tell_left_out(left_out);
+    print_left_out(left_out);
     throw;
   }
 }
@@ -109,11 +109,11 @@ bool keeps_given(const MeshArguments& arguments, const std::optional<Mesh>& give
     lost.push_back(fmt::format("{} cannot hold all names as they are: {}", output, fmt::join(renamed, "; ")));
   if (given && given->order > result.mesh.order)
     lost.push_back(fmt::format("{} loses the nodes on the sides of elements", output));
-  if (const auto names = lost_in_file(arguments.output, result.mesh); !names.empty())
+  if (const auto names = unsupported_in_file(arguments.output, result.mesh); !names.empty())
     lost.push_back(fmt::format("{} loses {}", output, fmt::join(names, "; ")));
   for (const std::string& what : missing_in_file(arguments.output, result.mesh, !arguments.depth.empty()))
     lost.push_back(what);
-  if (const auto others = given ? others_in_file(arguments.model) : ""; !others.empty())
+  if (const auto others = given ? ignored_keywords(arguments.model) : ""; !others.empty())
     lost.push_back(fmt::format("{} loses what {} holds: {}", output, arguments.model.string(), others));
   result.warnings.insert(result.warnings.end(), lost.begin(), lost.end());
   progress.warn(lost);
@@ -132,8 +132,8 @@ std::vector<std::size_t> failing_quads(const MeshResult& result) {
 }
 
 /// Returns the exit code.
-int tell_what_is_missing(const MeshResult& result, const Word& word, bool quads_wanted) {
-  tell_left_out(result.failures);
+int print_missing(const MeshResult& result, const Word& word, bool quads_wanted) {
+  print_left_out(result.failures);
   if (!result.failures.empty()) return kFacesLeftOut;
   if (!quads_wanted || result.mesh.triangles.empty()) return kDone;
   const std::size_t n = result.mesh.triangles.size();
@@ -148,7 +148,7 @@ int tell_what_is_missing(const MeshResult& result, const Word& word, bool quads_
 }
 
 /// The text of the word that is asked for; `given`: of what is to be improved.
-std::string word_of(const MeshArguments& arguments, const std::optional<Mesh>& given) {
+std::string pipeline_text(const MeshArguments& arguments, const std::optional<Mesh>& given) {
   if (arguments.pipeline) return *arguments.pipeline;
   if (given) return given->quads.empty() ? "BCO" : "CO";
   return quality_named(arguments.quality).word;
@@ -281,7 +281,7 @@ void check_fields_file(const std::filesystem::path& file) {
 /// `depth`: of water, at points; null: none is written. `is_kept`: the file of the given mesh is.
 void write_result(const MeshArguments& arguments, const Case& c, const Word& word,
                   const std::function<double(const Vec3&)>& depth, bool is_kept, MeshResult& result) {
-  const DoingStage writing_files("writing");
+  const StageScope writing_files("writing");
   const Uninterrupted whole;
   if (!arguments.keep_numbers) reduce_bandwidth(result.mesh);
   std::optional<Mesh> other;
@@ -292,7 +292,7 @@ void write_result(const MeshArguments& arguments, const Case& c, const Word& wor
   const Mesh& last = other ? *other : result.mesh;
   const auto write = arguments.serendipity ? write_serendipity : write_mesh;
   is_kept ? rewrite_mesh(arguments.model, arguments.output, last, c.surface.weld_tolerance.value_or(0))
-          : write(arguments.output, last, options_after(arguments.model, arguments.msh));
+          : write(arguments.output, last, options_for_source(arguments.model, arguments.msh));
   result.log.add_time("write", writing.time());
   if (!arguments.fields.empty()) write_wanted(arguments.fields, result.mesh, result.prepared);
   if (!arguments.json.empty()) write_text_file(arguments.json, run_record(c, word, result));
@@ -305,7 +305,7 @@ int mesh_command(MeshArguments arguments) {
   std::optional<Mesh> given;
   if (arguments.improve) given = read_mesh(arguments.model);
   const std::optional<RecordedCell> recorded = read_record(arguments);
-  const std::string text = word_of(arguments, given);
+  const std::string text = pipeline_text(arguments, given);
   parse_word(text, WordStart::kGivenMesh);  // before anything is read
   Case c = recorded ? recorded->c : read_case(arguments);
   const Word word = parse_word(text, word_start(c.model));
@@ -337,13 +337,14 @@ int mesh_command(MeshArguments arguments) {
       progress.step(head + ": " + report.stage);
     }};
   };
-  on_estimate() = [&, is_told = false](double quads) mutable {
-    is_told = is_told || warn_of_cost(c, c.quads ? static_cast<double>(*c.quads) : quads, word, progress);
+  on_estimate() = [&, is_reported = false](double quads) mutable {
+    is_reported =
+        is_reported || warn_of_cost(c, c.quads ? static_cast<double>(*c.quads) : quads, word, progress);
   };
   const Prepared prepared = prepare(c, told(c.name));
   on_estimate() = nullptr;
   progress.warn(prepared->warnings);
-  MeshResult result = mesh_or_tell(arguments, prepared, word, told(c.name + " " + word.text), progress);
+  MeshResult result = mesh_or_report(arguments, prepared, word, told(c.name + " " + word.text), progress);
   const bool is_kept = keeps_given(arguments, given, result, progress);
   write_result(arguments, c, word, depth, is_kept, result);
   progress.finish();
@@ -352,7 +353,7 @@ int mesh_command(MeshArguments arguments) {
   if (arguments.view)
     view(page_of(arguments.output), result.mesh, arguments.output.filename().string(),
          {.warnings = lines_of(result.warnings), .failing = failing_quads(result)});
-  return tell_what_is_missing(result, word, word.quads_only() && !arguments.allow_triangles);
+  return print_missing(result, word, word.quads_only() && !arguments.allow_triangles);
 }
 
 }  // namespace

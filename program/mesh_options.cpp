@@ -56,7 +56,7 @@ const std::set<std::string> kOfImprove = {"size.base",
                                           "surface.weld_tolerance",
                                           "criteria"};
 
-bool may_be(const TomlKey& key, const char* type) {
+bool accepts_type(const TomlKey& key, const char* type) {
   return key.type.find('"' + std::string(type) + '"') != std::string::npos;
 }
 
@@ -110,10 +110,11 @@ std::string toml_text(const std::string& value, const TomlKey* key) {
     const auto least = as_number(value.substr(0, to)), most = as_number(value.substr(to + 1));
     if (least && most) return fmt::format("[{}, {}]", *least, *most);
   }
-  const bool is_text = key != nullptr && !may_be(*key, "number") && !may_be(*key, "integer") &&
-                       !may_be(*key, "boolean") && (may_be(*key, "string") || may_be(*key, "enum"));
+  const bool is_text = key != nullptr && !accepts_type(*key, "number") && !accepts_type(*key, "integer") &&
+                       !accepts_type(*key, "boolean") &&
+                       (accepts_type(*key, "string") || accepts_type(*key, "enum"));
   if (const auto number = as_number(value);
-      number && std::isfinite(*number) && (!is_text || may_be(*key, "enum"))) {
+      number && std::isfinite(*number) && (!is_text || accepts_type(*key, "enum"))) {
     const bool is_whole = *number == std::floor(*number) && std::abs(*number) < 1e15;
     return is_whole ? fmt::format("{}", static_cast<long long>(*number)) : fmt::format("{}", *number);
   }
@@ -125,7 +126,7 @@ template <class IsWanted>
 void add_keys(CLI::App& command, KeyArguments& arguments, const IsWanted& is_wanted) {
   for (const auto& [name, key] : all_keys()) {
     if (key.option == nullptr || !is_wanted(name)) continue;
-    const bool is_list = may_be(key, "array") || key.many;
+    const bool is_list = accepts_type(key, "array") || key.many;
     const auto given = [&given = arguments.given, option = key.option,
                         name = name](const std::vector<std::string>& values) {
       given.push_back({option, name, values});
@@ -133,7 +134,7 @@ void add_keys(CLI::App& command, KeyArguments& arguments, const IsWanted& is_wan
     const std::string help =
         fmt::format("{}set {}: {}{}", key.many && key.type.empty() ? form_of(key.table()) + ": " : "", name,
                     key.about, is_list ? "; may be repeated" : "");
-    if (may_be(key, "boolean"))
+    if (accepts_type(key, "boolean"))
       command.add_flag_callback(
           key.option, [given] { given({"true"}); }, help);
     else

@@ -99,7 +99,7 @@ int metrics_command(const MetricsArguments& arguments) {
   criteria.strict |= arguments.strict;
   ReadNotes notes;
   const Mesh mesh = read_mesh(arguments.mesh, &notes);
-  if (std::string torn = tell_unjoined(mesh); !torn.empty()) notes.push_back(std::move(torn));
+  if (std::string torn = describe_unjoined(mesh); !torn.empty()) notes.push_back(std::move(torn));
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
   if (mesh.triangles.empty() && mesh.quads.empty())
     throw InputError(arguments.mesh.string() + ": holds no triangles and no quads to measure");

@@ -11,9 +11,9 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
+#include "metrics/anisotropic_measures.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/judgement/soundness.h"
-#include "metrics/metric_measures.h"
 
 namespace delquad {
 namespace {
@@ -118,7 +118,7 @@ void print_metric(const Metric& metric, const MeshMetrics& metrics) {
 
 void print_metrics(const MeshMetrics& metrics) {
   for (const Metric& metric : metric_registry()) print_metric(metric, metrics);
-  for (const Metric& metric : metrics_by_metric())
+  for (const Metric& metric : anisotropic_measures())
     if (metrics.values.contains(metric.key)) print_metric(metric, metrics);
 }
 

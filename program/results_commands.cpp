@@ -35,7 +35,7 @@ struct ResultsArguments {
 };
 
 /// Why there are no figures; empty: there are.
-void tell_undrawn(const std::string& why) {
+void print_undrawn(const std::string& why) {
   if (!why.empty() && verbosity() != Verbosity::kQuiet) fmt::print(stderr, "{}\n", why);
 }
 
@@ -43,7 +43,7 @@ int tables_command(const ResultsArguments& given) {
   const Outcome outcome = make_tables(given.folder);
   print_tables(outcome);
   const std::vector<std::string> errors = write_tables(given.folder, outcome);
-  tell_undrawn(draw_figures({given.folder}));
+  print_undrawn(draw_figures({given.folder}));
   for (const std::string& error : errors) fmt::print(stderr, "error: {}\n", error);
   return errors.empty() ? kDone : kBadInput;
 }
@@ -62,7 +62,7 @@ int rerun_command(const ResultsArguments& given) {
 int verify_command(const ResultsArguments& given) {
   const RunScope run({.threads = given.threads});
   const Verification result = verify_results(given.folder, given.data);
-  tell_undrawn(result.undrawn);
+  print_undrawn(result.undrawn);
   for (const std::string& finding : result.findings) fmt::print("{}\n", finding);
   fmt::print("{}: {} records, {} meshes measured again: {}\n", given.folder.string(), result.cells,
              result.measured,
@@ -72,7 +72,7 @@ int verify_command(const ResultsArguments& given) {
 
 int merge_command(const ResultsArguments& given) {
   merge_results(given.folders, given.output);
-  tell_undrawn(draw_figures({given.output}));
+  print_undrawn(draw_figures({given.output}));
   fmt::print("results: {}\n", given.output.string());
   return kDone;
 }

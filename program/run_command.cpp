@@ -118,15 +118,17 @@ void add_failures(Outcome& all, const Outcome& one, const std::string& name) {
 
 /// One after the other, whatever becomes of them; returns what failed of all.
 Outcome run_all(const RunArguments& arguments, const std::vector<Experiment>& experiments) {
-  const auto tell = [](const std::string& text) {
+  const auto print_progress = [](const std::string& text) {
     if (verbosity() != Verbosity::kQuiet) fmt::print(stderr, "{}\n", text);
   };
   const std::vector<PlaceInQueue> places = queue(arguments, experiments);
   Outcome all;
   for (const PlaceInQueue& place : places) {
     if (place.index == 0 && place.seconds && place.seconds_after)
-      tell(fmt::format("{} experiments: {}", place.count, time_text(*place.seconds + *place.seconds_after)));
-    tell(fmt::format("{}/{} {}: {}", place.index + 1, place.count, place.name, time_text(place.seconds)));
+      print_progress(
+          fmt::format("{} experiments: {}", place.count, time_text(*place.seconds + *place.seconds_after)));
+    print_progress(
+        fmt::format("{}/{} {}: {}", place.index + 1, place.count, place.name, time_text(place.seconds)));
     SweepArguments one = arguments;
     one.folder = folder_of(arguments, experiments[place.index]);
     one.options.place = place;

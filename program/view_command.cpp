@@ -20,7 +20,7 @@ struct ViewArguments {
 void open_in_browser(const std::filesystem::path& page) {
   const auto given = [](const char* name) { return std::getenv(name) != nullptr && *std::getenv(name) != 0; };
   if (!given("DISPLAY") && !given("WAYLAND_DISPLAY")) return;
-  start_apart("xdg-open", std::filesystem::absolute(page).string());
+  start_detached("xdg-open", std::filesystem::absolute(page).string());
 }
 
 int view_command(const ViewArguments& arguments) {

@@ -11,7 +11,7 @@
 #include "base/marks.h"
 #include "base/sort_unique.h"
 #include "metrics/shape.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 #include "smoothing/relocation/element_quality.h"
 #include "smoothing/relocation/quad_relocation.h"
 
@@ -22,15 +22,15 @@ namespace {
 constexpr int kMostEdits = 2000, kSettlingSweeps = 6;
 /// Allowed loss of eta, summed over the quads around, for each failing quad that an edit removes.
 constexpr double kPriceOfFailing = 1;
-/// Least part of kAskedEta, or of the worst eta around, that an edit must keep; for given quads 1.
+/// Least part of kBatchEta, or of the worst eta around, that an edit must keep; for given quads 1.
 constexpr double kKeptPart = 0.9;
 
 /// Sums and the worst value over quads around some vertices.
 struct QuadsAround {
   int failing = 0;
-  double lack = 0, worst = 1;  ///< sum of 1 - eta; least eta
-  int ties = 0;                ///< chords and corners that another face may share, see part_twins()
-  Vec3 area = {};              ///< area vector
+  double deficit = 0, worst = 1;  ///< sum of 1 - eta; least eta
+  int ties = 0;    ///< chords and corners that another face may share, see separate_duplicates()
+  Vec3 area = {};  ///< area vector
 };
 
 class FailingEdits {
@@ -49,13 +49,13 @@ class FailingEdits {
     places_.insert(places_.end(), inside.begin(), inside.end());
     relocation_.keep_convex_corners();
     relocation_.hold_lengths();
-    relocation_.keep_sines_above(sine_of_eta(kAskedEta));
+    relocation_.keep_sines_above(sine_of_eta(kBatchEta));
   }
 
   int run() {
     int edits = 0;
     for (int e = 0; e < mesh_.element_slots() && trials_ > 0; ++e)
-      if (mesh_.is_quad(e) && is_failing(corners(e))) edits += mend(e);
+      if (mesh_.is_quad(e) && is_failing(corners(e))) edits += repair(e);
     return edits;
   }
 
@@ -92,8 +92,8 @@ class FailingEdits {
       least = std::min(least, length), most = std::max(most, length);
       shortest = std::min(shortest, part), longest = std::max(longest, part);
     }
-    return quad_warp(at) > kAskedWarp ||
-           is_beyond_asked(shortest, longest, most / std::max(least, kTinyLength), sine_of_eta(eta(at)));
+    return quad_warp(at) > kBatchWarp ||
+           is_beyond_batch(shortest, longest, most / std::max(least, kTinyLength), sine_of_eta(eta(at)));
   }
 
   template <class F>
@@ -114,7 +114,7 @@ class FailingEdits {
       if (!mesh_.is_quad(e)) return;
       const auto at = corners(e);
       sum.failing += is_failing(at);
-      sum.lack += 1 - eta(at), sum.worst = std::min(sum.worst, eta(at));
+      sum.deficit += 1 - eta(at), sum.worst = std::min(sum.worst, eta(at));
       sum.area = sum.area + area_vector(at);
       for (int h = 4 * e; h < 4 * e + 4; ++h)
         if (const int v = mesh_.origin(h); mesh_.on_boundary(v))
@@ -158,17 +158,17 @@ class FailingEdits {
     for (int sweep = 0; sweep < kSettlingSweeps; ++sweep)
       for (const int v : touched_) relocation_.step(v);
     const ElementQuality settled = in_plane();
-    if (settled.least_sine < kept_ * std::min(flat.least_sine, sine_of_eta(kAskedEta)) ||
+    if (settled.least_sine < kept_ * std::min(flat.least_sine, sine_of_eta(kBatchEta)) ||
         settled.failing > flat.failing || settled.crowding > flat.crowding)
       return 0;  // checked first, since places in space take longer
     const QuadsAround after = in_space();
     if (after.failing >= before.failing || after.ties > before.ties ||
-        after.worst < kept_ * std::min(before.worst, kAskedEta) || some_turn_from(before.area))
+        after.worst < kept_ * std::min(before.worst, kBatchEta) || some_turn_from(before.area))
       return 0;
-    return kPriceOfFailing * (before.failing - after.failing) - (after.lack - before.lack);
+    return kPriceOfFailing * (before.failing - after.failing) - (after.deficit - before.deficit);
   }
 
-  bool mend(int quad) {
+  bool repair(int quad) {
     check_cancelled();
     std::optional<TreatmentMove> best;
     double most = 0;
@@ -186,7 +186,7 @@ class FailingEdits {
     return true;
   }
 
-  const PreparedSurface& surface_;
+  const SurfaceSetup& surface_;
   const SurfacePatch& domain_;
   QuadTopology mesh_;
   QuadRelocation relocation_;

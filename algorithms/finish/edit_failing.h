@@ -6,8 +6,8 @@
 
 namespace delquad {
 
-/// Edits the quads of a patch around quads that fail in space. A quad fails by is_beyond_asked(), with sides
-/// over `size`, or by kAskedWarp. Edits are rotations, collapses, openings and splits; the best one must
+/// Edits the quads of a patch around quads that fail in space. A quad fails by is_beyond_batch(), with sides
+/// over `size`, or by kBatchWarp. Edits are rotations, collapses, openings and splits; the best one must
 /// leave fewer failing quads after relocation at a small loss of eta. Boundary nodes stay. Returns the number
 /// of edits.
 int edit_failing(const AllPatches& in, std::size_t patch, const SizeField& size);

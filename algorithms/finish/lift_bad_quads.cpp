@@ -13,7 +13,7 @@
 #include "base/parallel.h"
 #include "metrics/shape.h"
 #include "metrics/surface/surface_search.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 #include "smoothing/relocation/quad_relocation.h"
 #include "smoothing/surface/surface_lift.h"
 #include "smoothing/surface/surface_tracks.h"
@@ -25,7 +25,7 @@ namespace {
 constexpr double kPoorInSpace = 0.3;
 constexpr int kLiftSweeps = 20;
 /// Sweeps that move failing quads.
-constexpr int kMendingSweeps = 6;
+constexpr int kRepairSweeps = 6;
 /// Quads of at most this eta are flat, and hardly better than inverted.
 constexpr double kFlat = 1e-3;
 /// Passes that add rings.
@@ -35,7 +35,7 @@ constexpr int kMostTrials = 200, kMostTried = 1'000'000, kWays = 21;
 /// Limit of tried places of vertices, see lift_worst_on_surface(): about ten seconds.
 constexpr long long kMostCost = 8'000'000;
 /// Limit for failing quads: about a second.
-constexpr long long kMostMending = 1'000'000;
+constexpr long long kMostRepairs = 1'000'000;
 
 /// Badness of a quad that is inverted, folded or turned away from the model; a flat quad has 1.
 constexpr int kUnsound = 1000;
@@ -59,7 +59,7 @@ class Badness {
 
  private:
   bool is_turned(const std::array<Vec3, 4>& corners, const Vec3& area, int face) const {
-    std::call_once(is_asked_, [&] { normals_.emplace(fine_); });
+    std::call_once(is_requested_, [&] { normals_.emplace(fine_); });
     Vec3 centre;
     double reach = 0;
     for (const Vec3& x : corners) centre = centre + 0.25 * x;
@@ -68,7 +68,7 @@ class Badness {
   }
 
   const Mesh& fine_;
-  mutable std::once_flag is_asked_;
+  mutable std::once_flag is_requested_;
   mutable std::optional<FaceNormals> normals_;
 };
 
@@ -83,7 +83,7 @@ std::vector<std::size_t> patches_of_quads(const AllPatches& in) {
 /// Moves vertices on the tracks of these patches. Returns how many moved.
 template <class Move>
 int move_on_tracks(const AllPatches& in, const std::vector<std::size_t>& which, const Move& move) {
-  const PreparedSurface& surface = *in.prepared.surface;
+  const SurfaceSetup& surface = *in.prepared.surface;
   std::vector<SurfaceTracks::Patch> moving;
   for (const std::size_t i : which)
     moving.push_back({&surface.domain.patches[i], in.prepared.patches[i].cross.get(), &in.patches[i].quads,
@@ -210,7 +210,7 @@ class State {
 
 /// Writes the quads and places in space of a patch back. Old vertices keep their places.
 void store(const AllPatches& in, std::size_t p, const QuadTopology& mesh) {
-  const PreparedSurface& surface = *in.prepared.surface;
+  const SurfaceSetup& surface = *in.prepared.surface;
   PatchMesh& patch = in.patches[p];
   const int n_boundary = static_cast<int>(in.prepared.patches[p].boundary.point_node.size());
   const int n_before = n_boundary + static_cast<int>(patch.inside.size());
@@ -278,8 +278,8 @@ std::vector<BadQuad> with_changed(std::vector<BadQuad> bad, const std::vector<st
 }
 
 /// Edits the quads around the first bad quad that improves, and lifts them. Returns false if none improves.
-bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector<std::size_t>& which,
-              std::vector<BadQuad>& bad, int& trials, Budget& cost, LiftingSummary& summary) {
+bool repair_one(const AllPatches& in, const Badness& badness_of, const std::vector<std::size_t>& which,
+                std::vector<BadQuad>& bad, int& trials, Budget& cost, LiftingSummary& summary) {
   for (const auto& [badness, p, quad, around] : bad) {
     if (trials <= 0 || cost.is_spent()) return false;
     const std::vector<std::size_t> near = patches_near(in, which, p, around);
@@ -296,7 +296,7 @@ bool mend_one(const AllPatches& in, const Badness& badness_of, const std::vector
       std::vector<BadQuad> left = with_changed(bad, near, all_bad_quads(in, badness_of, near));
       if (total(left) < total(bad)) {
         summary.moved += moved;
-        ++summary.mended;
+        ++summary.repaired;
         bad = std::move(left);
         return true;
       }
@@ -323,7 +323,7 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
   int trials = most;
   // Rings make a mesh less regular, so a given mesh gets them last.
   if (in.prepared.surface->given)
-    while (mend_one(in, badness_of, which, bad, trials, cost, summary)) continue;
+    while (repair_one(in, badness_of, which, bad, trials, cost, summary)) continue;
   trials = most;
   for (int pass = 0; pass < kRingPasses && total(bad) >= kUnsound; ++pass) {
     const State before(in, which);
@@ -339,7 +339,7 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
     summary.rings += rings;
     bad = std::move(left);
   }
-  while (mend_one(in, badness_of, which, bad, trials, cost, summary)) continue;
+  while (repair_one(in, badness_of, which, bad, trials, cost, summary)) continue;
   summary.cost = kMostCost - cost.left();
   if (cost.is_spent() && !bad.empty())
     summary.stopped = in.prepared.boundary.regions[in.prepared.patches[bad[0].patch].region].tag;
@@ -351,10 +351,10 @@ FailingRepairSummary repair_failing_quads(const AllPatches& in, const SizeField&
   const std::vector<std::size_t> which = patches_of_quads(in);
   place_inside(in);
   if (total(all_bad_quads(in, Badness(in.prepared.surface->model.fine), which)) >= kUnsound) return summary;
-  Budget trials(kMostMending);
+  Budget trials(kMostRepairs);
   const auto move = [&] {
     summary.moved += move_on_tracks(in, which, [&](SurfaceTracks& tracks, std::vector<Vec3>& places) {
-      return mend_failing_on_surface(tracks, places, size, kMendingSweeps, trials);
+      return repair_failing_on_surface(tracks, places, size, kRepairSweeps, trials);
     });
   };
   move();

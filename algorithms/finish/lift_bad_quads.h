@@ -13,7 +13,7 @@ namespace delquad {
 struct LiftingSummary {
   int moved = 0;       ///< vertices
   int rings = 0;       ///< rings of quads inside quads that stayed inverted or folded
-  int mended = 0;      ///< edits of quads around bad ones
+  int repaired = 0;    ///< edits of quads around bad ones
   long long cost = 0;  ///< tried places of vertices; a place on CAD counts ten times
   int stopped = 0;     ///< tag of the face with the worst quad if the limit of cost ended the work; 0: it did
                        ///< not
@@ -24,7 +24,7 @@ struct Counters<LiftingSummary> {
   using S = LiftingSummary;
   static constexpr const char* step = "lift_bad_quads";
   static constexpr auto all =
-      std::tuple{counter("moved", &S::moved), counter("rings", &S::rings), counter("mended", &S::mended),
+      std::tuple{counter("moved", &S::moved), counter("rings", &S::rings), counter("mended", &S::repaired),
                  counter("cost", &S::cost), counter("stopped", &S::stopped)};
 };
 
@@ -48,7 +48,7 @@ struct Counters<FailingRepairSummary> {
 /// all patches of quads.
 LiftingSummary lift_bad_quads(const AllPatches& in);
 
-/// Repairs quads of a sound mesh that fail by `size`: by moves (mend_failing_on_surface()), edits
+/// Repairs quads of a sound mesh that fail by `size`: by moves (repair_failing_on_surface()), edits
 /// (edit_failing()), and moves again. It does nothing if a quad is inverted, folded or turned away from the
 /// model.
 FailingRepairSummary repair_failing_quads(const AllPatches& in, const SizeField& size);

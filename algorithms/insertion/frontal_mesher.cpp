@@ -116,7 +116,7 @@ class FrontalMesher {
     if (!resolved(t)) list_for_next_layer(t);
   }
 
-  void wake_neighbours(int t) {
+  void recheck_neighbors(int t) {
     for (const int n : kernel_.triangles()[t].n) {
       if (n >= 0 && !resolved(n)) list_for_next_layer(n);
     }
@@ -157,7 +157,7 @@ class FrontalMesher {
       states_[t].tried |= 1 << k;
       states_[t].front &= ~(1 << k);
     }
-    if (states_[t].tried != kAllTried || !split_at_centroid(t)) wake_neighbours(t);
+    if (states_[t].tried != kAllTried || !split_at_centroid(t)) recheck_neighbors(t);
   }
 
   /// Tries the centroid of a triangle whose sides refuse all points; its edges are much longer than delta'
@@ -222,7 +222,7 @@ class FrontalMesher {
     for (size_t i = 0; i < star.size(); ++i) {
       const int n = star[i];
       if (resolved(n)) {
-        wake_neighbours(n);
+        recheck_neighbors(n);
       } else if (inherited_[i]) {
         states_[n].front = 1;  // side 0 is opposite to the new point
         queue_.push({states_[n].h, n, states_[n].stamp});

@@ -75,7 +75,7 @@ TriPatch fill_frontal(const TriPatch& initial, const PointPlacement& placement, 
 
 /// Returns whether a boundary strays from the cross. Then grids by cross and size lie beside more than half
 /// of its length, and their rows are neither parallel nor normal to it.
-bool is_astray(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size);
+bool is_misaligned(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size);
 
 /// Stage P: packs vertices along the cross, then fills the rest with the frontal mesher and `filler`.
 ///

@@ -19,7 +19,7 @@ constexpr double kFollowedSlope = 0.125;
 /// (the cosine of four times that).
 constexpr double kSameCross = 0.99, kSameSize = 0.05;
 /// Share of the boundary's length beside which grids may stray from it.
-constexpr double kMostAstray = 0.5;
+constexpr double kMostMisaligned = 0.5;
 
 /// Returns the direction of the frame that is nearest to d.
 Vec2 nearest_direction(const Frame& frame, Vec2 d) {
@@ -134,8 +134,8 @@ class Packer {
 
 }  // namespace
 
-bool is_astray(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size) {
-  double length = 0, astray = 0;
+bool is_misaligned(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size) {
+  double length = 0, misaligned = 0;
   VertexFields last;
   for (const auto& [i, j] : boundary.edges) {
     const Vec2 p = boundary.points[i], q = boundary.points[j];
@@ -145,9 +145,9 @@ bool is_astray(const PatchBoundary& boundary, const CrossField& cross, const Par
     if (std::abs(edge.beta) > kFollowedSlope * edge.alpha &&
         a.cross.c * b.cross.c + a.cross.s * b.cross.s >= kSameCross &&
         std::abs(a.delta - b.delta) <= kSameSize * a.delta)
-      astray += norm(q - p);
+      misaligned += norm(q - p);
   }
-  return astray > kMostAstray * length;
+  return misaligned > kMostMisaligned * length;
 }
 
 TriPatch mesh_packing(const PatchBoundary& boundary, const PointPlacement& filler, const CrossField& cross,
@@ -155,7 +155,8 @@ TriPatch mesh_packing(const PatchBoundary& boundary, const PointPlacement& fille
   const Stopwatch watch;
   const int n_boundary = static_cast<int>(boundary.points.size());
   Packer packer(boundary, cross, size, options);
-  const FrontalSummary packed = packer.run(is_astray(boundary, cross, size) ? packer.insert_innermost() : 0);
+  const FrontalSummary packed =
+      packer.run(is_misaligned(boundary, cross, size) ? packer.insert_innermost() : 0);
   FrontalOptions left = options;
   left.max_points -= packed.inserted;
   FrontalSummary done;
@@ -171,7 +172,7 @@ TriPatch mesh_packing(const PatchBoundary& boundary, const PointPlacement& fille
 
 TriPatch mesh_delquad(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options, FrontalSummary* summary) {
-  const auto mesh = is_astray(boundary, cross, size) ? mesh_packing : mesh_frontal;
+  const auto mesh = is_misaligned(boundary, cross, size) ? mesh_packing : mesh_frontal;
   return mesh(boundary, placement, cross, size, options, summary);
 }
 

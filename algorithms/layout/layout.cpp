@@ -475,22 +475,22 @@ class LayoutSearch {
 
 }  // namespace
 
-PatchWorth PatchWorth::of(const QuadPatch& mesh, const ParametricSize& size) {
+PatchScore PatchScore::of(const QuadPatch& mesh, const ParametricSize& size) {
   QuadTopology topology(mesh);
   const QuadRelocation relocation(topology, size);
-  PatchWorth worth{{}, count_irregular(mesh), mesh.quads.size()};
+  PatchScore score{{}, count_irregular(mesh), mesh.quads.size()};
   for (int e = 0; e < topology.element_slots(); ++e)
-    worth.quality.add(element_quality(topology, relocation, e));
-  return worth;
+    score.quality.add(element_quality(topology, relocation, e));
+  return score;
 }
 
-double PatchWorth::loss(const PatchWorth& now) const {
+double PatchScore::loss(const PatchScore& now) const {
   const double times = static_cast<double>(quads) / static_cast<double>(now.quads);
   return quality.value - now.quality.value * times +
          kFailing * (now.quality.failing - quality.failing + now.quality.thin - quality.thin);
 }
 
-bool PatchWorth::keeps_worst(const PatchWorth& now, double eta) const {
+bool PatchScore::keeps_worst(const PatchScore& now, double eta) const {
   return now.quality.crowding <= quality.crowding &&
          now.quality.least_sine >= std::min(quality.least_sine, sine_of_eta(eta));
 }
@@ -545,7 +545,7 @@ std::optional<QuadPatch> more_regular(const QuadPatch& mesh, const PatchBoundary
   }
   if (found) {
     found = make_regular(*found, size);
-    const PatchWorth before = PatchWorth::of(mesh, size), now = PatchWorth::of(*found, size);
+    const PatchScore before = PatchScore::of(mesh, size), now = PatchScore::of(*found, size);
     const int fewer = before.irregular - now.irregular;
     if (fewer <= 0 || before.loss(now) >= options.tolerance * fewer ||
         !before.keeps_worst(now, kCleanupFloorEta))

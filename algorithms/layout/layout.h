@@ -71,21 +71,21 @@ std::optional<QuadPatch> fill_layout(const PatchLayout& layout, const PatchBound
                                      const LayoutOptions& options, LayoutSummary& summary);
 
 /// Value of a mesh of a patch, for comparison with another one.
-struct PatchWorth {
+struct PatchScore {
   ElementQuality quality;
   int irregular = 0;
   std::size_t quads = 0;
 
-  static PatchWorth of(const QuadPatch& mesh, const ParametricSize& size);
+  static PatchScore of(const QuadPatch& mesh, const ParametricSize& size);
   /// Returns the loss by `now` of the sum of eta - 1.5 * (size deviation), scaled to the same number of
   /// quads. More failing quads (ElementQuality) add to it.
-  double loss(const PatchWorth& now) const;
+  double loss(const PatchScore& now) const;
   /// Returns whether `now` has no quad below both this eta and the old worst, and no more crowded sides.
-  bool keeps_worst(const PatchWorth& now, double eta) const;
+  bool keeps_worst(const PatchScore& now, double eta) const;
 };
 
 /// Returns a layout with fewer irregular vertices than the mesh. For each of them its loss
-/// (PatchWorth::loss()) stays below the tolerance. No quad is worse than both kCleanupFloorEta and the old
+/// (PatchScore::loss()) stays below the tolerance. No quad is worse than both kCleanupFloorEta and the old
 /// worst. It examines few pieces. Returns nothing without such a layout.
 std::optional<QuadPatch> more_regular(const QuadPatch& mesh, const PatchBoundary& boundary,
                                       const CrossField& cross, const ParametricSize& size,

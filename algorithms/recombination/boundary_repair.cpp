@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kNone = -1;
 /// Least gain in the worst eta by a duplication over the swap, since it adds an irregular vertex.
-constexpr double kWorthAVertex = 0.05;
+constexpr double kLeastDuplicationGain = 0.05;
 /// A quad; a triangle with kNone as fourth vertex; or four times kNone if removed.
 using Element = std::array<int, 4>;
 
@@ -125,7 +125,7 @@ class Repairer {
     const std::vector<Element> star = duplicate(elements_[first], elements_[last], between);
     const double duplicated = place(points_, static_cast<int>(points_.size()) - 1, star);
     const auto swapped = swap(elements_[first], elements_[last], between);
-    if (swapped && worst_quality(points_, *swapped) >= duplicated - kWorthAVertex) {
+    if (swapped && worst_quality(points_, *swapped) >= duplicated - kLeastDuplicationGain) {
       points_.pop_back();
       elements_[between[0]].fill(kNone);
       elements_[first] = (*swapped)[0];

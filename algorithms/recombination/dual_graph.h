@@ -18,7 +18,7 @@ inline constexpr long long kCostUnit = 1'000'000;
 inline constexpr long long kExtraEdgeCost = 100 * kCostUnit;
 /// Cost of an extra edge along boundaries that stray from the cross. It is below the cost of rows of rhombs
 /// that carry a single triangle across a grid and shear it.
-inline constexpr long long kAstrayExtraEdgeCost = 5 * kCostUnit / 2;
+inline constexpr long long kMisalignedExtraEdgeCost = 5 * kCostUnit / 2;
 
 /// The graph whose perfect matchings merge all triangles of a patch in pairs.
 ///

@@ -13,7 +13,7 @@ namespace delquad {
 namespace {
 
 /// Returns the seconds since the last call.
-class Lap {
+class LapTimer {
  public:
   double operator()() {
     const auto now = std::chrono::steady_clock::now();
@@ -106,7 +106,7 @@ QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, Recombine
                     long long extra_edge_cost, const AddedCost& cost) {
   RecombineSummary s;
   s.triangles = static_cast<int>(tri.triangles.size());
-  Lap lap;
+  LapTimer lap;
   DualGraph dual = build_dual_graph(tri, extra_edge_cost);
   if (cost) cost(tri, dual);
   s.graph_seconds = lap();

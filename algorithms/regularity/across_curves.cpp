@@ -30,9 +30,9 @@ class AcrossCurves {
       const std::size_t n = std::min(kAtOnce, pending_.size());
       std::vector<Visited> found(n);
       parallel_for(n, [&](std::size_t i) {
-        const auto searches = take_searches();
+        const auto searches = acquire_searches();
         found[i] = visit(shared_, *searches, pending_[i].patch, pending_[i].vertex);
-        give_back(searches);
+        release_searches(searches);
       });
       take(found);
     }
@@ -70,14 +70,14 @@ class AcrossCurves {
     for (const auto& [rank, place] : places) pending_.push_back(place);
   }
 
-  std::shared_ptr<Searches> take_searches() {
+  std::shared_ptr<SearchPool> acquire_searches() {
     const std::scoped_lock held(lock_);
-    if (idle_.empty()) return std::make_shared<Searches>();
+    if (idle_.empty()) return std::make_shared<SearchPool>();
     auto one = std::move(idle_.back());
     idle_.pop_back();
     return one;
   }
-  void give_back(std::shared_ptr<Searches> one) {
+  void release_searches(std::shared_ptr<SearchPool> one) {
     const std::scoped_lock held(lock_);
     idle_.push_back(std::move(one));
   }
@@ -131,7 +131,7 @@ class AcrossCurves {
   static void relax(PatchAtCurves& patch) {
     QuadTopology mesh(patch.mesh);
     QuadRelocation relocation(mesh, *patch.size);
-    hold(relocation);
+    limit_relocation(relocation);
     relocation.activate_all();
     relax_at_last(relocation);
     patch.mesh = mesh.to_patch();
@@ -142,8 +142,8 @@ class AcrossCurves {
   std::uint64_t versions_ = 0;
   std::vector<Place> pending_;
   std::mutex lock_;
-  std::vector<std::shared_ptr<Searches>> idle_;  ///< guarded by lock_
-  Searches searches_;
+  std::vector<std::shared_ptr<SearchPool>> idle_;  ///< guarded by lock_
+  SearchPool searches_;
   AcrossCurvesSummary summary_;
 };
 

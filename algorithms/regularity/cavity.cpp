@@ -46,10 +46,10 @@ bool Cavity::close() {
 
 std::uint64_t Cavity::key() const {
   std::uint64_t sum = 0;
-  for (const int e : elements_) sum += scattered(2 * static_cast<std::uint64_t>(e));
+  for (const int e : elements_) sum += hash_bits(2 * static_cast<std::uint64_t>(e));
   for (const int v : vertices_)
     if (!is_inside(v))
-      sum += scattered((static_cast<std::uint64_t>(v) << 5) + 2 * std::min(wanted(v) + 1, 7) + 1);
+      sum += hash_bits((static_cast<std::uint64_t>(v) << 5) + 2 * std::min(wanted(v) + 1, 7) + 1);
   return sum;
 }
 

@@ -15,7 +15,7 @@
 namespace delquad {
 
 /// Scatters the bits of a number (splitmix64).
-inline std::uint64_t scattered(std::uint64_t x) {
+inline std::uint64_t hash_bits(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;

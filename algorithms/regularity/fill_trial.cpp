@@ -29,7 +29,7 @@ constexpr double kHopelessLoss = 1.6;
 /// Moves below this part of an edge do not activate neighbors in the end, as in CleanupProcess.
 constexpr double kRelaxedAtLast = 0.02;
 
-bool is_slow(double mended, double lack) { return lack > 0 && mended < kHopelessPart * lack; }
+bool is_slow(double repaired, double deficit) { return deficit > 0 && repaired < kHopelessPart * deficit; }
 
 }  // namespace
 
@@ -43,7 +43,7 @@ double quads_per_gain_of(const RegularityOptions& options, int round) {
 
 double promise_of(double quads, int left, int gain) { return (quads + kQuadsPerIrregular * left) / gain; }
 
-void hold(QuadRelocation& relocation) {
+void limit_relocation(QuadRelocation& relocation) {
   relocation.keep_convex_corners();
   relocation.hold_lengths();
   relocation.keep_sines_above(sine_of_eta(kCleanupFloorEta));

@@ -22,7 +22,7 @@ double promise_of(double quads, int left, int gain);
 inline constexpr int kMostTrials = 2;
 
 /// Sets the limits of relocation in stage Q. Relocates all active vertices at the end, and returns the moves.
-void hold(QuadRelocation& relocation);
+void limit_relocation(QuadRelocation& relocation);
 long long relax_at_last(QuadRelocation& relocation);
 
 /// Moving vertices and quality of the elements around them when a cavity is filled.

@@ -41,7 +41,7 @@ class LocalFill {
     add_elements(fill);
     mesh.emplace(local_, first_held);
     relocation.emplace(*mesh, *work.patch.size);
-    hold(*relocation);
+    limit_relocation(*relocation);
     for (const int v : moving_)
       if (const auto at = number_.find(v); at != number_.end()) region.push_back(at->second);
   }

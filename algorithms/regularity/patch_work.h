@@ -35,12 +35,12 @@ struct Change {
   bool moves(int k) const { return (from < k && k <= low) || (high <= k && k < to); }
 };
 
-inline std::uint64_t mixed(std::uint64_t sum, std::uint64_t value) {
-  return scattered(sum ^ scattered(value));
+inline std::uint64_t hash_combine(std::uint64_t sum, std::uint64_t value) {
+  return hash_bits(sum ^ hash_bits(value));
 }
-inline std::uint64_t mixed(std::uint64_t sum, const Change& c) {
+inline std::uint64_t hash_combine(std::uint64_t sum, const Change& c) {
   for (const int value : {c.curve, c.low, c.high, c.by})
-    sum = mixed(sum, static_cast<std::uint64_t>(static_cast<unsigned>(value)));
+    sum = hash_combine(sum, static_cast<std::uint64_t>(static_cast<unsigned>(value)));
   return sum;
 }
 
@@ -155,7 +155,7 @@ struct Shared {
 };
 
 /// Grows cavities of patches, for one thread at a time.
-class Searches {
+class SearchPool {
  public:
   CavitySearch& of(PatchWork& w, int patch) {
     if (of_.size() <= static_cast<std::size_t>(patch)) of_.resize(patch + 1);

@@ -41,7 +41,7 @@ class RegularityProcess {
         trial_(mesh_, relocation_) {}
 
   void run() {
-    hold(relocation_);
+    limit_relocation(relocation_);
     for (int round = 0; round < options_.rounds; ++round) {
       tolerance_ = tolerance_of(options_, round);
       quads_per_gain_ = quads_per_gain_of(options_, round);
@@ -70,17 +70,17 @@ class RegularityProcess {
  private:
   /// A cavity whose pattern may have fewer irregular vertices.
   struct Candidate {
-    double promise;  ///< lower ones are tried first
+    double priority;  ///< lower ones are tried first
     int gain;
     std::uint64_t key;
     std::vector<int> elements;
     std::optional<Pattern> pattern;  ///< none if this visit did not search it
     friend bool operator<(const Candidate& a, const Candidate& b) {
-      return a.promise != b.promise ? a.promise < b.promise : a.key < b.key;
+      return a.priority != b.priority ? a.priority < b.priority : a.key < b.key;
     }
   };
   /// Known facts of a cavity.
-  struct Known {
+  struct CavityFacts {
     int least = -1;  ///< irregular vertices of its best pattern; negative: no pattern
     /// Loss of its fill for each removed irregular vertex.
     double loss = -std::numeric_limits<double>::infinity();
@@ -117,7 +117,7 @@ class RegularityProcess {
       const std::uint64_t key = cavity_.key();
       if (std::ranges::find(candidates_, key, &Candidate::key) != candidates_.end()) return;
       const auto [at, is_new] = known_.try_emplace(key);
-      Known& known = at->second;
+      CavityFacts& known = at->second;
       std::optional<Pattern> pattern;
       if (is_new) {
         pattern = best_pattern(outline(), irregular - 1);
@@ -153,7 +153,7 @@ class RegularityProcess {
     for (const int e : candidate.elements) cavity_.add(e);
     if (!cavity_.close()) return false;
     const Outline rim = outline();
-    Known& known = known_[candidate.key];
+    CavityFacts& known = known_[candidate.key];
     if (!candidate.pattern) candidate.pattern = best_pattern(rim, known.least);
     known.loss = std::numeric_limits<double>::infinity();
     if (!candidate.pattern) return false;
@@ -207,7 +207,7 @@ class RegularityProcess {
   std::vector<int> visiting_, work_;  ///< irregular vertices of this round and of the next one
   std::vector<char> listed_;          ///< by vertex: whether it is in work_
   std::vector<Candidate> candidates_;
-  std::unordered_map<std::uint64_t, Known> known_;  ///< by Cavity::key()
+  std::unordered_map<std::uint64_t, CavityFacts> known_;  ///< by Cavity::key()
   RegularitySummary summary_;
 };
 

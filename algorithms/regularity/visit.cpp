@@ -31,7 +31,7 @@ constexpr int kRings = 2, kRingsThere = 3;
 constexpr int kMostAttempts = 6, kMostRelocated = 2;
 /// Factor of the tolerance over a single patch: O moves nodes along curves later, but they are fixed in the
 /// trial.
-constexpr double kDearer = 3;
+constexpr double kPriceFactor = 3;
 /// Limit of stretches of a vertex that are followed, and ways on from the other side of each.
 constexpr std::size_t kMostStretches = 8, kMostWays = 3;
 /// Limit of quads of a polygon that passes a change straight across or is a whole patch.
@@ -52,7 +52,7 @@ constexpr double kMostStrain = 1.5, kMostRawLoss = 19, kWorstRawSine = -0.5;
 /// A visit of an irregular vertex.
 class Visit {
  public:
-  Visit(const Shared& shared, Searches& searches)
+  Visit(const Shared& shared, SearchPool& searches)
       : shared_(shared), network_(shared.network), options_(shared.options), searches_(searches) {}
 
   Visited run(int patch, int v) && {
@@ -65,8 +65,8 @@ class Visit {
       for (const Change& run : polygon.runs)
         for (const int by : kChanges)
           add_use(w, patch, polygon, {changed(run, by)}, -1, patterns_left, starts);
-    const auto promise = [](const Use& o) { return promise_of(double(o.quads()), o.left, -o.more()); };
-    std::ranges::stable_sort(starts, {}, promise);
+    const auto priority = [](const Use& o) { return promise_of(double(o.quads()), o.left, -o.more()); };
+    std::ranges::stable_sort(starts, {}, priority);
     if (starts.size() > kMostStretches) starts.resize(kMostStretches);
     for (const Use& start : starts) go_on({patch, &start}, -start.more(), static_cast<double>(start.quads()));
     std::ranges::sort(candidates_, std::less<>());
@@ -81,12 +81,12 @@ class Visit {
     const Use* use;  ///< its last change is shared with the next part, its first one with the previous part
   };
   struct Candidate {
-    double promise;
+    double priority;
     int gain;
     std::uint64_t key;
     std::vector<Part> parts;
     friend bool operator<(const Candidate& a, const Candidate& b) {
-      return a.promise != b.promise ? a.promise < b.promise : a.key < b.key;
+      return a.priority != b.priority ? a.priority < b.priority : a.key < b.key;
     }
   };
 
@@ -155,7 +155,7 @@ class Visit {
     Cavity& cavity = search.cavity();
     for (int ring = 0; ring <= rings; ++ring) {
       if (!cavity.close()) return;
-      const std::uint64_t key = mixed(cavity.key(), w.version);
+      const std::uint64_t key = hash_combine(cavity.key(), w.version);
       if (std::ranges::find(found, key, &Polygon::key) != found.end()) return;
       if (const int irregular = cavity.irregular(); irregular - std::abs(4 - cavity.corners()) >= fewer) {
         Polygon polygon{{cavity.elements().begin(), cavity.elements().end()}, {}, {}, irregular, key};
@@ -197,7 +197,7 @@ class Visit {
     for (const Part& part : parts_) {
       left += part.use->left;
       std::uint64_t of_part = part.use->polygon->key;
-      for (const Change& change : part.use->changes) of_part = mixed(of_part, change);
+      for (const Change& change : part.use->changes) of_part = hash_combine(of_part, change);
       key += of_part;
     }
     if (std::ranges::find(candidates_, key, &Candidate::key) != candidates_.end()) return;
@@ -446,7 +446,7 @@ class Visit {
       trial.before = fill.before;
       n += fill.before.n;
     }
-    const double tolerance = kDearer * options_.tolerance;
+    const double tolerance = kPriceFactor * options_.tolerance;
     if (!settle(trials, tolerance * candidate.gain / n, candidate.gain, loss, visited_.tried)) return false;
     visited_.gain = candidate.gain;
     visited_.parts = std::move(parts);
@@ -456,7 +456,7 @@ class Visit {
   const Shared& shared_;
   const CurveNetwork& network_;
   const RegularityOptions& options_;
-  Searches& searches_;
+  SearchPool& searches_;
   int attempts_ = 0;
   std::vector<Part> parts_;  ///< polygons of the current cavity
   std::vector<Candidate> candidates_;
@@ -466,7 +466,7 @@ class Visit {
 
 }  // namespace
 
-Visited visit(const Shared& shared, Searches& searches, int patch, int vertex) {
+Visited visit(const Shared& shared, SearchPool& searches, int patch, int vertex) {
   return Visit(shared, searches).run(patch, vertex);
 }
 

@@ -27,6 +27,6 @@ struct Visited {
 };
 
 /// Searches cavities around an irregular vertex and fills them.
-Visited visit(const Shared& shared, Searches& searches, int patch, int vertex);
+Visited visit(const Shared& shared, SearchPool& searches, int patch, int vertex);
 
 }  // namespace delquad::across

@@ -172,8 +172,8 @@ double ShapePenalty::around(std::span<const int> vertices) {
     ++looks_;
     double least = 1;
     for (const double sine : corner_sines(mesh_, e)) {
-      const double lack = std::max(0.0, 1 - sine / poor);
-      sum += lack * lack * lack;
+      const double deficit = std::max(0.0, 1 - sine / poor);
+      sum += deficit * deficit * deficit;
       least = std::min(least, sine);
     }
     if (least <= kFlatSine) sum += kFlatWeight;

@@ -103,29 +103,29 @@ class TreatmentProcess {
     return changes;
   }
 
-  /// Tries `mend` on each quad below this eta that was not given up. Returns the number of changes. The loop
-  /// ends: it visits each initial element once.
-  template <class Mend>
-  int mend_below(double eta, std::vector<char>& given_up, Mend mend) {
+  /// Tries `repair` on each quad below this eta that was not given up. Returns the number of changes. The
+  /// loop ends: it visits each initial element once.
+  template <class Repair>
+  int repair_below(double eta, std::vector<char>& given_up, Repair repair) {
     int changes = 0;
     const double least = sine_of_eta(eta);
     for (int e = 0, n = mesh_.element_slots(); e < n; ++e) {
       check_cancelled();
       given_up.resize(mesh_.element_slots(), 0);
       if (!mesh_.is_quad(e) || given_up[e] || least_sine(mesh_, e) >= least) continue;
-      given_up[e] = !mend(e);
+      given_up[e] = !repair(e);
       if (!given_up[e]) changes += 1 + drain();
     }
     return changes;
   }
 
   int rescues() {
-    return mend_below(kPoorEta, beyond_rescue_, [&](int e) { return rescue(e); });
+    return repair_below(kPoorEta, beyond_rescue_, [&](int e) { return rescue(e); });
   }
 
   /// Remeshes the neighborhoods of bad quads as the last resort.
   int remeshings() {
-    return mend_below(kRemeshedEta, hopeless_, [&](int e) {
+    return repair_below(kRemeshedEta, hopeless_, [&](int e) {
       if (!remeshing_.improve(e, kLeastRelief)) return false;
       touched_.assign(remeshing_.touched().begin(), remeshing_.touched().end());
       if (remeshing_.ring_quads() > 0) {

@@ -29,7 +29,7 @@ Vec2 middle_between(const QuadTopology& mesh, int from, int to) {
 }
 
 /// Applies a split. The new vertex and, if interior, the old one move a little into their own parts.
-void split_apart(QuadTopology& mesh, const TreatmentMove& move) {
+void apply_split(QuadTopology& mesh, const TreatmentMove& move) {
   constexpr double kPart = 0.25;
   const int v = mesh.origin(move.at), opened = mesh.vertex_slots();
   const Vec2 at = mesh.point(v), there = middle_between(mesh, move.at, move.to);
@@ -114,7 +114,7 @@ bool ring_divides_sharp_corner(const QuadTopology& mesh, std::span<const int> qu
 namespace {
 
 /// Returns whether the move is legal if no vertex is held.
-bool is_legal_alone(const QuadTopology& mesh, const TreatmentMove& move) {
+bool is_legal_if_free(const QuadTopology& mesh, const TreatmentMove& move) {
   switch (move.kind) {
     case TreatmentMove::kCollapse:
       return mesh.can_collapse(move.at);
@@ -146,7 +146,7 @@ bool disturbs_held(const QuadTopology& mesh, const TreatmentMove& move) {
 }  // namespace
 
 bool is_legal(const QuadTopology& mesh, const TreatmentMove& move) {
-  return is_legal_alone(mesh, move) && !disturbs_held(mesh, move);
+  return is_legal_if_free(mesh, move) && !disturbs_held(mesh, move);
 }
 
 void apply(QuadTopology& mesh, const TreatmentMove& move) {
@@ -165,7 +165,7 @@ void apply(QuadTopology& mesh, const TreatmentMove& move) {
       mesh.pillow(std::array<int, 1>{QuadTopology::element(move.at)});
       break;
     case TreatmentMove::kSplit:
-      split_apart(mesh, move);
+      apply_split(mesh, move);
       break;
     case TreatmentMove::kOpenForward:
     case TreatmentMove::kOpenBackward:

@@ -17,7 +17,7 @@ namespace {
 /// Weight of the square of deviations, so that large ones cost more than many small ones.
 constexpr double kUneven = 8;
 /// Least decrease of cost that counts.
-constexpr double kCheaper = 1e-9;
+constexpr double kLeastDecrease = 1e-9;
 /// Limit of passes over all sums and curves.
 constexpr int kMostAgreements = 50;
 /// Limit of curves of a chain.
@@ -25,7 +25,7 @@ constexpr int kMostCurves = 24;
 /// Cost that a chain may have beyond the largest gain of its end.
 constexpr double kAdvance = 2;
 /// Price of a sum that must become zero.
-constexpr double kForced = 1000;
+constexpr double kForcedPrice = 1000;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -91,7 +91,7 @@ class Agreement {
     int before, length;
   };
   struct Best {
-    double gain = kCheaper;
+    double gain = kLeastDecrease;
     Changes changes = {};
   };
 
@@ -110,7 +110,7 @@ class Agreement {
     for (const auto& [curve, change] : by)
       if (change != 0) all.push_back({curve, change}), back.push_back({curve, -change});
     make(back);
-    return is_closed && gain_of(all) > kCheaper && make(all);
+    return is_closed && gain_of(all) > kLeastDecrease && make(all);
   }
 
   /// Returns the best change that brings a sum nearer to zero.
@@ -125,8 +125,8 @@ class Agreement {
   /// Makes the best change that brings a curve nearer to its wanted number.
   bool restore(int curve) {
     Best best;
-    try_change(curve, counts_[curve] > curves_[curve].want ? -1 : 1, misfit(curve, counts_[curve]) + kAdvance,
-               best);
+    try_change(curve, counts_[curve] > curves_[curve].ideal ? -1 : 1,
+               misfit(curve, counts_[curve]) + kAdvance, best);
     return make(best.changes);
   }
 
@@ -177,8 +177,8 @@ class Agreement {
           const double total = arrives           ? step.cost + cost_at(to, next, first)
                                : to == kAnywhere ? step.cost + cost_at(step.patch, next, {})
                                                  : kNever;
-          const bool ends = total < least - kCheaper;
-          const bool goes_on = !arrives && step.cost < best_[label(step)] - kCheaper;
+          const bool ends = total < least - kLeastDecrease;
+          const bool goes_on = !arrives && step.cost < best_[label(step)] - kLeastDecrease;
           if ((!ends && !goes_on) || is_used(steps, s, b)) continue;
           steps.push_back(step);
           const int added = static_cast<int>(steps.size()) - 1;
@@ -213,7 +213,7 @@ class Agreement {
 
   double misfit(int curve, int n) const {
     if (n < curves_[curve].least) return kNever;
-    const double log = std::abs(std::log(n / curves_[curve].want));
+    const double log = std::abs(std::log(n / curves_[curve].ideal));
     return n * log * (curves_[curve].weight + kUneven * log);
   }
   double cost_of(Change change) const {
@@ -237,7 +237,7 @@ class Agreement {
     const int by = off(sum, value);
     return by == 0 ? 0 : sums_[sum].price_of_pair + sums_[sum].price * std::abs(by);
   }
-  int times_in(int sum, int curve) const {
+  int multiplicity(int sum, int curve) const {
     int times = 0;
     if (curve >= 0)
       for (const auto& [s, t] : in_sums_[curve])
@@ -249,14 +249,14 @@ class Agreement {
     double cost = 0;
     const auto add = [&](int curve) {
       for (const auto& [s, times] : in_sums_[curve]) {
-        if (sums_[s].patch != patch || (curve == second.curve && times_in(s, first.curve) != 0)) continue;
-        const int by = times_in(s, second.curve) * second.by;
+        if (sums_[s].patch != patch || (curve == second.curve && multiplicity(s, first.curve) != 0)) continue;
+        const int by = multiplicity(s, second.curve) * second.by;
         if (s == forced_) {
-          cost += by != 0 ? kForced : 0;
+          cost += by != 0 ? kForcedPrice : 0;
           continue;
         }
         const int value = values_[s];
-        cost += price(s, value + by + times_in(s, first.curve) * first.by) - price(s, value);
+        cost += price(s, value + by + multiplicity(s, first.curve) * first.by) - price(s, value);
       }
     };
     add(first.curve);
@@ -264,7 +264,7 @@ class Agreement {
     return cost;
   }
 
-  /// Returns the decrease of cost by the changes; the forced sum costs kForced.
+  /// Returns the decrease of cost by the changes; the forced sum costs kForcedPrice.
   double gain_of(const Changes& changes) {
     if (changes.empty()) return 0;
     double gain = 0;
@@ -276,8 +276,8 @@ class Agreement {
     sort_unique(touched);
     for (const int s : touched) {
       int value = values_[s];
-      for (const Change& c : changes) value += times_in(s, c.curve) * c.by;
-      gain += s == forced_ ? kForced * (std::abs(off(s)) - std::abs(off(s, value)))
+      for (const Change& c : changes) value += multiplicity(s, c.curve) * c.by;
+      gain += s == forced_ ? kForcedPrice * (std::abs(off(s)) - std::abs(off(s, value)))
                            : price(s, values_[s]) - price(s, value);
     }
     return gain;
@@ -318,7 +318,7 @@ void agree_counts(const std::vector<AgreeingCurve>& curves, int n_patches,
   assert(counts.size() == curves.size());
   [[maybe_unused]] const auto is_patch = [&](int p) { return p >= 0 && p < n_patches; };
   assert(std::ranges::all_of(curves, [&](const AgreeingCurve& curve) {
-    return curve.want > 0 && curve.least >= 1 && curve.weight >= 0 &&
+    return curve.ideal > 0 && curve.least >= 1 && curve.weight >= 0 &&
            std::ranges::all_of(curve.patches, is_patch);
   }));
   assert(std::ranges::all_of(sums, is_patch, &ClosureSum::patch));

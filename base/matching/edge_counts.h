@@ -11,9 +11,9 @@
 
 namespace delquad {
 
-/// A curve whose number n of edges may change, at a cost of n |log(n / want)| (weight + 8 |log(n / want)|).
+/// A curve whose number n of edges may change, at a cost of n |log(n / ideal)| (weight + 8 |log(n / ideal)|).
 struct AgreeingCurve {
-  double want;               ///< edges, > 0
+  double ideal;              ///< edges, > 0
   int least;                 ///< at least 1
   bool is_free;              ///< otherwise its number is fixed
   double weight;             ///< >= 0
@@ -60,7 +60,7 @@ TJoin minimum_t_join(const WeightedGraph& graph, const std::vector<int>& termina
 
 /// A curve whose number of edges is chosen.
 struct CountedCurve {
-  double want;   ///< > 0
+  double ideal;  ///< > 0
   int n;         ///< initial number
   int least;     ///< at least 1
   bool is_free;  ///< otherwise n is fixed
@@ -82,9 +82,9 @@ struct UnbalancedFace {
 };
 
 /// Changes numbers of edges until all faces meet their conditions. Changes by one follow the cheapest chains
-/// of faces; each costs |log(n / want)|. Then curves of mapped faces change by one, with the cheapest chains
-/// that compensate, as long as the sum of log^2(n / want) falls. [It is a network of bidirected flow; the sum
-/// is usually the least, but not always.] Returns the faces without a solution.
+/// of faces; each costs |log(n / ideal)|. Then curves of mapped faces change by one, with the cheapest chains
+/// that compensate, as long as the sum of log^2(n / ideal) falls. [It is a network of bidirected flow; the
+/// sum is usually the least, but not always.] Returns the faces without a solution.
 std::vector<UnbalancedFace> balance_counts(std::vector<CountedCurve>& curves,
                                            const std::vector<CountedFace>& faces);
 

@@ -147,7 +147,7 @@ void raise_free_nodes(PrimalDualState<Value, Cost>& state) {
 }
 
 /// Bound of times, dual values and sums with them, over a bound of the cost of a matching (docs/matching.md).
-constexpr int kRoom = 16;
+constexpr int kBoundFactor = 16;
 
 template <class Value>
 std::vector<WideInteger> narrow_all(const std::vector<Value>& values) {
@@ -268,9 +268,9 @@ class PrimalDualSolver final : public MatchingSolver {
 
   MatchingResult solve(const MatchingGraph& graph) const override {
     const Wide largest = Wide{MatchingCertificate::kUnits} * check(graph);
-    const Wide limit = Wide{kRoom} * (largest + 1) * (graph.n_nodes + Wide{1});
+    const Wide limit = Wide{kBoundFactor} * (largest + 1) * (graph.n_nodes + Wide{1});
     std::optional<MatchingResult> result;
-    if (limit <= std::numeric_limits<long long>::max() / kRoom) {
+    if (limit <= std::numeric_limits<long long>::max() / kBoundFactor) {
       const auto most = static_cast<long long>(limit);
       result = largest <= std::numeric_limits<int>::max() ? solve_with<long long, int>(graph, most)
                                                           : solve_with<long long, long long>(graph, most);

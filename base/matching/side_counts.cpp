@@ -23,11 +23,11 @@ constexpr double kLower = 1e-9;
 
 /// Condition on a signed sum of numbers of edges. It is zero across a mapped face of four sides. It is even
 /// around a face of three sides or a free one, and negative for a side of three against both others.
-enum class Demand { kZero, kEven, kNegative };
+enum class Requirement { kZero, kEven, kNegative };
 
 struct Condition {
   int face;
-  Demand demand;
+  Requirement demand;
   std::vector<std::pair<int, int>> terms;  ///< curve and signed factor; only odd factors for even sums
 };
 
@@ -42,14 +42,14 @@ class Balance {
   std::vector<UnbalancedFace> run() {
     std::vector<char> is_hopeless(conditions_.size(), 0);
     for (int round = 0; round < kMostRounds; ++round) {
-      bool mended = false;
-      for (const Demand demand : {Demand::kZero, Demand::kNegative, Demand::kEven})
+      bool repaired = false;
+      for (const Requirement demand : {Requirement::kZero, Requirement::kNegative, Requirement::kEven})
         for (std::size_t c = 0; c < conditions_.size(); ++c)
           while (conditions_[c].demand == demand && !is_hopeless[c] && !holds(static_cast<int>(c))) {
-            if (!mend(static_cast<int>(c))) is_hopeless[c] = 1;
-            mended = true;
+            if (!repair(static_cast<int>(c))) is_hopeless[c] = 1;
+            repaired = true;
           }
-      if (!mended) break;
+      if (!repaired) break;
     }
     std::vector<UnbalancedFace> bad;
     for (std::size_t c = 0; c < conditions_.size(); ++c)
@@ -63,27 +63,27 @@ class Balance {
   void add_face(int f, const CountedFace& face) {
     const auto& s = face.sides;
     if (face.n_sides == 4) {
-      for (const int axis : {0, 1}) add(f, Demand::kZero, s[axis], s[axis + 2]);
+      for (const int axis : {0, 1}) add(f, Requirement::kZero, s[axis], s[axis + 2]);
       return;
     }
     std::vector<int> all;
     for (const auto& side : s) all.insert(all.end(), side.begin(), side.end());
-    add(f, Demand::kEven, all, {});
+    add(f, Requirement::kEven, all, {});
     for (int k = 0; k < face.n_sides; ++k) {
       std::vector<int> others = s[(k + 1) % 3];
       others.insert(others.end(), s[(k + 2) % 3].begin(), s[(k + 2) % 3].end());
-      add(f, Demand::kNegative, s[k], others);
+      add(f, Requirement::kNegative, s[k], others);
     }
   }
 
-  void add(int face, Demand demand, const std::vector<int>& plus, const std::vector<int>& minus) {
+  void add(int face, Requirement demand, const std::vector<int>& plus, const std::vector<int>& minus) {
     std::vector<int> all = plus;
     all.insert(all.end(), minus.begin(), minus.end());
     sort_unique(all);
     Condition condition{face, demand, {}};
     for (const int curve : all) {
       int times = static_cast<int>(std::ranges::count(plus, curve) - std::ranges::count(minus, curve));
-      if (demand == Demand::kEven) times %= 2;
+      if (demand == Requirement::kEven) times %= 2;
       if (times == 0) continue;
       condition.terms.emplace_back(curve, times);
       of_curve_[curve].push_back({static_cast<int>(conditions_.size()), times});
@@ -96,8 +96,8 @@ class Balance {
     for (const auto& [curve, times] : conditions_[condition].terms) sum += times * curves_[curve].n;
     return sum;
   }
-  static bool meets(Demand demand, int sum) {
-    return demand == Demand::kZero ? sum == 0 : demand == Demand::kEven ? sum % 2 == 0 : sum < 0;
+  static bool meets(Requirement demand, int sum) {
+    return demand == Requirement::kZero ? sum == 0 : demand == Requirement::kEven ? sum % 2 == 0 : sum < 0;
   }
   bool holds(int condition) const { return meets(conditions_[condition].demand, sum(condition)); }
 
@@ -111,39 +111,39 @@ class Balance {
   };
 
   double cost_of(int curve, int change) const {
-    return std::abs(std::log((curves_[curve].n + change) / curves_[curve].want));
+    return std::abs(std::log((curves_[curve].n + change) / curves_[curve].ideal));
   }
 
   /// Returns whether a change of a curve leaves a condition no worse.
-  bool bears(int condition, int change) const {
-    const Demand demand = conditions_[condition].demand;
+  bool tolerates(int condition, int change) const {
+    const Requirement demand = conditions_[condition].demand;
     const int now = sum(condition);
-    return meets(demand, now + change) || (demand == Demand::kZero && now * change < 0) ||
-           (demand == Demand::kNegative && now >= 0 && change < 0);
+    return meets(demand, now + change) || (demand == Requirement::kZero && now * change < 0) ||
+           (demand == Requirement::kNegative && now >= 0 && change < 0);
   }
 
   /// Returns where a change of the curve leads from a condition: the state of another condition to correct,
   /// or -1 for none. Returns -2 if the change is not allowed or breaks several.
-  int led_to(int start, int from, int curve, int change) const {
+  int next_state(int start, int from, int curve, int change) const {
     int state = -1, others = 0;
     for (const auto& [condition, times] : of_curve_[curve]) {
       if (condition == from) continue;
-      if (condition == start && conditions_[start].demand != Demand::kNegative)
+      if (condition == start && conditions_[start].demand != Requirement::kNegative)
         return -2;  // it would change twice
-      if (bears(condition, times * change)) continue;
+      if (tolerates(condition, times * change)) continue;
       if (++others > 1 || std::abs(times) > 1) return -2;
-      const bool is_even = conditions_[condition].demand == Demand::kEven;
+      const bool is_even = conditions_[condition].demand == Requirement::kEven;
       state = state_of(condition, is_even || times * change < 0);
     }
     return state;
   }
 
   /// Improves a condition by one.
-  bool mend(int condition) {
+  bool repair(int condition) {
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     for (const int state : reached_) steps_[state] = {};
-    const bool is_even = conditions_[condition].demand == Demand::kEven;
+    const bool is_even = conditions_[condition].demand == Requirement::kEven;
     const int start = state_of(condition, is_even || sum(condition) < 0);
     steps_[start].cost = 0;
     reached_ = {start};
@@ -155,14 +155,14 @@ class Balance {
       queue.pop();
       if (cost > steps_[state].cost) continue;
       const Condition& at = conditions_[state / 2];
-      const bool at_even = at.demand == Demand::kEven;
+      const bool at_even = at.demand == Requirement::kEven;
       for (const auto& [curve, times] : at.terms)
         for (const int change : {1, -1}) {
           const bool wanted = at_even || (times * change > 0) == (state % 2 == 1);
           if (!wanted || !may_change(curve, change)) continue;
           if (!at_even && std::abs(times) > 1) continue;
           const double next_cost = cost + cost_of(curve, change);
-          const int next = led_to(condition, state / 2, curve, change);
+          const int next = next_state(condition, state / 2, curve, change);
           if (next == -2) continue;
           Step& step = next == -1 ? last : steps_[next];
           if (next_cost < step.cost) {
@@ -191,7 +191,7 @@ class Balance {
   }
 
   double misfit(int curve) const {
-    const double log = std::log(curves_[curve].n / curves_[curve].want);
+    const double log = std::log(curves_[curve].n / curves_[curve].ideal);
     return log * log;
   }
 
@@ -199,8 +199,9 @@ class Balance {
   void improve() {
     std::vector<int> tried;
     for (std::size_t c = 0; c < curves_.size(); ++c)
-      if (std::ranges::any_of(of_curve_[c],
-                              [&](const auto& in) { return conditions_[in.first].demand != Demand::kEven; }))
+      if (std::ranges::any_of(of_curve_[c], [&](const auto& in) {
+            return conditions_[in.first].demand != Requirement::kEven;
+          }))
         tried.push_back(static_cast<int>(c));
     for (int pass = 0; pass < kMostPasses; ++pass) {
       bool better = false;
@@ -222,7 +223,7 @@ class Balance {
     for (std::size_t done = 0; can_be && done < touched.size(); ++done)
       for (const auto& [condition, times] : of_curve_[touched[done]])
         while (can_be && !holds(condition)) {
-          can_be = chains++ < kMostChains && mend(condition);
+          can_be = chains++ < kMostChains && repair(condition);
           for (const auto& [other, change] : changes_)
             if (std::ranges::find(touched, other) == touched.end()) touched.push_back(other);
         }
@@ -253,7 +254,7 @@ class Balance {
           continue;
         }
         for (const auto& [next, t] : of_curve_[curve])
-          if (!met[next] && conditions_[next].demand != Demand::kEven) {
+          if (!met[next] && conditions_[next].demand != Requirement::kEven) {
             met[next] = 1;
             queue.push_back(next);
           }
@@ -274,7 +275,7 @@ class Balance {
 
 std::vector<UnbalancedFace> balance_counts(std::vector<CountedCurve>& curves,
                                            const std::vector<CountedFace>& faces) {
-  assert(std::ranges::all_of(curves, [](const CountedCurve& c) { return c.want > 0 && c.least >= 1; }));
+  assert(std::ranges::all_of(curves, [](const CountedCurve& c) { return c.ideal > 0 && c.least >= 1; }));
   assert(std::ranges::all_of(
       faces, [](const CountedFace& f) { return f.n_sides == 0 || f.n_sides == 3 || f.n_sides == 4; }));
   return Balance(curves, faces).run();

@@ -97,7 +97,7 @@ std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Cas
                                              const std::string& pipeline,
                                              const std::filesystem::path& scratch, MeshResult& result) {
   if (cell.metrics.empty()) return {};
-  const DoingStage measuring("metrics by command");
+  const StageScope measuring("metrics by command");
   const Stopwatch watch;
   std::vector<std::string> failures;
   std::filesystem::create_directories(scratch);
@@ -115,7 +115,7 @@ std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Cas
 
 std::vector<std::string> measure_by_solvers(const CellIdentity& cell, const Case& c, MeshResult& result) {
   if (cell.solvers.empty()) return {};
-  const DoingStage measuring("solvers");
+  const StageScope measuring("solvers");
   const Stopwatch watch;
   std::vector<std::string> failures;
   for (const std::string& solver : cell.solvers) {

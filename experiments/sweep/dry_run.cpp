@@ -8,8 +8,8 @@
 #include "base/text.h"
 #include "experiments/sweep/cells.h"
 #include "experiments/sweep/run_experiment.h"
+#include "metrics/anisotropic_measures.h"
 #include "metrics/judgement/criteria.h"
-#include "metrics/metric_measures.h"
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/inference.h"
 
@@ -21,11 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns the measures of a case that are not in the registry.
-std::vector<Metric> own_measures_of(const Experiment& experiment, const Case& c) {
+std::vector<Metric> added_metrics_of(const Experiment& experiment, const Case& c) {
   std::vector<Metric> own;
   const auto add = [&](const std::vector<Metric>& more) { own.insert(own.end(), more.begin(), more.end()); };
   if (!c.criteria.limits.empty()) add(criteria_metrics());
-  if (c.metric.asks()) add(metrics_by_metric());
+  if (c.metric.asks()) add(anisotropic_measures());
   for (const std::string& solver : experiment.solvers) add(metrics_of_solver(solver));
   for (const MetricCommand& command : experiment.metrics) own.push_back(command.metric);
   return own;
@@ -35,9 +35,9 @@ std::vector<Metric> own_measures_of(const Experiment& experiment, const Case& c)
 void add_planned_values(const Experiment& experiment, const Case& c, const Word& word, double number,
                         CellRecord& cell) {
   if (word.result != PatchForm::kQuads || cell.kind == kNotApplicable) return;
-  cell.own_metrics = own_measures_of(experiment, c);
+  cell.added_metrics = added_metrics_of(experiment, c);
   for (const Metric& metric : metric_registry()) cell.values[metric.key] = number;
-  for (const Metric& metric : cell.own_metrics) cell.values[metric.key] = number;
+  for (const Metric& metric : cell.added_metrics) cell.values[metric.key] = number;
   for (const Hypothesis& hypothesis : experiment.hypotheses)
     for (const std::string& key : hypothesis.measures)
       if (cell.values.contains(key.substr(0, key.find('.')))) cell.values[key] = number;

@@ -35,13 +35,13 @@ void check_known(const TomlTable& table, const std::string& key, const std::stri
 }
 
 /// Keys that experiments had once, and the way to do the same now.
-const TomlTable::GoneKeys kGone = {
+const TomlTable::RemovedKeys kRemovedKeys = {
     {"ratio", "runs.csv has both values: divide them there"},
     {"linf_delaunay", "'make paper' makes Figure 15 by experiments/paper/fig15_linf_delaunay.cpp"},
     {"slopes", "fit runs.csv, as experiments/studies/what_buys_error.py does"},
     {"correlate", "correlate columns of runs.csv, as experiments/studies/which_quality.py does"},
     {"repeat_times", "vary 'seed' in [matrix], and take the times from runs.csv"}};
-const TomlTable::GoneKeys kGoneOfHypotheses = {
+const TomlTable::RemovedKeys kRemovedOfHypotheses = {
     {"secondary", "all hypotheses are one family: leave the others out, and pairs.* explores them"},
     {"two_sided", "every hypothesis is tested two-sided: remove the key"}};
 
@@ -249,8 +249,8 @@ std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& tex
 
 Experiment Experiment::read(const std::filesystem::path& file, const std::filesystem::path& data) {
   const TomlTable table = TomlTable::read(file);
-  table.refuse_gone(kGone);
-  for (const TomlTable& one : table.tables("hypotheses")) one.refuse_gone(kGoneOfHypotheses);
+  table.refuse_removed(kRemovedKeys);
+  for (const TomlTable& one : table.tables("hypotheses")) one.refuse_removed(kRemovedOfHypotheses);
   table.require_known(experiment_keys());
   Experiment experiment;
   experiment.table_ = table;

@@ -9,8 +9,8 @@
 #include "delquad/error.h"
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/schema.h"
+#include "metrics/anisotropic_measures.h"
 #include "metrics/judgement/criteria.h"
-#include "metrics/metric_measures.h"
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/samples.h"
 #include "metrics/tables/tables.h"
@@ -104,7 +104,7 @@ bool makes_quads(const std::string& text) {
   }
 }
 
-void check_reference_word(const std::string& text) {
+void check_reference_pipeline(const std::string& text) {
   parse_word(text);
   if (!makes_quads(text)) throw InputError("'calibrate_to' is '" + text + "', which makes no quads");
 }
@@ -129,7 +129,7 @@ std::vector<Metric> Experiment::known_metrics() const {
   std::vector<Metric> all(metric_registry().begin(), metric_registry().end());
   const auto add = [&](const std::vector<Metric>& more) { all.insert(all.end(), more.begin(), more.end()); };
   add(criteria_metrics());
-  add(metrics_by_metric());
+  add(anisotropic_measures());
   for (const std::string& solver : solvers) add(metrics_of_solver(solver));
   for (const MetricCommand& command : metrics) all.push_back(command.metric);
   return all;
@@ -194,7 +194,7 @@ void Experiment::settle_calibration(const TomlTable& table) {
   const auto first =
       std::ranges::find_if(pipelines, [](const std::string& name) { return makes_quads(name); });
   if (!calibrate_to.empty())
-    located(table.where("calibrate_to"), [&] { check_reference_word(calibrate_to); });
+    located(table.where("calibrate_to"), [&] { check_reference_pipeline(calibrate_to); });
   else if (first != pipelines.end())
     calibrate_to = *first;
   else if (calibrate)
@@ -214,7 +214,7 @@ void Experiment::add_peers(const std::vector<TomlTable>& tables, std::vector<Pee
     if (std::ranges::find(peers, peer.name, &Peer::name) != peers.end())
       throw InputError(table.where("name") + ": a second peer '" + peer.name + "'");
     if (!peer.calibrate_to.empty())
-      located(table.where("calibrate_to"), [&] { check_reference_word(peer.calibrate_to); });
+      located(table.where("calibrate_to"), [&] { check_reference_pipeline(peer.calibrate_to); });
     else
       peer.calibrate_to = calibrate_to;
     if (!peer.calibrate) peer.calibrate = calibrate;

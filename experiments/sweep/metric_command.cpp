@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 /// Limits for the output of a program: bytes that are read, and bytes that a message shows.
 constexpr std::size_t kMostRead = std::size_t{1} << 20, kMostShown = 200;
 
-std::string told_size(const Case& c) {
+std::string size_argument(const Case& c) {
   const auto size = uniform_size(c);
   if (!size) throw InputError("it is told one number for the size, which varies here");
   return fmt::format("{}", *size);
@@ -100,7 +100,7 @@ MetricOutcome run_metric(const MetricCommand& metric, const Case& c, const std::
   const fs::path out = at / (name + ".out"), err = at / (name + ".err");
   try {
     const std::vector<std::string> words = filled_in(metric.folder, metric.command,
-                                                     {{"{size}", [&] { return told_size(c); }},
+                                                     {{"{size}", [&] { return size_argument(c); }},
                                                       {"{mesh}", [&] { return (at / "mesh.msh").string(); }},
                                                       {"{folder}", [&] { return at.string(); }},
                                                       {"{case}", [&] { return c.name; }},

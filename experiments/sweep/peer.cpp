@@ -40,8 +40,8 @@ std::optional<nlohmann::json> valid_record(const ReferenceCell& cell) {
 }
 
 /// Found in a process of its own: whatever becomes of that, it is not the peer that failed.
-std::optional<double> quads_of_word(const Prepared& prepared, const std::string& word) {
-  const DoingStage counting("our pipeline that the peer is calibrated to");
+std::optional<double> quads_of_pipeline(const Prepared& prepared, const std::string& word) {
+  const StageScope counting("our pipeline that the peer is calibrated to");
   const TemporaryFolder scratch;
   const std::filesystem::path file = scratch.path() / "quads";
   std::optional<ProcessFailure> failure;
@@ -69,7 +69,7 @@ std::optional<double> reference_quads(const Prepared& prepared, const std::strin
     const nlohmann::json& metrics = record->at("metrics");
     return metrics.at("n_quads").get<double>() + 0.5 * metrics.at("n_triangles").get<double>();
   }
-  return quads_of_word(prepared, word);
+  return quads_of_pipeline(prepared, word);
 }
 
 Prepared prepare_scaled(const Prepared& prepared, double scale) {
@@ -85,7 +85,7 @@ namespace fs = std::filesystem;
 
 constexpr unsigned kVersionSeconds = 30;  // after which a program that only tells its version hangs
 /// With which a program ends that cannot be told the case, the reason in its last line.
-constexpr int kCannotBeTold = 77;
+constexpr int kNotApplicableExit = 77;
 constexpr CalibrationLimits kCalibration = {.tolerance = kEquallyMany, .most_runs = 8};
 constexpr const char* kKept = "kept";  // folder of the closest run so far, beside that of the last
 
@@ -181,7 +181,7 @@ void check_surface(const Prepared& prepared, const Mesh& mesh) {
 }
 
 /// Its size where that is uniform; for a peer that has a field besides, the largest.
-double told_size(const PeerTask& task) {
+double size_argument(const PeerTask& task) {
   if (const auto size = uniform_size(task.c)) return task.scale * *size;
   if (task.peer.size_field.empty() || followed_metric(task.prepared))
     throw NotApplicable("'" + task.peer.name + "' is told one number for the size, which varies here");
@@ -189,7 +189,7 @@ double told_size(const PeerTask& task) {
 }
 
 /// A case is not applicable if the program is not there to tell its version.
-std::string told_version(const Peer& peer) {
+std::string version_of_peer(const Peer& peer) {
   try {
     return peer_version(peer);
   } catch (const PeerError& error) {
@@ -208,7 +208,7 @@ void check_end(const Peer& peer, const std::string& program, const ProgramRun& r
   const auto is_good = [&](int code) {
     return std::ranges::find(peer.exit_codes, code) != peer.exit_codes.end();
   };
-  if (run.error == 0 && run.exit_code() == kCannotBeTold && !is_good(kCannotBeTold)) {
+  if (run.error == 0 && run.exit_code() == kNotApplicableExit && !is_good(kNotApplicableExit)) {
     const std::vector<std::string> said = lines_printed(log);
     throw NotApplicable(said.empty() ? "" : said.back());
   }
@@ -225,7 +225,7 @@ PeerRun run_once(const PeerTask& task, const fs::path& folder) {
       peer.size_field.empty() ? fs::path() : write_size_field(sample_sizes(task), peer.size_field, folder);
   const std::string output = "output." + peer.output;
   const auto words = peer_command(task, input, output, field);
-  const DoingStage meshing("the peer");
+  const StageScope meshing("the peer");
   PeerRun result;
   result.program = run_program(words, folder, log);
   check_end(peer, words[0], result.program, log);
@@ -345,13 +345,13 @@ std::vector<std::string> peer_command(const PeerTask& task, const fs::path& inpu
   const double factor = task.field_scale * task.field_scale;
   return filled_in(
       peer.folder, command_of_case(peer, task.c.name),
-      {{"{size}", [&] { return fmt::format("{}", told_size(task)); }},
+      {{"{size}", [&] { return fmt::format("{}", size_argument(task)); }},
        {"{quads}", [&] { return fmt::format("{:.0f}", task.prepared->size.expected_quads / factor); }},
        {"{size_field}", [&] { return size_field.string(); }},
        {"{input}", [&] { return input.string(); }},
        {"{output}", [&] { return output; }},
        {"{seed}", [&] { return std::to_string(task.c.seed); }},
-       {"{version}", [&] { return told_version(peer); }},
+       {"{version}", [&] { return version_of_peer(peer); }},
        {"{data}", [&] { return fs::absolute(task.c.data_folder).lexically_normal().string(); }}});
 }
 

@@ -37,7 +37,7 @@ constexpr std::size_t kLongestReport = 4000;  // fits a pipe, so that nobody wai
 class Tokens {
  public:
   explicit Tokens(int n) {
-    for (int i = 0; i < n; ++i) give_back();
+    for (int i = 0; i < n; ++i) release();
   }
   ~Tokens() {
     close(pipe_.read_end);
@@ -52,7 +52,7 @@ class Tokens {
     char token;
     return poll(&entry, 1, 0) == 1 && read(pipe_.read_end, &token, 1) == 1;
   }
-  void give_back() const {
+  void release() const {
     const char token = 0;
     if (write(pipe_.write_end, &token, 1) != 1) throw_errno("pipe");
   }
@@ -102,9 +102,9 @@ void report_timeouts(double seconds, int report) {
 }
 
 /// The processes that one process has started.
-class Family {
+class ChildProcesses {
  public:
-  Family(const ProcessLimits& limits, const Tokens& tokens, double spent)
+  ChildProcesses(const ProcessLimits& limits, const Tokens& tokens, double spent)
       : limits_(limits), tokens_(tokens), spent_(spent) {}
 
   /// Runs all jobs, on this process's own token and what others can be had.
@@ -133,15 +133,15 @@ class Family {
     finish_threads();
     const pid_t pid = fork();
     if (pid < 0) throw_errno("fork");
-    if (pid == 0) live(job, report.write_end, parent);
+    if (pid == 0) run_child(job, report.write_end, parent);
     close(report.write_end);
     children_.push_back({pid, report.read_end, std::exchange(borrowed_, false), std::move(job)});
     if (!children_.back().borrowed) own_token_free_ = false;
   }
 
   /// In the new process.
-  [[noreturn]] void live(const Job& job, int report, pid_t parent) {
-    end_with(parent, SIGKILL);
+  [[noreturn]] void run_child(const Job& job, int report, pid_t parent) {
+    end_with_parent(parent, SIGKILL);
     for (const int signal_number : {SIGINT, SIGTERM}) signal(signal_number, SIG_DFL);
     program_activities().clear();  // those of the parent
     if (limits_.seconds > 0) report_timeouts(limits_.seconds, report);
@@ -163,7 +163,7 @@ class Family {
       if (job.next) {
         std::vector<Job> jobs = job.next();
         std::size_t k = 0;
-        Family(limits_, tokens_, spent_ + now() - start)
+        ChildProcesses(limits_, tokens_, spent_ + now() - start)
             .run([&] { return k < jobs.size() ? std::optional(std::move(jobs[k++])) : std::nullopt; }, {});
       }
     } catch (const InputError& error) {
@@ -193,11 +193,11 @@ class Family {
     if (for_token) entries.push_back({tokens_.fd(), POLLIN, 0});
     if (poll(entries.data(), entries.size(), tick ? kTick : -1) < 0 && errno != EINTR) throw_errno("poll");
     for (std::size_t i = children_.size(); i-- > 0;)
-      if (entries[i].revents != 0) bury(i);
+      if (entries[i].revents != 0) reap_child(i);
     if (tick) tick();
   }
 
-  void bury(std::size_t i) {
+  void reap_child(std::size_t i) {
     Child child = std::move(children_[i]);
     children_.erase(children_.begin() + static_cast<std::ptrdiff_t>(i));
     const int status = wait_for_end(child.pid);
@@ -206,7 +206,7 @@ class Family {
     report.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
     close(child.report);
     if (child.borrowed)
-      tokens_.give_back();
+      tokens_.release();
     else
       own_token_free_ = true;
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) child.job.failed(failure(status, report));
@@ -235,7 +235,7 @@ class Family {
 void run_jobs(const std::function<std::optional<Job>()>& next_job, const ProcessLimits& limits,
               const std::function<void()>& tick) {
   const Tokens tokens(limits.jobs - 1);
-  Family(limits, tokens, 0).run(next_job, tick);
+  ChildProcesses(limits, tokens, 0).run(next_job, tick);
 }
 
 }  // namespace delquad

@@ -11,8 +11,8 @@
 #include "delquad/error.h"
 #include "experiments/sweep/experiment_fields.h"
 #include "io/cases/problem_record.h"
+#include "metrics/anisotropic_measures.h"
 #include "metrics/judgement/criteria.h"
-#include "metrics/metric_measures.h"
 #include "metrics/metrics.h"
 #include "metrics/solve/solver_metrics.h"
 #include "metrics/tables/result_records.h"
@@ -99,12 +99,12 @@ Json metric_json(const CellIdentity::IdentifiedMetric& of_cell) {
 }
 
 /// The measures that the project itself does not have, so that tables can be made from records alone.
-Json own_metrics_json(const MeshMetrics& metrics, const CellIdentity* cell) {
+Json added_metrics_json(const MeshMetrics& metrics, const CellIdentity* cell) {
   Json json = Json::array();
-  for (const auto* more : {&criteria_metrics(), &metrics_by_metric()})
+  for (const auto* more : {&criteria_metrics(), &anisotropic_measures()})
     for (const Metric& metric : *more)
       if (metrics.values.contains(metric.key)) json.push_back(record_of(metric));
-  for (const OwnMetric& own : own_metrics()) json.push_back(record_of(*find_metric(own.key)));
+  for (const AddedMetric& own : added_metrics()) json.push_back(record_of(*find_metric(own.key)));
   if (cell != nullptr)
     for (const auto& metric : cell->metrics) json.push_back(metric_json(metric));
   if (cell != nullptr)
@@ -295,7 +295,7 @@ Json files_json(const CellIdentity& cell) {
 }
 
 /// A measure failed which another try might give: of a mesh that a solver refuses there is none, ever.
-bool may_come_out_otherwise(const MeshMetrics& metrics) {
+bool may_differ_again(const MeshMetrics& metrics) {
   return std::ranges::any_of(metrics.failures, [](const auto& failure) {
     return std::ranges::find(solver_names(), failure.first) == solver_names().end();
   });
@@ -343,8 +343,8 @@ std::string print(const Json& json) { return json.dump(2, ' ', false, kReplace) 
 }  // namespace
 
 std::string run_record(const Case& c, const Word& word, const MeshResult& result, const CellIdentity* cell) {
-  Json json = start_record(c, word, "ok", cell, may_come_out_otherwise(result.metrics) ? "failed" : "ok");
-  if (const Json own = own_metrics_json(result.metrics, cell); !own.empty()) json["own_metrics"] = own;
+  Json json = start_record(c, word, "ok", cell, may_differ_again(result.metrics) ? "failed" : "ok");
+  if (const Json own = added_metrics_json(result.metrics, cell); !own.empty()) json["own_metrics"] = own;
   json["sound"] = result.soundness.accepted();
   if (!result.soundness.accepted()) json["unsound"] = result.soundness.reasons;
   for (const std::string& beyond : result.soundness.beyond) json["unsound"].push_back(beyond);

@@ -56,10 +56,10 @@ const Branch& end_of_stretch(const Branch& branch) {
   return *at;
 }
 
-void say_why(const std::string& folder, const Cell& cell, const ProcessFailure& why) {
+void print_reason(const std::string& folder, const Cell& cell, const ProcessFailure& why) {
   if (why.kind == kNotApplicable) return;  // told once, at the end
-  say(fmt::format("{}: {} {}: {}", cell.may_fail ? "failed, as it may" : "error", folder, cell.word->text,
-                  why.reason));
+  print_line(fmt::format("{}: {} {}: {}", cell.may_fail ? "failed, as it may" : "error", folder,
+                         cell.word->text, why.reason));
 }
 
 /// Returns a function that reports a failure for all unfinished cells of a branch.
@@ -68,7 +68,7 @@ std::function<void(const ProcessFailure&)> failure_of(const std::shared_ptr<Vari
   return [work, &branch](const ProcessFailure& why) {
     std::vector<const Cell*> cells;
     collect_cells(branch, cells);
-    say_why(work->c.folder, *cells[0], why);
+    print_reason(work->c.folder, *cells[0], why);
     for (const Cell* cell : cells)
       if (!is_done(*cell)) work->fail(*cell, why);
   };
@@ -97,7 +97,7 @@ Job job_of(const std::shared_ptr<VariantWork>& work, const Branch& branch) {
       Job ending;
       ending.work = [work, &end] { work->finish(*end.cell); };
       ending.failed = [work, &end](const ProcessFailure& why) {
-        say_why(work->c.folder, *end.cell, why);
+        print_reason(work->c.folder, *end.cell, why);
         work->fail(*end.cell, why);
       };
       jobs.push_back(std::move(ending));
@@ -129,7 +129,7 @@ class Sweep {
   std::size_t n_works() const { return experiment_.n_cases() * experiment_.n_variants(); }
 
   /// Whole variants go to a shard, so that pipelines share their stages, unless there are too few.
-  bool is_mine(std::size_t work, std::size_t word) const {
+  bool is_in_shard(std::size_t work, std::size_t word) const {
     const std::size_t n = experiment_.words.size();
     return (n_works() >= options_.shard.count ? work : work * n + word) % options_.shard.count ==
            options_.shard.index;
@@ -138,7 +138,7 @@ class Sweep {
   std::size_t shard_size() const {
     std::size_t cells = 0;
     for (std::size_t i = 0; i < n_works(); ++i)
-      for (std::size_t w = 0; w < experiment_.words.size(); ++w) cells += is_mine(i, w);
+      for (std::size_t w = 0; w < experiment_.words.size(); ++w) cells += is_in_shard(i, w);
     return cells;
   }
 
@@ -175,7 +175,7 @@ class Sweep {
     }
     const MachineState start = machine_state();
     for (std::size_t w = 0; w < experiment_.words.size(); ++w) {
-      if (!is_mine(i, w)) continue;
+      if (!is_in_shard(i, w)) continue;
       const Word& word = experiment_.words[w];
       Cell cell{&word, identify(experiment_, work.c, model, word), cell_folder(folder_, work.c, word)};
       cell.identity.experiment = copy_.generic_string();
@@ -200,7 +200,7 @@ class Sweep {
 
   void skip(const VariantWork& work) {
     const ProcessFailure why = {"data not found", "data not found, skipped: " + model_path(work.c).string()};
-    say(work.c.folder + ": " + why.reason);
+    print_line(work.c.folder + ": " + why.reason);
     for (const Cell& cell : work.cells) work.give_up(cell, "skipped", why);
   }
 
@@ -235,7 +235,7 @@ Outcome run_experiment(const Experiment& experiment, const fs::path& folder, con
   experiment.check_hypotheses();
   StudyFile study = describe(experiment);
   study.plan_changed = is_plan_changed(study, folder);
-  if (study.plan_changed && !study.hypotheses.empty()) say(std::string("warning: ") + kNotPlanned);
+  if (study.plan_changed && !study.hypotheses.empty()) print_line(std::string("warning: ") + kNotPlanned);
   const fs::path copy = keep_experiment(experiment, folder);
   write_study(folder, study);
   const std::size_t interrupted = Sweep(experiment, folder, copy, options).run();

@@ -34,7 +34,7 @@ double seconds_of(const timeval& t) {
 
 extern "C" void kill_group(int) { kill(0, SIGKILL); }
 
-[[noreturn]] void become(char* const* words, const char* folder, int log, int errors, int reports) {
+[[noreturn]] void exec_program(char* const* words, const char* folder, int log, int errors, int reports) {
   for (const int number : {SIGTERM, SIGALRM, SIGINT}) signal(number, SIG_DFL);
   if (dup2(open("/dev/null", O_RDONLY), STDIN_FILENO) >= 0 && dup2(log, STDOUT_FILENO) >= 0 &&
       dup2(errors, STDERR_FILENO) >= 0 && chdir(folder) == 0)
@@ -52,10 +52,10 @@ extern "C" void kill_group(int) { kill(0, SIGKILL); }
   signal(SIGTERM, kill_group);
   signal(SIGALRM, kill_group);
   signal(SIGINT, SIG_DFL);
-  end_with(parent, SIGTERM);
+  end_with_parent(parent, SIGTERM);
   alarm(seconds);
   const pid_t program = fork();
-  if (program == 0) become(words, folder, log, errors, reports);
+  if (program == 0) exec_program(words, folder, log, errors, reports);
   Report report = {program < 0 ? errno : 0, 0, {}};
   while (program > 0 && wait4(program, &report.status, 0, &report.usage) < 0 && errno == EINTR) {
   }

@@ -117,14 +117,14 @@ void remove_scratch(const Cell& cell) {
 }
 
 /// Each names its case.
-void say_warnings(const Case& c, const std::vector<Warning>& warnings) {
+void print_warnings(const Case& c, const std::vector<Warning>& warnings) {
   for (const std::string& line : lines_of(warnings))
-    say(fmt::format("warning: {}{}", line.starts_with(c.name) ? "" : c.folder + ": ", line));
+    print_line(fmt::format("warning: {}{}", line.starts_with(c.name) ? "" : c.folder + ": ", line));
 }
 
 }  // namespace
 
-void say(const std::string& text) {
+void print_line(const std::string& text) {
   // In one piece: several processes may speak at once.
   fmt::print(stderr, "{}\n", (errors_have_a_terminal() ? "\r\x1b[2K" : "") + text);
 }
@@ -135,14 +135,14 @@ bool is_done(const Cell& cell) {
 }
 
 void VariantWork::prepare() {
-  const DoingStage preparing("fields");
+  const StageScope preparing("fields");
   prepared = delquad::prepare(c);
-  say_warnings(c, prepared->warnings);
+  print_warnings(c, prepared->warnings);
   meshing.emplace(prepared);
 }
 
 void VariantWork::finish(const Cell& cell) {
-  const DoingStage finishing("writing");
+  const StageScope finishing("writing");
   const std::string label = c.folder + " " + cell.word->text;
   const fs::path scratch = scratch_of(cell.folder);
   const std::string name = c.name + " " + cell.word->text;
@@ -152,16 +152,17 @@ void VariantWork::finish(const Cell& cell) {
                                         : meshing->finish();
   if (const std::string& why = cell.identity.no_peer_version; !why.empty())
     result.warnings.push_back(name + ": its version is unknown: " + why);
-  say_warnings(c, result.warnings_on_mesh());
+  print_warnings(c, result.warnings_on_mesh());
   // Meshes of peers are shown as they are.
   if (peer == nullptr && !allow_unsound) require_sound(name, result);
-  if (!result.soundness.accepted()) say(fmt::format("warning: {}: {}", name, result.soundness.complaint()));
+  if (!result.soundness.accepted())
+    print_line(fmt::format("warning: {}: {}", name, result.soundness.complaint()));
   for (const std::string& failure : measure_by_solvers(cell.identity, c, result))
-    say(fmt::format("warning: {} {}: {}", c.folder, cell.word->text, failure));
+    print_line(fmt::format("warning: {} {}: {}", c.folder, cell.word->text, failure));
   // Before anything of the cell is in place: it may take long.
   if (peer == nullptr) fs::remove_all(scratch);
   for (const std::string& failure : measure_by_commands(cell.identity, c, cell.word->text, scratch, result))
-    say(fmt::format("error: {} {}: {}", c.folder, cell.word->text, failure));
+    print_line(fmt::format("error: {} {}: {}", c.folder, cell.word->text, failure));
   write_cell(cell.folder, [&](const fs::path& at) {
     move_files(scratch, at);
     const Stopwatch writing;
@@ -195,7 +196,7 @@ void VariantWork::give_up(const Cell& cell, const std::string& status, const Pro
                         failure_record(c, *cell.word, status, why.kind, why.reason, &identity));
       });
     } catch (const InputError& error) {
-      say(fmt::format("error: {} {}: {}", c.folder, cell.word->text, error.what()));
+      print_line(fmt::format("error: {} {}: {}", c.folder, cell.word->text, error.what()));
     }
   remove_scratch(cell);
   if (why.kind == "interrupted")

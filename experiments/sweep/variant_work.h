@@ -54,7 +54,7 @@ class SweepProgress {
 };
 
 /// A line on standard error, in one piece: several processes may speak at once.
-void say(const std::string& text);
+void print_line(const std::string& text);
 
 struct Cell {
   const Word* word;

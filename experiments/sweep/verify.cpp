@@ -173,7 +173,7 @@ Lines check_place(const VerifiedCell& cell, const StudyFile& study) {
 }
 
 /// Returns the parts of a record that later checks need. There may be many records.
-Json essence(const Json& record) {
+Json comparable_part(const Json& record) {
   Json json = Json::object();
   for (const char* key : {"experiment", "case", "variant", "pipeline", "model", "problem", "digests",
                           "metrics", "peer", "peer_file"})
@@ -192,7 +192,7 @@ Lines check_record(VerifiedCell& cell, const StudyFile& study) {
     located(cell.file.string(), [&] { check_record_version(cell.record.value("record", 1)); });
     std::ranges::move(check_files(cell), std::back_inserter(wrong));
     std::ranges::move(check_place(cell, study), std::back_inserter(wrong));
-    cell.record = essence(cell.record);
+    cell.record = comparable_part(cell.record);
   } catch (const Json::exception& error) {
     wrong.push_back(json_problem(cell.file, "is no record of a cell", error));
     cell = {cell.file, {}, false};

@@ -35,11 +35,11 @@ class Checked final : public CrossField {
 
 }  // namespace
 
-void use_made_crosses(const CrossSpec& spec, PreparedProblem& prepared) {
+void use_made_crosses(const CrossSpec& spec, MeshingSetup& prepared) {
   prepared.crosses = {};
   parallel_for(prepared.patches.size(), [&](std::size_t i) {
-    const DoingFace face = doing_patch(prepared, i);
-    PreparedPatch& patch = prepared.patches[i];
+    const FaceScope face = patch_scope(prepared, i);
+    PatchSetup& patch = prepared.patches[i];
     patch.cross = located(spec.where,
                           [&] { return spec.maker(patch.boundary, *patch.size, prepared.settings.options); });
     if (!patch.cross) throw InputError(spec.where + ": the cross field's maker made none");

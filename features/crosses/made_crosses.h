@@ -1,11 +1,11 @@
 #pragma once
 
 #include "delquad/fields.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 namespace delquad {
 
 /// Replaces each patch's field by the field of the spec's maker. Known singularities are dropped.
-void use_made_crosses(const CrossSpec& spec, PreparedProblem& prepared);
+void use_made_crosses(const CrossSpec& spec, MeshingSetup& prepared);
 
 }  // namespace delquad

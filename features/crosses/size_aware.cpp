@@ -22,7 +22,7 @@ namespace {
 
 /// Patches that hang together by seams, so that their fields are one.
 struct FieldGroup {
-  std::vector<int> patches;      ///< indices into PreparedProblem::patches, ascending
+  std::vector<int> patches;      ///< indices into MeshingSetup::patches, ascending
   std::vector<FieldSeam> seams;  ///< with indices into `patches`
 };
 
@@ -31,7 +31,7 @@ struct FieldGroup {
 constexpr double kSmoothAlignment = 1, kCutAlignment = 0.03;
 
 /// Returns for each curve how strongly fields are drawn to it, and nothing if fields are given there.
-std::vector<std::optional<double>> alignments(const PreparedProblem& prepared) {
+std::vector<std::optional<double>> alignments(const MeshingSetup& prepared) {
   std::vector<std::optional<double>> of_curve(prepared.boundary.curves.size());
   if (!prepared.surface) return of_curve;
   const std::vector<char> smooth = tangent_curves(prepared.surface->model);
@@ -48,7 +48,7 @@ struct SharedEdge {
 
 /// Edges of curves where fields are not given, by curve and nodes.
 std::map<std::array<int, 3>, SharedEdge> shared_edges(
-    const PreparedProblem& prepared, const std::vector<std::shared_ptr<const BackgroundMesh>>& backgrounds,
+    const MeshingSetup& prepared, const std::vector<std::shared_ptr<const BackgroundMesh>>& backgrounds,
     const std::vector<std::optional<double>>& alignment) {
   std::map<std::array<int, 3>, SharedEdge> shared;
   for (int i = 0; i < static_cast<int>(backgrounds.size()); ++i) {
@@ -75,7 +75,7 @@ std::map<std::array<int, 3>, SharedEdge> shared_edges(
 /// All patches, in groups. Seams are the edges of a surface's cuts, and of curves at which two faces join
 /// smoothly: features, the outline and curves of planar domains are none. `backgrounds`: of each patch, made
 /// from its boundary, whose edges are all there.
-std::vector<FieldGroup> field_groups(const PreparedProblem& prepared,
+std::vector<FieldGroup> field_groups(const MeshingSetup& prepared,
                                      const std::vector<std::shared_ptr<const BackgroundMesh>>& backgrounds) {
   const std::vector<std::optional<double>> alignment = alignments(prepared);
   std::vector<FieldSeam> seams;
@@ -157,7 +157,7 @@ class ResolvingSize final : public ParametricSize {
   const BackgroundMesh& domain_;
 };
 
-std::shared_ptr<const BackgroundMesh> resolve_size(const PreparedPatch& patch) {
+std::shared_ptr<const BackgroundMesh> resolve_size(const PatchSetup& patch) {
   const BackgroundMesh domain(constrained_delaunay(patch.boundary));
   const ResolvingSize size(*patch.size, kLargestPart * std::sqrt(area(patch.boundary)), domain);
   return std::make_shared<BackgroundMesh>(
@@ -166,12 +166,12 @@ std::shared_ptr<const BackgroundMesh> resolve_size(const PreparedPatch& patch) {
 
 }  // namespace
 
-void make_crosses_size_aware(PreparedProblem& prepared, const PatchPullAt& pull) {
-  std::vector<PreparedPatch>& patches = prepared.patches;
+void make_crosses_size_aware(MeshingSetup& prepared, const PatchPullAt& pull) {
+  std::vector<PatchSetup>& patches = prepared.patches;
   const auto n_points = [&](std::size_t i) { return static_cast<double>(patches[i].boundary.points.size()); };
   std::vector<std::shared_ptr<const BackgroundMesh>> backgrounds(patches.size());
   const auto resolve = [&](std::size_t i) {
-    const DoingFace face = doing_patch(prepared, i);
+    const FaceScope face = patch_scope(prepared, i);
     backgrounds[i] = resolve_size(patches[i]);
   };
   parallel_for(patches.size(), resolve, n_points);
@@ -181,7 +181,7 @@ void make_crosses_size_aware(PreparedProblem& prepared, const PatchPullAt& pull)
   parallel_for(
       groups.size(),
       [&](std::size_t g) {
-        const DoingFace face = doing_patch(prepared, groups[g].patches.front());
+        const FaceScope face = patch_scope(prepared, groups[g].patches.front());
         std::vector<FieldPatch> of_group;
         for (const int i : groups[g].patches) {
           of_group.push_back({backgrounds[i], patches[i].size.get(), patches[i].cross});
@@ -200,8 +200,8 @@ void make_crosses_size_aware(PreparedProblem& prepared, const PatchPullAt& pull)
   parallel_for(
       patches.size(),
       [&](std::size_t i) {
-        const PreparedPatch& patch = patches[i];
-        const DoingFace face = doing_patch(prepared, i);
+        const PatchSetup& patch = patches[i];
+        const FaceScope face = patch_scope(prepared, i);
         dislocations[i] = {expected_dislocations(*backgrounds[i], *patch.cross, *patch.size),
                            expected_dislocations(*backgrounds[i], *made[i], *patch.size)};
       },
@@ -225,14 +225,14 @@ void make_crosses_size_aware(PreparedProblem& prepared, const PatchPullAt& pull)
   }
 }
 
-double expected_row_ends(const PreparedProblem& prepared) {
+double expected_row_ends(const MeshingSetup& prepared) {
   if (prepared.crosses.dislocations) return prepared.crosses.dislocations->second;
   std::vector<double> ends(prepared.patches.size());
   parallel_for(
       ends.size(),
       [&](std::size_t i) {
-        const PreparedPatch& patch = prepared.patches[i];
-        const DoingFace face = doing_patch(prepared, i);
+        const PatchSetup& patch = prepared.patches[i];
+        const FaceScope face = patch_scope(prepared, i);
         ends[i] = expected_dislocations(*resolve_size(patch), *patch.cross, *patch.size);
       },
       [&](std::size_t i) { return static_cast<double>(prepared.patches[i].boundary.points.size()); });

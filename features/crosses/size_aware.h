@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "fields/size_aware_cross_field.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 namespace delquad {
 
@@ -11,10 +11,10 @@ namespace delquad {
 /// that follows delta', so that it resolves it. Notes singularities, sum of indices and dislocations.
 /// `pull`: what they are drawn to besides, by patch; null: nothing.
 using PatchPullAt = std::function<CrossPull(int patch, Vec2 u, int& hint)>;
-void make_crosses_size_aware(PreparedProblem& prepared, const PatchPullAt& pull = nullptr);
+void make_crosses_size_aware(MeshingSetup& prepared, const PatchPullAt& pull = nullptr);
 
 /// Rows of quads that have to end along the fields of all patches so that sizes are as wanted, in the mean:
 /// see expected_dislocations(). Takes about as long as D unless the fields are size-aware.
-double expected_row_ends(const PreparedProblem& prepared);
+double expected_row_ends(const MeshingSetup& prepared);
 
 }  // namespace delquad

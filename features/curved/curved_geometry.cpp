@@ -157,7 +157,7 @@ std::array<double, 3> place_of(const Vec3& x) { return {x.x, x.y, x.z}; }
 /// Curves of the plane.
 class PlanarGeometry final : public ModelGeometry {
  public:
-  PlanarGeometry(const PreparedProblem& prepared, const SurfaceNodes& nodes, const Mesh& mesh)
+  PlanarGeometry(const MeshingSetup& prepared, const SurfaceNodes& nodes, const Mesh& mesh)
       : mesh_(mesh), tolerance_(kOnCurve * diagonal(mesh)) {
     for (std::size_t i = 0; i < prepared.plane.curve_places.size(); ++i)
       if (prepared.plane.curve_places[i].curve) sliding_.insert(place_of(nodes.points[i]));
@@ -225,7 +225,7 @@ class PlanarGeometry final : public ModelGeometry {
 /// Faces and curves of space.
 class SurfaceGeometry final : public ModelGeometry {
  public:
-  SurfaceGeometry(const PreparedSurface& surface, const SurfaceNodes& nodes, const Mesh& mesh)
+  SurfaceGeometry(const SurfaceSetup& surface, const SurfaceNodes& nodes, const Mesh& mesh)
       : surface_(surface), mesh_(mesh) {
     const SurfaceDomain& domain = surface.domain;
     for (std::size_t c = 0; c < domain.chains.size(); ++c) {
@@ -305,7 +305,7 @@ class SurfaceGeometry final : public ModelGeometry {
     return place_on_curve(surface_.model, chain, domain.cut_face, s[i - 1] + t * (s[i] - s[i - 1]));
   }
 
-  const PreparedSurface& surface_;
+  const SurfaceSetup& surface_;
   const Mesh& mesh_;
   std::map<Key, Span> spans_;
   std::map<int, std::vector<int>> chains_of_;  ///< of each curve
@@ -315,8 +315,8 @@ class SurfaceGeometry final : public ModelGeometry {
 
 }  // namespace
 
-std::unique_ptr<ModelGeometry> geometry_behind(const PreparedProblem& prepared, const SurfaceNodes& nodes,
-                                               const Mesh& mesh) {
+std::unique_ptr<ModelGeometry> true_geometry(const MeshingSetup& prepared, const SurfaceNodes& nodes,
+                                             const Mesh& mesh) {
   if (prepared.surface) return std::make_unique<SurfaceGeometry>(*prepared.surface, nodes, mesh);
   return std::make_unique<PlanarGeometry>(prepared, nodes, mesh);
 }

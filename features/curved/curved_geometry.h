@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "delquad/mesh.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 // This header has the true curves and faces behind a mesh. Features use it.
 
@@ -30,8 +30,8 @@ class ModelGeometry {
 /// The true model behind a mesh that was made of a problem: curves and formulas, CAD or triangles. `nodes`:
 /// where the nodes on curves came to lie. Lines that were given, and those of the mesh that are on no curve,
 /// are straight. All arguments outlive it.
-std::unique_ptr<ModelGeometry> geometry_behind(const PreparedProblem& prepared, const SurfaceNodes& nodes,
-                                               const Mesh& mesh);
+std::unique_ptr<ModelGeometry> true_geometry(const MeshingSetup& prepared, const SurfaceNodes& nodes,
+                                             const Mesh& mesh);
 
 /// A corner of a quad between two sides that both lie on lines.
 struct CurveCorner {

@@ -159,7 +159,7 @@ void put_ring_in(Mesh& mesh, std::size_t quad, const ModelGeometry& geometry) {
 /// Puts a ring of quads into each quad that has a corner on a smooth curve, or one hardly less than flat: a
 /// curved one would have no area there. Every corner then has two quads. Returns how many got one. The
 /// elements must have order 1.
-int part_flat_corners(Mesh& straight, const ModelGeometry& geometry) {
+int split_flat_corners(Mesh& straight, const ModelGeometry& geometry) {
   std::set<int> flat;
   for (const CurveCorner& corner : curve_corners(straight, geometry))
     if (corner.angle > std::numbers::pi / 2 && std::sin(corner.angle) < kPoorJacobian)
@@ -233,7 +233,7 @@ std::vector<double> allowed_by(const std::vector<CurveCorner>& corners, std::siz
   return allowed;
 }
 
-bool has_metric(const PreparedProblem& p) { return p.metric_plane || (p.surface && p.surface->metric); }
+bool has_metric(const MeshingSetup& p) { return p.metric_plane || (p.surface && p.surface->metric); }
 
 /// A metric wants sharp corners: no more than those of the straight quads have.
 void allow_as_straight(const Mesh& straight, std::vector<double>& allowed) {
@@ -243,9 +243,9 @@ void allow_as_straight(const Mesh& straight, std::vector<double>& allowed) {
 }
 
 /// Vertices that no untangling moves: of layers, and of grids that were asked for.
-std::vector<int> held_vertices(const PreparedProblem& prepared, const Mesh& mesh) {
+std::vector<int> held_vertices(const MeshingSetup& prepared, const Mesh& mesh) {
   std::vector<char> is_grid(prepared.boundary.regions.size(), 0);
-  for (const PreparedPatch& patch : prepared.patches)
+  for (const PatchSetup& patch : prepared.patches)
     if (patch.grid && patch.grid_stays) is_grid[patch.region] = 1;
   const std::vector<char> in_layers = quads_in_layers(prepared, mesh);
   std::set<int> held;
@@ -268,7 +268,7 @@ std::string show_element(const Mesh& mesh, std::size_t q) {
 
 /// Counts elements with little, and tells of those that are positive.
 void count_low(const std::vector<JacobianBounds>& bounds, const std::vector<double>& allowed,
-               const Mesh& mesh, const PreparedProblem& prepared, CurvingSummary& summary,
+               const Mesh& mesh, const MeshingSetup& prepared, CurvingSummary& summary,
                std::vector<Warning>& warnings) {
   std::vector<std::pair<double, std::size_t>> low[2];  // elsewhere, in corners
   for (std::size_t q = 0; q < bounds.size(); ++q) {
@@ -298,7 +298,7 @@ void count_low(const std::vector<JacobianBounds>& bounds, const std::vector<doub
   }
 }
 
-void tell_unproven(const Mesh& mesh, const std::vector<JacobianBounds>& bounds, Soundness& soundness) {
+void report_unproven(const Mesh& mesh, const std::vector<JacobianBounds>& bounds, Soundness& soundness) {
   Places places;
   std::string text;
   for (std::size_t q = 0; q < bounds.size(); ++q) {
@@ -318,20 +318,20 @@ void tell_unproven(const Mesh& mesh, const std::vector<JacobianBounds>& bounds, 
 
 }  // namespace
 
-int part_flat_corners(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh& mesh) {
+int split_flat_corners(const MeshingSetup& prepared, const SurfaceNodes& nodes, Mesh& mesh) {
   if (prepared.settings.order == 1 || !mesh.triangles.empty() || !has_finite_points(mesh)) return 0;
   const Mesh given = mesh;
-  return part_flat_corners(mesh, *geometry_behind(prepared, nodes, given));
+  return split_flat_corners(mesh, *true_geometry(prepared, nodes, given));
 }
 
-bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh& mesh, Soundness& soundness,
+bool curve_mesh(const MeshingSetup& prepared, const SurfaceNodes& nodes, Mesh& mesh, Soundness& soundness,
                 std::vector<Warning>& warnings, CurvingSummary& summary) {
   if (!mesh.triangles.empty())
     throw InputError(fmt::format("{}: elements of order {} need a mesh of quads alone: {} triangles are left",
                                  prepared.settings.where, prepared.settings.order, mesh.triangles.size()));
   summary.order = prepared.settings.order;
   const Mesh straight = mesh;
-  const auto geometry = geometry_behind(prepared, nodes, straight);
+  const auto geometry = true_geometry(prepared, nodes, straight);
   summary.distance_straight = distance_to_model(straight, *geometry);
   raise_order(mesh, prepared.settings.order, *geometry);
   pair_curved_lines(mesh);
@@ -349,7 +349,7 @@ bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh
   summary.mean_jacobian = proven.mean;
   count_low(bounds, limits.allowed, mesh, prepared, summary, warnings);
   summary.distance = distance_to_model(mesh, *geometry);
-  tell_unproven(mesh, bounds, soundness);
+  report_unproven(mesh, bounds, soundness);
   return untangled.moved_vertices;
 }
 

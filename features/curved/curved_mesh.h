@@ -5,7 +5,7 @@
 
 #include "base/counters.h"
 #include "delquad/metrics.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 // This header makes curved elements from a straight mesh. The pipeline and features use it.
 
@@ -45,12 +45,12 @@ struct Counters<CurvingSummary> {
 
 /// Parts quads of the straight mesh that have flat corners, where the problem asks for curved elements.
 /// Returns how many.
-int part_flat_corners(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh& mesh);
+int split_flat_corners(const MeshingSetup& prepared, const SurfaceNodes& nodes, Mesh& mesh);
 
 /// Gives a sound mesh the elements of the problem's order. Elements that are not proven to be positive make
 /// the mesh unsound. Returns whether vertices of the straight mesh moved. Throws InputError if triangles are
 /// left.
-bool curve_mesh(const PreparedProblem& prepared, const SurfaceNodes& nodes, Mesh& mesh, Soundness& soundness,
+bool curve_mesh(const MeshingSetup& prepared, const SurfaceNodes& nodes, Mesh& mesh, Soundness& soundness,
                 std::vector<Warning>& warnings, CurvingSummary& summary);
 
 /// The mesh of straight elements with the same vertices.

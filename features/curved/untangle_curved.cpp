@@ -33,7 +33,7 @@ struct DistortionTarget {
 };
 
 /// The target shape of an element.
-enum class Likeness {
+enum class TargetShape {
   kStraight,     ///< the parallelogram in the middle of its straight form
   kRightAngled,  ///< a rectangle with sides as long as those of its straight form are in the mean
 };
@@ -91,7 +91,7 @@ SampleTable make_sample_table(int order) {
 }
 
 /// False where the straight quad is flat.
-bool make_target(const Mesh& mesh, std::size_t quad, Likeness likeness, DistortionTarget& target) {
+bool make_target(const Mesh& mesh, std::size_t quad, TargetShape target_shape, DistortionTarget& target) {
   target.nodes = nodes_of_quad(mesh, quad);
   const auto& v = mesh.quads[quad];
   const auto at = [&](int k) { return mesh.points[v[k]]; };
@@ -101,7 +101,7 @@ bool make_target(const Mesh& mesh, std::size_t quad, Likeness likeness, Distorti
   target.e1 = (1 / norm(a)) * a;
   target.e2 = cross((1 / norm(n)) * n, target.e1);
   double x = norm(a), y = dot(b, target.e1), z = dot(b, target.e2);
-  if (likeness == Likeness::kRightAngled) {
+  if (target_shape == TargetShape::kRightAngled) {
     const auto side = [&](int k) { return norm(at((k + 1) % 4) - at(k)); };
     x = (side(0) + side(2)) / 2, y = 0, z = (side(1) + side(3)) / 2;
   }
@@ -233,7 +233,7 @@ class DistortionEnergy final : public ceres::FirstOrderFunction {
 constexpr int kDescents = 5;
 constexpr int kDescentSteps = 60;
 /// A descent ends where the energy falls by no more, as a part of it, in a step.
-constexpr double kHardlyLess = 1e-3;
+constexpr double kLeastDecrease = 1e-3;
 /// Parts of the energy's step that are tried; the first that improves the quads counts. Energies know planes
 /// only.
 constexpr std::array kPartsOfStep{1.0, 0.5, 0.25, 0.1};
@@ -244,15 +244,17 @@ constexpr double kMostOfWay = 0.5;
 struct Trial {
   int rings;            ///< of quads around poor ones that move with them
   bool moves_vertices;  ///< else only the nodes between them
-  Likeness likeness;
+  TargetShape target_shape;
   DistortionWeights weights;
 };
-constexpr std::array kTrials{
-    Trial{2, false, Likeness::kStraight, {1, 3}},      Trial{2, true, Likeness::kRightAngled, {0.2, 3}},
-    Trial{3, true, Likeness::kRightAngled, {0.05, 4}}, Trial{6, true, Likeness::kRightAngled, {0.1, 4}},
-    Trial{3, true, Likeness::kRightAngled, {0.05, 8}}, Trial{2, true, Likeness::kRightAngled, {0.2, 4}}};
+constexpr std::array kTrials{Trial{2, false, TargetShape::kStraight, {1, 3}},
+                             Trial{2, true, TargetShape::kRightAngled, {0.2, 3}},
+                             Trial{3, true, TargetShape::kRightAngled, {0.05, 4}},
+                             Trial{6, true, TargetShape::kRightAngled, {0.1, 4}},
+                             Trial{3, true, TargetShape::kRightAngled, {0.05, 8}},
+                             Trial{2, true, TargetShape::kRightAngled, {0.2, 4}}};
 /// Trials after the first treat elements below this bound.
-constexpr double kPoorStill = 1.2 * kLowJacobian;
+constexpr double kRetryJacobian = 1.2 * kLowJacobian;
 
 class CurvedUntangler {
  public:
@@ -276,7 +278,7 @@ class CurvedUntangler {
       for (std::size_t q = 0; q < poor.size(); ++q) worked_on[q] |= poor[q];
       const std::vector<std::vector<int>> all = neighbourhoods(poor, trial.rings);
       std::vector<char> moved(all.size(), 0);
-      parallel_for(all.size(), [&](std::size_t i) { moved[i] = mend(all[i], trial); });
+      parallel_for(all.size(), [&](std::size_t i) { moved[i] = repair(all[i], trial); });
       summary.moved_vertices =
           summary.moved_vertices || (trial.moves_vertices && std::ranges::count(moved, 1) > 0);
     }
@@ -346,7 +348,7 @@ class CurvedUntangler {
     const double proven = bounds_[q].proven;
     if (proven <= 0) return true;
     if (proven >= std::min(kPoorJacobian, kPartOfAllowed * limits_.allowed[q])) return false;
-    if (trial.moves_vertices) return proven < kPoorStill;
+    if (trial.moves_vertices) return proven < kRetryJacobian;
     std::vector<Vec3> straight;
     for (const int corner : {0, 1, 3, 2}) straight.push_back(mesh_.points[mesh_.quads[q][corner]]);
     constexpr double kAsGood = 0.7;
@@ -413,12 +415,13 @@ class CurvedUntangler {
   }
 
   /// False where nothing was better.
-  bool mend(const std::vector<int>& quads, const Trial& trial) {
+  bool repair(const std::vector<int>& quads, const Trial& trial) {
     std::vector<DistortionTarget> targets;
     for (const int q : quads) {
       // In a cusp, where nothing helps, one would outweigh all others: its nodes stay.
       if (limits_.allowed[q] == 0 && bounds_[q].positive()) continue;
-      if (DistortionTarget target; make_target(mesh_, static_cast<std::size_t>(q), trial.likeness, target))
+      if (DistortionTarget target;
+          make_target(mesh_, static_cast<std::size_t>(q), trial.target_shape, target))
         targets.push_back(std::move(target));
     }
     std::vector<FreeNode> free = free_nodes(targets, trial);
@@ -479,7 +482,7 @@ class CurvedUntangler {
     const ceres::GradientProblem problem(energy);  // which owns it
     ceres::GradientProblemSolver::Options options;
     options.max_num_iterations = kDescentSteps;
-    options.function_tolerance = kHardlyLess;
+    options.function_tolerance = kLeastDecrease;
     options.logging_type = ceres::SILENT;
     ceres::GradientProblemSolver::Summary summary;
     ceres::Solve(options, problem, x.data(), &summary);

@@ -2,7 +2,7 @@
 
 namespace delquad {
 
-/// Steps of agree_counts(), and what face_nodes() takes of them: some ten seconds.
+/// Steps of agree_counts(), and what align_opposite_nodes() takes of them: some ten seconds.
 constexpr long long kMostAgreementSteps = 200'000'000;
 
 /// How far numbers of edges agree.

@@ -89,7 +89,7 @@ constexpr double kCurvedEdgeTurn = std::numbers::pi / 2;
 
 WantedSize surface_size(const MeshProblem& problem, const SurfaceModel& model,
                         std::shared_ptr<const SizeField> base, const std::vector<CurveDivision>& divisions,
-                        const std::vector<SizeSpot>& spots, const CutSurface* cut) {
+                        const std::vector<SizeBall>& spots, const CutSurface* cut) {
   const SizeSpec& spec = problem.size;
   WantedSize wanted;
   if (problem.order > 1 && model.projector) wanted.edge_turn = kCurvedEdgeTurn;

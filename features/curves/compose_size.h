@@ -12,7 +12,7 @@
 #include "fields/sampled_fields.h"
 #include "fields/surface/surface_size.h"
 #include "geometry/planar/planar_model.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 // What a size is made of.
 //
@@ -52,14 +52,14 @@ bool is_symmetric(const MeshProblem& problem);
 /// A planar model of curves, meshed by its size, which is composed on the way: p.size, p.symmetry and
 /// p.plane.background are those of the domain. `spots`: see Refinement.
 PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
-                          const std::vector<SizeSpot>& spots, const CurveAgreement& agreement,
-                          PreparedProblem& p);
+                          const std::vector<SizeBall>& spots, const CurveAgreement& agreement,
+                          MeshingSetup& p);
 
 /// The size on a surface, of `base` and all ingredients that follow it. `divisions`: those of the model.
 /// `cut`: null, or the model is the part.
 WantedSize surface_size(const MeshProblem& problem, const SurfaceModel& model,
                         std::shared_ptr<const SizeField> base, const std::vector<CurveDivision>& divisions,
-                        const std::vector<SizeSpot>& spots, const CutSurface* cut);
+                        const std::vector<SizeBall>& spots, const CutSurface* cut);
 
 /// Integral of dA/delta^2 over the fine triangles, by their centroids; faces that are images have that of
 /// their masters. `part`: of what, if the triangles are a part of a symmetric model; null: they are all.

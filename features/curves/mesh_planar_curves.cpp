@@ -112,15 +112,15 @@ class PieceCounts {
     for (const MappedFace& face : mapped)
       for (const auto& side : face.sides) {
         kept.insert(side.begin(), side.end());
-        if (face.is_asked) stays.insert(side.begin(), side.end());
+        if (face.is_requested) stays.insert(side.begin(), side.end());
       }
     const double quads = std::accumulate(wanted.quads.begin(), wanted.quads.end(), 0.0);
     Budget steps(std::min(by.most_steps, static_cast<long long>(kStepsPerQuad * quads)));
     agree_on_counts(curves, wanted, by.price, kept, steps, counts);
     Budget looks(by.most_steps);
     for (const ChainPair& pair : curves.images) counts[pair.chain] = counts[pair.master];
-    const CurvePlaces places =
-        face_nodes(fine, curves.chains, across, wanted.integrals, counts, wanted.group, size, looks);
+    const CurvePlaces places = align_opposite_nodes(fine, curves.chains, across, wanted.integrals, counts,
+                                                    wanted.group, size, looks);
     set(counts);
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       double farthest = 0;
@@ -205,7 +205,7 @@ class CurveMesher {
     const auto fold = [&](Vec2 at, Vec2 x) {
       return symmetry != nullptr ? symmetry->reflect(symmetry->folds_of(at), x) : x;
     };
-    add_whiskers(model_, size, fold, chain_, pieces_);
+    add_dangling_edges(model_, size, fold, chain_, pieces_);
     make_even();
     follow_masters(model_, images_, pieces_);
   }
@@ -231,10 +231,10 @@ class CurveMesher {
     for (const CurveChain& chain : node_chains())
       for (std::size_t k = 1; k < chain.points.size(); ++k) {
         mesh.lines.push_back({chain.points[k - 1], chain.points[k]});
-        mesh.line_curve.push_back(chain.curve < 0 ? whisker_curve() : chain.curve);
+        mesh.line_curve.push_back(chain.curve < 0 ? dangling_curve() : chain.curve);
       }
     mesh.curves = curves_;
-    if (has_whiskers()) mesh.curves.push_back({whisker_curve() + 1, {}});
+    if (has_dangling()) mesh.curves.push_back({dangling_curve() + 1, {}});
     for (std::size_t i = 0; i < model_.points.size(); ++i) {
       const ModelPoint& point = model_.points[i];
       Entity entity{static_cast<int>(i) + 1, {}};
@@ -259,7 +259,7 @@ class CurveMesher {
     std::vector<MappedPatch> mapped =
         mapped_patches(mapped_, counts_->curves(), pieces_, arrangement, regions);
     PlanarDomain domain = build_domain(std::move(lines), arrangement, std::move(regions), names,
-                                       {cracks(), has_whiskers() ? whisker_curve() : -1, true});
+                                       {cracks(), has_dangling() ? dangling_curve() : -1, true});
     check_loops_apart(loop_edges(), names);
     domain.places = places();
     domain.places.resize(domain.boundary.points.size());
@@ -285,17 +285,18 @@ class CurveMesher {
     return shapes;
   }
 
-  bool has_whiskers() const { return pieces_.back().curve < 0; }
-  int whisker_curve() const { return static_cast<int>(curves_.size()); }
+  bool has_dangling() const { return pieces_.back().curve < 0; }
+  int dangling_curve() const { return static_cast<int>(curves_.size()); }
   std::string prefix() const { return message_prefix(model_); }
 
   BoundaryNames names() const {
     return {model_.source,
             [this](int c) {
-              return c == whisker_curve() ? "the edge at a point" : curve_label(model_, of_curve_[c].front());
+              return c == dangling_curve() ? "the edge at a point"
+                                           : curve_label(model_, of_curve_[c].front());
             },
             "the curves meet there, or the size is too large to keep them apart",
-            has_whiskers() ? whisker_curve() : -1};
+            has_dangling() ? dangling_curve() : -1};
   }
 
   /// Of the mesh's points.
@@ -334,7 +335,7 @@ class CurveMesher {
 
   std::vector<std::vector<int>> loops_of_curve() const {
     const auto of_model = loops_of_model_curves(model_, chain_);
-    std::vector<std::vector<int>> loops(curves_.size() + has_whiskers());
+    std::vector<std::vector<int>> loops(curves_.size() + has_dangling());
     for (std::size_t c = 0; c < of_curve_.size(); ++c)
       for (const int m : of_curve_[c])
         loops[c].insert(loops[c].end(), of_model[m].begin(), of_model[m].end());
@@ -346,7 +347,7 @@ class CurveMesher {
     std::vector<char> cracks;
     for (const std::vector<int>& of : of_curve_) cracks.push_back(is_crack(model_, of));
     if (std::ranges::find(cracks, 1) == cracks.end()) return {};
-    cracks.resize(curves_.size() + has_whiskers(), 0);
+    cracks.resize(curves_.size() + has_dangling(), 0);
     return cracks;
   }
 
@@ -460,10 +461,10 @@ PlanarDomain mesh_curves(const PlanarModel& model, const PointSize& size, const 
   if (!symmetry) {
     PlanarDomain domain = CurveMesher(model, size, options).domain();
     if (asked) {
-      const std::string spoiled = what_spoils_symmetry(model);
+      const std::string near_miss = why_not_symmetric(model);
       domain.notes.push_back(options.symmetry.where +
                              ": no plane of symmetry was found: all of the model is meshed" +
-                             (spoiled.empty() ? "" : "; " + spoiled));
+                             (near_miss.empty() ? "" : "; " + near_miss));
     }
     return domain;
   }

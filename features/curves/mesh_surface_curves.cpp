@@ -120,8 +120,8 @@ PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves&
     agree_on_counts(curves, wanted, agreement.price, kept, steps, placed.counts);
   }
   for (const ChainPair& pair : curves.images) placed.counts[pair.chain] = placed.counts[pair.master];
-  CurvePlaces places = face_nodes(model.fine, curves.chains, across, wanted.integrals, placed.counts,
-                                  wanted.group, size_on_lines(size), steps);
+  CurvePlaces places = align_opposite_nodes(model.fine, curves.chains, across, wanted.integrals,
+                                            placed.counts, wanted.group, size_on_lines(size), steps);
   for (std::size_t c = 0; c < wanted.divided.size(); ++c)
     for (std::size_t k = 0; k < wanted.divided[c].size(); ++k)
       places[c][k] = placed.counts[c] * wanted.integrals[c].part_at(wanted.divided[c][k]);
@@ -349,7 +349,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
                               std::move(curves.tube_sizes[p])});
     SurfacePatch& patch = domain.patches[p];
     if (std::ranges::find(grids, static_cast<int>(p), &MappedFace::face) != grids.end()) continue;
-    const DoingFace face(fine.regions[patch.map.face].tag);
+    const FaceScope face(fine.regions[patch.map.face].tag);
     try {
       capping.cap(static_cast<int>(p));
       seed_narrow_places(patch.boundary);

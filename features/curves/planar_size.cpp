@@ -74,9 +74,9 @@ double diagonal_of(const PlanarModel& model) {
 }
 
 /// Places where the mesh was not sound, before the model was turned.
-std::vector<FineSpot> fine_spots(const MeshProblem& problem, const std::vector<SizeSpot>& spots) {
-  std::vector<FineSpot> fine;
-  for (const SizeSpot& spot : spots) {
+std::vector<LocalSize> fine_spots(const MeshProblem& problem, const std::vector<SizeBall>& spots) {
+  std::vector<LocalSize> fine;
+  for (const SizeBall& spot : spots) {
     const Vec2 turned{spot.at.x, spot.at.y};
     const Vec2 at = problem.seed == 0 ? turned : Rotation::by_seed(problem.seed).back(turned);
     fine.push_back({{at.x, at.y, 0}, {at.x, at.y, 0}, spot.size, spot.reach});
@@ -95,7 +95,7 @@ std::vector<SymmetryPlane> planes_of(const MeshProblem& problem, const PlanarMod
 class SizedModel {
  public:
   SizedModel(const MeshProblem& problem, const PlanarModel& model, const CurveAgreement& agreement,
-             PreparedProblem& p)
+             MeshingSetup& p)
       : problem_(problem), model_(model), agreement_(agreement), p_(p) {}
 
   /// Meshes the curves by another size. `grid_size`: of the sides of grids, where that is another one.
@@ -125,7 +125,7 @@ class SizedModel {
   const MeshProblem& problem_;
   const PlanarModel& model_;
   const CurveAgreement agreement_;
-  PreparedProblem& p_;
+  MeshingSetup& p_;
 };
 
 }  // namespace
@@ -139,8 +139,8 @@ std::shared_ptr<const SizeField> planar_base_size(const SizeSpec& spec, const Pl
 }
 
 PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
-                          const std::vector<SizeSpot>& spots, const CurveAgreement& agreement,
-                          PreparedProblem& p) {
+                          const std::vector<SizeBall>& spots, const CurveAgreement& agreement,
+                          MeshingSetup& p) {
   const SizeSpec& spec = problem.size;
   PreparedSize& size = p.size;
   SizedModel sized(problem, model, agreement, p);
@@ -155,7 +155,7 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   // The regions are as their curves are meshed: the second time by sizes that are nearly those wanted.
   for (int round = 0; round < 2 && !spec.named.empty(); ++round) {
     const NamedParts parts(model, domain);
-    if (round == 0) warn_of_idle_sizes(spec.named, parts, *base, p.warnings);
+    if (round == 0) warn_of_ineffective_sizes(spec.named, parts, *base, p.warnings);
     sized.mesh_by(with_images(finer_near(base, parts.spots(spec.named))));
   }
   if (const auto turns = curvature_spots(model, domain, spec, *base); !turns.empty()) {
@@ -176,7 +176,7 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   }
   // Edges are short where curves between two of their nodes are.
   const CurveOptions curves = curve_options(problem.options);
-  std::vector<FineSpot> fine = short_edges(domain, *size.field, curves.thin_rows ? curves.aspect : 1);
+  std::vector<LocalSize> fine = short_edges(domain, *size.field, curves.thin_rows ? curves.aspect : 1);
   if (!fine.empty()) size.adapted_to.push_back("short curves");
   if (curves.gap_rows > 0) {
     const auto gaps = gap_spots(domain, *size.field, curves.gap_rows);
@@ -193,7 +193,7 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   if (!spots.empty()) size.adapted_to.push_back("sound quads");
   if (!fine.empty() || !spots.empty() || !problem.divisions.empty()) {
     if (!size.asked) size.asked = size.field;
-    std::vector<FineSpot> all = fine_spots(problem, spots);
+    std::vector<LocalSize> all = fine_spots(problem, spots);
     const auto grid_size = finer_near(size.field, all);
     all.insert(all.begin(), fine.begin(), fine.end());
     sized.mesh_by(finer_near(size.field, std::move(all)), grid_size);

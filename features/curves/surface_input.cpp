@@ -31,7 +31,7 @@
 namespace delquad {
 namespace {
 
-constexpr double kEveryAngle = 180;
+constexpr double kNoFeatureAngle = 180;
 
 CompoundOptions compound_options(const SurfaceSpec& spec) {
   CompoundOptions options;
@@ -108,7 +108,7 @@ SurfaceModel make_compounds(const MeshProblem& problem, const std::vector<Featur
   if (spec.compounds != Compounds::kNone) {
     const auto groups = spec.compounds == Compounds::kGroups    ? faces_of_tags(spec, model.fine)
                         : spec.compounds == Compounds::kTangent ? tangent_groups(model)
-                                                                : tangent_groups(model, kEveryAngle);
+                                                                : tangent_groups(model, kNoFeatureAngle);
     model = make_compound(std::move(model), groups, options);
   }
   const KeptNames keep = names_that_stay(problem, model.fine.curves, model.fine.regions);
@@ -160,7 +160,7 @@ std::string leave_out_strays(Mesh& mesh) {
 }
 
 /// Warns of parts that hang together and go through each other, or lie on each other.
-void tell_penetrating(const std::string& source, SurfaceModel& model) {
+void warn_of_penetrating(const std::string& source, SurfaceModel& model) {
   const Mesh& mesh = model.fine;
   DisjointSets parts(mesh.triangles.size());
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
@@ -215,7 +215,7 @@ SurfaceModel make_surface(const MeshProblem& problem, const TriangleModel& model
   const std::string unit = triangles.unit;
   if (spec.mirror) triangles = add_mirror_image(std::move(triangles), *spec.mirror, source);
   SurfaceModel surface = make_surface_model(std::move(triangles), options);
-  tell_penetrating(source, surface);
+  warn_of_penetrating(source, surface);
   name_parts(spec.names, surface);
   surface = make_compounds(problem, kept, std::move(surface));
   surface.warnings.insert(surface.warnings.begin(), notes.begin(), notes.end());
@@ -297,7 +297,7 @@ namespace {
 constexpr double kSmoothTurn = 20;
 /// A curve and its mirror image are of one length but for rounding: it should not part them where the length
 /// is a round number.
-constexpr double kBelowRound = 1 - 1e-6;
+constexpr double kRoundingMargin = 1 - 1e-6;
 
 double least_at_corners(const SizeField& size, const SurfaceModel& model) {
   double least = std::numeric_limits<double>::infinity();
@@ -323,7 +323,7 @@ SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size
   const double part = curve_options(problem.options).join_below;
   if (part == 0 || model.corners.empty() || !problem.periodic.empty() || !problem.mapped.corners.empty())
     return model;
-  const double length = kBelowRound * part * least_at_corners(size, model);
+  const double length = kRoundingMargin * part * least_at_corners(size, model);
   const std::vector<char> named = named_curves(problem, model.fine.curves);
   const std::size_t n_warnings = model.warnings.size();
   model = merge_short_curves(std::move(model), length, {.feature_angle = kSmoothTurn}, named);

@@ -161,7 +161,7 @@ void divide_pieces(const PlanarModel& model, const std::vector<CurveDivision>& d
 
 namespace {
 
-FineSpot spot_of_edge(const Vec3& a, const Vec3& b) { return {a, b, norm(b - a), 0}; }
+LocalSize spot_of_edge(const Vec3& a, const Vec3& b) { return {a, b, norm(b - a), 0}; }
 
 }  // namespace
 
@@ -171,7 +171,7 @@ std::shared_ptr<const SizeField> as_divided(std::shared_ptr<const SizeField> siz
   std::set<int> divided;
   for (const CurveDivision& division : divisions)
     for (const int c : entities_named(curve_entities(model), "curve", division.name)) divided.insert(c);
-  std::vector<FineSpot> spots;
+  std::vector<LocalSize> spots;
   const Mesh& mesh = domain.boundary;
   for (std::size_t l = 0; l < mesh.lines.size(); ++l)
     if (std::ranges::any_of(domain.model_curves[mesh.line_curve[l]],
@@ -184,7 +184,7 @@ std::shared_ptr<const SizeField> as_divided(std::shared_ptr<const SizeField> siz
                                             const std::vector<CurveDivision>& divisions) {
   const std::vector<CurveChain> chains = curve_chains(model);
   const auto divided = divide_chains(model.fine, chains, divisions);
-  std::vector<FineSpot> spots;
+  std::vector<LocalSize> spots;
   for (std::size_t c = 0; c < chains.size(); ++c)
     for (std::size_t k = 1; k < divided[c].size(); ++k)
       spots.push_back(spot_of_edge(fine_point_at(model.fine, chains[c], divided[c][k - 1]),

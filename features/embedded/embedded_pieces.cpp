@@ -18,9 +18,9 @@ bool is_crack(const PlanarModel& model, const std::vector<int>& curves) {
   return std::ranges::any_of(curves, [&](int c) { return model.curves[c].is_crack; });
 }
 
-void add_whiskers(const PlanarModel& model, const PointSize& size,
-                  const std::function<Vec2(Vec2, Vec2)>& fold, ModelChain& chain,
-                  std::vector<CurvePiece>& pieces) {
+void add_dangling_edges(const PlanarModel& model, const PointSize& size,
+                        const std::function<Vec2(Vec2, Vec2)>& fold, ModelChain& chain,
+                        std::vector<CurvePiece>& pieces) {
   std::vector<char> has_piece(chain.nodes.size(), 0);
   for (const CurvePiece& p : pieces)
     for (const int v : p.ends) has_piece[v] = 1;
@@ -45,7 +45,7 @@ void add_whiskers(const PlanarModel& model, const PointSize& size,
   if (nodes.empty()) return;
   std::vector<CurveSpan> curves;
   for (const CurvePiece& p : pieces) curves.emplace_back(*p.shape, p.from, p.to);
-  const auto ends = whisker_ends(curves, points, sizes, labels);
+  const auto ends = dangling_ends(curves, points, sizes, labels);
   const auto add = [&](int node, Vec2 end) {
     pieces.push_back(
         {{}, {node, static_cast<int>(chain.nodes.size())}, make_segment(chain.nodes[node], end)});
@@ -101,8 +101,8 @@ void check_embedded(const PlanarModel& model, const ModelChain& chain, const std
 namespace {
 
 constexpr int kDirections = 8;  // of a line
-/// See Surroundings::has_room().
-constexpr double kRoom = 0.6, kAside = 0.4;
+/// See Surroundings::is_clear().
+constexpr double kClearance = 0.6, kAside = 0.4;
 constexpr double kShorter = 0.7, kShortest = 1e-3;
 
 /// Everything that a whisker must keep away from.
@@ -136,13 +136,14 @@ class Surroundings {
   }
 
   /// Returns whether two edges from a point to both sides have room. Their ends keep away from all else by
-  /// kRoom of their length, places nearer to the point by less. Other points lie well aside.
-  bool has_room(std::size_t point, Vec2 along) const {
+  /// kClearance of their length, places nearer to the point by less. Other points lie well aside.
+  bool is_clear(std::size_t point, Vec2 along) const {
     const Vec2 x = points_[point];
     constexpr int kPlaces = 4;
     for (int k = -kPlaces; k <= kPlaces; ++k) {
       const double s = static_cast<double>(k) / kPlaces;
-      if (k != 0 && nearest(x + s * along, point).distance < kRoom * std::abs(s) * norm(along)) return false;
+      if (k != 0 && nearest(x + s * along, point).distance < kClearance * std::abs(s) * norm(along))
+        return false;
     }
     const auto segment = make_segment(x - along, x + along);
     const CurveSpan span(*segment, 0, 1);
@@ -163,7 +164,7 @@ class Surroundings {
           }
         });
     return is_free && std::ranges::none_of(taken_, [&](const auto& other) {
-             return distance(x - along, x + along, other[0], other[1]) < kRoom * norm(along) / 2;
+             return distance(x - along, x + along, other[0], other[1]) < kClearance * norm(along) / 2;
            });
   }
   void take(std::array<Vec2, 2> ends) { taken_.push_back(ends); }
@@ -184,10 +185,10 @@ class Surroundings {
 
 }  // namespace
 
-std::vector<std::array<Vec2, 2>> whisker_ends(const std::vector<CurveSpan>& curves,
-                                              const std::vector<Vec2>& points,
-                                              const std::vector<double>& sizes,
-                                              const std::vector<std::string>& labels) {
+std::vector<std::array<Vec2, 2>> dangling_ends(const std::vector<CurveSpan>& curves,
+                                               const std::vector<Vec2>& points,
+                                               const std::vector<double>& sizes,
+                                               const std::vector<std::string>& labels) {
   Surroundings around(curves, points);
   std::vector<std::array<Vec2, 2>> ends;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -199,7 +200,7 @@ std::vector<std::array<Vec2, 2>> whisker_ends(const std::vector<CurveSpan>& curv
       for (int k = 0; ends.size() == i && k < kDirections; ++k) {
         const double angle = first + std::numbers::pi * k / kDirections;
         const Vec2 along = length * Vec2{std::cos(angle), std::sin(angle)};
-        if (around.has_room(i, along)) ends.push_back({points[i] + along, points[i] - along});
+        if (around.is_clear(i, along)) ends.push_back({points[i] + along, points[i] - along});
       }
     if (ends.size() == i)
       throw InputError(fmt::format(

@@ -17,16 +17,16 @@ bool is_crack(const PlanarModel& model, const std::vector<int>& curves);
 /// one for each of `points`: about as long as `sizes`, shorter where curves or other points are near, and
 /// away from what is next. Throws InputError, naming the point, where there is no room for a thousandth of
 /// its size.
-std::vector<std::array<Vec2, 2>> whisker_ends(const std::vector<CurveSpan>& curves,
-                                              const std::vector<Vec2>& points,
-                                              const std::vector<double>& sizes,
-                                              const std::vector<std::string>& labels);
+std::vector<std::array<Vec2, 2>> dangling_ends(const std::vector<CurveSpan>& curves,
+                                               const std::vector<Vec2>& points,
+                                               const std::vector<double>& sizes,
+                                               const std::vector<std::string>& labels);
 
-/// Points that are on no curve get two edges, pieces without curves. Throws InputError as whisker_ends().
+/// Points that are on no curve get two edges, pieces without curves. Throws InputError as dangling_ends().
 /// `fold(at, x)`: mirrors x as it mirrors `at` into the fundamental part of a symmetric model.
-void add_whiskers(const PlanarModel& model, const PointSize& size,
-                  const std::function<Vec2(Vec2, Vec2)>& fold, ModelChain& chain,
-                  std::vector<CurvePiece>& pieces);
+void add_dangling_edges(const PlanarModel& model, const PointSize& size,
+                        const std::function<Vec2(Vec2, Vec2)>& fold, ModelChain& chain,
+                        std::vector<CurvePiece>& pieces);
 
 /// Points with such edges lie in a region, and curves that no loop has on no boundary; throws InputError
 /// where they do not. `lines`: of the pieces; curves of the model from `first_axis` on may lie anywhere.

@@ -41,9 +41,9 @@ constexpr double kApart = 1e-3;
 constexpr double kSharpTurn = 40 * std::numbers::pi / 180;
 
 /// A place on a triangulation that changes: the nearest of the first triangles, of its parts the nearest.
-class PartedTriangles {
+class SplitTriangles {
  public:
-  explicit PartedTriangles(const Mesh& mesh)
+  explicit SplitTriangles(const Mesh& mesh)
       : mesh_(mesh), nearest_(mesh.points, mesh.triangles), parts_(mesh.triangles.size()) {
     for (int t = 0; t < static_cast<int>(parts_.size()); ++t) {
       parts_[t] = {t};
@@ -119,11 +119,11 @@ class SmoothNormals {
   std::unordered_map<long long, Vec3> at_point_;  // only looked up, never iterated
 };
 
-constexpr int kWhiskerDirections = 8;  // of a line
-constexpr double kWhiskerShorter = 0.7, kShortestWhisker = 1e-3;
+constexpr int kDanglingDirections = 8;  // of a line
+constexpr double kDanglingShorter = 0.7, kShortestDangling = 1e-3;
 /// Places along a whisker, by their part of its length, keep away from all else by this part of their way.
-constexpr int kWhiskerPlaces = 6;
-constexpr double kWhiskerRoom = 0.6;
+constexpr int kDanglingPlaces = 6;
+constexpr double kDanglingClearance = 0.6;
 
 /// Whether a whisker from x, at its place next to a segment, keeps away from that: it crosses none.
 bool keeps_away(const Vec3& x, const Vec3& end, const Vec3& a, const Vec3& b) {
@@ -133,14 +133,14 @@ bool keeps_away(const Vec3& x, const Vec3& end, const Vec3& a, const Vec3& b) {
   double s = area > 0 ? std::clamp((uw * dot(w, from) - ww * dot(u, from)) / area, 0.0, 1.0) : 0;
   const double t = nearest_part(x + s * u, a, b);
   s = along(t);
-  return norm(x + s * u - (a + t * w)) >= kWhiskerRoom * s * std::sqrt(uu);
+  return norm(x + s * u - (a + t * w)) >= kDanglingClearance * s * std::sqrt(uu);
 }
 
 /// Where the two edges at a point that stands alone on a surface may end.
-class PointWhiskers {
+class DanglingEdges {
  public:
   /// Whiskers keep away from the lines that the mesh has now and from the other points (indices into it).
-  PointWhiskers(const Mesh& mesh, const std::vector<int>& points) {
+  DanglingEdges(const Mesh& mesh, const std::vector<int>& points) {
     for (const auto& [a, b] : mesh.lines) segments_.push_back({mesh.points[a], mesh.points[b]});
     first_point_ = segments_.size();
     for (const int v : points) segments_.push_back({mesh.points[v], mesh.points[v]});
@@ -160,14 +160,14 @@ class PointWhiskers {
     u = (1 / norm(u)) * u;
     Vec3 v = cross(normal, u);
     v = (1 / norm(v)) * v;
-    for (double length = size; length >= kShortestWhisker * size; length *= kWhiskerShorter)
-      for (int k = 0; k < kWhiskerDirections; ++k) {
-        const double angle = std::numbers::pi * k / kWhiskerDirections;
+    for (double length = size; length >= kShortestDangling * size; length *= kDanglingShorter)
+      for (int k = 0; k < kDanglingDirections; ++k) {
+        const double angle = std::numbers::pi * k / kDanglingDirections;
         const Vec3 along = length * (std::cos(angle) * u + std::sin(angle) * v);
         const std::array<Vec3, 2> ends{onto(x + along), onto(x - along)};
         // Beyond the border of a surface, and around its sharp edges, ends come nearer.
         const double shortest = 0.8 * length;
-        if (norm(ends[0] - x) < shortest || norm(ends[1] - x) < shortest || !has_room(point, ends)) continue;
+        if (norm(ends[0] - x) < shortest || norm(ends[1] - x) < shortest || !is_clear(point, ends)) continue;
         taken_.push_back(ends);
         return ends;
       }
@@ -177,12 +177,12 @@ class PointWhiskers {
  private:
   using Segment = std::array<Vec3, 2>;
 
-  bool has_room(std::size_t point, const std::array<Vec3, 2>& ends) const {
+  bool is_clear(std::size_t point, const std::array<Vec3, 2>& ends) const {
     const Vec3 x = segments_[first_point_ + point][0];
     for (const Vec3& end : ends)
-      for (int k = 1; k <= kWhiskerPlaces; ++k) {
-        const Vec3 along = static_cast<double>(k) / kWhiskerPlaces * (end - x);
-        if (distance(point, x + along) < kWhiskerRoom * norm(along)) return false;
+      for (int k = 1; k <= kDanglingPlaces; ++k) {
+        const Vec3 along = static_cast<double>(k) / kDanglingPlaces * (end - x);
+        if (distance(point, x + along) < kDanglingClearance * norm(along)) return false;
       }
     const Box<Vec3> box = Box<Vec3>::around(ends);
     bool is_free = std::ranges::all_of(ends, [&](const Vec3& end) {
@@ -240,7 +240,7 @@ class Imprinter {
         check_cancelled();
         draw(*line, nodes[i], nodes[i + 1]);
       }
-    add_whiskers(placed);
+    add_dangling_edges(placed);
     for (const auto& [line, nodes] : placed)
       if (nodes.size() == 1 && !line->names.empty())
         mesh_.named_points.push_back(
@@ -267,7 +267,7 @@ class Imprinter {
   };
 
   void refuse(const LooseLine& line, const std::string& what) {
-    if (line.is_asked) throw InputError(line.where + " " + what);
+    if (line.is_requested) throw InputError(line.where + " " + what);
     model_.warnings.push_back(
         {"lines of the file that are left out", 0, line.where + " is left out: it " + what});
   }
@@ -287,7 +287,7 @@ class Imprinter {
       const int node = node_at(x);
       if (nodes.empty() || nodes.back() != node)
         nodes.push_back(node);
-      else if (line.is_asked)
+      else if (line.is_requested)
         throw InputError(fmt::format("{} has length zero at {}", line.where, show_point(x)));
     }
     if (nodes.size() == 1 && line.points.size() > 1) {
@@ -297,14 +297,14 @@ class Imprinter {
     return nodes;
   }
 
-  Vec3 true_place(const PartedTriangles::Found& found) const {
+  Vec3 true_place(const SplitTriangles::Found& found) const {
     return model_.projector ? model_.projector->to_face(mesh_.triangle_region[found.triangle], found.at)
                             : found.at;
   }
 
   int node_at(const Vec3& x) {
     const double snap = kSnap * diagonal_;
-    const PartedTriangles::Found found = places_.find(x, editor_);
+    const SplitTriangles::Found found = places_.find(x, editor_);
     const auto v = mesh_.triangles[found.triangle];
     for (const int p : v)
       if (std::min(norm(mesh_.points[p] - found.at), norm(mesh_.points[p] - x)) <= snap) return p;
@@ -350,7 +350,7 @@ class Imprinter {
   void check_apart(const std::vector<Placed>& placed) {
     std::vector<std::pair<int, const LooseLine*>> nodes;
     for (const auto& [line, of_line] : placed)
-      if (line->is_asked)
+      if (line->is_requested)
         for (const int v : of_line) nodes.emplace_back(v, line);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const Vec3 x = mesh_.points[nodes[i].first];
@@ -424,7 +424,7 @@ class Imprinter {
   }
 
   /// A point of the file that has no room stays no node.
-  void add_whiskers(std::vector<Placed>& placed) {
+  void add_dangling_edges(std::vector<Placed>& placed) {
     std::vector<int> points;
     std::vector<const LooseLine*> lines;  // one for each, one that was asked for if there is any
     for (const auto& [line, nodes] : placed) {
@@ -433,12 +433,12 @@ class Imprinter {
       if (known == points.end()) {
         points.push_back(nodes[0]);
         lines.push_back(line);
-      } else if (line->is_asked) {
+      } else if (line->is_requested) {
         lines[known - points.begin()] = line;
       }
     }
     if (points.empty()) return;
-    PointWhiskers whiskers(mesh_, points);
+    DanglingEdges dangling(mesh_, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       Vec3 normal;
       for (const int t : editor_.triangles_at(points[i])) {
@@ -447,7 +447,7 @@ class Imprinter {
       }
       const double size = size_(mesh_.points[points[i]]);
       const auto ends =
-          whiskers.ends(i, normal, size, [&](const Vec3& x) { return places_.find(x, editor_).at; });
+          dangling.ends(i, normal, size, [&](const Vec3& x) { return places_.find(x, editor_).at; });
       if (!ends) {
         refuse(
             *lines[i],
@@ -458,7 +458,7 @@ class Imprinter {
                       [&](const Placed& p) { return p.nodes.size() == 1 && p.nodes[0] == points[i]; });
         continue;
       }
-      for (const Vec3& end : *ends) draw(whisker_, points[i], node_at(end));
+      for (const Vec3& end : *ends) draw(dangling_, points[i], node_at(end));
     }
   }
 
@@ -481,7 +481,7 @@ class Imprinter {
         Entity entity = mesh_.curves[first_curve_ + static_cast<int>(i)];
         entity.tag = mesh_.curves[first_curve_].tag + static_cast<int>(curves.size()) - first_curve_;
         model_.embedded.push_back(
-            {static_cast<int>(curves.size()), pieces_[i].face, pieces_[i].line == &whisker_});
+            {static_cast<int>(curves.size()), pieces_[i].face, pieces_[i].line == &dangling_});
         curves.push_back(std::move(entity));
       }
       renamed.push_back(static_cast<int>(curves.size()) - 1);
@@ -508,7 +508,7 @@ class Imprinter {
           turn_angle(far(lines[0], v), mesh_.points[v], far(lines[1], v)) > kSharpTurn)
         model_.corners.push_back(v);
     for (const auto& [line, nodes] : placed)
-      if (line->is_asked || nodes.size() == 1)
+      if (line->is_requested || nodes.size() == 1)
         model_.corners.insert(model_.corners.end(), nodes.begin(), nodes.end());
     sort_unique(model_.corners);
   }
@@ -519,10 +519,10 @@ class Imprinter {
   double diagonal_;
   int first_curve_;
   SurfaceEditor editor_;
-  PartedTriangles places_;
+  SplitTriangles places_;
   SmoothNormals normals_;
   std::vector<Piece> pieces_;
-  const LooseLine whisker_{{}, {}, "the edge at a single point", true};
+  const LooseLine dangling_{{}, {}, "the edge at a single point", true};
 };
 
 }  // namespace
@@ -545,12 +545,12 @@ std::shared_ptr<const SizeField> imprint_named(const std::vector<NamedSize>& nam
   NamedParts parts(model.fine);
   const std::size_t n_curves = model.fine.curves.size(), n_points = model.fine.named_points.size();
   // Edges at single points follow their sizes, before the lines have their places on the surface.
-  std::vector<FineSpot> spots = parts.known_spots(named);
-  const std::vector<FineSpot> loose = NamedParts(model.loose).known_spots(named);
+  std::vector<LocalSize> spots = parts.known_spots(named);
+  const std::vector<LocalSize> loose = NamedParts(model.loose).known_spots(named);
   spots.insert(spots.end(), loose.begin(), loose.end());
   imprint_with(finer_near(size, std::move(spots)));
   parts.add_lines(model.fine, n_curves, n_points);
-  warn_of_idle_sizes(named, parts, *size, warnings);
+  warn_of_ineffective_sizes(named, parts, *size, warnings);
   return finer_near(size, parts.spots(named));
 }
 

@@ -16,7 +16,7 @@ namespace delquad {
 /// each vertex lies on. It becomes embedded curves, one in each face that it runs through, which share nodes
 /// with all that they cross. Each single point on no curve gets a nameless curve, so that any mesh has it as
 /// a node. The curve reaches about one size to either side, away from curves and points that are near (as
-/// whisker_ends() in the plane).
+/// dangling_ends() in the plane).
 ///
 /// Throws InputError for lines that were asked for and that are further than a thousandth of the model's
 /// diagonal from the surface, leave it or run along another curve, have length zero, or points nearer to each

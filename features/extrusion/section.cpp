@@ -68,7 +68,7 @@ void orient(Section& section, std::span<const HalfEdge> sides) {
 }
 
 /// Takes out lines that are no edges of quads, and points that no quad has.
-void drop_strange(Mesh& mesh, std::span<const HalfEdge> sides, ReadNotes* notes) {
+void drop_unrelated(Mesh& mesh, std::span<const HalfEdge> sides, ReadNotes* notes) {
   const std::size_t lines = drop_stray_lines(mesh, sides), names = mesh.named_points.size();
   drop_unused_points(mesh);
   if (notes == nullptr) return;
@@ -112,7 +112,7 @@ Section make_section(const Mesh& given, ReadNotes* notes) {
   section.mesh.periodic_faces.clear();
   const std::vector<HalfEdge> sides = sorted_half_edges(section.mesh);
   orient(section, sides);
-  drop_strange(section.mesh, sides, notes);
+  drop_unrelated(section.mesh, sides, notes);
   find_walls(section, sorted_half_edges(section.mesh));
   return section;
 }

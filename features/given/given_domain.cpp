@@ -20,7 +20,7 @@
 namespace delquad {
 namespace {
 
-Vec2 seen_from_above(const Vec3& p) { return {p.x, p.y}; }
+Vec2 projected_to_xy(const Vec3& p) { return {p.x, p.y}; }
 
 std::string text_of_edge(const Mesh& mesh, int a, int b) {
   const Vec3 &p = mesh.points[a], &q = mesh.points[b];
@@ -55,8 +55,8 @@ void refuse_repeated_corners(const GivenMesh& given) {
 double area_of(const Mesh& mesh, const std::vector<int>& corners) {
   double area = 0;
   for (std::size_t k = 0; k < corners.size(); ++k)
-    area += cross(seen_from_above(mesh.points[corners[k]]),
-                  seen_from_above(mesh.points[corners[(k + 1) % corners.size()]])) /
+    area += cross(projected_to_xy(mesh.points[corners[k]]),
+                  projected_to_xy(mesh.points[corners[(k + 1) % corners.size()]])) /
             2;
   return area;
 }
@@ -84,9 +84,9 @@ void turn_over(const GivenMesh& given, std::span<const HalfEdge> sides, Polygons
 }
 
 /// The edges that stay: they bound patches, or stand in one.
-class Fences {
+class FixedEdges {
  public:
-  Fences(const Mesh& mesh, std::span<const HalfEdge> sides, const Polygons& polygons) : mesh_(mesh) {
+  FixedEdges(const Mesh& mesh, std::span<const HalfEdge> sides, const Polygons& polygons) : mesh_(mesh) {
     neighbours_.resize(mesh.points.size());
     fences_at_.resize(mesh.points.size(), 0);
     std::set<std::pair<int, int>> lines;
@@ -149,7 +149,7 @@ struct Side {
 /// Elements that hang together without crossing a fence, with one point for each corner of their outline.
 class PatchMaker {
  public:
-  PatchMaker(const GivenMesh& given, const Polygons& polygons, const Fences& fences)
+  PatchMaker(const GivenMesh& given, const Polygons& polygons, const FixedEdges& fences)
       : source_(given.source),
         mesh_(given.mesh),
         polygons_(polygons),
@@ -205,7 +205,7 @@ class PatchMaker {
     return {s.element, (s.corner + n - 1) % n};
   }
   const Side& twin(const Side& s) const { return twins_[s.element][s.corner]; }
-  Vec2 at(int v) const { return seen_from_above(mesh_.points[v]); }
+  Vec2 at(int v) const { return projected_to_xy(mesh_.points[v]); }
 
   std::vector<int> collect(int first) {
     std::vector<int> elements{first};
@@ -308,7 +308,7 @@ class PatchMaker {
   const std::string& source_;
   const Mesh& mesh_;
   const Polygons& polygons_;
-  const Fences& fences_;
+  const FixedEdges& fences_;
   std::vector<int> patch_;
   std::vector<std::vector<Side>> twins_;  ///< of each side of each element; none across a fence
 };
@@ -322,7 +322,7 @@ void check_free_edges(const GivenMesh& given, std::span<const HalfEdge> sides) {
     if (edge.size() != 1) return;
     std::array<int, 2> ends{};
     for (int k = 0; k < 2; ++k) {
-      const Vec2 p = seen_from_above(given.mesh.points[k == 0 ? edge[0].lo : edge[0].hi]);
+      const Vec2 p = projected_to_xy(given.mesh.points[k == 0 ? edge[0].lo : edge[0].hi]);
       const auto [at, is_new] = place.try_emplace({p.x, p.y}, static_cast<int>(points.size()));
       if (is_new) points.push_back(p);
       ends[k] = at->second;
@@ -366,8 +366,9 @@ bool runs_round_one_piece(const PatchBoundary& patch) {
 }
 
 /// Lines of the mesh that are edges, their points and those of other fences; returns the node of each point.
-std::vector<int> make_boundary(const GivenMesh& given, std::span<const HalfEdge> sides, const Fences& fences,
-                               std::map<std::pair<int, int>, int>& curve_of, GivenDomain& result) {
+std::vector<int> make_boundary(const GivenMesh& given, std::span<const HalfEdge> sides,
+                               const FixedEdges& fences, std::map<std::pair<int, int>, int>& curve_of,
+                               GivenDomain& result) {
   const Mesh& mesh = given.mesh;
   Mesh& boundary = result.domain.boundary;
   boundary.curves = mesh.curves;
@@ -412,7 +413,7 @@ GivenDomain make_given_domain(const GivenMesh& given) {
   check_free_edges(given, sides);
   Polygons polygons(given.mesh);
   turn_over(given, sides, polygons);
-  const Fences fences(given.mesh, sides, polygons);
+  const FixedEdges fences(given.mesh, sides, polygons);
   GivenDomain result;
   std::map<std::pair<int, int>, int> curve_of;
   const std::vector<int> node_of = make_boundary(given, sides, fences, curve_of, result);

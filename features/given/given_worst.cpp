@@ -49,7 +49,7 @@ GivenWorst worst_of_given(const Mesh& mesh, bool is_in_plane, const SizeField& s
   return worst;
 }
 
-bool is_beyond_given(const PreparedProblem& prepared, const std::array<Vec3, 4>& corners) {
+bool is_beyond_given(const MeshingSetup& prepared, const std::array<Vec3, 4>& corners) {
   constexpr double kPoorEta = 0.2;
   const GivenWorst& worst = *prepared.given_worst;
   const Vec3 normal = prepared.surface ? area_vector(corners) : Vec3{0, 0, 1};
@@ -62,7 +62,7 @@ bool is_beyond_given(const PreparedProblem& prepared, const std::array<Vec3, 4>&
   return false;
 }
 
-Harm harm_of(const MeshResult& after, const MeshResult& before) {
+Degradation degradation_of(const MeshResult& after, const MeshResult& before) {
   const double number = after.metrics.values.at("n_quads") / before.metrics.values.at("n_quads");
   return {times_worse(before.metrics.values.at("eta_worst"), after.metrics.values.at("eta_worst")),
           times_worse(before.metrics.values.at("edge_min"), after.metrics.values.at("edge_min")),
@@ -71,11 +71,11 @@ Harm harm_of(const MeshResult& after, const MeshResult& before) {
 }
 
 bool costs_too_much(const MeshResult& after, const MeshResult& before) {
-  const Harm harm = harm_of(after, before);
+  const Degradation degradation = degradation_of(after, before);
   const auto& values = after.metrics.values;
-  return harm.number > 0 || (harm.eta > 0 && values.at("eta_worst") < kBadEta) ||
-         (harm.side > 0 && values.at("edge_min") < kPoorEdge) ||
-         (harm.aspect > 0 && values.at("aspect_max") > kPoorAspect);
+  return degradation.number > 0 || (degradation.eta > 0 && values.at("eta_worst") < kBadEta) ||
+         (degradation.side > 0 && values.at("edge_min") < kPoorEdge) ||
+         (degradation.aspect > 0 && values.at("aspect_max") > kPoorAspect);
 }
 
 MeshResult as_it_was(MeshResult given, const GivenWorst& worst) {
@@ -86,8 +86,7 @@ MeshResult as_it_was(MeshResult given, const GivenWorst& worst) {
   return given;
 }
 
-std::string text_of_price(const PreparedProblem& prepared, const MeshResult& after,
-                          const MeshResult& before) {
+std::string text_of_price(const MeshingSetup& prepared, const MeshResult& after, const MeshResult& before) {
   const Mesh& mesh = after.mesh;
   const auto at_least = [&](const std::function<double(const std::array<Vec3, 4>&)>& quality) {
     std::vector<double> of;
@@ -107,16 +106,16 @@ std::string text_of_price(const PreparedProblem& prepared, const MeshResult& aft
   const auto was_is = [&](const char* key) {
     return fmt::format("from {:.3g} to {:.3g}", before.metrics.values.at(key), after.metrics.values.at(key));
   };
-  const Harm harm = harm_of(after, before);
+  const Degradation degradation = degradation_of(after, before);
   std::vector<std::string> prices;
-  if (harm.eta > 0)
+  if (degradation.eta > 0)
     prices.push_back(fmt::format("the worst eta goes {}, {}", was_is("eta_worst"), at_least(eta)));
-  if (harm.side > 0)
+  if (degradation.side > 0)
     prices.push_back(fmt::format("the shortest edge goes {} sizes, {}", was_is("edge_min"), at_least(side)));
-  if (harm.aspect > 0)
+  if (degradation.aspect > 0)
     prices.push_back(fmt::format("the largest aspect of sound quads goes {}, {}", was_is("aspect_max"),
                                  at_least([](const auto& x) { return -quad_aspect(x); })));
-  if (harm.number > 0) prices.push_back(fmt::format("the number of quads goes {}", was_is("n_quads")));
+  if (degradation.number > 0) prices.push_back(fmt::format("the number of quads goes {}", was_is("n_quads")));
   return fmt::format("{}", fmt::join(prices, "; "));
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "delquad/mesher.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 namespace delquad {
 
@@ -13,23 +13,23 @@ GivenWorst worst_of_given(const Mesh& mesh, bool is_in_plane, const SizeField& s
 
 /// Whether a quad is worse than the worst of the given ones, or below an eta that is poor and that of these
 /// that are sound.
-bool is_beyond_given(const PreparedProblem& prepared, const std::array<Vec3, 4>& corners);
+bool is_beyond_given(const MeshingSetup& prepared, const std::array<Vec3, 4>& corners);
 
 /// A given mesh with what was worst in it before its unsound quads were opened.
 MeshResult as_it_was(MeshResult given, const GivenWorst& worst);
 
 /// How many times the worst angle (eta), the shortest edge (in sizes), the largest aspect, and a number of
 /// quads that differs by more than a tenth, are worse: logarithms, 0 where they are not.
-struct Harm {
+struct Degradation {
   double eta, side, aspect, number;
   double sum() const { return eta + side + aspect + number; }
 };
-Harm harm_of(const MeshResult& after, const MeshResult& before);
+Degradation degradation_of(const MeshResult& after, const MeshResult& before);
 
 /// Whether what is worse is that of a poor quad, see poor_quads.h, or the number of quads.
 bool costs_too_much(const MeshResult& after, const MeshResult& before);
 
 /// Returns the loss of quality that soundness costs, with its place: "the worst eta goes from ...; ...".
-std::string text_of_price(const PreparedProblem& prepared, const MeshResult& after, const MeshResult& before);
+std::string text_of_price(const MeshingSetup& prepared, const MeshResult& after, const MeshResult& before);
 
 }  // namespace delquad

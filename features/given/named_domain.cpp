@@ -150,8 +150,8 @@ std::vector<int> single_points(const Mesh& lines) {
 }
 
 /// Returns the curve of the edges at single points.
-int add_whiskers(Mesh& lines, const std::vector<int>& points, const PointSize& size,
-                 const std::string& source) {
+int add_dangling_edges(Mesh& lines, const std::vector<int>& points, const PointSize& size,
+                       const std::string& source) {
   std::vector<std::shared_ptr<const Curve>> shapes;
   std::vector<CurveSpan> spans;
   for (const auto& [a, b] : lines.lines) {
@@ -165,7 +165,7 @@ int add_whiskers(Mesh& lines, const std::vector<int>& points, const PointSize& s
     sizes.push_back(size(lines.points[v]));
   }
   const std::vector<std::string> labels(points.size(), source + ": the point");
-  const auto ends = whisker_ends(spans, at, sizes, labels);
+  const auto ends = dangling_ends(spans, at, sizes, labels);
   const int curve = static_cast<int>(lines.curves.size());
   lines.curves.push_back({});
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -185,7 +185,7 @@ PlanarDomain make_named_domain(const Mesh& mesh, const DeclaredSurfaces& surface
                                const PointSize* size) {
   Mesh lines = lines_of(mesh, source);
   const std::vector<int> single = size != nullptr ? single_points(lines) : std::vector<int>{};
-  const int whiskers = single.empty() ? -1 : add_whiskers(lines, single, *size, source);
+  const int dangling = single.empty() ? -1 : add_dangling_edges(lines, single, *size, source);
   const BoundaryNames names = names_of_curves(lines, source);
   const Arrangement arrangement = arrange_lines(lines, names);
   const FaceNames groups = groups_of_faces(mesh, lines, arrangement, surfaces);
@@ -195,7 +195,7 @@ PlanarDomain make_named_domain(const Mesh& mesh, const DeclaredSurfaces& surface
       std::ranges::any_of(groups, [](const auto& group) { return group && !group->empty(); });
   if (lines_only && !is_named && regions.regions.size() == 1 && surfaces.group_names.size() == 1)
     regions.regions[0].names = surfaces.group_names;
-  return build_domain(std::move(lines), arrangement, std::move(regions), names, {{}, whiskers});
+  return build_domain(std::move(lines), arrangement, std::move(regions), names, {{}, dangling});
 }
 
 }  // namespace delquad

@@ -10,7 +10,7 @@ namespace delquad {
 /// The domain that the lines of a mesh bound, its regions named as the file names surfaces, where that is
 /// plain: by the elements along a face's boundary; else by the surface that the file lists with just these
 /// curves; else, for a single region, by the only surface group that has a name. A face with such a surface
-/// is no hole. Named points without lines become nodes (see whisker_ends()) where there is a size, else they
+/// is no hole. Named points without lines become nodes (see dangling_ends()) where there is a size, else they
 /// are left out.
 PlanarDomain make_named_domain(const Mesh& mesh, const DeclaredSurfaces& surfaces, const std::string& source,
                                const PointSize* size = nullptr);

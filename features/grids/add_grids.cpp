@@ -27,14 +27,14 @@ struct GridQuality {
   double fit = 0;      ///< of the sides: length / delta, or its inverse where that is less
   double longest = 0;  ///< of the sides, in sizes
   bool pays(bool is_narrow) const {
-    return is_narrow ? worst >= kAskedEta && longest <= kAskedLong
+    return is_narrow ? worst >= kBatchEta && longest <= kBatchLong
                      : worst >= kLeastEta && mean >= kLeastMeanEta && fit >= kLeastFit;
   }
 };
 
 class GridOfPatch {
  public:
-  GridOfPatch(const MappedPatch& mapped, const PreparedProblem& p)
+  GridOfPatch(const MappedPatch& mapped, const MeshingSetup& p)
       : mapped_(mapped), problem_(p), patch_(p.patches[mapped.patch]) {}
 
   /// The grid; nothing where it would fold, at `fold`, or where it is not asked for and would be bad.
@@ -53,7 +53,7 @@ class GridOfPatch {
     if (mapped_.corners.size() == 3 || !are_convex(grid.points, grid.quads))
       smooth_grid(grid, *patch_.cross, *patch_.size);
     if (!are_convex(grid.points, grid.quads, &fold)) return std::nullopt;
-    if (!mapped_.is_asked && mapped_.rows <= 0 &&
+    if (!mapped_.is_requested && mapped_.rows <= 0 &&
         !quality_of(grid).pays(mapped_.rows < 0 || is_narrow(layers)))
       return std::nullopt;
     return grid;
@@ -121,22 +121,22 @@ class GridOfPatch {
   }
 
   const MappedPatch& mapped_;
-  const PreparedProblem& problem_;
-  const PreparedPatch& patch_;
+  const MeshingSetup& problem_;
+  const PatchSetup& patch_;
 };
 
 }  // namespace
 
-void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, PreparedProblem& p) {
+void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, MeshingSetup& p) {
   std::vector<std::optional<QuadPatch>> grids(mapped.size());
   parallel_for(
       mapped.size(),
       [&](std::size_t i) {
-        const DoingFace face = doing_patch(p, static_cast<std::size_t>(mapped[i].patch));
+        const FaceScope face = patch_scope(p, static_cast<std::size_t>(mapped[i].patch));
         const GridOfPatch maker(mapped[i], p);
         Vec2 fold;
         grids[i] = maker.make(fold);
-        if (grids[i] || !mapped[i].is_asked) return;
+        if (grids[i] || !mapped[i].is_requested) return;
         const Vec3 at = maker.place(fold);
         throw InputError(fmt::format("{}: '{}' cannot be a grid: it would fold at {} [no-grid]", spec.where,
                                      region_label(p.boundary.regions[p.patches[mapped[i].patch].region]),
@@ -144,14 +144,14 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, P
       },
       [&](std::size_t i) { return static_cast<double>(p.patches[mapped[i].patch].boundary.points.size()); });
   for (std::size_t i = 0; i < mapped.size(); ++i) {
-    PreparedPatch& patch = p.patches[mapped[i].patch];
+    PatchSetup& patch = p.patches[mapped[i].patch];
     patch.grid = std::move(grids[i]);
-    patch.grid_stays = mapped[i].is_asked || mapped[i].rows > 0;
+    patch.grid_stays = mapped[i].is_requested || mapped[i].rows > 0;
     if (!patch.grid || !patch.grid_stays || p.plane.curve_places.empty()) continue;
     for (const int node : patch.boundary.point_node) p.plane.curve_places[node] = {};
   }
   for (const auto& [region, rows] : spec.rings) {
-    if (rows > 0 && std::ranges::none_of(p.patches, [&](const PreparedPatch& patch) {
+    if (rows > 0 && std::ranges::none_of(p.patches, [&](const PatchSetup& patch) {
           return patch.grid && has_name(p.boundary.regions[patch.region], region);
         }))
       p.warnings.push_back(
@@ -159,7 +159,7 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, P
            fmt::format("{} did not get {} rows: it is no ring, or the numbers of edges forbid it", region,
                        rows)});
   }
-  const auto has_grid = [](const PreparedPatch& patch) { return patch.grid.has_value(); };
+  const auto has_grid = [](const PatchSetup& patch) { return patch.grid.has_value(); };
   if (spec.automatic && std::ranges::none_of(p.patches, has_grid))
     p.warnings.push_back(spec.where + ": no face makes a good grid: all are meshed freely");
 }

@@ -76,18 +76,18 @@ bool is_narrow(double width, double length) { return width <= kNarrow && length 
 /// Whether a grid pays there; `just_narrow`: as a strip.
 bool looks_mapped(const Loop& loop, const std::vector<std::size_t>& corners, bool just_narrow) {
   if (corners.size() != 4) return false;
-  std::array<double, 4> want{};
+  std::array<double, 4> ideal{};
   std::size_t side = 3;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const auto at = std::ranges::find(corners, i);
     const bool is_corner = at != corners.end();
     if (is_corner) side = static_cast<std::size_t>(at - corners.begin());
     if (turn_from(loop[i], is_corner ? 90 : 180) > (is_corner ? kCornerSlack : kStraightSlack)) return false;
-    want[side] += loop[i].want;
+    ideal[side] += loop[i].ideal;
   }
-  const auto [width, length] = std::minmax({(want[0] + want[2]) / 2, (want[1] + want[3]) / 2});
+  const auto [width, length] = std::minmax({(ideal[0] + ideal[2]) / 2, (ideal[1] + ideal[3]) / 2});
   if (just_narrow && !is_narrow(width, length)) return false;
-  return sides_match(want[0], want[2]) && sides_match(want[1], want[3]);
+  return sides_match(ideal[0], ideal[2]) && sides_match(ideal[1], ideal[3]);
 }
 
 bool turns_nowhere(const Loop& loop) {
@@ -95,9 +95,9 @@ bool turns_nowhere(const Loop& loop) {
 }
 
 double wanted(const Loop& loop) {
-  double want = 0;
-  for (const OutlinePart& part : loop) want += part.want;
-  return want;
+  double ideal = 0;
+  for (const OutlinePart& part : loop) ideal += part.ideal;
+  return ideal;
 }
 
 std::string place_text(const Vec3& x) { return x.z == 0 ? show_point(Vec2{x.x, x.y}) : show_point(x); }
@@ -128,10 +128,10 @@ GridFinder::GridFinder(const MappedSpec& spec, const std::vector<Entity>& region
     if (asked.corners.size() != 3 && asked.corners.size() != 4)
       throw InputError(fmt::format("{}: '{}' is given {} corner(s): expected 3 or 4", asked.where,
                                    asked.region, asked.corners.size()));
-    Corners& told = corners_.emplace_back(Corners{&asked, {}, false, {}});
+    Corners& requested = corners_.emplace_back(Corners{&asked, {}, false, {}});
     for (const GridCorner& corner : asked.corners) {
       if (corner.name.empty()) {
-        told.at.push_back(corner.at);
+        requested.at.push_back(corner.at);
         continue;
       }
       const auto point = std::ranges::find(points, corner.name, &NamedPlaces::value_type::first);
@@ -141,38 +141,38 @@ GridFinder::GridFinder(const MappedSpec& spec, const std::vector<Entity>& region
         throw InputError(fmt::format("{}: no point is called '{}'{}", asked.where, corner.name,
                                      suggestion_or_all(corner.name, known)));
       }
-      told.at.push_back(point->second);
+      requested.at.push_back(point->second);
     }
   }
 }
 
-std::vector<std::size_t> GridFinder::told_corners(const Entity& region, const FaceOutline& outline) {
-  for (Corners& told : corners_) {
-    if (!has_name(region, told.asked->region) || outline.size() != 1) continue;
+std::vector<std::size_t> GridFinder::requested_corners(const Entity& region, const FaceOutline& outline) {
+  for (Corners& requested : corners_) {
+    if (!has_name(region, requested.asked->region) || outline.size() != 1) continue;
     Box<Vec3> box{outline[0][0].at, outline[0][0].at};
     for (const OutlinePart& part : outline[0]) box.add(part.at);
     const double reach = kCornerReach * norm(box.size());
     std::vector<std::size_t> corners;
-    for (const Vec3& at : told.at) {
+    for (const Vec3& at : requested.at) {
       std::size_t nearest = 0;
       for (std::size_t i = 1; i < outline[0].size(); ++i)
         if (norm(outline[0][i].at - at) < norm(outline[0][nearest].at - at)) nearest = i;
       const Vec3& node = outline[0][nearest].at;
       if (norm(node - at) > reach) {
-        told.missing = fmt::format(
+        requested.missing = fmt::format(
             "{} is no node of the outline of '{}', where curves end, meet or turn: the "
             "nearest is {}",
             place_text(at), region_label(region), place_text(node));
         break;
       }
       if (std::ranges::find(corners, nearest) != corners.end()) {
-        told.missing = fmt::format("{} is a corner of '{}' twice", place_text(at), region_label(region));
+        requested.missing = fmt::format("{} is a corner of '{}' twice", place_text(at), region_label(region));
         break;
       }
       corners.push_back(nearest);
     }
-    if (corners.size() < told.at.size()) continue;
-    told.is_used = true;
+    if (corners.size() < requested.at.size()) continue;
+    requested.is_used = true;
     std::ranges::sort(corners);
     return corners;
   }
@@ -181,13 +181,13 @@ std::vector<std::size_t> GridFinder::told_corners(const Entity& region, const Fa
 
 std::optional<MappedFace> GridFinder::find(int face, const Entity& region, const FaceOutline& outline,
                                            double quads) {
-  if (const auto corners = told_corners(region, outline); !corners.empty())
+  if (const auto corners = requested_corners(region, outline); !corners.empty())
     return cut_at(face, outline[0], corners);
   const bool asked =
       std::ranges::any_of(spec_.names, [&](const auto& name) { return has_name(region, name); });
-  const auto told =
+  const auto requested =
       std::ranges::find_if(spec_.rings, [&](const auto& r) { return has_name(region, r.first); });
-  const int rows = told == spec_.rings.end() ? 0 : told->second;
+  const int rows = requested == spec_.rings.end() ? 0 : requested->second;
   const bool just_narrow = !asked && !spec_.automatic && rows == 0;
   if (outline.size() == 2 && (rows > 0 || (turns_nowhere(outline[0]) && turns_nowhere(outline[1])))) {
     const double outer = wanted(outline[0]), inner = wanted(outline[1]);
@@ -207,17 +207,18 @@ std::optional<MappedFace> GridFinder::find(int face, const Entity& region, const
   const std::vector<std::size_t> corners = corners_by_angle(outline[0]);
   if (!asked && !looks_mapped(outline[0], corners, just_narrow)) return std::nullopt;
   MappedFace mapped = cut_at(face, outline[0], corners);
-  mapped.is_asked = asked, mapped.rows = rows;
+  mapped.is_requested = asked, mapped.rows = rows;
   return mapped;
 }
 
 void GridFinder::finish() const {
-  for (const Corners& told : corners_)
-    if (!told.is_used)
-      throw InputError(fmt::format("{}: {}", told.asked->where,
-                                   told.missing.empty() ? fmt::format("'{}' cannot be a grid: {} [no-grid]",
-                                                                      told.asked->region, why_no_grid({}))
-                                                        : told.missing));
+  for (const Corners& requested : corners_)
+    if (!requested.is_used)
+      throw InputError(fmt::format(
+          "{}: {}", requested.asked->where,
+          requested.missing.empty()
+              ? fmt::format("'{}' cannot be a grid: {} [no-grid]", requested.asked->region, why_no_grid({}))
+              : requested.missing));
 }
 
 namespace {
@@ -229,8 +230,8 @@ double change_of(const MappedFace& face, const std::vector<CountedCurve>& curves
   for (const auto& side : face.sides)
     for (const int c : side) {
       const CountedCurve& curve = curves[leader[c]];
-      if (std::abs(curve.n - curve.want) <= 1 || !curve.is_free) continue;
-      most = std::max({most, curve.n / curve.want, curve.want / curve.n});
+      if (std::abs(curve.n - curve.ideal) <= 1 || !curve.is_free) continue;
+      most = std::max({most, curve.n / curve.ideal, curve.ideal / curve.n});
     }
   return most;
 }
@@ -241,7 +242,7 @@ bool drop_changed(std::vector<MappedFace>& mapped, const std::vector<CountedCurv
                   const std::vector<int>& leader) {
   std::vector<std::pair<double, int>> changed;
   for (const MappedFace& m : mapped)
-    if (const double change = change_of(m, curves, leader); !m.is_asked && change > kMostChange)
+    if (const double change = change_of(m, curves, leader); !m.is_requested && change > kMostChange)
       changed.emplace_back(-change, m.face);
   std::ranges::sort(changed);
   std::vector<char> is_touched(curves.size(), 0);
@@ -277,12 +278,12 @@ std::vector<UnbalancedFace> balance_grids(std::vector<CountedCurve>& curves,
     }
     auto bad = balance_counts(curves, faces);
     const auto is_bad = [&](const MappedFace& m) {
-      return !m.is_asked &&
+      return !m.is_requested &&
              std::ranges::any_of(bad, [&](const UnbalancedFace& b) { return b.face == m.face; });
     };
     if (bad.empty() && !drop_changed(mapped, curves, leader)) return bad;
     if (!bad.empty() && std::erase_if(mapped, is_bad) == 0 &&
-        std::erase_if(mapped, [](const MappedFace& m) { return !m.is_asked; }) == 0)
+        std::erase_if(mapped, [](const MappedFace& m) { return !m.is_requested; }) == 0)
       return bad;
     curves = begin;
   }

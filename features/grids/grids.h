@@ -10,7 +10,7 @@
 #include "delquad/model.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/planar_model.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 #include "patches/surface_curves.h"
 
 // This header finds faces that become grids, and gives their curves fitting numbers of edges. The pipeline
@@ -24,14 +24,14 @@ struct OutlinePart {
   int node;      ///< at which it begins
   Vec3 at;       ///< that node
   double angle;  ///< inside of the face, there; radians
-  double want;   ///< edges
+  double ideal;  ///< edges
 };
 using FaceOutline = std::vector<std::vector<OutlinePart>>;  ///< loops, the outer one first
 
 /// A face that is to become a grid of four sides, three grids around a middle of three, or a ring.
 struct MappedFace {
   int face;
-  bool is_asked;  ///< by name, and not found
+  bool is_requested;  ///< by name, and not found
   std::vector<std::vector<int>>
       sides;                        ///< four or three, of curves, one after the other; of a ring its loops
   std::vector<std::size_t> begins;  ///< where in the outline they begin, ascending; of a ring: none
@@ -64,7 +64,7 @@ class GridFinder {
     bool is_used = false;
     std::string missing;  ///< why they are no nodes of an outline
   };
-  std::vector<std::size_t> told_corners(const Entity& region, const FaceOutline& outline);
+  std::vector<std::size_t> requested_corners(const Entity& region, const FaceOutline& outline);
 
   const MappedSpec& spec_;
   std::vector<Corners> corners_;
@@ -113,6 +113,6 @@ std::vector<MappedPatch> mapped_patches(const std::vector<MappedFace>& mapped, c
 /// three sides always, it is smoothed. Patches that were not asked for stay free where that does not pay. On
 /// a planar domain the nodes on the sides of those that were stay from then on. Throws InputError, with the
 /// place, where a named one would fold.
-void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, PreparedProblem& p);
+void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, MeshingSetup& p);
 
 }  // namespace delquad

@@ -20,7 +20,7 @@ std::vector<MappedPatch> mapped_patches(const std::vector<MappedFace>& mapped, c
     const auto n_before =
         std::count_if(regions.region.begin(), regions.region.begin() + of, [](int r) { return r >= 0; });
     MappedPatch& patch =
-        patches.emplace_back(MappedPatch{static_cast<int>(n_before), {}, face.is_asked, face.rows});
+        patches.emplace_back(MappedPatch{static_cast<int>(n_before), {}, face.is_requested, face.rows});
     if (face.begins.empty()) continue;
     const Arrangement::Cycle& outline = arrangement.faces[of].cycles[0];
     const int n = static_cast<int>(outline.size());

@@ -52,7 +52,7 @@ std::vector<MappedFace> find_surface_grids(const MappedSpec& spec, const Mesh& f
     const Entity& region = fine.regions[curves.maps[p].face];
     const auto found = finder.find(static_cast<int>(p), region, outlines[p], wanted.quads[p]);
     if (!found) continue;
-    if (found->is_asked && n_patches[curves.maps[p].face] > 1 &&
+    if (found->is_requested && n_patches[curves.maps[p].face] > 1 &&
         std::ranges::count(curves.cut_face, curves.maps[p].face) > 0)
       throw InputError(
           fmt::format("{}: '{}' cannot be a grid: it had to be divided into {} parts to be "
@@ -111,7 +111,7 @@ std::vector<MappedPatch> grid_patches(const std::vector<MappedFace>& mapped, con
                                       const std::vector<int>& counts) {
   std::vector<MappedPatch> patches;
   for (const MappedFace& face : mapped) {
-    MappedPatch& patch = patches.emplace_back(MappedPatch{face.face, {}, face.is_asked, face.rows});
+    MappedPatch& patch = patches.emplace_back(MappedPatch{face.face, {}, face.is_requested, face.rows});
     if (face.begins.empty()) continue;
     std::size_t part = 0;
     int at = 0;

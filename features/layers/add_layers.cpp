@@ -276,7 +276,7 @@ void fit(const PlanarDomain& domain, std::span<const LayerSpec> specs, std::vect
       throw InputError(specs[0].where + ": layers that end at one place find no common height there");
     for (const std::size_t p : left)
       fit_layers(domain.patches[patches[p].patch], specs, patches[p].columns, round > 0);
-    left = walls.lower_alike();
+    left = walls.lower_shared_scales();
   }
 }
 
@@ -327,9 +327,9 @@ constexpr double kShortFront = 0.8;
 /// Beyond this, solvers see the jump from the last layer to the quads beside it.
 constexpr double kLargeJump = 4;
 
-std::vector<FineSpot> short_boundary_edges(const PlanarDomain& domain, const SizeField& size) {
+std::vector<LocalSize> short_boundary_edges(const PlanarDomain& domain, const SizeField& size) {
   const double z = domain.boundary.points[0].z;
-  std::vector<FineSpot> spots;
+  std::vector<LocalSize> spots;
   int hint = -1;
   for (const PatchBoundary& patch : domain.patches)
     for (const auto& [i, j] : patch.edges) {
@@ -358,7 +358,7 @@ void warn_of_layers(const MeshProblem& problem, const LayerReport& layers, std::
 void drop_grids(const MeshProblem& problem, const LayerReport& layers, PlanarDomain& domain) {
   std::erase_if(domain.mapped, [&](const auto& mapped) {
     if (std::ranges::find(layers.patches, mapped.patch) == layers.patches.end()) return false;
-    if (mapped.is_asked)
+    if (mapped.is_requested)
       throw InputError(fmt::format(
           "{}: layers stand in the grid '{}' ({}), or end on its sides: expected the one or the other, or "
           "layers 'into' other regions",
@@ -383,20 +383,20 @@ std::shared_ptr<const BackgroundMesh> mesh_rest(const MeshProblem& problem, cons
 
 }  // namespace
 
-void put_layers(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p) {
+void put_layers(const MeshProblem& problem, PlanarDomain& domain, MeshingSetup& p) {
   LayerReport report = add_layers(domain, problem.layers, static_cast<double>(p.settings.max_elements));
   drop_grids(problem, report, domain);
   p.plane.background = mesh_rest(problem, domain);
   warn_of_layers(problem, report, p.warnings);
   p.layers = std::make_shared<LayerReport>(std::move(report));
-  std::vector<FineSpot> fine = short_boundary_edges(domain, *p.size.field);
+  std::vector<LocalSize> fine = short_boundary_edges(domain, *p.size.field);
   if (fine.empty()) return;
   p.size.adapted_to.push_back("layers");
   if (!p.size.asked) p.size.asked = p.size.field;
   p.size.field = finer_near(p.size.field, std::move(fine));
 }
 
-std::vector<char> quads_in_layers(const PreparedProblem& prepared, const Mesh& mesh) {
+std::vector<char> quads_in_layers(const MeshingSetup& prepared, const Mesh& mesh) {
   std::vector<int> left(prepared.boundary.regions.size(), 0);
   if (prepared.layers)
     for (const int region : prepared.boundary.quad_region) ++left[region];

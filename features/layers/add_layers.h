@@ -8,7 +8,7 @@
 #include "base/counters.h"
 #include "delquad/model.h"
 #include "geometry/planar/planar_model.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 // This header puts boundary layers into a domain. The pipeline, features and measures use it.
 
@@ -51,9 +51,9 @@ LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, d
 /// Puts the layers of a problem into its domain, and makes the background mesh of the rest. Sizes become less
 /// beside edges that are much shorter than these, and warnings tell where layers had to be lower, and where
 /// the rest of the mesh is far coarser than they are.
-void put_layers(const MeshProblem& problem, PlanarDomain& domain, PreparedProblem& p);
+void put_layers(const MeshProblem& problem, PlanarDomain& domain, MeshingSetup& p);
 
 /// Which quads of a mesh are of layers: in each region the first ones.
-std::vector<char> quads_in_layers(const PreparedProblem& prepared, const Mesh& mesh);
+std::vector<char> quads_in_layers(const MeshingSetup& prepared, const Mesh& mesh);
 
 }  // namespace delquad

@@ -260,7 +260,7 @@ void LayerWalls::mark_taken() {
     }
 }
 
-std::vector<std::size_t> LayerWalls::lower_alike() {
+std::vector<std::size_t> LayerWalls::lower_shared_scales() {
   std::vector<char> changed(patches_.size(), 0);
   for (const std::vector<ChainEnd>& group : groups_) {
     if (group.size() < 2) continue;

@@ -37,7 +37,7 @@ class LayerWalls {
   LayerWalls(PlanarDomain& domain, std::vector<PatchLayers>& patches, std::span<const LayerSpec> specs);
 
   /// Gives ends that are alike the least of their scales. Returns the patches of which some became less.
-  std::vector<std::size_t> lower_alike();
+  std::vector<std::size_t> lower_shared_scales();
   /// Numbers of edges, and even ones around each patch. To be called once the layers are fitted. Throws
   /// InputError where that cannot be.
   void count_edges();

@@ -27,7 +27,7 @@ namespace {
 /// Edges of curves before they are resolved, in diagonals of the domain.
 constexpr double kCoarseEdge = 1.0 / 100;
 /// Lengths that are shortened by more than this factor are told of, where no complexity scales them anyway.
-constexpr double kTold = 1.2;
+constexpr double kReportedFactor = 1.2;
 /// Maps with a larger FlatQuality::sigma_95 are told of.
 constexpr double kPoorSigma = 1.3;
 /// Between the parts of a domain that are laid flat each by itself, in their widths.
@@ -476,7 +476,7 @@ MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings)
   problem.size.where = problem.metric.where;
   problem.model = std::move(flat);
   if (const ShortenedLength& length = made.shortened;
-      problem.metric.complexity == 0 && length.from > kTold * length.to)
+      problem.metric.complexity == 0 && length.from > kReportedFactor * length.to)
     warnings.emplace_back(fmt::format(
         "{}: the metric is followed with shorter lengths where it bends, {:.3g} in place of {:.3g} at {}: "
         "straight sides would stray there by more than a fifth of the length across",
@@ -515,7 +515,7 @@ void to_plane(const MetricPlane& plane, Mesh& mesh) {
 
 int count_bad_quads(const MetricAt& metric, const std::string& label, const Mesh& mesh,
                     std::vector<Warning>& warnings) {
-  const std::vector<double> etas = metric_etas(mesh, metric);
+  const std::vector<double> etas = anisotropic_etas(mesh, metric);
   const auto bad = static_cast<int>(std::ranges::count_if(etas, [](double eta) { return eta < kBadEta; }));
   if (bad == 0) return 0;
   const auto worst = std::ranges::min_element(etas);

@@ -13,7 +13,7 @@
 #include "features/seed/perturb.h"
 #include "fields/background_mesh.h"
 #include "fields/size_aware_cross_field.h"
-#include "metrics/metric_measures.h"
+#include "metrics/anisotropic_measures.h"
 
 // This header maps a plane with a metric to a plane with sizes. A plane with a metric is a surface, and
 // conformally flat. The domain is laid into a plane in which the metric is the square of a scalar times the

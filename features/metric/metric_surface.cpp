@@ -7,7 +7,7 @@
 namespace delquad {
 
 WantedMetric wanted_metric(const MeshProblem& problem, const SurfaceModel& model,
-                           const std::vector<SizeSpot>& spots) {
+                           const std::vector<SizeBall>& spots) {
   return {problem.metric, std::make_shared<ModelCurvature>(model), spots};
 }
 
@@ -20,7 +20,7 @@ Flattening flatten_by_metric(SurfaceModel& model, const SurfaceMetric& metric) {
   return flatten(model, options);
 }
 
-CrossPull pull_at(const PreparedSurface& surface, int patch, Vec2 u, int& hint) {
+CrossPull pull_at(const SurfaceSetup& surface, int patch, Vec2 u, int& hint) {
   const FlatPatch& map = surface.domain.patches[patch].map;
   const Mesh& fine = surface.model.fine;
   const auto [t, b] = surface.domain.patches[patch].background->locate(u, hint);
@@ -41,11 +41,11 @@ CrossPull pull_at(const PreparedSurface& surface, int patch, Vec2 u, int& hint) 
   return pull_to(of_p * (at[v[1]] - at[v[0]]) + of_q * (at[v[2]] - at[v[0]]), axes);
 }
 
-double scale_of(const PreparedProblem& prepared) {
+double scale_of(const MeshingSetup& prepared) {
   return prepared.metric_plane->scale_of(prepared.size.asked ? *prepared.size.asked : *prepared.size.field);
 }
 
-MetricAt metric_of(const PreparedProblem& prepared) {
+MetricAt metric_of(const MeshingSetup& prepared) {
   if (prepared.surface && prepared.surface->metric)
     return [metric = prepared.surface->metric](int region, const Vec3& x, int&) {
       return metric->in_face(region, x);

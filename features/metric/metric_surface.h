@@ -4,8 +4,8 @@
 
 #include "fields/size_aware_cross_field.h"
 #include "fields/surface/surface_metric.h"
-#include "metrics/metric_measures.h"
-#include "patches/prepared.h"
+#include "metrics/anisotropic_measures.h"
+#include "patches/meshing_setup.h"
 
 // A surface with a metric is measured by it where it is laid flat: charts by the lengths of their sides,
 // curves by theirs. All else happens in the flat patches, whose size is the metric's own.
@@ -14,18 +14,18 @@ namespace delquad {
 
 /// Returns the metric of a model; sizes are smaller at the spots. `model`: the model as it was read.
 WantedMetric wanted_metric(const MeshProblem& problem, const SurfaceModel& model,
-                           const std::vector<SizeSpot>& spots);
+                           const std::vector<SizeBall>& spots);
 
 /// flatten() by lengths in a metric.
 Flattening flatten_by_metric(SurfaceModel& model, const SurfaceMetric& metric);
 
 /// How much the field of a patch is drawn to the metric's axes.
-CrossPull pull_at(const PreparedSurface& surface, int patch, Vec2 u, int& hint);
+CrossPull pull_at(const SurfaceSetup& surface, int patch, Vec2 u, int& hint);
 
 /// By which factor lengths in a plane are larger than the metric's own: where it is told to be finer, or not.
-double scale_of(const PreparedProblem& prepared);
+double scale_of(const MeshingSetup& prepared);
 
 /// The metric that meshes are measured by; null: none.
-MetricAt metric_of(const PreparedProblem& prepared);
+MetricAt metric_of(const MeshingSetup& prepared);
 
 }  // namespace delquad

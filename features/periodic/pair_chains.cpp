@@ -125,16 +125,17 @@ class ChainImages {
 /// others say something else.
 class PairForest {
  public:
-  struct Asked {
+  struct RequestedPair {
     ChainPair pair;
     const PeriodicPair* of;
   };
-  PairForest(const ChainImages& images, const std::vector<CurveChain>& chains, std::vector<Asked> asked)
+  PairForest(const ChainImages& images, const std::vector<CurveChain>& chains,
+             std::vector<RequestedPair> asked)
       : images_(images), asked_(std::move(asked)), root_(chains.size(), -1), of_root_(chains.size()) {}
 
   std::vector<ChainPair> sorted() {
     std::vector<char> is_image(root_.size(), 0);
-    for (const Asked& a : asked_) is_image[a.pair.chain] = 1;
+    for (const RequestedPair& a : asked_) is_image[a.pair.chain] = 1;
     std::vector<int> reached;
     for (std::size_t c = 0; c < root_.size(); ++c)
       if (!is_image[c]) {
@@ -144,14 +145,14 @@ class PairForest {
       }
     std::vector<ChainPair> pairs;
     for (std::size_t next = 0; next < reached.size(); ++next)
-      for (const Asked& a : asked_) {
+      for (const RequestedPair& a : asked_) {
         if (a.pair.master != reached[next]) continue;
         if (add(a)) {
           pairs.push_back(a.pair);
           reached.push_back(a.pair.chain);
         }
       }
-    for (const Asked& a : asked_)
+    for (const RequestedPair& a : asked_)
       if (root_[a.pair.chain] < 0)
         throw InputError(fmt::format("{}: {} is an image of its own image: expected one of the two as 'from'",
                                      a.of->where, images_.label(a.pair.chain)));
@@ -160,7 +161,7 @@ class PairForest {
 
  private:
   /// False where the image is known already, by other pairs.
-  bool add(const Asked& a) {
+  bool add(const RequestedPair& a) {
     const int chain = a.pair.chain, master = a.pair.master;
     std::array<Vec3, 3> marks = of_root_[master];
     for (Vec3& x : marks) x = a.pair.motion(x);
@@ -184,7 +185,7 @@ class PairForest {
   }
 
   const ChainImages& images_;
-  std::vector<Asked> asked_;
+  std::vector<RequestedPair> asked_;
   std::vector<int> root_;                     ///< of each piece that has been reached
   std::vector<std::array<Vec3, 3>> of_root_;  ///< the images of its root's marks
 };
@@ -195,7 +196,7 @@ ChainPairs pair_chains(const Mesh& fine, const std::vector<CurveChain>& chains,
                        const std::vector<PairedChains>& sides) {
   const ChainImages images(fine, chains);
   ChainPairs result;
-  std::vector<PairForest::Asked> asked;
+  std::vector<PairForest::RequestedPair> asked;
   for (const PairedChains& side : sides) {
     const std::vector<ChainPair>& found =
         result.of_sides.emplace_back(images.pair(side.of, side.from, side.to));

@@ -19,7 +19,7 @@ constexpr int kMostHalvings = 16;
 class CurveTurns {
  public:
   CurveTurns(const Curve& shape, double per_turn, const SizeSpec& spec, const SizeField& base,
-             std::vector<FineSpot>& spots)
+             std::vector<LocalSize>& spots)
       : shape_(shape), per_turn_(per_turn), spec_(spec), base_(base), spots_(spots) {
     double from = 0;
     std::vector<double> stops = shape.fixed_parameters();
@@ -56,13 +56,14 @@ class CurveTurns {
   const double per_turn_;
   const SizeSpec& spec_;
   const SizeField& base_;
-  std::vector<FineSpot>& spots_;
+  std::vector<LocalSize>& spots_;
   int hint_ = -1;
 };
 
 }  // namespace
 
-std::vector<double> turns_asked(const PlanarModel& model, const PlanarDomain& domain, const SizeSpec& spec) {
+std::vector<double> requested_turns(const PlanarModel& model, const PlanarDomain& domain,
+                                    const SizeSpec& spec) {
   const std::vector<Entity> curves = curve_entities(model);
   std::vector<double> own(curves.size(), 0);
   for (const NamedSize& wanted : spec.named) {
@@ -81,10 +82,10 @@ std::vector<double> turns_asked(const PlanarModel& model, const PlanarDomain& do
   return own;
 }
 
-std::vector<FineSpot> curvature_spots(const PlanarModel& model, const PlanarDomain& domain,
-                                      const SizeSpec& spec, const SizeField& base) {
-  const std::vector<double> asked = turns_asked(model, domain, spec);
-  std::vector<FineSpot> spots;
+std::vector<LocalSize> curvature_spots(const PlanarModel& model, const PlanarDomain& domain,
+                                       const SizeSpec& spec, const SizeField& base) {
+  const std::vector<double> asked = requested_turns(model, domain, spec);
+  std::vector<LocalSize> spots;
   for (std::size_t c = 0; c < asked.size(); ++c)
     if (asked[c] > 0) CurveTurns(*model.curves[c].shape, asked[c], spec, base, spots);
   return spots;

@@ -21,7 +21,7 @@ constexpr double kShortest = 0.05;
 constexpr double kRaisedGradation = 0.7;
 
 /// From a spot to x.
-double distance_to(const FineSpot& s, const Vec3& x) {
+double distance_to(const LocalSize& s, const Vec3& x) {
   if (s.c) {
     const auto w = nearest_weights(s.a, s.b, *s.c, x);
     return norm(w[0] * s.a + w[1] * s.b + w[2] * *s.c - x);
@@ -29,12 +29,12 @@ double distance_to(const FineSpot& s, const Vec3& x) {
   return norm(x - s.a - nearest_part(x, s.a, s.b) * (s.b - s.a));
 }
 
-class SpotSize final : public SizeField {
+class SizeWithLocal final : public SizeField {
  public:
-  SpotSize(std::shared_ptr<const SizeField> base, std::vector<FineSpot> spots)
+  SizeWithLocal(std::shared_ptr<const SizeField> base, std::vector<LocalSize> spots)
       : base_(std::move(base)), spots_(std::move(spots)) {
     std::vector<Box<Vec3>> boxes;
-    for (const FineSpot& s : spots_) {
+    for (const LocalSize& s : spots_) {
       const Vec3 margin{s.reach, s.reach, s.reach};
       const Vec3 c = s.c.value_or(s.b);
       boxes.push_back({lower(lower(s.a, s.b), c) - margin, upper(upper(s.a, s.b), c) + margin});
@@ -60,12 +60,12 @@ class SpotSize final : public SizeField {
   }
 
  private:
-  static double by(const FineSpot& s, const Vec3& x) {
+  static double by(const LocalSize& s, const Vec3& x) {
     return s.size + s.growth * std::max(distance_to(s, x) - s.reach, 0.0);
   }
 
   std::shared_ptr<const SizeField> base_;
-  std::vector<FineSpot> spots_;
+  std::vector<LocalSize> spots_;
   std::vector<double> least_;  ///< size, by node of the tree
   double least_growth_ = std::numeric_limits<double>::infinity();
   BoxTree<Vec3> tree_;
@@ -74,10 +74,10 @@ class SpotSize final : public SizeField {
 /// The field, and more around spots whose sizes are larger: less from there on by their growth.
 class RaisedSize final : public SizeField {
  public:
-  RaisedSize(std::shared_ptr<const SizeField> base, std::vector<FineSpot> spots)
+  RaisedSize(std::shared_ptr<const SizeField> base, std::vector<LocalSize> spots)
       : base_(std::move(base)), spots_(std::move(spots)) {
     std::vector<Box<Vec3>> boxes;
-    for (const FineSpot& s : spots_) {
+    for (const LocalSize& s : spots_) {
       boxes.push_back({lower(s.a, s.b), upper(s.a, s.b)});
       most_ = std::max(most_, s.size);
     }
@@ -89,7 +89,7 @@ class RaisedSize final : public SizeField {
     tree_.search(
         less, [&](const auto& node) { return kRaisedGradation * std::sqrt(node.box.distance2(x)) - most_; },
         [&](int i) {
-          const FineSpot& s = spots_[static_cast<std::size_t>(i)];
+          const LocalSize& s = spots_[static_cast<std::size_t>(i)];
           less = std::min(less, kRaisedGradation * distance_to(s, x) - s.size);
         });
     return -less;
@@ -97,7 +97,7 @@ class RaisedSize final : public SizeField {
 
  private:
   std::shared_ptr<const SizeField> base_;
-  std::vector<FineSpot> spots_;
+  std::vector<LocalSize> spots_;
   double most_ = 0;
   BoxTree<Vec3> tree_;
 };
@@ -105,22 +105,23 @@ class RaisedSize final : public SizeField {
 }  // namespace
 
 std::shared_ptr<const SizeField> as_near(std::shared_ptr<const SizeField> base,
-                                         const std::vector<FineSpot>& spots) {
-  std::vector<FineSpot> finer, coarser;
+                                         const std::vector<LocalSize>& spots) {
+  std::vector<LocalSize> finer, coarser;
   int hint = -1;
-  for (const FineSpot& s : spots) (s.size < base->at(0.5 * (s.a + s.b), hint) ? finer : coarser).push_back(s);
+  for (const LocalSize& s : spots)
+    (s.size < base->at(0.5 * (s.a + s.b), hint) ? finer : coarser).push_back(s);
   if (!coarser.empty()) base = std::make_shared<RaisedSize>(std::move(base), std::move(coarser));
   return finer_near(std::move(base), std::move(finer));
 }
 
 std::shared_ptr<const SizeField> finer_near(std::shared_ptr<const SizeField> base,
-                                            std::vector<FineSpot> spots) {
+                                            std::vector<LocalSize> spots) {
   if (spots.empty()) return base;
-  return std::make_shared<SpotSize>(std::move(base), std::move(spots));
+  return std::make_shared<SizeWithLocal>(std::move(base), std::move(spots));
 }
 
-std::vector<FineSpot> short_edges(const PlanarDomain& domain, const SizeField& size, double aspect) {
-  std::vector<FineSpot> spots;
+std::vector<LocalSize> short_edges(const PlanarDomain& domain, const SizeField& size, double aspect) {
+  std::vector<LocalSize> spots;
   if (!domain.has_junctions) return spots;
   int hint = -1;
   for (const auto& [v, w] : domain.boundary.lines) {

@@ -13,7 +13,7 @@ namespace delquad {
 inline constexpr double kSpotGradation = 0.3;
 
 /// Around a segment or a triangle, up to `reach`, sizes are at most `size`; from there on they grow.
-struct FineSpot {
+struct LocalSize {
   Vec3 a, b;
   double size, reach;
   double growth = kSpotGradation;
@@ -22,14 +22,14 @@ struct FineSpot {
 
 /// The field, and less around the spots.
 std::shared_ptr<const SizeField> finer_near(std::shared_ptr<const SizeField> base,
-                                            std::vector<FineSpot> spots);
+                                            std::vector<LocalSize> spots);
 
 /// The field, and near the spots their sizes, larger ones too. Where spots disagree the smaller ones count.
 std::shared_ptr<const SizeField> as_near(std::shared_ptr<const SizeField> base,
-                                         const std::vector<FineSpot>& spots);
+                                         const std::vector<LocalSize>& spots);
 
 /// The edges that are much shorter than the size, because the curves between two nodes are; each is a spot of
 /// its own length, times `aspect`. Only of domains with junctions.
-std::vector<FineSpot> short_edges(const PlanarDomain& domain, const SizeField& size, double aspect = 1);
+std::vector<LocalSize> short_edges(const PlanarDomain& domain, const SizeField& size, double aspect = 1);
 
 }  // namespace delquad

@@ -97,7 +97,7 @@ void NamedParts::add_regions(const PlanarDomain& domain) {
   }
 }
 
-std::vector<FineSpot> NamedParts::spots(const std::vector<NamedSize>& wanted) const {
+std::vector<LocalSize> NamedParts::spots(const std::vector<NamedSize>& wanted) const {
   for (const NamedSize& w : wanted) {
     if (parts_.contains(w.name)) continue;
     std::vector<std::string> known;
@@ -108,8 +108,8 @@ std::vector<FineSpot> NamedParts::spots(const std::vector<NamedSize>& wanted) co
   return known_spots(wanted);
 }
 
-std::vector<FineSpot> NamedParts::known_spots(const std::vector<NamedSize>& wanted) const {
-  std::vector<FineSpot> spots;
+std::vector<LocalSize> NamedParts::known_spots(const std::vector<NamedSize>& wanted) const {
+  std::vector<LocalSize> spots;
   for (const NamedSize& w : wanted) {
     const auto at = parts_.find(w.name);
     if (at == parts_.end() || !(w.size > 0)) continue;

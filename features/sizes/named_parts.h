@@ -32,9 +32,9 @@ class NamedParts {
   /// Adds the lines of a mesh from this curve and this named point on.
   void add_lines(const Mesh& mesh, std::size_t first_curve = 0, std::size_t first_point = 0);
   /// Returns the sizes that are requested by names. Throws InputError for an unknown name.
-  std::vector<FineSpot> spots(const std::vector<NamedSize>& wanted) const;
+  std::vector<LocalSize> spots(const std::vector<NamedSize>& wanted) const;
   /// Without those that nothing has.
-  std::vector<FineSpot> known_spots(const std::vector<NamedSize>& wanted) const;
+  std::vector<LocalSize> known_spots(const std::vector<NamedSize>& wanted) const;
 
  private:
   struct Part {

@@ -64,7 +64,7 @@ struct CoarseTurns {
                        curves + faces == 1 ? "gets" : "get", kFewPerTurn, fewest, worst);
   }
   /// `base`: a size without curvature; `asks`: elements per full turn overall, 0: none.
-  void tell(double base, double asks, double min, std::vector<Warning>& warnings) const {
+  void warn(double base, double asks, double min, std::vector<Warning>& warnings) const {
     if (curves + faces == 0) return;
     std::string help = asks < kFewPerTurn ? fmt::format("--curvature {:g}", kFewPerTurn) : "";
     if (needed < least_by_curvature(base, min))
@@ -105,7 +105,7 @@ std::pair<double, double> turning(const CurveChain& chain, const Mesh& fine) {
   return {angle, length};
 }
 
-void add_curves(const PreparedSurface& surface, CoarseTurns& turns) {
+void add_curves(const SurfaceSetup& surface, CoarseTurns& turns) {
   const SurfaceDomain& domain = surface.domain;
   for (std::size_t c = 0; c < domain.chains.size(); ++c) {
     const int curve = domain.chains[c].curve;
@@ -133,7 +133,7 @@ double spread_of_normals(const Mesh& fine, const std::vector<int>& triangles) {
   return most;
 }
 
-void add_faces(const PreparedSurface& surface, CoarseTurns& turns) {
+void add_faces(const SurfaceSetup& surface, CoarseTurns& turns) {
   constexpr std::size_t kSamples = 16;  // a face: for a line of text
   const Mesh& fine = surface.model.fine;
   std::vector<std::vector<int>> triangles_of(fine.regions.size());
@@ -165,13 +165,13 @@ void add_faces(const PreparedSurface& surface, CoarseTurns& turns) {
 
 }  // namespace
 
-void warn_of_idle_sizes(const std::vector<NamedSize>& named, const NamedParts& parts, const SizeField& size,
-                        std::vector<Warning>& warnings) {
+void warn_of_ineffective_sizes(const std::vector<NamedSize>& named, const NamedParts& parts,
+                               const SizeField& size, std::vector<Warning>& warnings) {
   for (const NamedSize& wanted : named) {
     if (!(wanted.size > 0)) continue;
     double largest = 0;
     int hint = -1;
-    for (const FineSpot& spot : parts.spots({wanted}))
+    for (const LocalSize& spot : parts.spots({wanted}))
       for (const Vec3& x : {spot.a, spot.b, spot.c.value_or(spot.a), 0.5 * (spot.a + spot.b)})
         largest = std::max(largest, size.at(x, hint));
     if (largest > wanted.size || largest == 0) continue;
@@ -200,7 +200,7 @@ void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain, 
   std::vector<int> edges(model.curves.size(), 0);
   for (const int curve : domain.boundary.line_curve)
     for (const int c : domain.model_curves[curve]) ++edges[c];
-  const std::vector<double> per_turn = turns_asked(model, domain, spec);
+  const std::vector<double> per_turn = requested_turns(model, domain, spec);
   double needed = turns.needed, least_asked = kFewPerTurn, base = 0;
   for (std::size_t c = 0; c < edges.size(); ++c) {
     if (edges[c] == 0) continue;
@@ -215,17 +215,17 @@ void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain, 
     int hint = -1;
     base = asked.at({there.x, there.y, 0}, hint);
   }
-  turns.tell(base, least_asked, spec.min, warnings);
+  turns.warn(base, least_asked, spec.min, warnings);
 }
 
-void warn_of_coarse_turns(const WantedSize& wanted, const PreparedSurface& surface,
+void warn_of_coarse_turns(const WantedSize& wanted, const SurfaceSetup& surface,
                           std::vector<Warning>& warnings) {
   if (!surface.model.projector) return;  // turns of triangles may be noise
   CoarseTurns turns;
   add_curves(surface, turns);
   add_faces(surface, turns);
   int hint = -1;
-  turns.tell(wanted.base->at(surface.model.fine.points[0], hint), wanted.curvature ? wanted.per_turn : 0,
+  turns.warn(wanted.base->at(surface.model.fine.points[0], hint), wanted.curvature ? wanted.per_turn : 0,
              wanted.min, warnings);
 }
 

@@ -5,7 +5,7 @@
 #include "features/sizes/named_parts.h"
 #include "fields/surface/surface_size.h"
 #include "geometry/planar/planar_model.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 namespace delquad {
 
@@ -15,8 +15,8 @@ inline constexpr double kFewPerTurn = 12;
 
 /// Tells of each size that was asked for by name and is larger than the size at all of that: smaller ones
 /// win.
-void warn_of_idle_sizes(const std::vector<NamedSize>& named, const NamedParts& parts, const SizeField& size,
-                        std::vector<Warning>& warnings);
+void warn_of_ineffective_sizes(const std::vector<NamedSize>& named, const NamedParts& parts,
+                               const SizeField& size, std::vector<Warning>& warnings);
 
 /// Says so when the size is larger than the model at all of its points.
 void warn_of_large_size(const SizeField& size, const Mesh& model, std::vector<Warning>& warnings);
@@ -26,7 +26,7 @@ void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain, 
                           const SizeField& asked, std::vector<Warning>& warnings);
 
 /// The same for the curves and faces of a CAD model.
-void warn_of_coarse_turns(const WantedSize& wanted, const PreparedSurface& surface,
+void warn_of_coarse_turns(const WantedSize& wanted, const SurfaceSetup& surface,
                           std::vector<Warning>& warnings);
 
 /// Tells of the narrowest gap outside of all regions, between curves that do not meet, that is narrower than

@@ -144,7 +144,7 @@ class PlaneFinder {
     constexpr std::size_t kMost = 3;
     while (found_.size() < kMost) {
       const std::size_t before = found_.size();
-      spoiled_.clear();
+      near_miss_.clear();
       for (const Vec3& normal : candidate_normals(model_, moments_, found_))
         if (const auto plane = try_normal(normal)) {
           found_.push_back(*plane);
@@ -152,7 +152,7 @@ class PlaneFinder {
         }
       if (found_.size() == before) break;
     }
-    return {found_, spoiled_};
+    return {found_, near_miss_};
   }
 
  private:
@@ -168,8 +168,8 @@ class PlaneFinder {
       return SymmetryPlane{moments_.centroid + (offset - centre) * normal, normal};
     };
     SymmetryPlane better = at(centre);
-    if (!matcher_.may_be(SymmetryPlanes({better}), 0)) better = at(middle);
-    if (!matcher_.may_be(SymmetryPlanes({better}), 0)) return std::nullopt;
+    if (!matcher_.can_match(SymmetryPlanes({better}), 0)) better = at(middle);
+    if (!matcher_.can_match(SymmetryPlanes({better}), 0)) return std::nullopt;
     check_cancelled();
     better = matcher_.adjusted(better);
     for (const SymmetryPlane& other : found_)
@@ -189,9 +189,9 @@ class PlaneFinder {
 
   bool is_good(const SymmetryPlane& plane) {
     const MirrorMatch match = matcher_.match(SymmetryPlanes({plane}), 0);
-    if (match.by_embedded && spoiled_.empty())
-      spoiled_ = fmt::format("the plane through {} with the normal {} would be one, but {}",
-                             show_point(plane.point), show_point(plane.normal), match.failure);
+    if (match.by_embedded && near_miss_.empty())
+      near_miss_ = fmt::format("the plane through {} with the normal {} would be one, but {}",
+                               show_point(plane.point), show_point(plane.normal), match.failure);
     return match.failure.empty();
   }
 
@@ -199,7 +199,7 @@ class PlaneFinder {
   const MirrorMatcher& matcher_;
   Moments moments_;
   std::vector<SymmetryPlane> found_;
-  std::string spoiled_;
+  std::string near_miss_;
 };
 
 }  // namespace

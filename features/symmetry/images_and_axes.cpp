@@ -96,7 +96,7 @@ PatchMesh image_of(const PatchMesh& master, const PatchBoundary& boundary, const
   return mesh;
 }
 
-void move_image_nodes(const PreparedProblem& prepared, const PatchImage& image, std::vector<Vec3>& points) {
+void move_image_nodes(const MeshingSetup& prepared, const PatchImage& image, std::vector<Vec3>& points) {
   const auto &from = prepared.patches[image.master].boundary.point_node,
              &to = prepared.patches[image.patch].boundary.point_node;
   for (std::size_t k = 0; k < from.size(); ++k) {

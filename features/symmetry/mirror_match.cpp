@@ -23,7 +23,7 @@ namespace delquad {
 namespace {
 
 /// So many places of a face or a curve are compared with the true surface.
-constexpr std::size_t kTruePlaces = 64;
+constexpr std::size_t kCheckedPlaces = 64;
 
 /// How far each line may lie off the curve that it stands for: its length times the turn at its ends.
 std::vector<double> bends_of_lines(const Mesh& mesh) {
@@ -67,7 +67,7 @@ struct MirrorMatcher::Tables {
         bends(mesh.triangles.size(), 0),
         triangles_of(mesh.regions.size()),
         tolerance(mesh.regions.size(), kSymmetric * diagonal),
-        is_whisker(mesh.curves.size(), 0),
+        is_dangling(mesh.curves.size(), 0),
         is_embedded(mesh.curves.size(), 0),
         is_seam(mesh.curves.size(), 0),
         lines_of(mesh.curves.size()),
@@ -87,7 +87,7 @@ struct MirrorMatcher::Tables {
     }
     for (const EmbeddedCurve& e : model.embedded) {
       is_embedded[e.curve] = 1;
-      is_whisker[e.curve] = e.is_whisker;
+      is_dangling[e.curve] = e.is_dangling;
     }
     std::set<std::array<int, 2>> has_line;
     std::vector<Box<Vec3>> boxes;
@@ -126,21 +126,21 @@ struct MirrorMatcher::Tables {
 
   /// Where two whiskers begin, and no other curve is.
   void fill_points() {
-    std::vector<int> whisker_at(mesh.points.size(), -1);
+    std::vector<int> dangling_at(mesh.points.size(), -1);
     std::vector<char> is_single(mesh.points.size(), 0), is_on_curve(mesh.points.size(), 0);
     for (std::size_t l = 0; l < mesh.lines.size(); ++l)
       for (const int v : mesh.lines[l]) {
         const int curve = mesh.line_curve[l];
-        if (!is_whisker[curve]) is_on_curve[v] = 1;
-        if (whisker_at[v] >= 0 && whisker_at[v] != curve) is_single[v] = 1;
-        whisker_at[v] = curve;
+        if (!is_dangling[curve]) is_on_curve[v] = 1;
+        if (dangling_at[v] >= 0 && dangling_at[v] != curve) is_single[v] = 1;
+        dangling_at[v] = curve;
       }
     for (const int p : model.corners)
       if (is_single[p] && !is_on_curve[p]) single_points.push_back(p);
   }
 
   /// The place where an image is farthest off, beyond the tolerance.
-  struct Off {
+  struct Deviation {
     double distance = 0;
     Vec3 at{};
     void add(double here, double allowed, const Vec3& x) {
@@ -149,7 +149,7 @@ struct MirrorMatcher::Tables {
   };
 
   /// The image of a face is the face that most images of its triangles are nearest to.
-  Off match_face(int f, const SymmetryPlanes& planes, int plane, MirrorMatch& match) const {
+  Deviation match_face(int f, const SymmetryPlanes& planes, int plane, MirrorMatch& match) const {
     std::map<int, std::pair<double, double>> seen;  // of each face, the area seen, and how it looks
     for (const int t : triangles_of[f]) {
       const auto& [a, b, c] = mesh.triangles[t];
@@ -163,12 +163,12 @@ struct MirrorMatcher::Tables {
     const auto most = std::ranges::max_element(seen, {}, [](const auto& face) { return face.second.first; });
     match.face[f] = most->first;
     match.turned[f] = most->second.second < 0;
-    Off off;
+    Deviation off;
     std::vector<int> points;
     for (const int t : triangles_of[f])
       points.insert(points.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
     sort_unique(points);
-    const std::size_t step = 1 + points.size() / kTruePlaces;
+    const std::size_t step = 1 + points.size() / kCheckedPlaces;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3 x = planes.reflect(plane, mesh.points[points[i]]);
       const NearestTriangle::Found found = all.find(x);
@@ -181,9 +181,9 @@ struct MirrorMatcher::Tables {
   }
 
   /// The curves that the image of a curve lies on.
-  Off match_curve(int c, const SymmetryPlanes& planes, int plane, std::vector<int>& images) const {
-    Off off;
-    const std::size_t step = 1 + lines_of[c].size() / kTruePlaces;
+  Deviation match_curve(int c, const SymmetryPlanes& planes, int plane, std::vector<int>& images) const {
+    Deviation off;
+    const std::size_t step = 1 + lines_of[c].size() / kCheckedPlaces;
     for (std::size_t i = 0; i < lines_of[c].size(); ++i) {
       const int l = lines_of[c][i];
       const Vec3 a = mesh.points[mesh.lines[l][0]], b = mesh.points[mesh.lines[l][1]];
@@ -192,7 +192,7 @@ struct MirrorMatcher::Tables {
         double best2 = std::numeric_limits<double>::infinity();
         int nearest = -1;
         lines.nearest(x, best2, [&](int other) {
-          if (is_whisker[mesh.line_curve[other]]) return;
+          if (is_dangling[mesh.line_curve[other]]) return;
           const auto& [p, q] = mesh.lines[other];
           const double d = distance_to_segment(x, mesh.points[p], mesh.points[q]);
           if (d * d < best2) best2 = d * d, nearest = other;
@@ -212,11 +212,11 @@ struct MirrorMatcher::Tables {
   /// Says what has no image, the model's faces and curves before embedded curves; empty: all have.
   std::string match_curves(const SymmetryPlanes& planes, int plane, MirrorMatch& match) const {
     int worst = -1;
-    Off farthest;
+    Deviation farthest;
     for (int c = 0; c < static_cast<int>(mesh.curves.size()); ++c) {
-      if (is_whisker[c]) continue;
+      if (is_dangling[c]) continue;
       check_cancelled();
-      const Off off = match_curve(c, planes, plane, match.curves[c]);
+      const Deviation off = match_curve(c, planes, plane, match.curves[c]);
       if (off.distance == 0) continue;
       match.curves[c].clear();
       if (is_seam[c] && !is_embedded[c] && mesh.curves[c].names.empty()) {
@@ -238,7 +238,7 @@ struct MirrorMatcher::Tables {
   }
 
   std::string match_faces(const SymmetryPlanes& planes, int plane, MirrorMatch& match) const {
-    std::vector<Off> offs(triangles_of.size());
+    std::vector<Deviation> offs(triangles_of.size());
     parallel_for(
         offs.size(),
         [&](std::size_t f) {
@@ -246,7 +246,7 @@ struct MirrorMatcher::Tables {
           if (!triangles_of[f].empty()) offs[f] = match_face(static_cast<int>(f), planes, plane, match);
         },
         [&](std::size_t f) { return static_cast<double>(triangles_of[f].size()); });
-    const auto far = std::ranges::max_element(offs, {}, &Off::distance);
+    const auto far = std::ranges::max_element(offs, {}, &Deviation::distance);
     const auto f = far - offs.begin();
     if (far->distance > 0)
       return fmt::format(
@@ -284,7 +284,7 @@ struct MirrorMatcher::Tables {
   std::vector<double> line_bends, bends;
   std::vector<std::vector<int>> triangles_of;  // of each face
   std::vector<double> tolerance;
-  std::vector<char> is_whisker, is_embedded, is_seam;  // of each curve
+  std::vector<char> is_dangling, is_embedded, is_seam;  // of each curve
   std::vector<std::vector<int>> lines_of;
   std::vector<double> curve_tolerance;
   std::vector<int> single_points;  // in faces
@@ -311,7 +311,7 @@ MirrorMatch MirrorMatcher::match(const SymmetryPlanes& planes, int plane) const 
   return match;
 }
 
-bool MirrorMatcher::may_be(const SymmetryPlanes& planes, int plane) const {
+bool MirrorMatcher::can_match(const SymmetryPlanes& planes, int plane) const {
   constexpr double kRough = 1e-2;
   constexpr std::size_t kPlaces = 200;
   const Tables& t = *tables_;

@@ -36,7 +36,7 @@ class MirrorMatcher {
 
   MirrorMatch match(const SymmetryPlanes& planes, int plane) const;
   /// Whether a few places have images, ten times as far off as they may be in the end.
-  bool may_be(const SymmetryPlanes& planes, int plane) const;
+  bool can_match(const SymmetryPlanes& planes, int plane) const;
   /// The plane that fits the model best, near one that nearly does.
   SymmetryPlane adjusted(const SymmetryPlane& plane) const;
   /// The mean distance of images from the model, over some places.
@@ -49,7 +49,8 @@ class MirrorMatcher {
 
 struct FoundPlanes {
   std::vector<SymmetryPlane> planes;  ///< perpendicular to each other
-  std::string spoiled;  ///< a plane that would be one more, and the embedded item without an image; or empty
+  std::string
+      near_miss;  ///< a plane that would be one more, and the embedded item without an image; or empty
 };
 
 /// Returns the planes at which a model is symmetric, or none. They go through the middle of the model or the

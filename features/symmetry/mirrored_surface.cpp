@@ -137,13 +137,13 @@ std::optional<CutSurface> cut_at_planes(const MeshProblem& problem, SurfaceModel
   if (!problem.periodic.empty())
     throw InputError(spec.where + ": symmetry does not go with periodic sides: expected one of these");
   const MirrorMatcher matcher(model);
-  const auto [given, spoiled] =
+  const auto [given, near_miss] =
       spec.automatic ? find_symmetry_planes(model, matcher) : FoundPlanes{spec.planes, {}};
   if (given.empty())
     model.warnings.push_back(spec.where + ": no plane of symmetry was found: all of the model is meshed" +
-                             (spoiled.empty() ? "" : "; " + spoiled));
-  else if (!spoiled.empty())
-    model.warnings.push_back(spec.where + ": " + spoiled);
+                             (near_miss.empty() ? "" : "; " + near_miss));
+  else if (!near_miss.empty())
+    model.warnings.push_back(spec.where + ": " + near_miss);
   if (given.empty()) return std::nullopt;
   const SymmetryPlanes planes = given_planes(given, spec.where);
   std::vector<MirrorMatch> matches = matches_at(matcher, planes, given, spec.where);
@@ -185,7 +185,7 @@ std::vector<double> most_of_curves(const std::vector<double>& values, const CutS
   return of_part;
 }
 
-void add_whole(CutSurface cut, PreparedSurface& surface, PreparedProblem& p) {
+void add_whole(CutSurface cut, SurfaceSetup& surface, MeshingSetup& p) {
   p.symmetry = cut.planes.all();
   p.size.field = folded_size(p.size.field, cut.planes);
   if (p.size.asked) p.size.asked = folded_size(p.size.asked, cut.planes);
@@ -226,7 +226,7 @@ void add_whole(CutSurface cut, PreparedSurface& surface, PreparedProblem& p) {
       if (domain.boundary.points[v] == place.at) m.node_planes[v] |= place.planes;
   const auto shared = std::make_shared<const MirroredSurface>(std::move(m));
   surface.mirrored = shared;
-  surface.is_part_of = {shared, &shared->whole};
+  surface.full_model = {shared, &shared->whole};
 }
 
 }  // namespace delquad

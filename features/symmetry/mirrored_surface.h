@@ -8,7 +8,7 @@
 #include "delquad/mesher.h"
 #include "features/symmetry/mirror_match.h"
 #include "geometry/planar/planar_model.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 // This header cuts a symmetric surface, so that one part is meshed. The pipeline, features and measures use
 // it.
@@ -77,7 +77,7 @@ std::vector<double> most_of_curves(const std::vector<double>& values, const CutS
 
 /// Makes the domain of the part, its model and its cuts that of a symmetric surface; the sizes of the problem
 /// count at all images.
-void add_whole(CutSurface cut, PreparedSurface& surface, PreparedProblem& p);
+void add_whole(CutSurface cut, SurfaceSetup& surface, MeshingSetup& p);
 
 /// The image of a face of the whole at all planes whose bits are set.
 int image_face(const MirroredSurface& mirrored, int planes, int face);

@@ -198,7 +198,7 @@ std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySp
   return std::nullopt;
 }
 
-std::string what_spoils_symmetry(const PlanarModel& model) {
+std::string why_not_symmetric(const PlanarModel& model) {
   std::vector<char> in_loop(model.curves.size(), 0);
   for (const ModelLoop& loop : model.loops)
     for (const int c : loop.curves) in_loop[c] = 1;
@@ -307,14 +307,14 @@ class SymmetricPairs {
           }))
         continue;
       if (!forward && backward) std::swap(piece.ends[0], piece.ends[1]);
-      become(piece, static_cast<int>(i), folds);
+      replace_by_image(piece, static_cast<int>(i), folds);
       return true;
     }
     return false;
   }
 
  private:
-  void become(CurvePiece& piece, int index, const std::vector<int>& folds) {
+  void replace_by_image(CurvePiece& piece, int index, const std::vector<int>& folds) {
     CurvePiece& master = pieces_[index];
     piece.master = index;
     piece.is_mirrored = true;

@@ -10,7 +10,7 @@
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/planar_model.h"
 #include "patches/curve_nodes.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 // This header has the symmetry of planar models. The pipeline and features use it.
 
@@ -52,7 +52,7 @@ std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySp
 
 /// Returns a warning if no plane is found for the model, but its loops have one. The warning names the parts
 /// in the regions without an image. It is empty if the loops have no plane.
-std::string what_spoils_symmetry(const PlanarModel& model);
+std::string why_not_symmetric(const PlanarModel& model);
 
 /// The model with the planes' axes as curves after its own, and with points, after its own, where its nodes
 /// have their images.
@@ -80,6 +80,6 @@ PatchMesh image_of(const PatchMesh& master, const PatchBoundary& boundary, const
 
 /// On the master's boundary the ends of edges at single points move; their images follow. `points`: of the
 /// nodes of all boundaries.
-void move_image_nodes(const PreparedProblem& prepared, const PatchImage& image, std::vector<Vec3>& points);
+void move_image_nodes(const MeshingSetup& prepared, const PatchImage& image, std::vector<Vec3>& points);
 
 }  // namespace delquad

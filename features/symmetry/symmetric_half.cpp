@@ -253,12 +253,12 @@ class SymmetricCutter {
     std::vector<int> wanted = whole_.corners;
     std::set<int> named;
     for (const NamedPoint& n : fine.named_points) named.insert(n.point);
-    std::vector<char> of_whiskers_only(fine.points.size(), 0), of_others(fine.points.size(), 0);
-    std::vector<char> is_whisker(n_curves_, 0);
-    for (const EmbeddedCurve& e : whole_.embedded) is_whisker[e.curve] = e.is_whisker;
+    std::vector<char> of_dangling_only(fine.points.size(), 0), of_others(fine.points.size(), 0);
+    std::vector<char> is_dangling(n_curves_, 0);
+    for (const EmbeddedCurve& e : whole_.embedded) is_dangling[e.curve] = e.is_dangling;
     for (std::size_t l = 0; l < fine.lines.size(); ++l)
       for (const int v : fine.lines[l])
-        (is_whisker[fine.line_curve[l]] ? of_whiskers_only : of_others)[v] = 1;
+        (is_dangling[fine.line_curve[l]] ? of_dangling_only : of_others)[v] = 1;
     std::vector<int> lines_at(fine.points.size(), 0);
     for (const auto& line : fine.lines)
       for (const int v : line) ++lines_at[v];
@@ -384,13 +384,13 @@ class SymmetricCutter {
     }
     mesh().curves = entities_of_pieces(whole_.fine.curves, given);
     half_.whole_curve = std::move(given);
-    part_short_curves();
+    split_short_curves();
     find_embedded();
     find_touching();
   }
 
   /// Curves from plane to plane that a mesh might have as one edge.
-  void part_short_curves() {
+  void split_short_curves() {
     constexpr double kSizes = 3;
     std::vector<int>& corners = half_.model.corners;
     for (std::size_t begin = 0, end; begin < mesh().lines.size(); begin = end) {
@@ -427,7 +427,7 @@ class SymmetricCutter {
         const auto on_both_sides = std::ranges::count_if(
             sides_of_edge(sides, mesh().lines[l][0], mesh().lines[l][1]),
             [&](const HalfEdge& s) { return mesh().triangle_region[s.element] == e.face; });
-        if (on_both_sides == 2) half_.model.embedded.push_back({curve, e.face, e.is_whisker});
+        if (on_both_sides == 2) half_.model.embedded.push_back({curve, e.face, e.is_dangling});
       }
     }
   }

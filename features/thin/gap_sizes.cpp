@@ -69,8 +69,8 @@ class PatchGaps {
 
 }  // namespace
 
-std::vector<FineSpot> gap_spots(const PlanarDomain& domain, const SizeField& size, double rows) {
-  std::vector<FineSpot> spots;
+std::vector<LocalSize> gap_spots(const PlanarDomain& domain, const SizeField& size, double rows) {
+  std::vector<LocalSize> spots;
   int hint = -1;
   for (const PatchBoundary& patch : domain.patches) {
     const PatchGaps gaps(patch);

@@ -11,6 +11,6 @@ namespace delquad {
 /// Edges of curves that face others across a region nearer than `rows` times the size: beside each the size
 /// is that of a gap which holds so many rows, though no less than a twentieth of what it was. Near a corner
 /// between the curves there is no gap.
-std::vector<FineSpot> gap_spots(const PlanarDomain& domain, const SizeField& size, double rows);
+std::vector<LocalSize> gap_spots(const PlanarDomain& domain, const SizeField& size, double rows);
 
 }  // namespace delquad

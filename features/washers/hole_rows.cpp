@@ -28,7 +28,7 @@ constexpr double kLeastHeight = 0.6, kLeastFree = 0.5;
 constexpr int kFewestEdges = 6;
 constexpr double kMostEdges = 1e5;  // that are tried
 /// Lengths of edges, in sizes: quads beside them have others that are a fifth shorter or longer.
-constexpr double kShortest = 1.2 * kAskedShort, kLongest = kAskedLong / 1.2;
+constexpr double kShortest = 1.2 * kBatchShort, kLongest = kBatchLong / 1.2;
 
 /// Twice the area, along the normal.
 Vec3 area_of(const std::vector<Vec3>& outline) {
@@ -117,13 +117,13 @@ std::optional<double> hole_diameter(const std::vector<Vec3>& outline) {
   return diameter_of(flat);
 }
 
-HoleRoom::HoleRoom(std::vector<Wall> walls) : walls_(std::move(walls)) {
+HoleClearance::HoleClearance(std::vector<Wall> walls) : walls_(std::move(walls)) {
   std::vector<Box<Vec3>> boxes;
   for (const Wall& wall : walls_) boxes.push_back(Box<Vec3>::around(wall.ends));
   tree_ = BoxTree<Vec3>(boxes);
 }
 
-std::array<double, 2> HoleRoom::around(const Hole& hole, int number, double reach) const {
+std::array<double, 2> HoleClearance::around(const Hole& hole, int number, double reach) const {
   std::array<double, 2> room = {reach, reach};
   const std::size_t n = hole.outline.size();
   const double step = hole.diameter / 16;  // what it misses is far less
@@ -194,7 +194,7 @@ std::vector<int> share_edges(const std::vector<double>& parts, int edges) {
 }
 
 std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSpec& washer, double size,
-                                    const HoleRoom& room, std::vector<Warning>& warnings) {
+                                    const HoleClearance& room, std::vector<Warning>& warnings) {
   const double length = hole.length();
   const bool is_given = !hole.given.empty() && std::ranges::count(hole.given, 0) == 0;
   const int wanted = is_given           ? std::accumulate(hole.given.begin(), hole.given.end(), 0)

@@ -31,13 +31,13 @@ struct Hole {
 std::optional<double> hole_diameter(const std::vector<Vec3>& outline);
 
 /// How far a hole is from all else that bounds its region.
-class HoleRoom {
+class HoleClearance {
  public:
   struct Wall {
     std::array<Vec3, 2> ends;
     int hole = -1;  ///< that gets rows, too
   };
-  explicit HoleRoom(std::vector<Wall> walls);
+  explicit HoleClearance(std::vector<Wall> walls);
   /// From other walls, and from other holes with rows; as much as `reach` where there is nothing.
   std::array<double, 2> around(const Hole& hole, int number, double reach) const;
 
@@ -67,6 +67,6 @@ std::vector<int> share_edges(const std::vector<double>& parts, int edges);
 /// next in ratio, where no rows of .6 of their height fit this one, or edges of the rim. Nothing where
 /// none does. Warnings tell of all.
 std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSpec& washer, double size,
-                                    const HoleRoom& room, std::vector<Warning>& warnings);
+                                    const HoleClearance& room, std::vector<Warning>& warnings);
 
 }  // namespace delquad

@@ -93,7 +93,7 @@ MeshProblem with_planar_washers(MeshProblem problem, const PointSize& size, std:
     if (of_hole[l] == nullptr) continue;
     for (const int c : sampled[l].curves) hole_of[c] = static_cast<int>(l);
   }
-  std::vector<HoleRoom::Wall> walls;
+  std::vector<HoleClearance::Wall> walls;
   for (std::size_t c = 0; c < model.curves.size(); ++c) {
     if (model.curves[c].is_gone) continue;
     const std::vector<Vec3> points = in_space(sample(*model.curves[c].shape, true));
@@ -102,7 +102,7 @@ MeshProblem with_planar_washers(MeshProblem problem, const PointSize& size, std:
   }
   for (const ModelPoint& p : model.points)
     walls.push_back({{Vec3{p.at.x, p.at.y, 0}, Vec3{p.at.x, p.at.y, 0}}});
-  const HoleRoom room(std::move(walls));
+  const HoleClearance room(std::move(walls));
   std::map<int, int> divided;  // edges of curves
   for (const CurveDivision& division : problem.divisions)
     for (const int c : entities_named(curve_entities(model), "curve", division.name))

@@ -69,7 +69,7 @@ FaceHole hole_of(const OutlinedChart& chart, std::size_t l, const std::map<Edge,
 }
 
 /// Unit vectors into a chart from the sides of its loops.
-std::map<Edge, Vec3> ways_into(const Chart& chart) {
+std::map<Edge, Vec3> inward_normals(const Chart& chart) {
   std::map<Edge, Vec3> into;
   for (std::size_t t = 0; t < chart.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
@@ -113,8 +113,8 @@ std::vector<std::vector<Vec3>> places_around(const FaceHole& hole, const HoleRow
   return parts;
 }
 
-std::vector<HoleRoom::Wall> walls_of(const std::vector<LooseLine>& loose) {
-  std::vector<HoleRoom::Wall> walls;
+std::vector<HoleClearance::Wall> walls_of(const std::vector<LooseLine>& loose) {
+  std::vector<HoleClearance::Wall> walls;
   for (const LooseLine& line : loose)
     for (std::size_t i = 0; i < line.points.size(); ++i)
       walls.push_back({{line.points[i], line.points[std::min(i + 1, line.points.size() - 1)]}});
@@ -212,7 +212,7 @@ void SurfaceWashers::plan(const PointSize& size) {
   find_divided();
   std::set<int> ends;
   for (const std::vector<int>& points : points_of_curves(mesh)) ends.insert({points.front(), points.back()});
-  const std::vector<HoleRoom::Wall> loose = walls_of(model_.loose);
+  const std::vector<HoleClearance::Wall> loose = walls_of(model_.loose);
   const std::vector<OutlinedChart> charts = outlined_charts(mesh);
   std::vector<FacingSides> facing;
   std::vector<int> n_faces(mesh.curves.size(), 0);
@@ -225,9 +225,9 @@ void SurfaceWashers::plan(const PointSize& size) {
   const NearestOnRegions regions(mesh);
   for (const OutlinedChart& chart : charts) {
     check_cancelled();
-    const auto into = ways_into(chart);
+    const auto into = inward_normals(chart);
     std::vector<FaceHole> holes;
-    std::vector<HoleRoom::Wall> walls = loose;
+    std::vector<HoleClearance::Wall> walls = loose;
     for (std::size_t l = 0; l < chart.loops.size(); ++l) {
       const std::vector<int>& loop = chart.loops[l];
       FaceHole hole = hole_of(chart, l, into, ends);
@@ -238,7 +238,7 @@ void SurfaceWashers::plan(const PointSize& size) {
       if (gets_rows) holes.push_back(std::move(hole));
     }
     if (holes.empty()) continue;
-    const HoleRoom room(std::move(walls));
+    const HoleClearance room(std::move(walls));
     for (std::size_t h = 0; h < holes.size(); ++h) {
       FaceHole& hole = holes[h];
       const WasherSpec& washer = *washer_of(problem_.washers, hole);
@@ -289,7 +289,7 @@ void SurfaceWashers::cut() {
   }
   int tag = 0;
   for (const Entity& face : mesh.regions) tag = std::max(tag, face.tag);
-  EntityGroups origin = each_alone(mesh.regions.size());
+  EntityGroups origin = singleton_groups(mesh.regions.size());
   for (std::size_t r = 0; r < rings_.size(); ++r) {
     const Ring& ring = rings_[r];
     std::vector<int> curves;
@@ -318,7 +318,7 @@ void SurfaceWashers::cut() {
   }
   if (!rings_.empty()) {
     const std::vector<EmbeddedCurve> embedded = model_.embedded;
-    regroup(model_, mesh, origin, each_alone(mesh.curves.size()));
+    regroup(model_, mesh, origin, singleton_groups(mesh.curves.size()));
     model_.embedded = embedded;
   }
   if (!outer.empty()) {

@@ -122,7 +122,7 @@ Tensor2 SurfaceMetric::within_limits(const Tensor2& given, const Vec3& x) const 
   const double scale = wanted_.spec.scale;
   Tensor2 m = limited(times(1 / (scale_ * scale_), given), wanted_.spec.limits);
   m = times(1 / (scale * scale), m);
-  for (const SizeSpot& spot : wanted_.spots)
+  for (const SizeBall& spot : wanted_.spots)
     if (norm(x - spot.at) < spot.reach) m = limited(m, {.max = spot.size});
   return m;
 }

@@ -21,7 +21,7 @@ namespace delquad {
 struct WantedMetric {
   MetricSpec spec;
   std::shared_ptr<const ModelCurvature> curvature;  ///< of the model as it was read
-  std::vector<SizeSpot> spots = {};                 ///< lengths in these are no larger than their sizes
+  std::vector<SizeBall> spots = {};                 ///< lengths in these are no larger than their sizes
 };
 
 /// Metrics of the tangent planes of a model's faces: at each point of its fine triangulation one for each

@@ -130,7 +130,7 @@ class SizeRule final : public RefinementRule {
   /// Is it larger than a ball inside of it or beside may be?
   bool may_hide_spot(const std::array<int, 3>& nodes, double longest) const {
     const Vec3 sum = fine_.points[nodes[0]] + fine_.points[nodes[1]] + fine_.points[nodes[2]];
-    return std::ranges::any_of(wanted_.spots, [&](const SizeSpot& spot) {
+    return std::ranges::any_of(wanted_.spots, [&](const SizeBall& spot) {
       return longest > spot.reach && norm((1.0 / 3) * sum - spot.at) < longest + spot.reach;
     });
   }
@@ -201,7 +201,7 @@ double WantedSize::on_curve(int curve, const Vec3& x) const {
 }
 
 double WantedSize::at_most_by_spots(double size, const Vec3& x) const {
-  for (const SizeSpot& spot : spots)
+  for (const SizeBall& spot : spots)
     if (norm(x - spot.at) < spot.reach) size = std::min(size, spot.size);
   return size;
 }
@@ -267,7 +267,7 @@ SurfaceSize::SurfaceSize(std::shared_ptr<const SizeField> base) : base_(std::mov
 SurfaceSize::SurfaceSize(const SurfaceModel& model, const WantedSize& wanted)
     : base_(wanted.base), edge_turn_(wanted.edge_turn), metric_(wanted.metric) {
   if (metric_) line_stretch_ = metric_->stretches_of_lines(model.fine);
-  if (!wanted.lives_on_surface()) return;
+  if (!wanted.depends_on_surface()) return;
   delta_ = wanted_at_points(model.fine, wanted);
   limit_slope(model.fine, wanted.gradation, delta_);
   std::vector<std::array<int, 3>> triangles;
@@ -311,7 +311,7 @@ double SurfaceSize::at(const Vec3& x, int& hint) const {
 }
 
 void refine_for_size(SurfaceModel& model, const WantedSize& wanted) {
-  if (!wanted.lives_on_surface() || model.fine.triangles.empty()) return;
+  if (!wanted.depends_on_surface() || model.fine.triangles.empty()) return;
   const double coarsest = varies(model.fine, *wanted.base) ? kCoarsest * diagonal(model.fine) : INFINITY;
   for (int round = 0; round < kMostRounds; ++round) {
     SizeRule rule(model.fine, wanted, coarsest);

@@ -19,7 +19,7 @@ namespace delquad {
 class SurfaceMetric;
 
 /// A ball in which sizes are at most `size`.
-struct SizeSpot {
+struct SizeBall {
   Vec3 at;
   double reach = 0, size = 0;
 };
@@ -40,7 +40,7 @@ struct WantedSize {
   double gradation = 0;
   /// For each curve (index into Mesh::curves), the largest size on it; empty: as the base.
   std::vector<double> curve_limit;
-  std::vector<SizeSpot> spots = {};
+  std::vector<SizeBall> spots = {};
   /// Edges of curves should turn by no more, in radians; 0: by any angle. It changes no size inside of faces.
   double edge_turn = 0;
   /// By which everything is measured in place of lengths in space; null: none. The base is 1 then, and all.
@@ -50,7 +50,7 @@ struct WantedSize {
   double in_face(int face, const Vec3& x) const;
   double on_curve(int curve, const Vec3& x) const;
   /// Whether it is more than a function of space.
-  bool lives_on_surface() const { return gradation > 0; }
+  bool depends_on_surface() const { return gradation > 0; }
 
  private:
   double of(const std::vector<double>& own, int entity) const;

@@ -94,7 +94,7 @@ void heal(CadShape& cad, const CadOptions& options, bool heals, KernelWatch& wat
                     options.healing_seconds));
     return;
   }
-  const DoingStage stage(kHealing);
+  const StageScope stage(kHealing);
   const KernelWatch::Healing limited(watch);
   heal_shape(cad, options.weld * cad.diagonal);
   unwind_faces(cad);
@@ -238,8 +238,8 @@ std::string kernel_version() {
   return at == std::string::npos ? OCC_VERSION_COMPLETE : file.substr(at + before.size());
 }
 
-void work_for(int socket, int parent) {
-  delquad::work_for(
+void run_worker(int socket, int parent) {
+  delquad::run_worker(
       socket, parent,
       [&](const std::string& bytes) {
         const CadRequest request = request_from(bytes);

@@ -10,6 +10,6 @@ std::string kernel_version();
 /// The life of a worker process: it answers the one request that comes through the socket. On damaged files
 /// the kernel crashes, follows broken references or runs in circles: nobody but this process suffers. It ends
 /// when its parent, the process of this number, does.
-[[noreturn]] void work_for(int socket, int parent);
+[[noreturn]] void run_worker(int socket, int parent);
 
 }  // namespace delquad::cad

@@ -28,7 +28,7 @@ constexpr int kMostTrials = 4;
 /// The activity of a worker, as told to the run of this thread.
 class WorkersActivity {
  public:
-  void hear(Reply reply, const std::string& text) {
+  void on_reply(Reply reply, const std::string& text) {
     if (reply == Reply::kStage) {
       stage_.reset();
       for (const char* known : {kHealing, kTriangulation})
@@ -36,7 +36,7 @@ class WorkersActivity {
     }
     if (reply == Reply::kFaceBegins)
       for (const int face : numbers_from(text))
-        faces_.emplace_back(face, std::make_unique<FaceElsewhere>(face, kTriangulation));
+        faces_.emplace_back(face, std::make_unique<RemoteFaceScope>(face, kTriangulation));
     if (reply == Reply::kFaceEnds)
       for (const int face : numbers_from(text))
         if (const auto at = std::ranges::find(faces_, face, &Face::first); at != faces_.end())
@@ -45,15 +45,15 @@ class WorkersActivity {
   /// ": at the triangulation of face 7, face 9", or nothing where there is no face.
   std::string text() const {
     std::string text;
-    for (const auto& [face, told] : faces_)
+    for (const auto& [face, face_scope] : faces_)
       text += fmt::format("{}face {}", text.empty() ? fmt::format(": at the {} of ", kTriangulation) : ", ",
                           face);
     return text;
   }
 
  private:
-  using Face = std::pair<int, std::unique_ptr<FaceElsewhere>>;
-  std::optional<DoingStage> stage_;
+  using Face = std::pair<int, std::unique_ptr<RemoteFaceScope>>;
+  std::optional<StageScope> stage_;
   std::vector<Face> faces_;  ///< in order of their beginnings
 };
 
@@ -63,7 +63,7 @@ std::pair<Reply, std::string> ask_worker(const CadRequest& request) {
   WorkersActivity activity;
   WorkerProcess worker(find_worker());
   worker.ask(to_bytes(request), [&](char kind, const std::string& text) {
-    activity.hear(Reply{kind}, text);
+    activity.on_reply(Reply{kind}, text);
     if (is_last(kind)) last.emplace(Reply{kind}, text);
   });
   if (!last)

@@ -106,8 +106,8 @@ std::string list_joints(const Mesh& mesh, const std::vector<LooseJoint>& joints)
 }
 
 /// Warns of what nearly touches: its mesh would come apart there.
-void tell_near(SurfaceModel& model, std::vector<LooseJoint> contacts, double diagonal,
-               const std::function<double(const Vec3&)>& size) {
+void warn_of_near(SurfaceModel& model, std::vector<LooseJoint> contacts, double diagonal,
+                  const std::function<double(const Vec3&)>& size) {
   constexpr double kPartOfSize = 0.1, kPartOfDiagonal = 1.0 / 50;
   std::vector<std::vector<Vec3>> corners(model.fine.regions.size());
   for (std::size_t t = 0; t < model.fine.triangles.size(); ++t)
@@ -136,7 +136,7 @@ void check_joints(SurfaceModel& model, const CadShape& cad, const TopTools_Index
   const auto [joints, near] =
       loose_joints(model, faces, faces_of(shells_of_solids(cad.shape), faces),
                    {options.deflection * cad.diagonal, kTouching * cad.diagonal, kNear * cad.diagonal});
-  tell_near(model, near, cad.diagonal, options.size);
+  warn_of_near(model, near, cad.diagonal, options.size);
   if (joints.empty()) return;
   const std::string list = list_joints(model.fine, joints);
   if (options.glue)
@@ -159,7 +159,7 @@ void refuse_joints_at_points(const Mesh& mesh, const TopTools_IndexedMapOfShape&
 }
 
 /// A curve that stands in a face has a point inside, so that a patch can be opened between its ends.
-void part_single_lines(SurfaceModel& model) {
+void split_single_lines(SurfaceModel& model) {
   SurfaceEditor editor(model);
   const std::vector<int> curve_of = model.fine.line_curve;
   std::set<int> embedded;
@@ -238,7 +238,7 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   model.projector = make_projector(std::move(meshes), welded.curves, kProjection * cad.diagonal);
   for (const auto& [point, face] : welded.inside)
     model.fine.points[point] = model.projector->to_face(face, model.fine.points[point]);
-  if (!model.embedded.empty()) part_single_lines(model);
+  if (!model.embedded.empty()) split_single_lines(model);
   check_joints(model, cad, faces, options);
   refuse_joints_at_points(model.fine, faces);
   return model;
@@ -247,7 +247,7 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
 }  // namespace
 
 SurfaceModel read_by_kernel(const CadModel& cad, const CadOptions& options) {
-  const DoingStage stage("reading");
+  const StageScope stage("reading");
   const std::string name = cad.file.empty() ? "CAD data" : cad.file.string();
   if (cad.file.empty() && cad.bytes.empty())
     throw InputError("a CAD model without a file and without bytes: expected one of them");
@@ -261,7 +261,7 @@ SurfaceModel read_by_kernel(const CadModel& cad, const CadOptions& options) {
 }
 
 SurfaceModel read_example_by_kernel(const std::string& name, const CadOptions& options) {
-  const DoingStage stage("reading");
+  const StageScope stage("reading");
   return make_model(name, prepare_shape(make_product(name), options), options);
 }
 

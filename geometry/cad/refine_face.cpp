@@ -49,24 +49,24 @@ class FaceRefiner {
     // The first that came first: the points spread evenly should they not be enough.
     for (std::size_t i = 0; i < waiting.size(); ++i) {
       check_cancelled();
-      const Wish wish = worst_of(waiting[i]);
-      if (!wish.is_wanted) continue;
+      const Refinement refinement = worst_of(waiting[i]);
+      if (!refinement.is_wanted) continue;
       if (std::ssize(points_) - n_boundary_ >= bounds_.most_points) {
         is_complete = false;
         break;
       }
-      if (!kernel_.find_cavity(wish.at, waiting[i])) continue;
-      const SurfacePoint on = evaluate(surface_, parameters(wish.at));
+      if (!kernel_.find_cavity(refinement.at, waiting[i])) continue;
+      const SurfacePoint on = evaluate(surface_, parameters(refinement.at));
       points_.push_back(on.point);
       normals_.push_back(on.normal);
-      const std::span<const int> star = kernel_.insert(wish.at);
+      const std::span<const int> star = kernel_.insert(refinement.at);
       waiting.insert(waiting.end(), star.begin(), star.end());
     }
     return {kernel_.to_patch(n_boundary_), std::move(points_), is_complete};
   }
 
  private:
-  struct Wish {
+  struct Refinement {
     bool is_wanted = false;
     Vec2 at{0, 0};
   };
@@ -81,10 +81,10 @@ class FaceRefiner {
 
   /// A side inside that turns or deviates too much, the longest; else the middle of the triangle if that
   /// does.
-  Wish worst_of(int t) const {
+  Refinement worst_of(int t) const {
     const DelaunayKernel::Triangle& triangle = kernel_.triangles()[t];
     const std::vector<Vec2>& x = kernel_.points();
-    Wish wish;
+    Refinement refinement;
     double longest = bounds_.deflection;
     for (int k = 0; k < 3; ++k) {
       const int a = triangle.v[(k + 1) % 3], b = triangle.v[(k + 2) % 3];
@@ -93,13 +93,13 @@ class FaceRefiner {
       const Vec2 middle = 0.5 * (x[a] + x[b]);
       if (!turns(a, b) && deviation(middle, 0.5 * (points_[a] + points_[b])) <= bounds_.deflection) continue;
       longest = length;
-      wish = {true, middle};
+      refinement = {true, middle};
     }
-    if (wish.is_wanted) return wish;
+    if (refinement.is_wanted) return refinement;
     const auto [a, b, c] = triangle.v;
     const Vec2 middle = (1.0 / 3) * (x[a] + x[b] + x[c]);
     const double size = std::sqrt(norm(cross(points_[b] - points_[a], points_[c] - points_[a])));
-    if (size <= bounds_.deflection) return wish;
+    if (size <= bounds_.deflection) return refinement;
     return {deviation(middle, (1.0 / 3) * (points_[a] + points_[b] + points_[c])) > bounds_.deflection,
             middle};
   }

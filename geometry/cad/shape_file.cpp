@@ -121,7 +121,7 @@ class FirstComplaint : public Message_Printer {
 };
 
 /// Takes the kernel's messages from here on.
-Handle(FirstComplaint) listen() {
+Handle(FirstComplaint) collect_messages() {
   const Handle(FirstComplaint) complaint = new FirstComplaint;
   Message::DefaultMessenger()->ChangePrinters().Clear();
   Message::DefaultMessenger()->AddPrinter(complaint);
@@ -202,7 +202,7 @@ void warn_of_unit(const std::vector<std::string>& in_file, const LengthUnit& wan
 template <class Reader>
 CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& options,
                   const std::function<IFSelect_ReturnStatus(Reader&)>& load) {
-  const Handle(FirstComplaint) complaint = listen();
+  const Handle(FirstComplaint) complaint = collect_messages();
   const LengthUnit& wanted = length_unit(options.unit.empty() ? "mm" : options.unit);
   Interface_Static::SetCVal("xstep.cascade.unit", wanted.kernel);
   if (load(reader) != IFSelect_RetDone)
@@ -271,7 +271,7 @@ CadShape read_brep(const std::string& bytes, const CadOptions& options) {
   if (!options.unit.empty())
     throw InputError(
         "BREP files do not say their unit: lengths stay as they are, and no unit can be asked for");
-  const Handle(FirstComplaint) complaint = listen();
+  const Handle(FirstComplaint) complaint = collect_messages();
   // The kernel reads on and on behind the end of a truncated file unless the stream stops it.
   std::istringstream in(bytes);
   in.exceptions(std::ios::failbit | std::ios::badbit);

@@ -36,7 +36,7 @@ namespace {
 constexpr int kMostSteps = 50;
 constexpr int kMostHalvings = 30;
 /// Steps shorter than this many tolerances are taken as they are: rounding hides what the distance gains.
-constexpr double kSure = 1e4;
+constexpr double kRoundingFactor = 1e4;
 
 /// The parameters that a variable may take.
 struct ParameterRange {
@@ -112,7 +112,7 @@ gp_Pnt nearest_point(const Geom_Surface& surface, const gp_Pnt& x, double u, dou
     gp_Pnt q;
     for (int k = 0; k < kMostHalvings; ++k, fraction /= 2) {
       q = surface.Value(range.u.clamp(u + fraction * step.u), range.v.clamp(v + fraction * step.v));
-      if (moved < kSure * tolerance || q.SquareDistance(x) <= r.SquareMagnitude()) break;
+      if (moved < kRoundingFactor * tolerance || q.SquareDistance(x) <= r.SquareMagnitude()) break;
     }
     u = range.u.clamp(u + fraction * step.u);
     v = range.v.clamp(v + fraction * step.v);
@@ -139,7 +139,7 @@ gp_Pnt nearest_point(const Geom_Curve& curve, double first, double last, const g
     if (range.stops(t, step)) step = 0;
     const double moved = std::abs(step) * std::sqrt(slope2);
     const bool done = moved < tolerance;
-    for (int k = 0; k < kMostHalvings && moved > kSure * tolerance; ++k, step /= 2)
+    for (int k = 0; k < kMostHalvings && moved > kRoundingFactor * tolerance; ++k, step /= 2)
       if (curve.Value(range.clamp(t + step)).SquareDistance(x) <= r.SquareMagnitude()) break;
     t = range.clamp(t + step);
     p = curve.Value(t);

@@ -28,7 +28,7 @@ namespace delquad::cad {
 namespace {
 
 /// Whether a writer puts this text in place of a missing name.
-bool says_nothing(const std::string& name) {
+bool is_placeholder(const std::string& name) {
   return name.find_first_not_of(' ') == std::string::npos || name == "NONE" ||
          name.starts_with("Open CASCADE STEP translator");
 }
@@ -42,7 +42,7 @@ std::string name_of(const Handle(Standard_Transient) & entity) {
              entity->IsKind(STANDARD_TYPE(StepShape_SolidModel))) {
     name = Handle(StepRepr_RepresentationItem)::DownCast(entity)->Name();
   }
-  return name.IsNull() || says_nothing(name->ToCString()) ? "" : name->ToCString();
+  return name.IsNull() || is_placeholder(name->ToCString()) ? "" : name->ToCString();
 }
 
 }  // namespace

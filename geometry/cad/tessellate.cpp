@@ -28,10 +28,10 @@ namespace delquad::cad {
 namespace {
 
 /// The kernel's own algorithm for a face, with what is said and left out around it.
-class ToldAlgo : public IMeshTools_MeshAlgo {
+class WatchedAlgo : public IMeshTools_MeshAlgo {
  public:
-  ToldAlgo(Handle(IMeshTools_MeshAlgo) own, const TopTools_IndexedMapOfShape& faces,
-           const std::vector<int>& skipped, Run* run)
+  WatchedAlgo(Handle(IMeshTools_MeshAlgo) own, const TopTools_IndexedMapOfShape& faces,
+              const std::vector<int>& skipped, Run* run)
       : own_(own), faces_(faces), skipped_(skipped), run_(run) {}
 
   void Perform(const IMeshData::IFaceHandle& face, const IMeshTools_Parameters& parameters,
@@ -41,8 +41,8 @@ class ToldAlgo : public IMeshTools_MeshAlgo {
       face->SetStatus(IMeshData_Failure);
       return;
     }
-    const WorksFor works(run_);
-    const DoingFace told(number);
+    const WorkerScope works(run_);
+    const FaceScope face_scope(number);
     own_->Perform(face, parameters, range);
   }
 
@@ -53,15 +53,15 @@ class ToldAlgo : public IMeshTools_MeshAlgo {
   Run* run_;
 };
 
-class ToldAlgos : public IMeshTools_MeshAlgoFactory {
+class WatchedAlgos : public IMeshTools_MeshAlgoFactory {
  public:
-  ToldAlgos(const TopTools_IndexedMapOfShape& faces, const std::vector<int>& skipped)
+  WatchedAlgos(const TopTools_IndexedMapOfShape& faces, const std::vector<int>& skipped)
       : faces_(faces), skipped_(skipped) {}
 
   Handle(IMeshTools_MeshAlgo)
       GetAlgo(const GeomAbs_SurfaceType type, const IMeshTools_Parameters& parameters) const override {
     const Handle(IMeshTools_MeshAlgo) own = kernel_.GetAlgo(type, parameters);
-    return own.IsNull() ? own : Handle(IMeshTools_MeshAlgo)(new ToldAlgo(own, faces_, skipped_, run_));
+    return own.IsNull() ? own : Handle(IMeshTools_MeshAlgo)(new WatchedAlgo(own, faces_, skipped_, run_));
   }
 
  private:
@@ -76,7 +76,7 @@ class ToldAlgos : public IMeshTools_MeshAlgoFactory {
 void mesh_faces(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces,
                 const IMeshTools_Parameters& parameters, const std::vector<int>& skipped) {
   const Handle(IMeshTools_Context) context = new BRepMesh_Context();
-  context->SetFaceDiscret(new BRepMesh_FaceDiscret(new ToldAlgos(faces, skipped)));
+  context->SetFaceDiscret(new BRepMesh_FaceDiscret(new WatchedAlgos(faces, skipped)));
   BRepMesh_IncrementalMesh mesher;
   mesher.SetShape(shape);
   mesher.ChangeParameters() = parameters;
@@ -122,7 +122,7 @@ std::string face_title(int number, const std::vector<std::string>& names) {
 
 void triangulate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double deflection,
                  double angle) {
-  const DoingStage stage(kTriangulation);
+  const StageScope stage(kTriangulation);
   IMeshTools_Parameters parameters;
   parameters.Deflection = deflection;
   parameters.Angle = angle;

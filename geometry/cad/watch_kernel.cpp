@@ -17,13 +17,13 @@ namespace delquad::cad {
 namespace {
 
 constexpr auto kPause = std::chrono::milliseconds(10);
-constexpr double kNotNow = -1;
+constexpr double kInactive = -1;
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::vector<int> faces_above(double seconds, const Activities& activities) {
   std::vector<int> late;
-  for (const FaceAtWork& face : activities.faces())
+  for (const ActiveFace& face : activities.faces())
     if (face.stage == kTriangulation && face.cpu_seconds > seconds) late.push_back(face.tag);
   std::ranges::sort(late);
   return late;
@@ -35,7 +35,7 @@ struct KernelWatch::State {
   std::mutex mutex;
   std::condition_variable over;
   bool is_over = false;
-  std::atomic<double> healing_since = kNotNow;  ///< of processor_seconds()
+  std::atomic<double> healing_since = kInactive;  ///< of processor_seconds()
   std::thread thread;
 };
 
@@ -65,6 +65,6 @@ KernelWatch::~KernelWatch() {
 KernelWatch::Healing::Healing(KernelWatch& watch) : watch_(watch) {
   watch_.state_->healing_since = processor_seconds();
 }
-KernelWatch::Healing::~Healing() { watch_.state_->healing_since = kNotNow; }
+KernelWatch::Healing::~Healing() { watch_.state_->healing_since = kInactive; }
 
 }  // namespace delquad::cad

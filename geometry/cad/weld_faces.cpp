@@ -37,7 +37,7 @@ class Welder {
     WeldedFaces welded;
     add_triangles(welded.mesh);
     number_points(welded.mesh);
-    welded.inside = part_twin_sides(welded.mesh, numbered_boundaries());
+    welded.inside = split_duplicate_sides(welded.mesh, numbered_boundaries());
     for (const HalfEdge& side : sorted_half_edges(welded.mesh)) sides_.push_back({side.lo, side.hi});
     for (int e = 0; e < edges_.Extent(); ++e) add_curve(e, welded);
     find_corners(welded);

@@ -31,7 +31,7 @@ struct WeldedFaces {
   std::vector<CurveMesh> curves;
   std::vector<int> corners;
   std::vector<EmbeddedCurve> embedded;  ///< edges inside of faces, by curve
-  std::vector<PointInside> inside;      ///< not on the surface yet: see part_twin_sides()
+  std::vector<PointInside> inside;      ///< not on the surface yet: see split_duplicate_sides()
   std::vector<int> bad_faces;           ///< triangles miss the boundary by more than `gap`, or are no surface
 };
 
@@ -59,8 +59,8 @@ double repair_face(const std::vector<Vec3>& points, const std::vector<std::array
 /// two nodes, one or both of them inside: each is its own way over the surface. Such inner sides get a node
 /// on their middle, so that an edge of the mesh tells the sides of its two triangles. `boundary`: the sides
 /// (lower node first) that edges of each face have, sorted. Returns the new points.
-std::vector<PointInside> part_twin_sides(Mesh& mesh,
-                                         const std::vector<std::vector<std::array<int, 2>>>& boundary);
+std::vector<PointInside> split_duplicate_sides(Mesh& mesh,
+                                               const std::vector<std::vector<std::array<int, 2>>>& boundary);
 
 /// True when no side belongs to more than two of the triangles.
 bool is_manifold(const std::vector<std::array<int, 3>>& triangles);

@@ -11,5 +11,5 @@ int main(int argc, char** argv) {
   if (argc != 2) return EXIT_FAILURE;
   if (std::strcmp(argv[1], "--version") == 0)
     return std::puts(delquad::cad::kernel_version().c_str()) < 0 ? EXIT_FAILURE : EXIT_SUCCESS;
-  delquad::cad::work_for(kInput, std::atoi(argv[1]));
+  delquad::cad::run_worker(kInput, std::atoi(argv[1]));
 }

@@ -51,7 +51,7 @@ bool check_indices(const std::vector<std::array<int, N>>& elements, const std::v
 }
 
 template <size_t N>
-void check_no_twins(std::vector<std::array<int, N>> elements, const char* kind, Report& wrong) {
+void check_no_duplicates(std::vector<std::array<int, N>> elements, const char* kind, Report& wrong) {
   for (auto& v : elements) std::sort(v.begin(), v.end());
   std::sort(elements.begin(), elements.end());
   for (auto it = std::adjacent_find(elements.begin(), elements.end()); it != elements.end();
@@ -120,9 +120,9 @@ bool check_elements(const Mesh& mesh, Report& wrong) {
   const bool triangles =
       check_indices(mesh.triangles, mesh.triangle_region, n, mesh.regions.size(), "triangle", wrong);
   const bool quads = check_indices(mesh.quads, mesh.quad_region, n, mesh.regions.size(), "quad", wrong);
-  check_no_twins(mesh.lines, "line", wrong);
-  check_no_twins(mesh.triangles, "triangle", wrong);
-  check_no_twins(mesh.quads, "quad", wrong);
+  check_no_duplicates(mesh.lines, "line", wrong);
+  check_no_duplicates(mesh.triangles, "triangle", wrong);
+  check_no_duplicates(mesh.quads, "quad", wrong);
   return lines && triangles && quads;
 }
 

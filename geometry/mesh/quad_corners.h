@@ -67,12 +67,12 @@ inline constexpr double kShortSide = 0.1, kKeptSide = 1.25 * kShortSide;
 
 /// Usual limits of engineers for quads (criteria "batch"): sides over the wanted size, and longest over
 /// shortest side. Then come eta of corners from 40 to 140 degrees, and the warpage (quad_warp(), radians).
-inline constexpr double kAskedShort = 0.33, kAskedLong = 1.75, kAskedAspect = 5, kAskedEta = 4.0 / 9,
-                        kAskedWarp = std::numbers::pi / 9;
+inline constexpr double kBatchShort = 0.33, kBatchLong = 1.75, kBatchAspect = 5, kBatchEta = 4.0 / 9,
+                        kBatchWarp = std::numbers::pi / 9;
 /// Whether a quad is beyond that. `shortest`, `longest`: sides over the wanted size; `sine`: the least.
-inline bool is_beyond_asked(double shortest, double longest, double aspect, double sine) {
-  static const double asked_sine = sine_of_eta(kAskedEta);
-  return shortest < kAskedShort || longest > kAskedLong || aspect > kAskedAspect || sine < asked_sine;
+inline bool is_beyond_batch(double shortest, double longest, double aspect, double sine) {
+  static const double batch_sine = sine_of_eta(kBatchEta);
+  return shortest < kBatchShort || longest > kBatchLong || aspect > kBatchAspect || sine < batch_sine;
 }
 /// Walls of sides over delta: within that, so that vertices that move hold it.
 inline constexpr double kShortWall = 0.4, kLongWall = 1.65;

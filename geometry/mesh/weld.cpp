@@ -111,7 +111,7 @@ std::string weld_open_edges(Mesh& mesh, double tolerance) {
   return fmt::format("welded {} to others (the first at {})", count, place);
 }
 
-std::string tell_unjoined(const Mesh& mesh) {
+std::string describe_unjoined(const Mesh& mesh) {
   constexpr double kCoincident = 1e-6;  // of the diagonal
   const auto [count, place] = renamed_in(mesh, names_at_open_edges(mesh, kCoincident * diagonal(mesh)));
   if (count.empty()) return {};

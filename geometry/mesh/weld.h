@@ -28,6 +28,6 @@ std::string weld_open_edges(Mesh& mesh, double tolerance);
 
 /// Says how many ends of open edges coincide with others within 1e-6 of the diagonal, and where the first one
 /// is: at cracks, and where a mesh is torn. Empty: there are none.
-std::string tell_unjoined(const Mesh& mesh);
+std::string describe_unjoined(const Mesh& mesh);
 
 }  // namespace delquad

@@ -151,7 +151,7 @@ class LineArranger {
   void check_closed(const Arrangement& arrangement) const {
     const auto is_open = [&](int l) {
       return arrangement.has_one_face(l) && arrangement.face_of[2 * l] < 0 &&
-             mesh_.line_curve[static_cast<std::size_t>(l)] != names_.whiskers;
+             mesh_.line_curve[static_cast<std::size_t>(l)] != names_.dangling;
     };
     std::vector<int> ends;
     for (int v : used_)

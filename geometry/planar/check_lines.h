@@ -15,7 +15,7 @@ struct BoundaryNames {
   std::string source;                     ///< file; may be empty
   std::function<std::string(int)> curve;  ///< name of a curve, by index into Mesh::curves
   std::string crossing_hint;              ///< added where lines meet; may be empty
-  int whiskers = -1;                      ///< a curve whose lines may be anywhere
+  int dangling = -1;                      ///< a curve whose lines may be anywhere
 
   /// Returns the beginning of messages.
   std::string prefix() const { return source.empty() ? "" : source + ": "; }

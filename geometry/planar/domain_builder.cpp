@@ -223,7 +223,7 @@ PlanarDomain build_domain(Mesh lines, const Arrangement& arrangement, FaceRegion
   DomainBuilder builder(std::move(lines), arrangement, std::move(regions), names, special);
   if (!special.cracks.empty()) builder.open_cracks(special.cracks);
   PlanarDomain domain = builder.domain();
-  if (special.whiskers >= 0) drop_curve(domain, special.whiskers);
+  if (special.dangling >= 0) drop_curve(domain, special.dangling);
   return domain;
 }
 

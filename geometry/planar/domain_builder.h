@@ -13,7 +13,7 @@ struct SpecialCurves {
   /// By curve, empty: none. There the domain comes apart: nodes are doubled, and what is on the other side
   /// gets lines of its own, on a curve of the same name.
   std::vector<char> cracks = {};
-  int whiskers = -1;  ///< edges at single points, which are no lines in the end
+  int dangling = -1;  ///< edges at single points, which are no lines in the end
   bool may_bound_nothing =
       false;  ///< lines without a region on either side are no error, see drop_stray_lines()
 };

@@ -49,7 +49,7 @@ class LoopsAround {
     spread();
     sort_by_area();
     for (const std::vector<int>& around : around_) nest(around);
-    check_twins();
+    check_duplicates();
   }
 
   /// The innermost one; -1: none.
@@ -134,7 +134,7 @@ class LoopsAround {
   }
 
   /// One of two equal loops says that the other one is no hole.
-  void check_twins() const {
+  void check_duplicates() const {
     for (std::size_t l = 0; l < loops_.size(); ++l) {
       const int parent = parent_[l];
       if (parent < 0 || area_[parent] != area_[l] ||

@@ -73,10 +73,10 @@ class OutlineJoiner {
     std::vector<int> closed;
     for (int c = 0; c < static_cast<int>(curves_.size()); ++c)
       if (is_free_[c]) closed.push_back(c);
-    for (const std::vector<int>& group : hanging_together(closed)) {
+    for (const std::vector<int>& group : connected_groups(closed)) {
       const bool is_even =
           std::ranges::all_of(group, [&](int c) { return n_at(2 * c) % 2 == 0 && n_at(2 * c + 1) % 2 == 0; });
-      for (const std::vector<int>& loop : hanging_together(is_even ? group : outer_of(group)))
+      for (const std::vector<int>& loop : connected_groups(is_even ? group : outer_of(group)))
         model_.loops.push_back({loop, "", curves_[loop[0]].where});
     }
     return loose;
@@ -85,7 +85,7 @@ class OutlineJoiner {
  private:
   std::size_t n_at(End e) const { return at_node_.at(node_[e]).size(); }
 
-  std::vector<std::vector<int>> hanging_together(const std::vector<int>& curves) const {
+  std::vector<std::vector<int>> connected_groups(const std::vector<int>& curves) const {
     DisjointSets nodes(ends_.size());
     for (const int c : curves) nodes.join(node_[2 * c], node_[2 * c + 1]);
     std::map<int, std::vector<int>> groups;
@@ -97,7 +97,7 @@ class OutlineJoiner {
   }
 
   void join_ends() {
-    const double gap = gap_ = kHair * norm(Box<Vec2>::around(std::span<const Vec2>(ends_)).size());
+    const double gap = gap_ = kCoincidence * norm(Box<Vec2>::around(std::span<const Vec2>(ends_)).size());
     std::vector<End> order;
     for (End e = 0; e < static_cast<End>(ends_.size()); ++e)
       if (is_free_[e / 2]) order.push_back(e);

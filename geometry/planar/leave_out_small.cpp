@@ -264,7 +264,7 @@ void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<War
     std::erase(all.names, "");
     return all;
   };
-  const auto tell = [&](std::size_t l) {
+  const auto warn = [&](std::size_t l) {
     const double length = length_of(outlines[l]);
     Vec2 at{};
     for (const Vec2& x : outlines[l]) at = at + (1.0 / static_cast<double>(outlines[l].size())) * x;
@@ -291,7 +291,7 @@ void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<War
     for (std::size_t k = 0; k < n; ++k)
       if (goes[l] && is_in(k, l) && small.keep.any_of(names_of(model.loops[k]))) goes[l] = 0;
   for (std::size_t l = 0; l < n; ++l)
-    if (goes[l]) tell(l);
+    if (goes[l]) warn(l);
   std::vector<ModelLoop> kept;
   for (std::size_t l = 0; l < n; ++l) {
     std::optional<std::size_t> around;

@@ -45,8 +45,8 @@ struct MappedPatch {
   int patch;
   /// The points of its boundary at which its sides begin, four or three, one after the other; none: a ring.
   std::vector<int> corners;
-  bool is_asked = true;  ///< by name, and not found
-  int rows = 0;          ///< of a ring; 0: as the size asks for
+  bool is_requested = true;  ///< by name, and not found
+  int rows = 0;              ///< of a ring; 0: as the size asks for
 };
 
 /// The regions that a line mesh bounds.

@@ -105,7 +105,7 @@ class SmallHoles {
     for (const auto& loops : loops_)
       for (const Loop& loop : loops)
         if (closable(loop) &&
-            (loop.other == -1 ? !is_little(loop.face) : loop.other >= 0 && tube_[loop.other] > 0))
+            (loop.other == -1 ? !is_small_face(loop.face) : loop.other >= 0 && tube_[loop.other] > 0))
           holes.push_back(&loop);
     for (const Loop* hole : holes) fill(*hole);
     if (holes.empty()) return false;
@@ -149,7 +149,7 @@ class SmallHoles {
            std::ranges::all_of(loops_[face], [&](const Loop& loop) { return is_short(loop); });
   }
   /// A face that ends nowhere else and is small itself: its outline is no hole.
-  bool is_little(int face) const { return all_short(face) && area_of({face}) < length_ * length_; }
+  bool is_small_face(int face) const { return all_short(face) && area_of({face}) < length_ * length_; }
 
   double area_of(const std::set<int>& faces) const {
     double area = 0;

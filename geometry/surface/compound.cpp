@@ -180,7 +180,7 @@ std::map<std::array<int, 2>, Vec3> directions_at_curves(const Mesh& mesh) {
 /// From the middle of a triangle's side, a line of a curve, into its face, by the true surface and square to
 /// the line. `direction`: that of the triangles there. These are off by half of what the face turns by over
 /// one of them, which on a fillet is more than what is taken for smooth.
-Vec3 way_into(const SurfaceModel& model, int curve, const HalfEdge& side, const Vec3& direction) {
+Vec3 inward_normal(const SurfaceModel& model, int curve, const HalfEdge& side, const Vec3& direction) {
   constexpr double kStep = 0.02;  // of the triangle's height
   const Mesh& mesh = model.fine;
   const auto [a, b] = side.run();
@@ -249,8 +249,8 @@ std::vector<char> tangent_curves(const SurfaceModel& model, double angle) {
       return directions.at({face, a}) + directions.at({face, b});
     };
     const Vec3 m = direction(edge[0]), n = direction(edge[1]);
-    if (agree(m, n) || (model.projector &&
-                        agree(-1 * way_into(model, curve, edge[0], m), way_into(model, curve, edge[1], n))))
+    if (agree(m, n) || (model.projector && agree(-1 * inward_normal(model, curve, edge[0], m),
+                                                 inward_normal(model, curve, edge[1], n))))
       sharp[curve] = 0;
   }
   for (size_t c = 0; c < sharp.size(); ++c) smooth[c] = smooth[c] && !sharp[c];
@@ -303,12 +303,12 @@ SurfaceModel merge_short_curves(SurfaceModel model, double length, const Compoun
     joins = true;
   }
   const std::vector<Entity> old = mesh.curves;
-  Groups curves = joins ? rechain(model, corner) : each_alone(old.size());
+  Groups curves = joins ? rechain(model, corner) : singleton_groups(old.size());
   report_short_curves(old, lengths, length, curves, model.warnings);
   if (joins) {
     Mesh former = model.fine;
     former.curves = old;
-    regroup(model, former, each_alone(former.regions.size()), std::move(curves));
+    regroup(model, former, singleton_groups(former.regions.size()), std::move(curves));
   }
   return model;
 }

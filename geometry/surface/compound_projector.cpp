@@ -82,7 +82,7 @@ class CurvesOnFaces final : public SurfaceProjector {
 
 }  // namespace
 
-EntityGroups each_alone(std::size_t n) {
+EntityGroups singleton_groups(std::size_t n) {
   EntityGroups groups;
   for (std::size_t i = 0; i < n; ++i) groups.push_back({static_cast<int>(i)});
   return groups;

@@ -11,7 +11,7 @@ namespace delquad {
 /// The former faces (or curves) that each face (or curve) was made of, by index.
 using EntityGroups = std::vector<std::vector<int>>;
 
-EntityGroups each_alone(std::size_t n);
+EntityGroups singleton_groups(std::size_t n);
 
 /// Numbers what a model knows of its faces and curves anew, after these were made of former ones: the
 /// projector goes to those of the faces that became one on whose fine triangles the nearest point lies, and

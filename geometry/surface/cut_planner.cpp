@@ -168,7 +168,7 @@ Spread spread_from(const Chart& chart, const std::vector<int>& seeds) {
 
 }  // namespace
 
-std::vector<char> plan_parting(const Chart& chart) {
+std::vector<char> plan_split(const Chart& chart) {
   if (chart.triangles.size() < 2) return {};
   const int first = spread_from(chart, {0}).farthest, second = spread_from(chart, {first}).farthest;
   const std::vector<int> seed_of = spread_from(chart, {first, second}).seed_of;

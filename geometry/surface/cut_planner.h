@@ -33,6 +33,6 @@ std::optional<CutPath> plan_division(const Chart& chart);
 
 /// Parts a chart along edges of its triangles, which is always possible: for each triangle 0 or 1, both parts
 /// connected and of about the same extent. Empty for a single triangle.
-std::vector<char> plan_parting(const Chart& chart);
+std::vector<char> plan_split(const Chart& chart);
 
 }  // namespace delquad

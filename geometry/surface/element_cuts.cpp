@@ -223,7 +223,7 @@ std::vector<char> plan_division(const Chart& chart, const ChartElements& element
   if (graph.size() < 2) return {};
   Parts part = best_level(chart, graph);
   if (part.empty()) {
-    const std::vector<char> of_triangles = plan_parting(chart);
+    const std::vector<char> of_triangles = plan_split(chart);
     part.assign(static_cast<std::size_t>(graph.size()), 0);
     for (std::size_t t = 0; t < of_triangles.size(); ++t)
       if (of_triangles[t]) part[graph.of_triangle(t)] = 1;

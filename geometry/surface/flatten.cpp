@@ -142,7 +142,7 @@ class Flattener {
     parallel_for(
         charts.size(),
         [&](std::size_t i) {
-          const DoingFace face(mesh_.regions[charts[i].face].tag);
+          const FaceScope face(mesh_.regions[charts[i].face].tag);
           int tries = 0;
           bool stuck = round >= kMaxRounds;
           for (const int t : charts[i].fine_triangle) {
@@ -217,7 +217,7 @@ class Flattener {
         continue;
       }
       Chart& chart = mapped[i].chart;
-      std::vector<char> parts = parted(chart, options_);
+      std::vector<char> parts = split_chart(chart, options_);
       if (parts.empty()) {
         failed_[chart.face] = 1;
         continue;

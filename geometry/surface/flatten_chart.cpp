@@ -54,7 +54,7 @@ class ChartWork {
     const bool wanted =
         outcome.cut.has_value() || !outcome.map || outcome.map->quality.extreme_ratio > kMostAreas;
     if (wanted && outcome.parts.empty() && (!outcome.cut || stuck_))
-      return {std::move(outcome.map), std::nullopt, true, parted(chart_, options_)};
+      return {std::move(outcome.map), std::nullopt, true, split_chart(chart_, options_)};
     return outcome;
   }
 
@@ -120,7 +120,7 @@ class ChartWork {
   }
 
   ChartOutcome divide(std::optional<ConformalMap> map) const {
-    if (elements_) return {std::move(map), std::nullopt, true, parted(chart_, options_)};
+    if (elements_) return {std::move(map), std::nullopt, true, split_chart(chart_, options_)};
     return {std::move(map), plan_division(chart_), true};
   }
   std::optional<CutPath> path_from(const std::vector<int>& from, const std::vector<int>& to) const {
@@ -161,8 +161,8 @@ std::optional<ConformalMap> checked_map(const Chart& chart, std::vector<Vec2> fl
   return ConformalMap{std::move(flat), quality, method};
 }
 
-std::vector<char> parted(const Chart& chart, const FlattenOptions& options) {
-  return options.element.empty() ? plan_parting(chart) : plan_division(chart, elements_of(chart, options));
+std::vector<char> split_chart(const Chart& chart, const FlattenOptions& options) {
+  return options.element.empty() ? plan_split(chart) : plan_division(chart, elements_of(chart, options));
 }
 
 ChartOutcome flatten_chart(const Chart& chart, const std::vector<CutEnd>& ends,

@@ -14,7 +14,7 @@ struct ChartOutcome {
   std::optional<ConformalMap> map;
   std::optional<CutPath> cut;
   bool divides = false;
-  std::vector<char> parts = {};  ///< of each triangle, see plan_parting
+  std::vector<char> parts = {};  ///< of each triangle, see plan_split
 };
 
 /// After so many rounds of cuts charts are parted along their triangles' edges.
@@ -26,7 +26,7 @@ ChartOutcome flatten_chart(const Chart& chart, const std::vector<CutEnd>& ends,
                            const std::vector<char>& on_cut, const FlattenOptions& options, double tolerance,
                            int tries, bool stuck);
 
-/// For each triangle 0 or 1, see plan_parting().
-std::vector<char> parted(const Chart& chart, const FlattenOptions& options);
+/// For each triangle 0 or 1, see plan_split().
+std::vector<char> split_chart(const Chart& chart, const FlattenOptions& options);
 
 }  // namespace delquad

@@ -196,7 +196,7 @@ std::vector<int> neighbours(const Mesh& mesh, const SurfaceEditor& editor, int n
 }
 
 /// Parts edges at `a` whose other ends would come onto edges of `b` when a moves there.
-void part_common_edges(SurfaceModel& model, int a, int b) {
+void split_common_edges(SurfaceModel& model, int a, int b) {
   SurfaceEditor editor(model);
   const std::vector<int> opposite = opposite_nodes(model.fine, editor, a, b);
   const std::vector<int> at_b = neighbours(model.fine, editor, b);
@@ -225,7 +225,7 @@ bool contract_line(SurfaceModel& model, int a, int b) {
   Mesh& mesh = model.fine;
   const OutlineLines outline(mesh);
   if (outline.touch(a) && outline.touch(b) && !outline.has(a, b)) return false;
-  part_common_edges(model, a, b);
+  split_common_edges(model, a, b);
   if (!keeps_sides(mesh, a, b)) return false;
   keep_triangles(mesh, [&](std::size_t t) {
     auto& triangle = mesh.triangles[t];

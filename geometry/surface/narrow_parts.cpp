@@ -468,7 +468,7 @@ std::vector<int> cut_narrow_parts(SurfaceModel& whole, const NarrowOptions& opti
   if (origin.size() == n_faces) return origin;
   EntityGroups faces;
   for (const int face : origin) faces.push_back({face});
-  regroup(model, mesh, faces, each_alone(n_curves));
+  regroup(model, mesh, faces, singleton_groups(n_curves));
   if (model.projector)
     model.projector = with_curves_on_faces(std::move(model.projector), n_curves, faces_of_cuts);
   // Cuts that part nothing go.

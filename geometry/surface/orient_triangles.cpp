@@ -31,7 +31,7 @@ struct Component {
 };
 
 /// Whether two triangles run the same way along the edge that they share, so that they disagree.
-bool run_alike(const Mesh& mesh, int side, int twin) {
+bool orientations_disagree(const Mesh& mesh, int side, int twin) {
   return side_start(mesh, side) == side_start(mesh, twin);
 }
 
@@ -46,7 +46,7 @@ bool run_alike(const Mesh& mesh, int side, int twin) {
 
 /// Radians by which the surface turns at an edge, were its triangles to agree.
 double turn_at(const Mesh& mesh, int side, int twin) {
-  const double sign = run_alike(mesh, side, twin) ? -1 : 1;
+  const double sign = orientations_disagree(mesh, side, twin) ? -1 : 1;
   return angle_between(area_vector(mesh, side / 3), sign * area_vector(mesh, twin / 3));
 }
 
@@ -84,8 +84,8 @@ class Agreements {
 
 /// Parts neighbours that cannot agree at the sharpest edges on the way from one to the other: joints of
 /// sheets, which bound faces anyway. Refuses a surface that is smooth there.
-void part_at_joints(const Mesh& mesh, const std::string& source, std::vector<int>& twin,
-                    std::vector<Warning>& warnings) {
+void split_at_joints(const Mesh& mesh, const std::string& source, std::vector<int>& twin,
+                     std::vector<Warning>& warnings) {
   constexpr double kJoint = 40 * std::numbers::pi / 180;  // where faces end, see TriangulatedOptions
   std::vector<std::pair<double, int>> edges;
   for (int side = 0; side < static_cast<int>(twin.size()); ++side)
@@ -95,7 +95,7 @@ void part_at_joints(const Mesh& mesh, const std::string& source, std::vector<int
   int parted = 0, first = -1;
   for (const auto& [angle, side] : edges) {
     const int other = twin[side];
-    if (agreements.join(side / 3, other / 3, run_alike(mesh, side, other))) continue;
+    if (agreements.join(side / 3, other / 3, orientations_disagree(mesh, side, other))) continue;
     if (!(angle > kJoint)) refuse_one_sided(mesh, side, source);
     if (parted++ == 0) first = side;
     twin[side] = twin[other] = -1;
@@ -115,7 +115,7 @@ Turned turn_neighbors(const Mesh& mesh, const std::vector<int>& twin, std::vecto
   for (int side = 0; side < static_cast<int>(twin.size()); ++side)
     if (twin[side] > side) {
       edges.push_back(side);
-      neighbors.push_back({side / 3, twin[side] / 3, !run_alike(mesh, side, twin[side])});
+      neighbors.push_back({side / 3, twin[side] / 3, !orientations_disagree(mesh, side, twin[side])});
     }
   return turn_to_agree(mesh.triangles.size(), neighbors);
 }
@@ -146,7 +146,7 @@ void orient_triangles(Mesh& mesh, const std::string& source, std::vector<Warning
   Turned turned = turn_neighbors(mesh, twin, edges);
   if (turned.clash >= 0) {
     if (!may_part) refuse_one_sided(mesh, edges[turned.clash], source);
-    part_at_joints(mesh, source, twin, warnings);
+    split_at_joints(mesh, source, twin, warnings);
     turned = turn_neighbors(mesh, twin, edges);
   }
   std::vector<char>& turn = turned.is_turned;

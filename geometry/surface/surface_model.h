@@ -53,14 +53,14 @@ struct LooseLine {
   /// Whether the user asked for it: all its points become nodes, and it must lie on the surface. Else it is
   /// from the model's file: its ends and sharp turns become nodes, and it is left out with a warning where it
   /// lies elsewhere.
-  bool is_asked = false;
+  bool is_requested = false;
 };
 
 /// A curve that stands in a face, with the face on both sides, and need not reach the face's boundary.
 struct EmbeddedCurve {
-  int curve;                ///< index into SurfaceModel::fine.curves
-  int face;                 ///< index into SurfaceModel::fine.regions
-  bool is_whisker = false;  ///< a short one, any way, from a single point
+  int curve;                 ///< index into SurfaceModel::fine.curves
+  int face;                  ///< index into SurfaceModel::fine.regions
+  bool is_dangling = false;  ///< a short one, any way, from a single point
 };
 
 /// A model made of faces that share curves, as a fine conforming triangulation.

@@ -52,7 +52,7 @@ std::vector<Fan> fans_at(const Mesh& mesh, int point, const std::vector<int>& tr
 
 /// Where fans touch at a point, those without a line there get points of their own: no node of a mesh will
 /// hold them together.
-void part_touching_fans(Mesh& mesh) {
+void split_touching_fans(Mesh& mesh) {
   std::vector<std::vector<int>> triangles_at(mesh.points.size()), lines_to(mesh.points.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const int v : mesh.triangles[t]) triangles_at[v].push_back(static_cast<int>(t));
@@ -82,7 +82,7 @@ void part_touching_fans(Mesh& mesh) {
 
 void tidy_model(SurfaceModel& model, const Mesh& former) {
   Mesh& mesh = model.fine;
-  part_touching_fans(mesh);
+  split_touching_fans(mesh);
   std::vector<char> on_line(mesh.points.size(), 0);
   for (const auto& [a, b] : mesh.lines) on_line[a] = on_line[b] = 1;
   std::erase_if(model.corners, [&](int p) { return !on_line[p]; });

@@ -54,7 +54,7 @@ void leave_out_flat(Mesh& mesh, const std::string& source, std::vector<Warning>&
                                    counted(flat.count, "triangle"), show_point(flat.first)));
 }
 
-void take_out_twins(Mesh& mesh, std::vector<Warning>& warnings) {
+void remove_duplicates(Mesh& mesh, std::vector<Warning>& warnings) {
   std::vector<int> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<Triangle> keys;
@@ -127,7 +127,7 @@ void take_out_flat_copies(Mesh& mesh, std::vector<Warning>& warnings) {
 
 /// Edges in more than two triangles: shells with ribs, bodies that touch. Where most are, these are the sides
 /// of cells that fill a volume.
-void tell_branches(const Mesh& mesh, const std::string& source, std::vector<Warning>& warnings) {
+void warn_of_branches(const Mesh& mesh, const std::string& source, std::vector<Warning>& warnings) {
   int count = 0, n_edges = 0;
   Vec3 first;
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
@@ -234,7 +234,7 @@ void check_contents(const Mesh& mesh, const std::string& source) {
 }  // namespace
 
 void settle_triangles(Mesh& mesh, const std::string& source, std::vector<Warning>& warnings) {
-  tell_branches(mesh, source, warnings);
+  warn_of_branches(mesh, source, warnings);
   orient_triangles(mesh, source, warnings, true);
   const std::vector<int> side_of_line = settle_lines(mesh, warnings);
   split_vertices(mesh, warnings);
@@ -249,7 +249,7 @@ Mesh repaired(Mesh mesh, double weld_tolerance, const std::string& source, std::
   check_contents(mesh, source);
   if (std::string welded = weld_open_edges(mesh, weld_tolerance); !welded.empty())
     warnings.push_back(std::move(welded));
-  take_out_twins(mesh, warnings);
+  remove_duplicates(mesh, warnings);
   leave_out_flat(mesh, source, warnings);
   take_out_flat_copies(mesh, warnings);
   if (mesh.triangles.empty()) throw InputError(source + ": no triangle has an area");

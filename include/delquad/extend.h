@@ -114,13 +114,13 @@ struct StageInput {
   long long max_points;  ///< upper limit of the points that insertion makes
 };
 
-struct PreparedProblem;
+struct MeshingSetup;
 struct SurfaceNodes;
 
 /// All patches after the stages so far. Plugins ask input_of(), node_places() and place_inside() for the
 /// rest.
 struct AllPatches {
-  const PreparedProblem& prepared;
+  const MeshingSetup& prepared;
   const Options& options;
   std::vector<PatchMesh>& patches;
   const std::vector<char>& left_out;  ///< by patch

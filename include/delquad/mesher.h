@@ -207,7 +207,7 @@ struct Preparation {
   StepTimes times;  ///< "read", "maps", "curves", "fields", in order of first use
 };
 
-struct PreparedProblem;
+struct MeshingSetup;
 struct Stage;
 struct MeshResult;
 
@@ -217,7 +217,7 @@ class Prepared {
   /// Makes an empty value.
   Prepared() = default;
   /// For the library itself.
-  Prepared(std::shared_ptr<const MeshProblem> problem, std::shared_ptr<const PreparedProblem> made)
+  Prepared(std::shared_ptr<const MeshProblem> problem, std::shared_ptr<const MeshingSetup> made)
       : problem_(std::move(problem)), made_(std::move(made)) {}
 
   const Preparation* operator->() const;
@@ -244,11 +244,11 @@ class Prepared {
   /// Measures a mesh of the same model by other programs: measures, bad quads and soundness of elements.
   MeshResult measure(Mesh of_others) const;
 
-  const PreparedProblem& inside() const { return *made_; }  ///< for the library itself
+  const MeshingSetup& inside() const { return *made_; }  ///< for the library itself
 
  private:
   std::shared_ptr<const MeshProblem> problem_;
-  std::shared_ptr<const PreparedProblem> made_;
+  std::shared_ptr<const MeshingSetup> made_;
 };
 
 /// The wanted edges at the points of a mesh.

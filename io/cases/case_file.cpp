@@ -100,7 +100,7 @@ namespace {
 
 void read_options(const TomlTable& table, const OptionGroup& group, Options& options) {
   if (group.name == "smoothing")
-    table.refuse_gone({{"method", "L takes the exact gradient, so remove the key"}});
+    table.refuse_removed({{"method", "L takes the exact gradient, so remove the key"}});
   table.require_known(keys_of(group));
   for (const OptionKey& key : group.keys) {
     const auto read = [&](const auto& like) { return OptionValue(table.get(key.name, like)); };
@@ -254,7 +254,7 @@ std::filesystem::path model_path(const MeshProblem& problem) {
 void read_case_keys(const TomlTable& table, Case& target) {
   read_model_keys(table, target);
   if (const auto surface = table.optional_table("surface"))
-    surface->refuse_gone({{"merge_curves", "curves.join_below joins short curves"}});
+    surface->refuse_removed({{"merge_curves", "curves.join_below joins short curves"}});
   std::vector<EmbeddedLine> embed = std::move(target.surface.embed);
   for_each_field(static_cast<MeshProblem&>(target), [&](const FieldInfo& info, auto& member) {
     // At the top of an experiment [[metric]] is a measure.

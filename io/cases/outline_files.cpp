@@ -122,8 +122,8 @@ class GeoJsonReader {
         else
           note(where, property, value, ": expected true, or the height of its crest");
       } else if (property == "boundary") {
-        if (value == "open" && !name_says(feature.name, "open")) feature.suffix += "_open";
-        if (value == "land" && name_says(feature.name, "open"))
+        if (value == "open" && !name_contains(feature.name, "open")) feature.suffix += "_open";
+        if (value == "land" && name_contains(feature.name, "open"))
           note(where, property, value, ", but the name says open: rename it");
         if (value != "open" && value != "land") note(where, property, value, ": expected open or land");
       } else if (const std::string near = suggestion(property, kKnown); !near.empty()) {

@@ -222,12 +222,12 @@ Model read_msh_model(const std::filesystem::path& path) {
 
 /// With the coordinate system of outlines, where that is known.
 Model read_model(const ModelFile& file, const MeshProblem& problem, std::string& crs) {
-  const DoingStage stage("reading");
+  const StageScope stage("reading");
   const std::string kind = kind_of_file(file.path);
   if (file.given) {
     GivenMesh given{{}, file.path.string()};
     given.mesh = read_given_mesh(file.path, &given.notes);
-    if (std::string torn = tell_unjoined(given.mesh); !torn.empty() && !problem.surface.weld_tolerance)
+    if (std::string torn = describe_unjoined(given.mesh); !torn.empty() && !problem.surface.weld_tolerance)
       given.notes.push_back(std::move(torn));
     return given;
   }

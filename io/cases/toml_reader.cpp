@@ -393,7 +393,7 @@ TomlTable TomlTable::with_choice(const TomlTable& lists, const std::vector<std::
   return TomlTable(std::move(data));
 }
 
-void TomlTable::refuse_gone(const GoneKeys& keys) const {
+void TomlTable::refuse_removed(const RemovedKeys& keys) const {
   const std::set<std::string> present = data_->keys();
   for (const auto& [key, way] : keys)
     if (present.contains(key))

@@ -113,9 +113,9 @@ class TomlTable {
   void require_known(const TomlKeys& keys) const;
 
   /// Keys that went, each with the way to do the same now.
-  using GoneKeys = std::vector<std::pair<const char*, const char*>>;
+  using RemovedKeys = std::vector<std::pair<const char*, const char*>>;
   /// Throws InputError for a key that went.
-  void refuse_gone(const GoneKeys& keys) const;
+  void refuse_removed(const RemovedKeys& keys) const;
 
  private:
   void read(const std::string& key, const TomlTarget& target) const;

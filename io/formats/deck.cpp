@@ -161,13 +161,13 @@ void name_points(Deck& deck) {
   for (const auto& line : mesh.lines)
     for (const int v : line) stays[v] = 1;
   const PointNames names = names_of_equal_points(mesh);
-  std::vector<char> is_told(mesh.points.size(), 0);  // not by its place alone
+  std::vector<char> is_reported(mesh.points.size(), 0);  // not by its place alone
   for (std::size_t v = 0; v < names.size(); ++v) {
-    if (used[v] && names[v] != static_cast<int>(v)) is_told[v] = is_told[names[v]] = 1;
-    if (used[v] && !stays[v] && deck.nodes[v].pin >= 0) is_told[v] = 1, ++deck.n_named;
+    if (used[v] && names[v] != static_cast<int>(v)) is_reported[v] = is_reported[names[v]] = 1;
+    if (used[v] && !stays[v] && deck.nodes[v].pin >= 0) is_reported[v] = 1, ++deck.n_named;
   }
-  for (std::size_t v = 0; v < is_told.size(); ++v) {
-    if (!is_told[v] || !used[v]) continue;
+  for (std::size_t v = 0; v < is_reported.size(); ++v) {
+    if (!is_reported[v] || !used[v]) continue;
     const long long number = deck.nodes[v].number;
     if (number > INT_MAX) refuse("{}: node {}: expected a number up to {}", deck.source, number, INT_MAX);
     mesh.named_points.push_back({static_cast<int>(v), {static_cast<int>(number), {}}});

@@ -24,12 +24,12 @@ std::vector<NodePairs> weir_pairs(const Mesh& mesh, const std::vector<CoastPiece
   std::map<std::pair<double, double>, std::set<int>> nodes_at;
   const auto at = [&](int v) { return std::pair(mesh.points[v].x, mesh.points[v].y); };
   for (const CoastPiece& piece : pieces)
-    if (name_says(piece.name, "weir"))
+    if (name_contains(piece.name, "weir"))
       for (const int v : piece.nodes) nodes_at[at(v)].insert(v);
   std::vector<NodePairs> pairs(pieces.size());
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     std::vector<int> nodes = pieces[p].nodes;
-    if (!name_says(pieces[p].name, "weir")) continue;
+    if (!name_contains(pieces[p].name, "weir")) continue;
     if (pieces[p].island)  // from a tip on
       std::ranges::rotate(nodes,
                           std::ranges::find_if(nodes, [&](int v) { return nodes_at[at(v)].size() == 1; }));
@@ -76,7 +76,7 @@ void write_gr3(const std::filesystem::path& path, const Mesh& mesh) {
       const char* const kind = open ? "open" : "land";
       std::size_t n_pieces = 0, n_nodes = 0;
       const auto is_written = [&](std::size_t p) {
-        const bool is_other_side = is_adcirc && name_says(pieces[p].name, "weir") && pairs[p].empty();
+        const bool is_other_side = is_adcirc && name_contains(pieces[p].name, "weir") && pairs[p].empty();
         return pieces[p].open == open && !is_other_side;
       };
       for (std::size_t p = 0; p < pieces.size(); ++p)

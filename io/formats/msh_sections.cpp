@@ -209,7 +209,7 @@ class SectionReader {
   void skip(const std::string& name) {
     const int first = in_.line();
     const std::string end = "$End" + name;
-    if (numbers_.are_bytes() && in_.skip_behind("\n" + end)) return;
+    if (numbers_.are_bytes() && in_.skip_past("\n" + end)) return;
     while (!numbers_.are_bytes() && !in_.at_end()) {
       if (in_.token(end) == end) return;
       in_.rest_of_line();

@@ -363,11 +363,11 @@ std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
   with_blocks(mesh, MshCurves::kNamed, [&](std::vector<MshBlock> blocks) {
     std::map<std::pair<int, int>, std::string> label_of;
     for (const auto& [dim, tag, label] : number_groups(blocks)) label_of[{dim, tag}] = label;
-    std::set<UniqueLabels::Key> told;
+    std::set<UniqueLabels::Key> reported;
     constexpr std::array kKinds = {"point", "curve", "region"};
     for (const MshBlock& b : blocks)
       if (const std::string& label = label_of.at({b.dim, b.group_tag});
-          label != b.group && told.emplace(b.dim, b.group).second)
+          label != b.group && reported.emplace(b.dim, b.group).second)
         lines.push_back(std::string(kKinds[b.dim]) + " \"" + one_line(b.group) + "\" is " + label);
   });
   return lines;
@@ -394,7 +394,7 @@ MeshFormat msh_format() {
           .write = write_msh,
           .most_order = kMostOrder,
           .has_hexahedra = true,
-          .eight_nodes = EightNodes::kWhenAsked,
+          .eight_nodes = EightNodes::kOnRequest,
           .has_binary = true,
           .renamed = renamed_in_msh,
           .names = kAllNames | kFurtherNames | kPeriodicPairs};

@@ -124,12 +124,12 @@ class NastranReader {
   struct Set {
     std::string number;
     std::vector<std::string> members = {};
-    std::string told = {};  ///< "point tip", by the comment of our files before it
+    std::string from_comment = {};  ///< "point tip", by the comment of our files before it
     int line = 0;
     std::size_t begin = 0, end = 0;
   };
 
-  static bool is_of_point(const Set& set) { return set.told.starts_with("point "); }
+  static bool is_of_point(const Set& set) { return set.from_comment.starts_with("point "); }
 
   /// "SET 3 = 7, 8," and lines after it, or a request that names a set.
   void take_request(std::string_view title, std::size_t begin, std::size_t end) {
@@ -361,7 +361,7 @@ class NastranReader {
   void take_sets() {
     for (const Set& set : sets_) {
       std::set<int> kinds;
-      if (!set.told.empty()) kinds.insert(0);
+      if (!set.from_comment.empty()) kinds.insert(0);
       for (auto [at, end] = requests_.equal_range(set.number); at != end; ++at) kinds.insert(at->second);
       std::vector<std::string> fields;
       for (const std::string& member : set.members)
@@ -476,7 +476,8 @@ class NastranReader {
     for (const Set& set : sets_)
       for (const std::string& member : set.members)
         if (is_of_point(set) && !member.empty())
-          points.add(deck_.mesh, node(as_nastran_integer(member).value_or(0), set.line), set.told.substr(6));
+          points.add(deck_.mesh, node(as_nastran_integer(member).value_or(0), set.line),
+                     set.from_comment.substr(6));
   }
 
   /// Gives the parts of a property tags of their own, and its name, so that they stay together.

@@ -65,7 +65,7 @@ class OffReader : FaceReader {
     for (const auto& [letter, numbers] : {std::pair{"ST", 2}, {"C", 4}, {"N", 3}})
       if (word.find(letter) < word.find("OFF")) numbers_beside_ += numbers;
     if (!in_.next_is('B')) return false;
-    if (in_.token("'BINARY'") != "BINARY" || !in_.skip_behind("\n"))
+    if (in_.token("'BINARY'") != "BINARY" || !in_.skip_past("\n"))
       in_.fail("expected 'BINARY' and a line's end");
     return true;
   }

@@ -116,9 +116,9 @@ struct FoamMesh {
     for (const PatchSides& patch : sides) {
       const bool is_cyclic = patch.image >= 0;
       patches.push_back({patch.name,
-                         is_cyclic                       ? "cyclic"
-                         : name_says(patch.name, "wall") ? "wall"
-                                                         : "patch",
+                         is_cyclic                           ? "cyclic"
+                         : name_contains(patch.name, "wall") ? "wall"
+                                                             : "patch",
                          faces.size(), patch.sides.size(), is_cyclic ? sides[patch.image].name : ""});
       for (const BoundarySide& side : patch.sides) {
         std::vector<int> face = wall(side.run);

@@ -100,7 +100,7 @@ class PlyReader : FaceReader {
     if (!has_format) in_.fail("the header has no line 'format'");
     check_vertices();
     if (coding_ == Coding::kText) return;
-    if (!in_.skip_behind("\n")) in_.fail("the file ends where its numbers were expected");
+    if (!in_.skip_past("\n")) in_.fail("the file ends where its numbers were expected");
     in_.bytes(0, "");
   }
 

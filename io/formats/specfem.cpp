@@ -29,7 +29,7 @@ void write_specfem(const std::filesystem::path& path, const Mesh& mesh) {
   const auto named = [&](std::string_view word) {
     std::vector<BoundarySide> found;
     for (const BoundarySide& side : sides)
-      if (side.group >= 0 && name_says(groups[side.group].name, word)) found.push_back(side);
+      if (side.group >= 0 && name_contains(groups[side.group].name, word)) found.push_back(side);
     return found;
   };
   const std::vector<BoundarySide> free = named("free"), absorbing = named("absorb");

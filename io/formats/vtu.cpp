@@ -170,7 +170,7 @@ MeshFormat vtu_format() {
           .write = write_with_quality,
           .most_order = kMostOrder,
           .has_hexahedra = true,
-          .eight_nodes = EightNodes::kWhenAsked,
+          .eight_nodes = EightNodes::kOnRequest,
           .names = kAllNames | kFurtherNames};
 }
 

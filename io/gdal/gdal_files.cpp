@@ -104,12 +104,12 @@ Layer layer_of(const std::string& file, const std::string& name) {
   if (std::error_code unknown; !fs::exists(file, unknown) && !file.starts_with("/vsi"))
     refuse("no such file");
   const std::string kBegin = "\nLayer name: ";
-  const std::string told =
+  const std::string info =
       run_gdal({"ogrinfo", "-ro", "-so", "-al", "-wkt_format", "wkt2_2019", file}, "outlines");
   Words names;
-  for (std::size_t at = told.find(kBegin), next = 0; at != std::string::npos; at = next) {
-    next = told.find(kBegin, at + 1);
-    const std::string part = told.substr(at, next - at);
+  for (std::size_t at = info.find(kBegin), next = 0; at != std::string::npos; at = next) {
+    next = info.find(kBegin, at + 1);
+    const std::string part = info.substr(at, next - at);
     names.push_back(between(part, kBegin, "\n"));
     Layer layer = {names.back(), between(between(part, "\nExtent", "\n"), ": ", "\n"),
                    between(part, "SRS WKT", "\nData axis")};
@@ -174,15 +174,15 @@ Outlines read_layer(const fs::path& path, const std::string& layer_name, const s
 
 Raster read_raster(const fs::path& path, const std::string& crs) {
   return located(path.string(), [&] {
-    std::string file = fs::absolute(path).string(), told = description_of(file);
-    RasterGrid grid = grid_of(told);
+    std::string file = fs::absolute(path).string(), info = description_of(file);
+    RasterGrid grid = grid_of(info);
     const TemporaryFolder folder;
-    if (const std::string from = between(told, "<SRS", "</SRS>"); !crs.empty() && !from.empty())
+    if (const std::string from = between(info, "<SRS", "</SRS>"); !crs.empty() && !from.empty())
       if (const std::string to = name_of(system_named(crs)); to != name_of(from)) {
         const std::string projected = folder.path() / "projected.tif";
         run_gdal({"gdalwarp", "-q", "-t_srs", to, "-r", "bilinear", "-et", "0", "-wo", "XSCALE=1", "-wo",
                   "YSCALE=1", "-ot", "Float32", "-dstnodata", "nan", file, projected});
-        grid = grid_of(told = description_of(file = projected));
+        grid = grid_of(info = description_of(file = projected));
       }
     Raster raster{grid, {}};
     const std::string cells = folder.path() / "cells";
@@ -195,8 +195,8 @@ Raster read_raster(const fs::path& path, const std::string& crs) {
     raster.values.resize(n);
     std::memcpy(raster.values.data(), bytes.data(), n * sizeof(float));
     std::memcpy(valid.data(), bytes.data() + n * sizeof(float), n * sizeof(float));
-    const double scale = as_number(between(told, "<Scale>", "<")).value_or(1);
-    const double offset = as_number(between(told, "<Offset>", "<")).value_or(0);
+    const double scale = as_number(between(info, "<Scale>", "<")).value_or(1);
+    const double offset = as_number(between(info, "<Offset>", "<")).value_or(0);
     for (std::size_t i = 0; i < n; ++i)
       raster.values[i] = valid[i] == 0 ? std::numeric_limits<float>::quiet_NaN()
                                        : static_cast<float>(raster.values[i] * scale + offset);

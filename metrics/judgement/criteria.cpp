@@ -137,11 +137,11 @@ const std::vector<Criteria>& criteria_presets() {
              "Lengths and warpage: Altair, BatchMesher, Guidelines and Recommended Practices (2017). Aspect: "
              "Altair, HyperMesh, Element Quality Calculations. Angles and Jacobian at corners: Siemens, NX "
              "Open, sample criteria of its batch mesher",
-             {{"min_length", fmt::format("{} size", kAskedShort)},
-              {"max_length", fmt::format("{} size", kAskedLong)},
-              {"max_aspect", fmt::format("{}", kAskedAspect)},
-              {"min_angle", fmt::format("{}", 90 * kAskedEta)},
-              {"max_angle", fmt::format("{}", 180 - 90 * kAskedEta)},
+             {{"min_length", fmt::format("{} size", kBatchShort)},
+              {"max_length", fmt::format("{} size", kBatchLong)},
+              {"max_aspect", fmt::format("{}", kBatchAspect)},
+              {"min_angle", fmt::format("{}", 90 * kBatchEta)},
+              {"max_angle", fmt::format("{}", 180 - 90 * kBatchEta)},
               {"max_warpage", "20"},
               {"min_jacobian", "0.5"}}),
       preset("crash",

@@ -28,7 +28,7 @@ double speed_of_sound(const Criteria& criteria);
 std::string text_of(const CriterionLimit& limit);
 
 /// Returns the requested size, before it was reduced.
-inline const SizeField& asked_size(const Preparation& prepared) {
+inline const SizeField& requested_size(const Preparation& prepared) {
   return prepared.size.asked ? *prepared.size.asked : *prepared.size.field;
 }
 /// Throws InputError for names that no curve or region of the mesh has. Also throws if the wanted size is

@@ -33,7 +33,7 @@ constexpr double kAny = std::numeric_limits<double>::infinity();
 class CurveEdges {
  public:
   /// `prepared` is the problem of the mesh; null: curves of the mesh count as the model's.
-  CurveEdges(const PreparedProblem* prepared, const Mesh& mesh)
+  CurveEdges(const MeshingSetup* prepared, const Mesh& mesh)
       : mesh_(mesh),
         shortest_(mesh.points.size(), kAny),
         shortest_curve_(shortest_),
@@ -237,20 +237,20 @@ class CauseFinder {
   }
 
   FailingElements& all_;
-  const PreparedProblem* prepared_;
+  const MeshingSetup* prepared_;
   const Mesh& mesh_;
   CurveEdges edges_;
   std::vector<SharpCorner> sharp_corners_;
 };
 
-bool is_given(const PreparedProblem& prepared) {
+bool is_given(const MeshingSetup& prepared) {
   return std::ranges::any_of(prepared.patches,
-                             [](const PreparedPatch& patch) { return !patch.given.points.empty(); });
+                             [](const PatchSetup& patch) { return !patch.given.points.empty(); });
 }
 
 /// Returns a remedy for a cause; empty: none is known. `ignored` of its `n` elements lie below the length
 /// `below`.
-std::string advice(const PreparedProblem* prepared, const FailingElement& first, int n, int ignored,
+std::string advice(const MeshingSetup* prepared, const FailingElement& first, int n, int ignored,
                    double below) {
   if (!prepared || is_given(*prepared) || (first.cause != kAtGap && first.cause != kAtFineCurve)) return "";
   if ((prepared->surface && ignored == 0) || !(first.what > 0)) return "";
@@ -258,7 +258,7 @@ std::string advice(const PreparedProblem* prepared, const FailingElement& first,
     return fmt::format(": --ignore-below {:.3g} may help{}", below,
                        ignored < n ? fmt::format(" against {} of them", ignored) : "");
   constexpr double kAbove = 1.01;
-  const PreparedPlane& plane = prepared->plane;
+  const PlaneSetup& plane = prepared->plane;
   std::string other;
   if (first.cause == kAtFineCurve && plane.curve_places.empty()) other = "fewer points, or ";
   if (first.cause == kAtFineCurve && !plane.curve_places.empty() && !plane.ignores_small)

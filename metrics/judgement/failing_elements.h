@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "metrics/judgement/criteria.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 // This header finds elements beyond limits and explains them. All judges of elements use it.
 
@@ -19,9 +19,9 @@ namespace delquad {
 struct JudgedMesh {
   const Mesh& mesh;
   const ElementSides& sides;
-  const SizeField* size;                 ///< unit of relative lengths
-  const PreparedProblem* prepared = {};  ///< problem of the mesh; null: another program made it
-  std::vector<char> on_purpose = {};     ///< by quad: its sides and aspect are requested; empty: none
+  const SizeField* size;              ///< unit of relative lengths
+  const MeshingSetup* prepared = {};  ///< problem of the mesh; null: another program made it
+  std::vector<char> on_purpose = {};  ///< by quad: its sides and aspect are requested; empty: none
   double size_at(std::span<const int> element, int& hint) const;
 };
 

@@ -112,9 +112,9 @@ void hold_to(const FailingElements& failing, std::vector<std::string>& beyond) {
 }
 
 /// Returns, by quad, whether its sides and aspect are requested.
-std::vector<char> quads_on_purpose(const PreparedProblem& prepared, const Mesh& mesh) {
+std::vector<char> requested_quads(const MeshingSetup& prepared, const Mesh& mesh) {
   std::vector<char> is_grid(mesh.regions.size(), 0);
-  for (const PreparedPatch& patch : prepared.patches)
+  for (const PatchSetup& patch : prepared.patches)
     if (patch.grid && patch.grid_stays) is_grid[patch.region] = 1;
   std::vector<char> on_purpose = quads_in_layers(prepared, mesh);
   for (std::size_t q = 0; q < on_purpose.size(); ++q)
@@ -177,7 +177,7 @@ double mean_side(const Mesh& mesh) {
   return sum / n;
 }
 
-ElementSides sides_of(const PreparedProblem& prepared, const Mesh& mesh) {
+ElementSides sides_of(const MeshingSetup& prepared, const Mesh& mesh) {
   return prepared.surface ? ElementSides(mesh) : ElementSides(mesh, {0, 0, 1});
 }
 
@@ -202,33 +202,32 @@ CriteriaReport judge(const Mesh& mesh, const Criteria& criteria, const SizeField
   return report_on({mesh, sides, size}, criteria);
 }
 
-void judge_by_criteria(const PreparedProblem& prepared, bool is_others, MeshResult& result) {
+void judge_by_criteria(const MeshingSetup& prepared, bool is_others, MeshResult& result) {
   const Criteria& criteria = prepared.settings.criteria;
   if (criteria.empty()) return;
   const ElementSides sides = sides_of(prepared, result.mesh);
-  JudgedMesh judged{result.mesh, sides, &asked_size(prepared), is_others ? nullptr : &prepared};
-  if (!is_others) judged.on_purpose = quads_on_purpose(prepared, result.mesh);
+  JudgedMesh judged{result.mesh, sides, &requested_size(prepared), is_others ? nullptr : &prepared};
+  if (!is_others) judged.on_purpose = requested_quads(prepared, result.mesh);
   result.criteria = report_on(judged, criteria);
   result.metrics.values.merge(values_of(*result.criteria));
   if (criteria.strict)
     std::ranges::copy(result.criteria->beyond(), std::back_inserter(result.soundness.beyond));
 }
 
-double failing_part(const PreparedProblem& prepared, const Mesh& mesh) {
+double failing_part(const MeshingSetup& prepared, const Mesh& mesh) {
   const Criteria& criteria = prepared.settings.criteria;
   if (criteria.empty()) return 0;
   const ElementSides sides = sides_of(prepared, mesh);
   const FailingElements failing(
-      {mesh, sides, &asked_size(prepared), &prepared, quads_on_purpose(prepared, mesh)}, criteria, false);
+      {mesh, sides, &requested_size(prepared), &prepared, requested_quads(prepared, mesh)}, criteria, false);
   return static_cast<double>(failing.elements.size()) / static_cast<double>(mesh.quads.size());
 }
 
-BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, const Mesh& mesh,
+BadQuads judge_quads(const MeshingSetup& prepared, const std::string& label, const Mesh& mesh,
                      const MeshMetrics& metrics, std::vector<Warning>& warnings, Soundness& soundness) {
   const auto& values = metrics.values;
   const ElementSides sides = sides_of(prepared, mesh);
-  const JudgedMesh judged{mesh, sides, prepared.size.field.get(), &prepared,
-                          quads_on_purpose(prepared, mesh)};
+  const JudgedMesh judged{mesh, sides, prepared.size.field.get(), &prepared, requested_quads(prepared, mesh)};
   BadQuads bad;
   // Most meshes have no such quads.
   const bool by_size = !prepared.metric_plane && !(prepared.surface && prepared.surface->metric);

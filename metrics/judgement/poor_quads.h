@@ -5,7 +5,7 @@
 
 #include "delquad/options.h"
 #include "geometry/mesh/quad_corners.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 // This header judges the quads of finished meshes. The pipeline uses it.
 
@@ -32,14 +32,14 @@ struct BadQuads {
 /// requested limits (Soundness::beyond), and causes of inverted or flat elements. Sides and aspects in layers
 /// and requested grids do not count. In meshes by a metric, only requested limits and single precision count.
 /// `label` names case and pipeline.
-BadQuads judge_quads(const PreparedProblem& prepared, const std::string& label, const Mesh& mesh,
+BadQuads judge_quads(const MeshingSetup& prepared, const std::string& label, const Mesh& mesh,
                      const MeshMetrics& metrics, std::vector<Warning>& warnings, Soundness& soundness);
 
 /// Judges the result's mesh by the criteria of the problem, if any: report, measures for tables, and elements
 /// beyond strict criteria. `is_others` tells that another program made the mesh, from the same model.
-void judge_by_criteria(const PreparedProblem& prepared, bool is_others, MeshResult& result);
+void judge_by_criteria(const MeshingSetup& prepared, bool is_others, MeshResult& result);
 
 /// Returns the part of quads beyond the problem's criteria; 0 without criteria.
-double failing_part(const PreparedProblem& prepared, const Mesh& mesh);
+double failing_part(const MeshingSetup& prepared, const Mesh& mesh);
 
 }  // namespace delquad

@@ -105,13 +105,13 @@ void check_finite(const Mesh& mesh, Soundness& result) {
 }
 
 /// Returns the boundary of a patch with its layers and wedges.
-const PatchBoundary& outline_of(const PreparedProblem& prepared, std::size_t patch) {
+const PatchBoundary& outline_of(const MeshingSetup& prepared, std::size_t patch) {
   const std::vector<PatchBoundary>& outlines = prepared.plane.outlines;
   return outlines.empty() ? prepared.patches[patch].boundary : outlines[patch];
 }
 
 /// Returns the number of patches at each edge on the boundary of a planar domain.
-std::map<Edge, int> patches_at_edges(const PreparedProblem& prepared) {
+std::map<Edge, int> patches_at_edges(const MeshingSetup& prepared) {
   std::map<Edge, int> patches;
   for (std::size_t k = 0; k < prepared.patches.size(); ++k) {
     const PatchBoundary& boundary = outline_of(prepared, k);
@@ -133,7 +133,7 @@ int pieces_of(const PatchBoundary& boundary) {
 
 /// Returns the Euler characteristic of a planar domain, by points and edges on its outlines and by patches,
 /// which are discs with holes.
-int euler_characteristic(const PreparedProblem& prepared, const std::map<Edge, int>& edges) {
+int euler_characteristic(const MeshingSetup& prepared, const std::map<Edge, int>& edges) {
   std::set<int> nodes;
   for (const auto& [edge, patches] : edges) nodes.insert(edge.begin(), edge.end());
   int euler = static_cast<int>(nodes.size()) - static_cast<int>(edges.size());
@@ -148,7 +148,7 @@ void compare_euler(int mesh, int model, Soundness& result) {
 }
 
 /// Returns the number of wrong edges.
-int check_planar(const PreparedProblem& prepared, const Mesh& mesh, std::span<const HalfEdge> sides,
+int check_planar(const MeshingSetup& prepared, const Mesh& mesh, std::span<const HalfEdge> sides,
                  Soundness& result) {
   const std::map<Edge, int> wanted = patches_at_edges(prepared);
   Places wrong;
@@ -259,7 +259,7 @@ std::string describe(const Mesh& mesh, const Places& places, const std::string& 
   return text;
 }
 
-Soundness check_elements(const PreparedProblem& prepared, const Mesh& mesh) {
+Soundness check_elements(const MeshingSetup& prepared, const Mesh& mesh) {
   Soundness result;
   check_finite(mesh, result);
   if (result.sound())
@@ -267,7 +267,7 @@ Soundness check_elements(const PreparedProblem& prepared, const Mesh& mesh) {
   return result;
 }
 
-Soundness check_soundness(const PreparedProblem& prepared, const Mesh& mesh, const SurfaceReport* report,
+Soundness check_soundness(const MeshingSetup& prepared, const Mesh& mesh, const SurfaceReport* report,
                           std::span<const HalfEdge> sides) {
   std::vector<char> irregular;
   if (prepared.surface) irregular = irregular_curves(prepared.surface->whole().fine);

@@ -6,7 +6,7 @@
 #include "delquad/mesher.h"
 #include "geometry/mesh/half_edges.h"
 #include "metrics/surface/surface_report.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 
 // This header checks the soundness of meshes. The pipeline and the program use it.
 
@@ -21,11 +21,11 @@ std::string describe(const Mesh& mesh, const Places& places, const std::string& 
                      const std::string& several);
 
 /// Checks the first two conditions of Soundness, for single elements. Planar domains are seen from above.
-Soundness check_elements(const PreparedProblem& prepared, const Mesh& mesh);
+Soundness check_elements(const MeshingSetup& prepared, const Mesh& mesh);
 
 /// Checks all conditions of Soundness, for a mesh with curves and regions of its case. On surfaces `report`
 /// leaves out missing faces; it is null if a point is not finite. `sides` is sorted_half_edges() of the mesh.
-Soundness check_soundness(const PreparedProblem& prepared, const Mesh& mesh, const SurfaceReport* report,
+Soundness check_soundness(const MeshingSetup& prepared, const Mesh& mesh, const SurfaceReport* report,
                           std::span<const HalfEdge> sides);
 
 }  // namespace delquad

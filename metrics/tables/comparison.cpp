@@ -186,15 +186,16 @@ int Comparison::count(Verdict verdict) const {
 
 Comparison compare_records(const std::vector<CellRecord>& before, const std::vector<CellRecord>& after,
                            const std::vector<std::string>& metrics, double tolerance) {
-  std::vector<Metric> own = own_metrics_of(before), metrics_asked;
-  std::ranges::copy(own_metrics_of(after), std::back_inserter(own));
-  for (const std::string& key : metrics) metrics_asked.push_back(comparable(key, own));
+  std::vector<Metric> own = added_metrics_of(before), requested_metrics;
+  std::ranges::copy(added_metrics_of(after), std::back_inserter(own));
+  for (const std::string& key : metrics) requested_metrics.push_back(comparable(key, own));
 
   Comparison result;
   for (const Row& row : pair_cells(before, after, result))
-    for (const Metric& metric : metrics_asked) result.changes.push_back(change_of(row, metric, tolerance));
+    for (const Metric& metric : requested_metrics)
+      result.changes.push_back(change_of(row, metric, tolerance));
   ClaimFamily family;
-  result.over_domains = compare_over_domains(before, after, metrics_asked, tolerance, family);
+  result.over_domains = compare_over_domains(before, after, requested_metrics, tolerance, family);
   if (family.size() > 0) result.note = family.note();
   return result;
 }

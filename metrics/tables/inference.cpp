@@ -225,7 +225,7 @@ std::vector<PairComparison> compare_pairs(const StudyFile& study, const std::vec
 
 std::vector<PairComparison> compare_hypotheses(const StudyFile& study, const std::vector<CellRecord>& records,
                                                ClaimFamily& family) {
-  const std::vector<Metric> own = own_metrics_of(records);
+  const std::vector<Metric> own = added_metrics_of(records);
   const Comparing compare(records);
   std::vector<PairComparison> all;
   for (const Hypothesis& h : study.hypotheses)
@@ -241,7 +241,7 @@ std::vector<PairComparison> compare_hypotheses(const StudyFile& study, const std
 }  // namespace
 
 std::vector<Metric> compared_measures(const StudyFile& study, const std::vector<CellRecord>& records) {
-  const std::vector<Metric> own = own_metrics_of(records);
+  const std::vector<Metric> own = added_metrics_of(records);
   std::vector<Metric> measures;
   for (const char* key : kCompared) add_measure(key, own, measures);
   for (const Metric& metric : own) add_measure(metric.key, own, measures);
@@ -263,7 +263,7 @@ Interval range_of(const std::string& key) {
 std::vector<TableColumn> table_columns(const StudyFile& study, const std::vector<CellRecord>& records) {
   const bool adapted =
       std::ranges::any_of(records, [](const CellRecord& record) { return !record.size_adapted_to.empty(); });
-  const std::vector<Metric> own = own_metrics_of(records);
+  const std::vector<Metric> own = added_metrics_of(records);
   std::vector<TableColumn> columns = {{kRuns, "n", 0}};
   for (const auto& [key, digits] : kColumns) {
     const Metric* metric = find_metric(key);

@@ -79,7 +79,7 @@ struct Cases {
   std::vector<std::string> all, with_triangles, without_quads;
 };
 
-ByName<Cases> cases_by_word(const std::vector<CellRecord>& records) {
+ByName<Cases> cases_by_pipeline(const std::vector<CellRecord>& records) {
   ByName<Cases> words;
   for (const CellRecord& record : records) {
     if (!record.reason.empty()) continue;
@@ -126,7 +126,7 @@ std::vector<std::string> quad_count_notes(const std::vector<CellRecord>& records
 std::vector<std::string> triangle_notes(const std::vector<CellRecord>& records,
                                         const std::string& consequence) {
   std::vector<std::string> notes;
-  const ByName<Cases> words = cases_by_word(records);
+  const ByName<Cases> words = cases_by_pipeline(records);
   for (const auto& [word, cases] : words)
     if (words.size() > 1 && !cases.with_triangles.empty())
       notes.push_back(fmt::format("{} leaves triangles in {} of {} cases ({}): {}", word,
@@ -137,7 +137,7 @@ std::vector<std::string> triangle_notes(const std::vector<CellRecord>& records,
 
 std::vector<std::string> quadless_notes(const std::vector<CellRecord>& records) {
   std::vector<std::string> notes;
-  for (const auto& [word, cases] : cases_by_word(records))
+  for (const auto& [word, cases] : cases_by_pipeline(records))
     if (const std::size_t n = cases.without_quads.size(); n > 0)
       notes.push_back(fmt::format("{} made no quads on {} ({}): it failed there in pairs", word,
                                   n == 1 ? "one case" : fmt::format("{} cases", n),

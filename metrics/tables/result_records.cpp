@@ -115,7 +115,7 @@ CellRecord parse(const Json& json) {
   for (const auto& [key, value] : json.at("metrics").get<std::map<std::string, Json>>())
     record.values[key] = number(value);
   for (const Json& metric : json.value("own_metrics", Json::array()))
-    record.own_metrics.push_back(parse_metric(metric));
+    record.added_metrics.push_back(parse_metric(metric));
   record.failed_metrics = json.value("failed_metrics", std::map<std::string, std::string>());
   record.metric_failed = json.contains("metrics_status");
   record.values["seconds"] = number(json.at("meshing_seconds"));
@@ -197,10 +197,10 @@ const std::vector<Metric>& columns_of_records() {
   return all;
 }
 
-std::vector<Metric> own_metrics_of(const std::vector<CellRecord>& records) {
+std::vector<Metric> added_metrics_of(const std::vector<CellRecord>& records) {
   std::vector<Metric> metrics;
   for (const CellRecord& record : records)
-    for (const Metric& metric : record.own_metrics)
+    for (const Metric& metric : record.added_metrics)
       if (std::ranges::find(metrics, metric.key, &Metric::key) == metrics.end()) metrics.push_back(metric);
   std::vector<Metric> all;
   for (const Metric& metric : metrics) {

@@ -52,7 +52,7 @@ struct CellRecord {
   std::vector<std::string> unsound = {};                   ///< why its mesh is unsound; empty: it is sound
   std::string uniform_size = {};                           ///< delta, if it was requested to be uniform
   std::vector<std::string> size_adapted_to = {};           ///< reasons for a size below the requested one
-  std::vector<Metric> own_metrics = {};                    ///< measures that are not built in
+  std::vector<Metric> added_metrics = {};                  ///< measures that are not built in
   std::map<std::string, std::string> failed_metrics = {};  ///< reasons for missing measures, by key
   bool metric_failed = false;  ///< a measure by a command failed, which may succeed another time
   std::optional<CalibrationRecord> calibration = {};  ///< of a peer
@@ -65,7 +65,7 @@ std::vector<std::filesystem::path> record_files(const std::filesystem::path& fol
 
 /// Returns the measures of records that are not built in, each once, in the order of records. Each value of a
 /// command is one, "name.part".
-std::vector<Metric> own_metrics_of(const std::vector<CellRecord>& records);
+std::vector<Metric> added_metrics_of(const std::vector<CellRecord>& records);
 /// Returns columns beside measures: entries of records, and times. Tables have those that an experiment
 /// requests.
 const std::vector<Metric>& columns_of_records();

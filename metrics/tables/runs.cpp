@@ -43,7 +43,7 @@ class RunColumns {
       : study_(study), compared_(compared_measures(study, records)) {
     add_texts(study);
     for (const Metric& metric : metric_registry()) add(metric);
-    for (const Metric& metric : own_metrics_of(records)) add(metric);
+    for (const Metric& metric : added_metrics_of(records)) add(metric);
     for (const Metric& metric : columns_of_records()) add(metric);
   }
 

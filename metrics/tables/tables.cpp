@@ -55,8 +55,8 @@ class Tabulation {
     outcome_.hypotheses = hypotheses_table(study_.title, inference_);
     outcome_.summary = summarise(study_, records_, inference_);
     print();
-    say_late(is_planned() ? outcome_.hypotheses : outcome_.pairs);
-    say_late(outcome_.summary);
+    add_late_note(is_planned() ? outcome_.hypotheses : outcome_.pairs);
+    add_late_note(outcome_.summary);
     for (Table* one : {&outcome_.pairs, &outcome_.hypotheses, &outcome_.summary})
       if (one == &outcome_.pairs || !one->rows.empty()) note_pairs(*one);
     return std::move(outcome_);
@@ -72,7 +72,7 @@ class Tabulation {
                           : "Not planned: this study had hypotheses, which were taken out after the first "
                             "mesh was made.";
   }
-  void say_late(Table& table) const {
+  void add_late_note(Table& table) const {
     if (study_.plan_changed) table.notes.insert(table.notes.begin(), late_note());
   }
 
@@ -204,24 +204,24 @@ class Tabulation {
   void note_cells() {
     std::vector<std::string>& notes = outcome_.table.notes;
     std::set<std::string> said;
-    const auto say = [&](const std::string& text) {
+    const auto add_line = [&](const std::string& text) {
       if (said.insert(text).second) notes.push_back(text);
     };
     for (const CellRecord& record : records_) {
       if (domain_of(record) != record.name)
-        say(fmt::format("{} is the domain {}, and counts with it", record.name, record.domain));
+        add_line(fmt::format("{} is the domain {}, and counts with it", record.name, record.domain));
       if (record.kind == kNotApplicable)
         outcome_.inapplicable[record.reason].push_back(record.group + " " + record.pipeline);
       else if (record.skipped)
-        say(fmt::format("{}: {}", record.name, record.reason));
-      say_size(record, say);
+        add_line(fmt::format("{}: {}", record.name, record.reason));
+      note_size(record, add_line);
       for (const std::string& reason : record.unsound)
-        say(fmt::format("{} {} is not sound: {}", record.group, record.pipeline, reason));
+        add_line(fmt::format("{} {} is not sound: {}", record.group, record.pipeline, reason));
       for (const std::string& warning : record.warnings)
-        if (warning.starts_with(record.name + " ")) say("warning: " + warning);
+        if (warning.starts_with(record.name + " ")) add_line("warning: " + warning);
     }
-    for (const std::string& note : inapplicable_notes(outcome_)) say(note);
-    for (const std::string& note : calibration_notes(records_)) say(note);
+    for (const std::string& note : inapplicable_notes(outcome_)) add_line(note);
+    for (const std::string& note : calibration_notes(records_)) add_line(note);
     if (records_.size() < study_.cells)
       notes.push_back(
           fmt::format("{} of {} cells have no result yet", study_.cells - records_.size(), study_.cells));
@@ -242,14 +242,14 @@ class Tabulation {
   }
 
   /// Says which size tau is measured against.
-  template <class Say>
-  static void say_size(const CellRecord& record, const Say& say) {
+  template <class AddLine>
+  static void note_size(const CellRecord& record, const AddLine& add_line) {
     const bool uniform = !record.uniform_size.empty() && record.variant.empty();
     if (record.size_adapted_to.empty()) {
-      if (uniform) say(fmt::format("{}: uniform delta = {}", record.name, record.uniform_size));
+      if (uniform) add_line(fmt::format("{}: uniform delta = {}", record.name, record.uniform_size));
       return;
     }
-    say(fmt::format(
+    add_line(fmt::format(
         "{}: delta{} was made smaller for {}: tau is measured against that, tau given against "
         "delta as it was given",
         record.name, uniform ? " = " + record.uniform_size : "", fmt::join(record.size_adapted_to, " and ")));

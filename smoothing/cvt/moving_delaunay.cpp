@@ -206,7 +206,7 @@ bool MovingDelaunay::illegal(int side) const {
   const int t = side / 3, k = side % 3;
   const auto &v = tri_.triangles[t], &n = tri_.triangles[tri_.neighbours[t][k]];
   const int apex = n[0] ^ n[1] ^ n[2] ^ v[kNextCorner[k]] ^ v[kLastCorner[k]];  // the corner off the side
-  return in_circle_or_unsure(tri_.points[v[0]], tri_.points[v[1]], tri_.points[v[2]], tri_.points[apex]) > 0;
+  return in_circle_filtered(tri_.points[v[0]], tri_.points[v[1]], tri_.points[v[2]], tri_.points[apex]) > 0;
 }
 
 /// Appends the illegal sides of triangles begin .. end - 1, each by its triangle of smaller index.

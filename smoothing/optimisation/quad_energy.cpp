@@ -258,7 +258,7 @@ double QuadEnergy<Vec>::add_edge(const Edge& edge) const {
   const double length = side.length, inverse = side.inverse;
   // Hyperbolic sine and cosine of log(l/d); their difference is min(l/d, d/l).
   const double ratio = length * edge.inverse_length, cosh = 0.5 * (ratio + 1 / ratio), sinh = ratio - cosh;
-  const double rounded = std::sqrt(sinh * sinh + kSizeKink * kSizeKink), lack = cosh - rounded + kSizeKink;
+  const double rounded = std::sqrt(sinh * sinh + kSizeKink * kSizeKink), deficit = cosh - rounded + kSizeKink;
   const Vec u = side.u;
   // sin^2 2 phi = 4 c^2 (1 - c^2), with the cosine c between edge and arm.
   const double c = dot(u, edge.arm), c2 = c * c;
@@ -273,7 +273,7 @@ double QuadEnergy<Vec>::add_edge(const Edge& edge) const {
                            2 * kTooShort * near * (near + 1) * inverse;
   const double by_cosine = 8 * weights_.alignment * c * (1 - 2 * c2) * inverse;
   side.slope = side.slope + (by_length * u + by_cosine * (edge.arm - c * u));
-  return weights_.size * (1 - lack) + weights_.wall * lacks * lacks * soft +
+  return weights_.size * (1 - deficit) + weights_.wall * lacks * lacks * soft +
          4 * weights_.alignment * c2 * (1 - c2) + kTooShort * near * near;
 }
 

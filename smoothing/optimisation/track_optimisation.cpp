@@ -261,7 +261,7 @@ bool TrackOptimisation<Vec>::is_failing(std::size_t quad) const {
     least = std::min(least, length), most = std::max(most, length);
     shortest = std::min(shortest, part), longest = std::max(longest, part);
   }
-  return is_beyond_asked(shortest, longest, most / std::max(least, kTinyLength), movable_sine(quad));
+  return is_beyond_batch(shortest, longest, most / std::max(least, kTinyLength), movable_sine(quad));
 }
 
 /// Returns the movable vertices around quads below this eta or with sides beyond the walls.

@@ -88,7 +88,7 @@ class VertexTracks {
 /// Vertices of flat or inverted quads stay. In each pass vertices move along tangents and are then put on
 /// their tracks. Limits hold for each quad: its least sine may fall by half a percent, or to the sine of
 /// kOptimisedFloorEta if that is lower. It stays above the least sine of the whole mesh, or that floor. It
-/// does not get beyond the usual requirements (is_beyond_asked()). No edge gets shorter than a fifth of its
+/// does not get beyond the usual requirements (is_beyond_batch()). No edge gets shorter than a fifth of its
 /// old length, or of delta if that is less. Vertices that would violate a limit move only a part of the way,
 /// or not at all. The same input gives the same mesh.
 template <class Vec>

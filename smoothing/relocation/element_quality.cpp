@@ -26,8 +26,8 @@ ElementQuality quality_of(const std::array<Vec2, 4>& at, const std::array<double
   double least = std::min(1.0, cross(side[n - 1], side[0]));
   for (int k = 1; k < n; ++k) least = std::min(least, cross(side[k - 1], side[k]));
   const double aspect = longest_side / std::max(shortest_side, kTinyLength);
-  const bool is_failing = is_beyond_asked(shortest, longest, aspect, least);
-  const bool is_thin = shortest < kAskedShort || aspect > kAskedAspect;
+  const bool is_failing = is_beyond_batch(shortest, longest, aspect, least);
+  const bool is_thin = shortest < kBatchShort || aspect > kBatchAspect;
   const bool roomy = shortest >= kKeptSide && shortest_side >= kKeptSide * longest_side;
   return {eta_of_sine(least) - kSizeWeight * (deviation / n), least, is_failing, is_thin, roomy ? 0.0 : 1.0};
 }

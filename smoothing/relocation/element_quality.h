@@ -15,7 +15,7 @@ namespace delquad {
 struct ElementQuality {
   double value = 0;       ///< eta - 1.5 * (size deviation)
   double least_sine = 1;  ///< of all corners
-  int failing = 0;        ///< 1 if is_beyond_asked()
+  int failing = 0;        ///< 1 if is_beyond_batch()
   int thin = 0;           ///< 1 if its shortest side is too short, which angles cannot repair
   double crowding = 0;    ///< QuadRelocation::crowding()
   void add(const ElementQuality& other) {

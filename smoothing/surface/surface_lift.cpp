@@ -18,27 +18,27 @@ namespace {
 /// Start of the search, as a part of the longest edge, and its number of steps.
 constexpr double kReach = 0.25;
 constexpr int kSteps = 14;
-/// A quad lacks (1 - quality / kGood)^kPower if its quality is below kGood. So one bad quad outweighs several
-/// poor ones.
-constexpr double kGood = 0.35, kPower = 8;
+/// A quad lacks (1 - quality / kGoodQuality)^kPower if its quality is below kGoodQuality. So one bad quad
+/// outweighs several poor ones.
+constexpr double kGoodQuality = 0.35, kPower = 8;
 /// Quality of a quad with warp w: this times 1 - w / 90 degrees. Lifting begins at 79 degrees, and leaves
 /// slightly bent quads alone.
 constexpr double kWarpFactor = 2.5;
 /// Least gain of a move, as a part, and least lack that can justify one.
-constexpr double kLeastGain = 0.01, kLeastLack = 1e-4;
+constexpr double kLeastGain = 0.01, kLeastDeficit = 1e-4;
 /// Subtracted from the quality of an inverted quad.
-constexpr double kTurnedOver = 2;
+constexpr double kInvertedPenalty = 2;
 /// Least length of edges at a node over the shortest initial one around it, on a curve and inside. Angles
 /// alone would let nodes run into each other.
 constexpr double kShortestOnCurve = 0.5, kShortestInside = 0.2;
 
 /// Repair of failing quads: costs of a failing quad and of its excess (as a logarithm, 1 at most), beside the
-/// lack of eta. Limits are kept with a margin of kToSpare, and smaller gains are ignored.
-constexpr double kFailing = 100, kBeyond = 20, kToSpare = 0.02, kLeastMending = 0.02;
+/// lack of eta. Limits are kept with a margin of kLimitMargin, and smaller gains are ignored.
+constexpr double kFailing = 100, kBeyond = 20, kLimitMargin = 0.02, kLeastRepair = 0.02;
 /// Allowed loss of eta, summed over the quads around, for each removed failing quad.
-constexpr double kMendingPrice = 1;
+constexpr double kRepairPrice = 1;
 /// Steps of a search, steps without gain that end it, and rounds for the vertices of a quad.
-constexpr int kMendingSteps = 8, kFruitless = 3, kMendingRounds = 3;
+constexpr int kRepairSteps = 8, kMostIdleSteps = 3, kRepairRounds = 3;
 
 /// Cost of a trial on CAD in trials on triangles, since it asks for the nearest point of a face.
 constexpr long long kCostOnCad = 10;
@@ -70,8 +70,8 @@ class SurfaceMoves {
   }
 
  protected:
-  /// A search makes up to `steps`, and ends after `fruitless` steps without gain.
-  SurfaceMoves(SurfaceTracks& tracks, std::vector<Vec3>& places, Budget& trials, int steps, int fruitless)
+  /// A search makes up to `steps`, and ends after `idle_steps` steps without gain.
+  SurfaceMoves(SurfaceTracks& tracks, std::vector<Vec3>& places, Budget& trials, int steps, int idle_steps)
       : tracks_(tracks),
         quads_(tracks.quads()),
         places_(places),
@@ -82,15 +82,15 @@ class SurfaceMoves {
         trials_(trials),
         cost_(tracks.is_on_cad() ? kCostOnCad : 1),
         steps_(steps),
-        fruitless_(fruitless) {
+        idle_steps_(idle_steps) {
     find_corners();
   }
 
   virtual bool is_bad(int q) const = 0;
   /// Returns whether a vertex moved.
   virtual bool work_on(int q) = 0;
-  virtual double lack_around(int v) const = 0;
-  virtual bool is_gain(double lack, double before) const = 0;
+  virtual double deficit_around(int v) const = 0;
+  virtual bool is_gain(double deficit, double before) const = 0;
   /// Returns the least length of edges at a vertex.
   virtual double least_edge(int v) const = 0;
 
@@ -121,7 +121,7 @@ class SurfaceMoves {
     }
     if (warp != nullptr) *warp = most_warp;
     if (warp == nullptr) least = std::min(least, kWarpFactor * (1 - most_warp * (2 / std::numbers::pi)));
-    return turned_over ? least - kTurnedOver : least;
+    return turned_over ? least - kInvertedPenalty : least;
   }
 
   template <class F>
@@ -162,19 +162,19 @@ class SurfaceMoves {
     const auto free = tracks_.axes(v);
     if (norm(free[0]) == 0 || is_unchanged(v)) return false;
     tried_[v] = ++now_;
-    const SurfaceTracks::Spot start{tracks_.position(v), places_[v]};
-    const double before = lack_around(v);
+    const SurfaceTracks::TrackPlace start{tracks_.position(v), places_[v]};
+    const double before = deficit_around(v);
     if (!is_gain(0, before)) return false;  // no place would gain enough
     const double shortest = least_edge(v);
-    SurfaceTracks::Spot at = start;
+    SurfaceTracks::TrackPlace at = start;
     double best = before;
-    const auto try_at = [&](const SurfaceTracks::Spot& from, const Vec3& x) {
+    const auto try_at = [&](const SurfaceTracks::TrackPlace& from, const Vec3& x) {
       if (best == 0) return;
       trials_.spend(cost_);
-      const SurfaceTracks::Spot trial = tracks_.spot_near(v, from, x);
+      const SurfaceTracks::TrackPlace trial = tracks_.track_place_near(v, from, x);
       places_[v] = trial.place;
       if (shortest_edge(v, places_) < shortest) return;
-      const double lacking = lack_around(v);
+      const double lacking = deficit_around(v);
       if (lacking < best) best = lacking, at = trial;
     };
     std::vector<Vec3> neighbours;
@@ -183,12 +183,12 @@ class SurfaceMoves {
       for (std::size_t j = 0; j < i; ++j) try_at(start, 0.5 * (neighbours[i] + neighbours[j]));
     places_[v] = at.place;
     auto [along, across] = axes(v, free);
-    for (int step = 0, fruitless = 0; step < steps_ && best > 0; ++step) {
-      if (fruitless == fruitless_ && best == before) break;
-      const SurfaceTracks::Spot centre = at;
+    for (int step = 0, idle_steps = 0; step < steps_ && best > 0; ++step) {
+      if (idle_steps == idle_steps_ && best == before) break;
+      const SurfaceTracks::TrackPlace centre = at;
       const double last = best;
       for (const Vec2 d : kCompass) try_at(centre, centre.place + d.x * along + d.y * across);
-      if (best == last) ++fruitless, along = 0.5 * along, across = 0.5 * across;
+      if (best == last) ++idle_steps, along = 0.5 * along, across = 0.5 * across;
     }
     const bool gained = is_gain(best, before);
     places_[v] = gained ? at.place : start.place;
@@ -238,7 +238,7 @@ class SurfaceMoves {
     return tried_[v] > 0;
   }
 
-  const int steps_, fruitless_;
+  const int steps_, idle_steps_;
 };
 
 /// Lifts quads below an eta.
@@ -262,16 +262,18 @@ class PoorLift final : public SurfaceMoves {
   }
 
   /// Sums up the lack of quads by corners that the place of v changes: all but the opposite one.
-  double lack_around(int v) const override {
+  double deficit_around(int v) const override {
     double sum = 0;
     for (int i = first_[v]; i < first_[v + 1]; ++i)
-      sum += lack(quality(corners_[i] / 4, (corners_[i] + 2) % 4));
+      sum += deficit(quality(corners_[i] / 4, (corners_[i] + 2) % 4));
     return sum;
   }
-  static double lack(double quality) { return std::pow(std::max(kGood - quality, 0.0) / kGood, kPower); }
+  static double deficit(double quality) {
+    return std::pow(std::max(kGoodQuality - quality, 0.0) / kGoodQuality, kPower);
+  }
 
-  bool is_gain(double lack, double before) const override {
-    return lack < before - std::max(kLeastGain * before, kLeastLack);
+  bool is_gain(double deficit, double before) const override {
+    return deficit < before - std::max(kLeastGain * before, kLeastDeficit);
   }
 
   double least_edge(int v) const override {
@@ -313,11 +315,11 @@ class PoorLift final : public SurfaceMoves {
   double warp2_;      ///< square of the tangent of the largest sufficient warp
 };
 
-/// Repairs quads that fail by is_beyond_asked() for a size.
-class FailingMending final : public SurfaceMoves {
+/// Repairs quads that fail by is_beyond_batch() for a size.
+class FailingRepair final : public SurfaceMoves {
  public:
-  FailingMending(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size, Budget& trials)
-      : SurfaceMoves(tracks, places, trials, kMendingSteps, kFruitless) {
+  FailingRepair(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size, Budget& trials)
+      : SurfaceMoves(tracks, places, trials, kRepairSteps, kMostIdleSteps) {
     find_limits(size);
   }
 
@@ -332,31 +334,31 @@ class FailingMending final : public SurfaceMoves {
       for (int i = first_[v]; i < first_[v + 1]; ++i) around.push_back(corners_[i] / 4);
     sort_unique(around);
     const auto n_failing = [&] { return std::ranges::count_if(around, [&](int o) { return is_bad(o); }); };
-    std::array<SurfaceTracks::Spot, 4> spots;
+    std::array<SurfaceTracks::TrackPlace, 4> spots;
     std::array<int, 4> moved;
     for (int k = 0; k < 4; ++k) {
       const int v = quads_[q][k];
       spots[k] = {tracks_.position(v), places_[v]}, moved[k] = moved_[v];
     }
-    const auto lack = [&] {
+    const auto deficit = [&] {
       return std::accumulate(around.begin(), around.end(), 0.0,
                              [&](double sum, int o) { return sum + 1 - std::min(quality(o), 1.0); });
     };
     const auto before = n_failing();
-    const double lacked = lack();
+    const double lacked = deficit();
     bool again = true;
-    for (int round = 0; round < kMendingRounds && again; ++round) {
+    for (int round = 0; round < kRepairRounds && again; ++round) {
       again = false;
       for (const int v : quads_[q]) again = (!trials_.is_spent() && improve(v)) || again;
       for (int k = 0; k < 4 && is_bad(q); ++k)
         again = (!trials_.is_spent() && shift({quads_[q][k], quads_[q][(k + 1) % 4]})) || again;
     }
     const auto fewer = before - n_failing();
-    if (fewer > 0 && lack() - lacked < kMendingPrice * static_cast<double>(fewer)) {
+    if (fewer > 0 && deficit() - lacked < kRepairPrice * static_cast<double>(fewer)) {
       std::vector<int> near;
       for (const int o : around) near.insert(near.end(), quads_[o].begin(), quads_[o].end());
       sort_unique(near);
-      for (int round = 0; round < kMendingRounds; ++round)
+      for (int round = 0; round < kRepairRounds; ++round)
         for (const int v : near)
           if (!trials_.is_spent()) improve(v);
       return true;
@@ -381,7 +383,7 @@ class FailingMending final : public SurfaceMoves {
     double worst = 1, warp = 0;
     for (std::size_t q = 0; q < quads_.size(); ++q)
       if (least_[q] < worst) worst = std::min(worst, quality(static_cast<int>(q), -1, &warp));
-    for (double& least : least_) least = std::min(least, std::max(worst, kAskedEta));
+    for (double& least : least_) least = std::min(least, std::max(worst, kBatchEta));
   }
 
   /// Returns the excess of a quad over the requirements, as logarithms; 0: none.
@@ -389,22 +391,22 @@ class FailingMending final : public SurfaceMoves {
     const auto& v = quads_[q];
     double warp = 0, sum = 0, least = std::numeric_limits<double>::max(), most = 0;
     const auto add = [&](double ratio) {
-      sum += std::max(0.0, std::log(std::max(ratio, kTinyLength)) + kToSpare);
+      sum += std::max(0.0, std::log(std::max(ratio, kTinyLength)) + kLimitMargin);
     };
     for (int k = 0; k < 4; ++k) {
       const double length = norm(places_[v[(k + 1) % 4]] - places_[v[k]]);
       const double part = 2 * length / (delta_[v[k]] + delta_[v[(k + 1) % 4]]);
       least = std::min(least, length), most = std::max(most, length);
-      add(kAskedShort / std::max(part, kTinyLength));
-      add(part / kAskedLong);
+      add(kBatchShort / std::max(part, kTinyLength));
+      add(part / kBatchLong);
     }
-    add(most / std::max(least, kTinyLength) / kAskedAspect);
-    add((1 - quality(q, -1, &warp)) / (1 - kAskedEta));
-    add(warp / kAskedWarp);
+    add(most / std::max(least, kTinyLength) / kBatchAspect);
+    add((1 - quality(q, -1, &warp)) / (1 - kBatchEta));
+    add(warp / kBatchWarp);
     return sum;
   }
 
-  double lack_around(int v) const override {
+  double deficit_around(int v) const override {
     double sum = 0;
     for (int i = first_[v]; i < first_[v + 1]; ++i) {
       const int q = corners_[i] / 4;
@@ -416,43 +418,44 @@ class FailingMending final : public SurfaceMoves {
     return sum;
   }
 
-  bool is_gain(double lack, double before) const override { return lack < before - kLeastMending; }
+  bool is_gain(double deficit, double before) const override { return deficit < before - kLeastRepair; }
 
   /// Not below the requirement and the initial length.
   double least_edge(int v) const override {
-    return std::min(shortest_edge(v, start_), kAskedShort * delta_[v]);
+    return std::min(shortest_edge(v, start_), kBatchShort * delta_[v]);
   }
 
   /// Improves both ends of an edge by the same move, since a single end would warp quads more.
   bool shift(std::array<int, 2> ends) {
-    std::array<SurfaceTracks::Spot, 2> start, at;
+    std::array<SurfaceTracks::TrackPlace, 2> start, at;
     for (const int k : {0, 1}) {
       if (norm(tracks_.axes(ends[k])[0]) == 0) return false;
       start[k] = at[k] = {tracks_.position(ends[k]), places_[ends[k]]};
     }
     const std::array shortest{least_edge(ends[0]), least_edge(ends[1])};
-    const auto lack = [&] {
+    const auto deficit = [&] {
       for (const int k : {0, 1})
         if (shortest_edge(ends[k], places_) < shortest[k]) return std::numeric_limits<double>::infinity();
-      return lack_around(ends[0]) + lack_around(ends[1]);
+      return deficit_around(ends[0]) + deficit_around(ends[1]);
     };
-    const double before = lack_around(ends[0]) + lack_around(ends[1]);
+    const double before = deficit_around(ends[0]) + deficit_around(ends[1]);
     double best = before;
     const int leader = ends[tracks_.is_on_curve(ends[0]) ? 1 : 0];
     auto [along, across] = axes(leader, tracks_.axes(leader));
-    for (int step = 0, fruitless = 0; step < kMendingSteps && fruitless < kFruitless; ++step) {
+    for (int step = 0, idle_steps = 0; step < kRepairSteps && idle_steps < kMostIdleSteps; ++step) {
       const std::array centre = at;
       const double last = best;
       for (const Vec2 d : kCompass) {
         trials_.spend(2 * cost_);
-        std::array<SurfaceTracks::Spot, 2> trial;
+        std::array<SurfaceTracks::TrackPlace, 2> trial;
         for (const int k : {0, 1}) {
-          trial[k] = tracks_.spot_near(ends[k], centre[k], centre[k].place + d.x * along + d.y * across);
+          trial[k] =
+              tracks_.track_place_near(ends[k], centre[k], centre[k].place + d.x * along + d.y * across);
           places_[ends[k]] = trial[k].place;
         }
-        if (const double lacking = lack(); lacking < best) best = lacking, at = trial;
+        if (const double lacking = deficit(); lacking < best) best = lacking, at = trial;
       }
-      if (best == last) ++fruitless, along = 0.5 * along, across = 0.5 * across;
+      if (best == last) ++idle_steps, along = 0.5 * along, across = 0.5 * across;
     }
     const bool gained = is_gain(best, before);
     for (const int k : {0, 1}) {
@@ -473,9 +476,9 @@ int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, doub
   return PoorLift(tracks, places, eta, trials, ball).run(max_sweeps);
 }
 
-int mend_failing_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size,
-                            int max_sweeps, Budget& trials) {
-  return FailingMending(tracks, places, size, trials).run(max_sweeps);
+int repair_failing_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size,
+                              int max_sweeps, Budget& trials) {
+  return FailingRepair(tracks, places, size, trials).run(max_sweeps);
 }
 
 }  // namespace delquad

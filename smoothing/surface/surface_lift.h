@@ -25,10 +25,10 @@ struct LiftedBall {
 int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps,
                           Budget& trials, const LiftedBall& ball = {});
 
-/// Does the same for quads that fail by is_beyond_asked(), with sides over `size`, or by kAskedWarp. Vertices
-/// of such a quad move if fewer quads fail then, at a small loss of eta. No eta falls below kAskedEta or, if
+/// Does the same for quads that fail by is_beyond_batch(), with sides over `size`, or by kBatchWarp. Vertices
+/// of such a quad move if fewer quads fail then, at a small loss of eta. No eta falls below kBatchEta or, if
 /// it was lower, below its old value or the least of all.
-int mend_failing_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size,
-                            int max_sweeps, Budget& trials);
+int repair_failing_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size,
+                              int max_sweeps, Budget& trials);
 
 }  // namespace delquad

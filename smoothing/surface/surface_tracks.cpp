@@ -127,7 +127,8 @@ Vec3 SurfaceTracks::put(int v, Vec2 position) {
   return place_on_curve(model_, domain_.chains[chain], domain_.cut_face, nodes_.on_curve[chain][k].s);
 }
 
-SurfaceTracks::Spot SurfaceTracks::spot_near(int v, const Spot& from, const Vec3& x) const {
+SurfaceTracks::TrackPlace SurfaceTracks::track_place_near(int v, const TrackPlace& from,
+                                                          const Vec3& x) const {
   const Vec3 d = x - from.place;
   if (is_on_curve(v)) {
     const int chain = on_curve_[v].chain;
@@ -144,7 +145,7 @@ SurfaceTracks::Spot SurfaceTracks::spot_near(int v, const Spot& from, const Vec3
   return {u, model_.projector ? model_.projector->to_face(patch.map.face, x) : lift(patch, model_, u, hint)};
 }
 
-void SurfaceTracks::put(int v, const Spot& spot) {
+void SurfaceTracks::put(int v, const TrackPlace& spot) {
   position_[v] = spot.position;
   if (!is_on_curve(v)) return;
   const auto [chain, k] = on_curve_[v];

@@ -42,14 +42,14 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
   Vec3 arm(int quad, int side, TrackHint& hint) const override;
 
   /// Place on a vertex's track.
-  struct Spot {
+  struct TrackPlace {
     Vec2 position;
     Vec3 place;
   };
   /// Returns the spot next to x, searched from the nearby spot `from`. On a CAD face it is the face's nearest
   /// point to x, even outside the fine triangles; its position is then a guess.
-  Spot spot_near(int v, const Spot& from, const Vec3& x) const;
-  void put(int v, const Spot& spot);
+  TrackPlace track_place_near(int v, const TrackPlace& from, const Vec3& x) const;
+  void put(int v, const TrackPlace& spot);
   bool is_on_cad() const { return model_.projector != nullptr; }
   bool is_on_curve(int v) const { return vertex_patch_[v] < 0; }
   /// Returns the outward normal (of any length) of the fine triangles around each quad's initial corners.

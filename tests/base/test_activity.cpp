@@ -14,15 +14,15 @@ std::string told() {
 
 TEST(Activity, IsTheStageOrItsFaces) {
   const RunScope run;
-  const DoingStage reading("reading");
+  const StageScope reading("reading");
   EXPECT_EQ(told(), "reading");
   {
-    const DoingStage merging("matching");
-    const DoingFace face(12);
+    const StageScope merging("matching");
+    const FaceScope face(12);
     EXPECT_EQ(told(), "matching of face 12");
-    const DoingStage treating("treatment");
+    const StageScope treating("treatment");
     EXPECT_EQ(told(), "treatment of face 12");
-    const DoingFace inner(3, "region");
+    const FaceScope inner(3, "region");
     EXPECT_EQ(told(), "treatment of face 12, region 3");
     EXPECT_EQ(current_activities()->faces_text(), "face 12, region 3");
   }
@@ -32,14 +32,14 @@ TEST(Activity, IsTheStageOrItsFaces) {
 
 TEST(Activity, OfOtherThreadsIsSeen) {
   const RunScope scope;
-  const DoingStage stage("insertion");
+  const StageScope stage("insertion");
   std::thread other([run = current_run()] {
-    const WorksFor works(run);
-    const DoingFace face(7);
-    const DoingStage inner("matching");
+    const WorkerScope works(run);
+    const FaceScope face(7);
+    const StageScope inner("matching");
     EXPECT_EQ(told(), "matching of face 7");
     std::thread([run] {
-      const WorksFor works_too(run);
+      const WorkerScope works_too(run);
       EXPECT_EQ(told(), "matching of face 7");
     }).join();
   });
@@ -49,9 +49,9 @@ TEST(Activity, OfOtherThreadsIsSeen) {
 
 TEST(Activity, TellsOfTheLongestAndHowManyOthers) {
   const RunScope run({.threads = 4});
-  const DoingStage stage("insertion");
-  std::vector<std::unique_ptr<DoingFace>> faces;
-  for (int f = 1; f <= 10; ++f) faces.push_back(std::make_unique<DoingFace>(f));
+  const StageScope stage("insertion");
+  std::vector<std::unique_ptr<FaceScope>> faces;
+  for (int f = 1; f <= 10; ++f) faces.push_back(std::make_unique<FaceScope>(f));
   EXPECT_EQ(told(), "insertion of face 1, face 2, face 3, face 4 and 6 others");
   EXPECT_EQ(current_activities()->faces().size(), 10u);
   while (!faces.empty()) faces.pop_back();
@@ -60,7 +60,7 @@ TEST(Activity, TellsOfTheLongestAndHowManyOthers) {
 
 TEST(Activity, CountsTheTimeOfItsThread) {
   const RunScope run;
-  const DoingFace face(1);
+  const FaceScope face(1);
   while (current_activities()->faces().at(0).cpu_seconds < 0.05) {
   }
   EXPECT_GE(current_activities()->faces().at(0).seconds, 0.04);
@@ -69,12 +69,12 @@ TEST(Activity, CountsTheTimeOfItsThread) {
 /// In a process just forked nobody comes to the end of the parent's scopes.
 TEST(Activity, IsForgottenWhenCleared) {
   const RunScope run;
-  const DoingStage stage("insertion");
+  const StageScope stage("insertion");
   {
-    const DoingFace face(5);
+    const FaceScope face(5);
     current_activities()->clear();
     EXPECT_EQ(told(), "starting");
-    const DoingFace other(6);
+    const FaceScope other(6);
     EXPECT_EQ(current_activities()->faces_text(), "face 6");
   }
   EXPECT_EQ(current_activities()->faces_text(), "");
@@ -82,8 +82,8 @@ TEST(Activity, IsForgottenWhenCleared) {
 
 TEST(Activity, OfAnotherProcessHasNoProcessorTime) {
   const RunScope run;
-  const DoingFace here(1);
-  const FaceElsewhere there(2, "triangulation");
+  const FaceScope here(1);
+  const RemoteFaceScope there(2, "triangulation");
   const auto faces = current_activities()->faces();
   ASSERT_EQ(faces.size(), 2u);
   EXPECT_EQ(faces[1].stage, "triangulation");
@@ -92,19 +92,19 @@ TEST(Activity, OfAnotherProcessHasNoProcessorTime) {
 }
 
 TEST(Activity, BelongsToItsRun) {
-  const DoingStage nobody("outside");
+  const StageScope nobody("outside");
   EXPECT_EQ(current_activities(), nullptr);
   Activities own(4);
   const RunScope outer({.activities = &own});
-  const DoingStage reading("reading");
+  const StageScope reading("reading");
   std::thread([] {
     const RunScope other;
-    const DoingFace face(7);
+    const FaceScope face(7);
     EXPECT_EQ(current_activities()->faces_text(), "face 7");
   }).join();
   EXPECT_EQ(told(), "reading");
   const RunScope inner({.threads = 2});  // tells those of the scope around
-  const DoingFace face(3);
+  const FaceScope face(3);
   EXPECT_EQ(own.faces_text(), "face 3");
 }
 
@@ -114,15 +114,15 @@ TEST(Activity, IsTakenAtOnce) {
   own.on_face = [&](int tag, bool begins) { calls.emplace_back(tag, begins); };
   const RunScope run({.activities = &own});
   {
-    const DoingFace first(1);
-    const DoingFace second(2);
+    const FaceScope first(1);
+    const FaceScope second(2);
   }
   EXPECT_EQ(calls, (std::vector<std::pair<int, bool>>{{1, true}, {2, true}, {2, false}, {1, false}}));
 }
 
 TEST(Activity, TextIsCutToItsRoom) {
   const RunScope run;
-  const DoingStage stage("reading");
+  const StageScope stage("reading");
   char text[5] = "????";
   EXPECT_EQ(current_activities()->describe(text, sizeof text), 4u);
   EXPECT_STREQ(text, "read");

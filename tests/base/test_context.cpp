@@ -24,8 +24,8 @@ TEST(Context, OutsideOfRunsNothingIsCancelled) {
 TEST(Context, CancelledSaysAtWhat) {
   std::stop_source stop;
   const RunScope run({.cancel = stop.get_token()});
-  const DoingStage stage("matching");
-  const DoingFace face(12);
+  const StageScope stage("matching");
+  const FaceScope face(12);
   EXPECT_EQ(message_of_check(), "");
   stop.request_stop();
   EXPECT_TRUE(is_cancelled());
@@ -34,7 +34,7 @@ TEST(Context, CancelledSaysAtWhat) {
 
 TEST(Context, TimeIsUpSaysTheLimitAndAtWhat) {
   const RunScope run({.seconds = 0.01});
-  const DoingStage stage("reading");
+  const StageScope stage("reading");
   while (!is_cancelled()) std::this_thread::yield();
   EXPECT_THROW(check_cancelled(), TimeIsUp);
   EXPECT_TRUE(message_of_check().starts_with("not done after 0.01 s: reading (")) << message_of_check();

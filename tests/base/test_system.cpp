@@ -73,10 +73,10 @@ TEST(System, AThreadsClockCountsItsWorkAlone) {
 
 TEST(Process, AChildTellsItsResultOrThatItEnded) {
   const std::string long_text(1 << 20, 'x');
-  EXPECT_EQ(call_apart([&] { return long_text; }), long_text);
-  EXPECT_EQ(call_apart([] { return "two\nlines"; }), "two\nlines");
-  EXPECT_EQ(call_apart([]() -> std::string { std::_Exit(0); }), std::nullopt);
-  EXPECT_EQ(call_apart([]() -> std::string {
+  EXPECT_EQ(call_in_child([&] { return long_text; }), long_text);
+  EXPECT_EQ(call_in_child([] { return "two\nlines"; }), "two\nlines");
+  EXPECT_EQ(call_in_child([]() -> std::string { std::_Exit(0); }), std::nullopt);
+  EXPECT_EQ(call_in_child([]() -> std::string {
               std::raise(SIGKILL);
               return "";
             }),

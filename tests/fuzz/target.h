@@ -25,7 +25,7 @@ std::vector<Target> reader_targets();  ///< of io/: files of meshes
 std::vector<Target> case_targets();    ///< of cases/: model files, formulas
 std::vector<Target> result_targets();  ///< of experiments/sweep/: experiments, records, studies
 std::vector<Target> cad_targets();     ///< of geometry/cad/: CAD files, through the process that reads them
-std::vector<Target> mesher_targets();  ///< the public door: domains and triangulations that the bytes draw
+std::vector<Target> mesher_targets();  ///< public API: domains and triangulations that the bytes draw
 /// Throws std::logic_error, which is a finding, unless it is true.
 void require(bool is_true, std::string_view what);
 

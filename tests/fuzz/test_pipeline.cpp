@@ -79,7 +79,7 @@ std::string mutated(std::string text, unsigned seed) {
   return text;
 }
 
-/// Whatever is in a file, the door gives a mesh that holds, or says why not.
+/// For any file, the public API returns a valid mesh or throws an error that says why.
 TEST(Pipeline, TakesOrRefusesWhatIsInFiles) {
   const testing_support::TemporaryFolder folder;
   constexpr unsigned kMutations = 10;

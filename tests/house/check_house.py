@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The rooms of the house and their doors, as the build files say and as the code does.
+"""Check the structure of the sources: modules and their links, the public API, and conventions.
 
-Usage: check_house.py FOLDER. Prints what is wrong, a line each; exit code 1 when there is anything.
+Usage: check_house.py FOLDER. Prints a line for each problem; the exit code is 1 if there is any.
 """
 import pathlib
 import re
@@ -10,25 +10,25 @@ import sys
 MOST_LINES = 60  # of a function
 MOST_PUBLIC_HEADERS = 12
 LAST_OF_LIBRARY = "adapt"
-# Below and in the last room of the library: no formats of text, no streams, no process of its own.
+# Modules up to LAST_OF_LIBRARY have no text formats, no streams and no processes.
 NOT_IN_LIBRARY = [
     r"#include <(toml|nlohmann|CLI|iostream|muParser)",
     r"\b(stderr|stdout)\b",
     r"std::(cerr|cout|clog)\b",
     r"\b(signal|sigaction|fork|setlocale|setenv)\(",
 ]
-# But for the room that reads what people write.
+# Exception: the module that reads model files.
 READS_TEXTS = "io/cases"
-# What is above the library, and that room, goes through include/delquad: never into these.
+# READS_TEXTS and modules above the library include headers of include/delquad, and none of these folders.
 INSIDE = ("mesher/", "curves/", "patches/", "features/")
-# But for this: HDF5 crashes at the end of a process in which it could not write, so its writers get one of their own.
+# This file may fork: HDF5 crashes at the end of a process in which a write failed, so its writers get a child process.
 FORKS = "base/process.cpp"
-# The only ones that know the system: the library's three, and what runs experiments, each in processes of its own.
+# Only these files may use the operating system.
 SYSTEM_HEADER = r"#include <(sys/|(dlfcn|fcntl|malloc|poll|pthread|signal|spawn|time|unistd)\.h)|__int128|/proc/"
 SYSTEM = """base/system.cpp base/process.cpp base/worker_process.cpp base/matching/wide.h experiments/console/interrupt.cpp
     experiments/sweep/folders.cpp experiments/sweep/process_tree.cpp experiments/sweep/run_program.cpp
     experiments/sweep/variant_work.cpp""".split()
-# What is written once: its shape, the function to use, and the header of that.
+# Code that exists once: its pattern, the function to use, and the header of the function.
 PRIMITIVES = [
     (r"std::clamp\(-?dot\(", "nearest_part()", "base/segment.h"),
     (r"turn <= 0\) turn \+= 2 \*", "into_corner()", "base/segment.h"),
@@ -38,7 +38,7 @@ PRIMITIVES = [
     (r"(line_curve|triangle_region)\[kept\+\+\]", "keep_lines(), keep_triangles()", "geometry/mesh/keep_elements.h"),
     (r"while \((parent|root|leader)_?\[\w+\] != ", "DisjointSets", "base/disjoint_sets.h"),
 ]
-# Names of the standard library and the header that a header which uses them includes itself.
+# Headers of the standard library and their names. A header that uses a name includes the header of the name.
 STANDARD = {
     "algorithm": "clamp copy fill find max min nth_element sort lower_bound upper_bound",
     "array": "array",
@@ -75,8 +75,8 @@ STANDARD = {
 HEADER_OF = {name: header for header, names in STANDARD.items() for name in names.split()}
 
 
-def rooms(root):
-    """Folder of each module -> the modules that it links, in the order of the build."""
+def module_links(root):
+    """Return the folder of each module -> the modules that it links, in the order of the build."""
     links = {}
     for call in re.findall(r"^ *delquad_module\(([^)]*)\)", (root / "cmake/modules.cmake").read_text(), re.MULTILINE):
         if call.split()[0] == "folder":  # the function itself
@@ -86,46 +86,46 @@ def rooms(root):
     return links
 
 
-def sources(root, room, all_rooms):
-    """Files of a room, those of rooms inside of its folder left out."""
-    inner = [root / r for r in all_rooms if r.startswith(room + "/")]
-    for path in sorted((root / room).rglob("*")):
+def sources(root, module, modules):
+    """Yield the files of a module, without the files of modules inside its folder."""
+    inner = [root / m for m in modules if m.startswith(module + "/")]
+    for path in sorted((root / module).rglob("*")):
         if path.suffix in (".h", ".cpp") and not any(i in path.parents for i in inner):
             yield path
 
 
-def room_of(header, all_rooms):
+def module_of(header, modules):
     folder = header.rpartition("/")[0]
-    while folder and folder not in all_rooms:
+    while folder and folder not in modules:
         folder = folder.rpartition("/")[0]
     return folder
 
 
 def check_links(root, links):
     order = list(links)
-    for room, linked in links.items():
+    for module, linked in links.items():
         for other in sorted(linked):
             if other not in links:
-                yield f"{room}: links '{other}', which is no room"
-            elif order.index(other) >= order.index(room):
-                yield f"{room}: links {other}, which does not stand below it"
+                yield f"{module}: links '{other}', which is no module"
+            elif order.index(other) >= order.index(module):
+                yield f"{module}: links {other}, which is not below it"
         used = {}
-        for path in sources(root, room, links):
+        for path in sources(root, module, links):
             for header in re.findall(r'#include "([^"]+)"', path.read_text()):
-                other = room_of(header, links)
-                if other and other != room:
+                other = module_of(header, links)
+                if other and other != module:
                     used.setdefault(other, path)
         for other, path in sorted(used.items()):
             if other not in linked:
-                yield f"{path.relative_to(root)}: includes a header of {other}, which {room} does not link"
+                yield f"{path.relative_to(root)}: includes a header of {other}, which {module} does not link"
 
 
 def check_library(root, links):
     order = list(links)
-    for room in order[: order.index(LAST_OF_LIBRARY) + 1]:
-        if room == READS_TEXTS:
+    for module in order[: order.index(LAST_OF_LIBRARY) + 1]:
+        if module == READS_TEXTS:
             continue
-        for path in sources(root, room, links):
+        for path in sources(root, module, links):
             for number, line in enumerate(path.read_text().splitlines(), 1):
                 code = line.split("//")[0]
                 if path == root / FORKS:
@@ -136,7 +136,7 @@ def check_library(root, links):
 
 def check_system(root, links):
     used = set()
-    for path in [*(p for room in links for p in sources(root, room, links)), *sorted((root / "include").rglob("*.h"))]:
+    for path in [*(p for module in links for p in sources(root, module, links)), *sorted((root / "include").rglob("*.h"))]:
         name = str(path.relative_to(root))
         for number, line in enumerate(path.read_text().splitlines(), 1):
             if re.search(SYSTEM_HEADER, line):
@@ -144,29 +144,29 @@ def check_system(root, links):
                 if name not in SYSTEM:
                     yield f"{name}:{number}: {line.strip()}: expected base/system.h or base/process.h"
     for name in sorted(set(SYSTEM) - used):
-        yield f"{name}: knows nothing of the system: expected it not to be listed"
+        yield f"{name}: does not use the system: expected it not to be listed"
 
 
 def check_primitives(root, links):
-    for room in links:
-        for path in sources(root, room, links):
+    for module in links:
+        for path in sources(root, module, links):
             for number, line in enumerate(path.read_text().splitlines(), 1):
                 for shape, name, header in PRIMITIVES:
                     if re.search(shape, line) and path.with_suffix(".h") != root / header:
                         yield f"{path.relative_to(root)}:{number}: expected {name} of {header}"
 
 
-def check_door(root, links):
+def check_public_api(root, links):
     order = list(links)
     above = order[order.index(LAST_OF_LIBRARY) + 1 :]
-    for room in [READS_TEXTS, *above, "bindings", "examples"]:
-        for path in sources(root, room, links):
+    for module in [READS_TEXTS, *above, "bindings", "examples"]:
+        for path in sources(root, module, links):
             for header in re.findall(r'#include "([^"]+)"', path.read_text()):
                 if header.startswith(INSIDE):
                     yield f"{path.relative_to(root)}: includes {header}: expected a header of include/delquad"
 
 
-def check_public(root):
+def check_public_headers(root):
     headers = [h for h in sorted((root / "include/delquad").glob("*.h")) if h.name != "bench.h"]
     if not 0 < len(headers) <= MOST_PUBLIC_HEADERS:
         yield f"include/delquad: {len(headers)} headers: expected at most {MOST_PUBLIC_HEADERS}"
@@ -178,8 +178,8 @@ def check_public(root):
 
 
 def check_standard_headers(root, links):
-    """Headers include what they use of the standard library, whoever includes them."""
-    headers = [path for room in links for path in sources(root, room, links) if path.suffix == ".h"]
+    """Check that headers include the headers of the standard library that they use."""
+    headers = [path for module in links for path in sources(root, module, links) if path.suffix == ".h"]
     for path in [*headers, *sorted((root / "include/delquad").glob("*.h"))]:
         text = path.read_text()
         included = set(re.findall(r"#include <([a-z_]+)>", text))
@@ -191,8 +191,8 @@ def check_standard_headers(root, links):
 
 def check_lengths(root, links):
     opening = re.compile(r"^( *)[^ #/}].*[)a-z\]] \{$")
-    for room in links:
-        for path in sources(root, room, links):
+    for module in links:
+        for path in sources(root, module, links):
             lines = path.read_text().splitlines()
             for first, line in enumerate(lines):
                 start = opening.match(line)
@@ -208,9 +208,9 @@ def check_lengths(root, links):
 
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
-    links = rooms(root)
-    checks = (check_links, check_library, check_door, check_system, check_primitives, check_standard_headers, check_lengths)
-    wrong = [*check_public(root), *(line for check in checks for line in check(root, links))]
+    links = module_links(root)
+    checks = (check_links, check_library, check_public_api, check_system, check_primitives, check_standard_headers, check_lengths)
+    wrong = [*check_public_headers(root), *(line for check in checks for line in check(root, links))]
     for line in wrong:
         print(line)
     return 1 if wrong else 0

@@ -76,7 +76,7 @@ TEST(Su2, TellsSettingsOfPeriodicMarkers) {
 }
 
 TEST(LostInFile, NamesAndPairsThatTheFormatDoesNotHold) {
-  const auto lost = [](const char* file) { return lost_in_file(file, channel()); };
+  const auto lost = [](const char* file) { return unsupported_in_file(file, channel()); };
   EXPECT_EQ(lost("a.msh").size(), 0u);
   EXPECT_EQ(lost("a.foam").size(), 0u);
   EXPECT_EQ(lost("a.su2"), (Strings{"names of regions, which '.su2' does not hold: inside",

@@ -92,11 +92,11 @@ TEST(CheckProblem, FunctionsAreSampledOnTheModel) {
   };
   for (const long long seed : {0, 1}) {
     problem.seed = seed;
-    const PreparedProblem prepared = prepare_problem(problem);
+    const MeshingSetup prepared = prepare_problem(problem);
     EXPECT_NEAR(prepared.size.expected_quads, 1 / 0.2 * (1 / 0.1 - 1 / 0.3), 0.5);
   }
   problem.seed = 0;
-  const PreparedProblem prepared = prepare_problem(problem);
+  const MeshingSetup prepared = prepare_problem(problem);
   int hint = -1;
   EXPECT_NEAR(prepared.patches[0].cross->at({0.3, 0.4}, hint).angle(), 0.3, 1e-12);
   EXPECT_EQ(complaint(problem, [](MeshProblem& p) { p.size.function = kNothing; }).substr(0, 34),

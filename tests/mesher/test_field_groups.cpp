@@ -3,13 +3,13 @@
 namespace delquad {
 namespace {
 
-PreparedProblem with_size_aware_crosses(const Mesh& model, double size) {
+MeshingSetup with_size_aware_crosses(const Mesh& model, double size) {
   MeshProblem problem = problem_of(TriangleModel{model}, size);
   problem.cross.kind = CrossKind::kSizeAware;
   return prepare_problem(problem);
 }
 
-void expect_indices(const PreparedProblem& prepared, int sum) {
+void expect_indices(const MeshingSetup& prepared, int sum) {
   ASSERT_TRUE(prepared.crosses.index_sum_and_expected);
   EXPECT_EQ(prepared.crosses.index_sum_and_expected->first, sum);
   EXPECT_EQ(prepared.crosses.index_sum_and_expected->second, sum);
@@ -19,7 +19,7 @@ void expect_indices(const PreparedProblem& prepared, int sum) {
 }
 
 TEST(FieldGroups, ClosedSurfacesHaveTheSingularitiesOfTheirGenus) {
-  const PreparedProblem sphere = with_size_aware_crosses(round_sphere(16).fine, 0.1);
+  const MeshingSetup sphere = with_size_aware_crosses(round_sphere(16).fine, 0.1);
   ASSERT_GT(sphere.patches.size(), 1u);
   expect_indices(sphere, 8);
   for (const PlacedSingularity& s : sphere.crosses.singularities) EXPECT_NEAR(norm(s.at), 1, 0.01);
@@ -50,8 +50,8 @@ Mesh two_faces(double bend) {
 }
 
 /// Angle between the field in the middle of the common curve and the direction along the first face's sides.
-double turn_at_curve(const PreparedProblem& prepared) {
-  const PreparedPatch& patch = prepared.patches[0];
+double turn_at_curve(const MeshingSetup& prepared) {
+  const PatchSetup& patch = prepared.patches[0];
   // The patch's plane is the face's: the way along x tells how it lies there.
   int hint = -1;
   double theta = NAN;
@@ -71,8 +71,8 @@ double turn_at_curve(const PreparedProblem& prepared) {
 }
 
 TEST(FieldGroups, FieldsGoOnAcrossSmoothCurvesOnly) {
-  const PreparedProblem flat = with_size_aware_crosses(two_faces(0), 0.04);
-  const PreparedProblem bent = with_size_aware_crosses(two_faces(0.8), 0.04);
+  const MeshingSetup flat = with_size_aware_crosses(two_faces(0), 0.04);
+  const MeshingSetup bent = with_size_aware_crosses(two_faces(0.8), 0.04);
   ASSERT_EQ(flat.patches.size(), 2u);
   ASSERT_EQ(bent.patches.size(), 2u);
   EXPECT_EQ(flat.crosses.index_sum_and_expected, std::pair(4, 4));

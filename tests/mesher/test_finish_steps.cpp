@@ -4,7 +4,7 @@
 namespace delquad {
 namespace {
 
-PreparedProblem prepared_lens(const Options& options, const Criteria& criteria = {}) {
+MeshingSetup prepared_lens(const Options& options, const Criteria& criteria = {}) {
   MeshProblem problem;
   problem.criteria = criteria;
   problem.options = options;
@@ -29,7 +29,7 @@ TEST(FinishSteps, EachIsSwitchedOffByItsOwnOption) {
 }
 
 TEST(BetterMesh, FailingQuadsCountBeforeRegularityAndShapes) {
-  const PreparedProblem prepared = prepared_lens({});
+  const MeshingSetup prepared = prepared_lens({});
   const MeshResult before = meshed(prepared, "DBC");
   MeshResult after = before;
   after.metrics.values.at("n_irregular") -= 2;
@@ -44,7 +44,7 @@ TEST(BetterMesh, FailingQuadsCountBeforeRegularityAndShapes) {
   Vec3& x = after.mesh.points.back();
   x = x + 0.8 * (after.mesh.points[(*at)[1]] - x);
   EXPECT_TRUE(is_better(prepared, after, before)) << "without criteria no quad fails";
-  const PreparedProblem judged = prepared_lens({}, read_criteria("batch"));
+  const MeshingSetup judged = prepared_lens({}, read_criteria("batch"));
   EXPECT_FALSE(is_more_regular(judged, after, before));
   EXPECT_FALSE(is_better(judged, after, before));
 }

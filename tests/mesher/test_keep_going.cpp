@@ -18,7 +18,7 @@ class KeepGoing : public ::testing::Test {
   }
   MeshResult run() { return meshed(prepared_, "DB"); }
 
-  PreparedProblem prepared_;
+  MeshingSetup prepared_;
 };
 
 TEST_F(KeepGoing, NothingIsLeftOutOfASoundModel) {

@@ -29,13 +29,13 @@ TEST(LiftBadQuads, RingsHelpWhereMovingDoesNot) {
 }
 
 TEST(LiftBadQuads, ChangesHelpWhereRingsDoNot) {
-  double mended = 0;
+  double repaired = 0;
   for (const int seed : {0, 2, 3, 4, 5}) {  // 1, 6 and 7 need smaller sizes
     const MeshResult result = meshed(rough_ball(seed, 0.3), 0.7, "DB");
-    mended += result.log.summaries.number("lift_bad_quads", "mended");
+    repaired += result.log.summaries.number("lift_bad_quads", "mended");
     EXPECT_TRUE(result.soundness.sound()) << seed << ": " << result.soundness.text();
   }
-  EXPECT_GT(mended, 0);
+  EXPECT_GT(repaired, 0);
 }
 
 /// A roof without a curve on its ridge, which runs askew to the rows of quads.
@@ -58,15 +58,15 @@ TEST(RepairFailingQuads, MovesLeaveFewer) {
       c.criteria = batch();
       const auto run = [&](bool repairs) {
         c.options.set("repair.failing_quads", repairs);
-        const PreparedProblem prepared = prepare_surface(c, roof(skew, 0.7), make_constant_size(h));
+        const MeshingSetup prepared = prepare_surface(c, roof(skew, 0.7), make_constant_size(h));
         const MeshResult result = meshed(prepared, "DBCO");
         (repairs ? after : before) += failing_part(prepared, result.mesh);
         return std::pair(result.metrics.values.at("eta_mean"), result.metrics.values.at("eta_worst"));
       };
       const auto [mean, worst] = run(false);
-      const auto [mended_mean, mended_worst] = run(true);
-      EXPECT_GE(mended_worst, std::min(worst, kAskedEta) - 1e-9);
-      EXPECT_GE(mended_mean, mean - 0.02);
+      const auto [repaired_mean, repaired_worst] = run(true);
+      EXPECT_GE(repaired_worst, std::min(worst, kBatchEta) - 1e-9);
+      EXPECT_GE(repaired_mean, mean - 0.02);
     }
   EXPECT_GT(before, 0.1);
   EXPECT_LT(after, before / 2);
@@ -114,8 +114,8 @@ TEST(RepairFailingQuads, EditsLeaveFewer) {
     MeshProblem c;
     c.criteria = batch();
     const std::shared_ptr<const SizeField> size = make_constant_size(h);
-    const PreparedProblem prepared = prepare_surface(c, spike(), size);
-    MeshingState state = begin_meshing(prepared);
+    const MeshingSetup prepared = prepare_surface(c, spike(), size);
+    PipelineState state = begin_meshing(prepared);
     for (const Stage* stage : word.stages) run_stage(*stage, prepared, state);
     const std::vector<char> none(state.patches.size(), 0);
     const AllPatches all{prepared, prepared.settings.options, state.patches, none, state.nodes};
@@ -147,8 +147,8 @@ TEST(RepairFailingQuads, OfAGivenMeshToo) {
     given.criteria = batch();
     const auto failing = [&](bool repairs) {
       given.options.set("repair.failing_quads", repairs);
-      const PreparedProblem prepared = prepare_problem(given);
-      const MeshResult result = run_word(prepared, parse_word("CO", WordStart::kGivenMesh));
+      const MeshingSetup prepared = prepare_problem(given);
+      const MeshResult result = run_pipeline(prepared, parse_word("CO", WordStart::kGivenMesh));
       EXPECT_TRUE(result.soundness.sound());
       return failing_part(prepared, result.mesh);
     };

@@ -195,13 +195,13 @@ TEST(NumberOfQuads, SaysWhereItIsOutOfReach) {
   const MeshResult result = mesh(problem, "DB");
   EXPECT_GT(count_of_quads(result.mesh), 8);
   EXPECT_TRUE(result.soundness.accepted());
-  EXPECT_TRUE(is_told(result.warnings, "flange: 4 quads were asked for"));
+  EXPECT_TRUE(is_reported(result.warnings, "flange: 4 quads were asked for"));
   // A box has six times a square of an even number.
   problem.model = TriangleModel{box(1)};
   problem.quads = 800;
   const MeshResult near = mesh(problem, "DB");
   EXPECT_EQ(count_of_quads(near.mesh), 6 * 12 * 12);
-  EXPECT_TRUE(is_told(near.warnings, "has 864"));
+  EXPECT_TRUE(is_reported(near.warnings, "has 864"));
 }
 
 TEST(NumberOfQuads, RefusesNumbersThatCannotBe) {

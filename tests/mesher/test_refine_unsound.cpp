@@ -27,7 +27,7 @@ TEST(RefineUnsound, MakesSizesSmallerWhereQuadsCannotBeSound) {
   const MeshResult result = mesh(problem, "DB");
   EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
   EXPECT_GT(result.log.summaries.number("refine_unsound", "rounds"), 0);
-  EXPECT_TRUE(is_told(result.warnings, "the size is smaller"));
+  EXPECT_TRUE(is_reported(result.warnings, "the size is smaller"));
 }
 
 TEST(RefineUnsound, StaysAwayFromTheRest) {
@@ -97,7 +97,7 @@ MeshProblem needle(double angle) {
 TEST(RefineUnsound, LeavesOutWhatIsNarrowAtLastAndSaysSo) {
   MeshProblem problem = needle(1e-5 * std::numbers::pi / 180);
   const MeshResult result = mesh(problem, "DBCO");
-  EXPECT_TRUE(is_told(result.warnings, "parts narrower than 0.06, a tenth of the size, are left out"));
+  EXPECT_TRUE(is_reported(result.warnings, "parts narrower than 0.06, a tenth of the size, are left out"));
   problem.options.set("repair.refine_unsound", false);
   try {
     mesh(problem, "DBCO");
@@ -130,34 +130,34 @@ TEST(RefineUnsound, KeepsTheBestMeshAndSaysWhyItEnds) {
   problem.options.set("repair.refine_unsound", true);
   const MeshResult after = mesh(problem, "DB");
   EXPECT_LE(after.soundness.places.size(), before.soundness.places.size());
-  EXPECT_TRUE(after.soundness.sound() || is_told(after.warnings, "smaller sizes around places"));
+  EXPECT_TRUE(after.soundness.sound() || is_reported(after.warnings, "smaller sizes around places"));
   EXPECT_EQ(after.mesh.quads.size() == before.mesh.quads.size(), !after.log.summaries.has("refine_unsound"));
 }
 
 TEST(RefineUnsound, TriesFeatureAnglesLast) {
   const MeshProblem problem = ridge(0.2);
-  PreparedProblem prepared = prepare_problem(problem);
+  MeshingSetup prepared = prepare_problem(problem);
   const Word word = parse_word("DB");
-  MeshResult result = run_word(prepared, word);
+  MeshResult result = run_pipeline(prepared, word);
   result.soundness = {};
   result.soundness.reasons = {"a test"};
   std::vector<double> tried;
-  const auto anew = [&](const Refinement& refinement) {
-    tried.push_back(refinement.feature_angle);
+  const auto anew = [&](const RetryHints& hints) {
+    tried.push_back(hints.feature_angle);
     if (tried.back() != 25) throw InputError("no mesh");
     MeshProblem other = problem;
     other.surface.feature_angle = tried.back();
-    return prepare_problem(other, refinement);
+    return prepare_problem(other, hints);
   };
   refine_unsound(anew, word, prepared, result);
   EXPECT_EQ(tried, (std::vector<double>{0, 0, 60, 25}));
   EXPECT_TRUE(result.soundness.sound());
-  EXPECT_TRUE(is_told(result.warnings, "with a feature angle of 25 degrees"));
+  EXPECT_TRUE(is_reported(result.warnings, "with a feature angle of 25 degrees"));
 }
 
 TEST(RefineUnsound, CountsAllWork) {
-  const PreparedProblem prepared = prepare_problem(ridge(0.2));
-  MeshResult result = run_word(prepared, parse_word("DB"));
+  const MeshingSetup prepared = prepare_problem(ridge(0.2));
+  MeshResult result = run_pipeline(prepared, parse_word("DB"));
   const long long made = work_on(prepared, result);
   EXPECT_GT(made, static_cast<long long>(result.mesh.quads.size()));
   result.log.summaries.add("cleanup", {{"looks", 3'000'000LL}});

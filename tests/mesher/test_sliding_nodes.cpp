@@ -13,7 +13,7 @@ class SlidingNodes : public testing::Test {
     c.seed = seed;
     return c;
   }
-  static Mesh run(const PreparedProblem& prepared) { return meshed(prepared, "DBO").mesh; }
+  static Mesh run(const MeshingSetup& prepared) { return meshed(prepared, "DBO").mesh; }
   TemporaryFolder folder_;
 };
 
@@ -22,7 +22,7 @@ TEST_F(SlidingNodes, StayOnTheCirclesThatRegionsShare) {
       "loop = [{ circle = { centre = [0, 0], radius = 1 } },\n"
       "        { circle = { centre = [0, 0], radius = 0.5 }, region = \"core\" }]\nsize = 0.09\n",
       3);
-  const PreparedProblem prepared = prepare_case(c);
+  const MeshingSetup prepared = prepare_case(c);
   const Mesh mesh = run(prepared);
   int moved = 0;
   for (const auto& line : mesh.lines)
@@ -40,7 +40,7 @@ TEST_F(SlidingNodes, GivenLinesAreKept) {
   const std::filesystem::path lines = folder_ / "lines.msh";
   write_mesh(lines, prepare_case(model).boundary);
   const Case c = read_model_case(lines);
-  const PreparedProblem prepared = prepare_case(c);
+  const MeshingSetup prepared = prepare_case(c);
   const Mesh mesh = run(prepared);
   ASSERT_FALSE(mesh.quads.empty());
   for (std::size_t v = 0; v < prepared.boundary.points.size(); ++v)

@@ -40,7 +40,7 @@ class SoundCube : public testing::Test {
     mesh_ = meshed(prepared_, "DB").mesh;
   }
   Soundness check(const std::vector<char>& left_out = std::vector<char>(6, 0)) const {
-    const PreparedSurface& surface = *prepared_.surface;
+    const SurfaceSetup& surface = *prepared_.surface;
     const SurfaceReport report =
         report_surface(surface.model, surface.cuts, left_out, mesh_, surface.size.get());
     return check_soundness(prepared_, mesh_, &report, sorted_half_edges(mesh_));
@@ -61,7 +61,7 @@ class SoundCube : public testing::Test {
     return "face " + std::to_string(mesh_.regions[mesh_.quad_region[inner_quad()]].tag);
   }
 
-  PreparedProblem prepared_;
+  MeshingSetup prepared_;
   Mesh mesh_;
 };
 
@@ -215,7 +215,7 @@ class SoundDomain : public testing::Test {
 
   TemporaryFolder folder_;
   Case c_;
-  PreparedProblem prepared_;
+  MeshingSetup prepared_;
   MeshResult result_;
   Mesh mesh_;
 };
@@ -284,11 +284,10 @@ TEST(SoundSurface, MayLookDown) {
 
 /// Twins that are not parted are found out.
 TEST(SoundSurface, TwinsAreNot) {
-  PreparedProblem prepared =
-      prepare_surface({}, make_surface_model(lens(64, 12, 0.45)), make_constant_size(5));
-  const MeshResult parted = meshed(prepared, "DB");
-  EXPECT_FALSE(has(parted.soundness, "conforming")) << parted.soundness.text();
-  const Summaries& done = parted.log.summaries;
+  MeshingSetup prepared = prepare_surface({}, make_surface_model(lens(64, 12, 0.45)), make_constant_size(5));
+  const MeshResult separated = meshed(prepared, "DB");
+  EXPECT_FALSE(has(separated.soundness, "conforming")) << separated.soundness.text();
+  const Summaries& done = separated.log.summaries;
   ASSERT_TRUE(done.has("part_twins"));
   EXPECT_GT(done.number("part_twins", "chords") + done.number("part_twins", "rings"), 0);
   prepared.settings.options.set("repair.part_twins", false);

@@ -40,7 +40,7 @@ TEST(ThinTubes, TwoQuadsAroundHaveTheSameNodes) {
       }
     for (int k = 0; k < n; ++k) ring.quads.push_back({k, k + 1, n + k + 2, n + k + 1});
     ring.n_boundary = static_cast<int>(node.size());
-    EXPECT_EQ(closes_too_tightly(ring, node), n == 2) << n;
+    EXPECT_EQ(has_duplicate_quads(ring, node), n == 2) << n;
   }
 }
 
@@ -75,7 +75,7 @@ TEST(ThinTubes, VerticesMoveBesideTips) {
 }
 
 TEST(SharpCorners, ExplainQuadsThatReachTheirBoundOnly) {
-  const PreparedProblem prepared =
+  const MeshingSetup prepared =
       prepare_surface({}, polygon_face({{0, 0}, {6, -0.2}, {6, 0.2}}, 0.1), make_constant_size(0.5));
   ASSERT_EQ(prepared.surface->domain.sharp_corners.size(), 1u);
   EXPECT_LT(prepared.surface->domain.sharp_corners[0].eta_bound, 0.1);

@@ -97,9 +97,10 @@ TEST(FaceNodes, NodesAcrossAStripLieOppositeEachOther) {
   };
   const auto face = [&](long long most_steps) {
     Budget steps(most_steps);
-    return face_nodes(strip.model.fine, strip.chains, *strip.across, strip.integrals, counts,
-                      group_facing_curves(strip.model.fine, strip.chains, *strip.across, strip.on_lines),
-                      strip.on_lines, steps);
+    return align_opposite_nodes(
+        strip.model.fine, strip.chains, *strip.across, strip.integrals, counts,
+        group_facing_curves(strip.model.fine, strip.chains, *strip.across, strip.on_lines), strip.on_lines,
+        steps);
   };
   EXPECT_EQ(face(0), equal_places(counts));
   const CurvePlaces faced = face(1'000'000);

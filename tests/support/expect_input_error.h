@@ -24,7 +24,7 @@ testing::AssertionResult holds(const std::string& text, const Parts&... parts) {
 inline auto count_told(const std::vector<Warning>& warnings, const std::string& part) {
   return std::ranges::count_if(warnings, [&](const Warning& w) { return bool(holds(w.text, part)); });
 }
-inline bool is_told(const std::vector<Warning>& warnings, const std::string& part) {
+inline bool is_reported(const std::vector<Warning>& warnings, const std::string& part) {
   return count_told(warnings, part) > 0;
 }
 

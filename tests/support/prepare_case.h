@@ -6,8 +6,6 @@
 namespace delquad {
 
 /// All that is prepared of a problem, the files of which are read first.
-inline PreparedProblem prepare_case(const MeshProblem& problem) {
-  return prepare_problem(read_files(problem));
-}
+inline MeshingSetup prepare_case(const MeshProblem& problem) { return prepare_problem(read_files(problem)); }
 
 }  // namespace delquad

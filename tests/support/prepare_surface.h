@@ -12,16 +12,16 @@
 namespace delquad::testing_support {
 
 /// The problem with this surface, as if it were read, meshed by a size.
-inline PreparedProblem prepare_surface(MeshProblem problem, SurfaceModel model,
-                                       std::shared_ptr<const SizeField> size) {
+inline MeshingSetup prepare_surface(MeshProblem problem, SurfaceModel model,
+                                    std::shared_ptr<const SizeField> size) {
   if (problem.name.empty()) problem.name = problem.where = "surface";
   problem.model = ExampleModel{"given"};
   problem.size.field = std::move(size);
   return prepare_problem(problem, {.cad = std::make_shared<SurfaceModel>(std::move(model))});
 }
 
-inline MeshResult meshed(const PreparedProblem& prepared, const std::string& pipeline) {
-  return run_word(prepared, parse_word(pipeline));
+inline MeshResult meshed(const MeshingSetup& prepared, const std::string& pipeline) {
+  return run_pipeline(prepared, parse_word(pipeline));
 }
 
 inline MeshResult meshed(SurfaceModel model, double size, const std::string& pipeline,

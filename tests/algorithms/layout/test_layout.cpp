@@ -1,7 +1,7 @@
 #include "algorithms/layout/field_lines.h"
+#include "algorithms/layout/joint_layouts.h"
 #include "algorithms/layout/layout.h"
 #include "algorithms/layout/layout_arcs.h"
-#include "algorithms/layout/layouts_together.h"
 #include "tests/algorithms/stages.h"
 
 namespace delquad {
@@ -155,7 +155,7 @@ struct RowOfBoxes {
     for (int i = 0; i < 2 * n; ++i) network.curves.push_back({8, 1, true});
     network.curves.front().is_free = network.curves[n].is_free = false;
     network.boundary = [this](int p, const std::vector<int>& edges) { return std::optional(box(p, edges)); };
-    network.may_be = [](const QuadPatch&, const PatchBoundary&) { return true; };
+    network.is_allowed = [](const QuadPatch&, const PatchBoundary&) { return true; };
     for (int p = 0; p < n; ++p) {
       LayoutPatch& patch = network.patches.emplace_back();
       for (const int c : curves_of(p)) patch.runs.push_back({c, network.curves[c].edges});
@@ -193,7 +193,7 @@ struct RowOfBoxes {
 TEST(LayoutsTogether, SharedCurvesGetTheNumbersWithWhichAllClose) {
   RowOfBoxes row({8, 6, 10, 8});
   ASSERT_GT(row.irregular(), 0);
-  const TogetherSummary summary = lay_out_together(row.network, {});
+  const JointLayoutSummary summary = lay_out_jointly(row.network, {});
   EXPECT_EQ(row.numbers(), std::vector(10, 8));
   EXPECT_EQ(row.irregular(), 0);
   EXPECT_EQ(summary.accepted, 1);
@@ -204,7 +204,7 @@ TEST(LayoutsTogether, SharedCurvesGetTheNumbersWithWhichAllClose) {
     expect_sound(row.network.patches[p].mesh, row.box(p, row.numbers()));
   }
   RowOfBoxes again({8, 6, 10, 8});
-  lay_out_together(again.network, {});
+  lay_out_jointly(again.network, {});
   for (int p = 0; p < 3; ++p)
     EXPECT_EQ(again.network.patches[p].mesh.points, row.network.patches[p].mesh.points);
 }
@@ -214,17 +214,17 @@ TEST(LayoutsTogether, NothingChangesWhereNothingMayCost) {
   row.network.curves[1].is_free = false;
   const std::vector<int> before = row.numbers();
   const int irregular = row.irregular();
-  lay_out_together(row.network, {});
+  lay_out_jointly(row.network, {});
   EXPECT_EQ(row.numbers(), before) << "its curve was given";
   EXPECT_LE(row.irregular(), irregular);
   RowOfBoxes other({8, 6, 8});
-  other.network.may_be = [](const QuadPatch&, const PatchBoundary&) { return false; };
+  other.network.is_allowed = [](const QuadPatch&, const PatchBoundary&) { return false; };
   const std::vector<int> numbers = other.numbers();
-  EXPECT_EQ(lay_out_together(other.network, {}).accepted, 0);
+  EXPECT_EQ(lay_out_jointly(other.network, {}).accepted, 0);
   EXPECT_EQ(other.numbers(), numbers);
   RowOfBoxes third({8, 6, 8});
   for (LayoutPatch& patch : third.network.patches) patch.cross = nullptr;
-  EXPECT_EQ(lay_out_together(third.network, {}).filled, 0);
+  EXPECT_EQ(lay_out_jointly(third.network, {}).filled, 0);
 }
 
 }  // namespace

@@ -212,15 +212,15 @@ TEST(Recombine, FollowsTheCrossWhereTheBoundaryIsAstray) {
   const auto placement = make_linf_delquad();
   const auto solver = make_primal_dual_solver();
   for (const double degrees : {0.0, 5.0, 87.0})
-    EXPECT_FALSE(is_astray(boundary, FunctionCross(degrees * kPerDegree), size)) << degrees;
+    EXPECT_FALSE(is_misaligned(boundary, FunctionCross(degrees * kPerDegree), size)) << degrees;
   for (const double degrees : {10.0, 20.0, 30.0, 45.0, 70.0}) {
     SCOPED_TRACE(degrees);
     const double theta = degrees * kPerDegree;
     const FunctionCross cross(theta);
-    EXPECT_TRUE(is_astray(boundary, cross, size));
-    EXPECT_FALSE(is_astray(boundary, cross, steep));
+    EXPECT_TRUE(is_misaligned(boundary, cross, size));
+    EXPECT_FALSE(is_misaligned(boundary, cross, steep));
     const TriPatch tri = mesh_delquad(boundary, *placement, cross, size);
-    EXPECT_GT(aligned_share(recombine(tri, *solver, nullptr, kAstrayExtraEdgeCost), theta), 0.9);
+    EXPECT_GT(aligned_share(recombine(tri, *solver, nullptr, kMisalignedExtraEdgeCost), theta), 0.9);
     const TriPatch from_boundary = mesh_frontal(boundary, *placement, cross, size);
     EXPECT_LT(aligned_share(recombine(from_boundary, *solver), theta), 0.85);
   }

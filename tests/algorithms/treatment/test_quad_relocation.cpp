@@ -57,8 +57,8 @@ TEST(QuadRelocation, HoldsLengthsWhereItIsAsked) {
     for (int v = strip.n_boundary; v < mesh.vertex_slots(); ++v) least = std::min(least, mesh.point(v).y);
     return least;
   };
-  EXPECT_LT(shortest(false), kAskedShort);
-  EXPECT_GT(shortest(true), kAskedShort);
+  EXPECT_LT(shortest(false), kBatchShort);
+  EXPECT_GT(shortest(true), kBatchShort);
 }
 
 TEST(QuadRelocation, StepsNeverRaiseTheCost) {

@@ -25,9 +25,9 @@ struct Strip {
       sums.push_back({i, {{bottom(i), 1}, {bottom(i) + 1, -1}}, 3, 3});
     }
   }
-  void add(double want, double weight, std::vector<int> patches) {
-    curves.push_back({want, 1, true, weight, std::move(patches)});
-    counts.push_back(static_cast<int>(std::lround(want)));
+  void add(double ideal, double weight, std::vector<int> patches) {
+    curves.push_back({ideal, 1, true, weight, std::move(patches)});
+    counts.push_back(static_cast<int>(std::lround(ideal)));
   }
   int bottom(int box) const { return boxes + 1 + 2 * box; }
   int open_sums() const {
@@ -88,7 +88,7 @@ TEST(AgreeCounts, MovesAWholeRowWhereBothEndsWantMore) {
 
 TEST(AgreeCounts, KeepsTheSizeWhereThatIsWorthMore) {
   Strip strip(2, 5, 50);
-  strip.curves[1].want = 9, strip.counts[1] = 9;
+  strip.curves[1].ideal = 9, strip.counts[1] = 9;
   const std::vector<int> before = strip.counts;
   strip.agree();
   EXPECT_EQ(strip.counts, before);
@@ -118,9 +118,9 @@ TEST(AgreeCounts, KeepsTheParityOfEachPatch) {
     std::srand(seed);
     Strip strip(6, 5, 0.5);
     for (AgreeingCurve& c : strip.curves)
-      c.want = 2 + std::rand() % 60 / 7.0, c.is_free = std::rand() % 5 > 0;
+      c.ideal = 2 + std::rand() % 60 / 7.0, c.is_free = std::rand() % 5 > 0;
     for (std::size_t c = 0; c < strip.counts.size(); ++c)
-      strip.counts[c] = std::max(1, static_cast<int>(std::lround(strip.curves[c].want)));
+      strip.counts[c] = std::max(1, static_cast<int>(std::lround(strip.curves[c].ideal)));
     for (int box = 0; box < 6; ++box) {
       const int b = strip.bottom(box);
       strip.counts[b] +=

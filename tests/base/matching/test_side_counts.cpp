@@ -25,8 +25,8 @@ TEST(SideCounts, RandomGridsOfMappedAndFreeFaces) {
     const FaceGrid grid{1 + static_cast<int>(random() % 5), 1 + static_cast<int>(random() % 4)};
     std::vector<CountedCurve> curves;
     for (int c = 0; c < grid.n_curves(); ++c) {
-      const double want = 1 + static_cast<double>(random() % 1000) / 60;
-      curves.push_back({want, std::max(1, static_cast<int>(std::lround(want))), 1, true});
+      const double ideal = 1 + static_cast<double>(random() % 1000) / 60;
+      curves.push_back({ideal, std::max(1, static_cast<int>(std::lround(ideal))), 1, true});
     }
     std::vector<CountedFace> faces;
     for (int j = 0; j < grid.ny; ++j)
@@ -70,8 +70,8 @@ SmallNetwork random_network(std::mt19937& random) {
   SmallNetwork net;
   const FaceGrid grid{2, 1 + static_cast<int>(random() % 2)};
   for (int c = 0; c < grid.n_curves(); ++c) {
-    const double want = 1 + static_cast<double>(random() % 1000) / 250;
-    net.curves.push_back({want, std::max(1, static_cast<int>(std::lround(want))), 1, true});
+    const double ideal = 1 + static_cast<double>(random() % 1000) / 250;
+    net.curves.push_back({ideal, std::max(1, static_cast<int>(std::lround(ideal))), 1, true});
   }
   for (int j = 0; j < grid.ny; ++j)
     for (int i = 0; i < grid.nx; ++i) {
@@ -104,7 +104,7 @@ bool holds(const SmallNetwork& net) {
 
 double cost(const SmallNetwork& net) {
   double sum = 0;
-  for (const CountedCurve& c : net.curves) sum += std::pow(std::log(c.n / c.want), 2);
+  for (const CountedCurve& c : net.curves) sum += std::pow(std::log(c.n / c.ideal), 2);
   return sum;
 }
 

@@ -1,5 +1,5 @@
 #include "experiments/sweep/experiment.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 #include "tests/support/files.h"
 #include "tests/support/prepare_case.h"
 
@@ -78,8 +78,8 @@ TEST_F(Matrix, SeedsTurnAndShiftADomain) {
   const auto prepared = [&](const std::string& seed) {
     return prepare_case(read("", kSquare + "size = '0.05 + 0.05*x'\ncross = 'x'\n" + seed).read_variant(0));
   };
-  const PreparedProblem plain = prepared(""), same = prepared("seed = 0\n"), other = prepared("seed = 5\n"),
-                        again = prepared("seed = 5\n");
+  const MeshingSetup plain = prepared(""), same = prepared("seed = 0\n"), other = prepared("seed = 5\n"),
+                     again = prepared("seed = 5\n");
   EXPECT_EQ(plain.patches[0].boundary.points, same.patches[0].boundary.points);
   EXPECT_EQ(other.patches[0].boundary.points, again.patches[0].boundary.points);
   EXPECT_NE(plain.patches[0].boundary.points, other.patches[0].boundary.points);

@@ -1,6 +1,6 @@
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/finish/lift_bad_quads.h"
-#include "algorithms/finish/part_twins.h"
+#include "algorithms/finish/separate_duplicates.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/linf_adaptation.h"
 #include "algorithms/layout/layout.h"
@@ -28,7 +28,7 @@ struct Types {};
 /// The summaries of all steps.
 using AllSummaries = Types<FrontalSummary, AdaptationSummary, RecombineSummary, SmoothingSummary,
                            TreatmentSummary, CleanupSummary, RegularitySummary, LayoutSummary,
-                           OptimisationSummary, PartingSummary, LiftingSummary, FailingRepairSummary>;
+                           OptimisationSummary, SeparationSummary, LiftingSummary, FailingRepairSummary>;
 
 template <class Visit, class... All>
 void for_each_summary(Types<All...>, Visit&& visit) {
@@ -124,10 +124,10 @@ TEST(StageCounters, DocumentationHasEveryOne) {
   });
 }
 
-Json record_of(const MeshProblem& problem, const PreparedProblem& prepared, const char* word,
+Json record_of(const MeshProblem& problem, const MeshingSetup& prepared, const char* word,
                MeshResult* result = nullptr) {
   const Prepared shared(std::make_shared<const MeshProblem>(problem),
-                        std::make_shared<const PreparedProblem>(prepared));
+                        std::make_shared<const MeshingSetup>(prepared));
   MeshResult made = mesh(shared, word);
   Case c;
   c.name = problem.name;
@@ -145,7 +145,7 @@ MeshProblem case_of(const char* name) {
 TEST(StageRecords, HaveEveryCounterOfEveryStep) {
   MeshProblem c = case_of("lens");
   c.criteria = *std::ranges::find(criteria_presets(), "batch", &Criteria::name);
-  const PreparedProblem prepared = testing_support::prepare_surface(
+  const MeshingSetup prepared = testing_support::prepare_surface(
       c, make_surface_model(testing_support::lens(64, 12, 0.45)), make_constant_size(0.3));
   MeshResult result;
   const Json record = record_of(c, prepared, "DBRCQO", &result);
@@ -172,7 +172,7 @@ TEST(StageRecords, HaveEveryCounterOfEveryStep) {
 TEST(StageRecords, StepsThatAreSwitchedOffAreNotThere) {
   MeshProblem c = case_of("lens");
   c.options.set("repair.part_twins", false).set("repair.lift_bad_quads", false);
-  const PreparedProblem prepared = testing_support::prepare_surface(
+  const MeshingSetup prepared = testing_support::prepare_surface(
       c, make_surface_model(testing_support::lens(64, 12, 0.45)), make_constant_size(0.3));
   const Json record = record_of(c, prepared, "DB");
   EXPECT_FALSE(record.contains("part_twins"));
@@ -280,7 +280,7 @@ TEST_F(Tube, FillsThatAreTakenBackAreNotCountedAsDone) {
 TEST(StageRecords, SayWhatMadeTheSizeLess) {
   MeshProblem c = case_of("lens");
   c.size.curvature = 24;
-  const PreparedProblem prepared = testing_support::prepare_surface(
+  const MeshingSetup prepared = testing_support::prepare_surface(
       c, make_surface_model(testing_support::lens(64, 12, 0.45)), make_constant_size(0.5));
   const Json record = record_of(c, prepared, "DB");
   EXPECT_EQ(record["domain"]["size_adapted_to"], Json({"curvature"}));

@@ -47,7 +47,7 @@ TEST(CurvedElements, ACuspIsProvenAndToldApart) {
     EXPECT_EQ(result.log.summaries.get<long long>("curving", "below"), 1) << order;
     EXPECT_EQ(result.log.summaries.get<long long>("curving", "in_corners"), 1) << order;
     EXPECT_GT(result.log.summaries.get<double>("curving", "least_elsewhere"), kLowJacobian) << order;
-    EXPECT_TRUE(is_told(result.warnings, "corners of the model that allow no more"));
+    EXPECT_TRUE(is_reported(result.warnings, "corners of the model that allow no more"));
   }
 }
 

@@ -102,7 +102,7 @@ TEST(DividedCurves, TellWhereTheTipOfAConeTakesTheirLastNodes) {
   ASSERT_NE(seam, r.mesh.curves.end());
   const std::size_t left = edges_by_tag(r.mesh)[seam->tag].size();
   EXPECT_LT(left, kAsked);
-  EXPECT_TRUE(is_told(r.warnings, fmt::format("curve {} gets {} edges, not 60", seam->tag, left)));
+  EXPECT_TRUE(is_reported(r.warnings, fmt::format("curve {} gets {} edges, not 60", seam->tag, left)));
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ TEST(Imprint, WhatDoesNotFitIsRefused) {
 
 TEST(Imprint, LinesOfAFileThatLieElsewhereAreNamed) {
   LooseLine line = asked({{0.5, 0.5, 1}, {0.6, 0.5, 1}}, "far");
-  line.is_asked = false;
+  line.is_requested = false;
   const SurfaceModel model = imprinted(square(), {line});
   EXPECT_TRUE(model.embedded.empty());
   ASSERT_FALSE(model.warnings.empty());
@@ -141,7 +141,7 @@ TEST(Imprint, LinesOfAFileThatLieElsewhereAreNamed) {
 TEST(Imprint, PointsOfAFileWithoutRoomStayNoNodes) {
   const LooseLine line = asked({{0.1, 0.15, 0}, {0.9, 0.75, 0}}, "line");
   LooseLine near = asked({{0.5, 0.45 + 1e-5, 0}}, "near"), far = asked({{0.2, 0.8, 0}}, "far");
-  near.is_asked = far.is_asked = false;
+  near.is_requested = far.is_requested = false;
   const SurfaceModel model = imprinted(square(), {line, near, far});
   ASSERT_EQ(model.fine.named_points.size(), 1u);
   EXPECT_EQ(model.fine.named_points[0].entity.names[0], "far");
@@ -151,7 +151,7 @@ TEST(Imprint, PointsOfAFileWithoutRoomStayNoNodes) {
       holds(model.warnings.back().text, "the line 'near' is left out: it is nearer than a thousandth"));
   SurfaceModel twice = square();
   twice.loose = {line, near, near};
-  twice.loose[2].is_asked = true;
+  twice.loose[2].is_requested = true;
   expect_input_error([&] { imprint(twice, size_of_tenth); }, {"the line 'near' is nearer than a thousandth"});
 }
 

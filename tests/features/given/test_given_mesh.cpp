@@ -176,7 +176,7 @@ TEST(GivenMeshes, AnOddOutlineKeepsItsTriangle) {
   const MeshResult result = improve_given(grid, "CO");
   EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
   EXPECT_EQ(result.mesh.triangles.size(), 1u);
-  EXPECT_TRUE(is_told(result.warnings, "odd number"));
+  EXPECT_TRUE(is_reported(result.warnings, "odd number"));
 }
 
 TEST(GivenMeshes, TheWayThroughAFileIsTheSame) {

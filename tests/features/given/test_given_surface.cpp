@@ -170,7 +170,7 @@ TEST(GivenSurfaces, WhatACureMakesWorseIsTold) {
       const auto& values = result.metrics.values;
       const auto before = evaluate_metrics(given, result.prepared->size.field.get()).values;
       EXPECT_GT(before.at("n_folded"), 0);
-      const bool told_of = is_told(result.warnings, "sound now, at a price: ");
+      const bool told_of = is_reported(result.warnings, "sound now, at a price: ");
       const bool is_worse = values.at("aspect_max") > aspect * (1 + 1e-9) ||
                             values.at("edge_min") < before.at("edge_min") * (1 - 1e-9) ||
                             std::abs(values.at("n_quads") - 64) > 6.4;

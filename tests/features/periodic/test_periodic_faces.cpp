@@ -394,7 +394,7 @@ TEST(PeriodicFaces, FacesTakeTheNameFromCurves) {
   const MeshResult r =
       mesh(problem_of(TriangleModel{cube}, 0.2, {{"left", "right", {{1, 0, 0}}, "p"}}), "DB");
   expect_images(r.mesh, 1);
-  EXPECT_TRUE(is_told(r.warnings, "'left' is the name of faces and of curves"));
+  EXPECT_TRUE(is_reported(r.warnings, "'left' is the name of faces and of curves"));
 }
 
 }  // namespace

@@ -296,7 +296,7 @@ TEST(SymmetricSurfaces, LinesAndPointsWithoutImagesSpoilPlanes) {
   // A point in the middle of a side leaves two planes.
   MeshProblem problem = problem_of(block(5), 0.13, {{}, true, "s 1"});
   problem.surface.embed = {{{{0.5, 0.4, 0.7}}, "item", ""}};
-  const PreparedProblem p = prepare_problem(problem);
+  const MeshingSetup p = prepare_problem(problem);
   EXPECT_EQ(p.symmetry.size(), 2u);
   EXPECT_TRUE(std::ranges::any_of(p.warnings, [](const Warning& w) {
     return w.text.find(
@@ -376,7 +376,7 @@ TEST(SymmetricSurfaces, TheLeastSizeOfAllImagesCounts) {
 }
 
 TEST(SymmetricSurfaces, PlanesThatAreFoundAreTold) {
-  const PreparedProblem p = prepare_problem(problem_of(block(5), 0.2, {{}, true}));
+  const MeshingSetup p = prepare_problem(problem_of(block(5), 0.2, {{}, true}));
   ASSERT_EQ(p.symmetry.size(), 3u);
   for (const SymmetryPlane& plane : p.symmetry)
     EXPECT_NEAR(dot(Vec3{0.5, 0.4, 0.35} - plane.point, plane.normal), 0, 1e-9);

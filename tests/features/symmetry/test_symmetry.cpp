@@ -51,11 +51,11 @@ void expect_mirrored(const Mesh& mesh, const std::function<Vec3(Vec3)>& mirror) 
 }
 
 /// All is meshed, as without, and a warning says so, and what spoils a plane of the outline.
-void expect_no_plane(const PlanarModel& model, const std::string& spoiled = "") {
+void expect_no_plane(const PlanarModel& model, const std::string& near_miss = "") {
   const MeshResult r = mesh(symmetric_problem(model, 0.2, {{}, true, "s 1"}), "DBCO");
   EXPECT_EQ(r.mesh.points, mesh(symmetric_problem(model, 0.2, {}), "DBCO").mesh.points);
   EXPECT_TRUE(std::ranges::any_of(r.warnings, [&](const Warning& w) {
-    return w.text == "s 1: no plane of symmetry was found: all of the model is meshed" + spoiled;
+    return w.text == "s 1: no plane of symmetry was found: all of the model is meshed" + near_miss;
   }));
 }
 
@@ -120,7 +120,7 @@ TEST(Symmetry, CurvesThatSpoilAPlaneAreNamed) {
 }
 
 TEST(Symmetry, PlanesThatAreFoundAreTold) {
-  const PreparedProblem p = prepare_problem(symmetric_problem(symmetric_plate(), 0.2, {{}, true}));
+  const MeshingSetup p = prepare_problem(symmetric_problem(symmetric_plate(), 0.2, {{}, true}));
   ASSERT_EQ(p.symmetry.size(), 2u);
   EXPECT_NEAR(std::abs(p.symmetry[0].normal.x), 1, 1e-12);
   EXPECT_NEAR(std::abs(p.symmetry[1].normal.y), 1, 1e-12);

@@ -29,12 +29,12 @@ class Glue : public ::testing::Test {
   SurfaceModel read_both_ways(const std::vector<TopoDS_Shape>& bodies, int n_common) {
     const auto file = write(bodies);
     const SurfaceModel apart = read_cad(file);
-    EXPECT_TRUE(is_told(apart.warnings, "share no nodes (--glue"));
-    EXPECT_TRUE(is_told(apart.warnings, " touches face "));
+    EXPECT_TRUE(is_reported(apart.warnings, "share no nodes (--glue"));
+    EXPECT_TRUE(is_reported(apart.warnings, " touches face "));
     SurfaceModel glued = read_cad(file, {.glue = true});
-    EXPECT_FALSE(is_told(glued.warnings, "share no nodes"));
-    EXPECT_TRUE(is_told(glued.warnings, "glued: " + std::to_string(bodies.size()) + " bodies have " +
-                                            std::to_string(n_common) + " faces, "));
+    EXPECT_FALSE(is_reported(glued.warnings, "share no nodes"));
+    EXPECT_TRUE(is_reported(glued.warnings, "glued: " + std::to_string(bodies.size()) + " bodies have " +
+                                                std::to_string(n_common) + " faces, "));
     EXPECT_EQ(coincident_points(glued.fine), 0);
     return glued;
   }
@@ -60,7 +60,7 @@ TEST_F(Glue, LargerFacesAreCut) {
   const SurfaceModel model = read_both_ways({box(0, 0, 0, 4, 4, 1), box(1, 1, 1, 1, 1, 1)}, 1);
   EXPECT_EQ(model.fine.regions.size(), 12u);
   EXPECT_NEAR(count(model.fine).area, 48 + 6 - 1, 1e-9);
-  EXPECT_TRUE(is_told(model.warnings, "faces cut where others lie on them")) << "the top of the plate";
+  EXPECT_TRUE(is_reported(model.warnings, "faces cut where others lie on them")) << "the top of the plate";
 }
 
 TEST_F(Glue, FacesThatOverlapInPart) {
@@ -78,13 +78,13 @@ TEST_F(Glue, AnythingInAHole) {
 TEST_F(Glue, BodiesThatOverlapAreDivided) {
   const auto file = write({box(0, 0, 0, 2, 2, 2), box(1, 1, 1, 2, 2, 2)});
   const SurfaceModel model = read_cad(file, {.glue = true});
-  EXPECT_TRUE(is_told(model.warnings, "2 solids became 3"));
+  EXPECT_TRUE(is_reported(model.warnings, "2 solids became 3"));
   EXPECT_NEAR(count(model.fine).area, 2 * 24, 1e-9);
 }
 
 TEST_F(Glue, BodiesWithACornerInCommonAreCounted) {
   const SurfaceModel model = read_cad(write({box(0, 0, 0, 1, 1, 1), box(1, 1, 1, 1, 1, 1)}), {.glue = true});
-  EXPECT_TRUE(is_told(model.warnings, "glued: 2 bodies have 0 faces, 0 edges and 1 vertices in common"));
+  EXPECT_TRUE(is_reported(model.warnings, "glued: 2 bodies have 0 faces, 0 edges and 1 vertices in common"));
   EXPECT_EQ(coincident_points(model.fine), 0);
 }
 
@@ -108,17 +108,18 @@ TEST_F(Glue, MeshesShareTheirNodes) {
 
 TEST_F(Glue, OneBodyIsLeftAlone) {
   const SurfaceModel model = read_cad(write({box(0, 0, 0, 1, 1, 1)}), {.glue = true});
-  EXPECT_TRUE(is_told(model.warnings, "nothing to glue"));
+  EXPECT_TRUE(is_reported(model.warnings, "nothing to glue"));
   EXPECT_EQ(model.fine.regions.size(), 6u);
 }
 
 TEST_F(Glue, NeighboursInABodyAndBodiesApartAreNotSaidToTouch) {
   const auto file = write({box(0, 0, 0, 1, 1, 1), box(1.001, 0, 0, 1, 1, 1)});
   const SurfaceModel model = read_cad(file);
-  EXPECT_FALSE(is_told(model.warnings, "share no nodes"));
-  EXPECT_TRUE(is_told(model.warnings,
-                      "faces nearly touch at 1 place and stay apart: face 2 (solid 1) is 0.001 from face 7"));
-  EXPECT_FALSE(is_told(read_cad(file, {.size = [](const Vec3&) { return 0.009; }}).warnings, "nearly touch"));
+  EXPECT_FALSE(is_reported(model.warnings, "share no nodes"));
+  EXPECT_TRUE(is_reported(
+      model.warnings, "faces nearly touch at 1 place and stay apart: face 2 (solid 1) is 0.001 from face 7"));
+  EXPECT_FALSE(
+      is_reported(read_cad(file, {.size = [](const Vec3&) { return 0.009; }}).warnings, "nearly touch"));
 }
 
 TopoDS_Shape sheet(const gp_Pnt& at, const gp_Vec& u, const gp_Vec& v) {
@@ -136,25 +137,25 @@ TEST_F(Glue, SheetsThatNearlyTouch) {
     for (const TopoDS_Shape& other :
          {sheet({0, 10, gap}, {40, 0, 0}, {0, 0, 6}), sheet({40 + gap, 0, 0}, {20, 0, 0}, {0, 30, 0})}) {
       const auto file = write({plate, other});
-      EXPECT_TRUE(is_told(read_cad(file, {.size = size}).warnings, told));
+      EXPECT_TRUE(is_reported(read_cad(file, {.size = size}).warnings, told));
       const SurfaceModel glued = read_cad(file, {.glue = true, .size = size});
-      EXPECT_TRUE(is_told(glued.warnings, "2 parts hang apart"));
-      EXPECT_TRUE(is_told(glued.warnings, told));
+      EXPECT_TRUE(is_reported(glued.warnings, "2 parts hang apart"));
+      EXPECT_TRUE(is_reported(glued.warnings, told));
       const SurfaceModel joined = read_cad(file, {.glue = true, .weld = 1.2 * gap / std::hypot(40, 30)});
-      EXPECT_FALSE(is_told(joined.warnings, "apart"));
-      EXPECT_FALSE(is_told(joined.warnings, "nearly touch"));
+      EXPECT_FALSE(is_reported(joined.warnings, "apart"));
+      EXPECT_FALSE(is_reported(joined.warnings, "nearly touch"));
     }
   }
-  EXPECT_FALSE(
-      is_told(read_cad(write({plate, sheet({0, 10, 0.11}, {40, 0, 0}, {0, 0, 6})}), {.size = size}).warnings,
-              "nearly touch"));
+  EXPECT_FALSE(is_reported(
+      read_cad(write({plate, sheet({0, 10, 0.11}, {40, 0, 0}, {0, 0, 6})}), {.size = size}).warnings,
+      "nearly touch"));
 }
 
 TEST_F(Glue, BodiesThatTouchOtherwiseAreToldOnce) {
   const auto told = [&](const TopoDS_Shape& other, const std::string& text) {
     const auto file = write({box(0, 0, 0, 2, 2, 1), other});
-    EXPECT_TRUE(is_told(read_cad(file).warnings, text)) << text;
-    EXPECT_FALSE(is_told(read_cad(file, {.glue = true}).warnings, "share no nodes"));
+    EXPECT_TRUE(is_reported(read_cad(file).warnings, text)) << text;
+    EXPECT_FALSE(is_reported(read_cad(file, {.glue = true}).warnings, "share no nodes"));
   };
   told(box(2, 2, 0, 1, 1, 1),
        "faces touch at 1 place and share no nodes (--glue, surface.glue = true): face 2 "

@@ -65,7 +65,7 @@ TEST_F(LooseEdges, ThoseThatLieOnAFaceAreImprintedAndOthersNamed) {
     return norm(p - Vec3{-1, 0, p.z}) < 1e-9 && p.z > 0.5 && p.z < 3.5;
   };
   EXPECT_NEAR(length_in(result.mesh, on_line), 2, 1e-6);
-  EXPECT_TRUE(is_told(result.warnings, model.loose[1].where + " is left out"));
+  EXPECT_TRUE(is_reported(result.warnings, model.loose[1].where + " is left out"));
 }
 
 }  // namespace

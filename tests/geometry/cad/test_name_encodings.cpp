@@ -55,7 +55,7 @@ TEST(NameEncodings, BytesOfOtherSystems) {
 
 TEST(NameEncodings, WhatIsGuessedIsTold) {
   const auto tells = [](const std::string& bytes, const std::string& text) {
-    return is_told(model_with(bytes).warnings, text);
+    return is_reported(model_with(bytes).warnings, text);
   };
   EXPECT_TRUE(tells("\xD6\xC4", "were taken for GB 2312 or GBK, as '\u5E1C'"));
   EXPECT_TRUE(tells("M\xE9tal", "were taken for ISO 8859-1, as 'M\u00E9tal'"));

@@ -19,7 +19,7 @@ Mesh pillow() {
 TEST(PartTwinSides, GivesEachFaceItsOwnDiagonal) {
   Mesh mesh = pillow();
   const std::vector<std::array<int, 2>> square{{0, 1}, {0, 3}, {1, 2}, {2, 3}};
-  const auto added = cad::part_twin_sides(mesh, {square, square});
+  const auto added = cad::split_duplicate_sides(mesh, {square, square});
   ASSERT_EQ(added.size(), 2u);
   EXPECT_EQ(added[0].face, 0);
   EXPECT_EQ(added[1].face, 1);
@@ -38,7 +38,7 @@ TEST(PartTwinSides, LeavesSidesOfTheBoundaryAlone) {
   const std::vector<std::array<int, 2>> square{{0, 1}, {0, 3}, {1, 2}, {2, 3}};
   auto both = square;
   both.insert(both.begin() + 1, {0, 2});
-  const auto added = cad::part_twin_sides(mesh, {square, both});
+  const auto added = cad::split_duplicate_sides(mesh, {square, both});
   ASSERT_EQ(added.size(), 1u);
   EXPECT_EQ(added[0].face, 0);
   EXPECT_EQ(count(mesh).crowded_sides, 0);

@@ -166,14 +166,14 @@ TEST(ReadCad, SewsFacesThatWereNeverJoined) {
   const SurfaceModel model = read_two_faces(1);
   EXPECT_EQ(model.fine.curves.size(), 7u);
   EXPECT_EQ(count(model.fine).euler, 1);
-  EXPECT_TRUE(is_told(model.warnings, "2 of 8 free edges coincided and have been sewn"));
-  EXPECT_TRUE(is_told(model.warnings, "the surface is open: free curves: 6"));
+  EXPECT_TRUE(is_reported(model.warnings, "2 of 8 free edges coincided and have been sewn"));
+  EXPECT_TRUE(is_reported(model.warnings, "the surface is open: free curves: 6"));
 }
 
 TEST(ReadCad, LeavesAGapOpenAndSaysSo) {
   const SurfaceModel model = read_two_faces(1.01);
   EXPECT_EQ(count(model.fine).euler, 2);
-  EXPECT_TRUE(is_told(model.warnings, "free curves: 8 (1, 2, 3, 4, 5, 6, 7, 8)"));
+  EXPECT_TRUE(is_reported(model.warnings, "free curves: 8 (1, 2, 3, 4, 5, 6, 7, 8)"));
 }
 
 TEST(ReadCad, MakesNeighboursAgree) {
@@ -181,14 +181,14 @@ TEST(ReadCad, MakesNeighboursAgree) {
   faces[2].Reverse();
   const SurfaceModel model = read_shape(compound_of(faces));
   EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
-  EXPECT_TRUE(is_told(model.warnings, "1 faces disagreed with their neighbours"));
+  EXPECT_TRUE(is_reported(model.warnings, "1 faces disagreed with their neighbours"));
   EXPECT_NEAR(count(model.fine).volume, 24, 1e-9);
 }
 
 TEST(ReadCad, TurnsASolidThatIsInsideOut) {
   const SurfaceModel model = read_shape(box().shape.Reversed());
   EXPECT_NEAR(count(model.fine).volume, 24, 1e-9);
-  EXPECT_TRUE(is_told(model.warnings, "inside out"));
+  EXPECT_TRUE(is_reported(model.warnings, "inside out"));
 }
 
 TEST(ReadCad, KeepsAMirroredInstanceTheRightWayRound) {
@@ -232,7 +232,7 @@ TEST(ReadCad, KeepsAStripThatWindsThreeTimes) {
   BRepLib::BuildCurves3d(strip);
   for (const auto& path : {write_step(folder / "a.step", strip), write_brep(folder / "a.brep", strip)}) {
     const SurfaceModel model = read_cad(path);
-    EXPECT_FALSE(is_told(model.warnings, "turned over"));
+    EXPECT_FALSE(is_reported(model.warnings, "turned over"));
     EXPECT_EQ(count(model.fine).euler, 1);
     EXPECT_NEAR(count(model.fine).area, 3 * pi, 0.01);
   }
@@ -246,7 +246,7 @@ TEST(ReadCad, NamesCurvesWhereThreeFacesMeet) {
   sewing.Perform();
   const SurfaceModel model = read_shape(sewing.SewedShape());
   EXPECT_EQ(count(model.fine).crowded_sides, 1);
-  EXPECT_TRUE(is_told(model.warnings, "more than two faces meet on curves: 1 ("));
+  EXPECT_TRUE(is_reported(model.warnings, "more than two faces meet on curves: 1 ("));
 }
 
 TEST(ReadCad, GivesTheCommonSideOfHolesToOneCurve) {

@@ -70,7 +70,7 @@ TEST(Weld, ElementsAreRenamed) {
 TEST(Weld, TornMeshesAreToldAndJoined) {
   Mesh mesh = torn_square(1e-7);
   mesh.named_points = {{3, {1, {"corner"}}}};
-  const std::string torn = tell_unjoined(mesh);
+  const std::string torn = describe_unjoined(mesh);
   EXPECT_TRUE(torn.starts_with("2 points at open edges coincide with others within 1e-06")) << torn;
   EXPECT_TRUE(holds(torn, "the first at (0, 1e-07, 0)"));
   EXPECT_EQ(weld_open_edges(mesh, 1e-6),
@@ -79,7 +79,7 @@ TEST(Weld, TornMeshesAreToldAndJoined) {
   EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(mesh.lines.size(), 2u);
   EXPECT_EQ(mesh.named_points[0].point, 0);
-  EXPECT_EQ(tell_unjoined(mesh), "");
+  EXPECT_EQ(describe_unjoined(mesh), "");
   EXPECT_EQ(weld_open_edges(mesh, 1e-6), "");
 }
 

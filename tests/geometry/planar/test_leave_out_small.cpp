@@ -98,7 +98,7 @@ TEST(LeaveOutSmall, AHoleOfJoinedArcsGetsItsWashers) {
   problem.surface.ignore_below = 0.3;
   problem.washers.push_back({.least = 5, .most = 7, .rows = 1, .edges = 20});
   const MeshResult result = mesh(problem, "DBCO");
-  EXPECT_FALSE(is_told(result.warnings, "rows"));
+  EXPECT_FALSE(is_reported(result.warnings, "rows"));
   const auto on_ring = std::ranges::count_if(
       result.mesh.points, [](const Vec3& x) { return std::abs(std::hypot(x.x - 10, x.y - 10) - 3) < 1e-9; });
   EXPECT_EQ(on_ring, 20);

@@ -40,7 +40,7 @@ TEST(Parting, BothPartsHangTogether) {
                                       return Vec3{u, v, u * v};
                                     })}) {
     const Chart chart = one_chart(model);
-    const std::vector<char> parts = plan_parting(chart);
+    const std::vector<char> parts = plan_split(chart);
     ASSERT_EQ(parts.size(), chart.triangles.size());
     const auto first = static_cast<std::size_t>(std::ranges::count(parts, 0)), second = parts.size() - first;
     EXPECT_EQ(reached(chart, parts, 0), first);

@@ -48,7 +48,7 @@ TEST(OrientTriangles, SheetsThatCannotAgreeArePartedAtSharpEdges) {
   const SurfaceModel model = make_surface_model(sheets);
   EXPECT_EQ(violations(model), std::vector<std::string>{});
   EXPECT_EQ(model.fine.triangles.size(), sheets.triangles.size());
-  EXPECT_TRUE(is_told(model.warnings, "sides of the surface do not agree at "));
+  EXPECT_TRUE(is_reported(model.warnings, "sides of the surface do not agree at "));
 }
 
 TEST(OrientTriangles, ASmoothBandOfOneSideIsRefused) {

@@ -189,7 +189,7 @@ TEST(TriangleRepair, SoupIsWeldedAtItsOpenEdges) {
   const SurfaceModel model = triangulated(without_regions(soup(box(2))));
   expect_counts(model, 6, 12, 8);
   EXPECT_EQ(model.fine.points.size(), box(2).points.size());
-  EXPECT_TRUE(is_told(model.warnings, "welded"));
+  EXPECT_TRUE(is_reported(model.warnings, "welded"));
 }
 
 TEST(TriangleRepair, GapsAreWeldedWithinTheToleranceOrReported) {
@@ -198,11 +198,11 @@ TEST(TriangleRepair, GapsAreWeldedWithinTheToleranceOrReported) {
   const SurfaceModel open = triangulated(mesh);
   EXPECT_GT(open.fine.regions.size(), 6u);
   // Two ten-millionths, of a diagonal of the root of three, rounded up.
-  EXPECT_TRUE(is_told(open.warnings, "no more than 2e-07 from others"));
-  EXPECT_TRUE(is_told(open.warnings, "--weld 2e-07 (weld_tolerance, a part of the diagonal) closes"));
+  EXPECT_TRUE(is_reported(open.warnings, "no more than 2e-07 from others"));
+  EXPECT_TRUE(is_reported(open.warnings, "--weld 2e-07 (weld_tolerance, a part of the diagonal) closes"));
   const SurfaceModel closed = make_surface_model(mesh, {.weld_tolerance = 2e-7});
   expect_counts(closed, 6, 12, 8);
-  EXPECT_FALSE(is_told(closed.warnings, "--weld"));
+  EXPECT_FALSE(is_reported(closed.warnings, "--weld"));
 }
 
 TEST(TriangleRepair, WeldingIsNotAdvisedWhereItClosesNothing) {
@@ -224,9 +224,9 @@ TEST(TriangleRepair, WeldingIsNotAdvisedWhereItClosesNothing) {
     }
   }
   const SurfaceModel model = triangulated(mesh);
-  EXPECT_TRUE(is_told(model.warnings, "parted the surface where it touched itself"));
-  EXPECT_FALSE(is_told(model.warnings, "weld tolerance"));
-  EXPECT_FALSE(is_told(model.warnings, "--weld"));
+  EXPECT_TRUE(is_reported(model.warnings, "parted the surface where it touched itself"));
+  EXPECT_FALSE(is_reported(model.warnings, "weld tolerance"));
+  EXPECT_FALSE(is_reported(model.warnings, "--weld"));
 }
 
 /// Boxes of n x n squares a side that share their nodes at x = 1. There the squares of the second one have
@@ -250,8 +250,8 @@ TEST(TriangleRepair, OneFaceStaysWhereBodiesTouchWithOtherDiagonals) {
     const SurfaceModel model = triangulated(touching_boxes(n, 0));
     expect_counts(model, 11, 20, 12);
     EXPECT_EQ(model.fine.triangles.size(), 11u * 2 * n * n);
-    EXPECT_TRUE(is_told(model.warnings, fmt::format("left out {} triangles of {} that lie on others",
-                                                    2 * n * n, n == 1 ? "1 flat part" : "9 flat parts")));
+    EXPECT_TRUE(is_reported(model.warnings, fmt::format("left out {} triangles of {} that lie on others",
+                                                        2 * n * n, n == 1 ? "1 flat part" : "9 flat parts")));
   }
   expect_counts(triangulated(touching_boxes(3, 0.1)), 12, 20, 12);
 }
@@ -267,9 +267,9 @@ TEST(TriangleRepair, DegenerateAndDuplicateTrianglesAndUnusedPointsGo) {
   const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 6, 12, 8);
   EXPECT_EQ(model.fine.triangles.size(), box(2).triangles.size());
-  EXPECT_TRUE(is_told(model.warnings, "left out 1 triangle without area (the first at (0, "));
-  EXPECT_TRUE(is_told(model.warnings, "left out 2 triangles on the vertices of another"));
-  EXPECT_TRUE(is_told(model.warnings, "left out 1 point that no triangle uses"));
+  EXPECT_TRUE(is_reported(model.warnings, "left out 1 triangle without area (the first at (0, "));
+  EXPECT_TRUE(is_reported(model.warnings, "left out 2 triangles on the vertices of another"));
+  EXPECT_TRUE(is_reported(model.warnings, "left out 1 point that no triangle uses"));
 }
 
 TEST(TriangleRepair, FlatTrianglesLeaveNoGap) {
@@ -292,7 +292,7 @@ TEST(TriangleRepair, FlatTrianglesLeaveNoGap) {
   const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 6, 12, 8);
   EXPECT_NEAR(volume(model.fine), 1, 1e-12);
-  EXPECT_TRUE(is_told(model.warnings, "left out 3 triangles without area"));
+  EXPECT_TRUE(is_reported(model.warnings, "left out 3 triangles without area"));
 }
 
 TEST(TriangleRepair, NeedlesOfSinglePrecisionThatHangOnAnEdge) {
@@ -305,7 +305,7 @@ TEST(TriangleRepair, NeedlesOfSinglePrecisionThatHangOnAnEdge) {
   const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 6, 12, 8);
   EXPECT_NEAR(volume(model.fine), 1, 1e-7);
-  EXPECT_TRUE(is_told(model.warnings, "left out 1 triangle without area"));
+  EXPECT_TRUE(is_reported(model.warnings, "left out 1 triangle without area"));
 }
 
 TEST(TriangleRepair, AFlatTriangleOnAGivenCurveCutsItsLine) {
@@ -338,13 +338,13 @@ TEST(TriangleRepair, OrientationFollowsTheMajorityAndFacesOutwards) {
   for (size_t t = 0; t < mesh.triangles.size(); t += 5) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
   const SurfaceModel some = triangulated(mesh);
   EXPECT_NEAR(volume(some.fine), 1, 1e-12);
-  EXPECT_TRUE(is_told(some.warnings, "turned over 10 triangles"));
+  EXPECT_TRUE(is_reported(some.warnings, "turned over 10 triangles"));
 
   Mesh inwards = without_regions(box(2));
   for (auto& v : inwards.triangles) std::swap(v[0], v[1]);
   const SurfaceModel all = triangulated(inwards);
   EXPECT_NEAR(volume(all.fine), 1, 1e-12);
-  EXPECT_TRUE(is_told(all.warnings, "turned outwards 1 closed surface"));
+  EXPECT_TRUE(is_reported(all.warnings, "turned outwards 1 closed surface"));
 }
 
 TEST(TriangleRepair, ACavityKeepsFacingInwards) {
@@ -378,7 +378,7 @@ TEST(TriangleRepair, SurfacesThatTouchAtAVertexAreParted) {
   const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 12, 24, 16);
   EXPECT_EQ(model.fine.points.size(), 16u);
-  EXPECT_TRUE(is_told(model.warnings, "touched itself at a vertex: 1 time (the first at (1, 1, 1))"));
+  EXPECT_TRUE(is_reported(model.warnings, "touched itself at a vertex: 1 time (the first at (1, 1, 1))"));
 }
 
 TEST(TriangleRepair, BranchingEdgesAreCurves) {
@@ -390,9 +390,9 @@ TEST(TriangleRepair, BranchingEdgesAreCurves) {
   EXPECT_EQ(model.fine.regions.size(), 3u);
   EXPECT_EQ(model.fine.points.size(), 5u) << "the sheets share the edge's ends";
   EXPECT_EQ(violations(model), kSoundModel);
-  EXPECT_TRUE(
-      is_told(model.warnings, "branches at 1 edge with three triangles or more (the first at (0, 0, 0))"));
-  EXPECT_TRUE(is_told(model.warnings, "more than two faces meet on curves: 1 ("));
+  EXPECT_TRUE(is_reported(model.warnings,
+                          "branches at 1 edge with three triangles or more (the first at (0, 0, 0))"));
+  EXPECT_TRUE(is_reported(model.warnings, "more than two faces meet on curves: 1 ("));
 }
 
 TEST(TriangleRepair, SidesOfCellsAreRefused) {
@@ -425,14 +425,14 @@ Mesh rough_plate(int n, double roughness, bool peg) {
 
 TEST(TriangulatedModel, NoiseMakesNoFeatures) {
   const SurfaceModel model = triangulated(rough_plate(60, 0.65, false), 40);
-  EXPECT_TRUE(is_told(model.warnings, "of sharp edges for noise")) << "the test has none";
+  EXPECT_TRUE(is_reported(model.warnings, "of sharp edges for noise")) << "the test has none";
   EXPECT_EQ(model.fine.regions.size(), 1u);
   EXPECT_EQ(violations(model), kSoundModel);
 }
 
 TEST(TriangulatedModel, SmallFeaturesOfSmoothPartsStay) {
   const SurfaceModel model = triangulated(rough_plate(60, 0, true), 40);
-  EXPECT_FALSE(is_told(model.warnings, "noise"));
+  EXPECT_FALSE(is_reported(model.warnings, "noise"));
   EXPECT_GT(model.fine.regions.size(), 1u);
 }
 
@@ -476,7 +476,7 @@ TEST(TriangleRepair, LinesOffTheTrianglesGo) {
   mesh.line_curve.insert(mesh.line_curve.end(), {0, 0});
   const SurfaceModel model = triangulated(mesh);
   expect_counts(model, 1, 4, 4);
-  EXPECT_TRUE(is_told(model.warnings, "left out 1 line along no side"));
+  EXPECT_TRUE(is_reported(model.warnings, "left out 1 line along no side"));
 }
 
 // A wall that stands on a floor, and leaves it in the middle without a turn.
@@ -493,7 +493,7 @@ TEST(TriangulatedModel, BranchingEndsInsideACurve) {
   quad({0, 1, 0}, {0, 2, 0.05}, {0, 2, 1}, {0, 1, 1});
   const SurfaceModel model = make_surface_model(shape.mesh);
   EXPECT_EQ(violations(model), std::vector<std::string>{});
-  EXPECT_TRUE(is_told(model.warnings, "branches at 1 edge with three triangles or more"));
+  EXPECT_TRUE(is_reported(model.warnings, "branches at 1 edge with three triangles or more"));
 }
 
 }  // namespace

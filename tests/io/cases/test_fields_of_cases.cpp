@@ -15,7 +15,7 @@ namespace {
 class Cases : public testing::Test {
  protected:
   Case read(const std::string& text) { return read_model_case(write_text(folder_ / "c.toml", text)); }
-  static double size_at(const PreparedProblem& p, double x, double y) {
+  static double size_at(const MeshingSetup& p, double x, double y) {
     int hint = -1;
     return p.size.field->at({x, y, 0}, hint);
   }
@@ -47,7 +47,7 @@ TEST_F(Cases, AFileGivesTheSize) {
       "$NodeData\n1\n\"h\"\n1\n0\n3\n0\n1\n4\n1 0.1\n2 0.2\n3 0.2\n4 0.1\n$EndNodeData\n"
       "$NodeData\n1\n\"bad\"\n1\n0\n3\n0\n1\n4\n1 0.1\n2 0.2\n3 -1\n4 0.1\n$EndNodeData\n");
   for (const char* size : {"size = 'h.msh:h'\n", "size = { base = 'h.msh:h', max = 0.5 }\n"}) {
-    const PreparedProblem p = prepare_case(read(square_ + size));
+    const MeshingSetup p = prepare_case(read(square_ + size));
     EXPECT_DOUBLE_EQ(size_at(p, 0.25, 0.7), 0.125) << size;
     EXPECT_DOUBLE_EQ(size_at(p, 3, 0.5), 0.2) << size;
   }
@@ -64,7 +64,7 @@ TEST_F(Cases, NamesHaveSizes) {
       "loop = [{ rectangle = [[0, 0], [1, 1]], boundary = ['bottom', '', 'top', ''] },\n"
       "        { circle = { centre = [0.5, 0.5], radius = 0.2 }, region = 'core' }]\n"
       "embed = { point = [0.9, 0.9], name = 'sensor' }\n[size]\nbase = 0.2\n";
-  const PreparedProblem p = prepare_case(
+  const MeshingSetup p = prepare_case(
       read(model + "on = [{ name = 'bottom', size = 0.05 }, { name = 'core', size = 0.04, growth = 0.5 },\n"
                    "      { name = 'sensor', size = 0.03, reach = 0.05 }]\n"));
   EXPECT_DOUBLE_EQ(size_at(p, 0.1, 0), 0.05);
@@ -75,26 +75,26 @@ TEST_F(Cases, NamesHaveSizes) {
   EXPECT_NEAR(size_at(p, 0.9, 0.86), 0.03, 1e-12);
   EXPECT_NEAR(size_at(p, 0.9, 0.75), 0.03 + 0.3 * 0.1, 1e-12);
   EXPECT_DOUBLE_EQ(size_at(p, 0, 0.98), 0.2);
-  const PreparedProblem turns =
+  const MeshingSetup turns =
       prepare_case(read(model + "on = { name = 'core', curvature = 48 }\ncurvature = 24\n"));
   EXPECT_NEAR(size_at(turns, 0.7, 0.5), 2 * std::numbers::pi * 0.2 / 48, 1e-4);
   EXPECT_NEAR(size_at(turns, 0.8, 0.5), 2 * std::numbers::pi * 0.2 / 48 + 0.3 * 0.1, 1e-3);
-  const PreparedProblem around =
+  const MeshingSetup around =
       prepare_case(read("loop = [{ circle = { centre = [0, 0], radius = 2 }, region = 'rim' },\n"
                         "        { circle = { centre = [0, 0], radius = 0.5 }, hole = true }]\n"
                         "[size]\nbase = 1\non = { name = 'rim', curvature = 48 }\nmin = 0.01\n"));
   EXPECT_NEAR(size_at(around, 0.5, 0), 2 * std::numbers::pi * 0.5 / 48, 1e-4);
   EXPECT_NEAR(size_at(around, 2, 0), 2 * std::numbers::pi * 2 / 48, 1e-3);
-  const PreparedProblem all = prepare_case(read(model + "curvature = 24\nmin = 0.06\n"));
+  const MeshingSetup all = prepare_case(read(model + "curvature = 24\nmin = 0.06\n"));
   EXPECT_NEAR(size_at(all, 0.7, 0.5), 0.06, 1e-4);
-  const PreparedProblem by_number = prepare_case(read(model + "on = { name = 'curve_2', size = 0.05 }\n"));
+  const MeshingSetup by_number = prepare_case(read(model + "on = { name = 'curve_2', size = 0.05 }\n"));
   EXPECT_DOUBLE_EQ(size_at(by_number, 1, 0.5), 0.05);
 }
 
 TEST_F(Cases, CurvesAreDivided) {
   const std::string model =
       "loop = { rectangle = [[0, 0], [2, 1]], boundary = ['bottom', 'right', 'top', 'left'] }\nsize = 0.1\n";
-  const PreparedProblem p =
+  const MeshingSetup p =
       prepare_case(read(model + "divide = [{ name = 'bottom', edges = 8, progression = 1.5 },\n"
                                 "          { name = 'top', edges = 30, bump = 0.25 }]\n"));
   std::vector<double> bottom, top;
@@ -111,7 +111,7 @@ TEST_F(Cases, CurvesAreDivided) {
   EXPECT_NEAR((top[1] - top[0]) / (top[16] - top[15]), 0.25, 0.02);  // no edge is in the middle
   EXPECT_NEAR(top[1] - top[0], top[30] - top[29], 1e-12);
   // Sizes near the curve are those of its edges, smaller or larger.
-  const PreparedProblem one =
+  const MeshingSetup one =
       prepare_case(read(model + "divide = { name = 'bottom', edges = 8, progression = 1.5 }\n"));
   EXPECT_GT(size_at(one, 1.9, 0), 0.8 * (bottom[8] - bottom[7]));
   EXPECT_NEAR(size_at(one, 0, 0), bottom[1] - bottom[0], 1e-9);
@@ -125,7 +125,7 @@ TEST_F(Cases, GridsWithCorners) {
       "embed = { point = [2, 1], name = 'tip' }\nsize = 0.2\n";
   const auto grids = [&](const std::string& mapped) {
     int n = 0;
-    for (const PreparedPatch& patch : prepare_case(read(model + "mapped = " + mapped + "\n")).patches)
+    for (const PatchSetup& patch : prepare_case(read(model + "mapped = " + mapped + "\n")).patches)
       n += patch.grid.has_value();
     return n;
   };
@@ -137,7 +137,7 @@ TEST_F(Cases, GridsWithCorners) {
 
 TEST_F(Cases, DividedCurvesHaveCornersAndOthersAcross) {
   // Corners of a polyline and an interface that ends on it are nodes; the numbers of edges are kept.
-  const PreparedProblem p =
+  const MeshingSetup p =
       prepare_case(read("curve = [{ name = 'wall', polyline = [[0, 0], [1, 0.2], [2, 0]] },\n"
                         "         { name = 'rest', polyline = [[2, 0], [2, 1], [0, 1], [0, 0]] }]\n"
                         "loop = { curves = ['wall', 'rest'] }\n"
@@ -159,7 +159,7 @@ TEST_F(Cases, DividedCurvesHaveCornersAndOthersAcross) {
 }
 
 TEST_F(Cases, SourcesAndGradationShapeTheSize) {
-  const PreparedProblem p =
+  const MeshingSetup p =
       prepare_case(read(square_ + "[size]\nbase = 0.2\nsource = { at = [0, 0], to = [1, 0], near = 0.05, far "
                                   "= 0.2, radius_near = 0.1, radius_far = 0.4 }\n"));
   EXPECT_DOUBLE_EQ(size_at(p, 0.5, 0.05), 0.05);
@@ -172,7 +172,7 @@ TEST_F(Cases, SourcesAndGradationShapeTheSize) {
 }
 
 TEST_F(Cases, CrossFieldIsCheckedAgainstEuler) {
-  const PreparedProblem disk =
+  const MeshingSetup disk =
       prepare_case(read("loop = { circle = { centre = [0, 0], radius = 1 } }\nsize = 0.1\n"));
   ASSERT_TRUE(disk.crosses.index_sum_and_expected);
   EXPECT_EQ(disk.crosses.index_sum_and_expected->first, 4);
@@ -183,9 +183,9 @@ TEST_F(Cases, CrossFieldIsCheckedAgainstEuler) {
 
 TEST_F(Cases, AnalyticCrosses) {
   int hint = -1;
-  const PreparedProblem angle = prepare_case(read(square_ + "size = 0.1\ncross = 0.3\n"));
+  const MeshingSetup angle = prepare_case(read(square_ + "size = 0.1\ncross = 0.3\n"));
   EXPECT_NEAR(angle.patches[0].cross->at({0.5, 0.5}, hint).angle(), 0.3, 1e-12);
-  const PreparedProblem gradient =
+  const MeshingSetup gradient =
       prepare_case(read(square_ + "size = '0.1 + 0.01*x + 0.02*y'\ncross = 'gradient'\n"));
   hint = -1;
   EXPECT_NEAR(gradient.patches[0].cross->at({0.5, 0.5}, hint).angle(),
@@ -195,7 +195,7 @@ TEST_F(Cases, AnalyticCrosses) {
 TEST_F(Cases, SizeAwareCrossesSaveDislocations) {
   const std::string lewis = "loop = { rectangle = [[-1.25, -0.5], [1.25, 1.25]] }\n";
   const Case c = read(lewis + "size = '0.01*(1 + 30*(x - y^2)^2 + (1 - x)^2)'\ncross = 'size-aware'\n");
-  const PreparedProblem p = prepare_case(c);
+  const MeshingSetup p = prepare_case(c);
   ASSERT_TRUE(p.crosses.dislocations);
   EXPECT_LT(p.crosses.dislocations->second, 0.6 * p.crosses.dislocations->first);
   EXPECT_EQ(p.crosses.index_sum_and_expected, std::pair(4, 4));
@@ -203,8 +203,8 @@ TEST_F(Cases, SizeAwareCrossesSaveDislocations) {
   for (const char* word : {"DB", "PB"}) {
     Case aligned = c;
     aligned.cross.text = "boundary";
-    const auto before = run_word(prepare_case(aligned), parse_word(word)).metrics.values;
-    const auto after = run_word(p, parse_word(word)).metrics.values;
+    const auto before = run_pipeline(prepare_case(aligned), parse_word(word)).metrics.values;
+    const auto after = run_pipeline(p, parse_word(word)).metrics.values;
     for (const char* metric : {"eta_mean", "d4", "tau"})
       EXPECT_GT(after.at(metric), before.at(metric)) << word;
   }
@@ -218,7 +218,7 @@ TEST_F(Cases, RowsEndWhereCirclesDiffer) {
   const double ends = expected_row_ends(prepare_case(read(ring + "size = 0.025\n")));
   EXPECT_NEAR(ends, 2 * std::numbers::pi * 0.6 / 0.025, 30);
   EXPECT_NEAR(expected_row_ends(prepare_case(read(square_ + "size = 0.025\n"))), 0, 1e-6);
-  const PreparedProblem aware = prepare_case(read(ring + "size = 0.025\ncross = 'size-aware'\n"));
+  const MeshingSetup aware = prepare_case(read(ring + "size = 0.025\ncross = 'size-aware'\n"));
   EXPECT_EQ(expected_row_ends(aware), ends);
 }
 
@@ -239,8 +239,8 @@ TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
   const std::string text = square_ +
                            "pattern = { polygon = [[0.4, 0.3], [0.7, 0.4], [0.6, 0.7], [0.3, 0.6]], region = "
                            "'in', count = [1, 1], step = [0, 0] }\nsize = 0.05\n";
-  const PreparedProblem aligned = prepare_case(read(text)),
-                        aware = prepare_case(read(text + "cross = 'size-aware'\n"));
+  const MeshingSetup aligned = prepare_case(read(text)),
+                     aware = prepare_case(read(text + "cross = 'size-aware'\n"));
   ASSERT_EQ(aware.patches.size(), 2u);
   EXPECT_EQ(aware.crosses.index_sum_and_expected, aligned.crosses.index_sum_and_expected);
   EXPECT_EQ(aware.crosses.dislocations->first, aware.crosses.dislocations->second);
@@ -262,7 +262,7 @@ TEST_F(Cases, OptionsReachTheStages) {
   EXPECT_EQ(insertion.h_max, 1.2);
   EXPECT_EQ(insertion.rejection, 0.6);
   EXPECT_EQ(recombination_options(c.options).treatment, Treatment::kNone);
-  const MeshResult result = run_word(prepare_case(c), parse_word("FB"));
+  const MeshResult result = run_pipeline(prepare_case(c), parse_word("FB"));
   EXPECT_TRUE(result.log.summaries.has("recombination"));
   EXPECT_FALSE(result.log.summaries.has("treatment"));
 }
@@ -273,7 +273,7 @@ TEST_F(Cases, CleanupOptionsReachTheStage) {
   EXPECT_EQ(cleanup_options(c.options).rounds, 2);
   EXPECT_EQ(cleanup_options(c.options).tolerance, 0.01);
   EXPECT_EQ(cleanup_options(c.options).seed, 7);
-  const MeshResult result = run_word(prepare_case(c), parse_word("FBC"));
+  const MeshResult result = run_pipeline(prepare_case(c), parse_word("FBC"));
   const Summaries& done = result.log.summaries;
   ASSERT_TRUE(done.has("cleanup"));
   EXPECT_LE(done.number("cleanup", "irregular_after"), done.number("cleanup", "irregular_before"));
@@ -286,7 +286,7 @@ TEST_F(Cases, OptimisationOptionsReachTheStage) {
   EXPECT_EQ(optimisation_options(c.options).iterations, 3);
   EXPECT_EQ(optimisation_options(c.options).size, 0);
   EXPECT_EQ(optimisation_options(c.options).alignment, 0.5);
-  const MeshResult result = run_word(prepare_case(c), parse_word("FBO"));
+  const MeshResult result = run_pipeline(prepare_case(c), parse_word("FBO"));
   const Summaries& done = result.log.summaries;
   ASSERT_TRUE(done.has("optimisation"));
   EXPECT_GT(done.number("optimisation", "iterations"), 0);
@@ -304,9 +304,9 @@ TEST_F(Cases, HopelessSizesAreRefusedEarly) {
 }
 
 TEST_F(Cases, MostPointsFollowMostElements) {
-  PreparedProblem p = prepare_case(read(square_ + "size = 0.1\n"));
+  MeshingSetup p = prepare_case(read(square_ + "size = 0.1\n"));
   p.settings.max_elements = 20;  // far less than what was checked
-  expect_input_error([&] { run_word(p, parse_word("F")); }, {"c.toml", "stopped at 80 points", "20"});
+  expect_input_error([&] { run_pipeline(p, parse_word("F")); }, {"c.toml", "stopped at 80 points", "20"});
 }
 
 TEST_F(Cases, PatchesShareTheirInterface) {
@@ -315,7 +315,7 @@ TEST_F(Cases, PatchesShareTheirInterface) {
       "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.25 }\nregion = 'inside'\n"
       "[[loop]]\nrectangle = [[2, 0], [3, 1]]\n");
   for (const char* word : {"F", "D", "FB", "DB"}) {
-    const MeshResult result = run_word(prepare_case(c), parse_word(word));
+    const MeshResult result = run_pipeline(prepare_case(c), parse_word(word));
     EXPECT_EQ(check_invariants(result.mesh), Strings{}) << word;
     EXPECT_EQ(result.mesh.regions.size(), 3u);
   }

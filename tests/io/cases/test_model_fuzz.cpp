@@ -1,6 +1,6 @@
 #include "io/cases/case_file.h"
 #include "mesher/runner.h"
-#include "patches/prepared.h"
+#include "patches/meshing_setup.h"
 #include "tests/support/files.h"
 #include "tests/support/prepare_case.h"
 #include "tests/support/triangulated_shapes.h"
@@ -134,7 +134,7 @@ TEST_P(ModelFuzz, DamagedFilesAreMeshedOrRefused) {
     c.max_elements = 2000;
     c.keep_going = trial % 2 == 1;
     try {
-      run_word(prepare_case(c), parse_word("DB"));
+      run_pipeline(prepare_case(c), parse_word("DB"));
       ++meshed;
     } catch (const InputError& error) {
       ++refused;

@@ -28,8 +28,7 @@ void expect_sound(const MovingDelaunay& d) {
       if (u < 0) continue;
       const auto& v = tri.triangles[t];
       for (const int w : tri.triangles[u])
-        EXPECT_LE(in_circle_or_unsure(tri.points[v[0]], tri.points[v[1]], tri.points[v[2]], tri.points[w]),
-                  0);
+        EXPECT_LE(in_circle_filtered(tri.points[v[0]], tri.points[v[1]], tri.points[v[2]], tri.points[w]), 0);
     }
 }
 

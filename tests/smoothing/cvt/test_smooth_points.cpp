@@ -37,8 +37,8 @@ void expect_sound(const TriPatch& patch, const PatchBoundary& boundary, std::siz
       if (patch.neighbours[t][k] < 0) free.insert({v[(k + 1) % 3], v[(k + 2) % 3]});
       for (const int other : patch.neighbours[t])
         for (int m = 0; other >= 0 && m < 3; ++m)
-          EXPECT_LE(in_circle_or_unsure(patch.points[v[0]], patch.points[v[1]], patch.points[v[2]],
-                                        patch.points[patch.triangles[other][m]]),
+          EXPECT_LE(in_circle_filtered(patch.points[v[0]], patch.points[v[1]], patch.points[v[2]],
+                                       patch.points[patch.triangles[other][m]]),
                     0);
     }
   EXPECT_EQ(free, expected);

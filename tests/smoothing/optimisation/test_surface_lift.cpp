@@ -51,7 +51,7 @@ TEST(SurfaceTracks, PlacesOutsideThePatchGetAPositionInside) {
   const SurfacePatch& patch = m.domain.patches.at(0);
   for (int v = 0; v < static_cast<int>(m.places.size()); v += 7) {
     if (m.tracks->is_on_curve(v) || v < static_cast<int>(m.nodes.points.size())) continue;
-    const auto spot = m.tracks->spot_near(v, {m.tracks->position(v), m.places[v]}, {1e9, -1e9, 1e12});
+    const auto spot = m.tracks->track_place_near(v, {m.tracks->position(v), m.places[v]}, {1e9, -1e9, 1e12});
     int hint = -1;
     const auto [t, b] = patch.background->locate(spot.position, hint);
     Vec2 nearest;
@@ -69,8 +69,8 @@ TEST(SurfaceLift, DisplacedVerticesFindBetterPlacesOnTheirTracks) {
       const int v = quad[k], w = quad[(k + 1) % 4];
       if (v % 3 != 0 || m.tracks->is_on_curve(v) != m.tracks->is_on_curve(w)) continue;
       if (norm(m.tracks->axes(v)[0]) == 0) continue;
-      const auto spot =
-          m.tracks->spot_near(v, {m.tracks->position(v), m.places[v]}, 0.3 * m.places[v] + 0.7 * m.places[w]);
+      const auto spot = m.tracks->track_place_near(v, {m.tracks->position(v), m.places[v]},
+                                                   0.3 * m.places[v] + 0.7 * m.places[w]);
       m.tracks->put(v, spot);
       m.places[v] = spot.place;
       break;
@@ -129,11 +129,11 @@ TEST(SurfaceLift, WhatPassesIsNotMended) {
   Meshed m(polygon_face({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, 0.5), 0.5);
   const auto before = m.places;
   Budget trials(1000);
-  EXPECT_EQ(mend_failing_on_surface(*m.tracks, m.places, *make_constant_size(0.5), 6, trials), 0);
+  EXPECT_EQ(repair_failing_on_surface(*m.tracks, m.places, *make_constant_size(0.5), 6, trials), 0);
   EXPECT_EQ(m.places, before);
   EXPECT_EQ(trials.left(), 1000);
   // Nothing helps against sides that are all too short.
-  EXPECT_EQ(mend_failing_on_surface(*m.tracks, m.places, *make_constant_size(5), 6, trials), 0);
+  EXPECT_EQ(repair_failing_on_surface(*m.tracks, m.places, *make_constant_size(5), 6, trials), 0);
   EXPECT_EQ(m.places, before);
   EXPECT_LT(trials.left(), 1000);
 }

@@ -13,8 +13,8 @@ namespace {
 using Side = std::array<int, 2>;
 
 /// The inner sides of faces on whose nodes another face has a side, by face.
-std::vector<std::pair<int, Side>> twin_sides(const Mesh& mesh,
-                                             const std::vector<std::vector<Side>>& boundary) {
+std::vector<std::pair<int, Side>> duplicate_sides(const Mesh& mesh,
+                                                  const std::vector<std::vector<Side>>& boundary) {
   std::vector<std::pair<int, Side>> twins;
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
@@ -31,9 +31,9 @@ std::vector<std::pair<int, Side>> twin_sides(const Mesh& mesh,
 
 }  // namespace
 
-std::vector<PointInside> part_twin_sides(Mesh& mesh, const std::vector<std::vector<Side>>& boundary) {
+std::vector<PointInside> split_duplicate_sides(Mesh& mesh, const std::vector<std::vector<Side>>& boundary) {
   std::vector<PointInside> added;
-  for (const auto& [face, side] : twin_sides(mesh, boundary)) {
+  for (const auto& [face, side] : duplicate_sides(mesh, boundary)) {
     const auto [a, b] = side;
     const int middle = static_cast<int>(mesh.points.size());
     mesh.points.push_back(0.5 * (mesh.points[a] + mesh.points[b]));

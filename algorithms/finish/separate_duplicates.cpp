@@ -1,4 +1,4 @@
-#include "algorithms/finish/part_twins.h"
+#include "algorithms/finish/separate_duplicates.h"
 
 #include <algorithm>
 #include <array>
@@ -88,7 +88,7 @@ void add_edges(const AllPatches& in, const PatchNodes& nodes, std::vector<PartEd
 }
 
 /// Returns the ends of the chords to remove, by patch.
-std::map<int, std::vector<std::array<int, 2>>> twin_chords(const AllPatches& in) {
+std::map<int, std::vector<std::array<int, 2>>> duplicate_chords(const AllPatches& in) {
   std::vector<PartEdge> edges;
   for (const PatchNodes& patch : patches_and_images(in)) add_edges(in, patch, edges);
   std::ranges::sort(edges);
@@ -100,7 +100,7 @@ std::map<int, std::vector<std::array<int, 2>>> twin_chords(const AllPatches& in)
   return chords;
 }
 
-void part_chord(TriPatch& mesh, std::array<int, 2> ends) {
+void split_chord(TriPatch& mesh, std::array<int, 2> ends) {
   const auto [a, b] = ends;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k)
@@ -112,7 +112,7 @@ void part_chord(TriPatch& mesh, std::array<int, 2> ends) {
 constexpr double kOpenCornerEta = 0.1, kOpenCornerPart = 0.3;
 
 /// Relocates the vertices from slot `first` on. Returns the quality of the quads around them.
-ElementQuality once_settled(QuadTopology& mesh, QuadRelocation& relocation, int first) {
+ElementQuality relaxed_quality(QuadTopology& mesh, QuadRelocation& relocation, int first) {
   constexpr int kSweeps = 8;
   const int end = mesh.vertex_slots();
   relocation.adopt_new_vertices(first);
@@ -131,25 +131,26 @@ bool is_better(const ElementQuality& a, const ElementQuality& b) {
   return a.failing == b.failing ? a.least_sine > b.least_sine : a.failing < b.failing;
 }
 
-ElementQuality once_open(QuadTopology& mesh, QuadRelocation& relocation, int h, bool counterclockwise) {
+ElementQuality quality_if_opened(QuadTopology& mesh, QuadRelocation& relocation, int h,
+                                 bool counterclockwise) {
   const int first = mesh.vertex_slots();
   mesh.open(h, counterclockwise);
-  return once_settled(mesh, relocation, first);
+  return relaxed_quality(mesh, relocation, first);
 }
 
-ElementQuality with_ring(QuadTopology& mesh, QuadRelocation& relocation, int quad) {
+ElementQuality quality_with_ring(QuadTopology& mesh, QuadRelocation& relocation, int quad) {
   const int first = mesh.vertex_slots();
   mesh.pillow(std::array<int, 1>{quad});
-  return once_settled(mesh, relocation, first);
+  return relaxed_quality(mesh, relocation, first);
 }
 
 /// A node with one quad in each of two faces, which share two sides, as a point of both patches. At the end
 /// of a cut with one quad, both points are the same.
-struct TwinCorner {
+struct DuplicateCorner {
   std::array<int, 2> patch, point;
 };
 
-std::vector<TwinCorner> twin_corners(const AllPatches& in) {
+std::vector<DuplicateCorner> duplicate_corners(const AllPatches& in) {
   struct Corner {
     int node;
     std::array<int, 2> beside;  ///< nodes at the other ends of its two sides, ascending
@@ -157,7 +158,7 @@ std::vector<TwinCorner> twin_corners(const AllPatches& in) {
     auto operator<=>(const Corner&) const = default;
   };
   std::vector<Corner> corners;
-  std::vector<TwinCorner> twins;
+  std::vector<DuplicateCorner> twins;
   for (const auto& [p, node] : patches_and_images(in)) {
     if (in.patches[p].form != PatchForm::kQuads) continue;
     const auto is_inside = [&](int v) { return v >= static_cast<int>(node.size()); };
@@ -179,7 +180,7 @@ std::vector<TwinCorner> twin_corners(const AllPatches& in) {
 }
 
 /// Returns the angle at the corner in the plane of the k-th face, radians.
-double angle_at(const AllPatches& in, const TwinCorner& corner, int k) {
+double angle_at(const AllPatches& in, const DuplicateCorner& corner, int k) {
   const QuadPatch& mesh = in.patches[corner.patch[k]].quads;
   const int v = corner.point[k];
   for (const auto& quad : mesh.quads) {
@@ -212,10 +213,11 @@ std::optional<Opened> open_corner(const QuadPatch& patch, int v, const Parametri
   };
   const int after = mesh.next(side);
   const Way ways[] = {
-      {mesh.twin(side) >= 0 && mesh.can_open(side), [&] { return once_open(mesh, relocation, side, false); }},
+      {mesh.twin(side) >= 0 && mesh.can_open(side),
+       [&] { return quality_if_opened(mesh, relocation, side, false); }},
       {mesh.twin(after) >= 0 && mesh.can_open(after),
-       [&] { return once_open(mesh, relocation, after, true); }},
-      {mesh.can_pillow(std::array<int, 1>{quad}), [&] { return with_ring(mesh, relocation, quad); }}};
+       [&] { return quality_if_opened(mesh, relocation, after, true); }},
+      {mesh.can_pillow(std::array<int, 1>{quad}), [&] { return quality_with_ring(mesh, relocation, quad); }}};
   const Way* best = nullptr;
   ElementQuality least;
   least.least_sine = std::min(sine_of_eta(kOpenCornerEta), kOpenCornerPart * least_sine(mesh, quad));
@@ -251,10 +253,10 @@ int open_chords(QuadPatch& patch, const std::vector<std::array<int, 2>>& chords,
     ElementQuality quality[2];
     for (const bool counterclockwise : {false, true}) {
       const auto start = mesh.mark();
-      quality[counterclockwise] = once_open(mesh, relocation, chord, counterclockwise);
+      quality[counterclockwise] = quality_if_opened(mesh, relocation, chord, counterclockwise);
       mesh.rollback(start);
     }
-    once_open(mesh, relocation, chord, is_better(quality[1], quality[0]));
+    quality_if_opened(mesh, relocation, chord, is_better(quality[1], quality[0]));
     mesh.commit();
     ++opened;
     for (const int v : {mesh.vertex_slots() - 2, mesh.vertex_slots() - 1}) relocation.activate(v);
@@ -265,7 +267,7 @@ int open_chords(QuadPatch& patch, const std::vector<std::array<int, 2>>& chords,
 }
 
 /// Returns the patches of one quad whose nodes an earlier patch of one quad also has.
-std::vector<int> twin_quads(const AllPatches& in) {
+std::vector<int> duplicate_quads(const AllPatches& in) {
   std::vector<std::pair<std::array<int, 4>, int>> quads;
   for (const auto& [p, node] : patches_and_images(in)) {
     const QuadPatch& mesh = in.patches[p].quads;
@@ -296,27 +298,27 @@ void put_ring_inside(QuadPatch& patch, const ParametricSize& size) {
 
 }  // namespace
 
-PartingSummary part_twins(const AllPatches& in) {
-  PartingSummary summary;
-  for (const auto& [p, chords] : twin_chords(in)) {
+SeparationSummary separate_duplicates(const AllPatches& in) {
+  SeparationSummary summary;
+  for (const auto& [p, chords] : duplicate_chords(in)) {
     PatchMesh& patch = in.patches[p];
     patch.inside.clear();
     const int all = static_cast<int>(chords.size());
-    int parted = all;
+    int separated = all;
     if (patch.form == PatchForm::kQuads) {
-      parted = open_chords(patch.quads, chords, *in.prepared.patches[p].size);
+      separated = open_chords(patch.quads, chords, *in.prepared.patches[p].size);
     } else {
-      for (const auto& chord : chords) part_chord(patch.triangles, chord);
+      for (const auto& chord : chords) split_chord(patch.triangles, chord);
     }
-    summary.chords += parted;
-    summary.left += all - parted;
+    summary.chords += separated;
+    summary.left += all - separated;
   }
-  for (const int p : twin_quads(in)) {
+  for (const int p : duplicate_quads(in)) {
     in.patches[p].inside.clear();
     put_ring_inside(in.patches[p].quads, *in.prepared.patches[p].size);
     ++summary.rings;
   }
-  for (const TwinCorner& corner : twin_corners(in)) {
+  for (const DuplicateCorner& corner : duplicate_corners(in)) {
     const auto is_open = [&](int k) {
       const auto has_it = [&](const auto& quad) {
         return std::ranges::find(quad, corner.point[k]) != quad.end();

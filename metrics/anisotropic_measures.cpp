@@ -1,4 +1,4 @@
-#include "metrics/metric_measures.h"
+#include "metrics/anisotropic_measures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ double angle_from_axes(const Vec3& way, const TangentMetric& metric) {
 
 }  // namespace
 
-const std::vector<Metric>& metrics_by_metric() {
+const std::vector<Metric>& anisotropic_measures() {
   using enum Better;
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   static const std::vector<Metric> all = {
@@ -66,12 +66,14 @@ const std::vector<Metric>& metrics_by_metric() {
   return all;
 }
 
-std::vector<double> metric_etas(const Mesh& mesh, const MetricAt& metric) { return etas_by(mesh, metric); }
+std::vector<double> anisotropic_etas(const Mesh& mesh, const MetricAt& metric) {
+  return etas_by(mesh, metric);
+}
 
-std::map<std::string, double> measure_by_metric(const Mesh& mesh, std::span<const HalfEdge> sides,
-                                                const MetricAt& metric_at) {
+std::map<std::string, double> measure_anisotropic(const Mesh& mesh, std::span<const HalfEdge> sides,
+                                                  const MetricAt& metric_at) {
   std::map<std::string, double> values;
-  for (const Metric& m : metrics_by_metric()) values[m.key] = std::numeric_limits<double>::quiet_NaN();
+  for (const Metric& m : anisotropic_measures()) values[m.key] = std::numeric_limits<double>::quiet_NaN();
   if (sides.empty()) return values;
   const std::vector<double> etas = etas_by(mesh, metric_at);
   int hint = -1;

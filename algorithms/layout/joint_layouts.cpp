@@ -1,4 +1,4 @@
-#include "algorithms/layout/layouts_together.h"
+#include "algorithms/layout/joint_layouts.h"
 
 #include <algorithm>
 #include <map>
@@ -24,16 +24,16 @@ namespace {
 // Prices are in irregular vertices; each of these costs the tolerance.
 
 /// Price of an open sum, for each missing edge, and of a polygon without a star.
-constexpr double kPair = 1, kRow = 0.5, kNoStar = 2;
+constexpr double kOpenSumPrice = 1, kMissingEdgePrice = 0.5, kNoStarPrice = 2;
 /// Price of an added or removed edge of a patch without a layout, and number of rows that follow it.
-constexpr double kFreeEdge = 0.3, kRowsThatFollow = 2;
+constexpr double kFreeEdgePrice = 0.3, kRowsThatFollow = 2;
 /// Price of sizes of quads with too long or short edges, for half of their edges. Part of a piece that a
 /// change of its side affects.
-constexpr double kSizes = 1.5 / 2, kFelt = 0.5;
+constexpr double kSizePrice = 1.5 / 2, kAffectedPart = 0.5;
 /// Price of a forbidden choice.
-constexpr double kForbidden = 1e6;
+constexpr double kForbiddenPrice = 1e6;
 /// Prices of an open sum, in tolerances, one after the other.
-constexpr double kPrices[] = {1, 3};
+constexpr double kOpenSumFactors[] = {1, 3};
 /// Limits of agree_counts(): steps, and patches in one of its searches.
 constexpr long long kMostSteps = 500'000;
 constexpr int kMostLooks = 100;
@@ -83,8 +83,8 @@ class NumberProblem {
   }
 
  private:
-  int add(int edges, double want, int least, bool is_free) {
-    curves_.push_back({want, least, is_free, 0, {}});
+  int add(int edges, double ideal, int least, bool is_free) {
+    curves_.push_back({ideal, least, is_free, 0, {}});
     counts_.push_back(edges);
     return static_cast<int>(curves_.size()) - 1;
   }
@@ -93,7 +93,7 @@ class NumberProblem {
     const int place = n_places_++;
     for (const CurveRun& run : patch.runs) {
       curves_[run.curve].patches.push_back(place);
-      curves_[run.curve].weight += kSizes * kRowsThatFollow + kFreeEdge * price_;
+      curves_[run.curve].weight += kSizePrice * kRowsThatFollow + kFreeEdgePrice * price_;
     }
   }
 
@@ -110,7 +110,7 @@ class NumberProblem {
       // Together the arcs have as many edges as the curve.
       const int place = n_places_++;
       curves_[curve].patches.push_back(place);
-      ClosureSum whole{place, {{curve, -1}}, 0, kForbidden};
+      ClosureSum whole{place, {{curve, -1}}, 0, kForbiddenPrice};
       double length = 0;
       for (const int a : arcs) length += layout.arcs()[a].length;
       for (const int a : arcs) {
@@ -140,20 +140,21 @@ class NumberProblem {
       if (quads != 2 || sides.empty()) sides.emplace_back(), lengths.push_back(0);
       const int v = variable[arc];
       sides.back().push_back(v);
-      lengths.back() += curves_[v].want;
+      lengths.back() += curves_[v].ideal;
       curves_[v].patches.push_back(place);
     }
     const bool is_box = is_convex && corners == 4;
     const double around = std::reduce(lengths.begin(), lengths.end());
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const double depth = is_box ? (lengths[(i + 1) % 4] + lengths[(i + 3) % 4]) / 2 : around / 5;
-      for (const int v : sides[i]) curves_[v].weight += kSizes * kFelt * depth;
+      for (const int v : sides[i]) curves_[v].weight += kSizePrice * kAffectedPart * depth;
     }
     if (is_box)
       for (int i = 0; i < 2; ++i) {
         // A pair ends two rows for each edge but one of the available space.
         const double room = std::max((lengths[i + 1] + lengths[(i + 3) % 4]) / 2 - 1, 0.05);
-        add_sum({place, {}, kPair, std::max(kRow, 0.5 / room)}, {{&sides[i], 1}, {&sides[i + 2], -1}});
+        add_sum({place, {}, kOpenSumPrice, std::max(kMissingEdgePrice, 0.5 / room)},
+                {{&sides[i], 1}, {&sides[i + 2], -1}});
       }
     if (is_convex && (corners == 3 || corners == 5))
       for (int i = 0; i < corners; ++i) {
@@ -161,7 +162,7 @@ class NumberProblem {
         Sides terms;
         for (int k = 0, at = i; k < corners; ++k, at = (at + 2) % corners)
           terms.emplace_back(&sides[at], k % 2 == 0 ? 1 : -1);
-        add_sum({place, {}, kNoStar, kRow, 2}, terms);
+        add_sum({place, {}, kNoStarPrice, kMissingEdgePrice, 2}, terms);
       }
   }
 
@@ -186,22 +187,22 @@ class NumberProblem {
   std::vector<std::vector<int>> variables_;  ///< variables of the arcs of each patch
 };
 
-class Together {
+class JointLayout {
  public:
-  Together(LayoutNetwork& network, const LayoutOptions& options)
+  JointLayout(LayoutNetwork& network, const LayoutOptions& options)
       : network_(network),
         options_(options),
         n_(network.patches.size()),
         layouts_(n_),
-        worth_(n_),
+        score_(n_),
         candidates_(n_),
         takes_no_part_(n_) {}
 
-  TogetherSummary run() {
+  JointLayoutSummary run() {
     std::vector<int> curves;
     for (const LayoutCurve& c : network_.curves) curves.push_back(c.edges);
     for_each_patch([&](std::size_t p) { begin(p); });
-    for (const double times : kPrices) {
+    for (const double times : kOpenSumFactors) {
       stays_ = takes_no_part_;
       for (int round = 0; round < kMostRounds; ++round) {
         Budget steps(kMostSteps);
@@ -225,10 +226,10 @@ class Together {
   struct Candidate {
     std::vector<int> numbers = {};  ///< edges on its arcs and curves
     bool moved = false;             ///< its curves have other numbers now
-    double cost = kForbidden;       ///< its loss minus the worth of removed irregular vertices
+    double cost = kForbiddenPrice;  ///< its loss minus the worth of removed irregular vertices
     std::optional<QuadPatch> mesh = {};
     PatchBoundary boundary = {};
-    PatchWorth worth = {};
+    PatchScore score = {};
     int filled = 0;  ///< number of meshes made so far
   };
 
@@ -242,7 +243,7 @@ class Together {
     const LayoutPatch& patch = network_.patches[p];
     takes_no_part_[p] = patch.cross == nullptr;
     if (takes_no_part_[p]) return;
-    worth_[p] = PatchWorth::of(patch.mesh, *patch.size);
+    score_[p] = PatchScore::of(patch.mesh, *patch.size);
     LayoutOptions few = options_;
     few.pieces = std::min(few.pieces, kMostPieces);
     LayoutSummary own;
@@ -271,14 +272,14 @@ class Together {
         best.moved ? network_.boundary(static_cast<int>(p), numbers.curves) : std::optional(patch.boundary);
     const auto consider = [&](QuadPatch mesh) {
       ++best.filled;
-      const PatchWorth worth = PatchWorth::of(mesh, *patch.size);
-      if (!mesh.triangles.empty() || !worth_[p].keeps_worst(worth, kLeastEta) ||
-          !network_.may_be(mesh, *boundary))
+      const PatchScore score = PatchScore::of(mesh, *patch.size);
+      if (!mesh.triangles.empty() || !score_[p].keeps_worst(score, kLeastEta) ||
+          !network_.is_allowed(mesh, *boundary))
         return;
       const double cost =
-          worth_[p].loss(worth) - options_.tolerance * (worth_[p].irregular - worth.irregular);
+          score_[p].loss(score) - options_.tolerance * (score_[p].irregular - score.irregular);
       if (best.mesh && cost >= best.cost) return;
-      best.cost = cost, best.mesh = std::move(mesh), best.worth = worth;
+      best.cost = cost, best.mesh = std::move(mesh), best.score = score;
     };
     if (boundary && layouts_[p]) {
       LayoutSummary own;
@@ -320,7 +321,7 @@ class Together {
       double cost = 0;
       int fewer = 0;
       for (const int p : patches)
-        cost += candidates_[p].cost, fewer += worth_[p].irregular - candidates_[p].worth.irregular;
+        cost += candidates_[p].cost, fewer += score_[p].irregular - candidates_[p].score.irregular;
       const int worst = *std::ranges::max_element(patches, {}, [&](int p) { return candidates_[p].cost; });
       if (cost < 0 && fewer > 0) {
         ++summary_.accepted;
@@ -336,11 +337,11 @@ class Together {
   void take(int p, const Numbers& numbers) {
     Candidate& candidate = candidates_[p];
     LayoutPatch& patch = network_.patches[p];
-    summary_.gained += worth_[p].irregular - candidate.worth.irregular;
+    summary_.gained += score_[p].irregular - candidate.score.irregular;
     patch.mesh = *std::move(candidate.mesh);
     patch.boundary = std::move(candidate.boundary);
     patch.changed = true;
-    worth_[p] = candidate.worth;
+    score_[p] = candidate.score;
     for (auto& [curve, edges] : patch.runs) network_.curves[curve].edges = edges = numbers.curves[curve];
     if (layouts_[p]) set_layout(p, layouts_[p]->with(numbers.arcs[p], patch.boundary, *patch.size));
     candidate = {.filled = candidate.filled};
@@ -350,17 +351,17 @@ class Together {
   const LayoutOptions& options_;
   std::size_t n_;
   std::vector<std::optional<LayoutArcs>> layouts_;  ///< layout of each patch, if it has one
-  std::vector<PatchWorth> worth_;                   ///< worth of its mesh
+  std::vector<PatchScore> score_;                   ///< worth of its mesh
   std::vector<Candidate> candidates_;
   std::vector<char> takes_no_part_, stays_;  ///< whether it takes no part, always or now
-  TogetherSummary summary_;
+  JointLayoutSummary summary_;
 };
 
 }  // namespace
 
-TogetherSummary lay_out_together(LayoutNetwork& network, const LayoutOptions& options) {
+JointLayoutSummary lay_out_jointly(LayoutNetwork& network, const LayoutOptions& options) {
   const Stopwatch watch;
-  TogetherSummary summary = Together(network, options).run();
+  JointLayoutSummary summary = JointLayout(network, options).run();
   summary.seconds = watch.seconds();
   return summary;
 }

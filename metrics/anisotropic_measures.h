@@ -17,10 +17,10 @@ namespace delquad {
 using MetricAt = std::function<TangentMetric(int region, const Vec3& x, int& hint)>;
 
 /// Returns the measures of a mesh in its metric.
-const std::vector<Metric>& metrics_by_metric();
+const std::vector<Metric>& anisotropic_measures();
 /// Returns eta of each quad in the mean metric of its corners.
-std::vector<double> metric_etas(const Mesh& mesh, const MetricAt& metric);
-std::map<std::string, double> measure_by_metric(const Mesh& mesh, std::span<const HalfEdge> sides,
-                                                const MetricAt& metric);
+std::vector<double> anisotropic_etas(const Mesh& mesh, const MetricAt& metric);
+std::map<std::string, double> measure_anisotropic(const Mesh& mesh, std::span<const HalfEdge> sides,
+                                                  const MetricAt& metric);
 
 }  // namespace delquad

@@ -20,9 +20,9 @@ struct LayerReport;
 struct MirroredSurface;
 
 /// A patch, ready for the stages: its boundary and fields in the parameter plane, and the way back to space.
-struct PreparedPatch {
+struct PatchSetup {
   PatchBoundary boundary;
-  int region = 0;  ///< index into PreparedProblem::boundary.regions
+  int region = 0;  ///< index into MeshingSetup::boundary.regions
   std::shared_ptr<const CrossField> cross;
   std::shared_ptr<const ParametricSize> size;
   std::function<Vec3(Vec2, int& hint)> lift;
@@ -38,7 +38,7 @@ struct PreparedPatch {
 /// The curves and regions of a given mesh in space, which its words divide for their work.
 struct GivenEntities {
   std::vector<Entity> curves, regions;
-  std::vector<int> curve_of, region_of;  ///< of each of PreparedProblem::boundary; -1: no line of the mesh
+  std::vector<int> curve_of, region_of;  ///< of each of MeshingSetup::boundary; -1: no line of the mesh
 };
 
 /// A surface of which one part is meshed, with its cuts.
@@ -48,27 +48,27 @@ struct WholeSurface {
 };
 
 /// What the patches of a surface were made from.
-struct PreparedSurface {
+struct SurfaceSetup {
   SurfaceModel model;
   SurfaceDomain domain;
   std::vector<SurfaceCut> cuts;
   std::shared_ptr<const SurfaceSize> size;
   std::shared_ptr<const SurfaceMetric> metric;      ///< in place of a size; null: none
   std::shared_ptr<const MirroredSurface> mirrored;  ///< of symmetric ones, of which `model` is a part
-  std::shared_ptr<const WholeSurface> is_part_of;   ///< that; null: `model` is the whole
+  std::shared_ptr<const WholeSurface> full_model;   ///< that; null: `model` is the whole
   std::optional<GivenEntities> given;               ///< of a GivenMesh
-  bool is_anew = false;                             ///< with smaller sizes, as its mesh was not sound
+  bool is_retry = false;                            ///< with smaller sizes, as its mesh was not sound
   std::shared_ptr<const SurfaceModel> cad;          ///< as it was read; null of other models
 
-  const SurfaceModel& whole() const { return is_part_of ? is_part_of->model : model; }
-  const std::vector<SurfaceCut>& all_cuts() const { return is_part_of ? is_part_of->cuts : cuts; }
+  const SurfaceModel& whole() const { return full_model ? full_model->model : model; }
+  const std::vector<SurfaceCut>& all_cuts() const { return full_model ? full_model->cuts : cuts; }
 };
 
 /// The maps of all patches.
-std::vector<const FlatPatch*> maps_of(const PreparedSurface& surface);
+std::vector<const FlatPatch*> maps_of(const SurfaceSetup& surface);
 
 /// What the patches of a planar domain were made from.
-struct PreparedPlane {
+struct PlaneSetup {
   bool ignores_small = false;  ///< what is small in its outlines was left out
   /// Of each curve those of the model that lie there; empty where the lines are kept.
   std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes;
@@ -98,12 +98,12 @@ struct ProblemSettings {
 };
 
 /// What every pipeline on a case starts from.
-struct PreparedProblem : Preparation {
+struct MeshingSetup : Preparation {
   ProblemSettings settings;
-  std::vector<PreparedPatch> patches;
-  PreparedPlane plane;
-  std::shared_ptr<const PreparedSurface> surface;  ///< null on planar domains
-  std::shared_ptr<const LayerReport> layers;       ///< null: none
+  std::vector<PatchSetup> patches;
+  PlaneSetup plane;
+  std::shared_ptr<const SurfaceSetup> surface;  ///< null on planar domains
+  std::shared_ptr<const LayerReport> layers;    ///< null: none
   std::shared_ptr<const MetricPlane>
       metric_plane;                       ///< in which all of this lies; null: it is the domain's own
   std::optional<GivenWorst> given_worst;  ///< of a GivenMesh with quads
@@ -117,8 +117,8 @@ struct PreparedProblem : Preparation {
 };
 
 /// Tells that this thread works on a patch.
-inline DoingFace doing_patch(const PreparedProblem& prepared, std::size_t patch) {
-  return DoingFace(prepared.boundary.regions[static_cast<std::size_t>(prepared.patches[patch].region)].tag,
+inline FaceScope patch_scope(const MeshingSetup& prepared, std::size_t patch) {
+  return FaceScope(prepared.boundary.regions[static_cast<std::size_t>(prepared.patches[patch].region)].tag,
                    prepared.surface ? "face" : "region");
 }
 

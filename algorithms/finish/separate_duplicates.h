@@ -9,8 +9,8 @@
 
 namespace delquad {
 
-/// Counts of part_twins() over all stages.
-struct PartingSummary {
+/// Counts of separate_duplicates() over all stages.
+struct SeparationSummary {
   int chords = 0;        ///< chords that were split
   int left = 0;          ///< chords that could not be opened
   int rings = 0;         ///< rings of quads inside faces of one quad
@@ -19,8 +19,8 @@ struct PartingSummary {
 };
 
 template <>
-struct Counters<PartingSummary> {
-  using S = PartingSummary;
+struct Counters<SeparationSummary> {
+  using S = SeparationSummary;
   static constexpr const char* step = "part_twins";
   static constexpr auto all =
       std::tuple(counter("chords", &S::chords), counter("left", &S::left), counter("rings", &S::rings),
@@ -35,6 +35,6 @@ struct Counters<PartingSummary> {
 /// a midpoint, quads by QuadTopology::open if possible. If two faces are one quad each on the same nodes, one
 /// gets a ring of quads. A node with one quad in each of two faces gets a third quad by an opening, since
 /// readers refuse two common sides.
-PartingSummary part_twins(const AllPatches& in);
+SeparationSummary separate_duplicates(const AllPatches& in);
 
 }  // namespace delquad

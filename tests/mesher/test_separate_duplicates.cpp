@@ -1,4 +1,4 @@
-#include "algorithms/finish/part_twins.h"
+#include "algorithms/finish/separate_duplicates.h"
 #include "tests/support/meshing.h"
 #include "tests/support/quad_patches.h"
 
@@ -10,7 +10,7 @@ namespace {
 TEST(PartTwins, CapsOnACoarseCircleShareNothingElse) {
   for (const double height : {0.45, 0.7})
     for (const double size : {5.0, 1.5, 1.2, 1.0, 0.8, 0.6}) {
-      const PreparedProblem prepared =
+      const MeshingSetup prepared =
           prepare_surface({}, make_surface_model(lens(64, 12, height)), make_constant_size(size));
       for (const char* word : {"F", "D", "DL", "FB", "DB", "PB", "DLB", "DBC", "DBCO"}) {
         SCOPED_TRACE(std::string(word) + " " + std::to_string(size) + " " + std::to_string(height));
@@ -28,7 +28,7 @@ class Pillow : public testing::Test {
   Pillow() {
     prepared.patches.resize(2);
     for (const bool mirrored : {false, true}) {
-      PreparedPatch& patch = prepared.patches[mirrored];
+      PatchSetup& patch = prepared.patches[mirrored];
       patch.boundary.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
       patch.boundary.point_node = mirrored ? std::vector<int>{1, 0, 3, 2} : std::vector<int>{0, 1, 2, 3};
       patch.size = std::make_shared<UniformSize>();
@@ -41,7 +41,7 @@ class Pillow : public testing::Test {
     double at(Vec2, int&) const override { return 0.5; }
   };
 
-  PreparedProblem prepared;
+  MeshingSetup prepared;
   std::vector<PatchMesh> patches{2};
   const std::vector<char> left_out{0, 0};
   Options options;
@@ -56,22 +56,22 @@ TEST_F(Pillow, AChordBetweenTheSameNodesIsPartedInOneOfThem) {
   patches[1].triangles.triangles = {{0, 1, 3}, {1, 2, 3}};
   patches[1].triangles.neighbours = {{1, -1, -1}, {-1, 0, -1}};
   const auto first = patches[0].triangles.triangles;
-  part_twins(all);
+  separate_duplicates(all);
   EXPECT_EQ(patches[0].triangles.triangles, first);
-  const TriPatch& parted = patches[1].triangles;
-  ASSERT_EQ(parted.points.size(), 5u);
-  EXPECT_EQ(parted.points[4], Vec2(0.5, 0.5));
-  ASSERT_EQ(parted.triangles.size(), 4u);
+  const TriPatch& separated = patches[1].triangles;
+  ASSERT_EQ(separated.points.size(), 5u);
+  EXPECT_EQ(separated.points[4], Vec2(0.5, 0.5));
+  ASSERT_EQ(separated.triangles.size(), 4u);
   for (int t = 0; t < 4; ++t)
     for (int k = 0; k < 3; ++k) {
-      const int a = parted.triangles[t][(k + 1) % 3], b = parted.triangles[t][(k + 2) % 3];
-      const int n = parted.neighbours[t][k];
+      const int a = separated.triangles[t][(k + 1) % 3], b = separated.triangles[t][(k + 2) % 3];
+      const int n = separated.neighbours[t][k];
       EXPECT_EQ(n < 0, a < 4 && b < 4);
       if (n < 0) continue;
-      const auto& beside = parted.triangles[n];
+      const auto& beside = separated.triangles[n];
       EXPECT_EQ(std::ranges::count(beside, a) + std::ranges::count(beside, b), 2);
     }
-  part_twins(all);
+  separate_duplicates(all);
   EXPECT_EQ(patches[1].triangles.triangles.size(), 4u);
 }
 
@@ -109,21 +109,21 @@ TEST_F(Pillow, ASlitOfOneEdgeIsNoChord) {
   patches[1].triangles.triangles = {{0, 1, 2}};
   patches[1].triangles.neighbours = {{-1, -1, -1}};
   const auto before = patches[0].triangles.triangles;
-  part_twins(all);
+  separate_duplicates(all);
   EXPECT_EQ(patches[0].triangles.triangles, before);
 }
 
 TEST_F(Pillow, OfTwoQuadsOnTheSameNodesOneGetsARing) {
   for (PatchMesh& patch : patches) patch.form = PatchForm::kQuads, patch.quads.quads = {{0, 1, 2, 3}};
-  part_twins(all);
+  separate_duplicates(all);
   EXPECT_EQ(patches[0].quads.quads.size(), 1u);
   EXPECT_EQ(patches[1].quads.quads.size(), 5u);
-  part_twins(all);
+  separate_duplicates(all);
   EXPECT_EQ(patches[1].quads.quads.size(), 5u);
 }
 
 /// Pairs of quads that share two sides of one node, of patches whose boundaries have the same nodes.
-int two_sides_in_common(const std::vector<PatchMesh>& patches, const PreparedProblem& prepared) {
+int two_sides_in_common(const std::vector<PatchMesh>& patches, const MeshingSetup& prepared) {
   std::set<std::array<int, 3>> corners;
   int pairs = 0;
   for (std::size_t p = 0; p < patches.size(); ++p)
@@ -153,7 +153,7 @@ TEST_F(Pillow, NoTwoQuadsShareTwoSides) {
         for (int i = 0; i < 4 * n; ++i) boundary.point_node[i] = (4 * n - i) % (4 * n);
     }
     EXPECT_GT(two_sides_in_common(patches, prepared), 0) << n;
-    const PartingSummary summary = part_twins(all);
+    const SeparationSummary summary = separate_duplicates(all);
     EXPECT_EQ(two_sides_in_common(patches, prepared), 0) << n;
     EXPECT_EQ(summary.corners_left, 0) << n;
     for (const PatchMesh& patch : patches) EXPECT_TRUE(check_invariants(QuadTopology(patch.quads)).empty());
@@ -175,7 +175,7 @@ TEST_F(Pillow, NoQuadHasBothSidesOfACut) {
                                  [](const auto& quad) { return std::ranges::find(quad, 0) != quad.end(); });
   };
   ASSERT_EQ(quads_at_the_end(), 1);
-  EXPECT_EQ(part_twins(all).corners_left, 0);
+  EXPECT_EQ(separate_duplicates(all).corners_left, 0);
   EXPECT_EQ(quads_at_the_end(), 2);
   EXPECT_TRUE(check_invariants(QuadTopology(patches[0].quads)).empty());
 }

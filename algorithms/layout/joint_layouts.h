@@ -43,10 +43,10 @@ struct LayoutNetwork {
   /// quads.
   std::function<std::optional<PatchBoundary>(int patch, const std::vector<int>& edges)> boundary;
   /// Returns whether a patch may have this mesh.
-  std::function<bool(const QuadPatch& mesh, const PatchBoundary& boundary)> may_be;
+  std::function<bool(const QuadPatch& mesh, const PatchBoundary& boundary)> is_allowed;
 };
 
-struct TogetherSummary {
+struct JointLayoutSummary {
   int chosen = 0;        ///< number of choices of edges
   long long filled = 0;  ///< meshes of patches made for these choices
   int accepted = 0;      ///< groups of patches whose new meshes were taken
@@ -57,8 +57,8 @@ struct TogetherSummary {
 };
 
 template <>
-struct Counters<TogetherSummary> {
-  using S = TogetherSummary;
+struct Counters<JointLayoutSummary> {
+  using S = JointLayoutSummary;
   static constexpr const char* step = "layouts_together";
   static constexpr auto all = std::tuple(counter("chosen", &S::chosen), counter("filled", &S::filled),
                                          counter("accepted", &S::accepted), counter("patches", &S::patches),
@@ -78,6 +78,6 @@ struct Counters<TogetherSummary> {
 /// vertex is below the tolerance (see more_regular()). An eta of 0.3 is enough for quads, since O moves nodes
 /// along curves. Otherwise its most expensive patch keeps its curves, and numbers are chosen again. An open
 /// sum first costs the tolerance, then more, to find groups with a smaller loss than predicted.
-TogetherSummary lay_out_together(LayoutNetwork& network, const LayoutOptions& options);
+JointLayoutSummary lay_out_jointly(LayoutNetwork& network, const LayoutOptions& options);
 
 }  // namespace delquad

@@ -168,9 +168,10 @@ class Facing {
 
 }  // namespace
 
-CurvePlaces face_nodes(const Mesh& fine, const std::vector<CurveChain>& chains, const AcrossView& across,
-                       const std::vector<SizeIntegral>& integrals, const std::vector<int>& counts,
-                       const std::vector<int>& group, const SizeOnLine& size, Budget& steps) {
+CurvePlaces align_opposite_nodes(const Mesh& fine, const std::vector<CurveChain>& chains,
+                                 const AcrossView& across, const std::vector<SizeIntegral>& integrals,
+                                 const std::vector<int>& counts, const std::vector<int>& group,
+                                 const SizeOnLine& size, Budget& steps) {
   return Facing(fine, chains, across, integrals, counts, group, size, steps).run();
 }
 
