@@ -123,7 +123,7 @@ package: build
 	@cmake/install-packages.sh package python
 	cmake --preset $(PRESET) -DDELQUAD_PYTHON=ON
 	cmake --build --preset $(PRESET) --target delquad_python
-	packaging/package.sh build/$(PRESET) build/packages
+	cmake/packaging/package.sh build/$(PRESET) build/packages
 
 # Makes the documentation as web pages in build/site, with a search, a gallery, the references of C++ and Python, and tables of $(RESULTS).
 site: build

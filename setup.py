@@ -12,13 +12,13 @@ from setuptools.command.build_ext import build_ext
 
 
 class Build(build_ext):
-    """The module and its Python files, as bindings/python/CMakeLists.txt installs them."""
+    """The module and its Python files, as program/python/CMakeLists.txt installs them."""
 
     def build_extension(self, ext):
         source = pathlib.Path(__file__).resolve().parent
         build = pathlib.Path(self.build_temp).resolve()
         target = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve().parent.parent
-        installed = os.environ.get("DELQUAD_INSTALLED")  # what packaging/package.sh has built and given its libraries
+        installed = os.environ.get("DELQUAD_INSTALLED")  # what cmake/packaging/package.sh has built and given its libraries
         if installed:
             shutil.copytree(installed, target / "delquad", dirs_exist_ok=True)
             return

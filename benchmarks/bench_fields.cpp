@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
+#include "algorithms/fields/fields.h"
 #include "benchmarks/square_case.h"
-#include "fields/fields.h"
 
 // Times the background mesh, its harmonic cross field, and queries of the field, by the number of boundary
 // edges.

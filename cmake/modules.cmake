@@ -79,74 +79,87 @@ delquad_module(base/matching HOT LINKS base)
 delquad_module(geometry/mesh LINKS base PRIVATE CGAL::CGAL)
 delquad_module(geometry/planar LINKS base geometry/mesh PRIVATE Eigen3::Eigen)
 delquad_module(geometry/surface LINKS base geometry/mesh geometry/planar PRIVATE Eigen3::Eigen)
-delquad_module(geometry/cad ONLY example_models.cpp find_worker.cpp load_kernel.cpp LINKS base geometry/mesh geometry/surface PRIVATE ${CMAKE_DL_LIBS})
-delquad_module(fields LINKS base geometry/mesh PRIVATE CGAL::CGAL Eigen3::Eigen)
-delquad_module(fields/surface LINKS base geometry/mesh geometry/surface fields)
-delquad_module(patches LINKS base base/matching geometry/mesh geometry/planar geometry/surface fields fields/surface)
-delquad_module(smoothing/relocation HOT LINKS base geometry/mesh fields)
-delquad_module(smoothing/cvt HOT LINKS base geometry/mesh fields PRIVATE CGAL::CGAL Ceres::ceres)
-delquad_module(smoothing/optimisation HOT LINKS base geometry/mesh geometry/planar fields smoothing/relocation PRIVATE Ceres::ceres)
-delquad_module(smoothing/surface HOT LINKS base geometry/mesh fields patches smoothing/optimisation)
-delquad_module(metrics LINKS base geometry/mesh fields)
-delquad_module(metrics/surface LINKS base geometry/mesh geometry/surface fields metrics)
+delquad_module(geometry/cad ONLY example_models.cpp find_worker.cpp load_kernel.cpp LINKS base geometry/mesh geometry/surface PRIVATE
+               ${CMAKE_DL_LIBS})
+delquad_module(algorithms/fields LINKS base geometry/mesh PRIVATE CGAL::CGAL Eigen3::Eigen)
+delquad_module(algorithms/fields/surface LINKS base geometry/mesh geometry/surface algorithms/fields)
+delquad_module(geometry/patches LINKS base base/matching geometry/mesh geometry/planar geometry/surface algorithms/fields
+               algorithms/fields/surface)
+delquad_module(smoothing/relocation HOT LINKS base geometry/mesh algorithms/fields)
+delquad_module(smoothing/cvt HOT LINKS base geometry/mesh algorithms/fields PRIVATE CGAL::CGAL Ceres::ceres)
+delquad_module(smoothing/optimisation HOT LINKS base geometry/mesh geometry/planar algorithms/fields smoothing/relocation PRIVATE
+               Ceres::ceres)
+delquad_module(smoothing/surface HOT LINKS base geometry/mesh algorithms/fields geometry/patches smoothing/optimisation)
+delquad_module(metrics LINKS base geometry/mesh algorithms/fields)
+delquad_module(metrics/surface LINKS base geometry/mesh geometry/surface algorithms/fields metrics)
 delquad_module(metrics/solve LINKS base geometry/mesh metrics PRIVATE Eigen3::Eigen)
-delquad_module(algorithms/insertion LINKS base geometry/mesh fields PRIVATE CGAL::CGAL)
+delquad_module(algorithms/insertion LINKS base geometry/mesh algorithms/fields PRIVATE CGAL::CGAL)
 delquad_module(algorithms/recombination LINKS base base/matching geometry/mesh)
-delquad_module(algorithms/treatment LINKS base base/matching geometry/mesh fields smoothing/relocation algorithms/recombination)
-delquad_module(algorithms/cleanup LINKS base geometry/mesh fields smoothing/relocation algorithms/treatment)
-delquad_module(algorithms/regularity LINKS base geometry/mesh fields smoothing/relocation algorithms/treatment algorithms/cleanup)
-delquad_module(algorithms/layout LINKS base base/matching geometry/mesh fields smoothing/relocation smoothing/optimisation
+delquad_module(algorithms/treatment LINKS base base/matching geometry/mesh algorithms/fields smoothing/relocation algorithms/recombination)
+delquad_module(algorithms/cleanup LINKS base geometry/mesh algorithms/fields smoothing/relocation algorithms/treatment)
+delquad_module(algorithms/regularity LINKS base geometry/mesh algorithms/fields smoothing/relocation algorithms/treatment
+               algorithms/cleanup)
+delquad_module(algorithms/layout LINKS base base/matching geometry/mesh algorithms/fields smoothing/relocation smoothing/optimisation
                algorithms/insertion algorithms/recombination algorithms/treatment algorithms/cleanup algorithms/regularity)
-delquad_module(algorithms/finish LINKS base geometry/mesh patches algorithms/treatment smoothing/relocation smoothing/surface metrics
+delquad_module(algorithms/finish LINKS base geometry/mesh geometry/patches algorithms/treatment smoothing/relocation smoothing/surface
+               metrics
                metrics/surface)
 delquad_module(io COLD FOLDERS formats LINKS base geometry/mesh metrics PRIVATE ZLIB::ZLIB EXPAT::EXPAT PkgConfig::libzip Boost::headers)
 delquad_module(io/gdal COLD LINKS base io)
-delquad_module(features/seed LINKS base geometry/planar fields)
-delquad_module(features/sizes LINKS base geometry/mesh geometry/planar geometry/surface fields fields/surface patches)
-delquad_module(features/crosses LINKS base geometry/mesh geometry/surface fields patches algorithms/insertion)
-delquad_module(features/divisions COLD LINKS geometry/mesh geometry/planar patches features/sizes)
+delquad_module(features/seed LINKS base geometry/planar algorithms/fields)
+delquad_module(features/sizes LINKS base geometry/mesh geometry/planar geometry/surface algorithms/fields algorithms/fields/surface
+               geometry/patches)
+delquad_module(features/crosses LINKS base geometry/mesh geometry/surface algorithms/fields geometry/patches algorithms/insertion)
+delquad_module(features/divisions COLD LINKS geometry/mesh geometry/planar geometry/patches features/sizes)
 delquad_module(features/embedded COLD LINKS base geometry/mesh geometry/planar geometry/surface features/sizes)
-delquad_module(features/symmetry COLD LINKS base geometry/mesh geometry/planar geometry/surface fields patches features/divisions PRIVATE
+delquad_module(features/symmetry COLD LINKS base geometry/mesh geometry/planar geometry/surface algorithms/fields geometry/patches
+               features/divisions PRIVATE
                Eigen3::Eigen)
-delquad_module(features/periodic COLD LINKS base geometry/mesh geometry/planar geometry/surface patches features/sizes)
-delquad_module(features/grids LINKS base base/matching geometry/mesh geometry/planar patches smoothing/relocation smoothing/optimisation
+delquad_module(features/periodic COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/patches features/sizes)
+delquad_module(features/grids LINKS base base/matching geometry/mesh geometry/planar geometry/patches smoothing/relocation
+               smoothing/optimisation
                metrics)
-delquad_module(features/washers COLD LINKS base geometry/mesh geometry/planar geometry/surface fields)
-delquad_module(features/layers COLD LINKS base geometry/mesh geometry/planar patches features/sizes features/grids)
-delquad_module(features/scaling COLD LINKS base geometry/mesh fields patches features/layers)
-delquad_module(features/thin COLD LINKS base geometry/mesh geometry/planar patches features/sizes)
+delquad_module(features/washers COLD LINKS base geometry/mesh geometry/planar geometry/surface algorithms/fields)
+delquad_module(features/layers COLD LINKS base geometry/mesh geometry/planar geometry/patches features/sizes features/grids)
+delquad_module(features/scaling COLD LINKS base geometry/mesh algorithms/fields geometry/patches features/layers)
+delquad_module(features/thin COLD LINKS base geometry/mesh geometry/planar geometry/patches features/sizes)
 delquad_module(features/naming COLD LINKS base geometry/mesh geometry/surface)
-delquad_module(io/cases COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/cad fields io io/gdal features/layers
+delquad_module(io/cases COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/cad algorithms/fields io io/gdal
+               features/layers
                PRIVATE PkgConfig::muparser tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
-delquad_module(metrics/judgement COLD LINKS base geometry/mesh patches metrics metrics/surface metrics/solve features/sizes
+delquad_module(metrics/judgement COLD LINKS base geometry/mesh geometry/patches metrics metrics/surface metrics/solve features/sizes
                features/symmetry features/layers)
-delquad_module(features/given COLD LINKS base geometry/mesh geometry/planar geometry/surface patches metrics metrics/judgement
+delquad_module(features/given COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/patches metrics metrics/judgement
                features/embedded)
-delquad_module(features/curved LINKS base geometry/mesh geometry/planar patches metrics features/layers PRIVATE Ceres::ceres)
+delquad_module(features/curved LINKS base geometry/mesh geometry/planar geometry/patches metrics features/layers PRIVATE Ceres::ceres)
 delquad_module(features/extrusion COLD LINKS base geometry/mesh metrics io PRIVATE Eigen3::Eigen)
-delquad_module(features/curves COLD LINKS base base/matching geometry/mesh geometry/planar geometry/surface geometry/cad fields fields/surface
-               patches features/seed features/sizes features/divisions features/embedded features/symmetry features/periodic
+delquad_module(features/curves COLD LINKS base base/matching geometry/mesh geometry/planar geometry/surface geometry/cad algorithms/fields
+               algorithms/fields/surface
+               geometry/patches features/seed features/sizes features/divisions features/embedded features/symmetry features/periodic
                features/grids features/thin features/naming)
-delquad_module(features/metric LINKS base geometry/mesh geometry/planar geometry/surface fields fields/surface patches metrics
+delquad_module(features/metric LINKS base geometry/mesh geometry/planar geometry/surface algorithms/fields algorithms/fields/surface
+               geometry/patches metrics
                features/seed features/curves)
-delquad_module(mesher COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/cad fields patches smoothing/cvt
+delquad_module(mesher COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/cad algorithms/fields geometry/patches
+               smoothing/cvt
                smoothing/optimisation smoothing/surface metrics metrics/surface algorithms/insertion algorithms/treatment
                algorithms/recombination algorithms/cleanup algorithms/regularity algorithms/layout algorithms/finish io/cases
                features/seed features/sizes features/crosses features/divisions features/embedded features/symmetry features/periodic
                features/grids features/washers features/layers features/scaling features/thin features/given features/curved
                features/curves features/metric metrics/judgement)
-delquad_module(adapt COLD LINKS base geometry/mesh fields mesher PRIVATE Eigen3::Eigen)
+delquad_module(mesher/adapt COLD LINKS base geometry/mesh algorithms/fields mesher PRIVATE Eigen3::Eigen)
 
 if(DELQUAD_PROGRAMS)
   delquad_shared(delquad_bench delquad_bench)
   target_link_libraries(delquad_bench PUBLIC delquad_library)
   delquad_module(metrics/tables COLD LINKS base metrics metrics/solve io io/cases PRIVATE Boost::headers nlohmann_json::nlohmann_json)
   delquad_module(experiments/console COLD LINKS base io)
-  delquad_module(experiments/sweep COLD LINKS base geometry/mesh geometry/cad adapt metrics metrics/surface metrics/solve metrics/judgement
+  delquad_module(experiments/sweep COLD LINKS base geometry/mesh geometry/cad mesher/adapt metrics metrics/surface metrics/solve
+               metrics/judgement
                  metrics/tables algorithms/insertion io io/cases mesher experiments/console PRIVATE nlohmann_json::nlohmann_json)
-  delquad_module(report COLD LINKS base geometry/mesh metrics metrics/tables io mesher experiments/sweep PRIVATE ZLIB::ZLIB
+  delquad_module(experiments/report COLD LINKS base geometry/mesh metrics metrics/tables io mesher experiments/sweep PRIVATE ZLIB::ZLIB
                  nlohmann_json::nlohmann_json)
-  delquad_module(program COLD LINKS base geometry/mesh geometry/surface geometry/cad fields metrics metrics/solve
-                 metrics/judgement metrics/tables io io/cases features/extrusion mesher adapt experiments/console experiments/sweep
-                 report PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
+  delquad_module(program COLD LINKS base geometry/mesh geometry/surface geometry/cad algorithms/fields metrics metrics/solve
+                 metrics/judgement metrics/tables io io/cases features/extrusion mesher mesher/adapt experiments/console experiments/sweep
+                 experiments/report PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
 endif()

@@ -12,8 +12,8 @@
 
 #include "base/activity.h"
 #include "base/stopwatch.h"
+#include "geometry/patches/surface_curves.h"
 #include "mesher/runner.h"
-#include "patches/surface_curves.h"
 
 namespace delquad {
 namespace {

@@ -6,8 +6,8 @@
 #include <set>
 #include <variant>
 
+#include "algorithms/fields/fields.h"
 #include "features/curves/compose_size.h"
-#include "fields/fields.h"
 #include "geometry/mesh/check_mesh.h"
 #include "io/cases/check_described.h"
 #include "io/cases/problem_record.h"

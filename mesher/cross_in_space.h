@@ -1,7 +1,7 @@
 #pragma once
 
+#include "geometry/patches/meshing_setup.h"
 #include "metrics/alignment.h"
-#include "patches/meshing_setup.h"
 
 namespace delquad {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "algorithms/fields/tangent_metric.h"
 #include "base/context.h"
 #include "base/nearest_name.h"
 #include "base/stopwatch.h"
@@ -13,7 +14,7 @@
 #include "features/metric/metric_plane.h"
 #include "features/metric/metric_surface.h"
 #include "features/scaling/scale_sizes.h"
-#include "fields/tangent_metric.h"
+#include "geometry/patches/meshing_setup.h"
 #include "io/cases/read_problem.h"
 #include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
@@ -22,7 +23,6 @@
 #include "metrics/judgement/soundness.h"
 #include "metrics/metrics.h"
 #include "metrics/surface/surface_report.h"
-#include "patches/meshing_setup.h"
 
 namespace delquad {
 namespace {

@@ -6,9 +6,9 @@
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "features/scaling/scale_sizes.h"
+#include "geometry/patches/meshing_setup.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
-#include "patches/meshing_setup.h"
 
 namespace delquad {
 namespace {

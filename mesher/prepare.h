@@ -8,8 +8,8 @@
 #include "delquad/mesher.h"
 #include "features/curves/agreement.h"
 #include "features/given/given_surface.h"
+#include "geometry/patches/meshing_setup.h"
 #include "geometry/surface/surface_model.h"
-#include "patches/meshing_setup.h"
 
 // This header makes patches, sizes and fields from a problem. The pipeline uses it.
 

@@ -4,6 +4,8 @@
 #include <utility>
 #include <variant>
 
+#include "algorithms/fields/fields.h"
+#include "algorithms/fields/sampled_fields.h"
 #include "delquad/error.h"
 #include "features/crosses/made_crosses.h"
 #include "features/crosses/size_aware.h"
@@ -20,12 +22,10 @@
 #include "features/sizes/named_parts.h"
 #include "features/sizes/size_warnings.h"
 #include "features/thin/cut_wedges.h"
-#include "fields/fields.h"
-#include "fields/sampled_fields.h"
+#include "geometry/patches/narrow_places.h"
 #include "geometry/planar/check_lines.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
-#include "patches/narrow_places.h"
 
 namespace delquad {
 namespace {

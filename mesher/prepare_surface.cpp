@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "algorithms/fields/sampled_fields.h"
 #include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
 #include "base/activity.h"
@@ -31,7 +32,6 @@
 #include "features/sizes/size_warnings.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "features/washers/surface_washers.h"
-#include "fields/sampled_fields.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "mesher/prepare.h"

@@ -8,11 +8,11 @@
 #include "base/counters.h"
 #include "delquad/error.h"
 #include "delquad/extend.h"
+#include "geometry/patches/meshing_setup.h"
+#include "geometry/patches/places_inside.h"
 #include "metrics/judgement/soundness.h"
 #include "metrics/metrics.h"
 #include "metrics/surface/surface_report.h"
-#include "patches/meshing_setup.h"
-#include "patches/places_inside.h"
 
 // This header runs the stages of a pipeline. The pipeline uses it.
 

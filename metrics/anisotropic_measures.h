@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "algorithms/fields/tangent_metric.h"
 #include "delquad/fields.h"
 #include "delquad/metrics.h"
-#include "fields/tangent_metric.h"
 #include "geometry/mesh/half_edges.h"
 
 namespace delquad {

@@ -9,6 +9,7 @@
 
 #include "base/context.h"
 #include "base/text.h"
+#include "experiments/report/write_report.h"
 #include "experiments/sweep/folders.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
@@ -16,7 +17,6 @@
 #include "metrics/tables/samples.h"
 #include "program/options.h"
 #include "program/run_command.h"
-#include "report/write_report.h"
 
 namespace delquad {
 namespace {

@@ -8,6 +8,7 @@
 #include "base/context.h"
 #include "base/parallel.h"
 #include "experiments/console/progress.h"
+#include "experiments/report/write_report.h"
 #include "experiments/sweep/draw_figures.h"
 #include "experiments/sweep/merge.h"
 #include "experiments/sweep/verify.h"
@@ -19,7 +20,6 @@
 #include "program/commands.h"
 #include "program/options.h"
 #include "program/print.h"
-#include "report/write_report.h"
 
 namespace delquad {
 namespace {

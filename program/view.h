@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "report/write_view.h"
+#include "experiments/report/write_view.h"
 
 namespace delquad {
 

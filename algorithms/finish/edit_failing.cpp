@@ -10,8 +10,8 @@
 #include "base/cancel.h"
 #include "base/marks.h"
 #include "base/sort_unique.h"
+#include "geometry/patches/meshing_setup.h"
 #include "metrics/shape.h"
-#include "patches/meshing_setup.h"
 #include "smoothing/relocation/element_quality.h"
 #include "smoothing/relocation/quad_relocation.h"
 

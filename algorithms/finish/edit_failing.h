@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "patches/places_inside.h"
+#include "geometry/patches/places_inside.h"
 
 namespace delquad {
 

@@ -11,9 +11,9 @@
 
 #include "algorithms/finish/edit_failing.h"
 #include "base/parallel.h"
+#include "geometry/patches/meshing_setup.h"
 #include "metrics/shape.h"
 #include "metrics/surface/surface_search.h"
-#include "patches/meshing_setup.h"
 #include "smoothing/relocation/quad_relocation.h"
 #include "smoothing/surface/surface_lift.h"
 #include "smoothing/surface/surface_tracks.h"

@@ -3,7 +3,7 @@
 #include <tuple>
 
 #include "base/counters.h"
-#include "patches/places_inside.h"
+#include "geometry/patches/places_inside.h"
 
 // This header has the last repairs of quads in space. The pipeline uses it after its stages.
 

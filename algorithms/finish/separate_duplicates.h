@@ -3,7 +3,7 @@
 #include <tuple>
 
 #include "base/counters.h"
-#include "patches/places_inside.h"
+#include "geometry/patches/places_inside.h"
 
 // This header removes duplicate edges and quads between patches. The pipeline uses it before its repairs.
 

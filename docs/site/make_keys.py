@@ -8,7 +8,7 @@ import pathlib
 import subprocess
 import sys
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "bindings/python/delquad"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "program/python/delquad"))
 from _keywords import words  # noqa: E402
 
 HEAD = """# Keys

@@ -95,7 +95,7 @@ class Site:
         import delquad
 
         text = "# Python\n\n[python.md](python.md) is the guide.\n\n```text\n" + inspect.getdoc(delquad) + "\n```\n"
-        for node in ast.parse((ROOT / "bindings/python/delquad/__init__.pyi").read_text()).body:
+        for node in ast.parse((ROOT / "program/python/delquad/__init__.pyi").read_text()).body:
             if not isinstance(node, (ast.FunctionDef, ast.ClassDef)) or node.name.startswith("_"):
                 continue
             shown = [node] if isinstance(node, ast.FunctionDef) else [one for one in node.body if isinstance(one, ast.FunctionDef) and one.name != "__init__"]

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "delquad/fields.h"
-#include "patches/meshing_setup.h"
+#include "geometry/patches/meshing_setup.h"
 
 namespace delquad {
 

@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "fields/size_aware_cross_field.h"
-#include "patches/meshing_setup.h"
+#include "algorithms/fields/size_aware_cross_field.h"
+#include "geometry/patches/meshing_setup.h"
 
 namespace delquad {
 

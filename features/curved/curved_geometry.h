@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "delquad/mesh.h"
-#include "patches/meshing_setup.h"
+#include "geometry/patches/meshing_setup.h"
 
 // This header has the true curves and faces behind a mesh. Features use it.
 

@@ -5,7 +5,7 @@
 
 #include "base/counters.h"
 #include "delquad/metrics.h"
-#include "patches/meshing_setup.h"
+#include "geometry/patches/meshing_setup.h"
 
 // This header makes curved elements from a straight mesh. The pipeline and features use it.
 

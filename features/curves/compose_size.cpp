@@ -7,11 +7,11 @@
 #include <numbers>
 #include <utility>
 
+#include "algorithms/fields/fields.h"
 #include "base/estimate.h"
 #include "delquad/error.h"
 #include "features/divisions/divisions.h"
 #include "features/sizes/named_parts.h"
-#include "fields/fields.h"
 
 namespace delquad {
 

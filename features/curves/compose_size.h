@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "algorithms/fields/sampled_fields.h"
+#include "algorithms/fields/surface/surface_size.h"
 #include "delquad/mesher.h"
 #include "features/curves/agreement.h"
 #include "features/periodic/periodic.h"
 #include "features/symmetry/mirrored_surface.h"
-#include "fields/sampled_fields.h"
-#include "fields/surface/surface_size.h"
+#include "geometry/patches/meshing_setup.h"
 #include "geometry/planar/planar_model.h"
-#include "patches/meshing_setup.h"
 
 // What a size is made of.
 //

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "geometry/patches/surface_curves.h"
 #include "geometry/planar/check_lines.h"
 #include "geometry/planar/curve_pieces.h"
-#include "patches/surface_curves.h"
 
 namespace delquad {
 

@@ -13,6 +13,7 @@
 #include <set>
 #include <utility>
 
+#include "algorithms/fields/fields.h"
 #include "base/budget.h"
 #include "base/disjoint_sets.h"
 #include "delquad/error.h"
@@ -22,13 +23,12 @@
 #include "features/grids/grids.h"
 #include "features/periodic/periodic.h"
 #include "features/symmetry/planar_symmetry.h"
-#include "fields/fields.h"
+#include "geometry/patches/across_view.h"
+#include "geometry/patches/even_counts.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/domain_builder.h"
 #include "geometry/planar/face_regions.h"
 #include "geometry/planar/loops_apart.h"
-#include "patches/across_view.h"
-#include "patches/even_counts.h"
 
 namespace delquad {
 

@@ -19,11 +19,11 @@
 #include "delquad/error.h"
 #include "features/divisions/divisions.h"
 #include "features/grids/grids.h"
-#include "patches/across_view.h"
-#include "patches/boundary_cap.h"
-#include "patches/even_counts.h"
-#include "patches/narrow_places.h"
-#include "patches/surface_curves.h"
+#include "geometry/patches/across_view.h"
+#include "geometry/patches/boundary_cap.h"
+#include "geometry/patches/even_counts.h"
+#include "geometry/patches/narrow_places.h"
+#include "geometry/patches/surface_curves.h"
 
 namespace delquad {
 

@@ -5,7 +5,7 @@
 #include "base/matching/matching.h"
 #include "features/curves/agreement.h"
 #include "features/periodic/periodic.h"
-#include "patches/surface_domain.h"
+#include "geometry/patches/surface_domain.h"
 
 namespace delquad {
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "algorithms/fields/fields.h"
 #include "delquad/error.h"
 #include "features/curves/compose_size.h"
 #include "features/curves/mesh_planar_curves.h"
@@ -17,7 +18,6 @@
 #include "features/symmetry/planar_symmetry.h"
 #include "features/symmetry/symmetry_planes.h"
 #include "features/thin/gap_sizes.h"
-#include "fields/fields.h"
 #include "geometry/planar/model_chain.h"
 
 namespace delquad {

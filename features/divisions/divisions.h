@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "delquad/model.h"
+#include "geometry/patches/surface_curves.h"
+#include "geometry/patches/surface_domain.h"
 #include "geometry/planar/curve_pieces.h"
-#include "patches/surface_curves.h"
-#include "patches/surface_domain.h"
 
 namespace delquad {
 

@@ -13,9 +13,9 @@
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/tri_topology.h"
 #include "geometry/mesh/turn_to_agree.h"
+#include "geometry/patches/patch_outline.h"
 #include "geometry/planar/arrangement.h"
 #include "geometry/planar/domain_builder.h"
-#include "patches/patch_outline.h"
 
 namespace delquad {
 namespace {

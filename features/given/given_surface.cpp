@@ -16,10 +16,10 @@
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/nearest_triangle.h"
+#include "geometry/patches/surface_curves.h"
 #include "geometry/surface/triangle_repair.h"
 #include "geometry/surface/triangulated_model.h"
 #include "metrics/shape.h"
-#include "patches/surface_curves.h"
 
 namespace delquad {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "delquad/extend.h"
+#include "geometry/patches/surface_domain.h"
 #include "geometry/surface/surface_model.h"
-#include "patches/surface_domain.h"
 
 namespace delquad {
 

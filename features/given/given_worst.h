@@ -4,7 +4,7 @@
 #include <string>
 
 #include "delquad/mesher.h"
-#include "patches/meshing_setup.h"
+#include "geometry/patches/meshing_setup.h"
 
 namespace delquad {
 

@@ -11,9 +11,9 @@
 #include "geometry/mesh/entity_names.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "geometry/mesh/quad_corners.h"
+#include "geometry/patches/places_inside.h"
 #include "metrics/shape.h"
 #include "metrics/size_efficiency.h"
-#include "patches/places_inside.h"
 
 namespace delquad {
 namespace {

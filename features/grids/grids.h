@@ -8,10 +8,10 @@
 
 #include "base/matching/edge_counts.h"
 #include "delquad/model.h"
+#include "geometry/patches/meshing_setup.h"
+#include "geometry/patches/surface_curves.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/planar_model.h"
-#include "patches/meshing_setup.h"
-#include "patches/surface_curves.h"
 
 // This header finds faces that become grids, and gives their curves fitting numbers of edges. The pipeline
 // and features use it.

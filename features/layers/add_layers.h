@@ -7,8 +7,8 @@
 
 #include "base/counters.h"
 #include "delquad/model.h"
+#include "geometry/patches/meshing_setup.h"
 #include "geometry/planar/planar_model.h"
-#include "patches/meshing_setup.h"
 
 // This header puts boundary layers into a domain. The pipeline, features and measures use it.
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "patches/boundary_cap.h"
+#include "geometry/patches/boundary_cap.h"
 
 namespace delquad {
 

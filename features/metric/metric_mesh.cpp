@@ -9,14 +9,14 @@
 #include <unordered_set>
 #include <utility>
 
+#include "algorithms/fields/sample_triangle.h"
+#include "algorithms/fields/tangent_metric.h"
 #include "base/cancel.h"
 #include "base/located.h"
 #include "base/predicates.h"
 #include "base/sort_unique.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "fields/sample_triangle.h"
-#include "fields/tangent_metric.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/surface/surface_editor.h"
 

@@ -9,13 +9,13 @@
 #include <optional>
 #include <utility>
 
+#include "algorithms/fields/size_by.h"
 #include "base/located.h"
 #include "base/parallel.h"
 #include "base/segment.h"
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/curves/mesh_planar_curves.h"
-#include "fields/size_by.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/planar/curve_span.h"
 #include "geometry/planar/model_chain.h"

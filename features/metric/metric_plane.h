@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "algorithms/fields/background_mesh.h"
+#include "algorithms/fields/size_aware_cross_field.h"
 #include "base/box_tree.h"
 #include "delquad/fields.h"
 #include "delquad/mesher.h"
 #include "features/metric/metric_mesh.h"
 #include "features/seed/perturb.h"
-#include "fields/background_mesh.h"
-#include "fields/size_aware_cross_field.h"
 #include "metrics/anisotropic_measures.h"
 
 // This header maps a plane with a metric to a plane with sizes. A plane with a metric is a surface, and

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "fields/size_aware_cross_field.h"
-#include "fields/surface/surface_metric.h"
+#include "algorithms/fields/size_aware_cross_field.h"
+#include "algorithms/fields/surface/surface_metric.h"
+#include "geometry/patches/meshing_setup.h"
 #include "metrics/anisotropic_measures.h"
-#include "patches/meshing_setup.h"
 
 // A surface with a metric is measured by it where it is laid flat: charts by the lengths of their sides,
 // curves by theirs. All else happens in the flat patches, whose size is the metric's own.

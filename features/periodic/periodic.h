@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "geometry/patches/surface_curves.h"
+#include "geometry/patches/surface_domain.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/surface/flatten.h"
-#include "patches/surface_curves.h"
-#include "patches/surface_domain.h"
 
 /// Sides that are images of others, with the same nodes: what is called for it, in this order.
 namespace delquad {

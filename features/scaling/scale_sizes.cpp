@@ -7,9 +7,9 @@
 #include <utility>
 #include <variant>
 
+#include "algorithms/fields/fields.h"
+#include "algorithms/fields/size_by.h"
 #include "delquad/error.h"
-#include "fields/fields.h"
-#include "fields/size_by.h"
 
 namespace delquad {
 namespace {

@@ -7,7 +7,7 @@
 #include <random>
 #include <utility>
 
-#include "fields/size_by.h"
+#include "algorithms/fields/size_by.h"
 
 namespace delquad {
 namespace {

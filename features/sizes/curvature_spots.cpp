@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fields/fields.h"
+#include "algorithms/fields/fields.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/planar/curve_pieces.h"
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "algorithms/fields/background_mesh.h"
 #include "base/nearest_name.h"
 #include "delquad/error.h"
-#include "fields/background_mesh.h"
 
 namespace delquad {
 namespace {

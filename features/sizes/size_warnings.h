@@ -2,10 +2,10 @@
 
 #include <vector>
 
+#include "algorithms/fields/surface/surface_size.h"
 #include "features/sizes/named_parts.h"
-#include "fields/surface/surface_size.h"
+#include "geometry/patches/meshing_setup.h"
 #include "geometry/planar/planar_model.h"
-#include "patches/meshing_setup.h"
 
 namespace delquad {
 

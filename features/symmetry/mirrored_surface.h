@@ -7,8 +7,8 @@
 
 #include "delquad/mesher.h"
 #include "features/symmetry/mirror_match.h"
+#include "geometry/patches/meshing_setup.h"
 #include "geometry/planar/planar_model.h"
-#include "patches/meshing_setup.h"
 
 // This header cuts a symmetric surface, so that one part is meshed. The pipeline, features and measures use
 // it.

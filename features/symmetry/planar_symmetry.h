@@ -7,10 +7,10 @@
 
 #include "base/box.h"
 #include "delquad/extend.h"
+#include "geometry/patches/curve_nodes.h"
+#include "geometry/patches/meshing_setup.h"
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/planar_model.h"
-#include "patches/curve_nodes.h"
-#include "patches/meshing_setup.h"
 
 // This header has the symmetry of planar models. The pipeline and features use it.
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "algorithms/fields/size_by.h"
 #include "delquad/error.h"
-#include "fields/size_by.h"
 
 namespace delquad {
 

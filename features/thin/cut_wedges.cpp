@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "patches/boundary_cap.h"
+#include "geometry/patches/boundary_cap.h"
 
 namespace delquad {
 

@@ -7,10 +7,10 @@
 #include <limits>
 #include <numeric>
 
+#include "algorithms/fields/fields.h"
 #include "base/segment.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "fields/fields.h"
 #include "geometry/mesh/quad_corners.h"
 
 namespace delquad {

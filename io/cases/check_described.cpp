@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/fields/fields.h"
 #include "base/located.h"
 #include "base/nearest_name.h"
 #include "base/text.h"
-#include "fields/fields.h"
 #include "io/mesh_io.h"
 
 namespace delquad {

@@ -11,6 +11,8 @@
 #include <set>
 #include <utility>
 
+#include "algorithms/fields/added_fields.h"
+#include "algorithms/fields/fields.h"
 #include "base/activity.h"
 #include "base/added_parts.h"
 #include "base/located.h"
@@ -19,8 +21,6 @@
 #include "delquad/error.h"
 #include "delquad/fields.h"
 #include "delquad/model.h"
-#include "fields/added_fields.h"
-#include "fields/fields.h"
 #include "geometry/mesh/outline.h"
 #include "geometry/mesh/weld.h"
 #include "geometry/planar/defined_curve.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/patches/meshing_setup.h"
 #include "metrics/judgement/criteria.h"
-#include "patches/meshing_setup.h"
 
 // This header finds elements beyond limits and explains them. All judges of elements use it.
 

@@ -5,7 +5,7 @@
 
 #include "delquad/options.h"
 #include "geometry/mesh/quad_corners.h"
-#include "patches/meshing_setup.h"
+#include "geometry/patches/meshing_setup.h"
 
 // This header judges the quads of finished meshes. The pipeline uses it.
 

@@ -5,8 +5,8 @@
 
 #include "delquad/mesher.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/patches/meshing_setup.h"
 #include "metrics/surface/surface_report.h"
-#include "patches/meshing_setup.h"
 
 // This header checks the soundness of meshes. The pipeline and the program use it.
 

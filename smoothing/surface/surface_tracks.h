@@ -6,7 +6,7 @@
 
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
-#include "patches/surface_domain.h"
+#include "geometry/patches/surface_domain.h"
 #include "smoothing/optimisation/track_optimisation.h"
 
 // This header moves vertices of surface meshes, nodes along curves. Stage O and the last repairs use it.

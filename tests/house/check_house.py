@@ -9,7 +9,8 @@ import sys
 
 MOST_LINES = 60  # of a function
 MOST_PUBLIC_HEADERS = 12
-LAST_OF_LIBRARY = "adapt"
+BINDINGS = "program/python"
+LAST_OF_LIBRARY = "mesher/adapt"
 # Modules up to LAST_OF_LIBRARY have no text formats, no streams and no processes.
 NOT_IN_LIBRARY = [
     r"#include <(toml|nlohmann|CLI|iostream|muParser)",
@@ -20,7 +21,7 @@ NOT_IN_LIBRARY = [
 # Exception: the module that reads model files.
 READS_TEXTS = "io/cases"
 # READS_TEXTS and modules above the library include headers of include/delquad, and none of these folders.
-INSIDE = ("mesher/", "curves/", "patches/", "features/")
+INSIDE = ("mesher/", "geometry/patches/", "features/")
 # This file may fork: HDF5 crashes at the end of a process in which a write failed, so its writers get a child process.
 FORKS = "base/process.cpp"
 # Only these files may use the operating system.
@@ -88,7 +89,7 @@ def module_links(root):
 
 def sources(root, module, modules):
     """Yield the files of a module, without the files of modules inside its folder."""
-    inner = [root / m for m in modules if m.startswith(module + "/")]
+    inner = [root / m for m in [*modules, BINDINGS] if m.startswith(module + "/")]
     for path in sorted((root / module).rglob("*")):
         if path.suffix in (".h", ".cpp") and not any(i in path.parents for i in inner):
             yield path
@@ -159,7 +160,7 @@ def check_primitives(root, links):
 def check_public_api(root, links):
     order = list(links)
     above = order[order.index(LAST_OF_LIBRARY) + 1 :]
-    for module in [READS_TEXTS, *above, "bindings", "examples"]:
+    for module in [READS_TEXTS, *above, BINDINGS, "examples"]:
         for path in sources(root, module, links):
             for header in re.findall(r'#include "([^"]+)"', path.read_text()):
                 if header.startswith(INSIDE):

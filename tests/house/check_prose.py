@@ -17,7 +17,7 @@ import tokenize
 
 BASE = "5f0c9cae54cd7d3c8d3bc885e8ea4c6154ce77d3"  # the rules hold since this commit
 MOST_WORDS = 25  # of a sentence
-GENERATED = ("docs/keys.md", "report/three/", "tests/fuzz/corpus/")
+GENERATED = ("docs/keys.md", "experiments/report/three/", "tests/fuzz/corpus/")
 SUFFIXES = (".md", ".h", ".cpp", ".py", ".toml", ".cmake", "CMakeLists.txt", "Makefile")
 MESSAGES, PROSE, TERSE, COMMENT, DOC = range(5)  # terse: headings and tables
 

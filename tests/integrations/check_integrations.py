@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The files of integrations/ do their work in the programs they are for: check_integrations.py freecad|blender DELQUAD
+"""The files of examples/freecad and examples/blender do their work in the programs they are for: check_integrations.py freecad|blender DELQUAD
 
 Runs in_freecad.py or in_blender.py in the program, whose last line is "good". Exit code 77: the program is not installed, and why.
 """
@@ -23,7 +23,7 @@ def main():
         needs.program(needed, package)
     with tempfile.TemporaryDirectory() as home:
         environment = {**os.environ, "HOME": home, "PATH": f"{os.path.dirname(delquad)}:{os.environ['PATH']}", "PYTHONDONTWRITEBYTECODE": "1",
-                       "INTEGRATIONS": str(HERE.parents[1] / "integrations")}
+                       "INTEGRATIONS": str(HERE.parents[1] / "examples" / sys.argv[1])}
         result = subprocess.run([*COMMANDS[program], HERE / f"in_{program}.py"], cwd=home, env=environment, stdin=subprocess.DEVNULL,
                                 capture_output=True, text=True, timeout=280)
     print(result.stdout[-3000:], result.stderr[-3000:])

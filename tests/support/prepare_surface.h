@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "fields/fields.h"
+#include "algorithms/fields/fields.h"
 #include "geometry/surface/surface_model.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"

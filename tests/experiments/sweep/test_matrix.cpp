@@ -1,5 +1,5 @@
 #include "experiments/sweep/experiment.h"
-#include "patches/meshing_setup.h"
+#include "geometry/patches/meshing_setup.h"
 #include "tests/support/files.h"
 #include "tests/support/prepare_case.h"
 

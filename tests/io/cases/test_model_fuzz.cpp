@@ -1,6 +1,6 @@
+#include "geometry/patches/meshing_setup.h"
 #include "io/cases/case_file.h"
 #include "mesher/runner.h"
-#include "patches/meshing_setup.h"
 #include "tests/support/files.h"
 #include "tests/support/prepare_case.h"
 #include "tests/support/triangulated_shapes.h"

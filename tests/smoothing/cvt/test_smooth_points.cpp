@@ -1,7 +1,7 @@
 #include "algorithms/insertion/frontal_mesher.h"
 #include "features/curves/mesh_surface_curves.h"
+#include "geometry/patches/surface_domain.h"
 #include "geometry/surface/improve_triangulation.h"
-#include "patches/surface_domain.h"
 #include "smoothing/cvt/smooth_points.h"
 #include "tests/smoothing/seeds.h"
 

@@ -1,5 +1,5 @@
+#include "geometry/patches/places_inside.h"
 #include "metrics/shape.h"
-#include "patches/places_inside.h"
 #include "smoothing/surface/surface_lift.h"
 #include "tests/smoothing/meshed_surface.h"
 #include "tests/support/polygon_face.h"

@@ -1,0 +1,111 @@
+#include <cmath>
+#include <queue>
+
+#include "algorithms/fields/fields.h"
+#include "algorithms/fields/sample_triangle.h"
+#include "base/box.h"
+#include "base/cancel.h"
+
+namespace delquad {
+
+namespace {
+
+// Estimates are differences between rules: too small where delta jumps.
+constexpr double kSafety = 0.25;
+// Bounds the work where delta has no finite integral or varies everywhere.
+constexpr int kMostEvaluations = 2'000'000;
+
+/// Symmetric rule of degree 4, six points [Dunavant 1985]: (b, b, 1 - 2 b) and the weight of its three
+/// permutations.
+struct Orbit {
+  double b, weight;
+};
+constexpr Orbit kRule[] = {{0.445948490915965, 0.223381589678011}, {0.091576213509771, 0.109951743655322}};
+constexpr int kRulePoints = 6;
+
+class Quadrature {
+ public:
+  explicit Quadrature(const SizeField& size) : size_(size) {}
+
+  /// Cuts the triangle up until its sides are short.
+  void add(const Corners& corners, double longest) {
+    check_cancelled();
+    if (longest_side(corners) > longest && !exhausted()) {
+      for (const Corners& quarter : quarters(corners)) add(quarter, longest);
+    } else {
+      push(integrate(corners));
+    }
+  }
+
+  /// Cuts the parts with the largest errors until all together are small enough.
+  double refine(double relative_error) {
+    while (std::isfinite(total_) && error_ > relative_error * total_ && !exhausted()) {
+      check_cancelled();
+      const Part worst = parts_.top();
+      parts_.pop();
+      total_ -= worst.integral;
+      error_ -= worst.error;
+      Part part[4];
+      double sum = 0;
+      for (int i = 0; i < 4; ++i) {
+        part[i] = integrate(quarters(worst.corners)[i]);
+        sum += part[i].integral;
+      }
+      for (Part& p : part) {
+        p.error = std::abs(sum - worst.integral) / 4;
+        push(p);
+      }
+    }
+    return total_;
+  }
+
+ private:
+  struct Part {
+    Corners corners;
+    double integral;
+    double error;
+    friend bool operator<(const Part& a, const Part& b) { return a.error < b.error; }
+  };
+
+  bool exhausted() const { return evaluations_ > kMostEvaluations; }
+
+  void push(const Part& part) {
+    parts_.push(part);
+    total_ += part.integral;
+    error_ += part.error;
+  }
+
+  /// The error is the difference from the rule that has the first orbit alone.
+  Part integrate(const Corners& c) {
+    const double area = std::abs(cross(c[1] - c[0], c[2] - c[0])) / 2;
+    double mean[2] = {0, 0};
+    for (int i = 0; i < 2; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const Vec2 x = kRule[i].b * (c[(k + 1) % 3] + c[(k + 2) % 3]) + (1 - 2 * kRule[i].b) * c[k];
+        const double delta = size_.at({x.x, x.y, 0}, hint_);
+        mean[i] += 1 / (delta * delta) / 3;
+      }
+    }
+    evaluations_ += kRulePoints;
+    const double rule = 3 * (kRule[0].weight * mean[0] + kRule[1].weight * mean[1]);
+    return {c, area * rule, area * std::abs(rule - mean[0])};
+  }
+
+  const SizeField& size_;
+  int hint_ = -1;
+  int evaluations_ = 0;
+  double total_ = 0, error_ = 0;
+  std::priority_queue<Part> parts_;
+};
+
+}  // namespace
+
+double expected_quads(const TriPatch& triangulation, const SizeField& size, double relative_error,
+                      double coarsest) {
+  Quadrature quadrature(size);
+  const double longest = coarsest * diagonal(triangulation.points);
+  for (const auto& v : triangulation.triangles) quadrature.add(corners_of(triangulation, v), longest);
+  return quadrature.refine(kSafety * relative_error);
+}
+
+}  // namespace delquad

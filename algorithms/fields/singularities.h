@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "algorithms/fields/background_mesh.h"
+#include "algorithms/fields/fields.h"
+#include "algorithms/fields/laplace.h"
+
+namespace delquad {
+
+/// How a field winds around the cells of a patch: the middles of the sides cut it into one cell a triangle
+/// and one a vertex. The phase 4 theta is taken to turn by less than half a turn more or less than expected
+/// between two middles of one triangle, so that it winds a whole number of times around each cell: the cell's
+/// index. At a vertex on the boundary it is the corner's turn that is compared with the field's.
+struct FieldWinding {
+  std::vector<int> of_triangle;
+  /// For each vertex the turns of the phase. They are whole numbers, up to rounding, if the field on the
+  /// boundary lies along it.
+  std::vector<double> of_vertex;
+  std::vector<char> is_inside;  ///< of each vertex
+};
+
+/// crosses[side] is the field there. `expected` may say by how much the phase is expected to turn from a
+/// triangle's centroid to the middles of its sides; empty: not at all.
+FieldWinding find_winding(const BackgroundMesh& background, const Sides& sides,
+                          const std::vector<Cross>& crosses,
+                          const std::vector<std::array<double, 3>>& expected = {});
+
+/// Vertices of patches that are one point of a surface.
+struct JoinedVertices {
+  std::vector<std::array<int, 2>> vertices;  ///< patch and vertex
+  int n_shared = 0;                          ///< sides that begin or end there and join two of them
+};
+/// Adds up what winds around the patches' parts of each: then vertices[0] has it, the others nothing, and is
+/// inside where all sides are shared.
+void join_windings(const std::vector<JoinedVertices>& joined, std::vector<FieldWinding>& windings);
+
+/// The indices of a patch: their sum, all vertices included, and the list of those inside. Opposite indices
+/// of cells that touch are noise and not listed; they do not change the sum.
+FieldTopology find_singularities(const BackgroundMesh& background, const Sides& sides,
+                                 const std::vector<Cross>& crosses, const FieldWinding& winding);
+
+}  // namespace delquad

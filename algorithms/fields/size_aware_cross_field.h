@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "algorithms/fields/background_mesh.h"
+#include "algorithms/fields/fields.h"
+#include "delquad/fields.h"
+
+// This header makes cross fields that know the size. Features and fields use it.
+
+namespace delquad {
+
+/// Crosses that a field is drawn to.
+struct CrossPull {
+  Cross cross;
+  double strength;  ///< of its square difference, per area of a quad
+};
+using CrossPullAt = std::function<CrossPull(Vec2 u, int& hint)>;
+
+/// A patch of a surface, for a field on all of them.
+struct FieldPatch {
+  /// The background mesh of this patch alone. Its elements must be small against the length over which delta'
+  /// varies.
+  std::shared_ptr<const BackgroundMesh> background;
+  const ParametricSize* size;
+  std::shared_ptr<const CrossField> start;  ///< what the iteration starts from
+  CrossPullAt pull = nullptr;               ///< null: to nothing
+};
+
+/// A side of the boundaries of two patches, or at two places of one, across which the surface is smooth and
+/// so is the field: its crosses turn with the side.
+struct FieldSeam {
+  struct Side {
+    int patch, triangle, opposite;  ///< the side opposite to this vertex (0 to 2) of the triangle
+  };
+  std::array<Side, 2> sides;  ///< they run in opposite directions
+  double alignment;           ///< how much the field is drawn to the side's direction, see CrossDiffusion
+};
+
+/// Cross field for which grids of size delta' exist locally, wherever it is smooth: close to parallel in the
+/// metric |du|^2/delta'^2, boundary-aligned. The harmonic field knows nothing of delta, so that where delta
+/// varies rows of quads have to end inside the mesh.
+///
+/// Minimises the energy of the covariant derivative of exp(4 i theta) by diffusion and normalisation in turn,
+/// over times that fall from many to a few elements, so that the singularities find their places; unknowns on
+/// edges as in HarmonicCrossField, transport within each triangle by SizeConnection. delta' having the
+/// stretch of the patch's map in it, the metric is that of the surface over delta^2, whatever the map: so
+/// that the field of several patches is one on the surface. The paper [section 5] has a field on each patch.
+class SizeAwareCrossField final : public SolvedCrossField {
+ public:
+  /// On one patch. It is the start, exactly, where delta' hardly varies: by too little over the whole patch
+  /// for a single row of quads to end.
+  SizeAwareCrossField(std::shared_ptr<const BackgroundMesh> background, const ParametricSize& size,
+                      std::shared_ptr<const CrossField> start);
+  /// Returns a cross of about unit length, but zero at singularities.
+  Cross at(Vec2 u, int& hint) const override;
+
+ private:
+  struct Data;
+  friend std::vector<std::shared_ptr<const SizeAwareCrossField>> make_size_aware_fields(
+      const std::vector<FieldPatch>& patches, const std::vector<FieldSeam>& seams);
+  explicit SizeAwareCrossField(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+  std::shared_ptr<const Data> data_;
+};
+
+/// The field of patches that hang together by seams, on each of them. The sum of indices and the Euler
+/// characteristic of each are those of them all; singularities are listed where they are inside of a patch.
+std::vector<std::shared_ptr<const SizeAwareCrossField>> make_size_aware_fields(
+    const std::vector<FieldPatch>& patches, const std::vector<FieldSeam>& seams);
+
+/// Number of places where a row of quads of size delta' along the field has to end, in the mean: the integral
+/// of (|v . e1| + |v . e2|)/delta', v = grad theta - J grad log delta', over the background mesh, which must
+/// resolve both.
+double expected_dislocations(const BackgroundMesh& background, const CrossField& cross,
+                             const ParametricSize& size);
+
+}  // namespace delquad

@@ -1,0 +1,369 @@
+#include "algorithms/fields/surface/surface_metric.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "base/cancel.h"
+#include "base/text.h"
+#include "delquad/error.h"
+#include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/triangle_measures.h"
+#include "geometry/surface/improve_triangulation.h"
+
+namespace delquad {
+
+namespace {
+
+/// The most that a side turns with a curved face or curve (radians), however coarse its chords may be.
+constexpr double kLargestTurn = std::numbers::pi / 3;
+/// The sagitta of a straight side along a curve, in lengths across it.
+constexpr double kMostSagitta = 0.2;
+/// Where a curve asks a face for sides that are shorter by more than this factor, rows have to end.
+constexpr double kMostShorter = 1.5;
+/// The growth of lengths where none is asked for: of those by curvature, which jump, and beside curves.
+constexpr double kGradation = 1.5;
+/// Relative amount by which a tensor may be below the demand of gradation.
+constexpr double kGraded = 1e-3;
+constexpr int kMostSweeps = 200, kMostRefinings = 4, kMostScalings = 20;
+/// How near the complexity comes to what is asked.
+constexpr double kNearComplexity = 0.005;
+/// In the metric: sides are halved that are longer than kShortest, and along which lengths differ by more
+/// than kSteepest (as a logarithm), and the longest whatever they do; of metrics that are functions, those
+/// that are longer than a part of the model's diagonal, too.
+constexpr double kShortest = 0.6, kLongest = 3, kSteepest = 0.25, kLargestSide = 1.0 / 64;
+constexpr std::size_t kMostPoints = 4'000'000;
+
+/// No length is less than the least of both: where planes turn from point to point as those of slivers do,
+/// intersections would become ever smaller.
+Tensor2 finer_of(const Tensor2& a, const Tensor2& b) {
+  return limited(intersection(a, b), {.min = std::min(axes_of(a).h1, axes_of(b).h1)});
+}
+
+}  // namespace
+
+SurfaceMetric::SurfaceMetric(const SurfaceModel& model, const WantedMetric& wanted)
+    : wanted_(wanted), sites_at_(model.fine.points.size()) {
+  const Mesh& fine = model.fine;
+  if (!(wanted_.spec.limits.max > 0)) wanted_.spec.limits.max = diagonal(fine);
+  std::vector<std::tuple<int, int, Vec3>> corners;  // face, node, normal
+  for (std::size_t t = 0; t < fine.triangles.size(); ++t)
+    for (const int v : fine.triangles[t])
+      corners.emplace_back(fine.triangle_region[t], v, area_vector(fine, t));
+  std::ranges::stable_sort(corners, {}, [](const auto& c) { return std::pair(get<0>(c), get<1>(c)); });
+  for (std::size_t i = 0; i < corners.size();) {
+    const auto [face, node, first] = corners[i];
+    Vec3 normal;
+    for (; i < corners.size() && get<0>(corners[i]) == face && get<1>(corners[i]) == node; ++i)
+      normal = normal + get<2>(corners[i]);
+    add(face, node, fine.points[node], normal);
+  }
+  const double asked = wanted_.spec.complexity;
+  for (int i = 0; i < kMostScalings; ++i) {
+    check_cancelled();
+    compose(model);
+    if (!(asked > 0)) break;
+    double complexity = 0;
+    for (int t = 0; t < std::ssize(fine.triangles); ++t) complexity += area(fine, t);
+    complexity *= wanted_.spec.scale * wanted_.spec.scale;
+    if (std::abs(complexity / asked - 1) < kNearComplexity) break;
+    scale_ *= std::clamp(std::sqrt(complexity / asked), 0.5, 2.0);
+  }
+  make_pieces(fine);
+}
+
+int SurfaceMetric::add(int face, int node, const Vec3& x, const Vec3& normal) {
+  Site site{face, node, TangentMetric::with_normal(normal), {}};
+  site.given.m = given_at(face, x, site.given);
+  site.metric = site.given;
+  site.metric.m = within_limits(site.given.m, x);
+  sites_at_.resize(std::max(sites_at_.size(), static_cast<std::size_t>(node) + 1));
+  sites_at_[node].push_back(static_cast<int>(sites_.size()));
+  sites_.push_back(site);
+  return static_cast<int>(sites_.size()) - 1;
+}
+
+double SurfaceMetric::length_for(double curvature) const {
+  const double k = std::abs(curvature);
+  if (!(k > 0)) return wanted_.spec.limits.max;
+  // A side strays from whatever arc by no more than half of its length.
+  const double chord = wanted_.spec.chord, least = std::min(2 * chord, wanted_.spec.limits.max);
+  return std::clamp(std::min(std::sqrt(8 * chord / k), kLargestTurn / k), least, wanted_.spec.limits.max);
+}
+
+Tensor2 SurfaceMetric::given_at(int face, const Vec3& x, const TangentMetric& frame) const {
+  if (wanted_.spec.chord > 0) {
+    const PrincipalCurvatures k = wanted_.curvature->principal(face, x);
+    const Vec2 along = frame.in_plane(k.along);
+    return tensor_of({length_for(k.most), length_for(k.least), std::atan2(along.y, along.x)});
+  }
+  Tensor3 m;
+  wanted_.spec.in_space({&x, 1}, {&m, 1});
+  const auto by = [&](const Vec3& a, const Vec3& b) {
+    return a.x * (m.xx * b.x + m.xy * b.y + m.xz * b.z) + a.y * (m.xy * b.x + m.yy * b.y + m.yz * b.z) +
+           a.z * (m.xz * b.x + m.yz * b.y + m.zz * b.z);
+  };
+  const Tensor2 flat{by(frame.e, frame.e), by(frame.e, frame.f), by(frame.f, frame.f)};
+  const double aspect = wanted_.spec.limits.aspect;
+  if (!(flat.xx > 0 && flat.yy > 0 && determinant(flat) > 0 &&
+        is_metric(aspect > 0 ? limited(flat, {.aspect = aspect}) : flat)))
+    throw InputError(fmt::format(
+        "{}: the metric is [{:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}] (m11, m12, m13, m22, m23, m33) "
+        "at {}: expected finite numbers and a positive definite tangent part whose lengths differ by a "
+        "factor of less than {:g} (or a largest aspect)",
+        wanted_.spec.where, m.xx, m.xy, m.xz, m.yy, m.yz, m.zz, show_point(x), kMostAspect));
+  return flat;
+}
+
+Tensor2 SurfaceMetric::within_limits(const Tensor2& given, const Vec3& x) const {
+  const double scale = wanted_.spec.scale;
+  Tensor2 m = limited(times(1 / (scale_ * scale_), given), wanted_.spec.limits);
+  m = times(1 / (scale * scale), m);
+  for (const SizeBall& spot : wanted_.spots)
+    if (norm(x - spot.at) < spot.reach) m = limited(m, {.max = spot.size});
+  return m;
+}
+
+bool SurfaceMetric::shorten_along(Site& site, const Vec3& direction, double most) const {
+  Tensor2& m = site.metric.m;
+  const double square = metric_square((1 / norm(direction)) * direction, site.metric) * most * most;
+  if (!(square < 1 - kGraded)) return false;
+  const Vec2 along = site.metric.in_plane(direction);
+  // By curvature in all directions where rows have to end, or the face has no directions.
+  const MetricAxes axes = axes_of(m);
+  const bool is_round = wanted_.spec.chord > 0 &&
+                        (square < 1 / (kMostShorter * kMostShorter) || axes.h2 < (1 + kGraded) * axes.h1);
+  const double across = is_round ? most : most * kMostAspect / 10;
+  m = finer_of(m, tensor_of({most, across, std::atan2(along.y, along.x)}));
+  return true;
+}
+
+/// Sides along a curve follow it: by its chords, or by the lengths across it.
+void SurfaceMetric::follow_curves(const SurfaceModel& model, std::vector<char>& is_less) {
+  const Mesh& fine = model.fine;
+  const auto& [spec, curvature, spots] = wanted_;
+  for (std::size_t l = 0; l < fine.lines.size(); ++l)
+    for (const int end : fine.lines[l]) {
+      const Vec3 d = fine.points[fine.lines[l][1]] - fine.points[fine.lines[l][0]];
+      const double k = curvature->of_curve(fine.line_curve[l], fine.points[end]);
+      for (const int s : sites_at_[end]) {
+        Site& site = sites_[s];
+        if (!(k > 0) || find(site.face, fine.lines[l][0] + fine.lines[l][1] - end) == nullptr) continue;
+        const Vec3 across = cross(cross(site.metric.e, site.metric.f), d);
+        const double most =
+            spec.chord > 0
+                ? spec.scale * std::max(scale_ * length_for(k), spec.limits.min)
+                : std::sqrt(8 * kMostSagitta / k / std::sqrt(metric_square(across, site.metric)) * norm(d));
+        if (shorten_along(site, d, most)) is_less[s] = 1;
+      }
+    }
+}
+
+void SurfaceMetric::compose(const SurfaceModel& model) {
+  for (Site& site : sites_) site.metric.m = within_limits(site.given.m, model.fine.points[site.node]);
+  const bool grows = wanted_.spec.gradation > 1 || wanted_.spec.chord > 0;
+  std::vector<char> is_less(sites_.size(), grows ? 1 : 0);
+  follow_curves(model, is_less);
+  grade(model.fine, std::move(is_less));
+}
+
+/// Each sweep goes on from what the one before has changed. By curvature lengths grow with the distance in
+/// space, so that what is long beside a curve is soon as wide; else with that in the metric.
+void SurfaceMetric::grade(const Mesh& fine, std::vector<char> is_new) {
+  struct Link {
+    int from, to;
+    Vec3 way;
+    bool is_curve;  ///< of two faces at a point of a curve, which runs that way
+    auto key() const { return std::pair(from, to); }
+  };
+  std::vector<Link> links;
+  for (std::size_t t = 0; t < fine.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int a = fine.triangles[t][k], b = fine.triangles[t][(k + 1) % 3], face = fine.triangle_region[t];
+      const int p = static_cast<int>(find(face, a) - sites_.data()),
+                q = static_cast<int>(find(face, b) - sites_.data());
+      const Vec3 way = fine.points[b] - fine.points[a];
+      links.push_back({p, q, way, false});
+      links.push_back({q, p, way, false});
+    }
+  std::ranges::stable_sort(links, {}, &Link::key);
+  const auto same = std::ranges::unique(links, {}, &Link::key);
+  links.erase(same.begin(), same.end());
+  for (const auto& [a, b] : fine.lines)
+    for (const int end : {a, b})
+      for (const int p : sites_at_[end])
+        for (const int q : sites_at_[end])
+          if (p != q && find(sites_[p].face, a + b - end) != nullptr &&
+              find(sites_[q].face, a + b - end) != nullptr)
+            links.push_back({p, q, fine.points[b] - fine.points[a], true});
+  const bool by_curvature = wanted_.spec.chord > 0;
+  const double gradation = wanted_.spec.gradation > 1 ? wanted_.spec.gradation : kGradation;
+  const double slope = std::log(gradation);
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    check_cancelled();
+    const std::vector<char> was_new = std::exchange(is_new, std::vector<char>(sites_.size(), 0));
+    bool is_changed = false;
+    for (const auto& [p, q, way, is_curve] : links) {
+      if (was_new[p] + is_new[p] == 0) continue;
+      const TangentMetric& from = sites_[p].metric;
+      TangentMetric& to = sites_[q].metric;
+      if (is_curve) {
+        if (!shorten_along(sites_[q], way, norm(way) / std::sqrt(metric_square(way, from)))) continue;
+      } else {
+        Tensor2 most = to.seen(from);
+        if (by_curvature) {
+          MetricAxes axes = axes_of(most);
+          axes.h1 += slope * norm(way), axes.h2 += slope * norm(way);
+          most = tensor_of(axes);
+        } else {
+          most = grown(most, metric_length(way, from, to), gradation);
+        }
+        if (is_finer(to.m, times(1 - kGraded, most))) continue;
+        to.m = finer_of(to.m, most);
+      }
+      is_new[q] = 1;
+      is_changed = true;
+    }
+    if (!is_changed) return;
+    std::ranges::reverse(links);
+  }
+}
+
+const SurfaceMetric::Site* SurfaceMetric::find(int face, int node) const {
+  if (node >= std::ssize(sites_at_)) return nullptr;
+  for (const int s : sites_at_[node])
+    if (sites_[s].face == face) return &sites_[s];
+  return nullptr;
+}
+
+void SurfaceMetric::make_pieces(const Mesh& fine) {
+  std::vector<std::vector<std::array<int, 3>>> triangles(fine.regions.size());
+  std::vector<std::vector<Vec3>> points(fine.regions.size());
+  std::vector<std::vector<int>> sites(fine.regions.size());
+  std::vector<int> place;
+  for (std::size_t s = 0; s < sites_.size(); ++s) {
+    const int face = sites_[s].face;
+    place.push_back(static_cast<int>(points[face].size()));
+    points[face].push_back(fine.points[sites_[s].node]);
+    sites[face].push_back(static_cast<int>(s));
+  }
+  for (std::size_t t = 0; t < fine.triangles.size(); ++t) {
+    const int face = fine.triangle_region[t];
+    auto& v = triangles[face].emplace_back();
+    for (int k = 0; k < 3; ++k) v[k] = place[find(face, fine.triangles[t][k]) - sites_.data()];
+  }
+  pieces_.resize(fine.regions.size());
+  for (std::size_t f = 0; f < pieces_.size(); ++f)
+    if (!triangles[f].empty())
+      pieces_[f].emplace(
+          Piece{NearestTriangle(std::move(points[f]), std::move(triangles[f])), std::move(sites[f])});
+  all_.emplace(fine.points, fine.triangles);
+  face_of_ = fine.triangle_region;
+}
+
+TangentMetric SurfaceMetric::in_face(int face, const Vec3& x) const {
+  const auto& [triangles, sites] = *pieces_[face];
+  const NearestTriangle::Found found = triangles.find(x);
+  std::array<TangentMetric, 3> corners;
+  for (int k = 0; k < 3; ++k) corners[k] = sites_[sites[triangles.triangle(found.triangle)[k]]].metric;
+  return log_mean(corners, found.weights);
+}
+
+TangentMetric SurfaceMetric::at_node(const Mesh& fine, int face, int node) const {
+  const Site* site = find(face, node);
+  return site != nullptr ? site->metric : in_face(face, fine.points[node]);
+}
+
+double SurfaceMetric::length(const Mesh& fine, int face, int a, int b) const {
+  return metric_length(fine.points[b] - fine.points[a], at_node(fine, face, a), at_node(fine, face, b));
+}
+
+double SurfaceMetric::area(const Mesh& fine, int triangle) const {
+  const auto& [a, b, c] = fine.triangles[triangle];
+  double log = 0;
+  for (const int v : {a, b, c})
+    log += std::log(determinant(at_node(fine, fine.triangle_region[triangle], v).m)) / 6;
+  return norm(area_vector(fine, static_cast<std::size_t>(triangle))) / 2 * std::exp(log);
+}
+
+std::map<std::pair<int, int>, double> SurfaceMetric::stretches_of_lines(const Mesh& fine) const {
+  std::map<std::pair<int, int>, double> stretches;
+  const std::vector<HalfEdge> sides = sorted_half_edges(fine);
+  for (const auto& [a, b] : fine.lines) {
+    double& stretch = stretches[std::minmax(a, b)];
+    for (const HalfEdge& side : sides_of_edge(std::span(sides), a, b))
+      stretch = std::max(stretch, length(fine, fine.triangle_region[side.element], a, b) /
+                                      norm(fine.points[b] - fine.points[a]));
+  }
+  return stretches;
+}
+
+double SurfaceMetric::at(const Vec3& x, int& hint) const {
+  const NearestTriangle::Found found = all_->find_from(hint, x);
+  hint = found.triangle;
+  return std::pow(determinant(in_face(face_of_[found.triangle], x).m), -0.25);
+}
+
+/// Follows the metric with new points.
+class MetricRule final : public RefinementRule {
+ public:
+  MetricRule(const SurfaceModel& model, const WantedMetric& wanted)
+      : fine_(model.fine), metric_(model, wanted), largest_(kLargestSide * diagonal(model.fine)) {}
+
+  int n_added() const { return n_added_; }
+  bool has_lengths() const override { return true; }
+  double length(int face, int a, int b, double) const override { return metric_.length(fine_, face, a, b); }
+
+  bool is_too_large(int face, const std::array<int, 3>& nodes, const std::array<int, 3>&) const override {
+    for (int k = 0; k < 3; ++k) {
+      const int a = nodes[(k + 1) % 3], b = nodes[(k + 2) % 3];
+      const TangentMetric &at_a = metric_.find(face, a)->metric, &at_b = metric_.find(face, b)->metric;
+      const Vec3 d = fine_.points[b] - fine_.points[a];
+      const double by_metric = metric_length(d, at_a, at_b);
+      if (by_metric > kLongest || (metric_.wanted_.spec.chord == 0 && norm(d) > largest_) ||
+          (by_metric > kShortest && difference(at_a.m, at_a.seen(at_b)) > kSteepest))
+        return true;
+    }
+    return false;
+  }
+
+  void node_added(int node, int a, int b, int, int) override {
+    if (fine_.points.size() > kMostPoints)
+      throw InputError(fmt::format(
+          "{}: the metric changes too fast to be followed by {} points: a gradation or a larger least "
+          "length helps [metric-too-fast]",
+          metric_.wanted_.spec.where, kMostPoints));
+    const std::vector<int> at_a = metric_.sites_at_[a];
+    for (const int s : at_a) {
+      const SurfaceMetric::Site first = metric_.sites_[s];
+      const SurfaceMetric::Site* other = metric_.find(first.face, b);
+      if (other == nullptr) continue;
+      const TangentMetric &p = first.metric, q = other->metric;
+      TangentMetric& made =
+          metric_.sites_[metric_.add(first.face, node, fine_.points[node], cross(p.e, p.f) + cross(q.e, q.f))]
+              .metric;
+      made.m = intersection(made.m, log_mean(std::array{made.seen(p), made.seen(q)}, std::array{0.5, 0.5}));
+    }
+    ++n_added_;
+  }
+
+ private:
+  const Mesh& fine_;
+  SurfaceMetric metric_;
+  double largest_;
+  int n_added_ = 0;
+};
+
+std::shared_ptr<const SurfaceMetric> refine_for_metric(SurfaceModel& model, const WantedMetric& wanted) {
+  for (int round = 0; round < kMostRefinings; ++round) {
+    MetricRule rule(model, wanted);
+    refine_triangulation(model, rule);
+    if (rule.n_added() == 0) break;
+  }
+  return std::make_shared<const SurfaceMetric>(model, wanted);
+}
+
+}  // namespace delquad

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "algorithms/fields/surface/surface_size.h"
+#include "algorithms/fields/tangent_metric.h"
+#include "delquad/fields.h"
+#include "geometry/mesh/nearest_triangle.h"
+#include "geometry/surface/model_curvature.h"
+#include "geometry/surface/surface_model.h"
+
+// This header has metrics on surfaces. Features and fields use it.
+
+namespace delquad {
+
+/// A metric that is asked for on a surface.
+struct WantedMetric {
+  MetricSpec spec;
+  std::shared_ptr<const ModelCurvature> curvature;  ///< of the model as it was read
+  std::vector<SizeBall> spots = {};                 ///< lengths in these are no larger than their sizes
+};
+
+/// Metrics of the tangent planes of a model's faces: at each point of its fine triangulation one for each
+/// face there, exp(linear) between them. They are within their limits and graded along each face; along a
+/// curve all faces beside it agree on its lengths.
+class SurfaceMetric final : public SizeField {
+ public:
+  SurfaceMetric(const SurfaceModel& model, const WantedMetric& wanted);
+
+  /// Returns the metric at a point of a face, or at a point next to it.
+  TangentMetric in_face(int face, const Vec3& x) const;
+  /// Returns the metric at a fine point of its model, or at a point that a cut added.
+  TangentMetric at_node(const Mesh& fine, int face, int node) const;
+  /// Returns the length of a side of a triangle of the face.
+  double length(const Mesh& fine, int face, int a, int b) const;
+  double area(const Mesh& fine, int triangle) const;
+  /// By how much each line is longer than in space, by its ends, the lower first: the most of the faces
+  /// there.
+  std::map<std::pair<int, int>, double> stretches_of_lines(const Mesh& fine) const;
+  /// The geometric mean of both lengths, in space.
+  double at(const Vec3& x, int& hint) const override;
+
+ private:
+  friend class MetricRule;
+  struct Site {
+    int face, node;
+    TangentMetric given, metric;
+  };
+  struct Piece {
+    NearestTriangle triangles;
+    std::vector<int> sites;  ///< of its points
+  };
+
+  const Site* find(int face, int node) const;
+  int add(int face, int node, const Vec3& x, const Vec3& normal);
+  Tensor2 given_at(int face, const Vec3& x, const TangentMetric& frame) const;
+  Tensor2 within_limits(const Tensor2& given, const Vec3& x) const;
+  double length_for(double curvature) const;
+  void compose(const SurfaceModel& model);
+  void follow_curves(const SurfaceModel& model, std::vector<char>& is_less);
+  void grade(const Mesh& fine, std::vector<char> is_new);
+  void make_pieces(const Mesh& fine);
+  bool shorten_along(Site& site, const Vec3& direction, double most) const;
+
+  WantedMetric wanted_;
+  double scale_ = 1;  ///< of lengths, to the complexity
+  std::vector<Site> sites_;
+  std::vector<std::vector<int>> sites_at_;  ///< of each fine point
+  std::vector<std::optional<Piece>> pieces_;
+  std::optional<NearestTriangle> all_;
+  std::vector<int> face_of_;  ///< of the triangles of `all_`
+};
+
+/// Refines the fine triangulation until the metric hardly changes along its sides, or they are short in it,
+/// and turns its sides to be Delaunay in it. Returns the metric there. Throws InputError for what is no
+/// metric, with the place and the tensor.
+std::shared_ptr<const SurfaceMetric> refine_for_metric(SurfaceModel& model, const WantedMetric& wanted);
+
+}  // namespace delquad

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <string_view>
+
+#include "experiments/report/packed_mesh.h"
+#include "experiments/report/page_json.h"
+
+// This header has the common parts of pages. Each page is one HTML file, which needs no other file and no
+// network.
+
+namespace delquad {
+
+void begin_page(std::ostream& out, std::string_view title, std::string_view style, std::string_view body);
+/// `data`: what the script shows; the page adds which program wrote it.
+void end_page(std::ostream& out, Json data, bool in_space, std::string_view script);
+
+/// Writes a packed mesh as the text of the node `id`; returns what `unpackMesh` of page/packed_mesh.js wants
+/// to know.
+Json add_picture(std::ostream& out, const std::string& id, PackedMesh packed);
+
+}  // namespace delquad

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "delquad/mesh.h"
+#include "metrics/tables/result_records.h"
+#include "metrics/tables/table.h"
+
+// This header makes the data of pages. The report uses it.
+
+namespace delquad {
+
+using Json = nlohmann::ordered_json;
+
+/// As the page shows it, with its files; empty ones are null.
+Json table_json(const Table& table);
+
+/// y = factor * x^exponent.
+struct PowerLaw {
+  double factor, exponent;
+};
+/// The law that fits positive pairs best, by least squares of the logarithms; nothing where all x are alike.
+std::optional<PowerLaw> fit_power_law(const std::vector<double>& x, const std::vector<double>& y);
+
+/// For each pipeline and case: elements and seconds of the case's variants, and the power law that they
+/// follow where there are three sizes or more, the largest at least four times the smallest.
+Json growth_json(const std::vector<CellRecord>& records);
+
+/// Returns the meaning of stages and measures, and colors by eta.
+Json glossary_json();
+
+/// Scripts and styles of all pages, then of pages of results, then of pages of one mesh. They come from
+/// experiments/report/page/ and experiments/report/three/.
+extern const std::string_view kPageStyle, kPageScript, kThreeScript;
+extern const std::string_view kPageBody, kReportScript;
+extern const std::string_view kViewStyle, kViewBody, kViewScript;
+
+/// Empty where there is none.
+std::string seed_of(const CellRecord& record);
+
+/// For each pipeline of a sheet with several seeds: how many of its cells are done, and means with half the
+/// width of their 95 % confidence intervals, by column key. Empty where no pipeline has two.
+Json means_json(std::span<const CellRecord* const> cells, const std::vector<TableColumn>& columns);
+
+/// Returns the values of finished cells in each column, for charts of their spread. `sheets` have `cases`,
+/// `words` and `keys`. `cells` have the places of their sheet and pipeline, then a value or null for each
+/// key.
+Json samples_json(const std::vector<CellRecord>& records, const std::vector<TableColumn>& columns);
+
+/// With five digits, more than a chart shows; null of NaN.
+Json brief_number(double value);
+
+/// A bad quad and what is around it, seen from its front.
+struct Closeup {
+  double eta;
+  double size;  ///< mean edge
+  Vec3 normal;
+  Vec3 at;                                 ///< its centre
+  std::vector<Vec2> points;                ///< in units of the quad's mean edge, its centre at the origin
+  std::vector<std::vector<int>> elements;  ///< triangles and quads, the bad quad first
+  std::vector<double> etas;                ///< of the elements; those of triangles are 1
+};
+
+/// The `count` worst quads of which no two have a vertex in common, worst first, with the elements that three
+/// steps from element to element lead to.
+std::vector<Closeup> worst_quads(const Mesh& mesh, std::size_t count);
+Json closeups_json(const Mesh& mesh, std::size_t count);
+
+using Json = nlohmann::ordered_json;
+
+/// Returns the data of a page on one cell, from its record, and from its mesh if there is one.
+Json cell_json(const Json& record, const std::optional<Mesh>& mesh);
+
+/// Returns the facts of a variant of a case, by the record of one of its cells: pairs of texts.
+Json facts_json(const Json& record);
+
+}  // namespace delquad

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algorithms/fields/fields.h"
+#include "base/activity.h"
+#include "base/warning.h"
+#include "delquad/mesher.h"
+#include "geometry/patches/surface_domain.h"
+#include "geometry/planar/planar_model.h"
+
+namespace delquad {
+
+struct LayerReport;
+struct MirroredSurface;
+
+/// A patch, ready for the stages: its boundary and fields in the parameter plane, and the way back to space.
+struct PatchSetup {
+  PatchBoundary boundary;
+  int region = 0;  ///< index into MeshingSetup::boundary.regions
+  std::shared_ptr<const CrossField> cross;
+  std::shared_ptr<const ParametricSize> size;
+  std::function<Vec3(Vec2, int& hint)> lift;
+  /// Of one that is a mirror image, how: it has the master's mesh, mirrored.
+  std::optional<PatchImage> image = {};
+  std::optional<QuadPatch> grid = {};  ///< of a mapped face: the quads that it begins with
+  bool grid_stays = false;             ///< which no stage changes: it was asked for
+  QuadPatch given = {};  ///< elements that a word may begin from; none, unless the model is a GivenMesh
+  std::vector<Vec3> given_inside = {};  ///< on a surface: the places of its points inside
+  bool given_stays = false;             ///< no stage changes them
+};
+
+/// The curves and regions of a given mesh in space, which its words divide for their work.
+struct GivenEntities {
+  std::vector<Entity> curves, regions;
+  std::vector<int> curve_of, region_of;  ///< of each of MeshingSetup::boundary; -1: no line of the mesh
+};
+
+/// A surface of which one part is meshed, with its cuts.
+struct WholeSurface {
+  SurfaceModel model;
+  std::vector<SurfaceCut> cuts;
+};
+
+/// What the patches of a surface were made from.
+struct SurfaceSetup {
+  SurfaceModel model;
+  SurfaceDomain domain;
+  std::vector<SurfaceCut> cuts;
+  std::shared_ptr<const SurfaceSize> size;
+  std::shared_ptr<const SurfaceMetric> metric;      ///< in place of a size; null: none
+  std::shared_ptr<const MirroredSurface> mirrored;  ///< of symmetric ones, of which `model` is a part
+  std::shared_ptr<const WholeSurface> full_model;   ///< that; null: `model` is the whole
+  std::optional<GivenEntities> given;               ///< of a GivenMesh
+  bool is_retry = false;                            ///< with smaller sizes, as its mesh was not sound
+  std::shared_ptr<const SurfaceModel> cad;          ///< as it was read; null of other models
+
+  const SurfaceModel& whole() const { return full_model ? full_model->model : model; }
+  const std::vector<SurfaceCut>& all_cuts() const { return full_model ? full_model->cuts : cuts; }
+};
+
+/// The maps of all patches.
+std::vector<const FlatPatch*> maps_of(const SurfaceSetup& surface);
+
+/// What the patches of a planar domain were made from.
+struct PlaneSetup {
+  bool ignores_small = false;  ///< what is small in its outlines was left out
+  /// Of each curve those of the model that lie there; empty where the lines are kept.
+  std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes;
+  std::vector<CurvePlace> curve_places;              ///< of the curves' nodes; empty where the lines are kept
+  std::vector<DomainPiece> pieces;                   ///< of its curves; empty in the plane of a metric, too
+  std::vector<PatchBoundary> outlines;               ///< see PlanarDomain
+  std::shared_ptr<const BackgroundMesh> background;  ///< of all patches; null on surfaces
+};
+
+/// What is worst in a mesh of quads that is given: what is made of it must not be worse.
+struct GivenWorst {
+  double eta = 1;     ///< least of all quads, 0 where some are inverted
+  double side = 0;    ///< shortest of all edges, in sizes
+  double aspect = 1;  ///< largest of the quads that are sound (is_sound_quad()): of others it means nothing
+  double sound_eta = 1;  ///< least of these
+  bool is_sound = true;  ///< whether all quads are
+};
+
+/// What a problem says beside its model and fields; the members are as in MeshProblem.
+struct ProblemSettings {
+  std::string name, where;
+  Options options;
+  long long max_elements = 0;
+  bool keep_going = false;
+  int order = 1;
+  Criteria criteria = {};
+};
+
+/// What every pipeline on a case starts from.
+struct MeshingSetup : Preparation {
+  ProblemSettings settings;
+  std::vector<PatchSetup> patches;
+  PlaneSetup plane;
+  std::shared_ptr<const SurfaceSetup> surface;  ///< null on planar domains
+  std::shared_ptr<const LayerReport> layers;    ///< null: none
+  std::shared_ptr<const MetricPlane>
+      metric_plane;                       ///< in which all of this lies; null: it is the domain's own
+  std::optional<GivenWorst> given_worst;  ///< of a GivenMesh with quads
+
+  /// Whether the model is a GivenMesh in space.
+  bool is_given_surface() const { return surface && surface->given; }
+  /// Those of a surface that forbid a quad an eta of kBadEta.
+  std::vector<SharpCorner> sharp_corners() const {
+    return surface ? surface->domain.sharp_corners : std::vector<SharpCorner>();
+  }
+};
+
+/// Tells that this thread works on a patch.
+inline FaceScope patch_scope(const MeshingSetup& prepared, std::size_t patch) {
+  return FaceScope(prepared.boundary.regions[static_cast<std::size_t>(prepared.patches[patch].region)].tag,
+                   prepared.surface ? "face" : "region");
+}
+
+}  // namespace delquad
