@@ -152,7 +152,8 @@ double read_size(const std::optional<std::string>& text) {
   if (!text) return 0;
   const auto size = as_number(*text);
   if (!size || !(*size > 0) || !std::isfinite(*size))
-    throw InputError("--size " + (text->empty() ? "''" : *text) + ": expected a finite number > 0");
+    throw InputError("--size " + (text->empty() ? "''" : *text) +
+                     ": expected a finite number > 0 [bad-size]");
   return *size;
 }
 

@@ -193,7 +193,8 @@ SurfaceModel make_surface(const MeshProblem& problem, const TriangleModel& model
   const SurfaceSpec& spec = problem.surface;
   if (spec.glue)
     throw InputError(spec.where +
-                     ": only bodies of CAD models can be glued: unite triangulated bodies in a CAD program");
+                     ": only bodies of CAD models can be glued: unite triangulated bodies in a CAD program "
+                     "[crossing-bodies]");
   ReadNotes notes = model.notes;
   Mesh triangles = model.mesh;
   const std::string missing = problem.keep_going ? leave_out_strays(triangles) : "";

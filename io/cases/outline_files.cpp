@@ -169,8 +169,12 @@ class GeoJsonReader {
     int n = 0;
     for (const Json& ring : rings) {
       const std::string place = rings.size() == 1 ? where : fmt::format("{}, ring {}", where, n + 1);
-      if (ring.size() < 4 || ring.front() != ring.back())
-        refuse("{}: a ring has four points or more, and the last is the first", place);
+      if (ring.size() < 4) refuse("{}: a ring of {} points: expected four or more", place, ring.size());
+      if (ring.front() != ring.back())
+        refuse(
+            "{}: the ring is open: it ends at {} and begins at {}; end it with its first point "
+            "[open-outline]",
+            place, ring.back().dump(), ring.front().dump());
       const std::string part = n == 0 ? "_outline" : fmt::format("_hole_{}", n);
       const int curve = add_curve(ring, place, feature.curve(part));
       model_.loops.push_back({{curve}, n == 0 ? feature.name : "", place, n > 0});

@@ -104,7 +104,7 @@ std::shared_ptr<const SizeField> make_field(const SizeSpec& size, const std::str
   const std::string &text = size.text, &where = size.where;
   if (const auto number = as_number(text)) {
     if (!(*number > 0) || *number > std::numeric_limits<double>::max())
-      throw InputError(where + ": size " + text + ": expected a finite number > 0");
+      throw InputError(where + ": size " + text + ": expected a finite number > 0 [bad-size]");
     return make_constant_size(*number);
   }
   if (const auto file = size_file_of(text, size.folder))

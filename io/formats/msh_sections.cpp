@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <set>
 #include <string_view>
+#include <vector>
 
 #include "base/utf8.h"
 #include "io/formats/msh_raw.h"
@@ -29,8 +31,8 @@ class NumberReader {
   long long integer(std::string_view what, long long low, long long high);
   /// Eight bytes or text.
   long long size(std::string_view what, long long low, long long high);
-  /// A finite number.
-  double real(std::string_view what);
+  /// A finite number. The greatest number stands for others if strays are kept.
+  double real(std::string_view what, Strays strays = Strays::kRefused);
 
  private:
   template <class T>
@@ -76,11 +78,12 @@ long long NumberReader::size(std::string_view what, long long low, long long hig
   return checked(static_cast<long long>(raw<std::uint64_t>(what)), what, low, high);
 }
 
-double NumberReader::real(std::string_view what) {
-  if (!are_bytes_) return in_.real(what);
+double NumberReader::real(std::string_view what, Strays strays) {
+  if (!are_bytes_) return in_.real(what, strays);
   const auto value = raw<double>(what);
-  if (!std::isfinite(value)) in_.fail("expected {} (a finite number), found {}", what, value);
-  return value;
+  if (std::isfinite(value)) return value;
+  if (strays == Strays::kKept) return std::numeric_limits<double>::max();
+  in_.fail("expected {} (a finite number), found {}", what, value);
 }
 
 constexpr long long kLargestTag = LLONG_MAX;      // of nodes and elements
@@ -174,9 +177,11 @@ class SectionReader {
       in_.fail("expected {} after as many as are announced, found {}", end, in_.printable(found));
   }
 
-  /// Titles, times and counts are text in binary files, too.
+  /// Titles, times and counts are text in binary files, too. A value that is no number counts as none: so
+  /// other programs write fields that some elements lack.
   void view(const std::string& section) {
     View view{"", section == "NodeData", 1, {}, {}};
+    std::vector<double> row;
     const long long n_texts = in_.integer("the number of a view's texts", 0, INT_MAX);
     for (long long k = 0; k < n_texts; ++k) {
       std::string line(in_.token("a view's text"));
@@ -199,8 +204,11 @@ class SectionReader {
     reserve(view.values, count, in_);
     for (long long i = 0; i < count; ++i) {
       const long long tag = numbers_.integer("the tag of a value", 1, kLargestTag);
-      view.values.emplace_back(tag, numbers_.real("a value"));
-      for (int k = 1; k < view.n_components; ++k) view.further.push_back(numbers_.real("a value"));
+      row.clear();
+      for (int k = 0; k < view.n_components; ++k) row.push_back(numbers_.real("a value", Strays::kKept));
+      if (std::ranges::count(row, std::numeric_limits<double>::max()) > 0) continue;
+      view.values.emplace_back(tag, row[0]);
+      view.further.insert(view.further.end(), row.begin() + 1, row.end());
     }
     contents_.views.push_back(std::move(view));
     expect_end(section);

@@ -137,7 +137,7 @@ TEST(MeshFields, StepsGapsAndRefusals) {
       write_text(folder / "a.msh", kTwoTriangles22 +
                                        msh_view("NodeData", "v", 0, 2, {"3 9 9", "5 9 9", "6 9 9", "9 9 9"}) +
                                        msh_view("NodeData", "v", 1, 2, {"3 1 2", "5 1 2", "6 4 5", "9 1 2"}) +
-                                       msh_view("ElementData", "h", 0, 1, {"4 7"}));
+                                       msh_view("ElementData", "h", 0, 1, {"4 7", "8 nan"}));
   MeshWithFields read = read_fields(of_plane);
   ASSERT_EQ(read.fields.size(), 2u);
   EXPECT_TRUE(std::isnan(read.fields[0].values[0]) && read.fields[0].values[1] == 7);

@@ -126,7 +126,7 @@ TEST_F(OutlineFiles, OutlinesThatNearlyTouchAreJoined) {
 TEST_F(OutlineFiles, MessagesNameFeatureAndRing) {
   expect_input_error([&] { read(feature("Polygon", "[[[0, 0], [1, 0], [1, 1], [0, 0]]]")); }, {"degrees"});
   expect_input_error([&] { read(feature("Polygon", "[[[0, 0], [500, 0], [1, 1], [0, 1]]]")); },
-                     {"feature 1 ('lake'): a ring has four points"});
+                     {"feature 1 ('lake'): the ring is open: it ends at"});
   expect_input_error([&] { read(feature("Polygon", "[[[0, 0], [500, 0], [1], [0, 0]]]")); },
                      {"feature 1 ('lake')"});
   std::string nested;
