@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "base/box.h"
@@ -54,6 +55,30 @@ void leave_out_flat(Mesh& mesh, const std::string& source, std::vector<Warning>&
                                    counted(flat.count, "triangle"), show_point(flat.first)));
 }
 
+/// Gives a triangle that stands for one of another region, too, a region with the names of both.
+class CommonRegions {
+ public:
+  explicit CommonRegions(Mesh& mesh) : mesh_(mesh) {}
+
+  void join(int triangle, int other) {
+    const int own = mesh_.triangle_region[triangle];
+    if (own == other) return;
+    const auto [at, is_new] = common_.emplace(std::pair(own, other), static_cast<int>(mesh_.regions.size()));
+    if (is_new) {
+      Entity both = mesh_.regions[own];
+      for (const std::string& name : mesh_.regions[other].names)
+        if (std::ranges::find(both.names, name) == both.names.end()) both.names.push_back(name);
+      both.tag = 1 + std::ranges::max(mesh_.regions, {}, &Entity::tag).tag;
+      mesh_.regions.push_back(std::move(both));
+    }
+    mesh_.triangle_region[triangle] = at->second;
+  }
+
+ private:
+  Mesh& mesh_;
+  std::map<std::pair<int, int>, int> common_;
+};
+
 void remove_duplicates(Mesh& mesh, std::vector<Warning>& warnings) {
   std::vector<int> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), 0);
@@ -62,7 +87,14 @@ void remove_duplicates(Mesh& mesh, std::vector<Warning>& warnings) {
   std::sort(order.begin(), order.end(),
             [&](int s, int t) { return keys[s] != keys[t] ? keys[s] < keys[t] : s < t; });
   std::vector<char> twin(order.size(), 0);
-  for (size_t i = 1; i < order.size(); ++i) twin[order[i]] = keys[order[i]] == keys[order[i - 1]];
+  CommonRegions regions(mesh);
+  for (size_t i = 1, first = 0; i < order.size(); ++i) {
+    twin[order[i]] = keys[order[i]] == keys[order[i - 1]];
+    if (!twin[order[i]])
+      first = i;
+    else
+      regions.join(order[first], mesh.triangle_region[order[i]]);
+  }
   const Dropped dropped = drop_triangles(mesh, [&](size_t t) { return !twin[t]; });
   if (dropped.count == 0) return;
   warnings.push_back(fmt::format("left out {} on the vertices of another (the first at {})",
@@ -112,11 +144,18 @@ void take_out_flat_copies(Mesh& mesh, std::vector<Warning>& warnings) {
   constexpr double kFlat = 1e-6;  // of the diagonal: some units in the last place of single precision
   const double tolerance = kFlat * diagonal(mesh.points);
   std::set<int> copies;
+  CommonRegions regions(mesh);
   for (const auto& [outline, parts] : alike) {
-    bool is_first = true;
-    for (const int p : parts)
-      if (parts.size() > 1 && are_in_plane(mesh, triangles_of[p], tolerance))
-        if (!std::exchange(is_first, false)) copies.insert(p);
+    int first = -1;
+    for (const int p : parts) {
+      if (parts.size() < 2 || !are_in_plane(mesh, triangles_of[p], tolerance)) continue;
+      if (first >= 0) {
+        copies.insert(p);
+        for (const int t : triangles_of[first]) regions.join(t, mesh.triangle_region[triangles_of[p][0]]);
+      } else {
+        first = p;
+      }
+    }
   }
   const Dropped dropped = drop_triangles(mesh, [&](size_t t) { return !copies.contains(part[t]); });
   if (dropped.count == 0) return;

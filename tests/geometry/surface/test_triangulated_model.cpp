@@ -234,6 +234,7 @@ TEST(TriangleRepair, WeldingIsNotAdvisedWhereItClosesNothing) {
 Mesh touching_boxes(int n, double bulge) {
   TriangulatedShape both;
   both.region();
+  both.mesh.regions[0].names = {"left"};
   const Mesh mesh = box(n);
   const auto mirrored = [&](int v) {
     const Vec3& p = mesh.points[v];
@@ -241,6 +242,8 @@ Mesh touching_boxes(int n, double bulge) {
     return Vec3{1 + p.x + (is_inside ? bulge : 0), 1 - p.y, p.z};
   };
   for (const auto& [a, b, c] : mesh.triangles) both.triangle(mesh.points[a], mesh.points[b], mesh.points[c]);
+  both.region();
+  both.mesh.regions[1].names = {"right"};
   for (const auto& [a, b, c] : mesh.triangles) both.triangle(mirrored(a), mirrored(c), mirrored(b));
   return both.mesh;
 }
@@ -250,10 +253,25 @@ TEST(TriangleRepair, OneFaceStaysWhereBodiesTouchWithOtherDiagonals) {
     const SurfaceModel model = triangulated(touching_boxes(n, 0));
     expect_counts(model, 11, 20, 12);
     EXPECT_EQ(model.fine.triangles.size(), 11u * 2 * n * n);
+    const std::vector<std::string> names = {"left", "right"};
+    EXPECT_EQ(std::ranges::count(model.fine.regions, names, &Entity::names), 1);
     EXPECT_TRUE(is_reported(model.warnings, fmt::format("left out {} triangles of {} that lie on others",
                                                         2 * n * n, n == 1 ? "1 flat part" : "9 flat parts")));
   }
   expect_counts(triangulated(touching_boxes(3, 0.1)), 12, 20, 12);
+}
+
+TEST(TriangleRepair, AFaceOfTwoBodiesHasTheNamesOfBoth) {
+  Mesh tetrahedra;
+  tetrahedra.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
+  tetrahedra.regions = {{1, {"a"}}, {2, {"b"}}};
+  tetrahedra.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0},
+                          {0, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 0, 4}};
+  tetrahedra.triangle_region = {0, 0, 0, 0, 1, 1, 1, 1};
+  const SurfaceModel model = triangulated(tetrahedra);
+  std::map<std::vector<std::string>, int> faces;
+  for (const Entity& region : model.fine.regions) ++faces[region.names];
+  EXPECT_EQ(faces, (std::map<std::vector<std::string>, int>{{{"a"}, 3}, {{"b"}, 3}, {{"a", "b"}, 1}}));
 }
 
 TEST(TriangleRepair, DegenerateAndDuplicateTrianglesAndUnusedPointsGo) {
