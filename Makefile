@@ -20,7 +20,7 @@ build:
 
 # Builds file by file, with warnings as errors; compiles only changed files. TARGETS names some targets.
 dev:
-	@cmake/install-packages.sh build python test
+	@cmake/install-packages.sh build python test dev
 	@[ -d build/dev ] || cmake --preset dev -DBUILD_TESTING=ON $(CMAKE_FLAGS)
 	cmake --build --preset dev $(if $(TARGETS),--target $(TARGETS))
 
