@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing, then calls the CMake presets.
 PRESET ?= release
 RESULTS ?= results

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the Python package by CMake: pip install --no-build-isolation ."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Counts the quads for an error of the surface: sizes by direction from curvature against sizes alone.
 
     python3 benchmarks/chord_metric.py build/release/delquad MODEL... [--chord 0.0005] [--max 0.05]

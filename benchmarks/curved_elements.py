@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Measures proven bounds and costs of curved elements on whole models.
 
 Meshes CAD models of ../shared/data and built-in examples with straight and with curved elements. Sizes are parts of the models' diagonals.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Measures process seconds per million quads, and quality: Delquad's qualities beside Gmsh, QuadriFlow and Instant Meshes.
 
 Each program makes about --quads quads on a plate with holes, on a closed triangulation and on a CAD model, with one thread. It runs

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes random sets of embedded lines and points, cracks, and adjacent regions, and checks each mesh by independent code.
 
     python3 benchmarks/random_lines.py --kinds square cracks regions sphere part --sets 100 --sizes .05 .02 .01

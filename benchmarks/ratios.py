@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the microbenchmarks and prints a table of speeds of our steps over their baselines, now and in earlier versions.
 
     python3 benchmarks/ratios.py build/release [--record] [-- --benchmark_filter=... and other flags of Google Benchmark]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Measures the pipeline at 10^5, 10^6 and 10^7 triangles: seconds of every stage and peak memory, beside Gmsh.
 
 Meshes the plate with 16 holes by DB (or --word), with one thread and with all cores. Tables have wall-clock and processor seconds; rows

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Headers that most sources include: compiled once, see delquad_common_headers().
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # find_package(delquad): delquad::delquad. With COMPONENTS bench also delquad::bench.
 include(${CMAKE_CURRENT_LIST_DIR}/delquad-targets.cmake)
 foreach(component IN LISTS delquad_FIND_COMPONENTS)

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # install-packages.sh NAME...: installs the Debian packages that this machine lacks. A NAME is a group of packages.txt, or a package.
 set -eu
 list=$(dirname "$0")/packages.txt

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Two shared libraries: "delquad" is the library, "delquad_bench" stands on it as a program of others would. Programs of others need
 # their headers, which need the standard library alone. Libraries that are loaded when needed lie beside them.
 include(CMakePackageConfigHelpers)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The modules of the library, from the bottom to the top: each links only modules above its line here. LINKS: the modules whose
 # headers it includes; tests/house checks both. PRIVATE: libraries of other projects. COLD: nothing in it takes time, so that it
 # is compiled by -Og, which takes a third less time than -O2. HOT: its inner loops gain by -O3. All others are compiled by -O2.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Renews the tables of measurements in README and docs: make_tables.py RESULTS [NAME ...]; --cheap lists the experiments that take seconds
 
 A table stands in its page between <!-- table: NAME, made by COMMAND --> and <!-- end -->. Its last line has the command, the version

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Recomputes the claims of DIR/pairs.csv or DIR/hypotheses.csv from DIR/runs.csv alone, as docs/statistics.md explains: check_claims.py DIR"""
 import csv, itertools, math, pathlib, sys
 import numpy as np

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Draws the figures of folders of results, as SVG and PDF in DIR/figures: figures.py DIR ...
 
 It reads only runs.csv, runs_columns.csv, pairs.csv and hypotheses.csv. `delquad run` and `delquad tables` call it. To change figures, change a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/digest.h"
 
 #include <boost/uuid/name_generator_sha1.hpp>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Read by CTest: makes of each suite in `sources` a test <prefix>.<suite> that runs it by `program` in `folder`.
 set(suites "")
 set(suites_with_long "")

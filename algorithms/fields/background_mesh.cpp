@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/fields/background_mesh.h"
 
 #include <CGAL/Delaunay_mesh_criteria_2.h>

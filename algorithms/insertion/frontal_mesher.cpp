@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/insertion/frontal_mesher.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/regularity/fill_trial.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/regularity/polygon_sides.h"
 
 #include <numeric>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The only file with LEMON's headers, compiled as C++17, since they are not valid C++20.
 #define LEMON_ONLY_TEMPLATES
 #include <lemon/matching.h>

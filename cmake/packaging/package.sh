@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # package.sh BUILD OUT: makes of what is built in BUILD three Debian packages and, with the libraries of other projects, so that they
 # run where these are not installed and wherever they lie, an archive and a Python wheel.
 set -eu

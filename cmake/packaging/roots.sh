@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=sh disable=SC2154
 # roots.sh: sourced by try.sh and try_source.sh, with $here and $roots: bare Debian systems under $roots. Needs root and debootstrap.
 mkdir -p "$roots"

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # tries.sh NAME MIRROR: run by try.sh as root of a clean system, with /packages and /solvers.
 set -eu
 export DEBIAN_FRONTEND=noninteractive

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # try.sh [PACKAGES [FOLDER]]: tries what `make package` made in PACKAGES (build/packages) in clean roots under FOLDER (build/roots), of
 # Debian 12 and 13 without a compiler: installs, meshes, imports, solves. Needs root and debootstrap; ends with an error when something
 # fails, and says what it did not try.

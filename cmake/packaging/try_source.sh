@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # try_source.sh [--all] [--resume] [--keep] [--roots FOLDER] [STEP ...]
 # Tries README's commands on a clone of HEAD in a Debian 12 with git, make and ca-certificates alone. Needs root and debootstrap.
 #   STEP       first-mesh, which is README's first block with `delquad mesh`, or words after `make`: test, "build -n";

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes docs/keys.md, the reference of all keys, from `delquad schema`.
 
 Usage: make_keys.py DELQUAD > docs/keys.md

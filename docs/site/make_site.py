@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the documentation as pages with a search, which need no network: build/site.
 
 Usage: make_site.py BUILD RESULTS SITE. BUILD has the program and the Python module. RESULTS are folders of `delquad run`, whose tables are shown where

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pages that are opened as files may neither fetch the index of the search nor start a worker: the index comes with this script, the worker runs in a frame.
 var __search = { index: Promise.resolve(INDEX) };
 if (location.protocol === "file:")

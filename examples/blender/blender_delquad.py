@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Blender: Object > Quad remesh (Delquad) makes the active mesh one of quads.
 
 Install this file by Edit > Preferences > Add-ons > Install. It calls the program `delquad`, whose path stands in its preferences.

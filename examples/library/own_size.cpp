@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Your own sizes and directions: by a function of many points at a time, and by values at nodes.
 #include <delquad/mesher.h>
 

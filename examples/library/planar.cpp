@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes a plate with a hole with quads only, and writes the mesh for a solver.
 #include <delquad/mesher.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes a CAD model, or a sphere of triangles.
 #include <delquad/mesher.h>
 

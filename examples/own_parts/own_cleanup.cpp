@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // X: collapses a quad if two opposite corners have three quads each; they become one point with four quads.
 #include <delquad/bench.h>
 #include <delquad/extend.h>

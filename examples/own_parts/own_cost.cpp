@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // aligned: merges triangles if the quad's sides run along the cross, regardless of its angles.
 #include <delquad/bench.h>
 #include <delquad/extend.h>

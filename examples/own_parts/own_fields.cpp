@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // winding: crosses that wind about the middle of each patch. bump: sizes that are small near the origin.
 #include <delquad/bench.h>
 #include <delquad/extend.h>

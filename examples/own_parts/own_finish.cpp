@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Y: moves inner points half of the way to the mean of their neighbors, patch by patch, if the worst quad in
 // space gets better.
 #include <delquad/bench.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // skew: the difference in length of a quad's diagonals, as a mean of powers over all quads.
 #include <delquad/bench.h>
 #include <delquad/extend.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // S: moves every inner point part of the way to the mean of its neighbors, as long as no triangle gets flat.
 #include <delquad/bench.h>
 #include <delquad/extend.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // coarse: matches by costs that are rounded to a few levels, to measure the worth of the resolution.
 #include <delquad/bench.h>
 #include <delquad/extend.h>

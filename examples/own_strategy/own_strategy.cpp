@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // M: new points at the tip of an equilateral triangle, as F does, but measured by the larger of the two
 // norms.
 #include <delquad/bench.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Solves Poisson's equation and adapts the mesh to the solution, in a loop: adapt_poisson.py [--quads N] [--meshes M] [-o PICTURE.svg]
 
 The solution is tanh(50 (x^2 + y^2 - 1/2)) on the unit square: a layer along a circle. Elements are bilinear. Prints the errors of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Common parts of the examples: options, solvers that are programs, tables of loops, and pictures of meshes."""
 import argparse
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Carries a cloud once around a disc, on meshes that follow its front: front.py [--quads N] [--meshes M] [-o PICTURE.svg]
 
 The front is 0.1 wide; the disc of two regions turns under it. Elements are bilinear, the rule is Crank and Nicolson's. Diffusion is

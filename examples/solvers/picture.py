@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A picture of a solution on quads, as SVG: picture.py SOLUTION.json PICTURE.svg [TITLE]. Needs Python alone.
 
 SOLUTION.json is a list of elements. Each is a list of its nodes [x, y, z, value] around the element. There are three or four

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Fetches the models of a list that are missing in a folder: files with curl, repositories with git.
 
 Usage: fetch.py FOLDER [--list LIST.toml] [--mirror URL]. The default list is files.toml. A file appears only if its SHA-256 is right, a repository only at its commit.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Figure 15 of the paper: the L-infinity and the L2 Delaunay triangulation of the same points. It writes a
 // table to the folder that it is given, and pictures of the smaller sets.
 

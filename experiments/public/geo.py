@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Turns a planar model in Gmsh's language into a model file: geo.py MODEL.geo OUT.toml CURVE, where CURVE is polyline or spline.
 
 Line n becomes curve cn, surface n region sn. Reads only `Point`, `Line`, `Line Loop` and `Plane Surface` of plain numbers.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Turns control files of HOHQMesh into model files: hohqmesh.py FILE.control... OUT writes OUT/FILE.toml for planar models.
 
 Splines go through the same knots, with our end conditions. Sizes come from the background grid and refinement regions. Along curves

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Measures a mesh as other programs do: verdict.py MESH.msh prints means over the quads of a planar mesh.
 
 The shape is the least 2 J / (a^2 + b^2) over the corners, with the cross product J of the sides a and b there. The aspect is the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Writes the parts of the page as string literals: script -DFOLDER= -DOUTPUT=.
 # Compilers need not take literals that long, but all do.
 set(text "#include \"experiments/report/page_json.h\"\n\n#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n\nnamespace delquad {\n")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The page around the results, its script and three.js, as text inside the program.
 set(report ${PROJECT_SOURCE_DIR}/experiments/report)
 file(GLOB page_parts CONFIGURE_DEPENDS ${report}/page/*.js ${report}/page/*.css ${report}/page/*.html ${report}/three/three.min.js)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Errors of CalculiX for the planar solution of 'solver = ["poisson"]', as JSON: calculix_poisson.py MESH.msh
 
 Heat is conducted in one layer of bricks over the quads. Needs ccx, python3-meshio and python3-numpy.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of bilinear elements of deal.II for the planar solution of 'solver = ["poisson"]', as JSON:
 // dealii_poisson MESH.msh
 #include <deal.II/base/function.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Measures the error of interpolation: interpolation_error.py MESH.msh SOLUTION prints {"l2": ..., "h1": ...}.
 
 SOLUTION is a name below, with any text behind an underscore, or a formula of x and y. Its values at the nodes are interpolated

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Fits errors: what_buys_error.py RESULTS prints powers of the number of vertices, and how many vertices squares need.
 
 The column `power` has the power by which errors go with the number of vertices, as the mean over cases. The others

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Which quality matters: which_quality.py RESULTS prints which measures tell errors, and the worth of pipelines.
 
 First come Spearman's rank correlations of errors with measures of quality over the runs of each domain. They are means

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Ranks the programs that ran the suite, by the runs.csv below a folder, as docs/suite.md says: ranking.py DIR
 It writes DIR/ranking/table.md and table.csv."""
 import csv, itertools, json, pathlib, sys

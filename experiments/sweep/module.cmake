@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The last configuration reads the commit; a new commit configures again.
 set(DELQUAD_COMMIT "unknown")
 find_package(Git QUIET)

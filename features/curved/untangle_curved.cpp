@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/curved/untangle_curved.h"
 
 #include <ceres/first_order_function.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/curves/compose_size.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/curves/mesh_surface_curves.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/curves/surface_input.h"
 
 #include <fmt/format.h>

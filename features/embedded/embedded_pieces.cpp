@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/embedded/embedded_pieces.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/sort_unique.h"
 #include "features/periodic/paired_lines.h"
 

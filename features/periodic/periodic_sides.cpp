@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/periodic/paired_lines.h"
 
 #include <fmt/format.h>

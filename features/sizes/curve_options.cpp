@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/sizes/curve_options.h"
 
 #include "base/option_table.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/sizes/fine_spots.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/symmetry/mirror_match.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/segment.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "geometry/mesh/keep_elements.h"

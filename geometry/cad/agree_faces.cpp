@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/cad/agree_faces.h"
 
 #include <algorithm>

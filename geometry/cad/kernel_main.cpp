@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/cad/kernel.h"
 
 /// The symbol that load_kernel.cpp looks for.

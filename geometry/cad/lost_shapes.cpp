@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/cad/lost_shapes.h"
 
 #include <fmt/format.h>

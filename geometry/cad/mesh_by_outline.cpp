@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/cad/mesh_by_outline.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # DELQUAD_CAD: AUTO takes OpenCASCADE if it is installed, ON insists, OFF builds without it.
 set(DELQUAD_CAD AUTO CACHE STRING "Read STEP and BREP with OpenCASCADE: AUTO, ON or OFF")
 set_property(CACHE DELQUAD_CAD PROPERTY STRINGS AUTO ON OFF)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/constrained_delaunay.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "delquad/mesh.h"
 
 #include "base/box.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/planar/domain_builder.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/planar/loops_apart.h"
 
 #include <fmt/format.h>

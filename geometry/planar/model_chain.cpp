@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/planar/model_chain.h"
 
 #include <fmt/format.h>

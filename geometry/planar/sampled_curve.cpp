@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/planar/sampled_curve.h"
 
 #include <fmt/format.h>

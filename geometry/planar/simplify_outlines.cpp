@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/planar/simplify_outlines.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/surface/ignore_small.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/surface/triangulated_model.h"
 
 #include <fmt/format.h>

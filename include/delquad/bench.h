@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 // This header runs the bench: experiments, reports and the program, above the library. Programs that link

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cases/case_keys.h"
 
 #include <fmt/format.h>

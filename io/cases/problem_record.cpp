@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cases/problem_record.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cases/read_problem.h"
 
 #include "io/cases/outline_files.h"

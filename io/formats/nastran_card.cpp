@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats/nastran_card.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <expat.h>
 #include <fmt/format.h>
 #include <zip.h>

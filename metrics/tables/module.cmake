@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The entries of the bibliography that captions of tables and figures cite.
 set(bibliography docs/bibliography.bib)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${bibliography})

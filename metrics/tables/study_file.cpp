@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/tables/study_file.h"
 
 #include <fmt/format.h>

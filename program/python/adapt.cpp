@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "delquad/adapt.h"
 
 #include <pybind11/stl.h>

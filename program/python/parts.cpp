@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Registers measures, costs, stages and fields that Python adds.
 #include <pybind11/stl.h>
 

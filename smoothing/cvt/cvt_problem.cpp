@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/cvt/cell_minimiser.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
 

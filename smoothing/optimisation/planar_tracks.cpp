@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/optimisation/planar_tracks.h"
 
 #include <algorithm>

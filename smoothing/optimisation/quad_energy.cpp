@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/optimisation/quad_energy.h"
 
 #include <ceres/gradient_problem.h>

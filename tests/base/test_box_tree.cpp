@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/box_tree.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "tests/support/meshing.h"

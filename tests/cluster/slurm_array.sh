@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # slurm_array.sh PROGRAM SCRIPT WORK: runs a sweep as one share and as four, one of which is killed half-way and queued again.
 # Both must give the same meshes, and no finished cell may be lost or made twice.
 set -eu

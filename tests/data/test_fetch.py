@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What becomes of the models that are to be fetched, with servers on this machine.
 
 Usage: test_fetch.py FETCH.PY [unittest's arguments]

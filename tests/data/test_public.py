@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Models of others as ours, and their measures, against known answers.
 
 Usage: test_public.py FOLDER_OF_SCRIPTS DELQUAD [unittest's arguments]

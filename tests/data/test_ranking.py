@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Ranks runs of the suite whose tables are made up: test_ranking.py RANKING.py"""
 import contextlib, csv, importlib.util, io, json, pathlib, sys, tempfile, unittest
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Checks README and docs: links lead somewhere, messages exist, the reference of keys is up to date, and every block of code runs.
 The site's tables lead to records, and tables of measurements are what `make doc-tables` writes.
 

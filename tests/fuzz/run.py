@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Fuzzes every target, one after the other, and prints a table.
 
 Usage: run.py BUILD [--seconds N] [--targets NAME ...] [--work FOLDER]. BUILD is where `cmake --preset fuzz` built. The

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Check the structure of the sources: modules and their links, the public API, and conventions.
 
 Usage: check_house.py FOLDER. Prints a line for each problem; the exit code is 1 if there is any.
@@ -190,6 +191,14 @@ def check_standard_headers(root, links):
             yield f"{path.relative_to(root)}: uses {names}: expected <{header}>"
 
 
+def check_licenses(root, links):
+    tree = (p for folder in [*{m.partition("/")[0] for m in links}, "include", "tests"] for p in (root / folder).rglob("*"))
+    for path in sorted(p for p in tree if p.suffix in (".h", ".cpp") and "corpus" not in p.parts):
+        with path.open() as file:
+            if "SPDX-License-Identifier: " not in file.readline():
+                yield f"{path.relative_to(root)}:1: expected a line with SPDX-License-Identifier"
+
+
 def check_lengths(root, links):
     opening = re.compile(r"^( *)[^ #/}].*[)a-z\]] \{$")
     for module in links:
@@ -210,7 +219,7 @@ def check_lengths(root, links):
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     links = module_links(root)
-    checks = (check_links, check_library, check_public_api, check_system, check_primitives, check_standard_headers, check_lengths)
+    checks = (check_links, check_library, check_public_api, check_system, check_primitives, check_standard_headers, check_lengths, check_licenses)
     wrong = [*check_public_headers(root), *(line for check in checks for line in check(root, links))]
     for line in wrong:
         print(line)

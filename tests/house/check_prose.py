@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Check prose against the style of CONTRIBUTING.md: pages, comments, docstrings, and messages in .cpp files.
 
 Usage: check_prose.py [--all] [FOLDER]
@@ -17,6 +18,7 @@ import tokenize
 
 BASE = "5f0c9cae54cd7d3c8d3bc885e8ea4c6154ce77d3"  # the rules hold since this commit
 MOST_WORDS = 25  # of a sentence
+LICENSE_LINE = "SPDX-License-Identifier: GPL-3.0-or-later"
 GENERATED = ("docs/keys.md", "experiments/report/three/", "tests/fuzz/corpus/")
 SUFFIXES = (".md", ".h", ".cpp", ".py", ".toml", ".cmake", "CMakeLists.txt", "Makefile")
 MESSAGES, PROSE, TERSE, COMMENT, DOC = range(5)  # terse: headings and tables
@@ -187,7 +189,7 @@ def check_tree(root, base=BASE, every_line=False):
     changed = dict.fromkeys(git(root, "ls-files", "-co", "--exclude-standard").splitlines()) if every_line else changed_lines(root, base)
     for name, lines in sorted(changed.items()):
         if name.endswith(SUFFIXES) and not name.startswith(GENERATED) and (root / name).is_file():
-            yield from (text for _, text in sorted(check(name, (root / name).read_text(errors="replace"), lines)))
+            yield from (text for _, text in sorted(check(name, (root / name).read_text(errors="replace").replace(LICENSE_LINE, ""), lines)))
 
 
 def main():

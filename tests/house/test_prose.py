@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of check_prose.py: each rule finds a bad sentence and lets a good one pass."""
 import pathlib
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Runs EXPERIMENT by PROGRAM, one of examples/own_parts, with results in WORK, and looks at tables and records.
 get_filename_component(name ${EXPERIMENT} NAME_WE)
 function(run result)

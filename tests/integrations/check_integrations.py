@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The files of examples/freecad and examples/blender do their work in the programs they are for: check_integrations.py freecad|blender DELQUAD
 
 Runs in_freecad.py or in_blender.py in the program, whose last line is "good". Exit code 77: the program is not installed, and why.

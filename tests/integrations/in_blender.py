@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """In Blender: the add-on keeps materials, shading and sharp edges, and says what is wrong."""
 import math
 import os

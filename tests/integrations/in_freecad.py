@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """In freecadcmd: groups of faces, and the stress beside a small hole in a plate that is pulled, by CalculiX."""
 import os
 import sys

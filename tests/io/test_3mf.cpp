@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <zip.h>
 
 #include "tests/io/reader_test.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <zlib.h>
 
 #include "geometry/mesh/split_polygon.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/mesh_formats.h"
 #include "tests/support/files.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/item_buffer.h"
 #include "io/picture.h"
 #include "io/svg.h"

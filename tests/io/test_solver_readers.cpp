@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/check_mesh.h"
 #include "tests/io/reader_test.h"
 

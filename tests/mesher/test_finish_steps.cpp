@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/finish_steps.h"
 #include "tests/support/meshing.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/finish/edit_failing.h"
 #include "algorithms/finish/lift_bad_quads.h"
 #include "geometry/mesh/quad_corners.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/judgement/poor_quads.h"
 #include "tests/features/layers/layered_model.h"
 

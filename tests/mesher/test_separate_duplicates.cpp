@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/finish/separate_duplicates.h"
 #include "tests/support/meshing.h"
 #include "tests/support/quad_patches.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/check_invariants.h"
 #include "io/cases/case_file.h"
 #include "io/mesh_io.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/stray_points.h"
 #include "tests/support/meshing.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/surface/surface_editor.h"
 #include "mesher/runner.h"
 #include "metrics/judgement/poor_quads.h"

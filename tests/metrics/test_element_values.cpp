@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/judgement/element_values.h"
 #include "metrics/solve/solve.h"
 #include "tests/support/files.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/regularity/patterns.h"
 #include "metrics/metrics.h"
 #include "metrics/regularity.h"

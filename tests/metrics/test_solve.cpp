@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/solve/solve.h"
 #include "metrics/solve/solver_metrics.h"
 #include "tests/support/files.h"

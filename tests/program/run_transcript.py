@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the scenes of a transcript: run_transcript.py FILE --build FOLDER [--no-cad] [--only TITLE]
 
 A scene begins with its title, at the margin, and has an empty folder, in another of its own. In it, indented by two spaces:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/program/program.h"
 
 namespace delquad::testing_support {

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs a file of tests by pytest: run.py FILE. Exit code 77: all of them were skipped; reasons are printed as needs.py prints them."""
 import pathlib
 import sys

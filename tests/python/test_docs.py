@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The program of docs/python.md, as it stands there."""
 
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Quads for the model that is open in Gmsh."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Parts in Python: measures, costs, stages and fields, and experiments with them."""
 
 import json

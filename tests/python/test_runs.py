@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How meshes are made: progress, Ctrl-C, threads, memory."""
 
 import os

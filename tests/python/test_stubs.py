@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The stubs say what the module has: the same names, parameters and defaults."""
 
 import ast

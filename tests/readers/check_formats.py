@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes meshes in the formats of solvers, reads them by their libraries and compares nodes, elements and names with the MSH file of the same mesh.
 
 check_formats.py PROGRAM

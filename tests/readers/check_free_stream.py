@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Whether a constant state stays constant on a curved mesh: Trixi's UnstructuredMesh2D, in a few lines.
 
 check_free_stream.py PROGRAM

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Opens swept hexahedra in another program: check_hexahedra.py DELQUAD READER. Exit code 77: the reader is not installed, see needs.py.
 
 READER: gmsh, meshio, vtk or h5py compare numbers, names and volumes; ccx pulls at a bar by its named faces.

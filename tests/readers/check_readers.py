@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes models, opens what was written in another program and compares numbers of points, elements and names.
 
 check_readers.py --delquad PROGRAM --reader NAME[,NAME] [--dealii PROGRAM] [--size PART] [--mesh ARGUMENT]... [MODEL]...

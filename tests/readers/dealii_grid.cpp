@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Opens an MSH file in deal.II and prints what it holds as JSON: points, quads, and how many cells and
 // boundary faces have each number.
 #include <deal.II/grid/grid_in.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Opens meshes in another program and prints its findings, a line of JSON for each mesh.
 
 read_mesh.py READER FILE... [--dealii PROGRAM]

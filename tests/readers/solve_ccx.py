@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """CalculiX solves small problems with the sets and surfaces of INP files: solve_ccx.py DELQUAD. Exit code 77: no ccx."""
 import math
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers of nodes as solvers meet them in files: check_bandwidth.py DELQUAD MODEL
 
 The half bandwidth (the largest difference of numbers in an element) of the plate with 16 holes, at sizes h and h / 2. A front that

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """CalculiX computes with the meshes in INP files: check_calculix.py DELQUAD PROBLEM [WRITER]. Exit code 77: no ccx.
 
 PROBLEM: patch, shell_patch, strip, shell, periodic, materials, kept_deck or joints, whose models WRITER writes.

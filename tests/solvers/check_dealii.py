@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bilinear elements of deal.II on our meshes: check_dealii.py DELQUAD POISSON. The error in L2 falls with order 2.
 
 POISSON: the program built from experiments/solvers/dealii_poisson.cpp, which says the relative error on a mesh.

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Poisson's equation on an annulus by dolfinx: check_dolfinx.py DELQUAD. Exit code 77: it is not installed.
 
 Meshes come by MSH and by XDMF, conditions by names of curves. Errors in L2 must fall with order 2 and, on curved elements of 9

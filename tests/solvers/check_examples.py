@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs an example of a solver, and checks what it prints and draws: check_examples.py FOLDER DELQUAD EXAMPLE POISSON
 
 FOLDER: examples/solvers. POISSON: the program of the examples of deal.II, whose own scripts would build it anew. Exit code 77: the

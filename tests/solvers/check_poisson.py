@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Poisson's equation on curved meshes, with conditions by the names of curves: check_poisson.py DELQUAD PROBLEM
 
 PROBLEM: annulus or plate. Errors in L2 must fall with order p + 1 of the elements' order p on

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Poisson's equation on planar quads of any order: a small solver of our own, that shares nothing with the program but the files.
 
 Elements are Lagrange's, with equidistant nodes, on the places that the file's nodes give them (isoparametric).

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Checks for programs and modules that a test needs.
 
 If one is missing, the test prints "skipped: REASON" and ends with exit code 77, which CTest takes for skipped.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/fields/surface/surface_metric.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Pulls a plate with a round hole by CalculiX, on meshes that follow its stresses: adapt.py [--quads N] [--meshes M] [-o PICTURE.svg]
 
 The model is a quarter of a plate that is ten times as wide as the hole. Its outer sides move like an endless plate. So the stress at

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes MODEL.toml, solves MODEL.inp by CalculiX and draws the result: run.py MODEL [--delquad PROGRAM] [-o PICTURE.svg]
 
 MODEL is strip or bracket, or one of your own beside them. Needs ccx (Debian: calculix-ccx).

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Solves by deal.II in a loop of meshes by `delquad adapt`: adapt.py [--quads N] [--doublings D] [--delquad PROGRAM] [-o PICTURE.svg]
 
 Solves Poisson's equation for atan(60 (r - pi/3)), r from (1.25, -0.25), a layer along an arc, by bilinear elements. Each loop has

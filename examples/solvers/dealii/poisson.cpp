@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Solves by bilinear elements of deal.II.
 // Usage: `poisson heat MESH.msh SOLUTION.json`, or `poisson shock MESH.msh SOLUTION.json SOLUTION.msh`.
 // SOLUTION.msh has the mesh, with u at its points. `heat` conducts heat through the plate of ../heat.toml.

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Conducts heat through the plate of ../heat.toml by deal.II: run.py [--delquad PROGRAM] [-o PICTURE.svg]
 
 Builds poisson.cpp, unless --poisson says where it is built. Elements are bilinear. Needs CMake and deal.II 9.4 (Debian:

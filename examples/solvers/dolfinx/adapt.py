@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Solves by dolfinx in a loop of meshes that follow the solution: adapt.py [--quads N] [--doublings D] [-o PICTURE.svg] [PROBLEM ...]
 
 The problem shock is Poisson's equation for atan(60 (r - pi/3)), r from (1.25, -0.25), a layer along an arc. The problem advection

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Conducts heat through the plate of ../heat.toml by dolfinx: heat.py [--delquad PROGRAM] [--order P] [-o PICTURE.svg]
 
 Elements are curved, of 9 nodes, unless another order is given. Needs dolfinx (0.5, as in Debian 12: python3-dolfinx) and

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Solves by FreeFem++ on halved quads and on triangles that follow the solution: adapt.py [--vertices N] [--meshes M] [-o PICTURE.svg]
 
 Solves Poisson's equation for atan(60 (r - pi/3)), r from (1.25, -0.25), a layer along an arc. FreeFem++ has no quads, so each is

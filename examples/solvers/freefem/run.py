@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Conducts heat through the plate of ../heat.toml by FreeFem++: run.py [--delquad PROGRAM] [-o PICTURE.svg]
 
 FreeFem++ has no quads, so each is halved along its shorter diagonal. Needs FreeFem++ (Debian: freefem++).

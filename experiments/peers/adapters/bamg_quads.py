@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """BAMG's quads: bamg_quads.py INPUT.mesh OUTPUT.obj SIZES.sol [ANGLE]
 
 INPUT: triangles of a planar domain, whose boundary is kept. SIZES: at the points of INPUT, its background: numbers or

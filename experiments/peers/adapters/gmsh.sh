@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Gmsh by one of its algorithms of triangles and one of recombination: gmsh.sh VERSION ALGORITHM RECOMBINATION INPUT.geo OUTPUT.msh
 version=$1 algorithm=$2 recombination=$3 input=$4 output=$5
 shift 5

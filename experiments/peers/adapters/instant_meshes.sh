@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Instant Meshes in its batch mode: instant_meshes.sh INPUT.obj OUTPUT.obj SIZE; --version: its digest, for it tells none
 for name in instant-meshes "Instant Meshes" InstantMeshes; do
   program=$(command -v "$name") && break

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Mmg's triangles merged by Delquad: mmg.sh INPUT.mesh OUTPUT.msh SIZES.sol; --version: of both
 set -e
 for name in mmgs_O3 delquad; do

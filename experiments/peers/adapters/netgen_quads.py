@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Netgen's quad-dominated meshes: netgen_quads.py INPUT.mesh OUTPUT.obj SIZE
 
 INPUT: triangles of a planar domain, from whose boundary edges it starts.

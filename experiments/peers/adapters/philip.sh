@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The published mesh of a case: philip.sh INPUT OUTPUT FOLDER CASE
 case $4 in
   s-shock) mesh=output_ss15_fb_p1_2.msh ;;

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """QuadriFlow in Blender: blender --background --python quadriflow.py -- INPUT.obj OUTPUT.obj SIZE SEED"""
 import sys
 

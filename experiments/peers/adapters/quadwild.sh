@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # QuadWild-BiMDF: quadwild.sh INPUT.obj OUTPUT.obj SIZE; --version: the digest of its programs, for they tell none
 set -e
 programs=$QUADWILD/build/Build/bin config=$QUADWILD/config

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Charts, drawn from numbers.
 
 function text(x, y, content, attributes = {}) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elements of the page. Texts of results go in as text, never as markup.
 
 const kSvg = "http://www.w3.org/2000/svg";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Figures that can be saved: as they are on white paper, whatever the page looks like.
 
 /// Calls use() while a node is laid out, out of sight, in the colours of paper.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes as experiments/report/packed_mesh.h packs them.
 
 const kEtaClasses = 128;

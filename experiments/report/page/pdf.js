@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes an SVG drawing as a PDF file of one page: as vectors, or as an image where it has what vectors here cannot say.
 
 class NotVector extends Error {}

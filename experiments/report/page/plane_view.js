@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Planar meshes on canvases that show the same part of the plane.
 
 /// What drawing needs again and again: elements by colour and by size, sizes around vertices.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The sheet of one case: its words side by side, a seed at a time.
 
 /// Places are in hundredths of the quad's mean edge, eta in hundredths.

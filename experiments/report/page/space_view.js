@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces, turned together. All are drawn by one WebGL renderer, of which browsers allow only a few.
 
 const kAspect = 1.25;

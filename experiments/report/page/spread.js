@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Box plots of what cells have, over seeds and cases.
 
 /// At part `q` of sorted values, between neighbours.

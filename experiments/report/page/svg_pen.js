@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A pen like that of a canvas which makes an SVG drawing.
 
 class SvgPen {

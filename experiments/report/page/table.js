@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables that can be sorted, filtered, saved and printed whole.
 
 /// With as many digits as the interval leaves certain: two of its half-width; else, and where that is next to nothing, those of the column.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page of one mesh: shape and sizes by colour, names that are switched on and off, the worst quads.
 
 /// What elements can be coloured by, from the lengths of their sides; eta comes with the mesh.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """All-quad meshes of planar domains and surfaces.
 
     import delquad

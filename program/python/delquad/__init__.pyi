@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes for and from other packages, which are imported only when needed."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Keywords by their descriptions, which the library and model files share."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """mesh(), and models from Python values."""
 
 import difflib

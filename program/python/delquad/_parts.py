@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Parts of your own, and experiments with them. Add parts once, before anything is meshed."""
 
 import hashlib

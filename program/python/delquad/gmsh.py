@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes the model that is open in Gmsh's Python API by quads:
 
     import gmsh, delquad.gmsh

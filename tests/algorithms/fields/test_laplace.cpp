@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/fields/laplace.h"
 #include "tests/algorithms/fields/backgrounds.h"
 

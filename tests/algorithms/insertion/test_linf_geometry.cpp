@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/insertion/linf_geometry.h"
 #include "tests/support/meshing.h"
 

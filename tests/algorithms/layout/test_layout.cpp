@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/layout/field_lines.h"
 #include "algorithms/layout/joint_layouts.h"
 #include "algorithms/layout/layout.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/recombination/dual_graph.h"
 #include "tests/algorithms/stages.h"
 #include "tests/support/tri_patches.h"

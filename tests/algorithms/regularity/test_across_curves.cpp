@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/regularity/across_curves.h"
 #include "algorithms/regularity/patterns.h"
 #include "tests/algorithms/stages.h"

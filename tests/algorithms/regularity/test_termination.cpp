@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/algorithms/stages.h"
 
 /// Loops that edit a mesh end, after work that is linear in it, whatever the mesh is like.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/tables/tables.h"
 #include "tests/experiments/report/report_results.h"
 #include "tests/support/files.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiments/sweep/run_experiment.h"
 #include "metrics/tables/study_file.h"
 #include "tests/support/files.h"

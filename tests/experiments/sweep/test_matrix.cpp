@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiments/sweep/experiment.h"
 #include "geometry/patches/meshing_setup.h"
 #include "tests/support/files.h"

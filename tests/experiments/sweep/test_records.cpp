@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiments/sweep/draw_figures.h"
 #include "experiments/sweep/experiment_copy.h"
 #include "experiments/sweep/merge.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiments/sweep/run_experiment.h"
 #include "geometry/cad/cad_reader.h"
 #include "metrics/tables/result_records.h"

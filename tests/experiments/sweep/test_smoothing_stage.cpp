@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiments/sweep/run_experiment.h"
 #include "io/cases/case_file.h"
 #include "smoothing/cvt/smooth_points.h"

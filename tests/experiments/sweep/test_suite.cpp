@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiments/sweep/experiment.h"
 #include "geometry/mesh/half_edges.h"
 #include "tests/program/program.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "experiments/sweep/run_experiment.h"
 #include "tests/support/files.h"
 #include "tests/support/shared_data.h"

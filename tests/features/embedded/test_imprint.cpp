@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/embedded/imprint.h"
 #include "geometry/mesh/check_invariants.h"
 #include "geometry/surface/flatten.h"

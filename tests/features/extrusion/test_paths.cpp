@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/extrusion/layers.h"
 #include "features/extrusion/section.h"
 #include "tests/features/extrusion/hex_checks.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/orientation.h"
 #include "features/extrusion/layers.h"
 #include "geometry/mesh/find_crossings.h"

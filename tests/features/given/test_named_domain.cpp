@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/given/named_domain.h"
 #include "io/formats/msh.h"
 #include "io/mesh_io.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/activity.h"
 #include "tests/geometry/cad/cad_files.h"
 

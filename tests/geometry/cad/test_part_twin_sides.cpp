@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <gp_Ax2.hxx>
 #include "geometry/cad/weld_faces.h"
 #include "geometry/mesh/check_invariants.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <BOPAlgo_Builder.hxx>
 #include <cstdio>
 #include "tests/geometry/cad/cad_files.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/check_invariants.h"
 #include "tests/geometry/cad/cad_files.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepTools_ReShape.hxx>
 #include <BRep_Tool.hxx>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/example_models.h"
 #include "tests/support/meshing.h"

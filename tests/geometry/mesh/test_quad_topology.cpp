@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/relocation/quad_relocation.h"
 #include "tests/support/meshing.h"
 #include "tests/support/quad_patch_checks.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/patches/curve_nodes.h"
 #include "geometry/patches/even_counts.h"
 #include "tests/support/meshing.h"

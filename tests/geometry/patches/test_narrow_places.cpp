@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/patches/across_view.h"
 #include "geometry/patches/face_corners.h"
 #include "geometry/patches/narrow_places.h"

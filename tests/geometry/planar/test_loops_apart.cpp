@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/curves/mesh_planar_curves.h"
 #include "geometry/planar/loops_apart.h"
 #include "tests/geometry/planar/models.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/surface/cut_planner.h"
 #include "geometry/surface/laplacian.h"
 #include "tests/support/meshing.h"

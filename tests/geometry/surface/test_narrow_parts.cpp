@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/segment.h"
 #include "geometry/surface/ignore_small.h"
 #include "tests/support/meshing.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/surface/compound.h"
 #include "io/mesh_io.h"
 #include "tests/support/meshing.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/surface/surface_editor.h"
 #include "tests/support/flat_patch_checks.h"
 #include "tests/support/meshing.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "delquad/mesher.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/cases/case_file.h"

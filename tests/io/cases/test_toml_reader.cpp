@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cases/toml_reader.h"
 #include "tests/support/files.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "delquad/adapt.h"
 #include "mesher/adapt/adapt.h"
 #include "tests/mesher/adapt/ugly_quads.h"

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Prints rank_tests.inc: tests by ranks, intervals and corrections as SciPy has them, for test_statistics.cpp.
 
 Usage: make_rank_tests.py > rank_tests.inc. Made with SciPy 1.10.1. Where there are ties or zeros SciPy's exact tests do not

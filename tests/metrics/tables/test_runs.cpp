@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/tables/runs.h"
 #include "metrics/tables/summary.h"
 #include "metrics/tables/tables.h"

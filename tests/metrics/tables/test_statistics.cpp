@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/tables/statistics.h"
 #include "metrics/tables/table.h"
 #include "tests/support/files.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/cvt/bounded_voronoi.h"
 #include "smoothing/cvt/cell_walk.h"
 #include "tests/smoothing/seeds.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/cvt/moving_delaunay.h"
 #include "tests/smoothing/seeds.h"
 

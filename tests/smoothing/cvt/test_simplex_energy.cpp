@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/cvt/simplex_energy.h"
 #include "tests/support/meshing.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "smoothing/optimisation/planar_tracks.h"
 #include "smoothing/optimisation/track_optimisation.h"
 #include "smoothing/relocation/quad_relocation.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/patches/places_inside.h"
 #include "metrics/shape.h"
 #include "smoothing/surface/surface_lift.h"

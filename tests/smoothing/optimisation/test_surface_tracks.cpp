@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/nearest_triangle.h"
 #include "smoothing/surface/surface_tracks.h"
 #include "tests/smoothing/meshed_surface.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/mesh/quad_corners.h"
 #include "smoothing/optimisation/track_optimisation.h"
 #include "tests/support/meshing.h"
