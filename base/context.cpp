@@ -132,7 +132,7 @@ void check_cancelled() {
   if (state == Run::State::kGoing) return;
   const std::string at = run->activities->text();
   if (state == Run::State::kCancelled) throw Cancelled("cancelled: " + at);
-  throw TimeIsUp(fmt::format("not done after {:g} s: {} [time-limit]", limit_passed(run), at));
+  throw TimeIsUp(fmt::format("stopped after {:g} s: {} [time-limit]", limit_passed(run), at));
 }
 
 }  // namespace delquad

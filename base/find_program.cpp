@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 fs::path required(const fs::path& path, const std::string& who, const std::string& reads) {
   if (can_be_run(path)) return path;
   throw InputError(
-      fmt::format("{} says that {} reads {}: that is no program that can be run", who, path.string(), reads));
+      fmt::format("{}: {} cannot be run: expected the program that reads {}", who, path.string(), reads));
 }
 
 /// Returns the folders to search: of the running program, of this code's program or library, and of the
@@ -52,10 +52,10 @@ fs::path find_program(const HelperProgram& program, const fs::path& chosen, cons
     if (can_be_run(folder / program.name)) return folder / program.name;
     places += (places.empty() ? "" : ", ") + folder.string();
   }
-  throw InputError(
-      fmt::format("the program {}, which reads {}, is not there: expected it in one of {}, or named by {} "
-                  "[no-helper-program]",
-                  program.name, program.reads, places, program.variable));
+  throw InputError(fmt::format(
+      "the program {}, which reads {}, was not found: expected it in one of {}, or its path in {} "
+      "[no-helper-program]",
+      program.name, program.reads, places, program.variable));
 }
 
 }  // namespace delquad

@@ -62,13 +62,19 @@ std::optional<double> as_number(std::string_view text) {
   return status == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
 }
 
+std::string cannot_be_read(const std::string& reason) {
+  return "cannot be read: " + reason + " [unreadable-file]";
+}
+
 std::string file_bytes(const std::filesystem::path& path) {
-  const std::string name = path.string();
+  const auto refuse = [&](const std::string& reason) {
+    throw InputError(path.string() + ": " + cannot_be_read(reason));
+  };
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw InputError(name + ": cannot be read: it is a folder");
+  if (std::filesystem::is_directory(path, error)) refuse("it is a folder");
   errno = 0;
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(name + ": cannot be read: " + std::generic_category().message(errno));
+  if (!in) refuse(std::generic_category().message(errno));
   std::string bytes;
   constexpr std::size_t kBlock = 1 << 16;
   while (in) {
@@ -77,7 +83,7 @@ std::string file_bytes(const std::filesystem::path& path) {
     in.read(bytes.data() + before, kBlock);
     bytes.resize(before + static_cast<std::size_t>(in.gcount()));
   }
-  if (in.bad()) throw InputError(name + ": cannot be read to its end");
+  if (in.bad()) refuse(std::generic_category().message(errno));
   return bytes;
 }
 

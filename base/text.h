@@ -27,6 +27,8 @@ std::string_view trimmed(std::string_view text);
 std::string upper(std::string_view text);
 /// Returns the number that the whole text is; nothing otherwise.
 std::optional<double> as_number(std::string_view text);
+/// Returns the message about a file that cannot be read, without its name: "cannot be read: REASON [id]".
+std::string cannot_be_read(const std::string& reason);
 /// Returns the bytes of a file. Throws InputError with the file and the reason.
 std::string file_bytes(const std::filesystem::path& path);
 

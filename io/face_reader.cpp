@@ -119,7 +119,7 @@ void FaceColours::finish(Mesh& mesh, ReadNotes* notes) const {
     for (int& region : *regions) region = part[region];
   mesh.regions = plain.regions_;
   if (notes)
-    notes->push_back(fmt::format("the faces' {} colours are left out: up to {} would become regions",
+    notes->push_back(fmt::format("the faces' {} colors are left out: up to {} would become regions",
                                  colours.size(), kMost));
 }
 

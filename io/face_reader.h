@@ -61,12 +61,12 @@ class FaceReader {
   long long n_odd_ = 0;                         ///< of them, those that cross themselves or have no area
 };
 
-/// Regions of faces by their colour, as scans and prints have their parts.
+/// Regions of faces by their color, as scans and prints have their parts.
 class FaceColours {
  public:
   static constexpr std::size_t kMost = 64;  ///< more than these paint a picture and divide nothing
 
-  /// Index of the region of faces with this colour ("rrggbb"; empty: none) in a part that goes by `name`.
+  /// Index of the region of faces with this color ("rrggbb"; empty: none) in a part that goes by `name`.
   int region(const std::string& name, const std::string& colour) {
     const auto [at, is_new] = index_.try_emplace({name, colour}, static_cast<int>(regions_.size()));
     if (is_new) {
@@ -78,7 +78,7 @@ class FaceColours {
     return at->second;
   }
 
-  /// Gives the mesh its regions; where there are too many colours, those of the parts alone, and a note.
+  /// Gives the mesh its regions; where there are too many colors, those of the parts alone, and a note.
   void finish(Mesh& mesh, ReadNotes* notes) const;
 
  private:

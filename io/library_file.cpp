@@ -12,6 +12,7 @@
 #include "base/located.h"
 #include "base/process.h"
 #include "base/system.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "io/mesh_io.h"
 
@@ -51,7 +52,7 @@ void do_in_child(const std::filesystem::path& path, const std::function<void()>&
   } catch (const std::system_error& error) {
     cannot_write(path, error.code().message());
   }
-  if (!what_failed) cannot_write(path, "the library that writes it crashed");
+  if (!what_failed) cannot_write(path, "the library that writes this format crashed");
   if (!what_failed->empty()) throw InputError(*what_failed);
 }
 
@@ -64,7 +65,7 @@ void copy_into(std::ostream& out, const std::filesystem::path& file) {
   std::vector<char> block(1 << 16);
   while (in.read(block.data(), static_cast<std::streamsize>(block.size())), in.gcount() > 0)
     out.write(block.data(), in.gcount());
-  if (!in.eof()) refuse("{}: cannot be read: {}", file.string(), std::generic_category().message(errno));
+  if (!in.eof()) refuse("{}: {}", file.string(), cannot_be_read(std::generic_category().message(errno)));
 }
 
 std::function<void(std::ostream&)> by_library(

@@ -9,6 +9,7 @@
 
 #include "base/located.h"
 #include "base/nearest_name.h"
+#include "base/text.h"
 #include "base/utf8.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
@@ -67,7 +68,7 @@ std::string extensions_of(const Can& can) {
 [[noreturn]] void unknown(const std::filesystem::path& path, const std::string& known) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
-    throw InputError(path.string() + ": is a folder: expected a mesh file");
+    throw InputError(path.string() + ": " + cannot_be_read("it is a folder"));
   std::vector<std::string> kinds;
   for (const MeshFormat& format : mesh_formats()) kinds.push_back(format.extensions[0]);
   const std::string kind = path.extension().string();
@@ -191,7 +192,7 @@ std::vector<std::string> missing_in_file(const std::filesystem::path& path, cons
 void check_depths(const std::filesystem::path& path) {
   const MeshFormat* format = find_format(kind_to_write(path));
   if (format == nullptr || !format->has_depths)
-    refuse("{}: no depths are written there: expected {}", path.string(),
+    refuse("{}: no depths are written there: expected {}, or fort.14 of ADCIRC", path.string(),
            extensions_of([](const MeshFormat& f) { return f.has_depths; }));
 }
 
@@ -291,7 +292,7 @@ std::vector<std::string> unsupported_in_file(const std::filesystem::path& path, 
     std::set<std::string> further;
     for (std::size_t i = 0; i < own.size(); ++i)
       for (const std::string& name : (*entities)[i].names)
-        if (name != own[i]) further.insert(name);
+        if (std::ranges::find(own, name) == own.end()) further.insert(name);
     if ((names & which) != 0 && !further.empty())
       lost.push_back(fmt::format("names of {} that have others, too, of which '{}' holds one each: {}", of,
                                  kind, fmt::join(further, ", ")));

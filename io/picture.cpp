@@ -189,7 +189,7 @@ Mesh best_view(const Mesh& mesh) {
   return best;
 }
 
-/// Colour `rgb` (#rrggbb) in light of strength t.
+/// Color `rgb` (#rrggbb) in light of strength t.
 std::string shaded(const std::string& rgb, double t) {
   std::string result = "#";
   for (size_t k = 1; k < 7; k += 2) {
@@ -199,7 +199,7 @@ std::string shaded(const std::string& rgb, double t) {
   return result;
 }
 
-/// From 0 to 1, in few steps so that many elements share a colour.
+/// From 0 to 1, in few steps so that many elements share a color.
 double brightness(const Vec3& area) {
   constexpr double kSteps = 16, kAmbient = 0.6;
   const Vec3 light = unit({-0.4, 0.6, 1});

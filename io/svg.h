@@ -42,7 +42,7 @@ class Path {
 /// #rrggbb of t in [0, 1]: dark violet, green, yellow, perceptually even (viridis).
 std::string colour(double t);
 
-/// Colour of an irregular vertex or singularity of index +1 (valence one too small), -1 (one too large),
+/// Color of an irregular vertex or singularity of index +1 (valence one too small), -1 (one too large),
 /// others.
 std::string_view mark_colour(int index);
 
@@ -74,7 +74,7 @@ class Picture {
   /// Marks, and lines that join pairs of them.
   void add_marks(const std::vector<Mark>& marks, const std::vector<std::array<Vec2, 2>>& pairs);
 
-  /// Colour bar: labels at positions in [0, 1].
+  /// Color bar: labels at positions in [0, 1].
   void add_colour_bar(std::string_view title, const std::vector<std::pair<double, std::string>>& labels);
   /// Labels of marks by index, below the bar, and of lines between pairs where there are any.
   void add_mark_legend(const std::vector<std::pair<int, std::string>>& labels);

@@ -108,7 +108,7 @@ TextScanner::TextScanner(const std::filesystem::path& path)
 
 std::string_view TextScanner::bytes(size_t count, std::string_view what) {
   in_bytes_ = true;
-  if (count > bytes_left()) fail("the file ends where {} was expected", what);
+  if (count > bytes_left()) fail("the file ends too early: expected {}", what);
   const std::string_view result = std::string_view(text_).substr(at_, count);
   at_ += count;
   return result;
@@ -149,7 +149,7 @@ bool TextScanner::at_end_of_line() {
 }
 
 std::string_view TextScanner::token(std::string_view what) {
-  if (at_end()) fail("the file ends where {} was expected", what);
+  if (at_end()) fail("the file ends too early: expected {}", what);
   const size_t first = at_;
   while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
   return std::string_view(text_).substr(first, at_ - first);

@@ -52,7 +52,7 @@ void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const
     refuse("an element with a corner that is no point");
   if (of_triangles &&
       (tri.neighbours.size() != tri.triangles.size() || !are_below(tri.neighbours, tri.triangles.size(), -1)))
-    refuse("triangles without neighbours");
+    refuse("triangles without neighbors");
 }
 
 /// Returns the mesh of a patch from which a pipeline begins with this stage.

@@ -254,7 +254,7 @@ void forbid_degradation(const MeshingSetup& prepared, const std::vector<Vec>& be
   }
 }
 
-/// Optimises, but vertices of quads that would be worse than those that were given go back.
+/// Optimizes, but vertices of quads that would be worse than those that were given go back.
 template <class Vec>
 OptimisationSummary optimise(const AllPatches& in, std::vector<Vec>& points,
                              const std::vector<std::array<int, 4>>& quads, VertexTracks<Vec>& tracks) {

@@ -93,10 +93,8 @@ std::vector<Vec3> read_polyline(const std::string& text, const Vec3& start_near)
        at = text.find(':', at + 1))
     if (is_mesh_file(text.substr(0, at))) file = text.substr(0, at), name = text.substr(at + 1);
   if (!is_mesh_file(file))
-    refuse(
-        "'{}': expected a file of points (.txt) or of a mesh with lines, perhaps with :NAME of a "
-        "curve behind it",
-        text);
+    refuse("'{}': expected a file of points (.txt), a mesh with lines, or MESH:NAME for the curve NAME",
+           text);
   const Mesh mesh = read_mesh(file);
   require_straight(mesh, file);
   std::vector<std::array<int, 2>> lines;

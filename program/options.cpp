@@ -32,7 +32,7 @@ bool is_same(const fs::path& a, const fs::path& b) {
 void check_output(const fs::path& path) {
   const fs::path target = behind_links(path);
   std::error_code error;
-  if (fs::is_directory(target, error)) refuse("{}: is a folder; expected a file to write", path.string());
+  if (fs::is_directory(target, error)) refuse("{}: is a folder: expected a file to write", path.string());
   if (fs::exists(target, error) && !fs::is_regular_file(target, error))
     return;  // a device: no folder to check
   const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";

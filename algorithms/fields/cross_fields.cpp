@@ -23,7 +23,7 @@ class FunctionCross final : public CrossField {
   Cross at(Vec2 u, int&) const override {
     const double theta = theta_(u);
     if (!std::isfinite(theta))
-      throw InputError(fmt::format("{} is {} at {}; an angle must be finite", name_, theta, show_point(u)));
+      throw InputError(fmt::format("{} is {} at {}: expected a finite angle", name_, theta, show_point(u)));
     return Cross::from_angle(theta);
   }
 
@@ -55,7 +55,7 @@ std::unique_ptr<CrossField> make_function_cross(std::function<double(Vec2)> thet
 
 std::unique_ptr<CrossField> make_gradient_cross(std::shared_ptr<const SizeField> size, double step) {
   if (!std::isfinite(step) || step <= 0) {
-    throw InputError(fmt::format("the gradient cross field's step is {}; expected a length > 0", step));
+    throw InputError(fmt::format("the gradient cross field's step is {}: expected a length > 0", step));
   }
   return std::make_unique<GradientCross>(std::move(size), step);
 }

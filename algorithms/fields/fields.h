@@ -42,7 +42,7 @@ struct Singularity {
 
 /// The turning of a cross field known at the middles of a background mesh's sides.
 struct FieldTopology {
-  /// Inside the domain; neighbouring opposite pairs, which are noise, left out.
+  /// Inside the domain; neighboring opposite pairs, which are noise, left out.
   std::vector<Singularity> singularities;
   /// Sum of all indices, interior and at the boundary's corners, in quarters; equals 4 chi of the domain.
   int index_sum = 0;

@@ -170,7 +170,7 @@ std::vector<SizeEnvelope::Sample> sample(const SizeField& base, const TriPatch& 
 std::unique_ptr<SizeField> limit_gradation(std::shared_ptr<const SizeField> base,
                                            std::shared_ptr<const BackgroundMesh> background, double slope) {
   if (!is_size(slope))
-    throw InputError(fmt::format("the gradation limit is {}; expected a slope > 0", slope));
+    throw InputError(fmt::format("the gradation limit is {}: expected a slope > 0", slope));
   SizeEnvelope envelope(sample(*base, background->triangles()), slope);
   return std::make_unique<LimitedSize>(std::move(base), std::move(envelope));
 }

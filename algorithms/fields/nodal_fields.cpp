@@ -108,7 +108,7 @@ std::unique_ptr<CrossField> make_nodal_cross(const Mesh& mesh, std::vector<doubl
           fmt::format("the mesh of the nodal cross is not planar: point {} has z = {}, point 0 {}", i, p.z,
                       mesh.points[0].z));
     if (!std::isfinite(theta[i]))
-      throw InputError(fmt::format("the nodal angle {} is {} at {}; an angle must be finite", i, theta[i],
+      throw InputError(fmt::format("the nodal angle {} is {} at {}: expected a finite angle", i, theta[i],
                                    show_point(Vec2{p.x, p.y})));
     flat.points[i].z = 0;
     crosses.push_back(Cross::from_angle(theta[i]));

@@ -57,7 +57,7 @@ SizeConnection::SizeConnection(const TriPatch& tri, const ParametricSize& size) 
 }
 
 /// Times of diffusion, in elements (pairs of triangles) of the background mesh, from the first step to the
-/// last: the singularities find their places first within their neighbourhood, then to an element.
+/// last: the singularities find their places first within their neighborhood, then to an element.
 constexpr double kLongest = 1600, kShortest = 2;
 constexpr int kSteps = 10;
 /// Relative residual of each step, since its result is brought back to unit length and only the last step's

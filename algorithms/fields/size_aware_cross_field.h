@@ -46,7 +46,7 @@ struct FieldSeam {
 /// metric |du|^2/delta'^2, boundary-aligned. The harmonic field knows nothing of delta, so that where delta
 /// varies rows of quads have to end inside the mesh.
 ///
-/// Minimises the energy of the covariant derivative of exp(4 i theta) by diffusion and normalisation in turn,
+/// Minimizes the energy of the covariant derivative of exp(4 i theta) by diffusion and normalization in turn,
 /// over times that fall from many to a few elements, so that the singularities find their places; unknowns on
 /// edges as in HarmonicCrossField, transport within each triangle by SizeConnection. delta' having the
 /// stretch of the patch's map in it, the metric is that of the surface over delta^2, whatever the map: so

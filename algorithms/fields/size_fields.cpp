@@ -79,9 +79,8 @@ class SourceSize final : public SizeField {
 
 void check_source(const SizeSource& s, std::size_t index) {
   if (!is_size(s.size_near) || !is_size(s.size_far)) {
-    throw InputError(
-        fmt::format("size source {}: sizes {} and {}; a size must be finite and positive [bad-size]",
-                    index + 1, s.size_near, s.size_far));
+    throw InputError(fmt::format("size source {}: sizes {} and {}: expected a finite length > 0 [bad-size]",
+                                 index + 1, s.size_near, s.size_far));
   }
   if (!(s.radius_near >= 0) || !(s.radius_far >= s.radius_near) || !std::isfinite(s.radius_far)) {
     throw InputError(fmt::format("size source {}: radii {} and {}; expected 0 <= near <= far", index + 1,
@@ -98,13 +97,13 @@ bool is_size(double delta) { return std::isfinite(delta) && delta > 0; }
 
 InputError bad_size(const std::string& field, const Vec3& x, double delta) {
   const double shown = std::isnan(delta) ? std::abs(delta) : delta;  // not "-nan"
-  return InputError(fmt::format("{} is {} at {}; a size must be finite and positive [bad-size]", field, shown,
-                                show_point(x)));
+  return InputError(
+      fmt::format("{} is {} at {}: expected a finite length > 0 [bad-size]", field, shown, show_point(x)));
 }
 
 std::unique_ptr<SizeField> make_constant_size(double delta) {
   if (!is_size(delta))
-    throw InputError(fmt::format("the size is {}; a size must be finite and positive [bad-size]", delta));
+    throw InputError(fmt::format("the size is {}: expected a finite length > 0 [bad-size]", delta));
   return std::make_unique<ConstantSize>(delta);
 }
 
@@ -121,8 +120,7 @@ std::unique_ptr<SizeField> make_source_size(std::shared_ptr<const SizeField> bas
 
 std::unique_ptr<SizeField> make_capped_size(std::shared_ptr<const SizeField> base, double most) {
   if (!is_size(most))
-    throw InputError(
-        fmt::format("the largest size is {}; a size must be finite and positive [bad-size]", most));
+    throw InputError(fmt::format("the largest size is {}: expected a finite length > 0 [bad-size]", most));
   return std::make_unique<CappedSize>(std::move(base), most);
 }
 

@@ -368,7 +368,7 @@ class LayoutSearch {
     const TriPatch triangles = mesh_delquad(boundary, *make_linf_delquad(), cross_, size_);
     QuadPatch mesh = recombine(triangles, *make_primal_dual_solver());
     mesh = make_regular(treat_paper(mesh, size_), size_);
-    if (!mesh.triangles.empty()) throw InputError("triangles in a piece of a layout");
+    if (!mesh.triangles.empty()) throw InputError("a piece of a layout has triangles");
     ++summary_.mixed;
     return {{mesh.points.begin() + n, mesh.points.end()}, std::move(mesh.quads)};
   }

@@ -51,7 +51,7 @@ std::vector<std::string> merge_cost_names() {
 AddedCost added_cost(const std::string& name, const StageInput& in) {
   if (name == kEta) return nullptr;
   const MergeCost cost = (*costs().find(name))(in.options);
-  if (!cost) throw Error("matching cost '" + name + "': its maker made none");
+  if (!cost) throw Error("matching cost '" + name + "': its factory returned none");
   return [name, cost, &in](const TriPatch& tri, DualGraph& dual) {
     std::vector<MergedQuad> quads;
     std::vector<double> values;

@@ -25,7 +25,7 @@ class CheckedSolver final : public MatchingSolver {
  public:
   CheckedSolver(std::string name, std::unique_ptr<MatchingSolver> solver)
       : name_(std::move(name)), solver_(std::move(solver)) {
-    if (!solver_) throw Error("matching solver '" + name_ + "': its factory made none");
+    if (!solver_) throw Error("matching solver '" + name_ + "': its factory returned none");
   }
 
   std::string name() const override { return name_; }

@@ -92,7 +92,7 @@ class DelquadPreferences(bpy.types.AddonPreferences):
 
 
 class OBJECT_OT_delquad(bpy.types.Operator):
-    """Make the active mesh one of quads; UV maps, colours and weights are lost"""
+    """Make the active mesh one of quads; UV maps, colors and weights are lost"""
 
     bl_idname = "object.delquad"
     bl_label = "Quad remesh (Delquad)"

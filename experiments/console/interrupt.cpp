@@ -94,7 +94,7 @@ TimeLimit::TimeLimit(double seconds) : watch_(std::make_unique<Watch>()) {
     if (watch->over.wait_until(lock, end, [&] { return watch->is_over; })) return;
     const std::string at = program_activities().text() + watch->stages.longest(watch->seconds());
     if (!abandon_files()) return;
-    fmt::print(stderr, "{}error: not done after {:g} s (--time-limit): {} [time-limit]\n",
+    fmt::print(stderr, "{}error: stopped after {:g} s (--time-limit): {} [time-limit]\n",
                errors_have_a_terminal() ? "\r\x1b[2K" : "", seconds, at);
     _exit(kTimeIsUp);
   });

@@ -62,8 +62,8 @@ struct Closeup {
   double eta;
   double size;  ///< mean edge
   Vec3 normal;
-  Vec3 at;                                 ///< its centre
-  std::vector<Vec2> points;                ///< in units of the quad's mean edge, its centre at the origin
+  Vec3 at;                                 ///< its center
+  std::vector<Vec2> points;                ///< in units of the quad's mean edge, its center at the origin
   std::vector<std::vector<int>> elements;  ///< triangles and quads, the bad quad first
   std::vector<double> etas;                ///< of the elements; those of triangles are 1
 };

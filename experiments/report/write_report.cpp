@@ -48,7 +48,7 @@ std::vector<fs::path> list(const fs::path& folder, const std::function<bool(cons
   std::vector<fs::path> found;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
     if (wanted(at->path())) found.push_back(at->path());
-  if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
+  if (error) throw InputError(folder.string() + ": " + cannot_be_read(error.message()));
   std::ranges::sort(found);
   return found;
 }

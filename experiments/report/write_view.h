@@ -13,7 +13,7 @@ namespace delquad {
 /// Further data on a mesh.
 struct ViewNotes {
   std::vector<std::string> warnings = {};
-  std::vector<std::size_t> failing = {};  ///< quads beyond criteria, which have a colour of their own
+  std::vector<std::size_t> failing = {};  ///< quads beyond criteria, which have a color of their own
 };
 
 /// Writes one HTML file that shows a mesh: shape, sizes, names that are switched on and off, worst quads. If

@@ -39,7 +39,7 @@ void read_study_keys(const TomlTable& table, Case& target) {
 
 void check_adapt(const Case& c) {
   if (!c.adapt && !c.solution.empty() && c.seed != 0)
-    refuse("{}: a seed turns the domain, and not the 'solution': expected 'adapt', such as kind = \"given\"",
+    refuse("{}: 'seed' turns the domain but not the 'solution': leave 'seed' out, or give the key 'adapt'",
            c.where);
   if (!c.adapt) return;
   if (c.solution.empty()) refuse("{}: 'adapt' needs a 'solution', a formula in x and y", c.where);

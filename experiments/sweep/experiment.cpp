@@ -53,7 +53,7 @@ void check_columns(const TomlTable& table, const std::vector<std::string>& colum
   for (const Metric& one : columns_of_records()) known.push_back(one.key);
   for (const std::string& key : columns) {
     if (key == "finish_eta")
-      refuse("{}: there is no column '{}' any longer: compare eta_mean of variants without finish steps",
+      refuse("{}: the column '{}' was removed: compare eta_mean of variants without finish steps",
              table.where("columns"), key);
     check_known(table, "columns", key, known);
   }
@@ -156,8 +156,10 @@ void Experiment::read_matrix(const TomlTable& matrix) {
   for (const TomlTable& variant : variants_)
     for (const std::string& leaf : variant.leaves())
       if (std::ranges::count(leaves_, leaf) > 0)
-        throw InputError(variant.where() + ": '" + leaf + "' varies already: by [matrix]");
-  if (cells > kMostCells) throw InputError(matrix.where() + ": more than 1e7 combinations");
+        throw InputError(variant.where() + ": '" + leaf +
+                         "' varies by [matrix] already: expected it in one of the two");
+  if (cells > kMostCells)
+    throw InputError(matrix.where() + ": more than 1e7 combinations: expected fewer values");
 }
 
 void Experiment::read_variants(const std::vector<TomlTable>& tables) {
@@ -167,7 +169,8 @@ void Experiment::read_variants(const std::vector<TomlTable>& tables) {
   for (const TomlTable& table : tables) {
     axis.values.push_back(table.text("name"));
     if (std::ranges::count(axis.values, axis.values.back()) > 1)
-      throw InputError(table.where("name") + ": the variant '" + axis.values.back() + "' is there twice");
+      throw InputError(table.where("name") + ": a second variant '" + axis.values.back() +
+                       "': expected another name");
     table.require_known(variant_keys());
   }
   axes.push_back(std::move(axis));
@@ -248,7 +251,8 @@ std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& tex
   return found;
 }
 
-Experiment Experiment::read(const std::filesystem::path& file, const std::filesystem::path& data) {
+Experiment Experiment::read(const std::filesystem::path& file, const std::filesystem::path& data,
+                            bool with_pipelines) {
   const TomlTable table = TomlTable::read(file);
   table.refuse_removed(kRemovedKeys);
   for (const TomlTable& one : table.tables("hypotheses")) one.refuse_removed(kRemovedOfHypotheses);
@@ -264,8 +268,9 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   read_fields(table, static_cast<TablePlan&>(experiment));
   read_fields(table, static_cast<ExperimentKeys&>(experiment));
   experiment.settle_calibration(table);
-  experiment.words =
-      located(table.where("pipelines"), [&] { return experiment.find_pipelines(experiment.pipelines); });
+  if (with_pipelines)
+    experiment.words =
+        located(table.where("pipelines"), [&] { return experiment.find_pipelines(experiment.pipelines); });
   experiment.check_metrics(table);
   const std::vector<std::string> metrics = experiment.keys_of_metrics();
   if (!experiment.reference.empty()) experiment.published = read_published(experiment.reference, metrics);

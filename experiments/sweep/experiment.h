@@ -60,9 +60,11 @@ class Experiment : public TablePlan, public ExperimentKeys {
   /// Throws InputError with file and line.
   Case read_variant(std::size_t index_of_case, std::size_t variant = 0) const;
 
-  /// `data`: the folder that the models which cases call data are in. Throws InputError with file and line
-  /// for anything that is not as docs/experiments.md says.
-  static Experiment read(const std::filesystem::path& file, const std::filesystem::path& data = kDataFolder);
+  /// Reads an experiment. `data`: the folder of the models that cases call data. `with_pipelines`: finds the
+  /// pipelines of the file; otherwise `words` stays empty. Throws InputError with file and line for anything
+  /// that is not as docs/experiments.md says.
+  static Experiment read(const std::filesystem::path& file, const std::filesystem::path& data = kDataFolder,
+                         bool with_pipelines = true);
 
  private:
   friend StudyFile describe(const Experiment& experiment);

@@ -121,7 +121,8 @@ void check_program(const TomlTable& table, const char* key, const std::vector<st
   if (program.is_absolute() || command[0].find('/') == std::string::npos) return;
   const std::filesystem::path file = table.file().parent_path() / program;
   if (!std::filesystem::is_regular_file(file))
-    refuse("{}: '{}': there is no program '{}'", table.where(key), key, file.string());
+    refuse("{}: '{}': there is no program '{}': expected its path from the folder of this file",
+           table.where(key), key, file.string());
 }
 
 }  // namespace
@@ -249,22 +250,22 @@ void Experiment::check_plan(const TomlTable& table) const {
 
 /// Before pipelines are chosen that the file does not name.
 void Experiment::check_may_fail(const TomlTable& table, const MayFail& cells) const {
-  std::vector<std::string> names, variants, known;
+  std::vector<std::string> names, variants;
   for (const TomlTable& one : cases_) names.push_back(one.text("name"));
   for (const TomlTable& variant : variants_) variants.push_back(variant.text("name"));
-  for (const Word& word : words) known.push_back(word.text);
   for (const auto& [key, text, all] : {std::tuple("case", cells.name, &names),
                                        {"variant", cells.variant, &variants},
-                                       {"pipeline", cells.pipeline, &known}})
+                                       {"pipeline", cells.pipeline, &pipelines}})
     if (!text.empty() && std::ranges::find(*all, text) == all->end())
       throw InputError(table.where(key) + ": the experiment has no " + key + " '" + text + "'" +
                        suggestion(text, *all));
   if (cells == MayFail())
-    refuse("{}: which cells may fail? expected 'case', 'variant' or 'pipeline'", table.where());
+    refuse("{}: does not say which cells may fail: expected 'case', 'variant' or 'pipeline'", table.where());
 }
 
 void Experiment::check_hypothesis(const TomlTable& table, const Hypothesis& h) const {
-  if (h.better == h.than) refuse("{}: '{}' is compared with itself", table.where("than"), h.than);
+  if (h.better == h.than)
+    refuse("{}: '{}' is compared with itself: expected another one", table.where("than"), h.than);
   if (!h.along.empty()) {
     const std::vector<std::string>& values = find_axis(axes, h.along, table, "along").values;
     for (const auto& [key, value] : {std::pair("better", h.better), std::pair("than", h.than)})

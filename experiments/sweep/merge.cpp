@@ -84,7 +84,7 @@ bool is_better(const Candidate& one, const Candidate& before) {
   if (other.reason.empty() != known.reason.empty()) return other.reason.empty();
   if (!one.damage.empty()) return false;
   if (other.reason.empty() && digests_of(other) != digests_of(known))
-    refuse("the cell {} {} is not the same in {} and {}: they have other models or meshes", known.group,
+    refuse("the cell {} {} differs between {} and {}: its model or its mesh is another one", known.group,
            known.pipeline, known.folder.string(), other.folder.string());
   return false;
 }
@@ -118,7 +118,8 @@ void check_output(const std::vector<fs::path>& folders, const fs::path& output) 
   if (fs::exists(output)) throw InputError(output.string() + ": is there already: expected a new folder");
   for (const fs::path& folder : folders)
     if (*fs::weakly_canonical(fs::absolute(output)).lexically_relative(fs::canonical(folder)).begin() != "..")
-      refuse("{}: lies inside of {}, which is to stay as it is", output.string(), folder.string());
+      refuse("{}: lies inside of {}, which must not change: expected another folder", output.string(),
+             folder.string());
 }
 
 void fill(const fs::path& target, const std::vector<fs::path>& folders, const StudyFile& study,

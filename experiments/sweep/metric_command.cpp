@@ -26,7 +26,7 @@ constexpr std::size_t kMostRead = std::size_t{1} << 20, kMostShown = 200;
 
 std::string size_argument(const Case& c) {
   const auto size = uniform_size(c);
-  if (!size) throw InputError("it is told one number for the size, which varies here");
+  if (!size) throw InputError("its command takes one size, and the size varies here");
   return fmt::format("{}", *size);
 }
 

@@ -185,7 +185,7 @@ void check_surface(const Prepared& prepared, const Mesh& mesh) {
 double size_argument(const PeerTask& task) {
   if (const auto size = uniform_size(task.c)) return task.scale * *size;
   if (task.peer.size_field.empty() || followed_metric(task.prepared))
-    throw NotApplicable("'" + task.peer.name + "' is told one number for the size, which varies here");
+    throw NotApplicable("'" + task.peer.name + "' takes one size, and the size varies here");
   return std::ranges::max(sample_sizes(task).delta);
 }
 

@@ -122,10 +122,11 @@ Rerun rerun_record(const std::filesystem::path& file, const std::filesystem::pat
     refuse("{0}: is the record of one mesh: 'delquad mesh {0} -o FILE' makes it again", file.string());
   try {
     if (record.at("status") != "ok")
-      refuse("{}: is of a cell that was not done: {}", file.string(), record.at("reason").get<std::string>());
+      refuse("{}: is the record of a cell that failed: {}", file.string(),
+             record.at("reason").get<std::string>());
     return rerun(record, recorded_cell(record, file, data));
   } catch (const Json::exception& error) {
-    throw InputError(json_problem(file, "is no record of an experiment's cell", error));
+    throw InputError(json_problem(file, "is no record of a cell of an experiment", error));
   }
 }
 
@@ -349,7 +350,8 @@ Verification verify_results(const fs::path& folder, const fs::path& data) {
   Verification result;
   std::vector<VerifiedCell> cells;
   for (const fs::path& file : record_files(folder)) cells.push_back({file, {}, false});
-  if (cells.empty()) throw InputError(folder.string() + ": holds no record.json of an experiment");
+  if (cells.empty())
+    throw InputError(folder.string() + ": holds no record.json: expected the folder of 'delquad run -o'");
   result.cells = cells.size();
   Lines of_study = check_study(folder, result.undrawn);
   StudyFile study;

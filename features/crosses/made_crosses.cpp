@@ -43,7 +43,7 @@ void use_made_crosses(const CrossSpec& spec, MeshingSetup& prepared) {
     PatchSetup& patch = prepared.patches[i];
     patch.cross = located(spec.where,
                           [&] { return spec.maker(patch.boundary, *patch.size, prepared.settings.options); });
-    if (!patch.cross) throw InputError(spec.where + ": the cross field's maker made none");
+    if (!patch.cross) throw InputError(spec.where + ": the maker of the cross field returned none");
     patch.cross = std::make_shared<Checked>(patch.cross, spec.where);
   });
 }

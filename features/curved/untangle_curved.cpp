@@ -238,7 +238,7 @@ constexpr double kLeastDecrease = 1e-3;
 /// Parts of the energy's step that are tried; the first that improves the quads counts. Energies know planes
 /// only.
 constexpr std::array kPartsOfStep{1.0, 0.5, 0.25, 0.1};
-/// A node on a curve moves at most by this part of the way to its neighbours there.
+/// A node on a curve moves at most by this part of the way to its neighbors there.
 constexpr double kMostOfWay = 0.5;
 
 /// One trial; trials follow each other while elements stay poor.
@@ -550,8 +550,7 @@ class CurvedUntangler {
   std::vector<int> curve_of_;              ///< of each node; kStays, kInFace
   std::vector<std::array<int, 2>> along_;  ///< of each node on a curve those beside it there
   std::vector<char> is_vertex_;
-  std::vector<char>
-      is_rough_;  ///< of each quad: its bounds were found no closer than its neighbourhood needs
+  std::vector<char> is_rough_;  ///< of each quad: its bounds were found no closer than its neighborhood needs
   std::vector<std::vector<int>> quads_at_;  ///< of each node
 };
 

@@ -72,14 +72,14 @@ double length_of_small(const MeshProblem& problem, std::span<const Vec3> points)
       problem.criteria.limits, [](const CriterionLimit& l) { return l.key == "min_length" && l.on.empty(); });
   const auto refuse = [&](const char* what) {
     throw InputError(
-        fmt::format("{}: what is shorter than min_length is to be left out, but {}: expected "
-                    "criteria with it, or ignore_below with a length",
+        fmt::format("{}: parts shorter than min_length are to be left out, but {}: expected criteria with "
+                    "min_length, or ignore_below with a length",
                     spec.where.empty() ? problem.where : spec.where, what));
   };
   if (problem.criteria.empty()) refuse("there are no criteria");
-  if (limit == problem.criteria.limits.end()) refuse("the criteria have none");
+  if (limit == problem.criteria.limits.end()) refuse("the criteria lack min_length");
   if (!limit->in_sizes) return limit->value;
-  if (!problem.size.field) refuse("it is in parts of a size that is not known before the mesh");
+  if (!problem.size.field) refuse("min_length is relative to a size that is not known before meshing");
   double size = std::numeric_limits<double>::infinity();
   int hint = -1;
   for (const Vec3& x : points) size = std::min(size, problem.size.field->at(x, hint));
@@ -95,7 +95,7 @@ KeptNames names_that_stay(const MeshProblem& problem, const std::vector<Entity>&
   for (const std::string& name : spec.keep)
     if (std::ranges::find(known, name) == known.end())
       throw InputError(
-          fmt::format("{}: '{}' is to stay, and no curve and no region is called that{} [unknown-name]",
+          fmt::format("{}: no curve and no region is called '{}', which is to be kept{} [unknown-name]",
                       spec.where.empty() ? problem.where : spec.where, name, suggestion_or_all(name, known)));
   return {curve_options(problem.options).keep_named, spec.keep};
 }

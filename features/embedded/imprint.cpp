@@ -84,7 +84,7 @@ class SplitTriangles {
 };
 
 /// Normals of a triangulation as it was: linear between those at the points, each the mean of one face's
-/// triangles there, weighted by their angles. On a sphere they point to its centre however it is divided.
+/// triangles there, weighted by their angles. On a sphere they point to its center however it is divided.
 class SmoothNormals {
  public:
   explicit SmoothNormals(const Mesh& mesh)
@@ -405,8 +405,9 @@ class Imprinter {
     }
     end_run();
     if (along > std::min(kFit * diagonal_, 0.5 * norm(mesh_.points[b] - mesh_.points[a])))
-      refuse(line, fmt::format("runs along {} between {} and {}", curve_name(neighbour),
-                               show_point(mesh_.points[a]), show_point(mesh_.points[b])));
+      refuse(line,
+             fmt::format("runs along {} between {} and {}: expected it apart, or the name on that curve",
+                         curve_name(neighbour), show_point(mesh_.points[a]), show_point(mesh_.points[b])));
   }
 
   std::string curve_name(int curve) const {

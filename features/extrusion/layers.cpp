@@ -275,7 +275,7 @@ Vec3 offset_direction(const std::vector<CornerNormal>& all, const Vec3& at) {
   return (2 / dot(sum, sum)) * sum;
 }
 
-/// Whether the quads at a point make one fan. `ends`: the neighbours of the point in each of them.
+/// Whether the quads at a point make one fan. `ends`: the neighbors of the point in each of them.
 bool is_one_fan(std::vector<std::array<int, 2>> ends) {
   std::size_t joined = 1;  // quads that are known to hang together stand first
   for (std::size_t i = 0; i < joined; ++i)

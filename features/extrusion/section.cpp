@@ -35,10 +35,10 @@ void require_quads(const Mesh& mesh) {
       for (int j = 0; j < i; ++j)
         if (quad[i] == quad[j])
           throw InputError(
-              fmt::format("a quad has the node at {} for two corners", show_point(mesh.points[quad[i]])));
+              fmt::format("a quad has two corners at the node {}", show_point(mesh.points[quad[i]])));
 }
 
-/// Turns quads over that run along an edge in the same direction as a neighbour that came first.
+/// Turns quads over that run along an edge in the same direction as a neighbor that came first.
 void orient(Section& section, std::span<const HalfEdge> sides) {
   std::vector<std::array<int, 4>>& quads = section.mesh.quads;
   const std::vector<Vec3>& points = section.mesh.points;

@@ -62,12 +62,12 @@ double area_of(const Mesh& mesh, const std::vector<int>& corners) {
   return area;
 }
 
-/// Turns elements over until neighbours agree, and pieces of the mesh until their area is positive.
+/// Turns elements over until neighbors agree, and pieces of the mesh until their area is positive.
 void turn_over(const GivenMesh& given, std::span<const HalfEdge> sides, Polygons& polygons) {
   std::vector<Neighbours> neighbours;
   for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
     if (edge.size() > 2)
-      throw InputError(fmt::format("{}: {} is in {} elements: at most two were expected", given.source,
+      throw InputError(fmt::format("{}: {} is in {} elements: expected at most two", given.source,
                                    text_of_edge(given.mesh, edge[0].lo, edge[0].hi), edge.size()));
     if (edge.size() == 2)
       neighbours.push_back({edge[0].element, edge[1].element, edge[0].forward != edge[1].forward});
@@ -397,12 +397,12 @@ std::vector<int> make_boundary(const GivenMesh& given, std::span<const HalfEdge>
   }
   if (lost > 0)
     result.warnings.push_back(fmt::format(
-        "{}: {} lines are left out: they are no edges of elements, or are there twice", given.source, lost));
+        "{}: {} lines are left out: they are no edges of elements, or duplicates", given.source, lost));
   for (const NamedPoint& named : mesh.named_points)
     if (node_of[named.point] >= 0) boundary.named_points.push_back({node_of[named.point], named.entity});
   if (const auto unused = std::ranges::count(used, 0); unused > 0)
     result.warnings.push_back(
-        fmt::format("{}: {} points are left out: no element has them", given.source, unused));
+        fmt::format("{}: {} points are left out: no element uses them", given.source, unused));
   return node_of;
 }
 

@@ -130,11 +130,11 @@ void drop_what_no_element_has(const GivenMesh& given, std::span<const HalfEdge> 
     return !sides_of_edge(sides, a, b).empty() && seen.insert(std::minmax({a, b})).second;
   });
   if (gone > 0)
-    warnings.push_back(fmt::format(
-        "{}: {} lines are left out: they are no edges of elements, or are there twice", given.source, gone));
+    warnings.push_back(fmt::format("{}: {} lines are left out: they are no edges of elements, or duplicates",
+                                   given.source, gone));
   mesh.periodic.clear();
   if (const auto unused = std::ranges::count(drop_unused_points(mesh), -1); unused > 0)
-    warnings.push_back(fmt::format("{}: {} points are left out: no element has them", given.source, unused));
+    warnings.push_back(fmt::format("{}: {} points are left out: no element uses them", given.source, unused));
 }
 
 bool is_sound(const Mesh& mesh, int q) {
@@ -149,7 +149,7 @@ double soundness_of(const Mesh& mesh, int q) {
   return std::min(element_shape(corners, area_vector(corners)).scaled_jacobian, kFold - quad_warp(corners));
 }
 
-/// Moves nodes of quads that are inverted, folded or without area towards the middle of their neighbours,
+/// Moves nodes of quads that are inverted, folded or without area towards the middle of their neighbors,
 /// over the other elements. Nodes on lines, at named points, between regions, and on edges sharper than the
 /// feature angle stay.
 class BadQuadOpening {
@@ -215,7 +215,7 @@ class BadQuadOpening {
     for (const int q : quads_at_[v]) worst = std::min(worst, soundness_of(mesh_, q));
     return worst;
   }
-  /// Tries places on the way to the middle of the neighbours.
+  /// Tries places on the way to the middle of the neighbors.
   bool improve(int v) {
     Vec3 middle;
     for (const int w : around_[v])
@@ -275,7 +275,7 @@ class Triangulation {
     }
   }
 
-  /// Neighbours agree afterwards; elements may run either way round.
+  /// Neighbors agree afterwards; elements may run either way round.
   void turn() {
     const std::vector<std::array<int, 3>> before = mesh_.triangles;
     std::vector<Warning> turned;

@@ -19,7 +19,7 @@ namespace {
 /// Stations on each line across a ring at which the size is asked for, and lines at most.
 constexpr int kRingStations = 16;
 constexpr std::size_t kMostRingLines = 64;
-/// Passes of the optimisation of a grid, at most, and steps in each: lines that bend where grids meet take
+/// Passes of the optimization of a grid, at most, and steps in each: lines that bend where grids meet take
 /// many to become smooth.
 constexpr int kGridPasses = 6, kGridSteps = 200;
 

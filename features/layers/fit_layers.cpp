@@ -83,7 +83,7 @@ class LayerFitter {
       boundary_.push_back({patch_.points[a], patch_.points[b], {a, b}, {wall[a], -1}, {-1, -1}, false});
   }
 
-  /// No thickness differs from its neighbours' by more than kSteepest; the lower one counts.
+  /// No thickness differs from its neighbors' by more than kSteepest; the lower one counts.
   void limit_slopes() {
     for (int c = 0; c < layers_.n_chains(); ++c) {
       const int n = layers_.chain(c).n_points();
@@ -100,7 +100,7 @@ class LayerFitter {
     }
   }
 
-  /// No scale is above the mean of its neighbours'. Rounds of this blur the steps of the others.
+  /// No scale is above the mean of its neighbors'. Rounds of this blur the steps of the others.
   void cut_peaks() {
     for (int c = 0; c < layers_.n_chains(); ++c) {
       const std::vector<double> old = layers_.scales[c];

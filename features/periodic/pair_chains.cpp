@@ -59,7 +59,7 @@ class ChainImages {
       const auto found = stays(m, pair.motion) ? ChainPair{m, m, true, pair.motion} : image(pair, m, others);
       if (!taken.insert(found.chain).second)
         throw InputError(
-            fmt::format("{}: the sides do not match: curve {} would be an image twice [periodic-mismatch]",
+            fmt::format("{}: the sides do not match: curve {} is the image of two curves [periodic-mismatch]",
                         pair.where, fine_.curves[chains_[found.chain].curve].tag));
       pairs.push_back(found);
     }

@@ -156,8 +156,8 @@ std::vector<FacePair> pair_faces(const SurfaceModel& model, const std::vector<in
     pairs.push_back({image->face(), master.face(), is_reversed, pair});
   }
   if (from.size() != to.size())
-    throw InputError(fmt::format("{}: '{}' is more than the image of '{}': {} faces, and not {}", pair.where,
-                                 pair.to, pair.from, to.size(), from.size()));
+    throw InputError(fmt::format("{}: '{}' is not the image of '{}': it has {} faces, and the image has {}",
+                                 pair.where, pair.to, pair.from, to.size(), from.size()));
   return pairs;
 }
 

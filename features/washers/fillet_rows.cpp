@@ -16,7 +16,7 @@
 namespace delquad {
 namespace {
 
-/// Parts of a fillet's curvature: how much less it may be somewhere, and how much a neighbour may have along
+/// Parts of a fillet's curvature: how much less it may be somewhere, and how much a neighbor may have along
 /// its sides.
 constexpr double kVaries = 0.05, kMostBeside = 0.5;
 /// Places at which a face is looked at.

@@ -65,7 +65,7 @@ bool edge_fits(double length, double size);
 std::vector<int> share_edges(const std::vector<double>& parts, int edges);
 /// Fewer and lower rows where there is less room: to walls a row is left free, and between two holes with
 /// rows one, too; and where edges around the last row would be longer than fits. Another number of edges, the
-/// next in ratio, where no rows of .6 of their height fit this one, or edges of the rim. Nothing where
+/// next in ratio, where no rows of 0.6 of their height fit this one, or edges of the rim. Nothing where
 /// none does. Warnings tell of all.
 std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSpec& washer, double size,
                                     const HoleClearance& room, std::vector<Warning>& warnings);

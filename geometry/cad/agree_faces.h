@@ -9,10 +9,10 @@ namespace delquad::cad {
 
 struct Agreement {
   int n_turned = 0;        ///< faces turned over
-  bool orientable = true;  ///< false: no choice makes all neighbours agree
+  bool orientable = true;  ///< false: no choice makes all neighbors agree
 };
 
-/// Turns as few faces over as it takes for neighbours (across edges of exactly two triangles) to agree.
+/// Turns as few faces over as it takes for neighbors (across edges of exactly two triangles) to agree.
 Agreement agree_faces(Mesh& mesh);
 
 /// Turns each group of faces (indices of regions) over that is closed and encloses a negative volume; returns

@@ -16,7 +16,7 @@ struct CadOptions {
   /// Largest distance between the fine triangulation and the model, as a fraction of the diagonal of the
   /// model's bounding box, > 0.
   double deflection = 1.0 / 2000;
-  /// Largest angle between neighbouring sides of a curve, and normals of a face across an inner side,
+  /// Largest angle between neighboring sides of a curve, and normals of a face across an inner side,
   /// radians.
   double angle = 0.15;
   /// Processor time that the kernel may take to triangulate a face, in one of its trials: those that take
@@ -51,7 +51,7 @@ struct CadOptions {
 /// nodes there. Each face and each edge stands once, as region and curve; their tags are their numbers in the
 /// file's order, so that gaps stay where degenerate edges and seams were: these are no curves, the
 /// triangulation is connected across them. A region's names are those of its face, solids and products in
-/// STEP and IGES and its colour ("colour #rrggbb"). Normals of a solid point outwards. Edges that stand in
+/// STEP and IGES and its color ("color #rrggbb"). Normals of a solid point outwards. Edges that stand in
 /// faces and join others are embedded. Invalid shapes are healed and coincident free edges sewn, and a
 /// warning says so; so are faces taken out whose edges lie on each other within their tolerances. Warnings
 /// also tell free and non-manifold curves. Projected points are accurate to 1e-9 of the diagonal where the

@@ -33,7 +33,9 @@ CadRequest request_from(const std::string& bytes) {
   int protocol = 0;
   get(rest, protocol);
   if (protocol != kProtocol)
-    throw InputError("the program that reads CAD files is of another version than the library that asks it");
+    throw InputError(
+        "the program that reads CAD files has another version than this library: install both from one "
+        "build");
   CadRequest request;
   visit_request(request, [&](auto& value) { get(rest, value); });
   return request;

@@ -51,10 +51,11 @@ double diagonal_of(const TopoDS_Shape& shape) {
   Bnd_Box box;
   // The geometry's own box: an old triangulation may lie.
   BRepBndLib::Add(shape, box, /*useTriangulation=*/false);
-  if (box.IsVoid() || box.IsOpen()) throw InputError("the model has no extent, or an infinite one");
+  if (box.IsVoid() || box.IsOpen())
+    throw InputError("the model has no extent or an infinite one: expected finite faces");
   const double diagonal = std::sqrt(box.SquareExtent());
   if (!(diagonal > 0) || Precision::IsInfinite(diagonal)) {
-    throw InputError("the model has no extent, or an infinite one");
+    throw InputError("the model has no extent or an infinite one: expected finite faces");
   }
   return diagonal;
 }

@@ -13,7 +13,7 @@ void check_example(const std::string& name);
 
 enum class CadFormat { kStep, kBrep };
 
-/// Writes an example as a CAD file, in millimetres, the same bytes each time; names of faces are kept in
+/// Writes an example as a CAD file, in millimeters, the same bytes each time; names of faces are kept in
 /// STEP only. Throws InputError for unknown names, and where the program was built without OpenCASCADE.
 void write_example(const std::string& name, CadFormat format, std::ostream& out);
 

@@ -335,8 +335,8 @@ bool drop_strips(CadShape& cad, const std::vector<int>& faces) {
     return false;
   }
   cad.warnings = whole.warnings;
-  cad.warnings.push_back(fmt::format("faces whose edges lie on each other were taken out, the edges sewn: {}",
-                                     fmt::join(strips, ", ")));
+  cad.warnings.push_back(fmt::format(
+      "faces whose edges lie on each other were removed, and their edges sewn: {}", fmt::join(strips, ", ")));
   return true;
 }
 

@@ -21,7 +21,7 @@ namespace delquad::cad {
 
 namespace {
 
-/// Radians between neighbouring chords.
+/// Radians between neighboring chords.
 constexpr double kTurnOfChords = 0.1;
 
 /// Edges that bound faces, or stand in several, others inside of faces being INTERNAL; and ends of edges.

@@ -68,7 +68,8 @@ std::pair<Reply, std::string> ask_worker(const CadRequest& request) {
     if (is_last(kind)) last.emplace(Reply{kind}, text);
   });
   if (!last)
-    throw InputError("damaged: the CAD kernel crashes or finds no end" + activity.text() + " [damaged-cad]");
+    throw InputError("the CAD kernel crashes or does not end: expected an undamaged file" + activity.text() +
+                     " [damaged-cad]");
   return *std::move(last);
 }
 

@@ -32,7 +32,7 @@ namespace cad {
 namespace {
 
 /// Last step of a projection, as a fraction of the diagonal: a thousandth of the accuracy promised, for
-/// surfaces with a singular parametrisation, where Newton's method converges linearly.
+/// surfaces with a singular parametrization, where Newton's method converges linearly.
 constexpr double kProjection = 1e-12;
 /// Faces nearer than this part of the diagonal lie on each other; as far apart as edges that are sewn.
 constexpr double kTouching = 1e-6;
@@ -59,7 +59,7 @@ TopTools_ListOfShape shells_of_solids(const TopoDS_Shape& shape) {
   return shells;
 }
 
-/// Whether the faces of a group, and no others, have a name in common that is more than a colour.
+/// Whether the faces of a group, and no others, have a name in common that is more than a color.
 bool has_own_name(const Mesh& mesh, const std::vector<int>& group) {
   const auto has = [&](int face, const std::string& name) {
     return std::ranges::find(mesh.regions[face].names, name) != mesh.regions[face].names.end();
@@ -179,11 +179,11 @@ void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
   const Agreement agreement = agree_faces(model.fine);
   if (!agreement.orientable) model.warnings.push_back("the faces cannot be oriented alike");
   if (agreement.n_turned > 0) {
-    model.warnings.push_back(
-        fmt::format("{} faces disagreed with their neighbours and were turned over", agreement.n_turned));
+    model.warnings.push_back(fmt::format(
+        "{} faces were oriented against their neighbors and were turned over", agreement.n_turned));
   }
   if (const int n = turn_outwards(model.fine, groups); n > 0) {
-    model.warnings.push_back(fmt::format("{} bodies were inside out and were turned over", n));
+    model.warnings.push_back(fmt::format("{} bodies were inside out: their faces were turned over", n));
   }
 }
 

@@ -34,6 +34,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -77,7 +78,7 @@ std::string colour_of(const IGESData_IGESEntity& entity) {
   return fmt::format("{:02x}{:02x}{:02x}", byte(red), byte(green), byte(blue));
 }
 
-/// Names and colours of the faces that `reader` has transferred: those of all entities that hold them.
+/// Names and colors of the faces that `reader` has transferred: those of all entities that hold them.
 /// `warnings` receives what bytes beyond ASCII were taken for.
 PartNames iges_names(const IGESControl_Reader& reader, std::vector<Warning>& warnings) {
   PartNames names;
@@ -134,11 +135,10 @@ constexpr std::size_t kBeginning = 4096;
 
 std::string beginning(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw InputError("a folder; expected a STEP, IGES or BREP file");
-  }
+  if (std::filesystem::is_directory(path, ignored)) throw InputError(cannot_be_read("it is a folder"));
+  errno = 0;
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError("cannot be opened");
+  if (!in) throw InputError(cannot_be_read(std::generic_category().message(errno)));
   std::string text(kBeginning, '\0');
   in.read(text.data(), kBeginning);
   text.resize(static_cast<std::size_t>(in.gcount()));

@@ -26,7 +26,7 @@ struct FaceMesh {
 std::string face_title(int number, const std::vector<std::string>& names);
 
 /// Triangulates the faces of a shape, but the late ones; the kernel keeps the triangulation in the shape.
-/// Neighbours have the same nodes along their edges. `deflection` is a length, `angle` in radians.
+/// Neighbors have the same nodes along their edges. `deflection` is a length, `angle` in radians.
 void triangulate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double deflection,
                  double angle);
 

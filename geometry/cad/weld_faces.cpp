@@ -99,8 +99,9 @@ class Welder {
     else
       use.is_seam = ++use.n_passages == 2 && BRep_Tool::IsClosed(edge, faces_[f].face);
     if (static_cast<int>(use.nodes.size()) != n) {
-      throw InputError(fmt::format("face {}: its triangulation does not fit its neighbour's, face {}", f + 1,
-                                   use.first_face + 1));
+      throw InputError(
+          fmt::format("face {}: its triangulation does not fit the triangulation of its neighbor, face {}",
+                      f + 1, use.first_face + 1));
     }
     for (int k = 0; k < n; ++k) {
       int& node = node_of[local(k)];

@@ -55,8 +55,8 @@ void require_readable(const Mesh& mesh, const std::string& where) {
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     const Vec3& p = mesh.points[i];
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      throw InputError(fmt::format("{}: point {} is ({}, {}, {}): finite coordinates were expected", where, i,
-                                   p.x, p.y, p.z));
+      throw InputError(
+          fmt::format("{}: point {} is ({}, {}, {}): expected finite coordinates", where, i, p.x, p.y, p.z));
   }
   const std::size_t n = mesh.points.size();
   check_elements(mesh.lines, mesh.line_curve, n, mesh.curves.size(), "line", "curve", where);
@@ -73,7 +73,7 @@ void require_readable(const Mesh& mesh, const std::string& where) {
   for (const NamedPoint& named : mesh.named_points)
     if (named.point < 0 || named.point >= static_cast<int>(n))
       throw InputError(
-          fmt::format("{}: a name is that of point {}: there are {}, counted from 0", where, named.point, n));
+          fmt::format("{}: a name is for point {}: there are {}, counted from 0", where, named.point, n));
 }
 
 }  // namespace delquad

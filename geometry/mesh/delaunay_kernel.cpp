@@ -83,14 +83,14 @@ std::span<const int> DelaunayKernel::insert(Vec2 x) {
     triangles_.emplace_back();
   }
   const size_t m = shell_.size();
-  // Outer neighbours first find their way back by the old indices, then the star overwrites the cavity.
+  // Outer neighbors first find their way back by the old indices, then the star overwrites the cavity.
   for (size_t k = 0; k < m; ++k) {
     const ShellEdge& e = shell_[k];
     if (e.outer < 0) continue;
     Triangle& outer = triangles_[e.outer];
     for (int j = 0; j < 3; ++j) {
       if (outer.n[j] == e.inner && outer.v[kNext[j]] == e.b) {
-        outer.n[j] = -2 - star_[k];  // marked, so that a neighbour over two shell edges is not matched twice
+        outer.n[j] = -2 - star_[k];  // marked, so that a neighbor over two shell edges is not matched twice
         break;
       }
     }

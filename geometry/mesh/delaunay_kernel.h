@@ -12,7 +12,7 @@
 namespace delquad {
 
 /// Indexed constrained Delaunay triangulation that grows by single points (Bowyer-Watson with exact
-/// predicates). Boundary sides have no neighbour, which is what stops a cavity there.
+/// predicates). Boundary sides have no neighbor, which is what stops a cavity there.
 class DelaunayKernel {
  public:
   struct Triangle {

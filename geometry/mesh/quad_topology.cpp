@@ -115,7 +115,7 @@ void QuadTopology::open(int h, bool counterclockwise) {
   std::array<int, 6> outside;
   for (int k = 0, g = next(h), f = next(other); k < 3; ++k, g = next(g), f = next(f))
     outside[k] = twin_[g], outside[k + 3] = twin_[f];
-  // Each of the two in the middle of its three neighbours.
+  // Each of the two in the middle of its three neighbors.
   const Vec2 at_p = points_[x[p]] + points_[x[counterclockwise ? 3 : 0]];
   const Vec2 at_q = points_[x[q]] + points_[x[counterclockwise ? 0 : 3]];
   x[6] = add_vertex(0.125 * (3 * at_p + at_q));
@@ -170,7 +170,7 @@ bool QuadTopology::can_collapse(int h) const {
   const int a = origin(h), b = target(h), c = target(next(h)), d = origin(prev(h));
   if (on_boundary(c)) return false;
   if ((!on_boundary(b) && valence_[b] < 3) || (!on_boundary(d) && valence_[d] < 3)) return false;
-  // Any other common neighbour, or an edge between the two, would become a double edge or a loop.
+  // Any other common neighbor, or an edge between the two, would become a double edge or a loop.
   bool free = true;
   for_each_out(c, [&](int g) {
     const int n = target(g);

@@ -40,7 +40,7 @@ class QuadTopology {
   /// On the boundary, and other meshes have elements there.
   bool held(int v) const { return v < n_boundary_ && v >= first_held_; }
   bool any_held() const { return first_held_ < n_boundary_; }
-  /// Whether v or one of its neighbours is held.
+  /// Whether v or one of its neighbors is held.
   bool near_held(int v) const {
     bool near = held(v);
     if (any_held()) for_each_out(v, [&](int h) { near |= held(target(h)) || held(origin(prev(h))); });

@@ -12,7 +12,7 @@ namespace delquad {
 /// The side of triangle t that faces triangle u, -1 when they share none.
 int facing_side(const TriPatch& tri, int t, int u);
 
-/// Finds the neighbours of all triangles, by their corners.
+/// Finds the neighbors of all triangles, by their corners.
 void link_neighbours(TriPatch& tri);
 
 /// Swaps side k of t, across which lies a triangle u, for the other diagonal of the two. With a the corner
@@ -54,7 +54,7 @@ class TriTopology {
 
   /// The corners at an inner vertex, counterclockwise.
   void star(int i, std::vector<TriCorner>& corners) const;
-  /// The corner opposite of an edge in a triangle that has it and a neighbour there; t < 0: there is none.
+  /// The corner opposite of an edge in a triangle that has it and a neighbor there; t < 0: there is none.
   TriCorner find_inner_edge(int a, int b) const;
   /// Whether an edge joins two vertices; boundary edges count.
   bool adjacent(int a, int b) const;
@@ -62,7 +62,7 @@ class TriTopology {
   /// As swap_side() and split_side(); the latter returns the new vertex.
   void swap(int t, int k);
   int split(int t, int k, Vec2 at);
-  /// Takes inner vertex `from` out by moving it onto its neighbour `to`; `star` is that of `from`.
+  /// Takes inner vertex `from` out by moving it onto its neighbor `to`; `star` is that of `from`.
   void collapse(int from, int to, const std::vector<TriCorner>& star);
 
  private:

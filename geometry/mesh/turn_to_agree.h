@@ -16,9 +16,9 @@ struct Neighbours {
 };
 
 struct Turned {
-  std::vector<char> is_turned;           ///< over, so that neighbours agree
-  std::vector<std::vector<int>> pieces;  ///< of neighbours, by their first, which is not turned over
-  int clash = -1;                        ///< neighbours that cannot agree, as on a Moebius strip; -1: none
+  std::vector<char> is_turned;           ///< over, so that neighbors agree
+  std::vector<std::vector<int>> pieces;  ///< of neighbors, by their first, which is not turned over
+  int clash = -1;                        ///< neighbors that cannot agree, as on a Moebius strip; -1: none
 };
 
 /// Which of `n` elements or faces are to be turned over.

@@ -68,7 +68,7 @@ struct SizeIntegral {
   double interpolated(double at, double Entry::*from, double Entry::*to) const;
 };
 
-/// The size at x = (1 - t) a + t b of two fine points that are neighbours on a curve.
+/// The size at x = (1 - t) a + t b of two fine points that are neighbors on a curve.
 using SizeOnLine = std::function<double(int a, int b, double t, const Vec3& x, int& hint)>;
 
 /// Two-point Gauss on pieces of the fine lines that are short against the size. `limits` (if any): what the

@@ -58,12 +58,12 @@ double ArcMeasure::simpson(const Sample& a, const Sample& m, const Sample& b) {
 ArcMeasure::Sample ArcMeasure::sample(double t) const {
   const Vec2 p = curve_.point(t);
   if (!std::isfinite(p.x) || !std::isfinite(p.y))
-    throw InputError(fmt::format("{} is ({}, {}) at {} of its way; finite coordinates were expected", label_,
-                                 p.x, p.y, t));
+    throw InputError(
+        fmt::format("{} is ({}, {}) at {} of its way: expected finite coordinates", label_, p.x, p.y, t));
   const double delta = size_({p.x, p.y, 0});
   if (!(delta > 0) || !std::isfinite(delta))
-    throw InputError(fmt::format("the size is {} at ({}, {}) on {}; a finite number above 0 was expected",
-                                 delta, p.x, p.y, label_));
+    throw InputError(fmt::format("the size is {} at ({}, {}) on {}: expected a finite number above 0", delta,
+                                 p.x, p.y, label_));
   return {t, p, 1 / delta};
 }
 

@@ -11,7 +11,7 @@
 namespace delquad {
 
 /// The integral of ds/delta along a piece of a curve: how many edges of size delta fit on it.
-/// Found by adaptive Simpson rules on chords: no derivative is needed, and the parametrisation need not be
+/// Found by adaptive Simpson rules on chords: no derivative is needed, and the parametrization need not be
 /// regular.
 class ArcMeasure {
  public:

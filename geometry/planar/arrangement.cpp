@@ -142,7 +142,7 @@ class Sweep {
     for (const int s : fan.first(n_right)) position_[s / 2] = status_.insert(above, s);
   }
 
-  // Neighbours with a common end cannot meet elsewhere: a point on a line is found when the sweep reaches it.
+  // Neighbors with a common end cannot meet elsewhere: a point on a line is found when the sweep reaches it.
   void check(int a, int b) {
     if (a < 0 || b < 0 || conflict_) return;
     if (fans_.start(a) == fans_.start(b) || fans_.end(a) == fans_.end(b)) return;

@@ -63,13 +63,13 @@ class LineArranger {
   void check_ranges() const {
     if (mesh_.lines.empty()) fail("there are no lines: nothing bounds a domain [empty-domain]");
     if (mesh_.line_curve.size() != mesh_.lines.size())
-      fail("{} lines have {} curves; one each was expected", mesh_.lines.size(), mesh_.line_curve.size());
+      fail("{} lines have {} curves: expected one for each", mesh_.lines.size(), mesh_.line_curve.size());
     for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
       if (static_cast<std::size_t>(mesh_.line_curve[l]) >= mesh_.curves.size())
         fail("line {} lies on curve {}, which does not exist", l + 1, mesh_.line_curve[l]);
       for (int v : mesh_.lines[l])
         if (static_cast<std::size_t>(v) >= mesh_.points.size())
-          fail("line {} refers to node {}, which does not exist", l + 1, v);
+          fail("line {} has node {}, which does not exist", l + 1, v);
     }
   }
 
@@ -88,7 +88,7 @@ class LineArranger {
     for (int v : used_) {
       const Vec3& p = mesh_.points[static_cast<std::size_t>(v)];
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-        fail("a node of {} is at ({}, {}, {}); finite coordinates were expected", curve_at(v), p.x, p.y, p.z);
+        fail("a node of {} is at ({}, {}, {}): expected finite coordinates", curve_at(v), p.x, p.y, p.z);
       box.add(p);
     }
     const Vec3 size = box.size();
@@ -103,7 +103,7 @@ class LineArranger {
       if (a == b || at(a) == at(b))
         fail("a line of {} has no length: both ends are at {}", curve(static_cast<int>(l)), place(a));
     }
-    if (used_.size() < 3) fail("the boundary has only {} nodes; at least three were expected", used_.size());
+    if (used_.size() < 3) fail("the boundary has only {} nodes: expected at least three", used_.size());
   }
 
   void check_coincidence() {
@@ -113,7 +113,7 @@ class LineArranger {
       if (at(v) != at(w)) continue;
       if (cross_there(v, w))
         fail("lines of {} and {} cross at {} [crossing-curves]", curve_at(v), curve_at(w), place(v));
-      fail("two nodes coincide at {}, on {} and on {}: lines that touch share a node there", place(v),
+      fail("two nodes coincide at {}, on {} and on {}: expected one node, which both lines share", place(v),
            curve_at(v), curve_at(w));
     }
     std::vector<int> order(mesh_.lines.size());
@@ -125,9 +125,10 @@ class LineArranger {
       const auto [v, w] = ends(l);
       if (ends(m) != ends(l)) continue;
       if (valence(v) == 2 && valence(w) == 2)
-        fail("the loop through {} and {} of {} has only two nodes; at least three were expected", place(v),
+        fail("the loop through {} and {} of {} has only two nodes: expected at least three", place(v),
              place(w), curve(l));
-      fail("the line from {} to {} is there twice, on {} and on {}", place(v), place(w), curve(l), curve(m));
+      fail("the line from {} to {} is there twice, on {} and on {}: expected it once", place(v), place(w),
+           curve(l), curve(m));
     }
   }
 
@@ -164,8 +165,8 @@ class LineArranger {
            ends.size(), place(ends[0]), curve_at(ends[0]), place(ends[1]), curve_at(ends[1]));
     for (int l = 0; l < static_cast<int>(mesh_.lines.size()); ++l)
       if (is_open(l))
-        fail("{} bounds nothing from {} to {}, and lies in no region", curve(l), place(line(l)[0]),
-             place(line(l)[1]));
+        fail("{} bounds no region and lies in none from {} to {}: remove it, or close it to a loop", curve(l),
+             place(line(l)[0]), place(line(l)[1]));
   }
 
   [[noreturn]] void report_meeting(int l, int m) const {
@@ -177,7 +178,7 @@ class LineArranger {
     if (oc == 0 && od == 0) {
       std::array ends{a, b, c, d};
       std::ranges::sort(ends, [&](int v, int w) { return lexicographic(v, w); });
-      fail("lines of {} and {} lie on each other between {} and {}{}", curve(l), curve(m), place(ends[1]),
+      fail("lines of {} and {} overlap between {} and {}{}", curve(l), curve(m), place(ends[1]),
            place(ends[2]), hint);
     }
     if (oc * od != 0 && oa * ob != 0) {

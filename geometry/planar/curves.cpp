@@ -21,18 +21,17 @@ namespace {
 constexpr double kFullTurnTolerance = 1e-11;
 
 void require_finite(double value, const char* what) {
-  if (!std::isfinite(value))
-    throw InputError(fmt::format("{} is {}; a finite number was expected", what, value));
+  if (!std::isfinite(value)) throw InputError(fmt::format("{} is {}: expected a finite number", what, value));
 }
 
 void require_finite(Vec2 p, const std::string& what) {
   if (!std::isfinite(p.x) || !std::isfinite(p.y))
-    throw InputError(fmt::format("{} is ({}, {}); finite coordinates were expected", what, p.x, p.y));
+    throw InputError(fmt::format("{} is ({}, {}): expected finite coordinates", what, p.x, p.y));
 }
 
 void check_points(std::span<const Vec2> points, const char* what) {
   if (points.size() < 2)
-    throw InputError(fmt::format("the {} has {} points; at least two were expected", what, points.size()));
+    throw InputError(fmt::format("the {} has {} points: expected at least two", what, points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) {
     require_finite(points[i], fmt::format("point {} of the {}", i + 1, what));
     if (i > 0 && points[i] == points[i - 1])
@@ -110,7 +109,7 @@ class Spline final : public DefinedCurve {
   Spline(std::vector<Vec2> points, double corner) : points_(std::move(points)), t_{0}, corner_(corner) {
     const std::size_t n = points_.size() - 1;
     const bool is_closed = points_[0] == points_[n];
-    const auto turns = [&](std::size_t i) {  // at point i, which has neighbours on both sides
+    const auto turns = [&](std::size_t i) {  // at point i, which has neighbors on both sides
       return turn(points_[(i + n - 1) % n], points_[i], points_[i + 1]) > corner;
     };
     if (is_closed && !turns(0)) {  // it begins at a corner, if it has one
@@ -216,11 +215,11 @@ std::shared_ptr<const Curve> make_arc(Vec2 centre, double radius, double angle0,
   require_finite(angle0, "the arc's first angle");
   require_finite(angle1, "the arc's last angle");
   if (!std::isfinite(radius) || !(radius > 0))
-    throw InputError(fmt::format("the radius is {}; a number above 0 was expected", radius));
+    throw InputError(fmt::format("the radius is {}: expected a number above 0", radius));
   if (angle0 == angle1) throw InputError(fmt::format("the arc has no length: both angles are {}", angle0));
   if (std::abs(angle1 - angle0) > 2 * std::numbers::pi + kFullTurnTolerance)
-    throw InputError(fmt::format("the arc from angle {} to {} (radians) runs over itself; one turn at most",
-                                 angle0, angle1));
+    throw InputError(fmt::format(
+        "the arc from angle {} to {} (radians) overlaps itself: expected at most one turn", angle0, angle1));
   return std::make_shared<Arc>(centre, radius, angle0, angle1);
 }
 
@@ -242,7 +241,7 @@ PlanarModel polygons(const std::vector<std::vector<Vec2>>& loops) {
     const std::string name = fmt::format("polygon {}", i + 1);
     std::vector<Vec2> corners = loops[i];
     if (corners.size() < 3)
-      throw InputError(fmt::format("{}: {} corners: at least three were expected", name, corners.size()));
+      throw InputError(fmt::format("{}: {} corners: expected at least three", name, corners.size()));
     if (corners.front() == corners.back())
       throw InputError(
           fmt::format("{}: its last corner, ({}, {}), is its first one again: it closes by itself", name,

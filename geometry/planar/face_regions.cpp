@@ -206,8 +206,8 @@ FaceRegions regions_of_loops(const Mesh& lines, const Arrangement& arrangement,
                                    loops[l].where, show_point(Vec2{at.x, at.y})));
     }
     if (!loops[l].region.empty() && region_of[l] < 0)
-      throw InputError(fmt::format("{}: nothing is left of region '{}': other loops fill its own",
-                                   loops[l].where, loops[l].region));
+      throw InputError(fmt::format("{}: region '{}' is empty: other loops fill its loop", loops[l].where,
+                                   loops[l].region));
   }
   name_the_unnamed(result.regions);
   return result;

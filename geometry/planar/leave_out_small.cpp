@@ -172,7 +172,7 @@ class NodeRemover {
             {"short curves that stay", 1 / length,
              fmt::format("{} stays, {:.3g} long: {}", curve_label(model_, chain.curve[i]), length,
                          ends[0] == ends[1] ? "it is closed"
-                                            : "others meet at its ends, or neighbours have other names")});
+                                            : "others meet at its ends, or neighbors have other names")});
         continue;
       }
       const int gone = !may_go(i) || (may_go(j) && turn[j] < turn[i]) ? j : i;

@@ -50,7 +50,7 @@ struct Outline {
       for (double t : parameters) {
         const Vec2 p = shape.point(t);
         if (!std::isfinite(p.x) || !std::isfinite(p.y))
-          throw InputError(fmt::format("{}{} is ({}, {}) at {} of its way; finite coordinates were expected",
+          throw InputError(fmt::format("{}{} is ({}, {}) at {} of its way: expected finite coordinates",
                                        prefix(model.source), curve_label(model, static_cast<int>(c)), p.x,
                                        p.y, t));
         length += norm(p - last);
@@ -234,8 +234,8 @@ class Chainer {
       if (here.size() == 1) loose.push_back(e);
       if (here.size() > 1 && here.size() % 2 == 1)
         throw InputError(fmt::format(
-            "{}{} ends of curves meet at ({}, {}): of {}, {} and {}; a loop leaves a point as often as it "
-            "arrives",
+            "{}{} ends of curves meet at ({}, {}): of {}, {} and {}: expected two for each loop, one that "
+            "arrives and one that leaves",
             where, here.size(), at(e).x, at(e).y, label(here[0]), label(here[1]), label(here[2])));
     }
     if (!loose.empty()) report_open(loose, where);
@@ -249,7 +249,8 @@ class Chainer {
     }
     if (walked.size() != loop.curves.size())
       throw InputError(
-          fmt::format("{}the loop's curves close to more than one chain: {} of {} curves lie on that of {}",
+          fmt::format("{}the curves of the loop form several closed chains, and {} of {} are in the chain of "
+                      "{}: expected a loop for each chain",
                       where, walked.size(), loop.curves.size(), label(ends[0])));
   }
 

@@ -88,7 +88,7 @@ class Sampler {
     function_(t, points);
     for (std::size_t i = 0; i < t.size(); ++i)
       if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
-        throw InputError(fmt::format("the curve is ({}, {}) at t = {}; finite coordinates were expected",
+        throw InputError(fmt::format("the curve is ({}, {}) at t = {}: expected finite coordinates",
                                      points[i].x, points[i].y, t[i]));
     return points;
   }

@@ -21,7 +21,7 @@ constexpr double kSmooth = 3 * std::numbers::pi / 180;
 constexpr double kStandsOut = 6;
 /// A vertex that sticks out has so many sharp edges around it, however sharp.
 constexpr std::size_t kFewEdges = 6;
-/// Faces that join a neighbour may make others join.
+/// Faces that join a neighbor may make others join.
 constexpr int kMaxPasses = 20;
 
 class NoiseFilter {

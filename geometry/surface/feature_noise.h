@@ -22,7 +22,7 @@ struct DroppedFeatures {
 };
 
 /// Takes away cuts that noise makes: short networks of them, and small faces between them (these join the
-/// neighbour with which they share most). Noise is what is made of very few edges, or of edges not much
+/// neighbor with which they share most). Noise is what is made of very few edges, or of edges not much
 /// sharper than those beside it, while those beside it are not smooth either: an edge of a machined part
 /// stands out from what is around it, one of a scan does not. Free edges, given lines and borders of regions
 /// stay.

@@ -310,7 +310,7 @@ class Flattener {
     return norm(a.at - b.at) < kShortPiece * length;
   }
 
-  /// Triangles that cuts of neighbours split are no longer those of their patch.
+  /// Triangles that cuts of neighbors split are no longer those of their patch.
   void open_stale(const std::vector<std::pair<int, int>>& splits) {
     stuck_.resize(mesh_.triangles.size(), 0);
     tries_.resize(mesh_.triangles.size(), 0);
@@ -338,7 +338,7 @@ class Flattener {
         continue;
       }
       const int a = chart.fine_node[p.a], b = chart.fine_node[p.b];
-      // Split in this round by the cut of a neighbour: the next round makes another plan.
+      // Split in this round by the cut of a neighbor: the next round makes another plan.
       if (editor.triangles_on(a, b).empty()) return true;
       const bool was_on_cut = on_cut_.contains(std::minmax(a, b));
       chain.push_back(editor.split_edge(a, b, on_surface(editor, chart, p, a, b)));

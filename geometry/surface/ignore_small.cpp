@@ -43,7 +43,7 @@ double smoothness(const Mesh& mesh, const HalfEdge& one, const HalfEdge& other) 
   return kLeast + (1 - kLeast) * std::max(0.0, cosine);
 }
 
-/// Joins narrow faces with their neighbours, the narrowest first.
+/// Joins narrow faces with their neighbors, the narrowest first.
 class FaceJoiner {
  public:
   /// `origin`: of each face the one that it is a part of, see cut_narrow_parts().

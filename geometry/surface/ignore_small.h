@@ -26,7 +26,7 @@ struct NarrowOptions {
 /// cut_narrow_parts();
 /// - such a part, and a face narrower than that (twice its area by the length of its outline), becomes part
 /// of
-///   the neighbour with which it shares the longest curves, those that join smoothly counting most; that one
+///   the neighbor with which it shares the longest curves, those that join smoothly counting most; that one
 ///   keeps its tag and names;
 /// - a shorter curve becomes one with a curve that it continues (merge_short_curves);
 /// - of other shorter curves, both ends become one point, where the surface stays what it is by that, and no

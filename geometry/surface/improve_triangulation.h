@@ -21,7 +21,7 @@ struct ImproveOptions {
 
 /// Makes the fine triangulation fit for cotangent weights: edges inside faces are turned to be Delaunay where
 /// that does not bend the surface, long sides of curved faces are split and new points moved to the true
-/// surface. Lines keep following their curves. Plane faces are only divided along with their neighbours.
+/// surface. Lines keep following their curves. Plane faces are only divided along with their neighbors.
 void improve_triangulation(SurfaceModel& model, const ImproveOptions& options = {});
 
 /// Tells refine_triangulation() where to refine. Nodes are indices into fine.points.

@@ -16,7 +16,7 @@ namespace delquad {
 
 namespace {
 
-/// Rounds of averaging normals with those of the neighbours.
+/// Rounds of averaging normals with those of the neighbors.
 constexpr int kSmoothing = 2;
 /// Sine of an angle below which a triangle is too thin to have a normal or a curvature.
 constexpr double kThinRing = 1e-3;
@@ -101,7 +101,7 @@ class FormEstimate {
       if (count != 2) is_inner_[side.first] = is_inner_[side.second] = 0;
   }
 
-  /// Neighbours count by the inverse square of their distance; at the outline, where they stand on one side
+  /// Neighbors count by the inverse square of their distance; at the outline, where they stand on one side
   /// only, normals stay.
   void smooth_normals() {
     std::vector<Vec3> sum(normals_.size());
@@ -168,7 +168,7 @@ double circle_curvature(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 /// At each point of a chain, closed when its ends are the same point; an open chain's ends take after their
-/// neighbours.
+/// neighbors.
 std::vector<double> chain_curvatures(const std::vector<Vec3>& points, bool closed) {
   const int n = static_cast<int>(points.size());
   std::vector<double> values(points.size(), 0);

@@ -19,7 +19,7 @@ namespace delquad {
 /// The curvature of a CAD face is that of its surface; elsewhere it is estimated from the triangles: normals
 /// at points, the mean of the triangles around by their angles, smoothed against noise; the second
 /// fundamental form of each triangle from their differences [rusinkiewicz2004]; mean of the forms around a
-/// point. That of a curve is of the circle through neighbouring points.
+/// point. That of a curve is of the circle through neighboring points.
 class ModelCurvature {
  public:
   explicit ModelCurvature(const SurfaceModel& model);

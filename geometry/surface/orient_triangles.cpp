@@ -83,7 +83,7 @@ class Agreements {
   std::vector<int> size_;
 };
 
-/// Parts neighbours that cannot agree at the sharpest edges on the way from one to the other: joints of
+/// Parts neighbors that cannot agree at the sharpest edges on the way from one to the other: joints of
 /// sheets, which bound faces anyway. Refuses a surface that is smooth there.
 void split_at_joints(const Mesh& mesh, const std::string& source, std::vector<int>& twin,
                      std::vector<Warning>& warnings) {
@@ -179,7 +179,7 @@ void orient_triangles(Mesh& mesh, const std::string& source, std::vector<Warning
     if (turn[t] == 1) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
   }
   if (against > 0) {
-    warnings.push_back(fmt::format("turned over {} against the neighbours' orientation (the first at {})",
+    warnings.push_back(fmt::format("turned over {} against the orientation of neighbors (the first at {})",
                                    counted(against, "triangle"), show_point(first)));
   }
   if (inwards > 0) warnings.push_back("turned outwards " + counted(inwards, "closed surface"));

@@ -21,9 +21,9 @@ namespace delquad {
 /// - of triangles on the same vertices the first stays;
 /// - triangles without area go, and no gap opens (take_out_flat_triangles);
 /// - flat parts between branching edges that have the same outline are one place: the first stays;
-/// - triangles that run against their neighbours are turned, the fewer in each component; a closed component
+/// - triangles that run against their neighbors are turned, the fewer in each component; a closed component
 ///   is turned outwards, unless it lies in the bounding box of the largest one and may be a cavity; where
-///   neighbours cannot agree, sharp edges between them stay as joints of sheets;
+///   neighbors cannot agree, sharp edges between them stay as joints of sheets;
 /// - a vertex where fans touch becomes one vertex a fan;
 /// - lines that are not edges go.
 /// Throws InputError, beginning with `source`, for coordinates that are not finite, stray points, quads, no
@@ -53,8 +53,8 @@ struct FlatTriangles {
 /// `source`, if such triangles lie on each other in so many ways that there is no end.
 FlatTriangles take_out_flat_triangles(Mesh& mesh, const std::string& source);
 
-/// Turns triangles so that neighbours agree, each component as most of its triangles run, closed ones
-/// outwards; see repair_triangles. Where neighbours cannot agree, InputError, or, if they `may_part`, they
+/// Turns triangles so that neighbors agree, each component as most of its triangles run, closed ones
+/// outwards; see repair_triangles. Where neighbors cannot agree, InputError, or, if they `may_part`, they
 /// stay apart at sharp edges.
 void orient_triangles(Mesh& mesh, const std::string& source, std::vector<Warning>& warnings,
                       bool may_part = false);

@@ -23,7 +23,7 @@ namespace delquad {
 
 namespace {
 
-/// Unit normals; that of a sliver is its neighbour's across its longest side.
+/// Unit normals; that of a sliver is its neighbor's across its longest side.
 std::vector<Vec3> steady_normals(const Mesh& mesh, const std::vector<int>& twin) {
   constexpr double kSliver = 1e-6;  // of the diagonal: some units in the last place of single precision
   const double least_height = kSliver * diagonal(mesh.points);
@@ -265,9 +265,9 @@ void drop_noise_and_ends(SurfaceModel& model, const std::vector<int>& twin, cons
   const DroppedFeatures noise = drop_noise(model.fine, twin, angles, cut);
   drop_loose_ends(model.fine, twin, cut, loose);
   if (noise.islands > 0)
-    model.warnings.push_back(
-        fmt::format("took {} of sharp edges for noise, no features ({} edges, the first at {})",
-                    counted(static_cast<int>(noise.islands), "island"), noise.edges, show_point(noise.at)));
+    model.warnings.push_back(fmt::format("ignored {} of sharp edges as noise ({} edges, the first at {})",
+                                         counted(static_cast<int>(noise.islands), "island"), noise.edges,
+                                         show_point(noise.at)));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct FeatureBall {
 };
 
 struct TriangulatedOptions {
-  /// Degrees, above 0 to 180: neighbouring triangles whose normals differ by more lie in different faces, and
+  /// Degrees, above 0 to 180: neighboring triangles whose normals differ by more lie in different faces, and
   /// a curve that turns by more has a corner there.
   double feature_angle = 40;
   /// Ends of open edges no further apart become one point; a part of the bounding box's diagonal, from 0.
@@ -39,7 +39,7 @@ struct TriangulatedOptions {
 /// stay.
 ///
 /// The direction of a triangle whose height is within the rounding of single precision coordinates is that of
-/// its neighbour across its longest side: such slivers make no features.
+/// its neighbor across its longest side: such slivers make no features.
 ///
 /// Throws InputError for what cannot be repaired; invalid_argument for a feature angle out of range.
 SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& options = {});

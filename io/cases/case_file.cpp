@@ -203,7 +203,7 @@ void finish_reading(const TomlTable& table, MetricSpec& metric) {
 
 void finish_reading(const TomlTable& table, PeriodicPair& pair) {
   if (!table.has("translate") && !table.has("rotate"))
-    refuse("{}: how '{}' moves to '{}' is missing: expected 'translate' or 'rotate'", table.where(),
+    refuse("{}: the motion from '{}' to '{}' is missing: expected 'translate' or 'rotate'", table.where(),
            pair.from, pair.to);
 }
 
@@ -282,7 +282,8 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   result.where = file.string();
   set_model({}, result);
   if (set_model_file(file, result)) return result;
-  if (kind_of_file(file) != ".toml")
+  std::error_code ignored;
+  if (kind_of_file(file) != ".toml" && !std::filesystem::is_directory(file, ignored))
     throw InputError(file.string() + ": unknown kind of model '" + file.extension().string() +
                      "'; known: .toml (curves and loops), .msh (lines or triangles), " + surface_files() +
                      ", and outlines: " + outline_files() +

@@ -44,11 +44,11 @@ std::string trimmed(const std::string& s) {
 std::string reason_of(const mu::ParserError& error, const std::vector<std::string>& variables) {
   switch (error.GetCode()) {
     case mu::ecUNASSIGNABLE_TOKEN:
-      return fmt::format("'{}' is not known (the variables are: {})", excerpt(trimmed(error.GetToken()), 0),
+      return fmt::format("'{}' is not known (variables: {})", excerpt(trimmed(error.GetToken()), 0),
                          join(variables));
     case mu::ecUNEXPECTED_EOF:
     case mu::ecEMPTY_EXPRESSION:
-      return "the expression ends where an operand was expected";
+      return "the expression ends too early: expected an operand";
     case mu::ecMISSING_PARENS:
       return "a closing parenthesis is missing";
     default:
@@ -67,7 +67,7 @@ void reject_assignment(const std::string& text) {
     const bool comparison_begins = i + 1 < text.size() && text[i + 1] == '=';
     const bool comparison_ends = i > 0 && std::string("=!<>").find(text[i - 1]) != std::string::npos;
     if (!comparison_begins && !comparison_ends)
-      fail(text, "assignment is not allowed; compare with '=='", static_cast<int>(i));
+      fail(text, "assignment is not allowed: compare by '=='", static_cast<int>(i));
   }
 }
 
@@ -94,7 +94,7 @@ struct Expression::Parsed {
     } catch (const mu::ParserError& error) {
       fail(text, reason_of(error, variables), error.GetPos());
     }
-    if (results != 1) fail(text, fmt::format("one value was expected, not {}", results), -1);
+    if (results != 1) fail(text, fmt::format("expected one value, found {}", results), -1);
   }
 };
 

@@ -50,7 +50,7 @@ void require_one_curve(const TomlTable& table, const char* other = nullptr) {
 }
 
 Vec2 in_plane(const Vec3& p) {
-  if (p.z != 0) refuse("{} lies outside of the plane: expected [x, y]", show_point(p));
+  if (p.z != 0) refuse("{} has a third coordinate: expected [x, y]", show_point(p));
   return {p.x, p.y};
 }
 
@@ -88,7 +88,7 @@ class ModelReader {
     const auto shape = read_shape<NamedShape>(table);
     require_one_curve(table);
     if (!named_.emplace(shape.name, model_.curves.size()).second)
-      refuse("{}: a second curve '{}'; names of curves must differ", table.where("name"), shape.name);
+      refuse("{}: a second curve '{}': expected another name", table.where("name"), shape.name);
     const auto curve = located(table.where(), [&] { return curve_of(shape.shape); });
     model_.curves.push_back({curve, table.has("boundary") ? shape.boundary : shape.name, table.where()});
     used_.push_back(false);

@@ -162,7 +162,8 @@ void read_surface_metric(MetricSpec& metric) {
     }
     if (metric.file.empty())
       throw InputError(
-          "expected of a surface 'chord', a 'file' or a 'tensor' of m11, m12, m13, m22, m23 and m33");
+          "a metric of a surface: expected 'chord', a 'file' or a 'tensor' of m11, m12, m13, m22, m23 and "
+          "m33");
     const SizeFile file = file_of_metric(metric);
     return make_file_space_metric(file.path, file.field);
   });
@@ -372,9 +373,8 @@ MetricFunction make_sizes_metric(const std::string& h1, const std::string& h2, c
       const double at[] = {points[i].x, points[i].y};
       const MetricAxes axes{along(at), across(at), angle(at)};
       if (!(axes.h1 > 0) || !(axes.h2 > 0) || !std::isfinite(axes.h1 + axes.h2 + axes.theta))
-        throw InputError(
-            fmt::format("h1 is {}, h2 {} and theta {} at {}: lengths must be finite and positive", axes.h1,
-                        axes.h2, axes.theta, show_point(points[i])));
+        throw InputError(fmt::format("h1 is {}, h2 {} and theta {} at {}: expected finite lengths > 0",
+                                     axes.h1, axes.h2, axes.theta, show_point(points[i])));
       metric[i] = tensor_of(axes);
     }
   };

@@ -56,7 +56,7 @@ void RecordReader::read_other(const RecordJson& json, const Rule& rule, std::str
 }
 
 void RecordReader::read_other(const RecordJson& json, const Rule&, std::filesystem::path& file) const {
-  if (json.is_null()) throw InputError("a file of the record was not there when it was made");
+  if (json.is_null()) throw InputError("a file of the record was missing when the record was made");
   std::string path = find_({}, json.at("digest")).string();
   if (json.contains("layer")) path += ":" + json["layer"].get<std::string>();
   if (json.contains("project")) path += "@" + json["project"].get<std::string>();

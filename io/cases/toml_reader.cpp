@@ -8,12 +8,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <sstream>
-#include <system_error>
 
 #include "base/located.h"
+#include "base/text.h"
 #include "delquad/error.h"
 
 namespace delquad {
@@ -120,13 +119,9 @@ struct TomlTable::Data {
 };
 
 TomlTable TomlTable::read(const std::filesystem::path& file) {
-  std::error_code status;
-  if (std::filesystem::is_directory(file, status))
-    throw InputError(file.string() + ": is a folder; expected a TOML file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse("{}: cannot be read: {}", file.string(), std::generic_category().message(errno));
+  const std::string text = file_bytes(file);
   try {
-    auto root = std::make_shared<const toml::table>(toml::parse(stream, file.string()));
+    auto root = std::make_shared<const toml::table>(toml::parse(text, file.string()));
     const toml::table* top = root.get();
     return TomlTable(std::make_shared<Data>(Data{std::move(root), top, file}));
   } catch (const toml::parse_error& error) {
@@ -397,8 +392,7 @@ TomlTable TomlTable::with_choice(const TomlTable& lists, const std::vector<std::
 void TomlTable::refuse_removed(const RemovedKeys& keys) const {
   const std::set<std::string> present = data_->keys();
   for (const auto& [key, way] : keys)
-    if (present.contains(key))
-      refuse("{}: there is no '{}' any longer: {}", where(key), data_->name(key), way);
+    if (present.contains(key)) refuse("{}: the key '{}' was removed: {}", where(key), data_->name(key), way);
 }
 
 void TomlTable::require_known(const TomlKeys& keys) const {

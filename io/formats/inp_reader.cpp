@@ -424,7 +424,7 @@ class InpReader {
         if (k >= n || n < 3) in_.fail_at(s.line, "an element has no side {}", s.label);
         std::vector<int> nodes = {v[k], v[(k + 1) % n]};
         if (v.size() == 8) nodes.push_back(v[4 + k]);
-        if (names_of.contains({nodes[1], nodes[0]})) nodes = {nodes[1], nodes[0]};  // of a neighbour
+        if (names_of.contains({nodes[1], nodes[0]})) nodes = {nodes[1], nodes[0]};  // of a neighbor
         std::vector<std::string>& names = names_of[nodes];
         if (std::find(names.begin(), names.end(), s.surface) == names.end()) names.push_back(s.surface);
       }

@@ -131,7 +131,7 @@ class SectionReader {
       : in_(scanner), numbers_(scanner), with_views_(with_views) {}
 
   Contents read() {
-    if (in_.at_end()) in_.fail("the file is empty; expected an MSH file, which starts with $MeshFormat");
+    if (in_.at_end()) in_.fail("the file is empty: expected an MSH file, which starts with $MeshFormat");
     while (!in_.at_end()) {
       const std::string_view token = in_.token("a section");
       if (token.size() < 2 || token[0] != '$') {

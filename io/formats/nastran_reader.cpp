@@ -163,7 +163,7 @@ class NastranReader {
       end_card();
       card_ = {"", {}, in_.line(), begin};
     } else if (card_.name.empty()) {
-      in_.fail("a line that goes on with a card stands before all cards");
+      in_.fail("a continuation line stands before the first card");
     }
     card_.end = end;
     if (const std::string wrong = card_.take(text); !wrong.empty()) in_.fail("{}", wrong);

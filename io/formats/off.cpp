@@ -53,7 +53,7 @@ class OffReader : FaceReader {
     return finished(notes);
   }
 
-  /// Vertices may have texture coordinates, colours and normals (ST, C, N); these follow the three
+  /// Vertices may have texture coordinates, colors and normals (ST, C, N); these follow the three
   /// coordinates. True where all that follows are bytes.
   bool read_header() {
     in_.skip_comments();
@@ -105,7 +105,7 @@ class OffReader : FaceReader {
     for (std::uint32_t i = 0; i < n_points; ++i) {
       const double x = real32(), y = real32(), z = real32();
       add_point({x, y, z});
-      in_.bytes(beside, "colours or normals");
+      in_.bytes(beside, "colors or normals");
     }
     for (std::uint32_t i = 0; i < n_faces; ++i) {
       std::vector<int> v(count("the number of a face's vertices", 4));
@@ -132,7 +132,7 @@ class OffReader : FaceReader {
     in_.skip_comments();
     const double x = in_.real("a coordinate", strays_), y = coordinate(), z = coordinate();
     add_point({x, y, z});
-    in_.rest_of_line();  // colours, normals
+    in_.rest_of_line();  // colors, normals
   }
 
   void read_face() {
@@ -146,14 +146,14 @@ class OffReader : FaceReader {
     std::vector<int> v;
     for (long long k = 0; k < n; ++k) v.push_back(static_cast<int>(in_.integer("a vertex", 0, last)));
     add_face(v, 0);
-    in_.rest_of_line();  // colours
+    in_.rest_of_line();  // colors
   }
 
   int numbers_beside_ = 0;  ///< of each vertex, beside its coordinates
   bool is_little_ = false;  ///< words are little-endian
 };
 
-/// Reads Object File Format, text or binary, with or without colours and normals, which are ignored. Faces of
+/// Reads Object File Format, text or binary, with or without colors and normals, which are ignored. Faces of
 /// more than four vertices are split into triangles.
 Mesh read_off(const std::filesystem::path& path, ReadNotes* notes, Strays strays) {
   return OffReader(path, strays).read(notes);

@@ -100,7 +100,7 @@ struct FoamMesh {
     const auto wall = [&](const std::array<int, 2>& run) {
       return std::vector{run[0], run[1], run[1] + above, run[0] + above};
     };
-    // In OpenFOAM's order: by owner, then by neighbour.
+    // In OpenFOAM's order: by owner, then by neighbor.
     std::vector<std::pair<std::array<int, 2>, std::array<int, 2>>> inside;
     for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> sides) {
       if (sides.size() > 1) inside.push_back({{sides[0].element, sides[1].element}, sides[0].run()});

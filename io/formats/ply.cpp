@@ -101,7 +101,7 @@ class PlyReader : FaceReader {
     if (!has_format) in_.fail("the header has no line 'format'");
     check_vertices();
     if (coding_ == Coding::kText) return;
-    if (!in_.skip_past("\n")) in_.fail("the file ends where its numbers were expected");
+    if (!in_.skip_past("\n")) in_.fail("the file ends too early: expected its numbers");
     in_.bytes(0, "");
   }
 
@@ -256,7 +256,7 @@ class PlyReader : FaceReader {
     }
   }
 
-  /// Not-a-number is no colour.
+  /// Not-a-number is no color.
   static int part_of_255(double value) {
     return std::isnan(value) ? -1 : static_cast<int>(std::clamp(value, 0.0, 255.0));
   }
@@ -268,8 +268,8 @@ class PlyReader : FaceReader {
   FaceColours colours_;
 };
 
-/// Reads the Polygon File Format (Stanford), text or binary of either byte order. Faces of one colour are a
-/// region with its name ("colour #rrggbb"), unless there are more than 64 colours; other properties are left
+/// Reads the Polygon File Format (Stanford), text or binary of either byte order. Faces of one color are a
+/// region with its name ("color #rrggbb"), unless there are more than 64 colors; other properties are left
 /// out. Faces of more than four vertices are split into triangles.
 Mesh read_ply(const std::filesystem::path& path, ReadNotes* notes, Strays strays) {
   return PlyReader(path, strays).read(notes);

@@ -229,7 +229,7 @@ class DeckRewriter {
   void find_gone_nodes() {
     const auto require_free = [&](int pin, const char* what, long long number) {
       if (pin > 0)
-        refuse("{}:{}: {} {} is named and would be gone [deck-names-an-element]", deck_.source, pin, what,
+        refuse("{}:{}: {} {} is named and would be removed [deck-names-an-element]", deck_.source, pin, what,
                number);
     };
     for (const Deck::Node& node : deck_.nodes)
@@ -242,7 +242,7 @@ class DeckRewriter {
         if (const Deck::Node& node = kept(v); !used_.contains(node.number)) {
           require_free(node.pin, "node", node.number);
           if (node.pin == 0 && deck_.elements[e].nodes.size() == 8)  // on a side, as corners stay
-            refuse("{}: node {} on a side is in a set and would be gone: take it out of the set",
+            refuse("{}: node {} on a side is in a set and would be removed: take it out of the set",
                    deck_.source, node.number);
           gone_nodes_.insert(node.number);
         }
@@ -387,7 +387,7 @@ class DeckRewriter {
       };
       const auto at = side_at_.find({number(side), number(side + 1), e.region});
       if (at == side_at_.end())
-        refuse("{}:{}: side {} of element {} would be gone", deck_.source, row.line, row.label, e.number);
+        refuse("{}:{}: side {} of element {} would be removed", deck_.source, row.line, row.label, e.number);
       std::string label = row.label;
       label[1] = static_cast<char>(label[1] + at->second.second - side);
       by_label[label].push_back(at->second.first);

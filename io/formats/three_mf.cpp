@@ -286,7 +286,7 @@ class ModelParser {
     const auto at = kUnits.find(given->second);
     if (at == kUnits.end()) refuse("unknown unit {}", TextScanner::printable(given->second));
     if (main_ != nullptr && unit != at->second)
-      refuse("lengths in {}, but those of the main model are in {}: expected one unit", at->second, unit);
+      refuse("lengths in {}, but the main model is in {}: expected one unit", at->second, unit);
     unit = at->second;
   }
 
@@ -398,7 +398,7 @@ class Assembly {
 };
 
 /// Reads 3MF: what the model's build holds, from whatever file of the archive, in its unit. Each object is a
-/// region with its name, or one for each of its colours, unless there are more than 64. Throws InputError
+/// region with its name, or one for each of its colors, unless there are more than 64. Throws InputError
 /// with the line of the model inside.
 Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes, Strays strays) {
   const Archive archive(path.string());

@@ -447,7 +447,7 @@ class VtuReader {
 
   void name_point(double number, const std::string& name) {
     if (!(number >= 0 && number < static_cast<double>(mesh_.points.size()) && number == std::floor(number)))
-      fail("the name {} is that of point {}: there are {}, counted from 0", shown(name), number,
+      fail("the name {} is for point {}: there are {}, counted from 0", shown(name), number,
            mesh_.points.size());
     point_names_.add(mesh_, static_cast<int>(number), name);
   }

@@ -48,7 +48,7 @@ std::string run_gdal(const Words& words, const std::string& opens = "") {
   const std::string error = between(between(text, "ERROR ", "\n"), ": ", "\n");
   if (end.exit_code == 0 && (error.empty() || !opens.empty())) return text;
   if (!error.empty()) refuse("GDAL: {}", error);
-  if (end.exit_code < 0) refuse("damaged: GDAL crashes or finds no end");
+  if (end.exit_code < 0) refuse("GDAL crashes or does not end: expected an undamaged file");
   if (opens.empty()) refuse("GDAL: {} fails", words[0]);
   refuse("GDAL knows no {} of this kind", opens);
 }
@@ -91,11 +91,12 @@ struct Layer {
 std::string utm_of(const Layer& layer) {
   double low[2], high[2], x = 0, y = 0;
   if (std::sscanf(layer.extent.c_str(), "(%lf, %lf) - (%lf, %lf)", &low[0], &low[1], &high[0], &high[1]) != 4)
-    refuse("there is nothing in the layer");
+    refuse("the layer is empty");
   const std::string middle = run_gdal(
       {"gdaltransform", "-s_srs", name_of(layer.system), "-t_srs", "EPSG:4326", "-output_xy", "-coord",
        fmt::format("{}", (low[0] + high[0]) / 2), fmt::format("{}", (low[1] + high[1]) / 2)});
-  if (std::sscanf(middle.c_str(), "%lf %lf", &x, &y) != 2) refuse("its middle has no longitude and latitude");
+  if (std::sscanf(middle.c_str(), "%lf %lf", &x, &y) != 2)
+    refuse("its center has no longitude and latitude: check its coordinate system");
   constexpr int kNorth = 32600, kSouth = 32700, kZones = 60, kZone = 6, kFirst = -180;
   const int zone = static_cast<int>(std::floor((x - kFirst) / kZone)) % kZones + 1;
   return fmt::format("EPSG:{}", (y < 0 ? kSouth : kNorth) + zone);
@@ -103,7 +104,7 @@ std::string utm_of(const Layer& layer) {
 
 Layer layer_of(const std::string& file, const std::string& name) {
   if (std::error_code unknown; !fs::exists(file, unknown) && !file.starts_with("/vsi"))
-    refuse("no such file");
+    refuse("{}", cannot_be_read("no such file"));
   const std::string kBegin = "\nLayer name: ";
   const std::string info =
       run_gdal({"ogrinfo", "-ro", "-so", "-al", "-wkt_format", "wkt2_2019", file}, "outlines");
@@ -137,13 +138,13 @@ int count_in(const std::string& description, const std::string& attribute) {
 RasterGrid grid_of(const std::string& description) {
   RasterGrid grid{count_in(description, "rasterXSize"), count_in(description, "rasterYSize")};
   if (1. * grid.columns * grid.rows > kMostCells)
-    refuse("{} x {} cells: more than {:g}: cut out what is needed ('gdal_translate -projwin')", grid.columns,
-           grid.rows, kMostCells);
+    refuse("{} x {} cells: more than {:g}: cut out the part that you need ('gdal_translate -projwin')",
+           grid.columns, grid.rows, kMostCells);
   std::array<double, 6> g = {};  // of (1, column, row) to x, then y
   const int n = std::sscanf(between(description, "<GeoTransform>", "<").c_str(),
                             "%lf, %lf, %lf, %lf, %lf, %lf", &g[0], &g[1], &g[2], &g[3], &g[4], &g[5]);
   const double area = g[1] * g[5] - g[2] * g[4];
-  if (n != 6 || area == 0) refuse("it does not say where its cells lie");
+  if (n != 6 || area == 0) refuse("it has no georeference: expected the place of its cells");
   if (g[2] == 0 && g[4] == 0)  // without the area, which rounds
     grid.to_cells = {-g[0] / g[1], 1 / g[1], 0, -g[3] / g[5], 0, 1 / g[5]};
   else
@@ -161,7 +162,8 @@ Outlines read_layer(const fs::path& path, const std::string& layer_name, const s
     std::string system = layer.system;
     Words words = {"ogr2ogr", "-f", "GeoJSON", "-lco", "SIGNIFICANT_FIGURES=17", "-nlt", "CONVERT_TO_LINEAR"};
     if (!project.empty()) {
-      if (system.empty()) refuse("no coordinate system is told: it cannot be projected to '{}'", project);
+      if (system.empty())
+        refuse("the file names no coordinate system: it cannot be projected to '{}'", project);
       system = system_named(project == "utm" ? utm_of(layer) : project);
       words.insert(words.end(), {"-t_srs", name_of(system)});
     }

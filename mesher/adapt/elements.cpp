@@ -177,7 +177,7 @@ void require_elements(const Mesh& mesh, const std::string& what) {
 
 void require_planar(const Mesh& mesh, const std::string& what) {
   require_elements(mesh, what);
-  if (holds_surface(mesh)) refuse("{} is no planar one: expected one z for all points", what);
+  if (holds_surface(mesh)) refuse("{} is not planar: expected one z for all points", what);
 }
 
 void require_joined(const Mesh& mesh, const std::string& what) {
@@ -188,7 +188,8 @@ void require_joined(const Mesh& mesh, const std::string& what) {
   });
   if (!is_joined)
     refuse(
-        "{}: no two elements share a point, as where a field is discontinuous: expected elements that do "
+        "{}: no two elements share a point, as if the field were discontinuous: expected elements that share "
+        "points "
         "[discontinuous-field]",
         what);
 }

@@ -213,8 +213,8 @@ double largest_eigenvalue(Eigen::Index n, const std::function<Vector(const Vecto
     }
     v /= ritz.beside.back();
   }
-  refuse("the largest eigenvalue is not known to {} after {} steps of Lanczos' method", kEigenvalueTolerance,
-         kMost);
+  refuse("the largest eigenvalue has not reached the accuracy {} after {} steps of Lanczos' method",
+         kEigenvalueTolerance, kMost);
 }
 
 Vector solve_directly(const LinearSystem& system) { return Factorisation(system).solve(system.right); }

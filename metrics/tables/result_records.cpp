@@ -227,7 +227,7 @@ std::vector<fs::path> record_files(const fs::path& folder) {
     if (at->path().filename().string().starts_with('.')) at.disable_recursion_pending();  // unfinished
     if (at->path().filename() == "record.json") files.push_back(at->path());
   }
-  if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
+  if (error) throw InputError(folder.string() + ": " + cannot_be_read(error.message()));
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -238,7 +238,8 @@ const std::string& domain_of(const CellRecord& record) {
 
 std::vector<CellRecord> read_records(const fs::path& folder) {
   const std::vector<fs::path> files = record_files(folder);
-  if (files.empty()) throw InputError(folder.string() + ": holds no record.json of an experiment");
+  if (files.empty())
+    throw InputError(folder.string() + ": holds no record.json: expected the folder of 'delquad run -o'");
   const std::optional<StudyFile> study = readable_study(folder);
   std::vector<CellRecord> records;
   std::set<std::pair<std::string, std::string>> seen;

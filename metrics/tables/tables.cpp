@@ -297,7 +297,7 @@ StudyResults read_results(const fs::path& folder) {
   results.records = read_records(folder);
   std::optional<StudyFile> study = read_study(folder);
   if (!study)
-    refuse("{}: is missing: expected the folder of 'delquad run -o'", (folder / "study.json").string());
+    refuse("{}: is missing: expected a folder of 'delquad run -o'", (folder / "study.json").string());
   results.study = *std::move(study);
   results.left_out = std::erase_if(
       results.records, [&](const CellRecord& r) { return !place_of(results.study, address_of(r)); });

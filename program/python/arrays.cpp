@@ -42,7 +42,7 @@ InputError bad_shape(const std::string& what, const char* expected, const py::ar
 void require_finite(const std::vector<Vec2>& points, const std::string& what) {
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
-      refuse("{}: point {} is ({}, {}): finite coordinates were expected", what, i, points[i].x, points[i].y);
+      refuse("{}: point {} is ({}, {}): expected finite coordinates", what, i, points[i].x, points[i].y);
 }
 
 int checked_int(std::int64_t value, const std::string& what) {
@@ -61,7 +61,7 @@ std::vector<double> read_vector(const py::handle& object, std::size_t n, const s
   std::vector<double> numbers = read_numbers(object, what);
   if (numbers.size() != n) refuse("{}: expected {} numbers, got {}", what, n, numbers.size());
   for (const double x : numbers)
-    if (!std::isfinite(x)) refuse("{}: is {}: finite coordinates were expected", what, x);
+    if (!std::isfinite(x)) refuse("{}: is {}: expected finite coordinates", what, x);
   return numbers;
 }
 

@@ -101,12 +101,10 @@ ModelHandle from_mesh(const Mesh& mesh) {
 ModelCurve sampled_curve(const py::function& function, double t0, double t1, const std::string& name) {
   const auto points = [&](std::span<const double> t, std::span<Vec2> target) {
     const py::object returned = function(py::array_t<double>(static_cast<py::ssize_t>(t.size()), t.data()));
-    const std::vector<Vec2> read = read_plane_points(returned, "what the curve's function returned");
+    const std::vector<Vec2> read = read_plane_points(returned, "the result of the curve's function");
     if (read.size() != t.size())
-      refuse(
-          "what the curve's function returned: expected {} points, one for each "
-          "parameter, got {}",
-          t.size(), read.size());
+      refuse("the result of the curve's function: expected {} points, one for each parameter, got {}",
+             t.size(), read.size());
     std::ranges::copy(read, target.begin());
   };
   return {make_sampled_curve(points, t0, t1), name, ""};

@@ -94,7 +94,7 @@ void add_python_cost(const std::string& name, const py::object& function) {
           theta.mutable_at(i) = quads[i].cross.angle();
           size.mutable_at(i) = quads[i].delta;
         }
-        read_values(cost_of(corners, theta, size), cost.data(), cost.size(), "what it returned");
+        read_values(cost_of(corners, theta, size), cost.data(), cost.size(), "its result");
       });
     };
   });
@@ -105,7 +105,7 @@ void add_python_stage(const std::string& letter, const py::object& function, con
     throw std::invalid_argument("letter '" + letter + "': expected a capital from A to Z");
   const auto run = [kept = Kept(function, "")](const StageInput& in, PatchMesh& patch, StageLog&) {
     QuadPatch& mesh = patch.quads;
-    if (!mesh.triangles.empty()) throw Error("this stage is for quads only, and a patch has triangles");
+    if (!mesh.triangles.empty()) throw Error("a patch has triangles: this stage takes quads only");
     kept.with([&](const py::object& edit) {
       const auto theta = at_points(mesh.points, [&](Vec2 u) {
         int hint = -1;
@@ -119,7 +119,7 @@ void add_python_stage(const std::string& letter, const py::object& function, con
                                    mesh.quads.empty() ? nullptr : mesh.quads[0].data());
       const auto made =
           py::tuple(edit(points_for_python<Vec2>(mesh.points), quads, mesh.n_boundary, theta, size));
-      if (made.size() != 2) throw Error("what the stage returned: expected points and quads");
+      if (made.size() != 2) throw Error("the result of the stage: expected points and quads");
       std::vector<Vec2> points = read_plane_points(made[0], "the stage's points");
       mesh.quads = read_elements<4>(made[1], "the stage's quads");
       mesh.points = std::move(points);
@@ -134,7 +134,7 @@ auto as_batch(const py::object& function, const std::string& name) {
   return [kept = Kept(function, name + ": ")](std::span<const V> points, std::span<double> values) {
     if (points.empty()) return;
     kept.with([&](const py::object& field) {
-      read_values(field(points_for_python(points)), values.data(), values.size(), "what it returned");
+      read_values(field(points_for_python(points)), values.data(), values.size(), "its result");
     });
   };
 }

@@ -100,8 +100,7 @@ std::function<void(std::span<const V>, std::span<double>)> as_function(const py:
   if (function.is_none()) return {};
   return [&function, &python, what](std::span<const V> points, std::span<double> values) {
     python.call([&] {
-      read_values(function(points_for_python(points)), values.data(), values.size(),
-                  "what " + what + " returned");
+      read_values(function(points_for_python(points)), values.data(), values.size(), "the result of " + what);
     });
   };
 }
@@ -113,9 +112,10 @@ auto as_metric(const py::object& function, CallingThread& python, Read read, Mak
   return [&function, &python, read, make](std::span<const Point> points, std::span<Tensor> metric) {
     if (points.empty()) return;
     python.call([&] {
-      const auto made = read(function(points_for_python(points)), "what the metric function returned");
+      const auto made = read(function(points_for_python(points)), "the result of the metric function");
       if (made.size() != metric.size())
-        refuse("what the metric function returned: {} tensors for {} points", made.size(), metric.size());
+        refuse("the metric function returned {} tensors for {} points: expected one for each", made.size(),
+               metric.size());
       std::ranges::transform(made, metric.begin(), make);
     });
   };

@@ -38,7 +38,7 @@ TEST(Context, TimeIsUpSaysTheLimitAndAtWhat) {
   const StageScope stage("reading");
   while (!is_cancelled()) std::this_thread::yield();
   EXPECT_THROW(check_cancelled(), TimeIsUp);
-  EXPECT_TRUE(message_of_check().starts_with("not done after 0.01 s: reading (")) << message_of_check();
+  EXPECT_TRUE(message_of_check().starts_with("stopped after 0.01 s: reading (")) << message_of_check();
 }
 
 TEST(Context, AScopeInAScopeEndsWithIt) {

@@ -38,7 +38,7 @@ TEST(Predicates, CocircularLatticeIsExact) {
       const Vec2 o{1e3, -3e2}, a = o, b = o + s * Vec2{double(x), double(y)};
       const Vec2 c = b + s * Vec2{double(-y), double(x)}, d = o + s * Vec2{double(-y), double(x)};
       EXPECT_EQ(in_circle(a, b, c, d), 0);
-      // Moved by the last bit towards the centre and away from it.
+      // Moved by the last bit towards the center and away from it.
       const Vec2 centre = 0.5 * (a + c), step = {std::copysign(std::ldexp(1.0, -43), centre.x - d.x), 0};
       if (centre.x == d.x) continue;
       EXPECT_EQ(in_circle(a, b, c, d + step), 1) << x << " " << y;

@@ -79,7 +79,7 @@ TEST(BinaryMsh, DamagedFilesGiveOneMessage) {
     }
   }
   expect_input_error([&] { read_mesh(write_text(folder / "cut.msh", binary_22().substr(0, 150))); },
-                     {"cut.msh: byte ", "the file ends where"});
+                     {"cut.msh: byte ", "the file ends too early"});
 }
 
 TEST(Gzip, IsUnpacked) {

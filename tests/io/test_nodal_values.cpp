@@ -4,7 +4,7 @@
 namespace delquad {
 namespace {
 
-/// Two triangles, of areas .5 and 1, and a line with a point of its own; tags with gaps.
+/// Two triangles, of areas 0.5 and 1, and a line with a point of its own; tags with gaps.
 const std::string kTwoTriangles22 =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
     "$Nodes\n5\n3 0 0 0\n5 1 0 0\n6 0 1 0\n9 2 2 0\n20 5 5 0\n$EndNodes\n"

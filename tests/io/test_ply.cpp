@@ -32,7 +32,7 @@ class Bytes {
   bool big_;
 };
 
-/// Two quads over six points, with what scanners put beside: confidence before x, doubles, colours, edges.
+/// Two quads over six points, with what scanners put beside: confidence before x, doubles, colors, edges.
 std::string binary(bool big) {
   Bytes bytes(big);
   for (int i = 0; i < 6; ++i)

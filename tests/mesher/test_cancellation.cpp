@@ -129,7 +129,7 @@ TEST_P(Cancellation, WhenTimeIsUpSaysAtWhat) {
     mesh_of(GetParam());
     ADD_FAILURE() << "the run went on";
   } catch (const TimeIsUp& error) {
-    EXPECT_TRUE(std::string(error.what()).starts_with("not done after 1e-06 s: ")) << error.what();
+    EXPECT_TRUE(std::string(error.what()).starts_with("stopped after 1e-06 s: ")) << error.what();
   }
 }
 INSTANTIATE_TEST_SUITE_P(Table, Cancellation, testing::ValuesIn(kTable),

@@ -131,7 +131,7 @@ TEST(Criteria, NameWhatStandsInTheWay) {
     const MeshResult result = mesh(judged_problem(loops, size, read_criteria("batch")), "DB");
     return result_of(*result.criteria, key).cause;
   };
-  // A corner of 25 degrees, a gap of .2, a notch with sides of .2.
+  // A corner of 25 degrees, a gap of 0.2, a notch with sides of .2.
   EXPECT_EQ(cause_of({{{0, 0}, {6, 0}, {6, 2.8}}}, 0.4, "min_angle"), "corner");
   EXPECT_EQ(
       cause_of({rectangle({0, 0}, {20, 20}), rectangle({5, 8}, {8, 11}), rectangle({8.2, 8.5}, {11.2, 11.5})},

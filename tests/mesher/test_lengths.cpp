@@ -22,7 +22,7 @@ MeshProblem plate(int n, double size) {
   return problem_of(polygons(loops), size);
 }
 
-/// How many quads have a side that is shorter or longer than engineers ask for: .33 to 1.75 of the size.
+/// How many quads have a side that is shorter or longer than engineers ask for: 0.33 to 1.75 of the size.
 int beyond_lengths(const Mesh& mesh, double size) {
   return static_cast<int>(std::ranges::count_if(mesh.quads, [&](const auto& quad) {
     for (int k = 0; k < 4; ++k) {
@@ -33,7 +33,7 @@ int beyond_lengths(const Mesh& mesh, double size) {
   }));
 }
 
-/// Optimisation gains angles without losing lengths.
+/// Optimization gains angles without losing lengths.
 TEST(Lengths, AreKeptByOptimisation) {
   constexpr double kLength = 0.02;
   for (const std::string word : {"DBO", "DBCO", "DBCQO", "PBO"}) {

@@ -76,7 +76,7 @@ TEST_F(Pillow, AChordBetweenTheSameNodesIsPartedInOneOfThem) {
   EXPECT_EQ(patches[1].triangles.triangles.size(), 4u);
 }
 
-/// Each triangle's neighbours, but none across the edge of a and b.
+/// Each triangle's neighbors, but none across the edge of a and b.
 void join(TriPatch& mesh, int a, int b) {
   const auto side = [&](int t, int k) {
     return std::minmax({mesh.triangles[t][(k + 1) % 3], mesh.triangles[t][(k + 2) % 3]});

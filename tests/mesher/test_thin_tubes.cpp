@@ -97,7 +97,7 @@ TEST(SharpCorners, ExplainQuadsThatReachTheirBoundOnly) {
   EXPECT_GE(bad.elsewhere, 1);
 }
 
-/// A square of side 10 with a slit from the middle of a side to its centre, in so many lines.
+/// A square of side 10 with a slit from the middle of a side to its center, in so many lines.
 SurfaceModel slit_square(int lines) {
   const int n = 2 * lines;
   SurfaceModel model = grid_surface({n, n}, [](double u, double v) { return Vec3{10 * u, 10 * v, 0}; });

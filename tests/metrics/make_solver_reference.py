@@ -27,7 +27,7 @@ def mesh():
 
 
 def outline_frame():
-    """Centre and radius of gyration of the rectangle."""
+    """Center and radius of gyration of the rectangle."""
     return np.array([1, 0.5]), np.sqrt((2**2 + 1**2) / 12)
 
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kMeshRounding = 1e-12;
 
-/// A pentagon of five quads round its centre: the centre has valence 5, nothing else is interior.
+/// A pentagon of five quads round its center: the center has valence 5, nothing else is interior.
 Mesh pentagon() {
   Mesh mesh;
   mesh.points.push_back({0, 0, 0});

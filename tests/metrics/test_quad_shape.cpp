@@ -83,7 +83,7 @@ TEST(EdgeLengths, AreOverTheSize) {
 }
 
 TEST(NumberOfShortEdges, CountsInsideOnly) {
-  // Columns of widths 1, .05 and 1, and three rows: of the short edges two lie inside.
+  // Columns of widths 1, 0.05 and 1, and three rows: of the short edges two lie inside.
   Mesh mesh = quad_grid(3, 3, 3, 3);
   for (Vec3& p : mesh.points) p.x = p.x < 0.5 ? 0 : p.x < 1.5 ? 1 : p.x < 2.5 ? 1.05 : 2.05;
   const UniformSize size(1), small(0.4);

@@ -336,7 +336,7 @@ TEST(KeptDecks, QuadsOfEightNodesKeepTheirType) {
   write_text(folder / "c.inp", curved_plate("*NSET, NSET=INSIDE\n" + std::to_string(1 + 8 * 17 + 7) + "\n"));
   const auto refused = delquad({"improve", folder / "c.inp", "-o", folder / "d.inp"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_TRUE(holds(refused.err, "node 144 on a side is in a set and would be gone"));
+  EXPECT_TRUE(holds(refused.err, "node 144 on a side is in a set and would be removed"));
 }
 
 TEST(KeptDecks, ALoadOnAllNodesIsNotSpread) {

@@ -36,7 +36,7 @@ def test_exceptions_are_the_usual_ones():
         (lambda: delquad.circle((0, 0), -1), "radius is -1"),
         (lambda: delquad.circle((0, 0, 0), 1), "circle's centre: expected 2 numbers, got 3"),
         (lambda: delquad.segment((0, 0), (0, 0)), "no length"),
-        (lambda: delquad.curve(lambda t: t, 0, 1), r"returned: expected numbers of shape \(n, 2\)"),
+        (lambda: delquad.curve(lambda t: t, 0, 1), r"function: expected numbers of shape \(n, 2\)"),
         (lambda: delquad.curve(lambda t: np.zeros((2, 2)), 0, 1), "expected .* points, one for each parameter, got 2"),
         (lambda: delquad.curve(lambda t: np.full((len(t), 2), np.nan), 0, 1), "finite coordinates"),
         (lambda: delquad.lines(SQUARE, [(0, 4)]), "line 0 has point 4: there are 4"),
@@ -78,7 +78,7 @@ def test_models_that_fail_when_they_are_meshed(tmp_path):
         ({"size": ""}, "size"),
         ({"size": "x +"}, "size: .*x +"),
         ({"size": 0.1, "word": "XY"}, "X"),
-        ({"size": 0.1, "word": ""}, "word|empty"),
+        ({"size": 0.1, "word": ""}, "empty"),
         ({"size": 0.1, "word": "BD"}, "B"),
         ({"size": 0.1, "quality": "superb"}, "superb.*fast, good, best, regular"),
         ({"size": 0.1, "quality": "good", "word": "DB"}, "exclude each other"),
@@ -147,7 +147,7 @@ def test_callbacks(what):
     with pytest.raises(Mine, match="^as it is$") as caught:
         delquad.mesh(square(), **given(fails))
     assert caught.traceback[-1].name == "fails"
-    name = f"what the {what} function returned"
+    name = f"the result of the {what} function"
     says(delquad.InputError, name + ": expected .* numbers, one for each point.*shape \\(3,\\)", square(),
          **given(lambda x: np.ones(3)))
     says(delquad.InputError, name + ": expected .*shape", square(), **given(lambda x: x))
@@ -160,7 +160,7 @@ def test_callbacks(what):
 
 
 def test_sizes_that_are_bad_somewhere():
-    says(delquad.InputError, r"size: the size function is -0\.\d+ at \(0\.\d+, .*finite and positive", square(),
+    says(delquad.InputError, r"size: the size function is -0\.\d+ at \(0\.\d+, .*a finite length > 0", square(),
          size=lambda x: x[:, 0] - 0.5)
 
 

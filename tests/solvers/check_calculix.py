@@ -190,7 +190,7 @@ def read_nodes(path, kind):
 
 
 # A quarter of a strip of width 10 with a hole of diameter 2. Stress at the hole over that far away, by
-# R. C. J. Howland, On the stresses in the neighbourhood of a circular hole in a strip under tension, 1930.
+# R. C. J. Howland, On the stresses in the neighborhood of a circular hole in a strip under tension, 1930.
 STRIP = """curve = [
   { name = "axis", segment = [[1, 0], [15, 0]] },
   { name = "end", segment = [[15, 0], [15, 5]] },

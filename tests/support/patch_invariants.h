@@ -12,7 +12,7 @@
 
 namespace delquad {
 
-/// What is wrong with the triangulation, one line each: ranges, orientation, neighbours that do not agree.
+/// What is wrong with the triangulation, one line each: ranges, orientation, neighbors that do not agree.
 inline std::vector<std::string> check_invariants(const TriPatch& tri) {
   std::vector<std::string> wrong;
   const int n_points = static_cast<int>(tri.points.size()), n = static_cast<int>(tri.triangles.size());

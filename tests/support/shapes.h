@@ -116,7 +116,7 @@ inline double segment_distance(Vec2 p, Vec2 a, Vec2 b) {
   return norm(p - a - t * d);
 }
 
-/// Corners at random angles and radii (between half the radius and all of it) about the centre;
+/// Corners at random angles and radii (between half the radius and all of it) about the center;
 /// counterclockwise.
 inline std::vector<Vec2> random_star(std::mt19937_64& random, Vec2 centre, double radius, int n) {
   std::vector<Vec2> corners;

@@ -121,7 +121,7 @@ inline SurfaceModel torus(int n_around, int n_tube, double radius, double tube) 
   });
 }
 
-/// The sides of a set of unit cubes, each of n x n squares, then rounded by averaging neighbours. Sides
+/// The sides of a set of unit cubes, each of n x n squares, then rounded by averaging neighbors. Sides
 /// between a cube of the set and a missing one for which `open` is true are left out.
 class CubeSurface {
  public:

@@ -18,7 +18,7 @@
 /// Triangulations made in code.
 namespace delquad::testing_support {
 
-/// Neighbours found from the triangles' sides.
+/// Neighbors found from the triangles' sides.
 inline TriPatch make_patch(std::vector<Vec2> points, std::vector<std::array<int, 3>> triangles,
                            int n_boundary) {
   TriPatch tri;

@@ -12,7 +12,7 @@ namespace delquad::cad {
 
 TopoDS_Shape cylinder(const gp_Pnt& from, const gp_Dir& along, double radius, double length);
 
-/// The example models, in millimetres, with the names of their faces.
+/// The example models, in millimeters, with the names of their faces.
 CadShape make_bracket();
 CadShape make_hood();
 CadShape make_pipe_tee();

@@ -67,7 +67,7 @@ CadShape make_sheet() {
   const auto cut = [&](const TopoDS_Shape& tool) { sheet = BRepAlgoAPI_Cut(sheet, tool); };
   for (const double y : {18.0, 42.0}) cut(cylinder({25, y, -1}, {0, 0, 1}, 5, 2));
   cut(cylinder({kLength - 5, 30, 24}, {1, 0, 0}, 8, 20));
-  // Two holes that leave a web of .2 between them, a step of .3 in the outline, and a pinhole.
+  // Two holes that leave a web of 0.2 between them, a step of 0.3 in the outline, and a pinhole.
   for (const double x : {60.0, 70.2}) cut(cylinder({x, 30, -1}, {0, 0, 1}, 5, 2));
   cut(BRepPrimAPI_MakeBox(gp_Pnt(-1, kWidth - 0.3, -1), 46, 1, 2));
   cut(cylinder({85, 12, -1}, {0, 0, 1}, 0.2, 2));

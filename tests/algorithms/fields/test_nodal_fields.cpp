@@ -58,7 +58,7 @@ TEST(NodalSize, RefusesWhatDoesNotFit) {
   EXPECT_EQ(message_of([] {
               make_nodal_size(square(), {1, 1, 1, -1, 1, 1});
             }),
-            "the nodal size 3 is -1 at (0, 0.5, 0); a size must be finite and positive [bad-size]");
+            "the nodal size 3 is -1 at (0, 0.5, 0): expected a finite length > 0 [bad-size]");
   EXPECT_EQ(message_of([] { make_nodal_size({}, {}); }),
             "the mesh of the nodal size has neither triangles nor quads");
   Mesh broken = square();

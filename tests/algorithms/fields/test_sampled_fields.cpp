@@ -120,7 +120,7 @@ TEST(SampledSize, NamesThePlaceOfAValueThatIsNoSize) {
   const auto half = sampled([](const Vec3& x) { return x.x - 0.5; });
   EXPECT_NEAR(at(*half, {0.75, 0.5, 0}), 0.25, 1e-9);
   const std::string some = message_of([&] { at(*half, {0.25, 0.5, 0}); });
-  EXPECT_TRUE(holds(some, "the size function is -0.", "a size must be finite and positive"));
+  EXPECT_TRUE(holds(some, "the size function is -0.", "expected a finite length > 0"));
 }
 
 TEST(SampledSize, AFunctionThatWritesNothingIsRefused) {

@@ -22,7 +22,7 @@ TEST(ExpressionSize, EvaluatesItsVariables) {
 TEST(ExpressionSize, NamesThePointWhereItIsNoSize) {
   const std::string text = message_of([] { at(*make_expression_size("x-1"), 0.8, 0); });
   EXPECT_EQ(text.substr(0, 21), "size field 'x-1' is -");
-  EXPECT_TRUE(holds(text, "at (0.8, 0, 0); a size must be finite and positive"));
+  EXPECT_TRUE(holds(text, "at (0.8, 0, 0): expected a finite length > 0"));
   EXPECT_THROW(at(*make_expression_size("sqrt(x)"), -1, 0), InputError);
   EXPECT_THROW(at(*make_expression_size("1/x"), 0, 0), InputError);
   EXPECT_THROW(make_expression_size("1 +"), InputError);

@@ -6,7 +6,7 @@ namespace delquad {
 namespace {
 
 TEST(LinfDelaunay, AgreesOnTheVisibleEdgesOfFourPoints) {
-  // A flat rhombus around its centre: both norms join the centre to all.
+  // A flat rhombus around its center: both norms join the center to all.
   const auto c = compare_linf_delaunay({{0, 0}, {2, 0.1}, {0.1, 1}, {-2, -0.1}, {-0.1, -1}});
   EXPECT_EQ(c.both.size(), 4u);
   EXPECT_TRUE(c.only_l2.empty());

@@ -9,7 +9,7 @@ constexpr double kPi = std::numbers::pi;
 // A dozen operations on numbers of order one.
 constexpr double kRounding = 1e-13;
 
-/// A circumsquare: |x - centre| = radius in the norm for all three vertices.
+/// A circumsquare: |x - center| = radius in the norm for all three vertices.
 struct Circumsquare {
   Vec2 centre;
   double radius = std::numeric_limits<double>::infinity();
@@ -34,7 +34,7 @@ Circumsquare wide_circumsquare(std::array<Vec2, 3> v) {
 }
 
 /// The smallest square through the three vertices with sides along the frame [section 4.4]; where several
-/// centres serve (Figure 11), the one in the middle. An infinite radius when there is no such square.
+/// centers serve (Figure 11), the one in the middle. An infinite radius when there is no such square.
 Circumsquare circumsquare(const std::array<Vec2, 3>& triangle, const Frame& frame) {
   std::array<Vec2, 3> wide, high;
   for (int k = 0; k < 3; ++k) {
@@ -138,7 +138,7 @@ TEST(LinfGeometry, EquilateralApexMakesHalfASquareOfAlignedAndDiagonalEdges) {
 }
 
 /// Smallest R such that some square of half width R has all three points on its outline, by brute force over
-/// the centres that the outline condition allows: with R given, each point lies on one of four sides.
+/// the centers that the outline condition allows: with R given, each point lies on one of four sides.
 double brute_force_circumradius(const std::array<Vec2, 3>& v) {
   double best = INFINITY;
   // A square is fixed by which side each vertex lies on: vertical sides fix cx -+ R, horizontal ones cy -+ R.
@@ -210,7 +210,7 @@ TEST(LinfGeometry, CircumsquareAgreesWithBruteForce) {
   EXPECT_GT(without, 1000);
 }
 
-// The centre that circumradius_on_branch speaks of is on the bisector and at that distance from the apex too.
+// The center that circumradius_on_branch speaks of is on the bisector and at that distance from the apex too.
 TEST(LinfGeometry, CircumradiusOnTheBranchIsThatOfASquareThroughTheApex) {
   int on_branch = 0;
   for (const auto& [e, apex] : random_triangles(4, 1)) {

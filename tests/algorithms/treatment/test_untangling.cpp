@@ -38,7 +38,7 @@ TEST(Untangling, ArrowWhoseMiddleLiesOutside) {
 
 TEST(Untangling, OnlyTheGivenVerticesMove) {
   QuadPatch grid = grid_patch(5, 5);
-  const int v = grid.n_boundary + 5;  // with four interior neighbours
+  const int v = grid.n_boundary + 5;  // with four interior neighbors
   grid.points[v] = {4.5, 4.5};
   QuadTopology mesh(grid);
   EXPECT_TRUE(untangle(mesh, std::array<int, 1>{v}));

@@ -58,7 +58,7 @@ inline MatchingGraph linked_cycles(Random& random, int n_cycles) {
   return graph;
 }
 
-/// Every node has three neighbours or fewer, some of them twice: two paths side by side between the same
+/// Every node has three neighbors or fewer, some of them twice: two paths side by side between the same
 /// nodes.
 inline MatchingGraph cubic_graph(Random& random, int n) {
   MatchingGraph graph{n, {}};

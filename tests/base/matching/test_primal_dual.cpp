@@ -202,7 +202,7 @@ TEST(PrimalDual, WitnessesInGraphsOfManyRanges) {
 }
 
 TEST(PrimalDual, BlossomsNestedDeeply) {
-  // Two centres, each of which reaches pair after pair that close triangles with all that it has, before it
+  // Two centers, each of which reaches pair after pair that close triangles with all that it has, before it
   // reaches the other one.
   constexpr int kPairs = 100'000, kHalf = 2 * kPairs + 1;
   MatchingGraph graph{2 * kHalf, {}};

@@ -248,8 +248,8 @@ TEST_F(Figures, SayWhyTheyAreNotDrawn) {
   EXPECT_TRUE(failed.ends_with("ended with exit code 1: the disk is full")) << failed;
   setenv("DELQUAD_FIGURES", "/nowhere", 1);
   EXPECT_EQ(draw_figures({}),
-            "figures are not drawn: DELQUAD_FIGURES says that /nowhere reads tables of results: that is no "
-            "program that can be run");
+            "figures are not drawn: DELQUAD_FIGURES: /nowhere cannot be run: expected the program that reads "
+            "tables of results");
   unsetenv("DELQUAD_FIGURES");
 }
 

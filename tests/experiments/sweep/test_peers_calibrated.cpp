@@ -171,7 +171,7 @@ TEST_F(CalibratedPeers, MayBeNotApplicable) {
   EXPECT_EQ(outcome.others_failed + outcome.bad_inputs + outcome.unsound, 0);
   auto cells = records();
   cells.erase("DB");
-  const std::map<std::string, std::string> reasons = {{"number", "told one number"},
+  const std::map<std::string, std::string> reasons = {{"number", "takes one size"},
                                                       {"surfaces", "meshes no planar domains"},
                                                       {"code", "needs a cube"},
                                                       {"absent", "no-such-mesher is not installed"}};

@@ -455,7 +455,7 @@ TEST_F(Records, MergingRefusesWhatDoesNotFit) {
       [&] {
         merge_results({out(), out("finer")}, out("all"));
       },
-      {"square DB is not the same in", "out/square", "finer/square"});
+      {"square DB differs between", "out/square", "finer/square"});
   run_experiment(Experiment::read(write("pipelines = ['DB']\n[matrix]\nsize = [0.3]\n" + kRecordSquare)),
                  out("varied"));
   expect_input_error([&] { merge_results({out(), out("varied")}, out("all")); }, {"varied", "[\"size\"]"});

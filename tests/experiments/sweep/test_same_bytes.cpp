@@ -27,7 +27,7 @@ bool has_fma() {
 #endif
 }
 
-/// The meshes do not depend on compiler, optimisation or sanitizers: this test is the same in every build.
+/// The meshes do not depend on compiler, optimization or sanitizers: this test is the same in every build.
 /// They do on the mathematical functions of the C library (glibc has others for processors without FMA) and,
 /// where CAD is read, on OpenCASCADE.
 TEST(SameBytes, InEveryBuild) {

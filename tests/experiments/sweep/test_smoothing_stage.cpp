@@ -43,7 +43,7 @@ TEST_F(SmoothingStage, MistakesAreNamed) {
   expect_input_error([&] { read("{ p = 5 }"); }, {"c.toml:3", "'smoothing.p' is 5", "2, 4, 6"});
   expect_input_error([&] { read("{ p = 18 }"); }, {"c.toml:3", "14 or 16"});
   expect_input_error([&] { read("{ method = 'lloyd' }"); },
-                     {"c.toml:3", "no 'smoothing.method' any longer", "exact gradient"});
+                     {"c.toml:3", "'smoothing.method' was removed", "exact gradient"});
   expect_input_error([&] { read("{ inner_iterations = -1 }"); },
                      {"c.toml:3", "'smoothing.inner_iterations' is -1"});
   expect_input_error([&] { read("{ function_tolerance = -1 }"); }, {"'smoothing.function_tolerance' is -1"});

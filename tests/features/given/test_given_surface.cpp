@@ -331,7 +331,7 @@ TEST(GivenSurfaces, TrianglesAmongQuadsStay) {
   EXPECT_EQ(result.mesh.triangles.size(), 2u);
 }
 
-/// A quad of the shell that became a line, two nodes in one place, and a node beyond its neighbour.
+/// A quad of the shell that became a line, two nodes in one place, and a node beyond its neighbor.
 TEST(GivenSurfaces, QuadsWithoutAreaAreMended) {
   const Mesh shell = open_shell();
   const int corner = 2 * 9 + 3;

@@ -315,7 +315,7 @@ TEST(MappedFaces, NarrowRingsAreRows) {
   const Rows wide = rows_of(ring(2.4, 1.2), "DBCO");
   EXPECT_EQ(wide.quads % 3, 0u);
   EXPECT_LE(wide.longest, 1.75);
-  // No number of rows is right where it is .6 and where it is 1.8 wide: the ring stays free.
+  // No number of rows is right where it is 0.6 and where it is 1.8 wide: the ring stays free.
   const Rows uneven = rows_of(ring(1.2, 0.6), "DBCO");
   EXPECT_GT(uneven.irregular, 0);
   EXPECT_GE(uneven.shortest, 0.33);

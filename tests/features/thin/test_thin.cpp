@@ -182,7 +182,7 @@ TEST(ThinRows, RefuseWhatCannotBe) {
   expect_input_error([&] { options.set("curves.gap_rows", -1LL); }, {"curves.gap_rows"});
 }
 
-/// A circle with a hole off its middle: the gap is between .1 and .9.
+/// A circle with a hole off its middle: the gap is between 0.1 and .9.
 PlanarModel channel() {
   return ModelMaker().circle({0, 0}, 1.5, "outer", "gap").circle({0.4, 0}, 1, "inner");
 }

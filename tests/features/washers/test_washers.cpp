@@ -18,7 +18,7 @@ MeshProblem problem_of(Model model, double size, std::vector<WasherSpec> washers
   return problem;
 }
 
-/// Rows of so many quads around a centre, all of whose nodes lie on circles from the hole to `radius`, to 2
+/// Rows of so many quads around a center, all of whose nodes lie on circles from the hole to `radius`, to 2
 /// %; -1: something else is there.
 int rows_around(const Mesh& mesh, const Vec3& centre, double hole, double radius, int rows, int edges) {
   int n = 0;
@@ -148,7 +148,7 @@ TEST(Washers, AreRingsAroundCoarseHoles) {
 }
 
 TEST(Washers, AreRingsOnCad) {
-  // The round holes are 10 wide; two are .2 apart.
+  // The round holes are 10 wide; two are 0.2 apart.
   const MeshResult r = mesh(problem_of(ExampleModel{"sheet"}, 4, {{9, 11, 1, 12, 3}}), "DBCO");
   for (const double y : {18.0, 42.0}) EXPECT_EQ(rows_around(r.mesh, {25, y, 0}, 5, 8, 1, 12), 1);
   EXPECT_EQ(count_told(r.warnings, "gets no rows: something is 0.2 away"), 2);

@@ -50,7 +50,7 @@ inline std::vector<TopoDS_Shape> faces_of(const TopoDS_Shape& shape) {
   return faces;
 }
 
-/// Writes a shape (STEP: in millimetres; IGES: in inches); all return the path.
+/// Writes a shape (STEP: in millimeters; IGES: in inches); all return the path.
 std::filesystem::path write_brep(const std::filesystem::path& path, const TopoDS_Shape& shape);
 std::filesystem::path write_step(const std::filesystem::path& path, const TopoDS_Shape& shape);
 

@@ -11,7 +11,7 @@ class CadBadInput : public ::testing::Test {
 };
 
 TEST_F(CadBadInput, NoFileOrNoneOfItsKind) {
-  expect_input_error([&] { read_cad(folder_ / "none.step"); }, {"none.step", "cannot be opened"});
+  expect_input_error([&] { read_cad(folder_ / "none.step"); }, {"none.step", "cannot be read: No such file"});
   expect_input_error([&] { read_cad(folder_.path()); }, {"a folder"});
   expect_input_error([&] { read_cad(write_text(folder_ / "a.step", "")); }, {"a.step", "neither STEP"});
   expect_input_error([&] { read_cad(write_text(folder_ / "a.brep", "solid cube\n")); }, {"nor BREP"});

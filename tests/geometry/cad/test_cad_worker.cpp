@@ -104,10 +104,10 @@ TEST_F(CadWorker, IsFoundWhereTheProgramSays) {
 TEST_F(CadWorker, OthersAreRefused) {
   {
     const Variable variable("/bin/true");
-    expect_input_error([&] { read_cad(box_); }, {"box.step", "crashes or finds no end"});
+    expect_input_error([&] { read_cad(box_); }, {"box.step", "crashes or does not end"});
   }
   const Variable variable(box_.c_str());
-  expect_input_error([&] { read_cad(box_); }, {"box.step", "no program"});
+  expect_input_error([&] { read_cad(box_); }, {"box.step", "cannot be run"});
 }
 
 std::vector<pid_t> children_of(pid_t process) {
@@ -150,7 +150,7 @@ TEST_F(CadWorker, IsToldOfByTheTimeLimit) {
       FAIL() << "no end";
     } catch (const TimeIsUp& error) {
       what = error.what();
-      EXPECT_TRUE(what.starts_with(fmt::format("not done after {:g} s: ", seconds))) << what;
+      EXPECT_TRUE(what.starts_with(fmt::format("stopped after {:g} s: ", seconds))) << what;
     }
     EXPECT_EQ(current_activities()->faces_text(), "");
   }

@@ -182,7 +182,7 @@ TEST(ReadCad, MakesNeighboursAgree) {
   faces[2].Reverse();
   const SurfaceModel model = read_shape(compound_of(faces));
   EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
-  EXPECT_TRUE(is_reported(model.warnings, "1 faces disagreed with their neighbours"));
+  EXPECT_TRUE(is_reported(model.warnings, "1 faces were oriented against their neighbors"));
   EXPECT_NEAR(count(model.fine).volume, 24, 1e-9);
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 using Triangles = std::vector<std::array<int, 3>>;
 
-/// A square of corners 0 to 3 around its centre 4.
+/// A square of corners 0 to 3 around its center 4.
 const std::vector<Vec3> kPoints{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}};
 const std::vector<std::array<int, 2>> kBoundary{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
 const Triangles kWhole{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};

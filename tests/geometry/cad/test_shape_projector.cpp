@@ -22,7 +22,7 @@ Vec3 centre(const Mesh& mesh, std::size_t t) {
   return 1.0 / 3 * (mesh.points[a] + mesh.points[b] + mesh.points[c]);
 }
 
-/// Moves the centre of each triangle off the surface by `lift` along the normal and back.
+/// Moves the center of each triangle off the surface by `lift` along the normal and back.
 void expect_on_surface(const SurfaceModel& model, double lift,
                        const std::function<double(const Vec3&)>& distance) {
   for (std::size_t t = 0; t < model.fine.triangles.size(); ++t) {
@@ -137,7 +137,7 @@ TEST(ShapeProjector, GivesTheSameFromSeveralThreads) {
   for (const auto& to : together) EXPECT_EQ(to, alone);
 }
 
-/// Asks for the curvature at the centre of every triangle, over what it should be there.
+/// Asks for the curvature at the center of every triangle, over what it should be there.
 void expect_curvature(const SurfaceModel& model, const std::function<double(const Vec3&)>& exact) {
   for (std::size_t t = 0; t < model.fine.triangles.size(); ++t) {
     const int face = model.fine.triangle_region[t];

@@ -84,7 +84,7 @@ TEST_F(WithinTolerances, StripBetweenTwoVerticesIsTakenOut) {
   EXPECT_EQ(model.fine.regions.size(), 6u);
   EXPECT_EQ(model.fine.curves.size(), 12u);
   ASSERT_FALSE(model.warnings.empty());
-  EXPECT_TRUE(holds(model.warnings[0].text, "were taken out, the edges sewn: "));
+  EXPECT_TRUE(holds(model.warnings[0].text, "were removed, and their edges sewn: "));
 }
 
 }  // namespace

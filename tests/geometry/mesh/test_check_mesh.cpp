@@ -39,11 +39,11 @@ TEST(CheckMesh, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(complaint([](Mesh& m) { m.triangle_region[0] = 1; }),
             "here: triangle 0 is of region 1: there are 1, counted from 0");
   EXPECT_EQ(complaint([](Mesh& m) { m.points[2].y = NAN; }),
-            "here: point 2 is (0, nan, 0): finite coordinates were expected");
+            "here: point 2 is (0, nan, 0): expected finite coordinates");
   EXPECT_EQ(complaint([](Mesh& m) {
               m.named_points = {{3, {1, {"tip"}}}};
             }),
-            "here: a name is that of point 3: there are 3, counted from 0");
+            "here: a name is for point 3: there are 3, counted from 0");
   EXPECT_EQ(
       complaint([](Mesh& m) { m.order = 2; }),
       "here: elements of order 2 and 1 triangles: expected orders 1 to 4, above 1 of lines and quads alone");

@@ -239,7 +239,7 @@ TEST(QuadTopology, NoRefillWithADoubleEdge) {
 TEST(QuadTopology, SplitIsTheInverseOfCollapse) {
   const QuadPatch grid = grid_patch(4, 4);
   QuadTopology mesh(grid);
-  const int v = 20;  // the middle of the grid: neighbours 21 (right), 23 (above), 19 (left), 17 (below)
+  const int v = 20;  // the middle of the grid: neighbors 21 (right), 23 (above), 19 (left), 17 (below)
   const int right = half_edge(mesh, v, 21), left = half_edge(mesh, v, 19);
   ASSERT_TRUE(mesh.can_split(right, left));
   const auto start = mesh.mark();

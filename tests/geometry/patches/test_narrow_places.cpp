@@ -88,7 +88,7 @@ TEST(FaceNodes, NodesAcrossAStripLieOppositeEachOther) {
   counts[bottom] = counts[top] = 10;
   const auto x_of = [&](const CurvePlaces& places, int chain, int k) {
     const double s = strip.integrals[chain].s_at(places[chain][k] / 10);
-    return (chain == bottom ? s : 100 - s) / 10;  // lines are .1 long
+    return (chain == bottom ? s : 100 - s) / 10;  // lines are 0.1 long
   };
   const auto shear = [&](const CurvePlaces& places) {
     double most = 0;

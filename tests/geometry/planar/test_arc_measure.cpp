@@ -48,7 +48,7 @@ TEST(ArcMeasure, MeasuresCurvesAgainstClosedForms) {
   const double parabola = std::sqrt(5.0) / 2 + std::asinh(2.0) / 4;
   const auto regular = make_expression_curve("t", "t^2", 0, 1);
   EXPECT_NEAR(ArcMeasure(*regular, 0, 1, size, "", kMost).integral() / (10 * parabola), 1, 1e-6);
-  // The same with a parametrisation that stands still at the start.
+  // The same with a parametrization that stands still at the start.
   const auto slow = make_expression_curve("t^3", "t^6", 0, 1);
   EXPECT_NEAR(ArcMeasure(*slow, 0, 1, size, "", kMost).integral() / (10 * parabola), 1, 1e-6);
 }

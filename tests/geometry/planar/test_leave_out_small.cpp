@@ -5,7 +5,7 @@
 namespace delquad {
 namespace {
 
-/// A plate of 10 x 6 with a step of .02 in its upper side.
+/// A plate of 10 x 6 with a step of 0.02 in its upper side.
 PlanarModel stepped_plate() {
   return ModelMaker().polygon({{0, 0}, {10, 0}, {10, 6}, {4, 6}, {4, 6.02}, {0, 6.02}}, {""}, "plate");
 }
@@ -143,7 +143,7 @@ TEST(LeaveOutSmall, NamesThatNothingHas) {
   MeshProblem problem = problem_of(stepped_plate(), 1);
   problem.surface.ignore_below = 0.3;
   problem.surface.keep = {"plat"};
-  expect_refused(problem, "DB", {"'plat' is to stay", "plate"});
+  expect_refused(problem, "DB", {"'plat', which is to be kept", "plate"});
 }
 
 }  // namespace

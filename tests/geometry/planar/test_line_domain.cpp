@@ -155,7 +155,7 @@ TEST(LineDomain, RejectsOpenAndBranchedBoundaries) {
   Mesh branched = polygon_lines({square(0, 0, 2), square(2, 0, 1)});
   for (auto& line : branched.lines)
     for (int& v : line) v = v == 4 ? 1 : v;
-  expect_rejected(branched, {"lie on each other between (2, 0) and (2, 1)", "'a'", "'b'"});
+  expect_rejected(branched, {"overlap between (2, 0) and (2, 1)", "'a'", "'b'"});
 }
 
 TEST(LineDomain, RejectsDegenerateLinesAndNodes) {

@@ -80,7 +80,7 @@ TEST(ModelChain, NamesWhatIsWrong) {
 
   auto two = rectangle_sides(0, 0, 1, 1);
   for (const auto& side : rectangle_sides(3, 3, 4, 4)) two.push_back(side);
-  expect_input_error(chain(ModelMaker().loop(two)), {"more than one chain", "4 of 8"});
+  expect_input_error(chain(ModelMaker().loop(two)), {"several closed chains", "4 of 8"});
 
   expect_input_error(chain({"test.toml", {}, {}}), {"no loops"});
   expect_input_error(chain(ModelMaker().loop({})), {"loop 1 has no curves"});

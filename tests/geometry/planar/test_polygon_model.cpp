@@ -21,7 +21,7 @@ TEST(Polygons, HolesAreInside) {
 TEST(Polygons, RefusesWhatIsNone) {
   EXPECT_EQ(message_of([] { polygons({}); }), "polygons: there are none");
   const std::vector<std::vector<Vec2>> two = {{{0, 0}, {1, 0}}};
-  EXPECT_EQ(message_of([&] { polygons(two); }), "polygon 1: 2 corners: at least three were expected");
+  EXPECT_EQ(message_of([&] { polygons(two); }), "polygon 1: 2 corners: expected at least three");
   expect_input_error([] { polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 0}}}); }, {"closes by itself"});
   expect_input_error([] { polygons({{{0, 0}, {1, 0}, {NAN, 1}}}); }, {"polygon 1: point 3"});
 }

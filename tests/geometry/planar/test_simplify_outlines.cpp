@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kPoints = 1000;
 
-/// A ring around a centre whose radius swings by `noise`.
+/// A ring around a center whose radius swings by `noise`.
 std::vector<Vec2> noisy_ring(Vec2 centre, double radius, double noise) {
   std::vector<Vec2> points;
   for (int i = 0; i <= kPoints; ++i) {

@@ -93,7 +93,7 @@ TEST(OpenLoops, DoNotLeaveAPointAsOftenAsTheyArrive) {
   model.loops[0].curves.push_back(3);
   model.curves.push_back({make_segment({0, 0}, {1, 1}), "", ""});
   expect_input_error([&] { make_domain(model, constant(0.3)); },
-                     {"3 ends of curves meet at (0, 0)", "as often as it arrives"});
+                     {"3 ends of curves meet at (0, 0)", "one that arrives and one that leaves"});
 }
 
 }  // namespace

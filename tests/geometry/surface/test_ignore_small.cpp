@@ -81,7 +81,7 @@ TEST(IgnoreSmall, AChamferGoesWithItsShortCurves) {
 }
 
 TEST(IgnoreSmall, ShortCurvesAtTheEndOfAWedgeBecomePoints) {
-  // A wedge whose edge is cut off: a face .01 wide and 1 high, between two long ones.
+  // A wedge whose edge is cut off: a face 0.01 wide and 1 high, between two long ones.
   const SurfaceModel model = model_of(prism({{0, 0}, {1, -0.005}, {1, 0.005}}, 1));
   const SurfaceModel wedge = ignore_small(model, {0.012});
   EXPECT_EQ(violations(wedge), std::vector<std::string>{});
@@ -185,7 +185,7 @@ TEST(IgnoreSmall, WhatIsSmallAltogetherIsNoHole) {
   EXPECT_EQ(close_small_holes(square, {100}).fine.triangles, square.fine.triangles);
 }
 
-/// Two squares joined by a neck .01 wide, each a face.
+/// Two squares joined by a neck 0.01 wide, each a face.
 Mesh neck() {
   TriangulatedShape shape;
   const Vec3 low{0, -0.005, 0}, high{0, 0.005, 0};

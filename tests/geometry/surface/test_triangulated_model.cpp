@@ -444,7 +444,7 @@ Mesh rough_plate(int n, double roughness, bool peg) {
 
 TEST(TriangulatedModel, NoiseMakesNoFeatures) {
   const SurfaceModel model = triangulated(rough_plate(60, 0.65, false), 40);
-  EXPECT_TRUE(is_reported(model.warnings, "of sharp edges for noise")) << "the test has none";
+  EXPECT_TRUE(is_reported(model.warnings, "of sharp edges as noise")) << "the test has none";
   EXPECT_EQ(model.fine.regions.size(), 1u);
   EXPECT_EQ(violations(model), kSoundModel);
 }

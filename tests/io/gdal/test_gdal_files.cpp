@@ -11,7 +11,7 @@ namespace delquad {
 namespace {
 
 constexpr int kUtm31 = 32631, kDegrees4326 = 4326;
-/// Corner of the domain of the tests, metres of UTM.
+/// Corner of the domain of the tests, meters of UTM.
 constexpr double kX = 500'000, kY = 5'800'000;
 
 std::string ring(double x, double y, double side) {
@@ -142,7 +142,7 @@ TEST_F(GdalFiles, DegreesAreRefusedOrProjected) {
                      {"d.gpkg", "EPSG:99999999", "no coordinate system"});
   write_layer("none.shp", "ESRI Shapefile", "none", 0, sea());
   EXPECT_EQ(read("none.shp").loops.size(), 3u);
-  expect_input_error([&] { read("none.shp@utm"); }, {"none.shp", "no coordinate system is told"});
+  expect_input_error([&] { read("none.shp@utm"); }, {"none.shp", "names no coordinate system"});
 }
 
 TEST_F(GdalFiles, DamagedFilesAreRefused) {
@@ -226,7 +226,7 @@ TEST_F(GdalFiles, ASeaWithIslandsAndDepthsBecomesAUgridFile) {
   EXPECT_TRUE(holds(mesh_of("value").err, "the raster does not cover (500"));
   write_tiff("depth.tif", kUtm31, {kX, 5e3, 0, kY + 1e4, 0, -1e4}, 2, {-9999, -9999});
   EXPECT_TRUE(holds(mesh_of("value").err, "the raster has no data around (50"));
-  EXPECT_TRUE(holds(mesh_of("depth").err, "'depth' is not known (the variables are: x, y, z, value)"));
+  EXPECT_TRUE(holds(mesh_of("depth").err, "'depth' is not known (variables: x, y, z, value)"));
 }
 
 }  // namespace

@@ -222,7 +222,7 @@ TEST(Adapt, WrongInput) {
   refused({{"u", bent}}, {.error = 1e-9, .limits = {.min = 0.1}}, {"1e-09 is not reached"});
   Mesh curved = mesh;
   curved.points[3].z = 1;
-  expect_input_error([&] { adapt(curved, {{"u", bent}}, {.quads = 100}); }, {"no planar one"});
+  expect_input_error([&] { adapt(curved, {{"u", bent}}, {.quads = 100}); }, {"is not planar"});
 }
 
 }  // namespace

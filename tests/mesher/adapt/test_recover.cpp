@@ -159,7 +159,7 @@ TEST(Recover, WrongValues) {
   expect_input_error([&] { recover(mesh, values); }, {"nan at (0.5, 0.5)", "expected finite"});
   Mesh bent = mesh;
   bent.points[4].z = 1;
-  expect_input_error([&] { recover(bent, std::vector<double>(9, 1)); }, {"no planar one"});
+  expect_input_error([&] { recover(bent, std::vector<double>(9, 1)); }, {"is not planar"});
 }
 
 }  // namespace

@@ -202,8 +202,8 @@ TEST(Hypotheses, CountWhateverCameOfThem) {
   EXPECT_EQ(table.rows[1].texts.at("first_is"), "too few domains") << "no record has it";
 }
 
-/// With one pair and one measure the only test is Wilcoxon's of twelve normal differences with a mean of .8
-/// deviations: its power at 5 % is .669 by 200 000 draws with NumPy.
+/// With one pair and one measure the only test is Wilcoxon's of twelve normal differences with a mean of 0.8
+/// deviations: its power at 5 % is 0.669 by 200 000 draws with NumPy.
 constexpr double kPower = 0.669;
 constexpr int kStudies = 600;
 constexpr double kTolerance = 0.06;  // three standard errors of the part of so many studies
@@ -217,7 +217,7 @@ TEST(Inference, FindsEffectsOverDomainsAsOftenAsComputed) {
     double lean = 0;
     const auto value = [&](int word, int, int seed) {
       if (word == 0 && seed == 0) lean = 0.8 + std::sqrt(0.75) * normal(random);
-      return word == 0 ? lean + normal(random) : 0;  // of four seeds: a variance of .25
+      return word == 0 ? lean + normal(random) : 0;  // of four seeds: a variance of 0.25
     };
     const StudyResults results = make_study(shape, value);
     const Inference inference(results.study, results.records);

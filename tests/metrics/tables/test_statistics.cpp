@@ -98,12 +98,12 @@ TEST(Claims, TestsThatCannotProveAnythingDoNotCount) {
 
 TEST(Claims, AsManyAsCanProveSomethingCount) {
   ClaimFamily family;
-  for (int i = 0; i < 6; ++i) family.add({0.0078125, 0.0078125, 1});  // 6 * .0078 < .05
+  for (int i = 0; i < 6; ++i) family.add({0.0078125, 0.0078125, 1});  // 6 * 0.0078 < 0.05
   family.decide();
   EXPECT_EQ(family.counted(), 6u);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(family.finding(i), Finding::kProven);
   ClaimFamily one_more;
-  for (int i = 0; i < 7; ++i) one_more.add({0.0078125, 0.0078125, 1});  // 7 * .0078 > .05
+  for (int i = 0; i < 7; ++i) one_more.add({0.0078125, 0.0078125, 1});  // 7 * 0.0078 > 0.05
   one_more.decide();
   EXPECT_EQ(one_more.counted(), 0u);
   EXPECT_EQ(one_more.finding(0), Finding::kTooFew);

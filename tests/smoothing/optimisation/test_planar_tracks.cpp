@@ -11,7 +11,7 @@ namespace {
 
 const double kFloorSine = std::sin(kOptimisedFloorEta * std::numbers::pi / 2);
 
-/// Untangles and optimises a mesh of one patch; its boundary points have the `places`, or stay.
+/// Untangles and optimizes a mesh of one patch; its boundary points have the `places`, or stay.
 QuadPatch optimise_vertices(QuadPatch mesh, const ParametricSize& size, const CrossField& cross,
                             OptimisationSummary* summary = nullptr,
                             const std::vector<CurvePlace>& places = {},

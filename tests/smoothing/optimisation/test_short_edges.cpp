@@ -9,7 +9,7 @@ namespace {
 
 TEST(ShortEdges, AreOpened) {
   QuadPatch mesh = grid_patch(6, 6);
-  const int v = mesh.n_boundary + 7;  // its right neighbour comes next
+  const int v = mesh.n_boundary + 7;  // its right neighbor comes next
   for (const double length : {0.0, 1e-16, 1e-5}) {
     mesh.points[v] = mesh.points[v + 1] + Vec2{-length, 0};
     QuadTopology topology(mesh);

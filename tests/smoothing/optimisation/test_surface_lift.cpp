@@ -61,7 +61,7 @@ TEST(SurfaceTracks, PlacesOutsideThePatchGetAPositionInside) {
   }
 }
 
-// Each third vertex goes most of the way to a neighbour of its own kind.
+// Each third vertex goes most of the way to a neighbor of its own kind.
 TEST(SurfaceLift, DisplacedVerticesFindBetterPlacesOnTheirTracks) {
   Meshed m(bump(40, 0.4), 0.12);
   const int n = static_cast<int>(m.places.size());
