@@ -57,7 +57,7 @@ SolutionField find_field(const std::string& text, std::vector<SolutionFile>& fil
     const Mesh& first = files.empty() ? read.mesh : files[0].content.mesh;
     if (read.mesh.points != first.points || read.mesh.triangles != first.triangles ||
         read.mesh.quads != first.quads)
-      refuse("{}: its mesh is another one than that of {}: expected fields on the same", text,
+      refuse("{}: its mesh differs from the mesh of {}: expected fields on one mesh", text,
              files[0].path.string());
     if (!files.empty()) read.mesh = {};
     file = files.insert(files.end(), {from.path, std::move(read)});
@@ -152,7 +152,7 @@ int adapt_command(const AdaptArguments& arguments) {
   check_output(arguments.output);
   AdaptSpec spec = arguments;
   if (spec.quads == 0 && spec.error == 0)
-    refuse("expected --quads or --error: how many, or how much is to be left");
+    refuse("expected --quads N, the number of quads, or --error E, the largest error");
   const auto norm = as_number(arguments.norm_text);
   spec.norm = arguments.norm_text == "inf" ? std::numeric_limits<double>::infinity() : norm.value_or(0);
   std::vector<SolutionFile> files;
@@ -195,13 +195,12 @@ int adapt_command(const AdaptArguments& arguments) {
     if (!holds) write_mesh(arguments.output, next, arguments.msh);
     write_fields(with_fields, next, carried, holds ? arguments.msh : MshOptions{});
   }
-  fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", arguments.output.string(),
-             next.quads.size(), next.triangles.size(), next.points.size(), command.seconds());
+  fmt::print("{}: {} in {:.2f} s\n", arguments.output.string(), show_counts(next), command.seconds());
   if (!holds) fmt::print("{}: the same mesh with the fields\n", with_fields.string());
   if (!problem) print_traced(mesh);
   print_carried(carried);
   print_errors(spec.norm, mesh, fields, made);
-  print_metrics(made.result.metrics);
+  print_measures(made.result.metrics);
   return kDone;
 }
 

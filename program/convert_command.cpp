@@ -85,8 +85,8 @@ int convert_command(const ConvertArguments& arguments) {
     for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
     for (const std::string& what : lost) fmt::print(stderr, "lost: {}\n", what);
   }
-  fmt::print("{}: {} quads, {} triangles, {} lines, {} vertices, {} fields\n", arguments.output.string(),
-             mesh.quads.size(), mesh.triangles.size(), mesh.lines.size(), mesh.points.size(), fields.size());
+  fmt::print("{}: {}, {} lines, {} fields\n", arguments.output.string(), show_counts(mesh), mesh.lines.size(),
+             fields.size());
   return kDone;
 }
 

@@ -189,9 +189,8 @@ Case read_case(const MeshArguments& arguments) {
 }
 
 void print_before(const std::string& file, const Mesh& mesh, const Prepared& prepared) {
-  fmt::print("{}: {} quads, {} triangles, {} vertices\n", file, mesh.quads.size(), mesh.triangles.size(),
-             mesh.points.size());
-  (verbosity() == Verbosity::kAll ? print_metrics : print_summary)(prepared.metrics(mesh));
+  fmt::print("{}: {}\n", file, show_counts(mesh));
+  print_measures(prepared.metrics(mesh));
   if (const Criteria& criteria = prepared.problem().criteria; !criteria.empty())
     print_criteria(judge(mesh, criteria, prepared->size.field.get()), mesh);
 }
@@ -208,10 +207,9 @@ std::pair<double, double> size_on(const Mesh& mesh, const SizeField& size) {
 /// `seconds`: on the clock, of the whole command.
 void print_after(const std::string& file, const MeshResult& result, double seconds) {
   const Preparation& prepared = *result.prepared;
-  fmt::print("{}: {} quads, {} triangles, {} vertices in {:.2f} s\n", file, result.mesh.quads.size(),
-             result.mesh.triangles.size(), result.mesh.points.size(), seconds);
+  fmt::print("{}: {} in {:.2f} s\n", file, show_counts(result.mesh), seconds);
   const bool all = verbosity() == Verbosity::kAll;
-  (all ? print_metrics : print_summary)(result.metrics);
+  print_measures(result.metrics);
   const Summaries& log = result.log.summaries;
   if (log.has("layers"))
     fmt::print("  layers: {} quads on {} edges, which tau and edges leave out\n",

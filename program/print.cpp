@@ -87,9 +87,18 @@ void print_summary(const MeshMetrics& metrics) {
   print_line("vertices", metrics,
              {{"d4", "d4 ", 1, " %"},
               {"n_irregular", "", 0, " irregular"},
-              {"n_irregular_on_curves", "", 0, " of them on curves"},
-              {"n_necessary", "", 0, " necessary"},
-              {"n_beyond", "", 0, " more than necessary"}});
+              {"n_irregular_on_curves", "", 0, " of them on curves"}});
+  print_line("charges of vertices, also on the boundary", metrics,
+             {{"n_necessary", "", 0, " necessary"}, {"n_beyond", "", 0, " more"}});
+}
+
+void print_measures(const MeshMetrics& metrics) {
+  (verbosity() == Verbosity::kAll ? print_metrics : print_summary)(metrics);
+}
+
+std::string show_counts(const Mesh& mesh) {
+  return fmt::format("{} quads, {} triangles, {} {}", mesh.quads.size(), mesh.triangles.size(),
+                     mesh.points.size(), mesh.order > 1 ? "nodes" : "vertices");
 }
 
 void print_names(const Mesh& mesh) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "delquad/mesher.h"
 #include "delquad/options.h"
 #include "metrics/tables/tables.h"
@@ -14,8 +16,13 @@ void print_metric(const Metric& metric, const MeshMetrics& metrics);
 /// Every measure but those of solvers.
 void print_metrics(const MeshMetrics& metrics);
 
-/// The measures that tell most, in three lines: shapes, sizes, and how quads meet.
+/// The measures that tell most, in four lines: shapes, sizes, irregular vertices, and their charges.
 void print_summary(const MeshMetrics& metrics);
+/// Every measure with -v, otherwise the summary.
+void print_measures(const MeshMetrics& metrics);
+
+/// Returns "9 quads, 0 triangles, 16 vertices"; "nodes" if elements are curved and have more than corners.
+std::string show_counts(const Mesh& mesh);
 
 /// Prints the names of the parts of a mesh in one line, and nothing if no part has a name.
 void print_names(const Mesh& mesh);

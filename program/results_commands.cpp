@@ -119,15 +119,19 @@ void add_results(CLI::App& app, Commands& commands) {
       add("tables", "Make the tables of an experiment from its results", tables_command);
   tables->add_option("folder", of_tables.folder, kFolder)->required();
 
-  const auto [rerun, of_rerun] =
-      add("rerun", "Make a result again from its record: the same bytes, or what stands in their way",
-          rerun_command);
+  const auto [rerun, of_rerun] = add(
+      "rerun",
+      "Make a result again from its record: the same bytes, or what differs. Results with parts in Python "
+      "need these parts: call delquad.run([\"rerun\", ...]) there",
+      rerun_command);
   rerun->add_option("record", of_rerun.folder, "record.json of a cell")->required();
   add_data(*rerun, of_rerun.data);
 
-  const auto [verify, of_verify] =
-      add("verify", "Check that results are as they were written; exit code 1 when something is not",
-          verify_command);
+  const auto [verify, of_verify] = add(
+      "verify",
+      "Check that results are as they were written; exit code 1 if something is not. Results with parts in "
+      "Python need these parts: call delquad.run([\"verify\", ...]) there",
+      verify_command);
   verify->add_option("folder", of_verify.folder, kFolder)->required();
   add_data(*verify, of_verify.data);
   verify->add_option("-j,--jobs", of_verify.threads, "cells at a time; default: all cores")

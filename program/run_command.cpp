@@ -45,8 +45,7 @@ std::optional<Shard> shard_of(const std::string& text) {
 
 /// Chooses the named pipelines, and the peers of further files: the named ones of each, or else all.
 void choose_pipelines(const RunArguments& arguments, Experiment& experiment) {
-  std::vector<std::string> pipelines;
-  for (const Word& word : experiment.words) pipelines.push_back(word.text);
+  std::vector<std::string> pipelines = experiment.pipelines;
   // Empty words are kept, to be refused.
   if (arguments.pipelines) boost::split(pipelines, *arguments.pipelines, boost::is_any_of(","));
   for (const std::filesystem::path& file : arguments.peers) {
@@ -56,7 +55,7 @@ void choose_pipelines(const RunArguments& arguments, Experiment& experiment) {
     };
     if (std::ranges::none_of(names, is_named)) pipelines.insert(pipelines.end(), names.begin(), names.end());
   }
-  const auto of_file = static_cast<double>(experiment.words.size());
+  const auto of_file = static_cast<double>(std::max<std::size_t>(experiment.pipelines.size(), 1));
   experiment.words = located("--pipelines", [&] { return experiment.find_pipelines(pipelines); });
   experiment.minutes *= static_cast<double>(experiment.words.size()) / of_file;
 }
@@ -68,7 +67,8 @@ std::vector<Experiment> read_experiments(const RunArguments& arguments) {
       throw InputError(fmt::format(
           "two experiments are called '{}', and their results would share a folder: run them apart",
           file.stem().string()));
-    Experiment& experiment = experiments.emplace_back(Experiment::read(file, arguments.data));
+    Experiment& experiment =
+        experiments.emplace_back(Experiment::read(file, arguments.data, !arguments.pipelines));
     experiment.max_elements = arguments.max_elements;
     choose_pipelines(arguments, experiment);
     experiment.check_calibration();
@@ -170,6 +170,10 @@ int run_command(const RunArguments& arguments) {
   std::vector<std::filesystem::path> folders;
   for (const Experiment& experiment : experiments) folders.push_back(folder_of(arguments, experiment));
   draw_all(folders, outcome);
+  // A single experiment has just printed the reasons of its cells.
+  if (experiments.size() > 1)
+    for (const auto& [reason, cells] : outcome.failures)
+      if (!cells.empty()) fmt::print(stderr, "error: {} failed: {}\n", fmt::join(cells, ", "), reason);
   return exit_code(outcome, arguments.allow_triangles);
 }
 
@@ -216,7 +220,7 @@ Outcome run_and_print(const SweepArguments& arguments, const Experiment& experim
 int exit_code(const Outcome& outcome, bool allow_triangles) {
   for (const std::string& note : inapplicable_notes(outcome)) fmt::print(stderr, "{}\n", note);
   for (const auto& [reason, cells] : outcome.failures)
-    fmt::print(stderr, "error: {}{}{}\n", fmt::join(cells, ", "), cells.empty() ? "" : " failed: ", reason);
+    if (cells.empty()) fmt::print(stderr, "error: {}\n", reason);
   if (outcome.others_failed > 0 || outcome.metrics_failed > 0) return kInternalError;
   if (outcome.bad_inputs > 0) return kBadInput;
   if (outcome.unsound > 0) return kUnsound;

@@ -20,7 +20,7 @@ int threads_of(const SweepArguments& arguments);
 
 /// Runs the experiment, and prints its tables.
 Outcome run_and_print(const SweepArguments& arguments, const Experiment& experiment);
-/// Names what failed, for the end of a command.
+/// Prints the failures that belong to no cell, and which cells are not applicable. Returns the exit code.
 int exit_code(const Outcome& outcome, bool allow_triangles);
 
 }  // namespace delquad

@@ -250,12 +250,12 @@ void Experiment::check_plan(const TomlTable& table) const {
 
 /// Before pipelines are chosen that the file does not name.
 void Experiment::check_may_fail(const TomlTable& table, const MayFail& cells) const {
-  std::vector<std::string> names, variants;
+  std::vector<std::string> names, variants, known = pipelines;
   for (const TomlTable& one : cases_) names.push_back(one.text("name"));
   for (const TomlTable& variant : variants_) variants.push_back(variant.text("name"));
   for (const auto& [key, text, all] : {std::tuple("case", cells.name, &names),
                                        {"variant", cells.variant, &variants},
-                                       {"pipeline", cells.pipeline, &pipelines}})
+                                       {"pipeline", cells.pipeline, &known}})
     if (!text.empty() && std::ranges::find(*all, text) == all->end())
       throw InputError(table.where(key) + ": the experiment has no " + key + " '" + text + "'" +
                        suggestion(text, *all));

@@ -76,6 +76,15 @@ TEST(Su2, TellsSettingsOfPeriodicMarkers) {
   EXPECT_FALSE(holds(text, "steel"));
 }
 
+TEST(LostInFile, NoFurtherNameThatAnotherCurveHas) {
+  Mesh mesh = channel();
+  mesh.curves[0].names = {"outline", "inlet"};
+  mesh.curves[1].names = {"outline"};
+  EXPECT_EQ(unsupported_in_file("a.foam", mesh).size(), 0u);
+  mesh.curves[1].names = {"wall"};
+  EXPECT_EQ(unsupported_in_file("a.foam", mesh).size(), 1u);
+}
+
 TEST(LostInFile, NamesAndPairsThatTheFormatDoesNotHold) {
   const auto lost = [](const char* file) { return unsupported_in_file(file, channel()); };
   EXPECT_EQ(lost("a.msh").size(), 0u);

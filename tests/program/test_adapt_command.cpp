@@ -153,7 +153,7 @@ TEST(AdaptCommand, WrongFields) {
         {"a.vtu:u b.msh:u --quads 100", "its mesh is another one"},
         {"c.vtu:eta --quads 100", "the field 'eta' is of elements: expected one of points"},
         {"a.vtu:u --quads 9 -o a.inp", "is the same file as the solution"},
-        {"a.vtu:u", "expected --quads or --error"},
+        {"a.vtu:u", "expected --quads N"},
         {"a.vtu:u --quads 100 --goal-weight bad", "the field of weights is nan"}}) {
     const ProgramResult result =
         folder.run("adapt " + std::string(words) + (holds(words, "-o") ? "" : " -o n.msh"));

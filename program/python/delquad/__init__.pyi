@@ -169,7 +169,7 @@ def improve(
     given: Mesh | _Path,
     size: float | str | Callable[[_Floats], npt.ArrayLike] | tuple[Mesh, npt.ArrayLike] | None = None,
     *,
-    word: str | None = None,
+    pipeline: str | None = None,
     **settings: Any,
 ) -> Result: ...
 def extrude(
@@ -190,7 +190,7 @@ def mesh(
     model: Model | Mesh | _Path,
     size: float | str | Callable[[_Floats], npt.ArrayLike] | tuple[Mesh, npt.ArrayLike] | None = None,
     *,
-    word: str | None = None,
+    pipeline: str | None = None,
     quality: Literal["fast", "good", "best", "regular"] | None = None,
     options: Mapping[str, bool | int | float | str] | None = None,
     embed: Iterable[npt.ArrayLike | tuple[npt.ArrayLike, str]] = (),
@@ -201,6 +201,7 @@ def mesh(
     threads: int = 0,
     time_limit: float = 0,
     progress: bool | Callable[[str, float], object] | None = None,
+    word: str | None = None,
     compounds: Literal["all", "tangent"] | Iterable[Any] | None = None,
     ignore_below: float | None = None,
     idealize: bool | None = None,

@@ -161,7 +161,8 @@ _TAIL = """
     A table is a dictionary, or a tuple of values in the order of its keys. Tables with names are also {name: table}, or
     {name: value of the second key}, such as size_on={"inlet": 0.1}, divide={"wall": 20}. docs/keys.md has all keys.
 
-    word, quality: a pipeline of stages, or "fast", "good" (the default), "best" or "regular".
+    pipeline, quality: a pipeline of stages, such as "DBCO", or "fast", "good" (the default), "best" or "regular".
+        word is another name of pipeline.
     options: options of the stages, such as {"insertion.h_max": 1.5}; see docs/keys.md.
     embed: polylines of shape (n, 3) and single points (3,) on a surface, which become edges and nodes of the mesh;
         each alone or with a name, (points, "name"). In the plane see planar().
@@ -179,7 +180,7 @@ def mesh(
     model,
     size=None,
     *,
-    word=None,
+    pipeline=None,
     quality=None,
     options=None,
     embed=(),
@@ -190,10 +191,13 @@ def mesh(
     threads=0,
     time_limit=0,
     progress=None,
+    word=None,
     **keywords,
 ):
-    if word is not None and quality is not None:
-        raise _core.InputError("word and quality exclude each other: a quality stands for a word")
+    if pipeline is None:
+        pipeline = word
+    if pipeline is not None and quality is not None:
+        raise _core.InputError("pipeline and quality exclude each other: a quality stands for a pipeline")
     for unknown in keywords.keys() - _KEYS.keys():
         near = difflib.get_close_matches(unknown, inspect.signature(mesh).parameters, 1)
         raise TypeError(f"mesh() has no keyword '{unknown}'" + (f"; did you mean '{near[0]}'?" if near else "; help(delquad.mesh) lists all"))
@@ -222,7 +226,7 @@ def mesh(
     problem.keep_going(keep_going)
     if progress:
         problem.progress(_bar if progress is True else progress)
-    result = problem.mesh(quality or "good" if word is None else word, threads, time_limit)
+    result = problem.mesh(quality or "good" if pipeline is None else pipeline, threads, time_limit)
     if progress is True:
         _bar("done", 1)
     if result._complaint() and not allow_unsound:
@@ -243,12 +247,12 @@ def _with_keywords(function):
 _with_keywords(mesh)
 
 
-def improve(given, size=None, *, word=None, **settings):
+def improve(given, size=None, *, pipeline=None, **settings):
     """Improves an existing mesh, planar or in space, and returns a Result.
 
     given: a Mesh, or the path of a file; its points on the outline, on lines and between regions stay.
     size: as for mesh(); default: the size of the mesh.
-    word: a pipeline from quads such as "CO" (the default), or from triangles "BCO" (the default without quads).
+    pipeline: from quads such as "CO" (the default), or from triangles "BCO" (the default without quads).
     settings: cross, gradation, options, threads and other keywords of mesh() for planar domains; in space also
         feature_angle.
 
@@ -258,4 +262,4 @@ def improve(given, size=None, *, word=None, **settings):
         given = _core.read_mesh(os.fspath(given))
     elif not isinstance(given, _core.Mesh):
         raise TypeError(f"given: expected a delquad.Mesh or the path of a file, got {type(given).__name__}")
-    return mesh(_core.given_mesh(given), size, word=word, **settings)
+    return mesh(_core.given_mesh(given), size, pipeline=pipeline, **settings)
