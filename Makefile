@@ -25,7 +25,7 @@ dev:
 	@[ -d build/dev ] || cmake --preset dev -DBUILD_TESTING=ON $(CMAKE_FLAGS)
 	cmake --build --preset dev $(if $(TARGETS),--target $(TARGETS))
 
-# Checks the format of the sources, their structure, and the prose of new and changed lines, without a build.
+# Checks the format of the sources, their structure and their prose, without a build.
 lint:
 	@cmake/install-packages.sh lint
 	git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror

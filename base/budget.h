@@ -3,6 +3,8 @@
 
 #include <atomic>
 
+// This header limits the work of a search. Searches whose time has no other bound use it.
+
 namespace delquad {
 
 /// Limit of work for a step that could run very long. It counts steps, not time, so the same input gives the

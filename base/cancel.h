@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// This header asks whether the run was cancelled. All long loops use it.
+
 namespace delquad {
 
 /// Throws Cancelled or TimeIsUp, with the current step, if the run was cancelled or its time is up. It takes

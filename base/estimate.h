@@ -3,6 +3,8 @@
 
 #include <functional>
 
+// This header tells estimates of the number of quads. Curves give them, the program prints them.
+
 namespace delquad {
 
 /// Returns the function that this thread calls with each estimate of the number of quads, the first before

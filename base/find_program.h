@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+// This header finds helper programs of this project. Readers of CAD and figures of experiments use it.
+
 namespace delquad {
 
 /// A program of this project that reads files for the library.

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+// This header has Gauss's rules of quadrature. Finite elements and error estimates use it.
+
 namespace delquad {
 
 struct GaussPoint {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+// This header numbers cells along a Hilbert curve. Blocks of meshes and recombination use it.
+
 namespace delquad {
 
 /// Returns the position of cell (x, y) along a Hilbert curve through 2^16 x 2^16 cells. It has no branches,

@@ -3,6 +3,8 @@
 
 #include <string>
 
+// This header has units of length. Readers of CAD use it.
+
 namespace delquad {
 
 struct LengthUnit {

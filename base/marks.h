@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+// This header marks numbered things. Stages that walk over meshes use it.
+
 namespace delquad {
 
 /// Marks of numbered things that were met in this pass. A new pass costs nothing.

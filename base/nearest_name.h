@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+// This header finds the name that was meant by a slip. Readers of options and files use it.
+
 namespace delquad {
 
 /// Returns the name in `known` nearest to `given` (Damerau-Levenshtein distance), if it may be a slip.

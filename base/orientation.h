@@ -3,6 +3,8 @@
 
 #include "delquad/mesh.h"
 
+// This header has the exact orientation of points in space. Tests of crossing triangles use it.
+
 namespace delquad {
 
 /// Returns the sign of the exact volume of the tetrahedron a, b, c, d. It is +1 if a, b, c run

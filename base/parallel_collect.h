@@ -7,6 +7,9 @@
 
 #include "base/parallel.h"
 
+// This header collects items in parallel, in the same order for any number of threads. Matching and meshes
+// use it.
+
 namespace delquad {
 
 /// Calls `make(begin, end, items)` in parallel for ranges of fixed length (the last may be shorter) that

@@ -5,6 +5,9 @@
 
 #include "base/parallel.h"
 
+// This header has parallel loops over items of about equal cost. Curved elements, sweeps and the pipeline use
+// it.
+
 namespace delquad {
 
 /// Calls work(i) for each i in [0, n), by parallel_ranges(), for many calls of about equal cost.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+// This header sorts values and removes duplicates. Most modules use it.
+
 namespace delquad {
 
 /// Sorts the values and keeps each once.

@@ -3,6 +3,8 @@
 
 #include "base/parallel.h"
 
+// This header measures time. Stages and the bench use it.
+
 namespace delquad {
 
 /// Time since its creation, of this thread and of others that worked for it.

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+// This header checks and makes UTF-8. Readers of files use it.
+
 namespace delquad {
 
 /// Returns whether text is UTF-8, without misplaced bytes, overlong code points, surrogates, and code points

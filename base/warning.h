@@ -6,6 +6,8 @@
 
 #include "delquad/error.h"
 
+// This header sums up warnings. The program and the bench use it.
+
 namespace delquad {
 
 /// Returns a line for each kind, in the order of first warnings: the only text, or the number of warnings and

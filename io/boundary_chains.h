@@ -8,10 +8,12 @@
 
 #include "io/cell_view.h"
 
+// This header joins the sides of a mesh's boundary. Formats of coasts and of flow solvers use it.
+
 namespace delquad {
 
-/// Edges joined where one begins at the end of another: the nodes of each chain one after the other, those of
-/// a closed one with the first again at the end. Chains end where not just one edge goes on.
+/// Edges joined where one begins at the end of another: the nodes of each chain one after the other. A closed
+/// chain has the first node again at the end. Chains end where not just one edge goes on.
 std::vector<std::vector<int>> join_edges(const std::vector<std::array<int, 2>>& edges);
 
 /// The groups of lines, as indices, by their ends, the lower one first.

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+// This header has digests of files. Records of experiments use it.
+
 namespace delquad {
 
 /// Tells contents apart: SHA-1 as a UUID of version 5 (36 characters).
@@ -28,8 +30,8 @@ std::map<std::string, FileMark> marks_of(const std::filesystem::path& folder);
 /// How a file differs from its mark, in words ("holds 12 bytes, expected 300"); empty: it does not.
 std::string difference(const std::filesystem::path& file, const FileMark& mark);
 
-/// The text of a JSON object, printed over several lines, with one more entry before the others: "digest", by
-/// which every later change of the text shows.
+/// The text of a JSON object, printed over several lines, with one more entry before the others. This is
+/// "digest", by which every later change of the text shows.
 std::string sealed(const std::string& object);
 /// Whether the text is as sealed() made it.
 bool is_sealed(std::string_view text);

@@ -23,8 +23,8 @@ namespace delquad {
 /// point.
 void check_strays(const Mesh& mesh, Strays strays, const std::function<std::string(int)>& place);
 
-/// Adds a line, triangle or quad by its nodes: its corners first, then those that `places` of its order has
-/// beside them. Returns what is wrong where its order is not that of the mesh; empty: it was added.
+/// Adds a line, triangle or quad by its nodes: its corners first, then the nodes that `places` of its order
+/// has beside them. Returns the problem if its order differs from the order of the mesh; empty: it was added.
 std::string add_element(Mesh& mesh, int corners, std::span<const int> nodes, int entity,
                         std::vector<int> (*places)(int order) = gmsh_places);
 
@@ -78,7 +78,7 @@ class FaceColours {
     return at->second;
   }
 
-  /// Gives the mesh its regions; where there are too many colors, those of the parts alone, and a note.
+  /// Gives the mesh its regions; where there are too many colors, only the regions of parts, and a note.
   void finish(Mesh& mesh, ReadNotes* notes) const;
 
  private:

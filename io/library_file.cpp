@@ -43,7 +43,7 @@ std::string error_of(const std::function<void()>& work) {
   }
 }
 
-/// Does it in a process of its own: HDF5 cannot close a file after a failed write and crashes at the end of
+/// Does it in a process of its own. HDF5 cannot close a file after a failed write and crashes at the end of
 /// the program for it, and MED prints pages about it. Throws InputError with what `work` threw there.
 void do_in_child(const std::filesystem::path& path, const std::function<void()>& work) {
   std::optional<std::string> what_failed;

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+// This header writes files by libraries of others, in processes of their own. Their formats use it.
+
 namespace delquad {
 
 /// The number that a library gives to an open file, which is closed at the end.
@@ -28,16 +30,16 @@ struct OpenFile {
 /// state.
 void copy_into(std::ostream& out, const std::filesystem::path& file);
 
-/// For formats whose library writes files by their name: `write` fills a temporary one in a
-/// process of its own, which is then copied to the stream.
+/// For formats whose library writes files by their name. `write` fills a temporary one in a process of its
+/// own, which is then copied to the stream.
 std::function<void(std::ostream&)> by_library(
     const std::filesystem::path& path, std::function<void(const std::filesystem::path& temporary)> write);
 /// The file itself is written whole or not at all, see write_file_atomically().
 void write_by_library(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 
-/// Throws InputError that names the file, the library, what it could not do, and the system's reason where it
-/// is one of disks, where `done` is false.
+/// Throws InputError if `done` is false. It names the file, the library, the failed step, and the system's
+/// reason where it is one of disks.
 void require_written(bool done, const std::filesystem::path& path, const std::string& library,
                      const char* what);
 

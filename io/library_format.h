@@ -6,6 +6,8 @@
 #include "delquad/mesh.h"
 #include "io/mesh_io.h"
 
+// This header has formats whose libraries are loaded on demand. The tables of formats use it.
+
 namespace delquad {
 
 /// A mesh format that a library of another project reads or writes. Its code lies in a library of its own,

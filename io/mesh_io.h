@@ -63,7 +63,7 @@ enum class Strays {
 /// read_mesh() that keeps strays, in formats of triangles alone.
 Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes, Strays strays);
 
-// All readers unpack files that are compressed by gzip, and refuse one that holds another format than its
+// All readers unpack files that are compressed by gzip. They refuse a file that holds another format than its
 // name says, or more or fewer elements than its header.
 
 /// A number at each point of a mesh.
@@ -79,8 +79,9 @@ struct NodalValues {
 /// InputError for a missing field, naming the others, for a field that has no numbers, and for points without
 /// a value.
 NodalValues read_values(const std::filesystem::path& path, const std::string& name);
-/// The same of tensors: xx, xy, xz, yy, yz and zz of each point, from MSH fields of 3 x 3 numbers, VTU arrays
-/// of 3 (xx, yy, xy), 4, 6 or 9, and SOL and BAMG files; those of the plane have no z, and zz = 1.
+/// The same of tensors: xx, xy, xz, yy, yz and zz of each point. They come from MSH fields of 3 x 3 numbers,
+/// and from SOL and BAMG files. VTU arrays of 3 (xx, yy, xy), 4, 6 or 9 numbers hold them, too. Tensors of
+/// the plane have no z, and zz = 1.
 NodalValues read_tensors(const std::filesystem::path& path, const std::string& name);
 
 /// Numbers at each point of a mesh, or of each of its triangles, then quads: so many side by side. NaN: there
@@ -105,8 +106,8 @@ void write_fields(const std::filesystem::path& path, const Mesh& mesh, const std
 /// Whether it reads files of that name.
 bool holds_values(const std::filesystem::path& path);
 
-/// InputError when write_mesh() knows no format for the path's extension, naming those known, or the format
-/// has no such option, or no elements of that order.
+/// InputError if write_mesh() knows no format for the path's extension, naming the known ones. So it does if
+/// the format has no such option, or no elements of that order.
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {}, int order = 1);
 
 /// InputError when no hexahedra are written there, naming the formats that have them.

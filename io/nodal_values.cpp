@@ -200,8 +200,8 @@ std::vector<double> means_at_points(const Mesh& mesh, const std::vector<double>&
   return sum;
 }
 
-/// m11, m12, m13, m22, m23 and m33 of rows of 2 x 2 or 3 x 3 numbers, or of symmetric ones as VTK has them,
-/// the diagonal first (xx, yy, xy, or xx, yy, zz, xy, yz, xz).
+/// Returns m11, m12, m13, m22, m23 and m33 of rows of 2 x 2 or 3 x 3 numbers, or of symmetric ones of VTK.
+/// VTK has the diagonal first: xx, yy, xy, or xx, yy, zz, xy, yz, xz.
 std::vector<double> as_tensors(const std::vector<double>& all, int n_components) {
   constexpr int kZero = -1, kOne = -2;
   static const std::map<int, std::array<int, 6>> places = {{3, {0, 2, kZero, 1, kZero, kOne}},

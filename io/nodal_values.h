@@ -9,6 +9,8 @@
 
 #include "io/mesh_io.h"
 
+// This header chooses fields of files. Readers of fields and the program use it.
+
 namespace delquad {
 
 /// The form of a field that a caller expects.

@@ -8,6 +8,8 @@
 
 #include "delquad/mesh.h"
 
+// This header draws meshes as SVG. Experiments, reports and the table of formats use it.
+
 namespace delquad {
 
 /// Draws a mesh as SVG, written whole or not at all, with a title and a legend. Quads are colored by eta,
@@ -18,7 +20,7 @@ void draw_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::s
 
 struct IrregularVertex {
   int vertex;
-  int valence;  ///< on the boundary, where it is that of a pair, as inside: 3 or 5
+  int valence;  ///< on the boundary, or inside in a pair: 3 or 5
   double size;  ///< mean of the sizes of the elements around it
 };
 
@@ -28,7 +30,7 @@ struct IrregularVertices {
   std::vector<std::array<int, 2>> pairs;  ///< of a mesh of quads, see pair_irregular()
 };
 
-/// Vertices inside the mesh (not on its free edges) whose valence is not `regular`, and those of pairs.
+/// Vertices inside the mesh (not on its free edges) whose valence is not `regular`, and vertices of pairs.
 /// element_size: by element, triangles first.
 IrregularVertices irregular_vertices(const Mesh& mesh, int regular, const std::vector<double>& element_size);
 

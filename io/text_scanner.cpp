@@ -99,7 +99,7 @@ bool begins(std::string_view text, std::string_view with) {
 
 TextScanner::TextScanner(const std::filesystem::path& path)
     : path_(path.string()), text_(read_whole_file(path)) {
-  constexpr size_t kBeginning = 100;  // bytes: those of numbers have a 0 there
+  constexpr size_t kBeginning = 100;  // bytes: numbers have a 0 there
   if (text_.starts_with("\xef\xbb\xbf") && text_.find('\0') >= std::min(kBeginning, text_.size()))
     text_.erase(0, 3);
   else if (const auto is_big = utf16_order(text_))

@@ -18,8 +18,8 @@ namespace delquad {
 /// The whole file, unpacked when it is compressed by gzip. Throws InputError.
 std::string read_whole_file(const std::filesystem::path& path);
 
-/// A file cut into tokens at white space, or into bytes. Every error is an InputError "file:line: message",
-/// where the line is that of the last token, or "file: byte N: message" once bytes were read.
+/// A file cut into tokens at white space, or into bytes. Every error is an InputError "file:line: message"
+/// with the line of the last token. Once bytes were read, it is "file: byte N: message".
 class TextScanner {
  public:
   /// Reads the whole file, as read_whole_file(). Without its byte order mark; UTF-16 becomes UTF-8.

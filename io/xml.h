@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+// This header writes texts and bytes of XML. Formats and reports use it.
+
 namespace delquad {
 
 /// Text as it stands in an XML file, in attributes too; control characters become blanks.

@@ -138,7 +138,7 @@ void check_small_outlines(const MeshProblem& problem) {
   if (problem.metric.plane) refuse("a metric (" + problem.metric.where + ")");
 }
 
-/// Mirror images have the nodes of the other side, and not those of periodic curves.
+/// Mirror images have the nodes of the other side, and not the nodes of periodic curves.
 void check_symmetry_alone(const MeshProblem& problem) {
   if (is_symmetric(problem) && !problem.periodic.empty())
     throw InputError(fmt::format("{}: symmetry does not go with periodic sides ({}): expected one of the two",

@@ -4,6 +4,8 @@
 #include "geometry/patches/meshing_setup.h"
 #include "metrics/alignment.h"
 
+// This header has the cross fields of all patches in space. Measures of alignment use it.
+
 namespace delquad {
 
 /// The fields of all patches; null where the problem has a metric in place of sizes. `prepared` has to

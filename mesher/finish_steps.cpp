@@ -86,7 +86,7 @@ void keep_better(FinishContext& on) {
                     "takes the worse mesh [would-be-worse]",
                     on.label, what, was, worse));
   };
-  // The least harm of what mends a mesh that was not sound.
+  // The least harm of a repair of a mesh that was not sound.
   std::optional<MeshResult> best;
   double least =
       result.soundness.sound() ? degradation_of(result, before).sum() : std::numeric_limits<double>::max();

@@ -34,7 +34,7 @@ RepairOptions repair_options(const Options& options);
 
 /// When a finish step runs, and on what.
 enum class FinishAt {
-  kEveryStage,  ///< after each letter, on all patches
+  kEveryStage,  ///< after each stage, on all patches
   kPatches,     ///< after the last one, on all patches
   kMesh,        ///< on the mesh that these make
   kMeasured,    ///< on the mesh and its measures
@@ -95,12 +95,13 @@ long long work_on(const MeshingSetup& prepared, const MeshResult& result);
 void refine_unsound(const PrepareWithHints& prepare_with_hints, const Word& word, MeshingSetup& prepared,
                     MeshResult& result);
 
-/// Whether what was made of a given mesh is worse: not sound where that was, with harm, or with none of eta
-/// mean, eta worst and d4 better and one of them worse, unless it is sound where that was not.
+/// Whether a mesh that was made of a given one is worse. It is worse if it is not sound where the given one
+/// was, or has harm. It is worse, too, if none of eta mean, eta worst and d4 is better and one of them is
+/// worse. It is not worse if it is sound where the given one was not.
 bool is_worse(const MeshResult& after, const MeshResult& before);
 
-/// Whether it is not worse, and fewer quads fail, see failing_part(), or as many, and the sum of eta mean,
-/// eta worst and the share of regular vertices is larger.
+/// Whether it is not worse, and fewer quads fail, see failing_part(). If as many fail, the sum of eta mean,
+/// eta worst and the share of regular vertices must be larger.
 bool is_better(const MeshingSetup& prepared, const MeshResult& after, const MeshResult& before);
 
 /// Whether there are fewer irregular vertices, no more quads fail, and edges are as near to their size.

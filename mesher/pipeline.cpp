@@ -159,9 +159,9 @@ Options for_compounds(Options options) {
 
 }  // namespace
 
-// A problem becomes a mesh in these steps: model and size, maps, curves, patches with their fields; the
-// letters of the word; the steps that finish the mesh; its measures and what is to be said of it; once more
-// from the problem, with smaller sizes, where it is not sound.
+// A problem becomes a mesh in these steps: model and size, maps, curves, patches with their fields. The
+// stages of the pipeline follow, then the steps that finish the mesh, and its measures and messages. If the
+// mesh is not sound, all begins again from the problem, with smaller sizes.
 
 MeshingSetup run_model_steps(const MeshProblem& problem, ModelSteps& model) {
   MeshingSetup p;

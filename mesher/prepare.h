@@ -62,8 +62,8 @@ CurveAgreement agreement_of(const MeshProblem& problem, const RetryHints& hints)
 MeshingSetup run_model_steps(const MeshProblem& problem, ModelSteps& model);
 
 /// Throws InputError, saying what is wrong and where, for a problem that makes no sense, whatever its model
-/// is found to be: meshes that cannot be read (see require_readable()), models with nothing in them, numbers
-/// out of range, and things that contradict each other.
+/// holds. Such problems have meshes that cannot be read (see require_readable()), models with nothing in
+/// them, numbers out of range, or contradictions.
 void check_problem(const MeshProblem& problem);
 
 /// Prepares a given mesh, whose nodes on curves stay. Patches end at these curves and at cuts along sides of
@@ -79,8 +79,8 @@ MeshingSetup prepare_for_quads(MeshProblem& problem);
 /// Meshes a problem, whose files are read.
 using Remesh = std::function<std::pair<Prepared, MeshResult>(MeshProblem problem)>;
 /// Meshes anew by other sizes, twice at most, until there are as many quads as are asked for to 3 %. Both
-/// become those of the nearest mesh, sound ones first, with the time of all; a warning tells where that is
-/// not near enough.
+/// become the result of the nearest mesh, sound ones first, with the time of all; a warning tells where that
+/// is not near enough.
 void match_quad_count(const Remesh& remesh, Prepared& prepared, MeshResult& result);
 
 }  // namespace delquad

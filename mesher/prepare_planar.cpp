@@ -31,8 +31,8 @@
 namespace delquad {
 namespace {
 
-/// Central differences for the direction of grad delta, in diagonals of the domain: far above rounding of the
-/// coordinates, far below any feature that a mesh could show.
+/// Central differences for the direction of grad delta, in diagonals of the domain. The step is far above
+/// rounding of the coordinates, and far below any feature that a mesh could show.
 constexpr double kGradientStep = 1e-6;
 
 PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, MeshingSetup& p) {

@@ -337,8 +337,8 @@ class GivenSurfaceSteps final : public ModelSteps {
     auto own = [&]() -> std::shared_ptr<const SizeField> {
       if (problem_.size.from_boundary)
         throw InputError(problem_.size.where +
-                         ": 'boundary' extends the lengths of a planar boundary: expected no size (that of "
-                         "the elements), a number or an expression");
+                         ": 'boundary' extends the lengths of a planar boundary: expected no size, a number "
+                         "or an expression");
       return make_nodal_size(given.mesh, sizes_of_elements(given.mesh, given.source));
     };
     wanted_.base = base_size(problem_.size, {Box<Vec3>::around(fine.points), &fine}, warnings, own);

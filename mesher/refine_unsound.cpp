@@ -24,8 +24,8 @@ namespace {
 constexpr const char* kRefining = "refine_unsound";  // in records
 /// How often a problem is meshed anew; in a row without fewer places that are not sound.
 constexpr int kMostRounds = 8, kMostIdle = 2;
-/// From this round on sharp edges in the spots become features; from the first on where what is small was
-/// ignored, and no longer is there.
+/// From this round on, sharp edges in the spots become features. They do so from the first round on where
+/// small parts were ignored, and no longer are there.
 constexpr int kFirstWithFeatures = 4;
 /// The size becomes this part of what it was, so many of these sizes around.
 constexpr double kPart = 0.5, kReach = 3;

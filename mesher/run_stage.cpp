@@ -42,7 +42,7 @@ void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const
           static_cast<int>(boundary.points.size()) ||
       points.size() < boundary.points.size() ||
       !(may_slide || std::equal(boundary.points.begin(), boundary.points.end(), points.begin())))
-    refuse("a mesh whose first points are not those of the boundary");
+    refuse("a mesh whose first points are not the boundary's");
   if (!mesh.inside.empty() && mesh.inside.size() != points.size() - boundary.points.size())
     refuse("places in space that are not one for each point inside");
   const TriPatch& tri = mesh.triangles;
@@ -170,8 +170,8 @@ std::vector<char> regions_left_out(const MeshingSetup& prepared, const std::vect
 
 Warning stopped_early(const MeshingSetup& prepared, const std::string& step, int face) {
   return {"steps that were stopped before their end", 0,
-          fmt::format("{}: {} of face {} was stopped before its end, as it would take too long: quads there "
-                      "may be poor; a model without slivers and spikes there, or a smaller size, helps",
+          fmt::format("{}: {} of face {} was stopped, as it would take too long. Quads there may be poor; a "
+                      "smaller size helps, or a model without slivers and spikes there",
                       prepared.settings.name, step, face)};
 }
 
@@ -238,7 +238,7 @@ void run_on_all(const Stage& stage, const MeshingSetup& prepared, PipelineState&
   state.log.add(finishing.result.log);
   if (stage.finish) {
     std::vector<char> held = unedited_patches(prepared, state);
-    // When points of quads move, those of most grids do, too.
+    // When points of quads move, points of most grids do, too.
     for (std::size_t i = 0; stage.from == PatchForm::kQuads && i < held.size(); ++i)
       if (const PatchSetup& patch = prepared.patches[i]; patch.grid && !patch.grid_stays && !patch.image)
         held[i] = 0;

@@ -41,8 +41,8 @@ PipelineState begin_meshing(const MeshingSetup& prepared);
 void run_across_curves(const MeshingSetup& prepared, PipelineState& state);
 /// Lays all patches of a surface out anew, with other numbers of edges on curves, where that is better.
 void run_joint_layouts(const MeshingSetup& prepared, PipelineState& state);
-/// Whether the patch is on both sides of one of its curves, and two of its quads have the same four nodes:
-/// two quads around a tube.
+/// Whether the patch is on both sides of one of its curves, and two of its quads have the same four nodes.
+/// These are two quads around a tube.
 bool has_duplicate_quads(const QuadPatch& mesh, const std::vector<int>& point_node);
 /// Takes every patch through one stage. Throws InputError when the mesher had to stop.
 void run_stage(const Stage& stage, const MeshingSetup& prepared, PipelineState& state);

@@ -9,6 +9,8 @@
 #include "delquad/mesh.h"
 #include "geometry/mesh/half_edges.h"
 
+// This header measures the alignment of quads with a cross field. The measures use it.
+
 namespace delquad {
 
 /// Returns two directions of a cross field in space at the place nearest to x; nothing if that is farther

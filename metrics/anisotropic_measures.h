@@ -12,6 +12,8 @@
 #include "delquad/metrics.h"
 #include "geometry/mesh/half_edges.h"
 
+// This header measures meshes in their metric. The program, experiments and metrics use it.
+
 namespace delquad {
 
 /// Returns the metric at a place of a region; `hint` is as in SizeField::at.

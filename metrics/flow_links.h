@@ -3,6 +3,8 @@
 
 #include "delquad/metrics.h"
 
+// This header measures links of flow. `metrics --links` uses it.
+
 namespace delquad {
 
 /// Links of flow in a planar mesh, between centers of elements that share an edge. The measures follow

@@ -6,6 +6,8 @@
 
 #include "delquad/hexahedra.h"
 
+// This header measures hexahedra. Sweeps use it.
+
 namespace delquad {
 
 using HexCorners = std::array<Vec3, 8>;

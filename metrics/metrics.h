@@ -10,6 +10,8 @@
 #include "delquad/metrics.h"
 #include "geometry/mesh/half_edges.h"
 
+// This header measures meshes. The pipeline, experiments and formats use it.
+
 namespace delquad {
 
 /// Measures a mesh by the built-in measures; `sides` is its sorted_half_edges(). Quads with `in_layers` are

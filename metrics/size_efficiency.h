@@ -7,6 +7,8 @@
 #include "delquad/mesh.h"
 #include "geometry/mesh/half_edges.h"
 
+// This header compares edges with a size. Measures, grids and given meshes use it.
+
 namespace delquad {
 
 /// Returns the adimensional length of the segment from a to b, equation (5), by adaptive quadrature with a

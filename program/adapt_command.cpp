@@ -39,7 +39,7 @@ struct AdaptArguments : AdaptSpec {
 
 struct SolutionFile {
   std::filesystem::path path;
-  MeshWithFields content;  ///< the mesh is that of the first file
+  MeshWithFields content;  ///< the mesh of the first file
 };
 struct SolutionField {
   std::filesystem::path file;

@@ -25,7 +25,7 @@ bool holds_fields(const std::filesystem::path& path) {
   return kind_of_file(path) == ".msh" || kind_of_file(path) == ".vtu";
 }
 
-/// The mesh with its fields, but for the quality of quads, which files of VTK have of any mesh; `lost` learns
+/// The mesh with its fields, but for the quality of quads, which files of VTK have of any mesh. `lost` learns
 /// why there are none of it.
 MeshWithFields read_whole(const std::filesystem::path& path, ReadNotes& notes,
                           std::vector<std::string>& lost) {

@@ -79,8 +79,8 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
   return names;
 }
 
-/// " (did you mean '--size'?)": an option of the program or of the command that is given, or a command where
-/// none is; empty where none is near.
+/// " (did you mean '--size'?)": an option of the program or of the given command, or a command where none is
+/// given. Empty where none is near.
 std::string meant_by(const std::string& argument, const CLI::App& app) {
   const auto given = app.get_subcommands();
   std::vector<const CLI::App*> parsed(given.begin(), given.end());
@@ -98,8 +98,8 @@ std::string meant_by(const std::string& argument, const CLI::App& app) {
   return near ? " (did you mean '" + dashes + *near + "'?)" : "";
 }
 
-/// Why the command line cannot be read. Arguments that nothing stands for come first, in the order in which
-/// they were typed: a slip in an option may be why another is missing.
+/// Why the command line cannot be read. Arguments without a meaning come first, in the order in which they
+/// were typed: a slip in an option may be why another is missing.
 std::string reason_of(const CLI::ParseError& error, const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> unknown = app.remaining(true);
   std::string all;

@@ -83,9 +83,10 @@ bool is_mesh_file(const std::filesystem::path& path) {
   });
 }
 
-/// Points of a line: "points.txt" has x, y and z of one on each line, and comments behind '#'; of a mesh file
-/// it is the chain of its lines, or of those on the curves of a name ("mesh.msh:NAME"), from the end that is
-/// nearer to a point. Throws InputError with file and line, and for lines that make no single open chain.
+/// Points of a line. "points.txt" has x, y and z of one on each line, and comments behind '#'. For a mesh
+/// file it is the chain of its lines, or of the lines on the curves of a name ("mesh.msh:NAME"). The chain
+/// begins at the end that is nearer to a point. Throws InputError with file and line, and for lines that make
+/// no single open chain.
 std::vector<Vec3> read_polyline(const std::string& text, const Vec3& start_near) {
   if (kind_of_file(text) == kTextPoints) return read_text_points(text);
   std::string file = text, name;
@@ -256,7 +257,8 @@ void add_extrude(CLI::App& app, Commands& commands) {
   extrude
       ->add_option("--layers", arguments.layers, "of hexahedra; default with --curve: one for each segment")
       ->check(kLength);
-  extrude->add_option("--growth", arguments.growth, "height of each layer over that of the one before")
+  extrude
+      ->add_option("--growth", arguments.growth, "height of each layer over the height of the layer before")
       ->capture_default_str()
       ->check(kLength);
   extrude->add_flag("--binary", arguments.file.binary, "write .msh as bytes");

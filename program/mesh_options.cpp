@@ -193,7 +193,7 @@ void add_mesh_output(CLI::App& mesh, MeshArguments& arguments) {
 
 void set_criteria(const MeshArguments& arguments, Criteria& criteria) {
   criteria.strict |= arguments.strict;
-  // Elsewhere an element is in one set, and would leave that of its region.
+  // Elsewhere an element is in one set, and would leave the set of its region.
   if (arguments.failing_sets && arguments.output.extension() != ".inp")
     refuse("--failing-sets: {}: expected an .inp file, where an element may be in several sets",
            arguments.output.string());

@@ -30,7 +30,7 @@ struct MetricsArguments {
   std::optional<std::string> size;
   std::string criteria;  ///< a preset or file; empty: none
   bool strict = false;
-  bool links = false;  ///< those of flow, too
+  bool links = false;  ///< fields of flow, too
 };
 
 void add_solver(const Mesh& mesh, const std::string& solver, MeshMetrics& metrics) {

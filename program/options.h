@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-// Options that several commands have.
+// This header has options of several commands. The program uses it.
 
 namespace delquad {
 

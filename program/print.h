@@ -7,13 +7,15 @@
 #include "delquad/options.h"
 #include "metrics/tables/tables.h"
 
+// This header prints measures and tables. The commands use it.
+
 namespace delquad {
 
 // All to stdout.
 
 /// A measure on a line of its own; "-" where it is not defined.
 void print_metric(const Metric& metric, const MeshMetrics& metrics);
-/// Every measure but those of solvers.
+/// Every measure except the measures of solvers.
 void print_metrics(const MeshMetrics& metrics);
 
 /// The measures that tell most, in four lines: shapes, sizes, irregular vertices, and their charges.

@@ -24,7 +24,7 @@ namespace {
 
 struct RunArguments : SweepArguments {
   std::vector<std::filesystem::path> experiments;
-  std::optional<std::string> pipelines;      ///< words separated by commas; else those of the file
+  std::optional<std::string> pipelines;  ///< pipelines separated by commas; else the pipelines of the file
   std::vector<std::filesystem::path> peers;  ///< files of further meshers, which are run, too
   long long max_elements = 50'000'000;
   bool dry_run = false;  ///< only say what would be done

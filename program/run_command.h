@@ -7,6 +7,8 @@
 #include "io/cases/case.h"
 #include "program/commands.h"
 
+// This header has parts of commands that run experiments. `run` and `batch` use it.
+
 namespace delquad {
 
 /// The common arguments of commands that run experiments.

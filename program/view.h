@@ -6,6 +6,8 @@
 
 #include "experiments/report/write_view.h"
 
+// This header shows meshes as pages. `view` and `mesh --view` use it.
+
 namespace delquad {
 
 /// Where the page of a mesh goes: to `page`, or beside the mesh where that is empty.

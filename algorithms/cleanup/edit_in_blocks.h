@@ -5,6 +5,8 @@
 #include "base/stopwatch.h"
 #include "geometry/mesh/quad_blocks.h"
 
+// This header runs an editing stage on blocks of a patch, in parallel. Stages C and Q use it.
+
 namespace delquad {
 
 /// Runs an editing stage: one process for each block. Counts the irregular vertices before and after.

@@ -6,6 +6,8 @@
 #include "base/added_parts.h"
 #include "delquad/extend.h"
 
+// This header has the sizes and crosses that were registered from outside. Readers of cases use it.
+
 namespace delquad {
 
 /// Return the sizes and the crosses that add_size() and add_cross() added.

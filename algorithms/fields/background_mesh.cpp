@@ -27,8 +27,8 @@ namespace {
 // Least squared sine of an angle: 20.7 degrees, for which refinement is known to end (corners of less
 // excepted).
 constexpr double kShape = 0.125;
-// Refinement stops at this many vertices for each of the boundary's, plus a few: it normally needs less than
-// half, and what is left is still a triangulation, only with worse angles.
+// Refinement stops at this many vertices for each vertex of the boundary, plus a few. It normally needs less
+// than half. A mesh that stops there is still a triangulation, only with worse angles.
 constexpr std::size_t kMostGrowth = 8, kMostExtra = 1000;
 
 using Kernel = patch_cdt::Kernel;
@@ -175,8 +175,8 @@ TriPatch refine_patch(const PatchBoundary& patch) {
   return *refined<CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt>>(patch);
 }
 
-// A walk this long costs more than asking the tree; it also ends the cycles possible where the triangulation
-// is not Delaunay (next to boundary edges).
+// A walk this long costs more than asking the tree. Its end also breaks cycles, which are possible where the
+// triangulation is not Delaunay: next to boundary edges.
 constexpr int kLongestWalk = 100;
 
 /// Gives each vertex on the boundary the edge it lies on.

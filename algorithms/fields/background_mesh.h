@@ -14,8 +14,8 @@ namespace delquad {
 
 class TriangleTree;
 
-/// A coarse triangulation of a planar domain (one or more patches), graded from the boundary's own edges: its
-/// size does not follow the final mesh's, so that fields on it stay cheap. Patches share no vertices, also
+/// A coarse triangulation of a planar domain (one or more patches), graded from the boundary's own edges. Its
+/// size does not follow the final mesh, so that fields on it stay cheap. Patches share no vertices, also
 /// where they touch: each has its own fields.
 class BackgroundMesh {
  public:

@@ -6,6 +6,8 @@
 #include "delquad/error.h"
 #include "delquad/mesh.h"
 
+// This header checks sizes. Fields use it.
+
 namespace delquad {
 
 /// Finite and positive.

@@ -23,8 +23,8 @@ using Complex = CrossDiffusion::Complex;
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Vector = Eigen::VectorXd;
 
-/// By conjugate gradients from `start`, or directly where these do not converge: triangles with angles near
-/// 180 degrees, as badly made triangulations have them, can take them as many steps as there are unknowns.
+/// By conjugate gradients from `start`, or directly where these do not converge. Triangles with angles near
+/// 180 degrees, as in bad triangulations, can take them as many steps as there are unknowns.
 Vector solve_symmetric(const RowMatrix& matrix, const Vector& right, const Vector& start, double tolerance) {
   Eigen::ConjugateGradient<RowMatrix, Eigen::Lower | Eigen::Upper> iterative(matrix);
   iterative.setTolerance(tolerance);

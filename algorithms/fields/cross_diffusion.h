@@ -17,7 +17,7 @@ namespace delquad {
 struct PatchUnknowns {
   const TriPatch* tri;
   Sides sides;
-  std::vector<int> unknown;       ///< of each side; one that is shared is that of another, too
+  std::vector<int> unknown;       ///< of each side; sides that are shared have one unknown
   std::vector<double> direction;  ///< 4 theta that the unknown is counted from, on this side
   /// For each triangle, the turn of 4 theta from the centroid to the middles of its sides.
   const std::vector<std::array<double, 3>>* turns;
@@ -27,8 +27,8 @@ struct PatchUnknowns {
   double phase(int t, int k) const { return (*turns)[t][k] - direction[sides.of_triangle[t][k]]; }
 };
 
-/// Diffusion (mass/tau + stiffness) of crosses that turn as grids of a size do, where some are given; time is
-/// counted in elements (pairs of triangles) wherever they are. The stiffness of each triangle is taken
+/// Diffusion (mass/tau + stiffness) of crosses that turn as grids of a size do, where some are given. Time is
+/// counted in elements (pairs of triangles), wherever they are. The stiffness of each triangle is taken
 /// between values carried to its centroid, so that it is positive semi-definite whatever its angles.
 class CrossDiffusion {
  public:

@@ -26,8 +26,8 @@ std::unique_ptr<SizeField> make_capped_size(std::shared_ptr<const SizeField> bas
 std::unique_ptr<SizeField> make_boundary_size(std::shared_ptr<const BackgroundMesh> background,
                                               const Mesh& boundary);
 
-/// The base made no steeper than |grad delta| <= slope: delta(x) = min over y of base(y) + slope |x - y|,
-/// over sample points y dense enough to see the base (and x itself).
+/// The base made no steeper than |grad delta| <= slope: delta(x) = min over y of base(y) + slope |x - y|. The
+/// sample points y are dense enough to see the base, and x itself is one.
 std::unique_ptr<SizeField> limit_gradation(std::shared_ptr<const SizeField> base,
                                            std::shared_ptr<const BackgroundMesh> background, double slope);
 
@@ -62,7 +62,7 @@ class SolvedCrossField : public CrossField {
 };
 
 /// Cross field of the paper [section 3, equation (3)]: cos 4 theta and sin 4 theta harmonic,
-/// boundary-aligned; with the unknowns on edges (Crouzeix-Raviart), so that corners of any angle carry none.
+/// boundary-aligned. The unknowns are on edges (Crouzeix-Raviart), so that corners of any angle carry none.
 class HarmonicCrossField final : public SolvedCrossField {
  public:
   explicit HarmonicCrossField(std::shared_ptr<const BackgroundMesh> background);

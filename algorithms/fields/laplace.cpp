@@ -12,7 +12,7 @@
 namespace delquad {
 namespace {
 
-// Twice the least area a triangle is taken to have, relative to its longest side squared: slivers below it
+// Twice the least area that a triangle counts with, relative to its longest side squared. Slivers below it
 // have no reliable area in floating point. The matrix stays positive definite whatever the areas.
 constexpr double kLeastArea = 1e-12;
 // Where points coincide, values hang together by nothing, or by less than rounding. Then each triangle is

@@ -7,17 +7,19 @@
 
 #include "delquad/mesh.h"
 
+// This header solves Laplace's equation on triangulations. Cross fields and sizes use it.
+
 namespace delquad {
 
-/// Products of a triangle's sides (each opposite to its vertex) over twice its area: twice the stiffness
-/// matrix of the continuous linear element, half that of the Crouzeix-Raviart element. Positive semi-definite
-/// also for slivers.
+/// Products of a triangle's sides (each opposite to its vertex) over twice its area. This is twice the
+/// stiffness matrix of the continuous linear element, and half the matrix of the Crouzeix-Raviart element.
+/// Positive semi-definite also for slivers.
 using LocalStiffness = std::array<std::array<double, 3>, 3>;
 LocalStiffness local_stiffness(const TriPatch& tri, int t);
 
 /// Extends values harmonically by finite elements linear on each triangle. dofs[t][k] numbers the unknown of
-/// triangle t at its vertex k (continuous elements) or at the middle of its side opposite to vertex k
-/// (Crouzeix-Raviart elements): both have the same matrix, up to a factor. Each column holds a value per
+/// triangle t at its vertex k for continuous elements. For Crouzeix-Raviart elements it is at the middle of
+/// its side opposite to vertex k. Both have the same matrix, up to a factor. Each column holds a value per
 /// unknown: given where `fixed`, result elsewhere. One factorisation serves all columns.
 void solve_laplace(const TriPatch& tri, const std::vector<std::array<int, 3>>& dofs,
                    const std::vector<char>& fixed, std::span<std::vector<double>> columns);

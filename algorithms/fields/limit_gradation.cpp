@@ -46,8 +46,8 @@ class SizeEnvelope {
   std::vector<double> least_;  ///< of the samples in each node of the tree
 };
 
-/// Sizes that grow at the slope of the envelope lie on it up to rounding; samples there would be looked at in
-/// vain by every search.
+/// Sizes that grow at the slope of the envelope lie on it up to rounding. Every search would look at samples
+/// there in vain.
 constexpr double kTie = 1e-9;
 
 bool by_place(const SizeEnvelope::Sample& a, const SizeEnvelope::Sample& b) {

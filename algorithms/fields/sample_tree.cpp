@@ -22,7 +22,7 @@ namespace {
 /// Rounding does not matter: cells are beside more than they meet.
 using TreeKernel = CGAL::Simple_cartesian<double>;
 
-/// Cells are this often halved in any case, in the plane and in space: samples lie an edge of half of such a
+/// Cells are halved this often in any case, in the plane and in space. Samples lie an edge of half of such a
 /// cell apart, 1 / 128 and 1 / 64 of the box. A feature that is narrower and far from others is not seen.
 constexpr int kLeastLevelsInPlane = 6, kLeastLevelsInSpace = 5;
 /// No cell is smaller than this part, as a power of two, of the box.
@@ -31,8 +31,8 @@ constexpr int kMostLevels = 19;
 constexpr int kMostLevelsAtRim = 11;
 /// Bounds time and memory where a function varies everywhere.
 constexpr std::size_t kMostSamples = 4'000'000;
-/// The box is larger than the model by these parts of its extent: points near the model lie inside, and the
-/// cells' corners do not fall in step with the periods of formulas.
+/// The box is larger than the model by these parts of its extent. Points near the model lie inside, and the
+/// corners of cells do not fall in step with the periods of formulas.
 constexpr double kLowMargin = 0.0173, kHighMargin = 0.0311;
 /// Axes along which the box has less than this part of its longest extent have none.
 constexpr double kFlat = 1e-9;

@@ -6,6 +6,8 @@
 
 #include "delquad/mesh.h"
 
+// This header divides triangles to look at a field closely. Fields and metrics use it.
+
 namespace delquad {
 
 /// A triangle by its corners, cut up to look at a field closely.

@@ -40,7 +40,7 @@ struct SampleDomain {
 };
 
 /// A function sampled on cells that are halved along all axes until it is linear along each axis of a cell.
-/// Cells without extent along an axis, such as those of the plane, have none there.
+/// Cells without extent along an axis, such as cells in the plane, have none there.
 class SampleTree {
  public:
   /// The function is called in this thread, for all points of one generation of cells at once.
@@ -92,10 +92,10 @@ inline constexpr double kSampledCrossError = 0.02;
 inline constexpr double kClosestSamples = 0.25;
 
 /// A function as a field: it is called here, on points in and beside the domain, and linear along the axes
-/// between them. Where values change within kClosestSamples of the size, and where there would be too many
-/// samples (of which `warnings` then tells), it is further off than kSampledSizeError. Throws InputError when
-/// none of its values is a size; a value that is none, next to the domain, does not count while others are
-/// nearer. Messages call the function by `name`.
+/// between them. It may be further off than kSampledSizeError where values change within kClosestSamples of
+/// the size, and where there would be too many samples. `warnings` tells of the latter. Throws InputError if
+/// none of its values is a size. A bad value next to the domain does not count while others are nearer.
+/// Messages call the function by `name`.
 std::shared_ptr<const SizeField> sample_size(const SizeFunction& function, const SampleDomain& domain,
                                              const std::string& name, std::vector<Warning>& warnings);
 

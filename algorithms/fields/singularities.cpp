@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Turn of the phase from one side to another: `expected` and a rest in (-pi, pi) or half a turn; the
-/// opposite one the other way round.
+/// Turn of the phase from one side to another: `expected` and a rest in (-pi, pi), or half a turn. The
+/// opposite one is the other way round.
 double phase_step(const std::vector<double>& phase, int from, int to, double expected) {
   if (from > to) return -phase_step(phase, to, from, -expected);
   const double step = phase[to] - phase[from];

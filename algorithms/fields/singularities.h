@@ -8,12 +8,14 @@
 #include "algorithms/fields/fields.h"
 #include "algorithms/fields/laplace.h"
 
+// This header finds the singularities of a cross field. Cross fields use it.
+
 namespace delquad {
 
-/// How a field winds around the cells of a patch: the middles of the sides cut it into one cell a triangle
-/// and one a vertex. The phase 4 theta is taken to turn by less than half a turn more or less than expected
-/// between two middles of one triangle, so that it winds a whole number of times around each cell: the cell's
-/// index. At a vertex on the boundary it is the corner's turn that is compared with the field's.
+/// How a field winds around the cells of a patch. The middles of the sides cut it into one cell for each
+/// triangle and one for each vertex. Between two middles of one triangle, the phase 4 theta turns by less
+/// than half a turn more or less than expected. So it winds a whole number of times around each cell: the
+/// cell's index. At a vertex on the boundary, the turn of the corner is compared with the turn of the field.
 struct FieldWinding {
   std::vector<int> of_triangle;
   /// For each vertex the turns of the phase. They are whole numbers, up to rounding, if the field on the

@@ -20,7 +20,7 @@ namespace {
 
 /// How a cross turns along a grid whose edges have the length delta.
 ///
-/// A frame is that of a grid of squares of side delta exactly when it is parallel in the metric
+/// A frame follows a grid of squares of side delta exactly when it is parallel in the metric
 /// |du|^2/delta^2: grad theta = J grad log delta, J turning by a quarter counterclockwise. Here log delta is
 /// linear on each triangle of a background mesh.
 class SizeConnection {
@@ -60,9 +60,9 @@ SizeConnection::SizeConnection(const TriPatch& tri, const ParametricSize& size) 
 /// last: the singularities find their places first within their neighborhood, then to an element.
 constexpr double kLongest = 1600, kShortest = 2;
 constexpr int kSteps = 10;
-/// Relative residual of each step, since its result is brought back to unit length and only the last step's
-/// stays; of all but the last on patches that hang together, which hardly differ by it but take twice the
-/// time.
+/// Relative residual of each step. Its result is brought back to unit length, and only the last step's result
+/// stays. On patches that hang together it holds for all but the last step: these hardly differ by it but
+/// take twice the time.
 constexpr double kTolerance = 1e-4, kRoughTolerance = 1e-2;
 
 using Complex = std::complex<double>;
@@ -323,8 +323,8 @@ Cross SizeAwareCrossField::at(Vec2 u, int& hint) const {
 
 namespace {
 
-/// Slope of the angle by which a field turns more than a parallel one in triangle t, in the frame of the
-/// field there (radians per length).
+/// Slope of the angle by which a field turns more than a parallel one in triangle t, in its frame there
+/// (radians per length).
 Vec2 excess_turn(const Corners& middle, const std::array<double, 3>& turns, const CrossField& field,
                  int& hint) {
   std::array<double, 3> angle;

@@ -32,8 +32,8 @@ struct FieldPatch {
   CrossPullAt pull = nullptr;               ///< null: to nothing
 };
 
-/// A side of the boundaries of two patches, or at two places of one, across which the surface is smooth and
-/// so is the field: its crosses turn with the side.
+/// A side of the boundaries of two patches, or at two places of one patch. The surface and the field are
+/// smooth across it: crosses turn with the side.
 struct FieldSeam {
   struct Side {
     int patch, triangle, opposite;  ///< the side opposite to this vertex (0 to 2) of the triangle
@@ -46,11 +46,12 @@ struct FieldSeam {
 /// metric |du|^2/delta'^2, boundary-aligned. The harmonic field knows nothing of delta, so that where delta
 /// varies rows of quads have to end inside the mesh.
 ///
-/// Minimizes the energy of the covariant derivative of exp(4 i theta) by diffusion and normalization in turn,
-/// over times that fall from many to a few elements, so that the singularities find their places; unknowns on
-/// edges as in HarmonicCrossField, transport within each triangle by SizeConnection. delta' having the
-/// stretch of the patch's map in it, the metric is that of the surface over delta^2, whatever the map: so
-/// that the field of several patches is one on the surface. The paper [section 5] has a field on each patch.
+/// Minimizes the energy of the covariant derivative of exp(4 i theta) by diffusion and normalization in turn.
+/// The times fall from many to a few elements, so that the singularities find their places. Unknowns are on
+/// edges as in HarmonicCrossField, and SizeConnection is the transport within each triangle. The stretch of
+/// the patch's map is in delta', so the metric is the metric of the surface over delta^2, whatever the map.
+/// The field of several patches is therefore one on the surface. The paper [section 5] has a field on each
+/// patch.
 class SizeAwareCrossField final : public SolvedCrossField {
  public:
   /// On one patch. It is the start, exactly, where delta' hardly varies: by too little over the whole patch
@@ -69,14 +70,14 @@ class SizeAwareCrossField final : public SolvedCrossField {
   std::shared_ptr<const Data> data_;
 };
 
-/// The field of patches that hang together by seams, on each of them. The sum of indices and the Euler
-/// characteristic of each are those of them all; singularities are listed where they are inside of a patch.
+/// The field of patches that hang together by seams, on each of them. Each has the sum of indices and the
+/// Euler characteristic of all together. Singularities are listed where they are inside of a patch.
 std::vector<std::shared_ptr<const SizeAwareCrossField>> make_size_aware_fields(
     const std::vector<FieldPatch>& patches, const std::vector<FieldSeam>& seams);
 
-/// Number of places where a row of quads of size delta' along the field has to end, in the mean: the integral
-/// of (|v . e1| + |v . e2|)/delta', v = grad theta - J grad log delta', over the background mesh, which must
-/// resolve both.
+/// Number of places where a row of quads of size delta' along the field has to end, in the mean. It is the
+/// integral of (|v . e1| + |v . e2|)/delta', v = grad theta - J grad log delta'. The background mesh must
+/// resolve both fields.
 double expected_dislocations(const BackgroundMesh& background, const CrossField& cross,
                              const ParametricSize& size);
 

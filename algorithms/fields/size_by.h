@@ -6,6 +6,8 @@
 
 #include "delquad/fields.h"
 
+// This header makes a size field of a function. Features use it.
+
 namespace delquad {
 
 /// The size that a function says, of a place and a hint as SizeField::at() has them.

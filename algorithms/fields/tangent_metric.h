@@ -6,6 +6,8 @@
 
 #include "delquad/fields.h"
 
+// This header has operations on metrics of a tangent plane. Metrics of features and of adaptation use it.
+
 namespace delquad {
 
 inline Tensor2 times(double factor, const Tensor2& m) {
@@ -35,7 +37,7 @@ struct TangentMetric {
 
 /// The square of the length of a vector that is turned into the plane.
 double metric_square(const Vec3& d, const TangentMetric& at);
-/// As that of the plane, see delquad/fields.h.
+/// As for the plane, see delquad/fields.h.
 double metric_length(const Vec3& d, const TangentMetric& a, const TangentMetric& b);
 /// log_mean() in the plane of the first.
 TangentMetric log_mean(std::span<const TangentMetric> metrics, std::span<const double> weights);

@@ -5,6 +5,8 @@
 
 #include "geometry/patches/places_inside.h"
 
+// This header edits quads that fail criteria. Repairs of quads in space use it.
+
 namespace delquad {
 
 /// Edits the quads of a patch around quads that fail in space. A quad fails by is_beyond_batch(), with sides

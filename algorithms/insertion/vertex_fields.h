@@ -7,6 +7,8 @@
 #include "delquad/error.h"
 #include "delquad/fields.h"
 
+// This header samples cross and size at vertices. Insertion uses it.
+
 namespace delquad {
 
 /// Fields at a vertex, sampled once. The hints tell its place in the background meshes of the fields.

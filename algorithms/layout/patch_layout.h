@@ -5,6 +5,8 @@
 
 #include "delquad/mesh.h"
 
+// This header has the rims and pieces of one patch's layout. The search for layouts uses it.
+
 namespace delquad {
 
 /// Vertex on the rim of a piece, with its number of quads inside.

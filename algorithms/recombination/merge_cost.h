@@ -7,6 +7,9 @@
 #include "algorithms/recombination/dual_graph.h"
 #include "delquad/extend.h"
 
+// This header has costs of matching that were registered from outside. Recombination and the check of options
+// use it.
+
 namespace delquad {
 
 /// Gives the interior sides of a dual graph other costs.

@@ -7,6 +7,8 @@
 
 #include "algorithms/regularity/local_fill.h"
 
+// This header has the result of a visit of a vertex. Stage Q across curves uses it.
+
 namespace delquad::across {
 
 /// A filled polygon of a cavity.

@@ -5,6 +5,8 @@
 
 #include "delquad/matching.h"
 
+// This header has the solvers of perfect matching. Recombination and numbers of edges use it.
+
 namespace delquad {
 
 /// Makes the primal-dual method with trees that grow from all free nodes at once (docs/matching.md). Costs of

@@ -5,6 +5,8 @@
 
 #include "delquad/matching.h"
 
+// This header has integers of 128 bits. The solvers of matching use it.
+
 namespace delquad {
 
 /// Integer of 128 bits for arithmetic.

@@ -16,8 +16,9 @@ inline constexpr int kInterrupted = 130, kTerminated = 143;
 /// Exit code when time is up.
 inline constexpr int kTimeIsUp = 1;
 
-/// From now on SIGINT and SIGTERM end the program at once with kInterrupted and kTerminated, unless an
-/// Uninterrupted lives: then as soon as the last of them dies. Files that are being written are removed.
+/// From now on SIGINT and SIGTERM end the program at once with kInterrupted and kTerminated. While an
+/// Uninterrupted lives, they do so as soon as the last of them dies. Files that are being written are
+/// removed.
 void exit_on_interrupt();
 
 /// While files are written that belong together.

@@ -32,8 +32,8 @@ struct PlaceInQueue {
   std::optional<double> seconds_after = 0;  ///< that those after it may take
 };
 
-/// A bar with the name of what runs and the faces that it is at, on the last line of a terminal; silent where
-/// stderr is none, and when quiet.
+/// A bar on the last line of a terminal, with the name of the work and its faces. It is silent without a
+/// terminal, and when quiet.
 class Progress {
  public:
   /// `steps`: how many times step() will be called; 0: no bar.

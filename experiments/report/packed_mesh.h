@@ -9,6 +9,8 @@
 #include "delquad/mesh.h"
 #include "experiments/report/page_json.h"
 
+// This header packs meshes for pages. The report and the viewer use it.
+
 namespace delquad {
 
 /// A mesh as `unpackMesh` of page/packed_mesh.js takes it apart.

@@ -30,7 +30,7 @@ struct PowerLaw {
 std::optional<PowerLaw> fit_power_law(const std::vector<double>& x, const std::vector<double>& y);
 
 /// For each pipeline and case: elements and seconds of the case's variants, and the power law that they
-/// follow where there are three sizes or more, the largest at least four times the smallest.
+/// follow. The law needs three sizes or more, the largest at least four times the smallest.
 Json growth_json(const std::vector<CellRecord>& records);
 
 /// Returns the meaning of stages and measures, and colors by eta.
@@ -45,8 +45,8 @@ extern const std::string_view kViewStyle, kViewBody, kViewScript;
 /// Empty where there is none.
 std::string seed_of(const CellRecord& record);
 
-/// For each pipeline of a sheet with several seeds: how many of its cells are done, and means with half the
-/// width of their 95 % confidence intervals, by column key. Empty where no pipeline has two.
+/// For each pipeline of a sheet with several seeds: how many of its cells are done, and means by column key.
+/// With them comes half the width of their 95 % confidence intervals. Empty where no pipeline has two.
 Json means_json(std::span<const CellRecord* const> cells, const std::vector<TableColumn>& columns);
 
 /// Returns the values of finished cells in each column, for charts of their spread. `sheets` have `cases`,
@@ -65,11 +65,11 @@ struct Closeup {
   Vec3 at;                                 ///< its center
   std::vector<Vec2> points;                ///< in units of the quad's mean edge, its center at the origin
   std::vector<std::vector<int>> elements;  ///< triangles and quads, the bad quad first
-  std::vector<double> etas;                ///< of the elements; those of triangles are 1
+  std::vector<double> etas;                ///< of the elements; triangles have 1
 };
 
-/// The `count` worst quads of which no two have a vertex in common, worst first, with the elements that three
-/// steps from element to element lead to.
+/// The `count` worst quads of which no two have a vertex in common, worst first. With them come the elements
+/// that are at most three steps from element to element away.
 std::vector<Closeup> worst_quads(const Mesh& mesh, std::size_t count);
 Json closeups_json(const Mesh& mesh, std::size_t count);
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+// This header writes the page of an experiment. The program uses it.
+
 namespace delquad {
 
 /// Makes one HTML file, which needs no other and no network, from the records and meshes below a folder. The

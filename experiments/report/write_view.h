@@ -8,6 +8,8 @@
 
 #include "delquad/mesh.h"
 
+// This header writes the page of a mesh. The program and the Python module use it.
+
 namespace delquad {
 
 /// Further data on a mesh.

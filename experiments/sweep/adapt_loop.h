@@ -7,7 +7,7 @@
 #include "io/cases/toml_reader.h"
 #include "metrics/solve/solve.h"
 
-/// Experiments that compute: a solution that is known, and meshes that follow it.
+/// This header runs experiments that compute: meshes follow a known solution. Peers and experiments use it.
 
 namespace delquad {
 

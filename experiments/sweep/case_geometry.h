@@ -4,6 +4,8 @@
 #include "io/cases/case.h"
 #include "metrics/tables/study_file.h"
 
+// This header tells geometries of cases apart. Descriptions of experiments use it.
+
 namespace delquad {
 
 /// Tells the geometry of a case from others. CAD files have a digest of their bytes, without the header of

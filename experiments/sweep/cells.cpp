@@ -26,8 +26,8 @@ std::string& added_parts_text() {
   return text;
 }
 
-/// The program, the libraries of this project that it has apart, and the one that reads CAD for it: their
-/// bytes, which no change of an algorithm, an option of the compiler or a library inside leaves alone.
+/// The program, its own shared libraries of this project, and the program that reads CAD for it. Each change
+/// of an algorithm, an option of the compiler or a library inside changes their bytes.
 std::string program_digest() {
   static const std::string program = [] {
     std::string all = versions_record();

@@ -8,6 +8,8 @@
 #include "experiments/sweep/experiment.h"
 #include "experiments/sweep/record.h"
 
+// This header has the identity and the measures of a cell. Experiments and their repetition use it.
+
 namespace delquad {
 
 /// Digest of what a case is made from: the bytes of its file, or its curves, loops and names.
@@ -24,9 +26,9 @@ CellIdentity identify(const Experiment& experiment, const Case& c, const std::st
 /// Where the results of a cell lie, below the folder of the experiment.
 std::filesystem::path cell_folder(const std::filesystem::path& folder, const Case& c, const Word& word);
 
-/// Lets other programs take the measures of a cell, in the folder `scratch`, which is made if need be and
-/// then has mesh.msh and what they wrote. Adds values, failures and the time to the result. Returns what
-/// failed, a line each.
+/// Lets other programs take the measures of a cell, in the folder `scratch`. It is made if need be, and then
+/// has mesh.msh and the files that they wrote. Adds values, failures and the time to the result. Returns the
+/// failures, a line each.
 std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Case& c,
                                              const std::string& pipeline,
                                              const std::filesystem::path& scratch, MeshResult& result);

@@ -5,6 +5,8 @@
 
 #include "delquad/mesher.h"
 
+// This header writes planar domains as CAD files. Peers that read CAD use it.
+
 namespace delquad {
 
 /// Writes the regions of a planar domain as a BREP file. Each domain_curves() is one edge: a line, a circle's

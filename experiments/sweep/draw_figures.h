@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+// This header draws figures by matplotlib. Commands on results use it.
+
 namespace delquad {
 
 /// Draws the figures of folders of results from their tables, as SVG and PDF in DIR/figures, by

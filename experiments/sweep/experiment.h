@@ -39,8 +39,9 @@ class Experiment : public TablePlan, public ExperimentKeys {
   /// Throws InputError with file and line where a calibration is asked for that is none of any peer. To be
   /// called when all peers are there.
   void check_calibration() const;
-  /// Throws InputError with file and line where a hypothesis is about a pipeline that is not run, or about
-  /// two that have no domain with quads in common. To be called when all pipelines are known.
+  /// Throws InputError with file and line for a hypothesis about a pipeline that is not run. So it does for a
+  /// hypothesis about two pipelines that have no domain with quads in common. To be called when all pipelines
+  /// are known.
   void check_hypotheses() const;
   /// Pipelines by their texts: words, and names of peers. Throws InputError for none, and for one given
   /// twice.
@@ -91,7 +92,7 @@ class Experiment : public TablePlan, public ExperimentKeys {
   std::vector<TomlTable> cases_;
   std::vector<TomlTable> variants_;  ///< named sets of keys, the first axis; empty: none
   std::optional<TomlTable> matrix_;
-  std::vector<std::string> leaves_;           ///< of the matrix, as in axes after that of variants
+  std::vector<std::string> leaves_;           ///< of the matrix, in axes after the axis of variants
   std::vector<TomlTable> hypothesis_tables_;  ///< that hypotheses were read from
 };
 

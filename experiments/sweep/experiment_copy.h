@@ -7,13 +7,16 @@
 
 #include "experiments/sweep/experiment.h"
 
+// This header copies the files of an experiment to its results. Experiments and `verify` use it.
+
 namespace delquad {
 
-/// Keeps what an experiment was run from in the folder of its results: its file, and those that it names
-/// beside it, in the same places to each other, below experiment/<digest of them all>/. Beside that folder
-/// <digest>.json lists them with their digests, and those that are too large to be copied. An experiment that
-/// has changed gets another copy, so that every record leads to what it was made from. Returns the copy of
-/// the experiment's file, as seen from `folder`. Throws InputError when something cannot be written.
+/// Copies the files that an experiment was run from into the folder of its results, below experiment/<digest
+/// of them all>/. These are its own file and the files that it names beside it, in the same places to each
+/// other. Beside that folder <digest>.json lists them with their digests, also the files that are too large
+/// to be copied. An experiment that has changed gets another copy, so that every record leads to its files.
+/// Returns the copy of the experiment's file, as seen from `folder`. Throws InputError if something cannot be
+/// written.
 std::filesystem::path keep_experiment(const Experiment& experiment, const std::filesystem::path& folder);
 
 /// Returns the errors in the copies in a folder of results, a line each.

@@ -11,7 +11,7 @@
 #include "io/cases/read_described.h"
 #include "metrics/tables/study_fields.h"
 
-// These structs make up an experiment, beside its cases and tables. Each has its description.
+// This header has the structs of an experiment, beside its cases and tables. Each has its description.
 
 namespace delquad {
 

@@ -6,10 +6,13 @@
 #include <functional>
 #include <vector>
 
+// This header writes and removes the folders of cells. Experiments and the program use it.
+
 namespace delquad {
 
-/// Removes what an earlier run left in a cell's folder, which would pass for what this one made: files that
-/// its record lists, and those that runs without a record leave. Files of others stay.
+/// Removes the files of an earlier run from a cell's folder, so that they do not pass for files of this run.
+/// These are the files that its record lists, and the files that runs without a record leave. Other files
+/// stay.
 void remove_cell(const std::filesystem::path& folder);
 
 /// Replaces a cell's folder. `write` fills a temporary folder beside it, which then takes its place. So the

@@ -8,6 +8,8 @@
 
 #include "base/system.h"
 
+// This header describes the machine. Records and `--version -v` use it.
+
 namespace delquad {
 
 /// The machine that the program runs on.

@@ -31,7 +31,7 @@ const std::vector<std::string>& metric_placeholders();
 
 /// The output of the command for one mesh.
 struct MetricOutcome {
-  /// By key: that of the metric, or, when it gave several, "metric.name". NaN: it is not defined.
+  /// By key: the key of the metric, or "metric.name" if the metric gave several. NaN: it is not defined.
   std::map<std::string, double> values = {};
   std::string failure = {};  ///< why there are none; empty: there are
 };
@@ -41,8 +41,8 @@ struct MetricOutcome {
 MetricOutcome run_metric(const MetricCommand& metric, const Case& c, const std::string& pipeline,
                          const std::filesystem::path& folder);
 
-/// The values in a text: a number, or a JSON object of numbers (null and NaN: not defined), as the whole or
-/// as its last line.
+/// The values in a text: a number, or a JSON object of numbers, as the whole or as its last line. A value
+/// that is null or NaN is not defined.
 MetricOutcome parse_metric_output(const std::string& key, const std::string& text);
 
 /// The files that determine the value, with their digests. Throws InputError for one of `files` that cannot

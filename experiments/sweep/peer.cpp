@@ -88,7 +88,7 @@ constexpr unsigned kVersionSeconds = 30;  // after which a program that only tel
 /// With which a program ends that cannot be told the case, the reason in its last line.
 constexpr int kNotApplicableExit = 77;
 constexpr CalibrationLimits kCalibration = {.tolerance = kEquallyMany, .most_runs = 8};
-constexpr const char* kKept = "kept";  // folder of the closest run so far, beside that of the last
+constexpr const char* kKept = "kept";  // folder of the closest run so far, beside the folder of the last run
 
 /// `good`: exit codes.
 void check_run(const std::string& program, const ProgramRun& run, const std::vector<int>& good,

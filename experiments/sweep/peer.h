@@ -74,7 +74,7 @@ struct PeerTask {
   const Peer& peer;
   const Case& c;
   const Prepared& prepared;  ///< with the boundary that it gets
-  double scale = 1;          ///< the sizes that it is told, over those of the case
+  double scale = 1;          ///< the sizes that it is told, over the sizes of the case
   double field_scale = 1;    ///< the same, over the size of `prepared`
 };
 
@@ -94,8 +94,8 @@ struct ReferenceCell {
 /// see Prepared::measure(), is a result that says so.
 MeshResult run_peer(const Peer& peer, const Case& c, const Prepared& prepared, const std::string& label,
                     const std::filesystem::path& scratch, const ReferenceCell& reference = {});
-/// The mesh of a cell, by the word or, unless it is null, by the peer; in a loop where the case asks for it,
-/// by peers at the sizes that they are told.
+/// The mesh of a cell, by the word or, unless it is null, by the peer. If the case asks for it, a loop runs
+/// peers at the sizes that they are told.
 MeshResult mesh_cell(const Case& c, const Word& word, const Peer* peer, const std::filesystem::path& scratch);
 
 /// delta where it is the same everywhere, as it was written.
@@ -137,9 +137,9 @@ void check_peer_mesh(const Peer& peer, const Prepared& prepared, Mesh& mesh);
 /// there. In the plane the boundaries are compared, and the edges have to follow the curves between regions.
 void check_place(const Prepared& prepared, const Mesh& mesh);
 
-/// The number of quads that a word makes of a case, see count_of_quads(): by the record of its cell, or,
-/// where that is not there or of something else, by running it in a process of its own, which gives the same
-/// number. Nothing where the word has no mesh of the case. Throws JobFailed where that process crashes.
+/// The number of quads that a word makes of a case, see count_of_quads(). It comes from the record of its
+/// cell. If that is missing or of something else, a process of its own runs the word, which gives the same
+/// number. Nothing if the word has no mesh of the case. Throws JobFailed if that process crashes.
 std::optional<double> reference_quads(const Prepared& prepared, const std::string& word,
                                       const ReferenceCell& cell);
 

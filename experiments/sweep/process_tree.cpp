@@ -33,8 +33,9 @@ constexpr std::size_t kLongestReport = 4000;  // fits a pipe, so that nobody wai
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-/// As many tokens as processes may work at the same time: who starts one passes its own on or takes one from
-/// a pipe that the whole tree shares, and gets it back when that process ends.
+/// As many tokens as processes may work at the same time. A process that starts another one passes its own
+/// token on, or takes one from a pipe that the whole tree shares. It gets the token back when that process
+/// ends.
 class Tokens {
  public:
   explicit Tokens(int n) {
@@ -144,7 +145,7 @@ class ChildProcesses {
   [[noreturn]] void run_child(const Job& job, int report, pid_t parent) {
     end_with_parent(parent, SIGKILL);
     for (const int signal_number : {SIGINT, SIGTERM}) signal(signal_number, SIG_DFL);
-    program_activities().clear();  // those of the parent
+    program_activities().clear();  // the streams of the parent
     if (limits_.seconds > 0) report_timeouts(limits_.seconds, report);
     if (limits_.bytes > 0) {
       const rlimit limit = {static_cast<rlim_t>(limits_.bytes), static_cast<rlim_t>(limits_.bytes)};

@@ -14,9 +14,9 @@ namespace delquad {
 
 /// A process that did not get to its end.
 struct ProcessFailure {
-  /// "bad input", "unsound", "peer", "internal error", "timeout", "memory", "crash"; "not applicable", where
-  /// a peer cannot be told the case, which is no failure; or "interrupted", where somebody else ended it, as
-  /// a scheduler does: this says nothing of the work
+  /// "bad input", "unsound", "peer", "internal error", "timeout", "memory" or "crash". "not applicable": a
+  /// peer cannot be told the case, which is no failure. "interrupted": somebody else ended it, as a scheduler
+  /// does, which says nothing of the work
   std::string kind;
   std::string reason;  ///< for people
 };

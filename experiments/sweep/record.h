@@ -39,8 +39,8 @@ struct CellIdentity {
 /// Ends with a newline; is sealed() in experiments. `cell`: null outside of these.
 std::string run_record(const Case& c, const Word& word, const MeshResult& result,
                        const CellIdentity* cell = nullptr);
-/// The record of one that was not run, "failed" or "skipped" by its status, and of what kind the reason is:
-/// as in ProcessFailure, or "data not found".
+/// The record of a cell that was not run, "failed" or "skipped" by its status, and the kind of the reason.
+/// Kinds are as in ProcessFailure, or "data not found".
 std::string failure_record(const Case& c, const Word& word, const std::string& status,
                            const std::string& kind, const std::string& reason,
                            const CellIdentity* cell = nullptr);

@@ -6,6 +6,8 @@
 
 #include "experiments/sweep/experiment.h"
 
+// This header reads cells from their records. The commands `rerun`, `verify` and `mesh` use it.
+
 namespace delquad {
 
 /// Reads a record. Throws InputError for what is none, and for a record of another version.

@@ -29,10 +29,10 @@ struct SweepOptions {
   PlaceInQueue place = {};
 };
 
-/// Runs every pipeline on every variant of every case, each in a process of its own: what crashes, hangs or
-/// uses up its memory is a failed cell, and the rest goes on. Pipelines that begin alike share what they have
-/// in common. Cells are left out whose result is there already, made by the same program from the same model
-/// and options; those that failed are tried again.
+/// Runs every pipeline on every variant of every case, each in a process of its own. If one crashes, hangs or
+/// uses up its memory, its cell has failed, and the rest goes on. Pipelines that begin alike share their
+/// common stages. A cell is left out if its result is there already, made by the same program from the same
+/// model and options. Cells that failed are tried again.
 ///
 /// Writes DIR/study.json, the tables (see tables.h) and
 /// DIR/<case>/<pipeline>/{mesh.msh, mesh.vtu, picture.svg, fields.vtu, record.json}. With a matrix, <case>

@@ -26,16 +26,16 @@ struct ProgramRun {
 /// In words, for "it ...": "ended with exit code 3"; empty: with 0, or one of `good`.
 std::string how_it_ended(const ProgramRun& run, const std::vector<int>& good = {0});
 
-/// Runs a program (words[0], looked for on the PATH unless it has a slash) in `folder`, without input; what
-/// it prints goes to the file `log`, and of that what goes to stderr to the file `errors`, if there is one.
-/// Nothing that it starts outlives its end, this process's end, or `seconds` (0: no limit), after which its
-/// status is that of SIGKILL.
+/// Runs a program (words[0], looked for on the PATH unless it has a slash) in `folder`, without input. Its
+/// output goes to the file `log`. Its stderr goes to the file `errors` instead, if there is one. Nothing that
+/// it starts outlives its end, this process's end, or `seconds` (0: no limit). If the time is up, its status
+/// is SIGKILL's.
 ProgramRun run_program(const std::vector<std::string>& words, const std::filesystem::path& folder,
                        const std::filesystem::path& log, unsigned seconds = 0,
                        const std::filesystem::path& errors = {});
 
-/// The file beside the experiment, in `folder`, that word `i` of a command stands for; empty: none. A program
-/// without a slash is one of the PATH, whatever lies beside the experiment.
+/// The file beside the experiment, in `folder`, that the `i`-th word of a command stands for; empty: none. A
+/// program without a slash is one of the PATH, whatever lies beside the experiment.
 std::filesystem::path file_of_word(const std::filesystem::path& folder, const std::vector<std::string>& words,
                                    std::size_t i);
 

@@ -6,11 +6,11 @@
 
 #include "io/cases/toml_reader.h"
 
-/// Keys that several tables of an experiment have.
+/// This header has keys that several tables of an experiment have. Experiments and their schema use it.
 
 namespace delquad {
 
-/// The keys of an experiment file, and those of its tables that models lack.
+/// The keys of an experiment file, and the keys of its tables that models lack.
 TomlKeys experiment_keys();
 TomlKeys experiment_case_keys();
 /// Returns the keys of a [[variant]].
@@ -31,7 +31,7 @@ void check_placeholders(const TomlTable& table, const std::vector<std::string>& 
 bool has_placeholder(const std::vector<std::string>& command, const std::string& placeholder);
 
 /// Names of cases and peers become folders, on file systems that may not tell capitals from small letters.
-/// Throws InputError with file and line for one that cannot, is that of a file of results, or one of
+/// Throws InputError with file and line for a name that cannot, the name of a file of results, and a name in
 /// `others`.
 void check_folder_name(const TomlTable& table, const std::string& name,
                        const std::vector<std::string>& others);

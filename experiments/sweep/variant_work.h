@@ -67,8 +67,7 @@ struct Cell {
 
 bool is_done(const Cell& cell);
 
-/// A variant of a case with the cells that are to be made from it, in the process that works on it: each
-/// process has its own.
+/// A variant of a case with the cells that are to be made from it. Each process that works on it has its own.
 struct VariantWork {
   Case c;
   std::vector<Cell> cells;

@@ -134,7 +134,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-/// Sums over the elements in the order of the file, not in that of the mesher; relative.
+/// Sums over the elements in the order of the file, not in the order of the mesher; relative.
 constexpr double kRounding = 1e-9;
 
 /// A cell as its record tells it.
@@ -216,7 +216,7 @@ MeshMetrics metrics_of(const Json& record, const Prepared& prepared, const Mesh&
                                  : prepared.metrics(mesh, record.at("pipeline").get<std::string>());
 }
 
-/// Measures of the mesh that are not those of the record.
+/// Measures of the mesh that differ from the record.
 Lines check_measures(const VerifiedCell& cell, const Prepared* prepared) {
   const Mesh mesh = read_mesh(cell.file.parent_path() / "mesh.msh");
   const MeshMetrics now =

@@ -9,6 +9,8 @@
 #include "io/cases/case.h"
 #include "metrics/tables/study_file.h"
 
+// This header verifies results and makes them again. The commands `verify`, `rerun` and `merge` use it.
+
 namespace delquad {
 
 struct Verification {
@@ -21,11 +23,11 @@ struct Verification {
 /// digest that it carries, and the files that it lists. `study` tells records of other problems.
 std::vector<std::string> damage_of_cell(const std::filesystem::path& record, const StudyFile& study);
 
-/// Checks a folder of results: records and study.json by the digests that they carry, the files of cells by
-/// sizes and digests in the records, the copies of experiments, the measures in records by taking them again
-/// of the meshes (those by command excepted), and tables by making them again; names cells that are not
-/// there. Where a model is not found, in the copy or below `data`, the measures that need no size are
-/// checked. Throws InputError when the folder holds no results.
+/// Checks a folder of results. Records and study.json must fit the digests that they carry, and files of
+/// cells the sizes and digests in the records. It checks the copies of experiments, takes the measures of
+/// meshes again (except by command), and makes tables again. It names cells that are not there. If a model is
+/// not found, in the copy or below `data`, the measures that need no size are checked. Throws InputError if
+/// the folder holds no results.
 Verification verify_results(const std::filesystem::path& folder, const std::filesystem::path& data);
 
 struct Rerun {

@@ -5,6 +5,8 @@
 
 #include "delquad/mesher.h"
 
+// This header writes wanted sizes and crosses. Experiments and `mesh --fields` use it.
+
 namespace delquad {
 
 /// Writes the mesh with the wanted fields at its points: "size", and "cross_1" and "cross_2". These vectors

@@ -4,6 +4,8 @@
 #include "delquad/fields.h"
 #include "geometry/patches/meshing_setup.h"
 
+// This header makes cross fields by a maker from outside. The preparation uses it.
+
 namespace delquad {
 
 /// Replaces each patch's field by the field of the spec's maker. Known singularities are dropped.

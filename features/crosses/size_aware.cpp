@@ -120,9 +120,9 @@ double area(const PatchBoundary& boundary) {
   return sum;
 }
 
-/// Size of a background mesh that resolves how delta' varies, and is not finer than that: its number of
-/// elements stays bounded when delta' is scaled down, but for those next to the boundary, whose edges are
-/// given.
+/// Size of a background mesh that resolves how delta' varies, and is not finer than that. Its number of
+/// elements stays bounded when delta' is scaled down. This does not hold next to the boundary, whose edges
+/// are given.
 class ResolvingSize final : public ParametricSize {
  public:
   /// `domain`: any triangulation of the patch.

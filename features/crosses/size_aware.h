@@ -6,6 +6,8 @@
 #include "algorithms/fields/size_aware_cross_field.h"
 #include "geometry/patches/meshing_setup.h"
 
+// This header makes size-aware cross fields of all patches. The preparation uses it.
+
 namespace delquad {
 
 /// Replaces each patch's boundary-aligned field by the size-aware one, on a background mesh made for it: one

@@ -18,7 +18,8 @@ class ModelGeometry {
  public:
   virtual ~ModelGeometry() = default;
   /// Points of the curve of a line (index into Mesh::lines) at these parts of the way, by length along the
-  /// curve, from its first end to its second; parts strictly between 0 and 1, ascending.
+  /// curve. The way leads from the line's first end to its second. Parts are strictly between 0 and 1,
+  /// ascending.
   virtual std::vector<Vec3> on_line(int line, std::span<const double> parts) const = 0;
   /// The point of a curve (index into Mesh::curves) nearest to x; none: its lines are straight.
   virtual std::optional<Vec3> on_curve(int curve, const Vec3& x) const = 0;
@@ -29,8 +30,8 @@ class ModelGeometry {
 };
 
 /// The true model behind a mesh that was made of a problem: curves and formulas, CAD or triangles. `nodes`:
-/// where the nodes on curves came to lie. Lines that were given, and those of the mesh that are on no curve,
-/// are straight. All arguments outlive it.
+/// where the nodes on curves came to lie. Given lines, and lines of the mesh that are on no curve, are
+/// straight. All arguments outlive it.
 std::unique_ptr<ModelGeometry> true_geometry(const MeshingSetup& prepared, const SurfaceNodes& nodes,
                                              const Mesh& mesh);
 

@@ -108,11 +108,11 @@ class CuspOpener {
   std::vector<char> periodic_;
 };
 
-/// Where two curves leave a point in the same direction, quads between them have no angle there, and none
-/// that follows the curves is proven to be positive. Nodes of both lines slide along their curves, one away
-/// from the corner and the other towards it, by the least that helps: then the polynomials leave it at an
-/// angle. `corners`: of the straight mesh, of which `mesh` is the curved form; `bounds`: of all quads, kept
-/// up to date. No other quad falls below kPoorJacobian by that, or becomes worse where it was.
+/// Where two curves leave a point in the same direction, quads between them have no angle there. No quad that
+/// follows the curves is proven to be positive. So nodes of both lines slide along their curves, one away
+/// from the corner and the other towards it. They go by the least way that lets the polynomials leave it at
+/// an angle. `corners`: of the straight mesh, of which `mesh` is the curved form; `bounds`: of all quads,
+/// kept up to date. No other quad falls below kPoorJacobian by that, or becomes worse where it was.
 void open_cusps(Mesh& mesh, const ModelGeometry& geometry, std::span<const CurveCorner> corners,
                 std::vector<JacobianBounds>& bounds) {
   std::vector<CurveCorner> cusps;
@@ -157,9 +157,9 @@ void put_ring_in(Mesh& mesh, std::size_t quad, const ModelGeometry& geometry) {
   }
 }
 
-/// Puts a ring of quads into each quad that has a corner on a smooth curve, or one hardly less than flat: a
-/// curved one would have no area there. Every corner then has two quads. Returns how many got one. The
-/// elements must have order 1.
+/// Puts a ring of quads into each quad that has a corner on a smooth curve, or a corner that is hardly less
+/// than flat. A curved quad would have no area there. Every corner then has two quads. Returns how many got
+/// one. The elements must have order 1.
 int split_flat_corners(Mesh& straight, const ModelGeometry& geometry) {
   std::set<int> flat;
   for (const CurveCorner& corner : curve_corners(straight, geometry))
@@ -236,7 +236,7 @@ std::vector<double> allowed_by(const std::vector<CurveCorner>& corners, std::siz
 
 bool has_metric(const MeshingSetup& p) { return p.metric_plane || (p.surface && p.surface->metric); }
 
-/// A metric wants sharp corners: no more than those of the straight quads have.
+/// A metric wants sharp corners: no more than the straight quads have.
 void allow_as_straight(const Mesh& straight, std::vector<double>& allowed) {
   const std::vector<JacobianBounds> bounds = jacobian_bounds(straight);
   for (std::size_t q = 0; q < allowed.size(); ++q)

@@ -237,7 +237,7 @@ std::array<Bernstein<double>, 2> halves(const Bernstein<double>& f, bool along_u
   const auto index = [&](int i, int other) {
     return static_cast<std::size_t>(along_u ? other * (f.du + 1) + i : i * (f.du + 1) + other);
   };
-  // de Casteljau's scheme at 1/2: its outer coefficients are those of the halves.
+  // de Casteljau's scheme at 1/2: its outer coefficients are the coefficients of the halves.
   for (int other = 0; other <= others; ++other)
     for (int step = 1; step <= degree; ++step) {
       for (int i = degree; i >= step; --i) {

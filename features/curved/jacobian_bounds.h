@@ -26,9 +26,9 @@ struct JacobianBounds {
 ProvenJacobians proven_jacobians(std::span<const JacobianBounds> bounds);
 
 /// Bounds by Bernstein coefficients of numerator and squared denominators, halved until they are close to
-/// each other [Johnen, Remacle, Geuzaine 2013, section 3; they bound the Jacobian alone]. `nodes` as
-/// nodes_of_quad() orders them. Elements at whose places x_u or x_v vanishes are not positive.
-/// `enough`: bounds that prove so much are not made closer.
+/// each other. The source [Johnen, Remacle, Geuzaine 2013, section 3] bounds the Jacobian alone. `nodes` as
+/// nodes_of_quad() orders them. Elements at whose places x_u or x_v vanishes are not positive. `enough`:
+/// bounds that prove so much are not made closer.
 JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order, double enough = 1);
 
 /// Returns bounds of an element. Bounds of order 2 hold with and without its middle node, as formats of eight

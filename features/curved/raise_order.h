@@ -6,13 +6,15 @@
 #include "delquad/mesh.h"
 #include "features/curved/curved_geometry.h"
 
+// This header gives meshes elements of a higher order. Curved meshes use it.
+
 namespace delquad {
 
 /// Gives a mesh of straight quads elements of a higher order, 2 to 4. Nodes on lines lie on their curve, at
-/// equal lengths of it; nodes on other sides and inside lie on the face, next to where they are in the
-/// straight element. A side opposite to a curved one, nearer to it than its length, is bent along with it,
-/// the less the farther it is: so quads of thin layers on a curved wall stay sound. Elements may be inverted
-/// all the same, see untangle_curved().
+/// equal lengths of it. Nodes on other sides and inside lie on the face, next to their places in the straight
+/// element. A side opposite to a curved one, nearer to it than its length, is bent along with it, the less
+/// the farther it is. So quads of thin layers on a curved wall stay sound. Elements may be inverted all the
+/// same, see untangle_curved().
 void raise_order(Mesh& mesh, int order, const ModelGeometry& geometry);
 
 /// Puts the nodes inside of a quad where its sides have them [Coons 1967], on the face.

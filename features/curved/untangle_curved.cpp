@@ -36,12 +36,12 @@ struct DistortionTarget {
 /// The target shape of an element.
 enum class TargetShape {
   kStraight,     ///< the parallelogram in the middle of its straight form
-  kRightAngled,  ///< a rectangle with sides as long as those of its straight form are in the mean
+  kRightAngled,  ///< a rectangle with sides as long as the sides of its straight form are in the mean
 };
 
 /// Weights of the terms of a distortion.
 struct DistortionWeights {
-  double shape;  ///< w below: that of shapes against scaled Jacobians, 0 to 1
+  double shape;  ///< w below: weight of shapes against scaled Jacobians, 0 to 1
   int power;     ///< k below: how much more the worst count
 };
 
@@ -171,7 +171,7 @@ class DistortionEnergy final : public ceres::FirstOrderFunction {
     return flat;
   }
 
-  /// Columns of T: those of the element's map times the inverse of the target's.
+  /// Columns of T: the columns of the element's map times the inverse of the target's map.
   std::array<Vec2, 2> columns(const DistortionTarget& t, const Flat& flat, std::size_t sample) const {
     Vec2 xu, xv;
     const double *du = table_.du[sample].data(), *dv = table_.dv[sample].data();

@@ -7,6 +7,8 @@
 #include "features/curved/curved_geometry.h"
 #include "features/curved/jacobian_bounds.h"
 
+// This header repairs curved quads. Curved meshes use it.
+
 namespace delquad {
 
 /// A curved quad with a lesser scaled Jacobian is worked on, unless its straight form is hardly better.
@@ -19,8 +21,8 @@ inline constexpr double kPartOfAllowed = 0.7;
 
 struct UntanglingSummary {
   int poor = 0;                 ///< quads that were worked on
-  int improved = 0;             ///< those of a greater proven scaled Jacobian after it
-  bool moved_vertices = false;  ///< those of the straight mesh, too
+  int improved = 0;             ///< elements of a greater proven scaled Jacobian after it
+  bool moved_vertices = false;  ///< elements of the straight mesh, too
 };
 
 /// Limits of untangling.

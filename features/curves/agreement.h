@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// This header has the options by which numbers of edges agree. Curves and the preparation use it.
+
 namespace delquad {
 
 /// Steps of agree_counts(), and what align_opposite_nodes() takes of them: some ten seconds.

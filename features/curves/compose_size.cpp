@@ -82,8 +82,8 @@ std::vector<double> curvature_by_name(const std::vector<NamedSize>& named,
   return per_turn;
 }
 
-/// Edges of curves that get curved elements turn by no more, in radians: polynomials hardly follow more, and
-/// of a quad between two such edges the normal is never far from its mean.
+/// Edges of curves that get curved elements turn by no more, in radians. Polynomials hardly follow more. The
+/// normal of a quad between two such edges is never far from its mean.
 constexpr double kCurvedEdgeTurn = std::numbers::pi / 2;
 
 }  // namespace

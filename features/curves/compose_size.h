@@ -15,7 +15,7 @@
 #include "geometry/patches/meshing_setup.h"
 #include "geometry/planar/planar_model.h"
 
-// What a size is made of.
+// This header composes sizes of their ingredients. The preparation and curves use it.
 //
 // | ingredient                        | planar models of curves        | surfaces                       |
 // |-----------------------------------|--------------------------------|--------------------------------|
@@ -35,10 +35,10 @@ namespace delquad {
 std::shared_ptr<const SizeField> base_size(const SizeSpec& spec, const SampleDomain& domain,
                                            std::vector<Warning>& warnings,
                                            const std::function<std::shared_ptr<const SizeField>()>& own);
-/// Of a planar model of curves, which has no edge lengths of its own.
+/// For a planar model of curves, which has no edge lengths of its own.
 std::shared_ptr<const SizeField> planar_base_size(const SizeSpec& spec, const PlanarModel& model,
                                                   std::vector<Warning>& warnings);
-/// What stands in for a base that was not given: the largest size. Throws InputError with `why` where there
+/// Returns the largest size, in place of a base that was not given. Throws InputError with `why` where there
 /// is none.
 std::shared_ptr<const SizeField> largest_size(const SizeSpec& size, const std::string& why);
 
@@ -50,20 +50,21 @@ void check_count(double quads, const MeshProblem& problem);
 /// Whether planes of symmetry are given or looked for.
 bool is_symmetric(const MeshProblem& problem);
 
-/// A planar model of curves, meshed by its size, which is composed on the way: p.size, p.symmetry and
-/// p.plane.background are those of the domain. `spots`: see Refinement.
+/// A planar model of curves, meshed by its size, which is composed on the way. p.size, p.symmetry and
+/// p.plane.background belong to the domain. `spots`: see Refinement.
 PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
                           const std::vector<SizeBall>& spots, const CurveAgreement& agreement,
                           MeshingSetup& p);
 
-/// The size on a surface, of `base` and all ingredients that follow it. `divisions`: those of the model.
+/// The size on a surface, of `base` and all ingredients that follow it. `divisions` belong to the model.
 /// `cut`: null, or the model is the part.
 WantedSize surface_size(const MeshProblem& problem, const SurfaceModel& model,
                         std::shared_ptr<const SizeField> base, const std::vector<CurveDivision>& divisions,
                         const std::vector<SizeBall>& spots, const CutSurface* cut);
 
-/// Integral of dA/delta^2 over the fine triangles, by their centroids; faces that are images have that of
-/// their masters. `part`: of what, if the triangles are a part of a symmetric model; null: they are all.
+/// Integral of dA/delta^2 over the fine triangles, by their centroids; faces that are images have the
+/// integral of their masters. `part`: of what, if the triangles are a part of a symmetric model; null: they
+/// are all.
 double expected_quads(const Mesh& fine, const SurfaceSize& size, const std::vector<FacePair>& images = {},
                       const CutSurface* part = nullptr);
 

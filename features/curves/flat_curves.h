@@ -7,6 +7,8 @@
 #include "geometry/planar/check_lines.h"
 #include "geometry/planar/curve_pieces.h"
 
+// This header turns planar curves into curves of flat faces. The curves of planar models use it.
+
 namespace delquad {
 
 /// The curves of a planar model as curves of a surface whose faces are flat. Maps are the identity.

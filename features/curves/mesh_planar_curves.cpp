@@ -276,7 +276,7 @@ class CurveMesher {
   }
 
  private:
-  /// Of curves of the model; where there are none, of all cracks.
+  /// Belongs to curves of the model; where there are none, to all cracks.
   std::vector<std::shared_ptr<const Curve>> shapes_of(const std::vector<int>& curves) const {
     std::vector<std::shared_ptr<const Curve>> shapes;
     for (const int c : curves) shapes.push_back(model_.curves[c].shape);
@@ -300,7 +300,7 @@ class CurveMesher {
             has_dangling() ? dangling_curve() : -1};
   }
 
-  /// Of the mesh's points.
+  /// At the mesh's points.
   std::vector<CurvePlace> places() const {
     std::vector<CurvePlace> places(chain_.nodes.size());
     for (const CurvePiece& piece : pieces_)
@@ -386,8 +386,8 @@ class CurveMesher {
                       prefix(), total, max_edges));
   }
 
-  /// The model's curves, then those of pieces where several lie on each other, which have all their names.
-  /// Names of curves that are in no loop come first, as most formats hold one name.
+  /// The model's curves, then the curves of pieces where several lie on each other, which have all their
+  /// names. Names of curves that are in no loop come first, as most formats hold one name.
   void name_curves() {
     const auto loops = loops_of_model_curves(model_, chain_);
     curves_ = curve_entities(model_);

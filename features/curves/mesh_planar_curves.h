@@ -8,6 +8,8 @@
 #include "features/curves/agreement.h"
 #include "geometry/planar/planar_model.h"
 
+// This header divides the curves of planar models into edges. The preparation and metrics use it.
+
 namespace delquad {
 
 struct CurveMeshOptions {

@@ -94,8 +94,8 @@ std::vector<int> curves_at_fault(const PatchBoundary& boundary, const std::vecto
 }
 
 /// `steps`: what agreement and the search for nodes that face each other may take. `mapped`: the patches that
-/// are to be grids, as `spec` asks; see grid_counts(). `even`: those of the same demands, which depend on
-/// nothing else; none: they are found, but where there are grids.
+/// are to be grids, as `spec` asks; see grid_counts(). `even`: even counts of the same demands, which depend
+/// on nothing else; none: they are found, but where there are grids.
 PatchBoundaries place_boundaries(const SurfaceModel& model, const SurfaceCurves& curves,
                                  const AcrossView& across, const CurveDemands& wanted,
                                  const SurfaceSize& size, const MatchingSolver& solver,
@@ -234,7 +234,7 @@ class Capping {
           SurfaceDomain& domain)
       : model_(model), curves_(curves), demands_(demands), domain_(domain) {}
 
-  /// Caps that leave no area, as where two boundaries are nearer than an edge, are not made, nor those that
+  /// Caps that leave no area are not made, as where two boundaries are nearer than an edge. Nor are caps that
   /// take nodes of periodic curves away.
   void cap(int p) {
     SurfacePatch& patch = domain_.patches[p];

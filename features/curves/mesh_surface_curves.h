@@ -8,11 +8,13 @@
 #include "features/periodic/periodic.h"
 #include "geometry/patches/surface_domain.h"
 
+// This header divides the curves of surfaces into edges. The preparation uses it.
+
 namespace delquad {
 
 /// Meshes the curves of a flattened model once each and gives every patch its boundary. All patches are even
-/// wherever that is possible at all; where a boundary polygon would cross itself in the parameter plane, the
-/// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd;
+/// wherever that is possible at all. Where a boundary polygon would cross itself in the parameter plane, the
+/// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd.
 /// `asked` is the size that these refer to (null: `size` itself, which may be less beside such curves).
 /// Curves of `divisions` get these edges, and the second sides of `periodic` the images of the nodes of the
 /// first: faces that are images have no patches, see `boundary.periodic_faces`. Patches that become grids, as

@@ -85,7 +85,7 @@ std::vector<LocalSize> fine_spots(const MeshProblem& problem, const std::vector<
   return fine;
 }
 
-/// Those that are given or found.
+/// Directions that are given or found.
 std::vector<SymmetryPlane> planes_of(const MeshProblem& problem, const PlanarModel& model) {
   if (!is_symmetric(problem)) return {};
   const std::optional<Symmetry> symmetry = find_symmetry(model, problem.symmetry);

@@ -9,29 +9,32 @@
 #include "geometry/mesh/entity_names.h"
 #include "geometry/surface/triangulated_model.h"
 
+// This header makes surface models of problems. The preparation uses it.
+
 namespace delquad {
 
 /// The surface model of a problem with a TriangleModel, CadModel or ExampleModel, with its compounds. Throws
-/// InputError for models that cannot be read, for options that have no effect on them, and for compounds of
-/// faces that do not exist or do not hang together. `kept`: where features of triangles stay, and what is
-/// small of any model. `cad`: what is read of a file of CAD, without compounds, is left there, and is not
-/// read again.
+/// InputError for models that cannot be read, and for options that have no effect on them. So it does for
+/// compounds of faces that do not exist or do not hang together. `kept`: where features of triangles stay,
+/// and the small parts of any model. `cad`: the contents of a file of CAD, without compounds, are left there,
+/// and are not read again.
 SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept,
                           std::shared_ptr<const SurfaceModel>& cad);
 SurfaceModel make_surface(const MeshProblem& problem);
 
-/// What is smaller is left out: `ignore_below`, or what the criteria call too short, of the least size at
-/// these points; 0: nothing. Throws InputError where that is not known.
+/// Returns the length below which parts are left out: `ignore_below`, or the criteria's least length, of the
+/// least size at these points; 0: none. Throws InputError where that is not known.
 double length_of_small(const MeshProblem& problem, std::span<const Vec3> points);
 
 /// Throws InputError for names that are to stay, and that none has.
 KeptNames names_that_stay(const MeshProblem& problem, const std::vector<Entity>& curves,
                           const std::vector<Entity>& regions);
 
-/// The model with curves shorter than a part of the size (`curves.join_below`) made one with those that they
-/// continue, see merge_short_curves(): no node is needed where these meet, and so many short edges would make
-/// as many rows of quads end. Sizes that vary count where they are least. Curves with names stay, and those
-/// that the problem names by their numbers; all stay where sides are periodic or corners of grids are told.
+/// The model with curves shorter than a part of the size (`curves.join_below`) made one with their
+/// continuations, see merge_short_curves(). No node is needed where these meet, and so many short edges would
+/// make as many rows of quads end. Sizes that vary count where they are least. Curves with names stay, and
+/// curves that the problem names by their numbers. All stay where sides are periodic or corners of grids are
+/// told.
 SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model);
 
 }  // namespace delquad

@@ -18,8 +18,8 @@
 namespace delquad {
 namespace {
 
-/// Curves that face a divided one want as many edges where that is no more than this times what they want, or
-/// that of them.
+/// Curves that face a divided one want as many edges, if this is within such a factor of the number that they
+/// want, either way.
 constexpr double kMostChange = 1.45;
 
 /// Length from a chain's beginning to each of its points.

@@ -10,6 +10,8 @@
 #include "geometry/patches/surface_domain.h"
 #include "geometry/planar/curve_pieces.h"
 
+// This header gives curves the numbers of edges that a problem asks for. Curves and symmetry use it.
+
 namespace delquad {
 
 /// Gives the curves of each division their nodes. Throws InputError for names that no curve has, for too few
@@ -17,8 +19,8 @@ namespace delquad {
 void divide_pieces(const PlanarModel& model, const std::vector<CurveDivision>& divisions,
                    std::vector<CurvePiece>& pieces);
 
-/// Of each piece of a curve the places of its nodes, as CurveNode::s, ascending, both ends included; empty
-/// where no division names its curve. Throws InputError as divide_pieces().
+/// Returns for each piece of a curve the places of its nodes, as CurveNode::s, ascending, both ends included;
+/// empty where no division names its curve. Throws InputError as divide_pieces().
 std::vector<std::vector<double>> divide_chains(const Mesh& fine, const std::vector<CurveChain>& chains,
                                                const std::vector<CurveDivision>& divisions);
 
@@ -44,9 +46,9 @@ std::shared_ptr<const SizeField> as_divided(std::shared_ptr<const SizeField> siz
 std::shared_ptr<const SizeField> as_divided(std::shared_ptr<const SizeField> size, const SurfaceModel& model,
                                             const std::vector<CurveDivision>& divisions);
 
-/// The nodes of a curve that is cut into pieces of these lengths: of each piece the lengths from its
-/// beginning to its nodes, ascending, both ends included. Ends of pieces are nodes already, and count as the
-/// nearest of the wanted ones. Throws InputError for fewer edges than pieces; `label` is the curve's.
+/// The nodes of a curve that is cut into pieces of these lengths. For each piece these are the lengths from
+/// its beginning to its nodes, ascending, both ends included. Ends of pieces are nodes already, and count as
+/// the nearest of the wanted ones. Throws InputError for fewer edges than pieces; `label` is the curve's.
 std::vector<std::vector<double>> division_places(const CurveDivision& division,
                                                  const std::vector<double>& lengths,
                                                  const std::string& label);

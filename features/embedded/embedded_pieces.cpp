@@ -106,7 +106,7 @@ constexpr int kDirections = 8;  // of a line
 constexpr double kClearance = 0.6, kAside = 0.4;
 constexpr double kShorter = 0.7, kShortest = 1e-3;
 
-/// Everything that a whisker must keep away from.
+/// Everything that a dangling curve must keep away from.
 class Surroundings {
  public:
   Surroundings(const std::vector<CurveSpan>& curves, const std::vector<Vec2>& points)

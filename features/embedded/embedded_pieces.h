@@ -9,15 +9,17 @@
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/planar/curve_span.h"
 
+// This header places points and curves inside of planar regions. Curves and given meshes use it.
+
 namespace delquad {
 
 /// Whether one of these curves of the model is a crack.
 bool is_crack(const PlanarModel& model, const std::vector<int>& curves);
 
-/// A point that stands alone in a region becomes a node because an edge leaves it. The ends of these edges,
-/// one for each of `points`: about as long as `sizes`, shorter where curves or other points are near, and
-/// away from what is next. Throws InputError, naming the point, where there is no room for a thousandth of
-/// its size.
+/// A point that stands alone in a region becomes a node because an edge leaves it. Returns the ends of these
+/// edges, one for each of `points`. They are about as long as `sizes`, shorter where curves or other points
+/// are near, and away from what is next. Throws InputError, naming the point, where there is no room for a
+/// thousandth of its size.
 std::vector<std::array<Vec2, 2>> dangling_ends(const std::vector<CurveSpan>& curves,
                                                const std::vector<Vec2>& points,
                                                const std::vector<double>& sizes,

@@ -34,7 +34,7 @@ namespace delquad {
 namespace {
 
 /// Parts of the model's diagonal: how far a line may be from the surface, and how near to a vertex or an edge
-/// it goes through it.
+/// it runs.
 constexpr double kFit = 1e-3, kSnap = 2e-7;
 /// Part of the size: the least distance of two points.
 constexpr double kApart = 1e-3;
@@ -122,11 +122,12 @@ class SmoothNormals {
 
 constexpr int kDanglingDirections = 8;  // of a line
 constexpr double kDanglingShorter = 0.7, kShortestDangling = 1e-3;
-/// Places along a whisker, by their part of its length, keep away from all else by this part of their way.
+/// Places along a dangling curve, by their part of its length, keep away from all else by this part of their
+/// way.
 constexpr int kDanglingPlaces = 6;
 constexpr double kDanglingClearance = 0.6;
 
-/// Whether a whisker from x, at its place next to a segment, keeps away from that: it crosses none.
+/// Whether a dangling curve from x, at its place next to a segment, keeps away from that: it crosses none.
 bool keeps_away(const Vec3& x, const Vec3& end, const Vec3& a, const Vec3& b) {
   const Vec3 u = end - x, w = b - a, from = x - a;
   const double uu = dot(u, u), ww = dot(w, w), uw = dot(u, w), area = uu * ww - uw * uw;
@@ -140,7 +141,8 @@ bool keeps_away(const Vec3& x, const Vec3& end, const Vec3& a, const Vec3& b) {
 /// Where the two edges at a point that stands alone on a surface may end.
 class DanglingEdges {
  public:
-  /// Whiskers keep away from the lines that the mesh has now and from the other points (indices into it).
+  /// Dangling curves keep away from the lines that the mesh has now and from the other points (indices into
+  /// it).
   DanglingEdges(const Mesh& mesh, const std::vector<int>& points) {
     for (const auto& [a, b] : mesh.lines) segments_.push_back({mesh.points[a], mesh.points[b]});
     first_point_ = segments_.size();
@@ -150,8 +152,8 @@ class DanglingEdges {
     tree_ = BoxTree<Vec3>(boxes);
   }
 
-  /// Ends of edges from the point about as long as `size`, shorter where anything is near; none where there
-  /// is no room for a thousandth of it. `normal` at the point: any length; `onto`: the nearest place of the
+  /// Ends of edges from the point about as long as `size`, shorter where anything is near. None if there is
+  /// no room for a thousandth of it. `normal` at the point: any length; `onto`: the nearest place of the
   /// surface.
   std::optional<std::array<Vec3, 2>> ends(std::size_t point, const Vec3& normal, double size,
                                           const std::function<Vec3(const Vec3&)>& onto) {
@@ -273,7 +275,7 @@ class Imprinter {
         {"lines of the file that are left out", 0, line.where + " is left out: it " + what});
   }
 
-  /// The nodes of its points, those of a line without repetition; none where it does not fit.
+  /// The nodes of its points, without repetition for a line; none where it does not fit.
   std::optional<std::vector<int>> place(const LooseLine& line) {
     for (const Vec3& x : line.points) {
       const double distance = norm(true_place(places_.find(x, editor_)) - x);

@@ -6,6 +6,8 @@
 
 #include "geometry/surface/surface_editor.h"
 
+// This header follows a plane over a triangulation. Imprinted lines use it.
+
 namespace delquad {
 
 /// A place on a triangulation that a plane goes through: a vertex (second < 0) or the inside of the edge

@@ -167,7 +167,7 @@ void add_walls(const Section& section, const LayeredPoints& layered, Mesh& resul
     }
 }
 
-/// Faces where the sweep starts and ends, after those of the walls.
+/// Faces where the sweep starts and ends, after the faces of the walls.
 void add_caps(const Section& section, const LayeredPoints& layered, Mesh& result) {
   const Levels at(section, layered);
   FreeTags tags(result.regions);

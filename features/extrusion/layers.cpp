@@ -211,8 +211,8 @@ namespace {
 
 /// Normals of which the products differ from 1 by less are one: what rounding makes of flat surfaces.
 constexpr double kSameNormal = 1e-12;
-/// Two planes fold back where the cosine between their normals is nearer to -1: dihedral angles below two
-/// degrees, whose corners would move by more than 57 times the thickness.
+/// Two planes fold back where the cosine between their normals is nearer to -1. These are dihedral angles
+/// below two degrees, whose corners would move by more than 57 times the thickness.
 constexpr double kFoldsBack = 6e-4;
 /// Part of the largest eigenvalue of sum n n^T. Smaller eigenvalues are noise of a smooth surface, whose
 /// normals differ by less than about ten degrees.

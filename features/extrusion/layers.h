@@ -6,6 +6,8 @@
 #include "delquad/mesh.h"
 #include "features/extrusion/section.h"
 
+// This header moves the points of a section to layers. Sweeps use it.
+
 namespace delquad {
 
 /// The section's points, once for each layer of nodes, which follow each other.
@@ -22,10 +24,10 @@ std::vector<double> layer_ends(int number, double growth);
 /// Throws InputError that says what was expected.
 LayeredPoints place_layers(const Section& section, const SweepPath& path, const SweepLayers& layers);
 
-/// For each point the way that it goes while all quads around move along their normals by 1: m with m . n = 1
-/// for each normal n, solved exactly for up to two of them, else by least squares, in which directions that
-/// hardly any normal has count as none. Throws InputError with the place where quads fold back on each other,
-/// and where quads touch in a point only.
+/// For each point the way that it goes while all quads around move along their normals by 1. It is m with m .
+/// n = 1 for each normal n, solved exactly for up to two of them, else by least squares. There, directions
+/// that hardly any normal has count as none. Throws InputError with the place where quads fold back on each
+/// other, and where quads touch in a point only.
 std::vector<Vec3> offset_directions(const Section& section);
 
 }  // namespace delquad

@@ -36,12 +36,12 @@ Vec3 unit_across(const Vec3& v);
 /// Throws InputError unless a line has two points, no two of which in a row are the same, and does not close.
 void check_open_line(const std::vector<Vec3>& line);
 
-/// Points of a polyline at parts of its length, from 0 to 1; for each corner, where segments turn by 40
+/// Points of a polyline at parts of its length, from 0 to 1. For each corner, where segments turn by 40
 /// degrees or more, the nearest of them moves there. Throws InputError where there is none for a corner.
 std::vector<Vec3> points_at_lengths(const std::vector<Vec3>& line, const std::vector<double>& parts);
 
 /// A section that moves along a polyline without a turn about it. Between two points of the line it keeps its
-/// profile, seen along the segment; at the points it lies at right angles to the tangents there. So it stays
+/// profile, seen along the segment. At the points it lies at right angles to the tangents there. So it stays
 /// as it is along a circle, and legs that meet at a corner are mitred.
 class MovingSection {
  public:

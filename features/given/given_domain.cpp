@@ -74,7 +74,7 @@ void turn_over(const GivenMesh& given, std::span<const HalfEdge> sides, Polygons
   });
   const Turned turned = turn_to_agree(polygons.corners.size(), neighbours);
   if (turned.clash >= 0)
-    throw InputError(given.source + ": the elements have no common side, as those of a Moebius strip");
+    throw InputError(given.source + ": the elements have no common side, as in a Moebius strip");
   for (const std::vector<int>& piece : turned.pieces) {
     double sum = 0;
     for (const int e : piece)
@@ -172,7 +172,7 @@ class PatchMaker {
       }
   }
 
-  /// `node_of`: of each point of the mesh that of the boundary.
+  /// `node_of`: the boundary's point for each point of the mesh.
   void add_patches(const std::map<std::pair<int, int>, int>& curve_of, const std::vector<int>& node_of,
                    GivenDomain& result) {
     for (std::size_t e = 0; e < patch_.size(); ++e) {
@@ -366,7 +366,8 @@ bool runs_round_one_piece(const PatchBoundary& patch) {
   return outlines == 1;
 }
 
-/// Lines of the mesh that are edges, their points and those of other fences; returns the node of each point.
+/// Lines of the mesh that are edges, with their points and the points of other fences; returns the node of
+/// each point.
 std::vector<int> make_boundary(const GivenMesh& given, std::span<const HalfEdge> sides,
                                const FixedEdges& fences, std::map<std::pair<int, int>, int>& curve_of,
                                GivenDomain& result) {

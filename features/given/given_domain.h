@@ -8,6 +8,8 @@
 #include "delquad/extend.h"
 #include "geometry/planar/planar_model.h"
 
+// This header makes a domain of a given planar mesh. The preparation uses it.
+
 namespace delquad {
 
 /// A planar mesh as a domain, and what its patches hold.

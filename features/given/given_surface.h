@@ -8,6 +8,8 @@
 #include "geometry/patches/surface_domain.h"
 #include "geometry/surface/surface_model.h"
 
+// This header makes a surface of a given mesh in space. The preparation uses it.
+
 namespace delquad {
 
 /// Degrees, as for triangulations.
@@ -26,20 +28,20 @@ struct GivenSurface {
 /// Whether its elements are not all in one plane of constant z.
 bool is_in_space(const Mesh& mesh);
 
-/// Faces end at lines, edges of one element or of more than two, edges between regions and those sharper than
-/// the feature angle (degrees): all nodes there stay, and so does each named point. Throws InputError, naming
-/// places, for what is not conforming: hanging nodes, elements that are there twice, have a corner twice or
-/// no area; and for surfaces with one side only. Quads that are inverted, folded or without area are mended
-/// first, as far as nodes that do not stay can be moved over the other elements.
+/// Faces end at lines, edges of one element or of more than two, edges between regions and edges sharper than
+/// the feature angle (degrees). All nodes there stay, and so does each named point. Throws InputError, naming
+/// places, for surfaces with one side only, and for meshes that are not conforming. These have hanging nodes,
+/// or elements that are there twice, have a corner twice or no area. Quads that are inverted, folded or
+/// without area are repaired first, by moving nodes that need not stay over the other elements.
 GivenSurface make_given_surface(const GivenMesh& given, double feature_angle);
 
 /// Returns the elements of a patch, with points of its boundary first. `inside` receives the places of the
 /// other points.
 QuadPatch elements_within(const GivenSurface& surface, const SurfacePatch& patch, std::vector<Vec3>& inside);
 
-/// The domain of a model whose curves are kept point by point: all their points are nodes, and no stage moves
-/// those that are on no cut. The k-th point of a patch's boundary is the vertex of its map from which the
-/// k-th side of its outline begins. Warnings name the patches with an odd boundary.
+/// The domain of a model whose curves are kept point by point: all their points are nodes. No stage moves a
+/// node that is on no cut. The k-th point of a patch's boundary is the vertex of its map from which the k-th
+/// side of its outline begins. Warnings name the patches with an odd boundary.
 SurfaceDomain make_kept_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size);
 
 }  // namespace delquad

@@ -110,7 +110,7 @@ Interfaces edges_between_regions(const Mesh& mesh) {
   return interfaces;
 }
 
-/// The lines of the mesh, and those that it lacks where they part its regions: writers leave them out for
+/// The lines of the mesh, and the lines that it lacks where they part its regions. Writers leave them out for
 /// programs that take none inside a mesh.
 Mesh lines_of(const Mesh& mesh, const std::string& source) {
   Mesh lines;

@@ -6,11 +6,13 @@
 #include "delquad/model.h"
 #include "geometry/planar/planar_model.h"
 
+// This header names the regions of line meshes. The preparation uses it.
+
 namespace delquad {
 
 /// The domain that the lines of a mesh bound, its regions named as the file names surfaces, where that is
 /// plain: by the elements along a face's boundary; else by the surface that the file lists with just these
-/// curves; else, for a single region, by the only surface group that has a name. A face with such a surface
+/// curves. Else, for a single region, by the only surface group that has a name. A face with such a surface
 /// is no hole. Named points without lines become nodes (see dangling_ends()) where there is a size, else they
 /// are left out.
 PlanarDomain make_named_domain(const Mesh& mesh, const DeclaredSurfaces& surfaces, const std::string& source,

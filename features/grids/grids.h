@@ -90,7 +90,7 @@ std::vector<MappedFace> find_surface_grids(const MappedSpec& spec, const Mesh& f
                                            const SurfaceCurves& curves, const CurveDemands& wanted);
 
 /// Numbers of edges of chains so that mapped patches have what they need, and the others an even number
-/// around; those for which that cannot be are `odd_patches`. Patches that are not asked for may drop out of
+/// around. Patches for which that cannot be are `odd_patches`. Patches that are not asked for may drop out of
 /// `mapped`. Throws InputError where a named face cannot be a grid.
 std::vector<int> grid_counts(const MappedSpec& spec, const Mesh& fine, const SurfaceCurves& curves,
                              const CurveDemands& wanted, std::vector<MappedFace>& mapped,
@@ -109,11 +109,11 @@ std::vector<MappedPatch> mapped_patches(const std::vector<MappedFace>& mapped, c
                                         const FaceRegions& regions);
 
 /// Gives patches that are to be grids theirs. In the plane, and in the parameter plane of a surface, nodes
-/// come from transfinite interpolation; on a surface also from that in space, each in the nearest point of
-/// the patch, and the one whose quads are better in space in the mean counts. Where it would fold, and of
-/// three sides always, it is smoothed. Patches that were not asked for stay free where that does not pay. On
-/// a planar domain the nodes on the sides of those that were stay from then on. Throws InputError, with the
-/// place, where a named one would fold.
+/// come from transfinite interpolation. On a surface they also come from interpolation in space, each in the
+/// nearest point of the patch. There the grid counts whose quads are better in space in the mean. A grid that
+/// would fold is smoothed, and so is each grid of three sides. Patches that were not asked for stay free
+/// where that does not pay. On a planar domain, the nodes on the sides of requested patches stay from then
+/// on. Throws InputError, with the place, where a named one would fold.
 void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, MeshingSetup& p);
 
 }  // namespace delquad

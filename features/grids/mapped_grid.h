@@ -38,8 +38,8 @@ std::vector<double> ring_layers(const PatchBoundary& boundary, const ParametricS
 bool are_convex(const std::vector<Vec2>& points, const std::vector<std::array<int, 4>>& quads,
                 Vec2* at = nullptr);
 
-/// Moves the points inside until the quads are convex, where that can be, then all together as stage O does,
-/// for shape and lengths; no quad gets inverted.
+/// Moves the points inside until the quads are convex, where that can be. Then moves them all together as
+/// stage O does, for shape and lengths; no quad gets inverted.
 void smooth_grid(QuadPatch& grid, const CrossField& cross, const ParametricSize& size);
 
 /// A grid in the form that a stage leaves.

@@ -105,7 +105,7 @@ class LayerMirror {
     result.quads.second = mesh.quads.size();
   }
 
-  /// With the points in the master's order; those of a mirror image run the other way.
+  /// With the points in the master's order; points of a mirror image run the other way.
   PatchBoundary boundary(const PatchBoundary& master, const PatchImage& image, std::vector<int>* point) {
     PatchBoundary result = master;
     for (std::size_t i = 0; i < master.points.size(); ++i) {
@@ -258,7 +258,7 @@ void drop_unused_nodes(PlanarDomain& domain) {
   keep_nodes(domain, used);
 }
 
-/// All nodes of a wall in the place of its first line, none in that of the others.
+/// All nodes of a wall in the place of its first line, none in the places of the others.
 void add_replaced(const std::vector<std::pair<std::vector<int>, std::vector<int>>>& walls,
                   ReplacedLines& replaced) {
   for (const auto& [old, nodes] : walls)

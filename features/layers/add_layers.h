@@ -42,16 +42,16 @@ struct LayerReport {
   std::vector<int> patches;  ///< those that changed
 };
 
-/// Adds quads to domain.boundary, along the curves that the layers name, and takes what these cover from the
+/// Adds quads to domain.boundary, along the curves that the layers name. It takes the covered parts from the
 /// patches, so that the edges of the last layers become their boundary. The patches as they were are in
 /// domain.outlines. Nodes of curves on which layers end are placed anew, in all patches that have them and on
-/// periodic curves; where there are such, patches get even numbers of edges. Mirror images of patches get
-/// those of their layers. Throws InputError for layers that cannot be, and for more than `max_quads`.
+/// periodic curves. If there are such, patches get even numbers of edges. Mirror images of patches get the
+/// layers of their masters. Throws InputError for layers that cannot be, and for more than `max_quads`.
 LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, double max_quads);
 
 /// Puts the layers of a problem into its domain, and makes the background mesh of the rest. Sizes become less
-/// beside edges that are much shorter than these, and warnings tell where layers had to be lower, and where
-/// the rest of the mesh is far coarser than they are.
+/// beside edges that are much shorter than these. Warnings tell where layers had to be lower, and where the
+/// rest of the mesh is far coarser than they are.
 void put_layers(const MeshProblem& problem, PlanarDomain& domain, MeshingSetup& p);
 
 /// Which quads of a mesh are of layers: in each region the first ones.

@@ -27,7 +27,7 @@ constexpr double kGap = 0.5;
 /// A segment that fronts must not touch.
 struct Segment {
   Vec2 a, b;
-  std::array<int, 2> points;              ///< of the patch, to which it belongs: those of a point may touch
+  std::array<int, 2> points;              ///< of the patch, to which it belongs: columns of a point may touch
   std::array<int, 2> walls = {-1, -1};    ///< on which its points lie
   std::array<int, 2> free_of = {-1, -1};  ///< at whose ends these stand free
   bool is_of_layer = true;

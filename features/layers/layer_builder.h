@@ -7,6 +7,8 @@
 
 #include "features/layers/layer_walls.h"
 
+// This header builds the quads of layers of a patch. The other files of this folder use it.
+
 namespace delquad {
 
 /// A patch with its layers.

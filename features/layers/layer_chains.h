@@ -26,12 +26,12 @@ struct CurveLayers {
   int at(int curve, int region) const;
 };
 
-/// Throws InputError for names that no curve or region has, for curves with several layers on one side, and
-/// for those without a region, with the same one on both sides or with none of those that were named.
+/// Throws InputError for names that no curve or region has, and for curves with several layers on one side.
+/// So it does for curves without a region, with the same one on both sides or with none of the named regions.
 CurveLayers layers_of_curves(const PlanarDomain& domain, std::span<const LayerSpec> specs);
 
-/// A chain of boundary edges between corners, on which nodes may be placed anew: on its curve, or on the
-/// edges themselves where these were given.
+/// A chain of boundary edges between corners, on which nodes may be placed anew. Places are on its curve, or
+/// on the edges themselves where these were given.
 class WallTrack {
  public:
   /// `params`: of the points on the curve; a null curve: the edges.
@@ -65,8 +65,9 @@ class BoundaryGraph {
   bool is_image(int patch) const { return is_image_[static_cast<std::size_t>(patch)] != 0; }
   /// Whether the edge lies between a patch and its mirror image.
   bool is_on_axis(int a, int b) const;
-  /// Whether a piece of the boundary ends there: at corners of more than kLayerCorner, where curves meet or
-  /// other curves follow, at named points and cracks, and where that is so at a periodic or mirror image.
+  /// Whether a piece of the boundary ends there. It ends at corners of more than kLayerCorner, where curves
+  /// meet or other curves follow, and at named points and cracks. It also ends where that is so at a periodic
+  /// or mirror image.
   bool stops(int node) const { return stops_[static_cast<std::size_t>(node)] != 0; }
   bool is_on_crack(int node) const { return on_crack_[static_cast<std::size_t>(node)] != 0; }
 
@@ -108,7 +109,7 @@ struct LayerWall {
   bool is_axis = false;                 ///< a mirror image of the patch lies behind it
   /// Whether layers of some patch end at its first, at its last point.
   std::array<bool, 2> is_taken = {false, false};
-  int id = -1;               ///< of the wall among those of all patches, see LayerWalls
+  int id = -1;               ///< of the wall among the lines of all patches, see LayerWalls
   bool is_reversed = false;  ///< against that one
 
   /// How far nodes at the heights of layers may reach, from one end.

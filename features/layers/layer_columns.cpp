@@ -20,7 +20,7 @@ constexpr double kWidestWall = 150 * kDegree;
 /// kLongFront times as long as edges of the curve.
 constexpr double kFanQuad = 100 * kDegree, kThinFanQuad = 45 * kDegree;
 constexpr double kLongFront = 1.5;
-/// The diagonal of such a quad, by its height; that of a square.
+/// The diagonal of such a quad, by its height; the diagonal of a square.
 constexpr double kLongestDiagonal = std::numbers::sqrt2;
 /// Columns beside a corner lean towards its bisector, or wall, up to so many times as far as that reaches.
 constexpr double kLeanReach = 3;
@@ -68,7 +68,7 @@ int LayerColumns::layers_between(int c, int a, int b) const {
   return columns[a].point == columns[b].point ? layers_at(c, columns[a].at) : layers_on(c, columns[a].at);
 }
 
-/// Beyond the last of fewer layers those of more go on as they are on their side.
+/// Beyond the last of fewer layers, further layers go on as they are on their side.
 double LayerColumns::height(int c, int k, int layer) const {
   if (layer == 0) return 0;
   const auto [a, b] = chain(c).specs_at(k);

@@ -311,8 +311,8 @@ void LayerWalls::count_edges() {
   const PatchLayers& patch = patches_[odd_patches()[0]];
   const Vec2 at = domain_.patches[patch.patch].points[0];
   throw InputError(
-      fmt::format("{}: layers leave an odd number of edges around the region at {}: expected an "
-                  "even number of layers, or ends of them on the boundary of the domain",
+      fmt::format("{}: layers leave an odd number of edges around the region at {}: expected an even number "
+                  "of layers, or ends on the boundary",
                   specs_[0].where, show_point(at)));
 }
 
@@ -328,7 +328,7 @@ std::vector<std::size_t> LayerWalls::odd_patches() const {
       int last = 0;  // layers of the pair before
       columns.for_each_pair(c, [&](int a, int b) {
         const int n = columns.layers_between(c, a, b);
-        // Steps from one number to another; those of a closed chain add up to an even number.
+        // Steps from one number to another; steps of a closed chain add up to an even number.
         edges += 1 + static_cast<std::size_t>(a == 0 || chain.is_closed ? 0 : std::abs(n - last));
         last = n;
       });

@@ -20,8 +20,8 @@ struct PatchLayers {
   LayerColumns columns;
 };
 
-/// The layers of all patches that have some, or walls at which those of others end, in the patches' order;
-/// none of mirror images. Throws InputError as find_layer_chains(), and where layers end on a curve that has
+/// The layers of all patches that have some, or walls at which other layers end, in the patches' order; none
+/// of mirror images. Throws InputError as find_layer_chains(), and where layers end on a curve that has
 /// layers on its other side.
 std::vector<PatchLayers> find_patch_layers(const PlanarDomain& domain, std::span<const LayerSpec> specs,
                                            const CurveLayers& layers, const BoundaryGraph& graph,

@@ -141,8 +141,8 @@ class MetricMesher {
           is_metric(spec_.limits.aspect > 0 ? limited(m, {.aspect = spec_.limits.aspect}) : m))
         continue;
       throw InputError(fmt::format(
-          "{}: the metric is [{:.6g}, {:.6g}, {:.6g}] (m11, m12, m22) at {}: expected a finite, "
-          "positive definite tensor whose lengths differ by a factor of less than {:g} (or a largest aspect)",
+          "{}: the metric is [{:.6g}, {:.6g}, {:.6g}] (m11, m12, m22) at {}: expected a finite, positive "
+          "definite tensor. Its lengths may differ by a factor below {:g}, or give a largest aspect",
           spec_.where, m.xx, m.xy, m.yy, show_point(points[i]), kMostAspect));
     }
     return metric;

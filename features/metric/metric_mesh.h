@@ -7,6 +7,8 @@
 #include "delquad/fields.h"
 #include "geometry/planar/planar_model.h"
 
+// This header triangulates a domain in its metric. The flat plane of a metric is made from this.
+
 namespace delquad {
 
 /// A side of triangles on a curve.

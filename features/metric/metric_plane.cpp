@@ -107,7 +107,7 @@ void check_metric(const MeshProblem& problem) {
     refuse("a size does", size.where);
   const auto kind = problem.cross.kind.value_or(CrossKind::kBoundary);
   if (kind == CrossKind::kField || kind == CrossKind::kGradient)
-    refuse("given directions and those of a gradient do", problem.cross.where);
+    refuse("given directions and directions of a gradient do", problem.cross.where);
   const auto* model = std::get_if<PlanarModel>(&problem.model);
   const MetricSpec& metric = problem.metric;
   if (model == nullptr ? metric.in_space == nullptr && !(metric.chord > 0) : metric.function == nullptr)
@@ -479,8 +479,8 @@ MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings)
   if (const ShortenedLength& length = made.shortened;
       problem.metric.complexity == 0 && length.from > kReportedFactor * length.to)
     warnings.emplace_back(fmt::format(
-        "{}: the metric is followed with shorter lengths where it bends, {:.3g} in place of {:.3g} at {}: "
-        "straight sides would stray there by more than a fifth of the length across",
+        "{}: the metric is followed with shorter lengths where it bends, {:.3g} in place of {:.3g} at {}. "
+        "Straight sides would stray there by more than a fifth of the length across",
         problem.metric.where, length.to, length.from, show_point(length.at)));
   if (const FlatQuality& quality = shared->quality; quality.sigma_95 > kPoorSigma)
     warnings.emplace_back(
@@ -522,10 +522,10 @@ int count_bad_quads(const MetricAt& metric, const std::string& label, const Mesh
   const auto worst = std::ranges::min_element(etas);
   Vec3 middle;
   for (const int v : mesh.quads[worst - etas.begin()]) middle = middle + 0.25 * mesh.points[v];
-  warnings.emplace_back(fmt::format(
-      "{}: {} of {} quads are poor in the metric (an angle below 10 or above 170 degrees), the worst at {} "
-      "(eta {:.2g}): a gradation helps where the metric changes fast",
-      label, bad, etas.size(), show_point(middle), *worst));
+  warnings.emplace_back(
+      fmt::format("{}: {} of {} quads are poor in the metric (an angle below 10 or above 170 degrees), the "
+                  "worst at {} (eta {:.2g}). A gradation helps where the metric changes fast",
+                  label, bad, etas.size(), show_point(middle), *worst));
   return bad;
 }
 

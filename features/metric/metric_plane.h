@@ -55,8 +55,8 @@ struct MetricPlane {
 };
 
 /// The problem in the flat plane of its metric, which is its size then. Where the metric has no directions,
-/// it is a size. Throws InputError for a metric that cannot be followed, see resolve_metric(), for a domain
-/// that cannot be laid flat in one piece, and for what does not go with a metric.
+/// it is a size. Throws InputError for a metric that cannot be followed, see resolve_metric(), and for a
+/// domain that cannot be laid flat in one piece. So it does for settings that do not go with a metric.
 MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings);
 
 /// Refuses numbers out of range and what does not go with a metric, in an InputError.
@@ -65,7 +65,7 @@ void check_metric(const MeshProblem& problem);
 /// The pull to an axis of a metric that has this direction in a flat plane.
 CrossPull pull_to(Vec2 along, const MetricAxes& axes);
 
-/// The true curves of those of the flat model; what was made of several of these has none.
+/// The true curves behind the curves of the flat model; a curve that was made of several has none.
 std::vector<std::vector<std::shared_ptr<const Curve>>> true_curves(
     const MetricPlane& plane, std::vector<std::vector<std::shared_ptr<const Curve>>> flat);
 

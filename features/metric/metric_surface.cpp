@@ -35,7 +35,7 @@ CrossPull pull_at(const SurfaceSetup& surface, int patch, Vec2 u, int& hint) {
   const TangentMetric metric = log_mean(corners, b);
   const MetricAxes axes = axes_of(metric.m);
   const Vec3 along = metric.in_space({std::cos(axes.theta), std::sin(axes.theta)});
-  // In the terms of two sides of the triangle, which are those of its image.
+  // In the terms of two sides of the triangle, which are the sides of its image.
   const Vec3 p = x[1] - x[0], q = x[2] - x[0], area = cross(p, q);
   const double of_p = dot(cross(along, q), area), of_q = dot(cross(p, along), area);
   const auto& at = map.flat.points;

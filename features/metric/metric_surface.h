@@ -8,8 +8,9 @@
 #include "geometry/patches/meshing_setup.h"
 #include "metrics/anisotropic_measures.h"
 
-// A surface with a metric is measured by it where it is laid flat: charts by the lengths of their sides,
-// curves by theirs. All else happens in the flat patches, whose size is the metric's own.
+// This header has metrics of surfaces, which the preparation uses. A surface with a metric is measured by it
+// where it is laid flat: charts by the lengths of their sides, curves by theirs. All else happens in the flat
+// patches, whose size is the metric's own.
 
 namespace delquad {
 

@@ -6,11 +6,14 @@
 #include "delquad/model.h"
 #include "geometry/surface/surface_model.h"
 
+// This header gives names to faces and curves. The input of surfaces uses it.
+
 namespace delquad {
 
 /// Gives faces and curves the names that are asked for, beside those that they have, in the order of the
-/// list: what is named first can be found by its name later. Throws InputError for a part that nothing fits,
-/// for numbers that no face or curve has, and where two are as near to a place as each other.
+/// list: a part that is named first can be found by its name later. Throws InputError for a part that nothing
+/// fits, and for numbers that no face or curve has. So it does where two are as near to a place as each
+/// other.
 void name_parts(const std::vector<NamedPart>& parts, SurfaceModel& model);
 
 }  // namespace delquad

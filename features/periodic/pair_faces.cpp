@@ -18,7 +18,8 @@ namespace delquad {
 namespace {
 
 /// Chords of a surface that bends by an angle from triangle to triangle are off by this part of angle times
-/// side, at most: a sixth by the circle around an equilateral triangle, over the distance of two middles.
+/// side, at most. It is a sixth by the circle around an equilateral triangle, over the distance of two
+/// middles.
 constexpr double kChordPart = 0.3;
 
 /// How far something is, and how far it may be.

@@ -8,11 +8,13 @@
 
 #include "features/periodic/periodic.h"
 
+// This header pairs faces and their lines. Periodic sides of surfaces use it.
+
 namespace delquad {
 
-/// To each face of `from` its image among those of `to`. Throws InputError where there is none, and where the
-/// two are apart: by more than 1e-6 of the model's diagonal, and on triangulations by more than chords of one
-/// surface may be.
+/// To each face of `from` its image among the faces of `to`. Throws InputError where there is none, and where
+/// the two are too far apart. The limit is 1e-6 of the model's diagonal, and on triangulations the distance
+/// that chords of one surface may have.
 std::vector<FacePair> pair_faces(const SurfaceModel& model, const std::vector<int>& from,
                                  const std::vector<int>& to, const PeriodicPair& pair);
 
@@ -30,10 +32,10 @@ struct PairedLines {
   std::vector<int> from, to;
   PeriodicPair of;  ///< who asked for it
 };
-/// How many pairs there are: first those of curves, then those of faces.
+/// How many pairs there are: first the pairs of curves, then the pairs of faces.
 std::size_t n_pairs(const PeriodicSides& sides);
-/// Of the n-th pair; of faces the lines around and in them. Curves from `n_curves` on are cuts, and do not
-/// count.
+/// Returns the n-th pair; for faces the lines around and in them. Curves from `n_curves` on are cuts, and do
+/// not count.
 PairedLines paired_lines(const Mesh& fine, const PeriodicSides& sides, std::size_t pair,
                          std::size_t n_curves);
 

@@ -9,7 +9,8 @@
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/surface/flatten.h"
 
-/// Sides that are images of others, with the same nodes: what is called for it, in this order.
+/// This header has periodic sides, which have the same nodes. The preparation calls its functions in this
+/// order.
 namespace delquad {
 
 /// A face that gets the mesh of another, moved.
@@ -26,14 +27,13 @@ struct PeriodicSides {
   bool empty() const { return curves.empty() && faces.empty(); }
 };
 
-/// What periodic sides of a surface model are: faces where both names are those of faces, else curves. Throws
-/// InputError for names that nothing has, for faces that do not match and for those of two pairs.
+/// The periodic sides of a surface model: faces where both names belong to faces, else curves. Throws
+/// InputError for names that nothing has, for faces that do not match and for faces of two pairs.
 PeriodicSides find_periodic_sides(const SurfaceModel& model, const std::vector<PeriodicPair>& asked,
                                   std::vector<Warning>& warnings);
 
-/// Flattens all faces but those that are images of others, and sees to it that images of corners are corners,
-/// and that closed curves of pairs have one. Throws InputError where the image of a corner is off the other
-/// side.
+/// Flattens all faces but the images of others. Makes images of corners corners, too, and gives closed curves
+/// of pairs one. Throws InputError where the image of a corner is off the other side.
 Flattening flatten_periodic(SurfaceModel& model, const PeriodicSides& periodic);
 
 /// Pieces of curves on two sides.
@@ -42,7 +42,7 @@ struct PairedChains {
   PeriodicPair of;  ///< who asked for it
 };
 
-/// What is an image on the curves.
+/// The images on the curves.
 struct ChainPairs {
   std::vector<ChainPair> pairs;                  ///< each image once, behind the pair of its master
   std::vector<std::vector<ChainPair>> of_sides;  ///< all of each pair of sides; a piece may be its own image
@@ -62,7 +62,7 @@ std::vector<ChainPair> pair_pieces(const PlanarModel& model, const std::vector<P
                                    const Mesh& lines, const std::vector<CurveChain>& chains, ModelChain& ends,
                                    std::vector<CurvePiece>& pieces);
 
-/// Puts the nodes of images where those of their masters are; both have as many edges.
+/// Puts the nodes of images where the nodes of their masters are; both have as many edges.
 void place_as_masters(const Mesh& fine, const SurfaceCurves& curves,
                       const std::vector<SizeIntegral>& integrals, CurvePlaces& places);
 

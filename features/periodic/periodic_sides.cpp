@@ -14,7 +14,7 @@
 namespace delquad {
 namespace {
 
-/// What a name stands for.
+/// The parts that a name stands for.
 struct NamedSide {
   std::string name;
   std::vector<int> faces, curves;

@@ -5,6 +5,8 @@
 
 #include "delquad/mesher.h"
 
+// This header scales the sizes of a problem. The pipeline uses it for numbers of quads and `refine`.
+
 namespace delquad {
 
 /// The problem, whose files are read, with a size that is `factor` times as large everywhere. Distances stay,

@@ -6,9 +6,11 @@
 #include "delquad/fields.h"
 #include "geometry/planar/planar_model.h"
 
+// This header changes a domain a little by a seed. The preparation uses it.
+
 namespace delquad {
 
-/// Small changes of a domain by a seed, on which a mesh should not depend: how much it does tells which
+/// Small changes of a domain by a seed, on which a mesh should not depend. How much it does tells which
 /// differences between pipelines mean something.
 
 /// The size times 1 +- 3 %, smoothly, over distances of about a tenth of `diagonal`: curves that are meshed

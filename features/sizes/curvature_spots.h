@@ -6,6 +6,8 @@
 #include "features/sizes/fine_spots.h"
 #include "geometry/planar/planar_model.h"
 
+// This header makes sizes by curvature in the plane. The composition of sizes uses it.
+
 namespace delquad {
 
 /// Returns for each curve of the model the requested elements per full turn; 0: none. The request is by its

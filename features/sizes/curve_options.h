@@ -3,6 +3,8 @@
 
 #include "delquad/options.h"
 
+// This header has the options of curves. Curves, the preparation and criteria use it.
+
 namespace delquad {
 
 /// How curves get their edges.

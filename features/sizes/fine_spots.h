@@ -8,6 +8,8 @@
 #include "delquad/fields.h"
 #include "geometry/planar/planar_model.h"
 
+// This header makes sizes small at places. Sizes by name, by curvature and for repairs use it.
+
 namespace delquad {
 
 /// Where nothing else is said, sizes grow by so much per unit length.

@@ -8,10 +8,12 @@
 #include "geometry/patches/meshing_setup.h"
 #include "geometry/planar/planar_model.h"
 
+// This header warns of sizes without effect and of coarse curves. The preparation uses it.
+
 namespace delquad {
 
-/// Fewer edges than this to a full turn of a circle or fillet are said: a hole of six edges has lost 17 % of
-/// its area, one of twelve 5 %.
+/// Fewer edges than this to a full turn of a circle or fillet get a warning. A hole of six edges has lost 17
+/// % of its area, one of twelve 5 %.
 inline constexpr double kFewPerTurn = 12;
 
 /// Tells of each size that was asked for by name and is larger than the size at all of that: smaller ones
@@ -30,8 +32,8 @@ void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain, 
 void warn_of_coarse_turns(const WantedSize& wanted, const SurfaceSetup& surface,
                           std::vector<Warning>& warnings);
 
-/// Tells of the narrowest gap outside of all regions, between curves that do not meet, that is narrower than
-/// a hundredth of the edges there: regions that were meant to lie side by side.
+/// Tells of the narrowest gap outside of all regions, between curves that do not meet. It counts if it is
+/// narrower than a hundredth of the edges there: regions that were meant to lie side by side.
 void warn_of_gaps(const PlanarDomain& domain, std::vector<Warning>& warnings);
 
 }  // namespace delquad

@@ -125,7 +125,7 @@ struct MirrorMatcher::Tables {
             std::min(curve_tolerance[mesh.line_curve[l]], tolerance[face_of(side)]);
   }
 
-  /// Where two whiskers begin, and no other curve is.
+  /// Where two dangling curves begin, and no other curve is.
   void fill_points() {
     std::vector<int> dangling_at(mesh.points.size(), -1);
     std::vector<char> is_single(mesh.points.size(), 0), is_on_curve(mesh.points.size(), 0);

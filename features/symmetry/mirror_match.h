@@ -12,9 +12,9 @@
 
 namespace delquad {
 
-/// A symmetric model's places have their images on it to this part of the model's diagonal; on a
-/// triangulation by so much besides as its triangles may lie off the surface that they stand for. On faces
-/// that are narrow, and on their curves, it is this part of the width.
+/// A symmetric model's places have their images on it to this part of the diagonal of the model. On a
+/// triangulation, the distance of its triangles from the surface is added. On faces that are narrow, and on
+/// their curves, it is this part of the width.
 inline constexpr double kSymmetric = 1e-4, kSymmetricOfWidth = 0.05;
 
 /// Images of the parts of a model at one plane.

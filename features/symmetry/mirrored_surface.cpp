@@ -39,7 +39,7 @@ void drop_loose_seams(SurfaceModel& model, const std::vector<MirrorMatch>& match
   });
 }
 
-/// The divisions of a curve of the whole, as those of its pieces.
+/// The divisions of a curve of the whole, as divisions of its pieces.
 class DivisionSharing {
  public:
   explicit DivisionSharing(const CutSurface& surface)

@@ -32,7 +32,7 @@ struct SymmetricHalf {
 };
 
 /// Cuts a model at its planes and keeps what lies on their positive sides. `matches`: of each plane. Curves
-/// that leave a plane and come back to it, shorter than some sizes, get a corner between: a mesh of two
+/// that leave a plane and come back to it, shorter than some sizes, get a corner between. A mesh of two
 /// images must not have both as the same edge. Throws InputError, beginning with `where`, where a face lies
 /// in a plane in part, and where a corner or a named point has no image.
 SymmetricHalf cut_symmetric(const SurfaceModel& whole, const SymmetryPlanes& planes,
@@ -59,15 +59,15 @@ struct CutSurface {
   SymmetricHalf half;
 };
 
-/// Cuts a surface at the planes of the problem; none: no planes are asked for, or none are found, which a
-/// warning of the model says then. `size` becomes the least of those at the images of a place. Throws
-/// InputError for planes at which it is not symmetric, naming what has no image and how far off it is, and
-/// where periodic sides are asked for, too.
+/// Cuts a surface at the planes of the problem. None: no planes are asked for, or none are found, which a
+/// warning of the model says then. `size` becomes the least of the sizes at the images of a place. Throws
+/// InputError for planes at which it is not symmetric, naming the part without an image and its distance. So
+/// it does where periodic sides are asked for, too.
 std::optional<CutSurface> cut_at_planes(const MeshProblem& problem, SurfaceModel& model,
                                         std::shared_ptr<const SizeField>& size);
 
-/// The divisions of the curves of the part: those of curves that go through a plane are shared by both sides.
-/// Throws InputError for numbers that cannot be, naming one that can, and for curves that are divided
+/// The divisions of the curves of the part: divisions of curves that go through a plane are shared by both
+/// sides. Throws InputError for numbers that cannot be, naming one that can, and for curves that are divided
 /// otherwise than their images.
 std::vector<CurveDivision> divisions_of_part(const std::vector<CurveDivision>& divisions,
                                              const CutSurface& surface);
@@ -76,8 +76,8 @@ std::vector<CurveDivision> divisions_of_part(const std::vector<CurveDivision>& d
 std::vector<double> most_of_faces(std::vector<double> values, const CutSurface& surface);
 std::vector<double> most_of_curves(const std::vector<double>& values, const CutSurface& surface);
 
-/// Makes the domain of the part, its model and its cuts that of a symmetric surface; the sizes of the problem
-/// count at all images.
+/// Makes a domain of the whole symmetric surface from the domain of the part, its model and its cuts. The
+/// sizes of the problem count at all images.
 void add_whole(CutSurface cut, SurfaceSetup& surface, MeshingSetup& p);
 
 /// The image of a face of the whole at all planes whose bits are set.
@@ -89,7 +89,7 @@ std::vector<char> with_images(const MirroredSurface& mirrored, std::vector<char>
 /// Adds the faces that are images of those that failed, for the same reasons.
 void add_failures_of_images(const MirroredSurface& mirrored, std::vector<FaceFailure>& failures);
 
-/// The mesh of the part, whose first points are the nodes on its curves, completed by its images: nodes on
+/// The mesh of the part, whose first points are the nodes on its curves, completed by its images. Nodes on
 /// planes, which are moved onto them to rounding, stand once, and so do elements in them. It has the curves,
 /// faces and named points of the whole.
 Mesh mirror_mesh(const MirroredSurface& mirrored, Mesh part);

@@ -60,7 +60,7 @@ std::string why_not_symmetric(const PlanarModel& model);
 PlanarModel with_axes(const PlanarModel& model, const Symmetry& symmetry);
 
 /// Takes out the parts of axes, the model's curves from `first_axis` on, that lie outside of everything.
-/// `lines`: those of the pieces.
+/// `lines`: lines of the pieces.
 void drop_axes_outside(const Mesh& lines, int first_axis, ModelChain& chain, std::vector<CurvePiece>& pieces);
 
 /// Axes are no curves of the model; where one lies on them, that counts.
@@ -76,7 +76,7 @@ std::vector<ChainPair> pair_symmetric(const PlanarModel& model, const Symmetry& 
 std::vector<PatchImage> patch_images(const std::vector<PatchBoundary>& patches, const Symmetry& symmetry,
                                      const std::string& where);
 
-/// The mirror image of a patch's mesh. `boundary`: that of the image, whose points stay.
+/// The mirror image of a patch's mesh. `boundary`: the boundary of the image, whose points stay.
 PatchMesh image_of(const PatchMesh& master, const PatchBoundary& boundary, const PatchImage& image);
 
 /// On the master's boundary the ends of edges at single points move; their images follow. `points`: of the

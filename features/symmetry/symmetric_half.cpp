@@ -183,7 +183,7 @@ class SymmetricCutter {
     drop_stray_lines(mesh(), sorted_half_edges(mesh()));
   }
 
-  /// A face in the plane is its own image, or that of another there, of which one is kept.
+  /// A face in the plane is its own image, or the image of another one there; one of both is kept.
   void settle_faces_in_plane(int plane, std::vector<Side>& side) {
     std::vector<char> lies_in(n_faces_, 0), lies_off(n_faces_, 0);
     for (std::size_t t = 0; t < side.size(); ++t)
@@ -267,7 +267,7 @@ class SymmetricCutter {
     for (const int p : wanted) {
       const int folds = planes_.folds_of(fine.points[p], kSnap * diagonal_);
       if (folds == 0) continue;
-      // The far end of a whisker may be anywhere.
+      // The far end of a dangling curve may be anywhere.
       if (!of_others[p] && lines_at[p] < 2 && !named.contains(p)) continue;
       if (put_corner(editor, planes_.reflect_all(folds, fine.points[p]))) continue;
       const bool is_point = named.contains(p);

@@ -3,6 +3,8 @@
 
 #include "geometry/planar/planar_model.h"
 
+// This header cuts sharp corners off patches. The preparation of planar domains uses it.
+
 namespace delquad {
 
 /// Takes sharp corners out of patches that stages mesh, where nodes face each other, as far as they are

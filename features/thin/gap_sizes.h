@@ -7,11 +7,13 @@
 #include "features/sizes/fine_spots.h"
 #include "geometry/planar/planar_model.h"
 
+// This header makes sizes in narrow gaps. The composition of planar sizes uses it.
+
 namespace delquad {
 
-/// Edges of curves that face others across a region nearer than `rows` times the size: beside each the size
-/// is that of a gap which holds so many rows, though no less than a twentieth of what it was. Near a corner
-/// between the curves there is no gap.
+/// Edges of curves that face others across a region nearer than `rows` times the size. Beside each, the size
+/// fits a gap which holds so many rows, though it is no less than a twentieth of the size before. Near a
+/// corner between the curves there is no gap.
 std::vector<LocalSize> gap_spots(const PlanarDomain& domain, const SizeField& size, double rows);
 
 }  // namespace delquad

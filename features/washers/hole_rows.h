@@ -63,10 +63,10 @@ double rim_size(const Hole& hole, const WasherSpec& washer, const SizeSpec& spec
 bool edge_fits(double length, double size);
 /// Edges of parts with these lengths; opposite parts of equal lengths get equal numbers.
 std::vector<int> share_edges(const std::vector<double>& parts, int edges);
-/// Fewer and lower rows where there is less room: to walls a row is left free, and between two holes with
-/// rows one, too; and where edges around the last row would be longer than fits. Another number of edges, the
-/// next in ratio, where no rows of 0.6 of their height fit this one, or edges of the rim. Nothing where
-/// none does. Warnings tell of all.
+/// Fewer and lower rows where there is less room, and where edges around the last row would be longer than
+/// fits. To walls a row is left free, and between two holes with rows one, too. Another number of edges, the
+/// next in ratio, where no rows of 0.6 of their height fit this one, or edges of the rim. Nothing where none
+/// does. Warnings tell of all.
 std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSpec& washer, double size,
                                     const HoleClearance& room, std::vector<Warning>& warnings);
 

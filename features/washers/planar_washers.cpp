@@ -114,7 +114,7 @@ MeshProblem with_planar_washers(MeshProblem problem, const PointSize& size, std:
     const double there = rim_size(holes[l], *of_hole[l], problem.size, size(holes[l].outline[0]), warnings);
     const auto rows = rows_around(holes[l], static_cast<int>(l), *of_hole[l], there, room, warnings);
     if (!rows) continue;
-    // Heights of layers are those of their quads, between nodes that turn.
+    // Heights of layers are the heights of their quads, between nodes that turn.
     const double turned =
         std::cos(std::numbers::pi / std::accumulate(rows->edges.begin(), rows->edges.end(), 0));
     LayerSpec layer{.on = {},

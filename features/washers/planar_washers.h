@@ -6,6 +6,8 @@
 #include "delquad/mesher.h"
 #include "geometry/planar/planar_model.h"
 
+// This header makes rows around holes in the plane. The preparation uses it.
+
 namespace delquad {
 
 /// The problem of a planar model of curves with what its washers come to: numbers of edges of holes, and

@@ -25,10 +25,10 @@ struct OutlinedChart : Chart {
 };
 std::vector<OutlinedChart> outlined_charts(const Mesh& mesh);
 
-/// Rings around holes in faces of a surface: curves at equal distance from the holes, along the surface, part
-/// faces of their own from those around, with as many edges on both sides and so many rows. The other end of
+/// Rings around holes in faces of a surface. Curves at equal distance from the holes, along the surface, part
+/// faces of their own from the faces around. Both sides have as many edges and so many rows. The other end of
 /// a bore gets the edges of the first, and the face between becomes a grid where that pays. Fillets: numbers
-/// of edges of the curves that run across them, rows of those that are rings.
+/// of edges of the curves that run across them, rows of the fillets that are rings.
 class SurfaceWashers {
  public:
   /// `divisions`, `mapped`: of the model. They get what holes and fillets are to have; curves that are
@@ -72,7 +72,7 @@ class SurfaceWashers {
   std::vector<CurveDivision>& divisions_;
   MappedSpec& mapped_;
   std::map<int, int> edges_;  ///< of curves that are divided
-  std::set<int> rims_;        ///< those of them that are of holes with rows, and of other ends of these
+  std::set<int> rims_;        ///< faces among them that belong to holes with rows, and to other ends of these
   std::vector<Ring> rings_;
   std::ptrdiff_t n_added_ = 0;  ///< divisions, the last ones
 };

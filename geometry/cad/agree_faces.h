@@ -5,6 +5,8 @@
 
 #include "delquad/mesh.h"
 
+// This header orients faces alike. Readers of CAD use it.
+
 namespace delquad::cad {
 
 struct Agreement {

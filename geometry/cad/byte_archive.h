@@ -9,6 +9,8 @@
 
 #include "delquad/error.h"
 
+// This header writes values as bytes. The library and the worker that reads CAD exchange them.
+
 namespace delquad::cad {
 
 /// Appends a value as bytes: one that is trivially copyable, a string, or a vector of such.

@@ -19,10 +19,10 @@ struct CadOptions {
   /// Largest angle between neighboring sides of a curve, and normals of a face across an inner side,
   /// radians.
   double angle = 0.15;
-  /// Processor time that the kernel may take to triangulate a face, in one of its trials: those that take
-  /// longer are triangulated from their outlines, as those for which it fails. Nearly ten times what any face
-  /// took of 24 models (2.2 s, in the finest of the trials; 0.1 s where a trial had success), so that the
-  /// machine does not decide.
+  /// Processor time that the kernel may take to triangulate a face, in one of its trials. Faces that take
+  /// longer are triangulated from their outlines, as faces for which it fails. It is nearly ten times the
+  /// time of any face of 24 models, so that the machine does not decide. Measured: 2.2 s, in the finest of
+  /// the trials; 0.1 s where a trial had success.
   double face_seconds = 20;
   /// The same for checking and healing all of the shape; then it is taken as it is. Forty times what any of
   /// these models took.
@@ -44,22 +44,23 @@ struct CadOptions {
   bool keep_going = false;
 };
 
-/// Reads a STEP, IGES or BREP file, or its bytes (told apart by content), through OpenCASCADE. Lengths are in
-/// the unit that is asked for in STEP and IGES, whatever the file's unit, and as given in BREP, which has
-/// none, so that to ask for one is an InputError. Where faces that no solid has both touch or cross (see
-/// loose_joints.h) is told in a warning, and where they come near; with options.glue they share curves and
-/// nodes there. Each face and each edge stands once, as region and curve; their tags are their numbers in the
-/// file's order, so that gaps stay where degenerate edges and seams were: these are no curves, the
-/// triangulation is connected across them. A region's names are those of its face, solids and products in
-/// STEP and IGES and its color ("color #rrggbb"). Normals of a solid point outwards. Edges that stand in
-/// faces and join others are embedded. Invalid shapes are healed and coincident free edges sewn, and a
-/// warning says so; so are faces taken out whose edges lie on each other within their tolerances. Warnings
+/// Reads a STEP, IGES or BREP file, or its bytes (told apart by content), through OpenCASCADE. Lengths of
+/// STEP and IGES are in the unit that is asked for, whatever the file's unit. BREP has no unit: lengths are
+/// as given, and to ask for a unit is an InputError. A warning tells where faces that no solid has both touch
+/// or cross (see loose_joints.h), and where they come near. With options.glue they share curves and nodes
+/// there. Each face and each edge stands once, as region and curve, and its tag is its number in the file's
+/// order. Gaps in the numbers stay where degenerate edges and seams were. These are no curves, and the
+/// triangulation is connected across them. In STEP and IGES, a region has the names of its face, solids and
+/// products and its color ("color #rrggbb"). Normals of a solid point outwards. Edges that stand in faces and
+/// join others are embedded. Invalid shapes are healed and coincident free edges sewn, and a warning says so.
+/// Faces whose edges lie on each other within their tolerances are taken out, with a warning, too. Warnings
 /// also tell free and non-manifold curves. Projected points are accurate to 1e-9 of the diagonal where the
 /// surface is regular. The kernel works in a worker process (see find_worker()), so that a damaged file
-/// cannot bring the program down; what it prints is lost. Throws Cancelled, and InputError naming the file
-/// for files that cannot be read or hold no face, and naming the faces that are unbounded, have no area,
-/// cross their own boundary or cannot be triangulated, unless options.keep_going leaves them out and others
-/// remain (an unbounded one is refused in any case), or the places that cannot be glued.
+/// cannot bring the program down; its output is lost. Throws Cancelled. Throws InputError naming the file for
+/// files that cannot be read or hold no face, and the places that cannot be glued. Throws it,
+/// naming the faces, for faces that are unbounded or cross their own boundary. So it does for faces without
+/// area, and faces that cannot be triangulated. options.keep_going leaves such faces out if others remain. An
+/// unbounded one is refused in any case.
 SurfaceModel read_cad(const CadModel& model, const CadOptions& options = {});
 SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options = {});
 

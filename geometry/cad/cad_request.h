@@ -33,8 +33,8 @@ struct CadRequest {
 std::string to_bytes(const CadRequest& request);
 CadRequest request_from(const std::string& bytes);
 
-/// The kinds of a worker's replies: the shape, a message, the numbers of faces that take too long, nothing;
-/// the name of a stage, or the number of a face that begins or ends.
+/// The kinds of a worker's replies: the shape, a message, the numbers of faces that take too long, nothing.
+/// Further kinds are the name of a stage, and the number of a face that begins or ends.
 enum class Reply : char {
   kShape = 'S',
   kMessage = delquad::kMessage,

@@ -3,6 +3,8 @@
 
 #include <string>
 
+// This header runs the worker process that reads CAD. The program delquad-cad uses it.
+
 namespace delquad::cad {
 
 /// Version of the OpenCASCADE that is at work here, such as "7.6.3".

@@ -7,9 +7,11 @@
 #include <TopoDS_Face.hxx>
 #include <vector>
 
+// This header divides CAD edges into chords. Triangulations of faces use it.
+
 namespace delquad::cad {
 
-/// The parameters at which edges are cut into chords: those of the triangulations that faces have; else by
+/// The parameters at which edges are cut into chords: those that triangulations of faces have; else by
 /// `deflection` (a length) and `angle` (radians). All faces of an edge, and all instances, share them.
 class EdgeChords {
  public:
@@ -20,7 +22,7 @@ class EdgeChords {
   /// Halves the chord between the parameters k and k + 1. False when nothing lies between them, or there may
   /// be no point.
   bool halve(const TopoDS_Edge& edge, int k);
-  /// From now on no point between an edge's ends lies within the tolerances of both edge and end: the kernel
+  /// From now on no point between an edge's ends lies within the tolerances of both edge and end. The kernel
   /// does not tell such points from the end. Small closed edges stay.
   void keep_off_ends(const TopoDS_Edge& edge);
   /// The faces (not placed) that an edge bounds.

@@ -27,7 +27,7 @@ const std::vector<Example>& example_models() {
       {"free_form", "a wavy patch with three holes and a corner cut off, 100 x 100, open"},
       {"loft", "a solid through four ellipses that turn, 48 x 36 x 80"},
       {"sheet", "a bent sheet with holes, a narrow web, a step and a pinhole, 106 x 60 x 40, open"},
-      {"thin_box", "an open box of four rooms with walls 1.5 thick, drilled through, 80 x 60 x 30"},
+      {"thin_box", "an open box of four chambers with walls 1.5 thick, drilled through, 80 x 60 x 30"},
       {"variable_fillet", "a block with four fillets whose radii vary, and a hole, 80 x 50 x 30"},
   };
   return kAll;

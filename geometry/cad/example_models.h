@@ -6,6 +6,8 @@
 
 #include "geometry/cad/cad_reader.h"
 
+// This header has the example models by name. The program, cases and tests use it.
+
 namespace delquad {
 
 /// Throws InputError, naming those that exist, when there is no example of this name.

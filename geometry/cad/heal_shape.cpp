@@ -89,8 +89,8 @@ std::vector<int> first_of_doubles(const std::vector<std::map<int, int>>& faces_a
 }
 
 /// Adds the closed bodies among the faces that are in none yet, by face, numbered by one of their faces.
-/// Faces belong together where two meet; where more do, `in_order`, two and two as they come: files have the
-/// faces of a body one after the other. Faces on each other enclose nothing.
+/// Faces belong together where two meet. Where more do, they belong together `in_order`, two and two as they
+/// come: files have the faces of a body one after the other. Faces on each other enclose nothing.
 void find_closed(const std::vector<std::map<int, int>>& faces_at_edges, const std::vector<int>& first,
                  bool in_order, std::vector<int>& body) {
   DisjointSets joined(body.size());
@@ -210,7 +210,7 @@ bool sew_branches(CadShape& cad, double tolerance) {
   return true;
 }
 
-/// Sews free edges in pairs, then those of what is open once more, all that coincide together: edges of three
+/// Sews free edges in pairs, then the open rest once more, all edges that coincide together: edges of three
 /// faces and more. Parts that are closed stay apart from others.
 void sew(CadShape& cad, double tolerance) {
   const int before = count_free_edges(cad.shape);

@@ -20,22 +20,23 @@ void replace_shape(CadShape& cad, const TopoDS_Shape& shape,
                    const std::function<TopoDS_Shape(const TopoDS_Shape&)>& image);
 
 /// Repairs what the kernel finds invalid, and sews free edges that coincide within `tolerance` (a length), of
-/// however many faces, but not those of faces that lie on each other; valid shapes stay as they are. Says in
-/// the warnings what was done and what remains wrong.
+/// however many faces. Edges of faces that lie on each other are not sewn, and valid shapes stay as they are.
+/// The warnings say what was done and what remains wrong.
 void heal_shape(CadShape& cad, double tolerance);
 
-/// Takes out those of some faces (numbers) whose edges lie on each other within their and their ends'
-/// tolerances, and sews these edges; says so in a warning. False: none does, or that leaves free edges.
+/// Takes out, among some faces (numbers), each face whose edges lie on each other within their and their
+/// ends' tolerances. Sews these edges, and says so in a warning. False: there is none, or that leaves free
+/// edges.
 bool drop_strips(CadShape& cad, const std::vector<int>& faces);
 
-/// The kernel's reader of STEP turns some faces with a pole inside over, and moves their edges by a period in
-/// (u, v) until they fit: the face then is the other part of the sphere and more, going around more than
+/// The kernel's reader of STEP turns some faces with a pole inside over. It moves their edges by a period in
+/// (u, v) until they fit. The face then is the other part of the sphere and more, going around more than
 /// once. Such faces are turned back, where that makes them fit into a period; a warning tells how many.
 void unwind_faces(CadShape& cad);
 
-/// The edges that bound no face, those inside of faces and those beside all, as polylines no further than
-/// `deflection` (a length) from them, and the vertices that no edge has. Edges without a curve and infinite
-/// ones are left to others.
+/// The edges that bound no face, both inside of faces and beside all, as polylines, and the vertices that no
+/// edge has. Polylines are no further than `deflection` (a length) from their edges. Edges without a curve
+/// and infinite ones are left to others.
 std::vector<LooseLine> loose_edges(const CadShape& cad, double deflection);
 
 /// Takes edges and vertices inside of one face alone out of it: the kernel fails to triangulate some faces

@@ -8,6 +8,8 @@
 #include "geometry/cad/example_models.h"
 #include "geometry/surface/surface_model.h"
 
+// This header loads the library that needs OpenCASCADE. Callers outside of this module do not see it.
+
 namespace delquad::cad {
 
 /// The library with the functions of this module that need OpenCASCADE. It is loaded when the first of them

@@ -7,6 +7,8 @@
 
 #include "geometry/surface/surface_model.h"
 
+// This header finds faces that touch and share no nodes. The reader of CAD warns of them.
+
 namespace delquad::cad {
 
 /// Two faces that share no nodes at the place where they are nearest to each other.
@@ -35,8 +37,8 @@ struct LooseJoints {
 LooseJoints loose_joints(const SurfaceModel& model, const TopTools_IndexedMapOfShape& faces,
                          const std::vector<std::vector<int>>& shells, const JointOptions& options);
 
-/// Where faces that do not hang together share a vertex, and for one of them it is no end of a curve: a
-/// single point inside of it, or the pole of a sphere. No node of a mesh joins them there.
+/// Where faces that do not hang together share a vertex, and for one of them it is no end of a curve. It is a
+/// single point inside of that face, or the pole of a sphere. No node of a mesh joins them there.
 std::vector<LooseJoint> joints_at_points(const TopTools_IndexedMapOfShape& faces);
 
 }  // namespace delquad::cad

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+// This header names parts of a file that were lost. The reader of CAD uses it.
+
 namespace delquad::cad {
 
 /// Parts of a file that did not become shapes, each with its place and the reason.

@@ -58,7 +58,7 @@ struct FaceBounds {
 
 struct RefinedFace {
   TriPatch flat;             ///< in parameters times `scale`
-  std::vector<Vec3> points;  ///< on the surface, but for those of the boundary
+  std::vector<Vec3> points;  ///< on the surface, but for points of the boundary
   bool is_complete = true;   ///< false: `most_points` were not enough
 };
 

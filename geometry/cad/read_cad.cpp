@@ -31,8 +31,8 @@ namespace cad {
 
 namespace {
 
-/// Last step of a projection, as a fraction of the diagonal: a thousandth of the accuracy promised, for
-/// surfaces with a singular parametrization, where Newton's method converges linearly.
+/// Last step of a projection, as a fraction of the diagonal. It is a thousandth of the accuracy promised.
+/// Newton's method converges linearly on surfaces with a singular parametrization.
 constexpr double kProjection = 1e-12;
 /// Faces nearer than this part of the diagonal lie on each other; as far apart as edges that are sewn.
 constexpr double kTouching = 1e-6;

@@ -125,7 +125,7 @@ double repair_face(const std::vector<Vec3>& points, const std::vector<std::array
     double perimeter = 0, filled = 0;
     for (std::size_t i = 0; i < loop.size(); ++i)
       perimeter += norm(points[loop[(i + 1) % loop.size()]] - points[loop[i]]);
-    // The filling's orientation is that of the loop.
+    // The filling's orientation is the orientation of the loop.
     for (const Triangle& t : fill(points, loop)) {
       filled += area(points[t[0]], points[t[1]], points[t[2]]);
       triangles.push_back(t);

@@ -78,8 +78,8 @@ std::string colour_of(const IGESData_IGESEntity& entity) {
   return fmt::format("{:02x}{:02x}{:02x}", byte(red), byte(green), byte(blue));
 }
 
-/// Names and colors of the faces that `reader` has transferred: those of all entities that hold them.
-/// `warnings` receives what bytes beyond ASCII were taken for.
+/// Names and colors of the faces that `reader` has transferred, from all entities that hold them. `warnings`
+/// receives the encoding that bytes beyond ASCII were taken for.
 PartNames iges_names(const IGESControl_Reader& reader, std::vector<Warning>& warnings) {
   PartNames names;
   const Handle(Transfer_TransientProcess) transfer = reader.WS()->TransferReader()->TransientProcess();

@@ -7,6 +7,8 @@
 #include "geometry/cad/cad_reader.h"
 #include "geometry/cad/cad_shape.h"
 
+// This header reads CAD files as shapes. The worker uses it.
+
 namespace delquad::cad {
 
 /// Reads STEP, IGES or BREP, by content; silences the kernel for good. Throws InputError without the name of

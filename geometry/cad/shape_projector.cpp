@@ -61,8 +61,8 @@ struct Step {
   double u = 0, v = 0;
 };
 
-/// The step from S(u, v) towards the nearest point: Newton's where the distance is convex, else that of the
-/// tangent plane; a variable that may not move stays.
+/// The step from S(u, v) towards the nearest point. It is Newton's where the distance is convex, else the
+/// step of the tangent plane; a variable that may not move stays.
 Step newton_step(const gp_Vec& r, const gp_Vec& du, const gp_Vec& dv, const gp_Vec& duu, const gp_Vec& dvv,
                  const gp_Vec& duv, double u, double v, const SurfaceRange& range) {
   const double gu = r.Dot(du), gv = r.Dot(dv);
@@ -107,7 +107,7 @@ gp_Pnt nearest_point(const Geom_Surface& surface, const gp_Pnt& x, double u, dou
     const gp_Vec r(x, p);
     const Step step = newton_step(r, du, dv, duu, dvv, duv, u, v, range);
     const double moved = (step.u * du + step.v * dv).Magnitude();
-    // The error left is that of the next step: its square.
+    // The error left is the error of the next step: its square.
     const bool last = moved < tolerance;
     double fraction = 1;
     gp_Pnt q;
@@ -214,7 +214,7 @@ class FaceProjector {
   }
 
  private:
-  /// Exact where the nearest point has a closed form, else those of the nearest fine triangle.
+  /// Exact where the nearest point has a closed form, else by the nearest fine triangle.
   Vec2 parameters(const Vec3& x) const {
     Vec2 uv{0, 0};
     if (elementary_) {

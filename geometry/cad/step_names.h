@@ -6,6 +6,8 @@
 
 #include "geometry/cad/cad_shape.h"
 
+// This header reads names and colors of STEP files. The reader of shapes uses it.
+
 namespace delquad::cad {
 
 /// Returns names and colors of the faces that `reader` has transferred, in the order of the file, and the

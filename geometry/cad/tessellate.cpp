@@ -72,8 +72,8 @@ class WatchedAlgos : public IMeshTools_MeshAlgoFactory {
   Run* run_ = current_run();  ///< the kernel's own threads, which ask for algorithms, know of none
 };
 
-/// The kernel's triangulation of a shape, which tells what faces (numbers in the map) it is at (see
-/// activity.h) and does not begin those in `skipped` (ascending).
+/// The kernel's triangulation of a shape, which tells the faces (numbers in the map) that it is at, see
+/// activity.h. It does not begin the faces in `skipped` (ascending).
 void mesh_faces(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces,
                 const IMeshTools_Parameters& parameters, const std::vector<int>& skipped) {
   const Handle(IMeshTools_Context) context = new BRepMesh_Context();

@@ -10,6 +10,8 @@
 #include "delquad/mesh.h"
 #include "geometry/cad/cad_shape.h"
 
+// This header triangulates CAD faces by the kernel. The reader of CAD uses it.
+
 namespace delquad::cad {
 
 /// The triangulation of one face, with nodes of its own.

@@ -71,7 +71,7 @@ class Welder {
     return vertex_nodes_[v - 1];
   }
 
-  /// The nodes of an edge as one face has them become those of the edge.
+  /// The nodes of an edge as one face has them become the nodes of the edge.
   void add_edge(int f, const TopoDS_Edge& edge, std::vector<int>& node_of) {
     const Handle(Poly_PolygonOnTriangulation) polygon = polygon_of(edge, faces_[f].face);
     if (polygon.IsNull() || polygon->NbNodes() < 2) return;

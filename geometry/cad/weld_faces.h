@@ -36,10 +36,10 @@ struct WeldedFaces {
   std::vector<int> bad_faces;           ///< triangles miss the boundary by more than `gap`, or are no surface
 };
 
-/// Makes one node of those of all faces that stand for the same point: of an edge by their order along it
-/// (both sides of a seam too), of a vertex, of a degenerate edge. Edges that are degenerate, or seams of one
-/// face, are no curves. Faces without triangles have none afterwards, and edges of no others are no curves.
-/// `gap`: a length, see repair_face().
+/// Makes one node of the nodes of all faces that stand for the same point of an edge, a vertex or a
+/// degenerate edge. Nodes of an edge correspond by their order along it (both sides of a seam too). Edges
+/// that are degenerate, or seams of one face, are no curves. Faces without triangles have none afterwards,
+/// and edges of no others are no curves. `gap`: a length, see repair_face().
 WeldedFaces weld_faces(const std::vector<FaceMesh>& faces, const TopTools_IndexedMapOfShape& edges,
                        double gap);
 
@@ -48,18 +48,18 @@ WeldedFaces weld_faces(const std::vector<FaceMesh>& faces, const TopTools_Indexe
 WeldedFaces weld_usable(std::vector<FaceMesh>& meshes, const TopTools_IndexedMapOfShape& edges, double gap,
                         std::vector<std::string>& why_not);
 
-/// Makes the triangles of one face end where its boundary does. `boundary` holds the sides that the face's
-/// edges have, each in the direction in which its triangle runs along it; the two sides of a seam cancel.
-/// Where edges meet at a cusp or a pole the kernel leaves gaps, and pairs of triangles folded onto each
+/// Makes the triangles of one face end where its boundary does. `boundary` holds the sides of the face's
+/// edges, each in the direction in which its triangle runs along it. The two sides of a seam cancel. Where
+/// edges meet at a cusp or a pole the kernel leaves gaps, and pairs of triangles folded onto each
 /// other: gaps are filled with the triangles of least area, pairs removed. Returns the greatest ratio of a
 /// gap's area to its perimeter, a length: how far off the boundary was.
 double repair_face(const std::vector<Vec3>& points, const std::vector<std::array<int, 2>>& boundary,
                    std::vector<std::array<int, 3>>& triangles);
 
 /// Two faces that share more than one curve, or nodes at its ends only, may both have a side between the same
-/// two nodes, one or both of them inside: each is its own way over the surface. Such inner sides get a node
-/// on their middle, so that an edge of the mesh tells the sides of its two triangles. `boundary`: the sides
-/// (lower node first) that edges of each face have, sorted. Returns the new points.
+/// two nodes. One or both of these sides are inside, and each is its own way over the surface. Such inner
+/// sides get a node on their middle, so that an edge of the mesh tells the sides of its two triangles.
+/// `boundary`: the sides (lower node first) that edges of each face have, sorted. Returns the new points.
 std::vector<PointInside> split_duplicate_sides(Mesh& mesh,
                                                const std::vector<std::vector<std::array<int, 2>>>& boundary);
 

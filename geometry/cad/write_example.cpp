@@ -52,7 +52,7 @@ CadShape make_example(const std::string& name) {
   throw std::logic_error("no example " + name);
 }
 
-/// An example whose faces have its own name first, as those of a product in a STEP file.
+/// An example whose faces have its own name first, as the name of a product in a STEP file.
 CadShape make_product(const std::string& name) {
   const CadShape example = make_example(name);
   CadShape product{example.shape};

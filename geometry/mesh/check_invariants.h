@@ -8,6 +8,8 @@
 #include "delquad/mesh.h"
 #include "geometry/mesh/half_edges.h"
 
+// This header checks that meshes are sound. The pipeline, experiments and tests use it.
+
 namespace delquad {
 
 /// check_invariants() of meshes of branching surfaces: on edges of the marked curves (by index) any number of

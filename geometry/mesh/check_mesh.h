@@ -5,6 +5,8 @@
 
 #include "delquad/mesh.h"
 
+// This header refuses meshes that functions cannot handle. Entries of the public API use it.
+
 namespace delquad {
 
 /// Throws InputError, which begins with `where`, for defects that no function on meshes can handle. These are

@@ -66,8 +66,8 @@ bool DelaunayKernel::find_cavity(Vec2 x, int triangle) {
       }
     }
     const int a = tri.v[kNext[k]], b = tri.v[kNext[k + 1]];
-    // A constrained Delaunay cavity is star-shaped about any point inside its seed triangle; what remains to
-    // be told is a point on the seed's own outline that is also on the shell: on the boundary or on a vertex.
+    // A constrained Delaunay cavity is star-shaped about any point inside its seed triangle. The remaining
+    // case is a point on the seed's own outline that is also on the shell: on the boundary or on a vertex.
     if (t == triangle && orient2d(points_[a], points_[b], x) <= 0) return false;
     shell_.push_back({a, b, beyond, t, k});
   }

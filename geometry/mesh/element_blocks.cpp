@@ -18,7 +18,7 @@ namespace {
 /// Rings of elements around cuts that a later pass takes up, and how far in there is work to do.
 constexpr int kBandRings = 7, kNearRings = 3;
 
-/// Maps the plane to the curve's cells; `turned`: so that cuts cross those of the other one.
+/// Maps the plane to the curve's cells; `turned`: so that its cuts cross the cuts of the other curve.
 class CurveFrame {
  public:
   CurveFrame(std::span<const Vec2> points, bool turned) : turned_(turned) {

@@ -25,10 +25,10 @@ struct Elements {
 };
 
 /// Divides elements into blocks that threads work on independently, the same for every number of threads. Few
-/// elements, less than twice kBlockElements, are one block. Others are cut along a Hilbert curve; then what
-/// lies around its cuts is cut along another curve, which crosses the first cuts; what lies around the points
-/// where both cross is not cut at last. Vertices at which several blocks, or a block and what is left out,
-/// have elements belong to none of them.
+/// elements, less than twice kBlockElements, are one block. Others are cut along a Hilbert curve. The
+/// elements around its cuts are then cut along another curve, which crosses the first cuts. The elements
+/// around the points where both cross are not cut at last. Vertices at which several blocks, or a block and
+/// what is left out, have elements belong to none of them.
 class ElementBlocks {
  public:
   static constexpr int kBlockElements = 16384;

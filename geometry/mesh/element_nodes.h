@@ -13,8 +13,8 @@
 
 namespace delquad {
 
-/// Nodes of a quad as a square of order + 1 rows, each of order + 1: row j, column i is at
-/// (i / order, j / order) of the quad, whose corners are at (0, 0), (1, 0), (1, 1) and (0, 1).
+/// Nodes of a quad as a square of order + 1 rows, each of order + 1. Row j, column i is at (i / order, j /
+/// order) of the quad. Its corners are at (0, 0), (1, 0), (1, 1) and (0, 1).
 std::vector<int> nodes_of_quad(const Mesh& mesh, std::size_t quad);
 
 /// Nodes of a line from its first end to its second.
@@ -43,8 +43,8 @@ std::vector<Vec3> outline_of_line(const Mesh& mesh, std::size_t line);
 /// round.
 std::vector<int> side_places(int order, int side);
 
-/// Places in that square in the order of Gmsh: corners, sides, then what is inside in the same way. For order
-/// 2 it is that of VTK, Exodus and CGNS, too.
+/// Places in that square in the order of Gmsh: corners, sides, then the inside in the same way. For order 2
+/// it is the order of VTK, Exodus and CGNS, too.
 std::vector<int> gmsh_places(int order);
 /// The same of VTK's Lagrange quads: opposite sides run the same way, rows inside.
 std::vector<int> vtk_places(int order);
@@ -57,16 +57,16 @@ std::vector<int> inner_places(int order);
 int order_of_line(std::size_t n_nodes);
 int order_of_quad(std::size_t n_nodes);
 
-/// Whether an element of this order fits to those of the mesh, which takes the order of the first one.
+/// Whether an element of this order fits to the elements of the mesh, which takes the order of the first one.
 bool takes_order(Mesh& mesh, int order);
 /// Returns the message for an element that does not fit.
 std::string other_order(int order, int of_mesh);
 
 /// Adds a line of the mesh's order by its nodes, both ends first.
 void add_line(Mesh& mesh, std::span<const int> nodes, int curve);
-/// Adds a quad of the mesh's order by its nodes, as `places` orders them, one of the functions above. Where
-/// the middle one of nine is left out, it becomes a new point: there where the map of eight nodes has it, so
-/// that both maps are the same.
+/// Adds a quad of the mesh's order by its nodes, as `places` orders them, one of the functions above. A
+/// middle one of nine that is left out becomes a new point. Its place follows the map of eight nodes, so that
+/// both maps are the same.
 void add_quad(Mesh& mesh, std::span<const int> nodes, const std::vector<int>& places, int region);
 /// Where that is, by the places of corners and of middles of sides.
 Vec3 middle_of_eight(const std::array<Vec3, 4>& corners, const std::array<Vec3, 4>& sides);

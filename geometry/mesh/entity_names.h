@@ -6,6 +6,8 @@
 
 #include "delquad/mesh.h"
 
+// This header finds and keeps names of parts. Features use it.
+
 namespace delquad {
 
 /// Names that must not go.

@@ -8,6 +8,8 @@
 
 #include "delquad/mesh.h"
 
+// This header finds triangles that cross. Checks of bodies and sweeps use it.
+
 namespace delquad {
 
 /// An edge of the first triangle goes through the second one, or both lie on each other.

@@ -14,7 +14,7 @@
 namespace delquad {
 
 /// Keeps the elements of one kind of which keep(index) holds, with the entities that they are of, in their
-/// order; returns how many went. keep() is asked in this order, and may change the element that it is asked
+/// order. Returns how many went. keep() is asked in this order, and may change the element that it is asked
 /// about.
 template <class Elements, class Keep>
 std::size_t keep_elements(Elements& elements, std::vector<int>& entity_of, Keep keep) {

@@ -6,6 +6,8 @@
 
 #include "geometry/mesh/nearest_triangle.h"
 
+// This header finds nearest points on regions. Washers, curved elements and the pipeline use it.
+
 namespace delquad {
 
 /// The triangles of each region of a mesh.

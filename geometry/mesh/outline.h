@@ -3,6 +3,8 @@
 
 #include "delquad/mesh.h"
 
+// This header finds the boundary of a mesh. Readers and adaptation use it.
+
 namespace delquad {
 
 /// Whether some triangle or quad does not lie in the plane of constant z of the first.

@@ -16,8 +16,8 @@
 #include "delquad/error.h"
 #include "delquad/mesh.h"
 
-/// Patches in CGAL's constrained Delaunay triangulations `Cdt`, whose vertices and faces are numbered. For
-/// the files that make them alone.
+/// This header has patches in CGAL's constrained Delaunay triangulations `Cdt`, whose vertices and faces are
+/// numbered. For the files that make them alone.
 namespace delquad::patch_cdt {
 
 struct VertexNumber {
@@ -28,8 +28,8 @@ using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexNumber, Ker
 using FaceBase = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;
 constexpr int kOutside = -1;
 
-/// Inserts points, those of the boundary first, and the boundary's edges; returns the vertices of the points.
-/// Throws InputError where points coincide, and where edges cross or pass through points.
+/// Inserts points, points of the boundary first, and the boundary's edges; returns the vertices of the
+/// points. Throws InputError where points coincide, and where edges cross or pass through points.
 template <class Cdt>
 std::vector<typename Cdt::Vertex_handle> insert(Cdt& cdt, const PatchBoundary& boundary,
                                                 const std::vector<Vec2>& points) {
@@ -57,8 +57,8 @@ std::vector<typename Cdt::Vertex_handle> insert(Cdt& cdt, const PatchBoundary& b
 }
 
 /// Numbers the faces inside the patch, flooding from the left sides of its boundary edges; returns these. All
-/// others are kOutside. Throws InputError for edges, but for slits, that have the inside on their right, too,
-/// and for an inside without end: of loops turned inside out.
+/// others are kOutside. Throws InputError for edges, but for slits, that have the inside on their right, too.
+/// So it does for an inside without end: of loops turned inside out.
 template <class Cdt>
 std::vector<typename Cdt::Face_handle> number_inside(Cdt& cdt, const PatchBoundary& boundary,
                                                      const std::vector<typename Cdt::Vertex_handle>& vertex) {

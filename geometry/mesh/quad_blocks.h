@@ -14,9 +14,9 @@
 
 namespace delquad {
 
-/// Some elements of a quad mesh as a mesh of their own, which one thread works on. Its boundary's points are
-/// some of the whole mesh's boundary, then held ones: those that other blocks have elements at, one for each
-/// fan of the block's own elements. Both stay, and no edit may make an edge between a held one and a point
+/// Some elements of a quad mesh as a mesh of their own, which one thread works on. Its boundary has points of
+/// the whole mesh's boundary, then held points. Other blocks have elements at a held point, and the block has
+/// one for each fan of its own elements. Both stay. No edit may make an edge between a held one and a point
 /// that was there before: the mesh may have that edge elsewhere.
 struct QuadBlock {
   QuadPatch mesh;

@@ -52,8 +52,8 @@ inline double eta_of_sine(double sine) {
 }
 inline double sine_of_eta(double eta) { return std::sin(eta * std::numbers::pi / 2); }
 
-/// A corner of a smaller angle (radians) takes one quad only: of two that share it evenly each would have an
-/// eta below 0.1, half of the angle over 90 degrees.
+/// A corner of a smaller angle (radians) takes one quad only. If two shared it evenly, each would have an eta
+/// below 0.1, half of the angle over 90 degrees.
 inline constexpr double kLeastSharedAngle = 18 * std::numbers::pi / 180;
 
 /// How many quads best share an angle of the boundary that is so many right angles wide.

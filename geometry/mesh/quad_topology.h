@@ -21,7 +21,8 @@ namespace delquad {
 class QuadTopology {
  public:
   /// Throws std::invalid_argument, naming the vertices, where two elements run along an edge in the same
-  /// direction, a boundary edge ends in an interior point, or a vertex index is out of range.
+  /// direction. So it does where a boundary edge ends in an interior point, or a vertex index is out of
+  /// range.
   explicit QuadTopology(const QuadPatch& mesh) : QuadTopology(mesh, mesh.n_boundary) {}
   /// The boundary's points from `first_held` on are held, see QuadBlock.
   QuadTopology(const QuadPatch& mesh, int first_held);
@@ -87,7 +88,7 @@ class QuadTopology {
 
   /// Both elements at h are quads and no two of their corners are the same.
   bool can_open(int h) const;
-  /// Turns edge h as rotate() does and opens it to two more quads: the next corners get an edge each to a new
+  /// Turns edge h as rotate() does and opens it to two more quads. The next corners get an edge each to a new
   /// vertex, h's ends keep theirs, one to each of the two. These are the last slots.
   void open(int h, bool counterclockwise);
 
@@ -147,7 +148,7 @@ class QuadTopology {
   void write(Array which, int index, int value);
   void add_to_valence(int v, int change) { write(kValence, v, valence_[v] + change); }
   void link(int h, int twin);
-  /// Fills an element's slot; `twins` are those of its sides.
+  /// Fills an element's slot; `twins` belong to its sides.
   void set_element(int element, std::array<int, 4> corners, std::array<int, 4> twins);
   void kill_element(int element);
   int add_element();

@@ -7,16 +7,18 @@
 
 #include "delquad/mesh.h"
 
+// This header divides polygons into triangles. Readers of meshes and surfaces use it.
+
 namespace delquad {
 
 /// Cuts a polygon in space into triangles that turn as it does, by its ears, best ones first. Seen along the
-/// axis nearest to its normal the polygon must not cross itself; corners may lie on others, as where a bridge
-/// leads to a hole. Nothing when that is not so, or when it has no area. Indices are those of the corners.
+/// axis nearest to its normal, the polygon must not cross itself. Corners may lie on others, as where a
+/// bridge leads to a hole. Nothing when that is not so, or when it has no area. Indices count the corners.
 /// Takes time with the square of their number.
 std::optional<std::vector<std::array<int, 3>>> split_polygon(const std::vector<Vec3>& corners);
 
-/// Splits every quad into two triangles for surfaces that are to be meshed: as split_polygon(), or along its
-/// shorter diagonal where it crosses itself or has no area. Says so in `notes`.
+/// Splits every quad into two triangles for surfaces that are to be meshed: as split_polygon(). A quad that
+/// crosses itself or has no area is split along its shorter diagonal. Says so in `notes`.
 void split_quads(Mesh& mesh, ReadNotes& notes);
 
 }  // namespace delquad

@@ -6,6 +6,8 @@
 
 #include "delquad/mesh.h"
 
+// This header finds points that are far from all others. Readers of surfaces use it.
+
 namespace delquad {
 
 /// How many times as far out as the others a point must be.
@@ -16,8 +18,8 @@ struct StrayPoint {
   double times;  ///< as far out as the others
 };
 
-/// Points of elements that can hardly be meant, ascending: less than a quarter of all, between which and the
-/// others there is nothing for a factor of kStray in distance from the middle (the medians). Parts of
+/// Points of elements that can hardly be meant, ascending. They are less than a quarter of all. Between them
+/// and the others there is nothing for a factor of kStray in distance from the middle (the medians). Parts of
 /// different sizes lie within that, or have others between; a number with a wrong exponent does not. All
 /// points must be finite.
 std::vector<StrayPoint> stray_points(const Mesh& mesh);

@@ -15,14 +15,14 @@ int facing_side(const TriPatch& tri, int t, int u);
 /// Finds the neighbors of all triangles, by their corners.
 void link_neighbours(TriPatch& tri);
 
-/// Swaps side k of t, across which lies a triangle u, for the other diagonal of the two. With a the corner
-/// opposite of the side in t, b the next one and d the corner opposite in u, t begins with a, b, d and u with
-/// a, d.
+/// Swaps side k of t, across which lies a triangle u, for the other diagonal of the two. Let a be the corner
+/// opposite of the side in t, b the next one and d the corner opposite in u. Then t begins with a, b, d and u
+/// with a, d.
 void swap_side(TriPatch& tri, int t, int k);
 
-/// Cuts side k of t, across which lies a triangle u, at a point, which becomes the last one. t and u keep
-/// what lies at the side's first end (the corner after k); the two last triangles are what they lose, t's
-/// first.
+/// Cuts side k of t, across which lies a triangle u, at a point, which becomes the last one. The triangles t
+/// and u keep their parts at the side's first end (the corner after k). The two last triangles are the other
+/// parts, t's first.
 void split_side(TriPatch& tri, int t, int k, Vec2 at);
 
 /// One corner of a triangle; side k lies opposite of it.
@@ -62,7 +62,7 @@ class TriTopology {
   /// As swap_side() and split_side(); the latter returns the new vertex.
   void swap(int t, int k);
   int split(int t, int k, Vec2 at);
-  /// Takes inner vertex `from` out by moving it onto its neighbor `to`; `star` is that of `from`.
+  /// Takes inner vertex `from` out by moving it onto its neighbor `to`; `star` belongs to `from`.
   void collapse(int from, int to, const std::vector<TriCorner>& star);
 
  private:

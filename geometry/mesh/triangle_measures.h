@@ -8,6 +8,8 @@
 
 #include "delquad/mesh.h"
 
+// This header measures triangles. Surfaces, patches and CAD use it.
+
 namespace delquad {
 
 /// Twice the area of a triangle: in space along its normal, in the plane with a sign.

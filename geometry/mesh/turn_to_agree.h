@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+// This header orients elements so that neighbors agree. Surfaces, CAD and given meshes use it.
+
 namespace delquad {
 
 /// Two that agree as they are, or else where one of them is turned over.

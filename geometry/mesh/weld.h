@@ -6,6 +6,8 @@
 
 #include "delquad/mesh.h"
 
+// This header joins points that coincide. Readers of meshes and surfaces use it.
+
 namespace delquad {
 
 /// Points of `mesh` by the names they should go by: name[name[i]] is name[i].

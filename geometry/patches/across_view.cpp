@@ -14,9 +14,8 @@ namespace delquad {
 
 namespace {
 
-/// The other side must face this one: cosine of the angle between them. Where they are not nearly parallel
-/// and the way from one to the other along the boundary is at most so many widths, there is nothing but a
-/// corner.
+/// The other side must face this one: cosine of the angle between them. If they are far from parallel and the
+/// way between them along the boundary is at most so many widths, there is only a corner.
 constexpr double kFacing = 0.3, kParallel = 0.97, kCornerPath = 8;
 
 Vec2 flat_point(const FlatPatch& map, int v) { return map.flat.points[v]; }

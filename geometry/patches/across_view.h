@@ -8,12 +8,14 @@
 #include "geometry/patches/curve_nodes.h"
 #include "geometry/patches/patch_outline.h"
 
+// This header looks across narrow patches. Curves use it to place nodes opposite each other.
+
 namespace delquad {
 
 /// Patches count as narrow up to this multiple of the size.
 inline constexpr double kReach = 1.4;
 
-/// What lies across a patch from a place on its boundary.
+/// The side that lies across a patch from a place on its boundary.
 struct Opposite {
   int patch;
   int chain;  ///< curve, and place on it as in CurveNode
@@ -28,7 +30,7 @@ class AcrossView {
   AcrossView(const Mesh& fine, const std::vector<CurveChain>& chains, const std::vector<FlatPatch>& maps,
              const std::vector<PatchOutline>& outlines);
 
-  /// What is seen within `reach` from a place on a curve, in each patch that it bounds there, where the two
+  /// Sides seen within `reach` from a place on a curve, in each patch that it bounds there, where the two
   /// sides face each other. Corners of the boundary do not count, however the two sides near them meet,
   /// unless they are cusps.
   std::vector<Opposite> look(int chain, double s, double reach) const;
@@ -56,8 +58,8 @@ class AcrossView {
   std::vector<std::vector<double>> loop_length_;  ///< of each map's loops
 };
 
-/// Moves nodes along their curves so that those on both sides of a narrow place lie opposite each other, as
-/// far as their numbers allow; elsewhere edges stay of equal integrals, and between the two they change
+/// Moves nodes along their curves so that nodes on both sides of a narrow place lie opposite each other, as
+/// far as their numbers allow. Elsewhere edges stay of equal integrals, and between the two they change
 /// gradually. Ends of curves stay. `group` is group_facing_curves(). Each look from a node takes of the
 /// `steps`; once these are spent, nodes stay where they are.
 CurvePlaces align_opposite_nodes(const Mesh& fine, const std::vector<CurveChain>& chains,

@@ -103,12 +103,12 @@ namespace {
 /// Sides that differ more, as a part of them, do not get equal: where their lengths do, rows end all the
 /// same.
 constexpr double kWidestGap = 0.25;
-/// Of rings up to this width (in sizes) those do that differ by no more, one with twice the edges of the
-/// other, but all of them at once or not at all: fewer rows that end are no better, and sizes beside worse.
+/// Rings up to this width (in sizes) agree if they differ by no more, one with twice the edges of the other.
+/// Either all of them do at once or none: fewer rows that end are no better, and sizes beside worse.
 constexpr double kNarrowRing = 2.5, kWidestGapOfRing = 0.7;
-/// Irregular vertices, measured on CAD models: those for each edge by which sides differ, more where they are
-/// less than two quads apart; the same where they stay different; and where an edge too much on a curve makes
-/// rows end in a patch without sums, in which so many rows follow it.
+/// Irregular vertices for each edge by which sides differ, more where they are less than two quads apart, and
+/// others where they stay different. A free edge is too much on a curve that makes rows end in a patch
+/// without sums, in which so many rows follow it. All are measured on CAD models.
 constexpr double kIrregularPerRow = 0.5, kMoreInNarrow = 0.9, kIrregularPerFarRow = 0.3,
                  kIrregularPerFreeEdge = 0.6, kRowsThatFollow = 2;
 

@@ -14,7 +14,7 @@ namespace {
 constexpr int kSweeps = 60;
 /// Two nodes are meant to be opposite when what lies across each is nearer to the other than this, in edges.
 constexpr double kPairing = 0.75, kCountedPairing = 2;
-/// Pull across, against that of the neighbors on the curve: (size / width)^2, within these.
+/// Pull across, against the pull of the neighbors on the curve: (size / width)^2, within these.
 constexpr double kLeastPull = 0.3, kMostPull = 200;
 /// No edge gets shorter than this part of what it was.
 constexpr double kShortest = 0.4;

@@ -148,7 +148,7 @@ std::vector<BoundaryCap> cap_tips(PatchBoundary& boundary, const std::function<i
 
 namespace {
 
-/// The least sine in a quad of a row: that of eta 0.4.
+/// The least sine in a quad of a row, as at an eta of 0.4.
 constexpr double kLeastSine = 0.588;
 /// tan 30 degrees: the quad in the corner has three angles of about 120 degrees.
 constexpr double kBeyond = 0.57735;

@@ -7,6 +7,8 @@
 
 #include "delquad/mesh.h"
 
+// This header cuts quads off corners of patches. Curves, thin features and layers use it.
+
 namespace delquad {
 
 /// Quads that are cut off a patch at a corner of its boundary, where insertion has no choice.
@@ -26,11 +28,11 @@ struct LoopPoint {
 using BoundaryLoop = std::vector<LoopPoint>;
 PatchBoundary make_boundary(const std::vector<BoundaryLoop>& loops);
 
-/// A cone is laid flat by a cut to its tip. Where it is pointed, the corner there takes one quad, but both of
-/// its sides are the same, and that quad would meet itself. Such corners are cut off the boundary, at the
-/// first node of the cut from which enough edges go around the cone; two quads take their place. In the
-/// boundary three points stand instead of the tip, so that the number of its edges keeps its parity.
-/// `add_node` makes a node at a point of the parameter plane.
+/// A cone is laid flat by a cut to its tip. Where it is pointed, the corner there takes one quad. Both of its
+/// sides are the same, and that quad would meet itself. Such corners are cut off the boundary, at the first
+/// node of the cut from which enough edges go around the cone. Two quads take their place. In the boundary
+/// three points stand instead of the tip, so that the number of its edges keeps its parity. `add_node` makes
+/// a node at a point of the parameter plane.
 std::vector<BoundaryCap> cap_tips(PatchBoundary& boundary, const std::function<int(Vec2)>& add_node);
 
 /// How a cap gets its nodes.
@@ -46,10 +48,10 @@ struct CapNodes {
 
 /// Cuts corners sharper than kLeastSharedAngle off a boundary, as far as the two sides are near to each
 /// other: there the parameter plane may be less exact than they are apart, and there is one good mesh only. A
-/// quad fills the corner, whose fourth vertex is so far inside that its other angles are alike, and two rows
-/// of quads lie between nodes that are opposite each other; the cap ends where they are not. In the boundary
-/// one point stands instead of all that is cut off, halfway between the last two nodes. Corners whose curves
-/// end at the first node are left alone.
+/// quad fills the corner, whose fourth vertex is so far inside that its other angles are alike. Two rows of
+/// quads lie between nodes that are opposite each other, and the cap ends where they are not. In the boundary
+/// one point, halfway between the last two nodes, stands instead of the part that is cut off. Corners whose
+/// curves end at the first node are left alone.
 std::vector<BoundaryCap> cap_corners(PatchBoundary& boundary, const CapNodes& nodes);
 
 }  // namespace delquad

@@ -65,8 +65,8 @@ std::vector<CurveDemand> joined_demands(std::vector<CurveDemand> demands,
 
 namespace {
 
-/// A piece of a fine line over which the integral is taken at once is at most this part of the size there,
-/// but for the most pieces a line may have.
+/// A piece of a fine line over which the integral is taken at once is at most this part of the size there. A
+/// line may have so many pieces at most, whatever that gives.
 constexpr double kPiece = 0.25;
 constexpr int kMostPieces = 4096;
 

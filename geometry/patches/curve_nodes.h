@@ -8,9 +8,11 @@
 #include "geometry/planar/planar_model.h"
 #include "geometry/surface/surface_model.h"
 
+// This header places nodes on curves of surfaces. Patches and symmetry use it.
+
 namespace delquad {
 
-/// A piece of a curve between two corners, as a polyline of fine points from end to end; a closed curve with
+/// A piece of a curve between two corners, as a polyline of fine points from end to end. A closed curve with
 /// one corner at most is one piece, which ends where it begins.
 struct CurveChain {
   int curve = -1;  ///< index into Mesh::curves
@@ -81,8 +83,8 @@ SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const Size
 using CurvePlaces = std::vector<std::vector<double>>;
 CurvePlaces equal_places(const std::vector<int>& counts);
 
-/// Places nodes and projects them to the curves, or to the faces that cuts run through
-/// (`cut_face`: of each curve, -1 where it is no cut); ends of curves that meet share their node.
+/// Places nodes and projects them to the curves, or to the faces that cuts run through. `cut_face`: for each
+/// curve, -1 where it is no cut. Ends of curves that meet share their node.
 SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain>& chains,
                          const std::vector<int>& cut_face, const std::vector<SizeIntegral>& integrals,
                          const CurvePlaces& places);

@@ -39,10 +39,10 @@ std::vector<int> components(const WeightedGraph& graph) {
   return parts.roots();
 }
 
-/// A curve at which more than two patches meet is no edge of a graph, and a change of it by one changes the
+/// A curve at which more than two patches meet is no edge of a graph. A change of it by one changes the
 /// parity of several parts of the graph. Returns the curves (indices into `costs`) to change so that each
-/// part has an even number of odd patches, where that can be: a sum of columns mod 2, by elimination, in
-/// which cheap columns come first.
+/// part has an even number of odd patches, where that can be. They are a sum of columns mod 2, by
+/// elimination, in which cheap columns come first.
 std::vector<int> columns_for(const std::vector<Parities>& columns, const std::vector<double>& costs,
                              Parities wanted) {
   struct Row {

@@ -8,6 +8,8 @@
 #include "geometry/mesh/triangle_measures.h"
 #include "geometry/patches/patch_outline.h"
 
+// This header finds corners that take one quad only. Patches use it.
+
 namespace delquad {
 
 /// Corners of a smaller angle than this take one quad only, with its fourth vertex inside (radians).
@@ -30,7 +32,7 @@ std::vector<FaceCorner> face_corners(const Mesh& fine, const std::vector<CurveCh
 /// The best worst eta of the quads that share a corner of this angle (radians) evenly.
 double corner_eta_bound(double angle);
 
-/// Those corners whose bound is below `eta`.
+/// Corners whose bound is below `eta`.
 std::vector<SharpCorner> find_sharp_corners(const std::vector<FaceCorner>& corners,
                                             const std::vector<CurveChain>& chains,
                                             const std::vector<FlatPatch>& maps, const SurfaceNodes& nodes,

@@ -15,6 +15,9 @@
 #include "geometry/patches/surface_domain.h"
 #include "geometry/planar/planar_model.h"
 
+// This header has a prepared problem: patches with fields, and their model. The pipeline, repairs and
+// criteria use it.
+
 namespace delquad {
 
 struct LayerReport;
@@ -27,7 +30,7 @@ struct PatchSetup {
   std::shared_ptr<const CrossField> cross;
   std::shared_ptr<const ParametricSize> size;
   std::function<Vec3(Vec2, int& hint)> lift;
-  /// Of one that is a mirror image, how: it has the master's mesh, mirrored.
+  /// For a mirror image, how: it has the master's mesh, mirrored.
   std::optional<PatchImage> image = {};
   std::optional<QuadPatch> grid = {};  ///< of a mapped face: the quads that it begins with
   bool grid_stays = false;             ///< which no stage changes: it was asked for
@@ -48,7 +51,7 @@ struct WholeSurface {
   std::vector<SurfaceCut> cuts;
 };
 
-/// What the patches of a surface were made from.
+/// The model and maps that the patches of a surface were made from.
 struct SurfaceSetup {
   SurfaceModel model;
   SurfaceDomain domain;
@@ -68,10 +71,10 @@ struct SurfaceSetup {
 /// The maps of all patches.
 std::vector<const FlatPatch*> maps_of(const SurfaceSetup& surface);
 
-/// What the patches of a planar domain were made from.
+/// The model and curves that the patches of a planar domain were made from.
 struct PlaneSetup {
   bool ignores_small = false;  ///< what is small in its outlines was left out
-  /// Of each curve those of the model that lie there; empty where the lines are kept.
+  /// For each curve, the curves of the model that lie there; empty where the lines are kept.
   std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes;
   std::vector<CurvePlace> curve_places;              ///< of the curves' nodes; empty where the lines are kept
   std::vector<DomainPiece> pieces;                   ///< of its curves; empty in the plane of a metric, too
@@ -79,7 +82,7 @@ struct PlaneSetup {
   std::shared_ptr<const BackgroundMesh> background;  ///< of all patches; null on surfaces
 };
 
-/// What is worst in a mesh of quads that is given: what is made of it must not be worse.
+/// The worst values of a given mesh of quads: a mesh made of it must not be worse.
 struct GivenWorst {
   double eta = 1;     ///< least of all quads, 0 where some are inverted
   double side = 0;    ///< shortest of all edges, in sizes
@@ -88,7 +91,7 @@ struct GivenWorst {
   bool is_sound = true;  ///< whether all quads are
 };
 
-/// What a problem says beside its model and fields; the members are as in MeshProblem.
+/// The settings of a problem beside its model and fields; the members are as in MeshProblem.
 struct ProblemSettings {
   std::string name, where;
   Options options;
@@ -98,7 +101,7 @@ struct ProblemSettings {
   Criteria criteria = {};
 };
 
-/// What every pipeline on a case starts from.
+/// The state that every pipeline on a case starts from.
 struct MeshingSetup : Preparation {
   ProblemSettings settings;
   std::vector<PatchSetup> patches;
@@ -111,7 +114,7 @@ struct MeshingSetup : Preparation {
 
   /// Whether the model is a GivenMesh in space.
   bool is_given_surface() const { return surface && surface->given; }
-  /// Those of a surface that forbid a quad an eta of kBadEta.
+  /// Corners of a surface that forbid a quad an eta of kBadEta.
   std::vector<SharpCorner> sharp_corners() const {
     return surface ? surface->domain.sharp_corners : std::vector<SharpCorner>();
   }

@@ -83,8 +83,8 @@ std::vector<int> group_facing_curves(const Mesh& fine, const std::vector<CurveCh
 
 namespace {
 
-/// Nodes are opposite each other when they are at most this far apart, in edges, and the line between them is
-/// steep to the boundary on one side of it (sine).
+/// Nodes are opposite each other when they are at most this far apart, in edges. The line between them must
+/// be steep to the boundary on one side of it (sine).
 constexpr double kWidest = 1.1, kAcross = 0.6;
 
 double sine(Vec2 a, Vec2 b) { return std::abs(cross(a, b)) / (norm(a) * norm(b)); }

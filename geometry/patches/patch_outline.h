@@ -9,6 +9,8 @@
 #include "geometry/patches/curve_nodes.h"
 #include "geometry/surface/flatten.h"
 
+// This header walks along the outline of a patch's map. Patches and given meshes use it.
+
 namespace delquad {
 
 /// Where a side of a patch's map lies on a curve.

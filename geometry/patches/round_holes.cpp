@@ -68,7 +68,7 @@ class RoundHoles {
   }
 
   /// Whether irregular vertices that fall away beside the hole are worth more than the sizes of the quads
-  /// behind it, half of which are the other end's. The rows there lead to one curve: where they meet several,
+  /// behind it. Half of these are the other end's. The rows there lead to one curve: where they meet several,
   /// more of them would have to end.
   bool pays(int p, const std::vector<int>& around) const {
     double length = 0, quads = 0;

@@ -133,10 +133,10 @@ class TubePatch {
   std::vector<double> limit_;
 };
 
-/// The largest size at each vertex of each map for which quads do not meet themselves around a tube: a fourth
-/// of the way from one side of a cut to the other. Empty for patches that bound no curve from both sides, or
-/// where this asks for nothing. Towards the tip of a cone the way shrinks to nothing, which the size does not
-/// follow below a part of `size`: see cap_tips().
+/// The largest size at each vertex of each map for which quads do not meet themselves around a tube. It is a
+/// fourth of the way from one side of a cut to the other. Empty for patches that bound no curve from both
+/// sides, or where this asks for nothing. Towards the tip of a cone the way shrinks to nothing, which the
+/// size does not follow below a part of `size`: see cap_tips().
 std::vector<std::vector<double>> tube_sizes(const Mesh& fine, const std::vector<CurveChain>& chains,
                                             const std::vector<FlatPatch>& maps,
                                             const std::vector<PatchOutline>& outlines,
@@ -166,7 +166,7 @@ constexpr int kFewestTipEdges = 2;
 /// Curves shorter than this part of the size are warned of.
 constexpr double kShort = 0.5;
 
-/// What tubes allow at each point of each curve; empty for curves that bound none.
+/// The size that tubes allow at each point of each curve; empty for curves that bound none.
 std::vector<std::vector<double>> limits_on_curves(const SurfaceCurves& curves) {
   std::vector<std::vector<double>> limits(curves.chains.size());
   for (size_t p = 0; p < curves.maps.size(); ++p) {
@@ -184,7 +184,7 @@ std::vector<std::vector<double>> limits_on_curves(const SurfaceCurves& curves) {
   return limits;
 }
 
-/// Limits by a metric become those of lengths in space.
+/// Limits by a metric become limits of lengths in space.
 void limits_in_space(const Mesh& fine, const CurveChain& chain, const SurfaceSize& size,
                      std::vector<double>& limits) {
   int hint = -1;
@@ -240,7 +240,8 @@ void demand_edges_at_corners(const SurfaceCurves& curves, std::vector<CurveDeman
       demands[c].minimum = std::max(demands[c].minimum, 1 + ends);
 }
 
-/// Of curves between the same two ends, one at most may be a single edge; closed ones need a loop of quads.
+/// Among curves between the same two ends, one at most may be a single edge; closed ones need a loop of
+/// quads.
 void demand_edges_of_loops(const std::vector<CurveChain>& chains, const std::vector<SizeIntegral>& integrals,
                            std::vector<CurveDemand>& demands) {
   std::map<std::pair<int, int>, size_t> single;

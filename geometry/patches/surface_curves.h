@@ -15,6 +15,8 @@
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/surface_model.h"
 
+// This header relates the curves of a surface to its patches. Curves, grids and divisions use it.
+
 namespace delquad {
 
 /// A boundary loop of quads needs four edges to enclose an area.
@@ -34,7 +36,7 @@ struct SurfaceCurves {
 
 SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size);
 
-/// Of each chain the one whose number of edges it has: its master, or itself.
+/// For each chain the one whose number of edges it has: its master, or itself.
 std::vector<int> leaders(const SurfaceCurves& curves);
 
 /// How many edges curves want and must have, by chain.
@@ -44,7 +46,8 @@ struct CurveDemands {
   std::vector<int> group;       ///< those that face each other along strips, see group_facing_curves()
   std::vector<CurveDemand> demands;
   std::vector<double> quads;  ///< of each patch: the integral of dA/delta^2
-  /// Of each the places that its nodes were given, as CurveNode::s, both ends included; empty: it is free.
+  /// For each chain the places that its nodes were given, as CurveNode::s, both ends included; empty: it is
+  /// free.
   std::vector<std::vector<double>> divided = {};
 };
 

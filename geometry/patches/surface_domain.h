@@ -14,6 +14,9 @@
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/surface_model.h"
 
+// This header has the patches of a surface, ready to mesh. The preparation, divisions and given meshes use
+// it.
+
 namespace delquad {
 
 /// A patch of a surface, ready to mesh: its boundary in the parameter plane and the way back to space.
@@ -37,7 +40,7 @@ struct SurfaceDomain {
   std::vector<CurveChain> chains;
   std::vector<char> chain_stays;           ///< its nodes were asked for, and no stage moves them
   std::vector<int> cut_face;               ///< of each curve: the face that this cut runs through; -1: no cut
-  SurfaceNodes nodes;                      ///< those of `boundary`
+  SurfaceNodes nodes;                      ///< lines of `boundary`
   std::vector<PatchCap> caps;              ///< at tips of cones, in sharp corners
   std::vector<SharpCorner> sharp_corners;  ///< whose bound is below kBadEta
   std::vector<MappedPatch> mapped;         ///< those that become grids
@@ -48,9 +51,9 @@ struct SurfaceDomain {
 /// Parameter length over length at each vertex of a map, by the areas around.
 std::vector<double> stretch_of(const FlatPatch& map, const Mesh& fine);
 
-/// delta' of a patch: delta at the point in space, or what a tube allows there if less, times the local
-/// stretch parameter length / surface length, which is |det M|^(-1/4) (the paper's sections 2 and 5 print
-/// +1/4), averaged to the map's vertices so that it is continuous.
+/// delta' of a patch: delta at the point in space, or the size that a tube allows there if less, times the
+/// local stretch. The stretch is parameter length / surface length, which is |det M|^(-1/4) (the paper's
+/// sections 2 and 5 print +1/4). It is averaged to the map's vertices so that it is continuous.
 class SurfacePatchSize final : public ParametricSize {
  public:
   SurfacePatchSize(const SurfacePatch& patch, const Mesh& fine, const SurfaceSize& size);
@@ -66,7 +69,7 @@ class SurfacePatchSize final : public ParametricSize {
 /// The point of the fine triangulation at u.
 Vec3 fine_place(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint);
 
-/// Outward normal of the fine triangles about u, any length: the large ones count most, since the slivers of
+/// Outward normal of the fine triangles about u, any length. The large ones count most, since the slivers of
 /// a sharp corner may be turned over.
 Vec3 fine_normal(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint);
 

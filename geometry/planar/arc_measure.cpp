@@ -91,8 +91,9 @@ std::vector<ArcMeasure::Panel> ArcMeasure::first_panels(int count) const {
   return panels;
 }
 
-// Rounds of splitting: a panel is split when its error is above its share of what is allowed for all of them,
-// so that the sum of the errors is in bounds as soon as no panel is split. Too narrow panels are not counted.
+// Rounds of splitting: a panel is split when its error is above its share of the error that is allowed for
+// all of them. So the sum of the errors is in bounds as soon as no panel is split. Too narrow panels are not
+// counted.
 void ArcMeasure::refine(std::vector<Panel>& panels, double most) const {
   bool every_edge = false;
   for (;;) {

@@ -16,9 +16,9 @@ namespace delquad {
 class ArcMeasure {
  public:
   /// The piece t0 <= t <= t1 of the curve, which messages call `label`. Once the integral is known and is not
-  /// above `most`, the size is sampled more often than once an edge, so that no variation that the edges can
-  /// show is missed. Throws InputError where the point is not finite, the size is not finite and positive, or
-  /// the curve jumps.
+  /// above `most`, the size is sampled more often than once an edge. So no variation that the edges can show
+  /// is missed. Throws InputError where the point is not finite, the size is not finite and positive, or the
+  /// curve jumps.
   ArcMeasure(const Curve& curve, double t0, double t1, const PointSize& size, const std::string& label,
              double most);
 

@@ -19,8 +19,8 @@ using Lines = std::vector<std::array<int, 2>>;
 
 bool before(Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
-/// The sides that leave each point: those to the right from bottom to top, then those to the left from top to
-/// bottom, which is counterclockwise.
+/// The sides that leave each point, counterclockwise: sides to the right from bottom to top, then sides to
+/// the left from top to bottom.
 class Fans {
  public:
   Fans(const std::vector<Vec2>& points, const Lines& lines)
@@ -195,8 +195,8 @@ class Arranger {
     bool is_contour;  ///< goes around lines from outside
   };
 
-  /// In the order of their first points, of one point the contour, then those of inner faces from bottom to
-  /// top.
+  /// In the order of their first points; for one point the contour, then contours of inner faces from bottom
+  /// to top.
   void walk_cycles() {
     std::vector<int> order(points_.size());
     std::iota(order.begin(), order.end(), 0);

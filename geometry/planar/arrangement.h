@@ -7,6 +7,8 @@
 
 #include "delquad/mesh.h"
 
+// This header finds the faces that lines of a plane enclose. Planar domains and given meshes use it.
+
 namespace delquad {
 
 /// The faces that straight lines of a plane enclose. Line l has two sides: side 2 l runs along it as given,

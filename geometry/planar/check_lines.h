@@ -9,6 +9,8 @@
 #include "geometry/planar/arrangement.h"
 #include "geometry/planar/planar_model.h"
 
+// This header checks lines that bound a planar domain. Planar domains and reports use it.
+
 namespace delquad {
 
 /// How messages call what they are about.
@@ -34,8 +36,8 @@ Arrangement arrange_lines(const Mesh& lines, const BoundaryNames& names);
 /// The edges of a patch's boundary, loop by loop, each from its first point on.
 std::vector<std::vector<int>> loops_of_edges(const PatchBoundary& boundary);
 
-/// One line for each patch whose boundary has an odd number of edges, which leaves a triangle when triangles
-/// are merged to quads: names the region, its odd loops and their curves.
+/// One line for each patch whose boundary has an odd number of edges: it names the region, its odd loops and
+/// their curves. Such a boundary leaves a triangle when triangles are merged to quads.
 std::vector<std::string> odd_boundaries(const PlanarDomain& domain);
 
 /// All edges of the patches' boundaries as lines of one curve, with the points of the domain.

@@ -21,7 +21,7 @@ namespace delquad {
 
 /// The part of a curve between two compulsory nodes.
 struct CurvePiece {
-  std::vector<int> curves;  ///< of the model; several where these lie on each other; none: a whisker
+  std::vector<int> curves;  ///< of the model; several where these lie on each other; none: a dangling curve
   std::array<int, 2> ends;  ///< nodes
   std::shared_ptr<const Curve> shape;
   double from = 0, to = 1;
@@ -30,7 +30,7 @@ struct CurvePiece {
   int n = 1;                          ///< edges
   bool is_divided = false;            ///< its nodes were asked for: neither n nor they change
   std::vector<double> interior = {};  ///< parameters of its nodes
-  int curve = -1;                     ///< of the mesh; -1: a whisker
+  int curve = -1;                     ///< of the mesh; -1: a dangling curve
   int master = -1;                    ///< the piece whose nodes it has the images of; -1: none
   bool is_mirrored = false;           ///< it has the shape of the master, mirrored, and the same parameters
   std::vector<Vec2> images = {};      ///< its nodes, where they are images by a motion

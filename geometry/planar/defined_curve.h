@@ -5,6 +5,8 @@
 
 #include "delquad/model.h"
 
+// This header has curves that tell how they were made. Model files use it.
+
 namespace delquad {
 
 /// A curve that tells how it was made.

@@ -6,6 +6,8 @@
 
 #include "base/predicates.h"
 
+// This header asks whether a point lies in a polygon. Planar regions and washers use it.
+
 namespace delquad {
 
 /// Whether a point lies in a closed polygon, by exact predicates.

@@ -9,6 +9,8 @@
 #include "geometry/planar/arrangement.h"
 #include "geometry/planar/check_lines.h"
 
+// This header gives faces of an arrangement their regions. Planar domains and curves use it.
+
 namespace delquad {
 
 /// Which region each face of an arrangement has.
@@ -25,8 +27,8 @@ using FaceNames = std::vector<std::optional<std::vector<std::string>>>;
 /// Nameless regions are called "domain", or "domain_1", "domain_2", ... if there are more.
 FaceRegions regions_by_nesting(const Arrangement& arrangement, const FaceNames& names);
 
-/// Regions of loops: each face belongs to the innermost loop around it, and has a region if that loop has a
-/// name, or if there is none around the loop; the faces of a loop have one region. `loops_of_curve`: of each
+/// Regions of loops. Each face belongs to the innermost loop around it. It has a region if that loop has a
+/// name, or if there is none around the loop. The faces of a loop have one region. `loops_of_curve`: of each
 /// curve of the lines. Throws InputError for loops that overlap, holes outside of every region, and named
 /// loops that others fill.
 FaceRegions regions_of_loops(const Mesh& lines, const Arrangement& arrangement,

@@ -5,6 +5,8 @@
 
 #include "delquad/model.h"
 
+// This header joins curves to loops. Readers of outlines and model files use it.
+
 namespace delquad {
 
 /// Part of a model's diagonal: ends of curves that are nearer are one, and outlines that are nearer lie on

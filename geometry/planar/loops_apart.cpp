@@ -52,7 +52,8 @@ double distance_of_parts(const Part& p, const Part& q) {
 }
 
 /// Where two curves come nearer than the tolerance. The search ends: it goes on with halves of the part that
-/// strays the most, which stray half as much at most, until both stray by less than the tolerance.
+/// strays the most, which stray half as much at most. It stops as soon as both stray by less than the
+/// tolerance.
 std::optional<Vec2> meeting(const Part& p, const Part& q, double tolerance, int halvings = 0) {
   check_cancelled();
   if (distance_of_parts(p, q) - p.bulge - q.bulge > tolerance) return std::nullopt;

@@ -6,10 +6,12 @@
 #include "delquad/mesh.h"
 #include "geometry/planar/check_lines.h"
 
+// This header checks that loops do not touch. Curves, symmetry and periodic sides use it.
+
 namespace delquad {
 
-/// Loops nearer to each other than this part of the model's diagonal touch: well above what is left of
-/// coordinates with seven digits, below any gap that a mesh could fill.
+/// Loops nearer to each other than this part of the model's diagonal touch. It is well above the rounding of
+/// coordinates with seven digits, and below any gap that a mesh could fill.
 inline constexpr double kTouch = 1e-6;
 
 /// An edge of a loop: the part of a curve between two of its nodes.

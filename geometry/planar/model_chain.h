@@ -13,7 +13,7 @@
 
 namespace delquad {
 
-/// Ends of curves of a loop that lie closer than this, relative to the model's diagonal, are one node: the
+/// Ends of curves of a loop that lie closer than this, relative to the model's diagonal, are one node. The
 /// coordinates in a model are written with about seven digits.
 inline constexpr double kJoinTolerance = 1e-7;
 

@@ -63,7 +63,7 @@ struct PlanarDomain {
   /// For each curve the curves of the model that lie there. It is empty if the lines were given, and for
   /// second lips of cracks.
   std::vector<std::vector<int>> model_curves;
-  /// Their shapes; of a second lip those of all cracks.
+  /// Their shapes; for a second lip the shapes of all cracks.
   std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes = {};
   std::vector<DomainPiece> pieces = {};  ///< of the curves; empty where the lines were given
   /// Where there are layers or wedges: the patches with these. `patches` are what is left to be meshed.
@@ -74,10 +74,11 @@ struct PlanarDomain {
 /// Tells what the lines enclose, whatever their order and orientation: regions side by side, and by nesting
 /// outer ones, holes and islands (see regions_by_nesting()). Lines with a region on both sides are
 /// interfaces, lines that end inside of a region stand in it. Regions are in the order of their
-/// lexicographically smallest nodes. In `boundary` the points keep their order (those without lines are
-/// dropped) and so do the lines, turned so that the region lies on their left (the inner one of two). A
-/// patch's points go round its outline, then round what lies inside, each from its lexicographically smallest
-/// node. Throws InputError as arrange_lines() and build_domain(); messages call the lines by `source`.
+/// lexicographically smallest nodes. In `boundary` the points keep their order, without the points that have
+/// no lines. The lines keep theirs, too, turned so that the region lies on their left (the inner one of two).
+/// A patch's points go round its outline, then round the loops inside, each from its lexicographically
+/// smallest node. Throws InputError as arrange_lines() and build_domain(); messages call the lines by
+/// `source`.
 PlanarDomain make_domain(Mesh lines, const std::string& source = {});
 
 }  // namespace delquad

@@ -8,6 +8,8 @@
 
 #include "delquad/mesh.h"
 
+// This header finds points by cells. Outlines use it.
+
 namespace delquad {
 
 /// Points by cells as wide as the tolerance.

@@ -7,6 +7,8 @@
 
 #include "delquad/model.h"
 
+// This header makes curves of functions. The Python module uses it.
+
 namespace delquad {
 
 /// Writes the points of a batch of parameters.

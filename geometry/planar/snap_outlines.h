@@ -7,6 +7,8 @@
 #include "delquad/error.h"
 #include "delquad/model.h"
 
+// This header joins polylines that nearly touch. The preparation uses it.
+
 namespace delquad {
 
 /// Corners and ends of a curve that is straight between them; nothing of others.

@@ -39,8 +39,8 @@ std::vector<Vec2> close_polygon(const std::vector<double>& turns, const std::vec
   return polygon;
 }
 
-/// Where a boundary turns back onto itself, as around the tip of a slit or of a cusp beside the chart, its
-/// sides would touch or cross: there it turns less, and at the points beside more.
+/// A boundary turns back onto itself around the tip of a slit, or of a cusp beside the chart. Its sides would
+/// touch or cross. It turns less there, and at the points beside more.
 void keep_open(std::vector<double>& turns) {
   constexpr double kOpen = 2 * std::numbers::pi / 180;
   const std::size_t n = turns.size();

@@ -21,8 +21,8 @@ struct Chart {
   std::vector<int> fine_triangle;              ///< of each triangle
   std::vector<std::vector<int>> loops;         ///< vertices, the chart on the left; the longest loop first
   int n_boundary = 0;                          ///< how many vertices lie on loops
-  /// Lengths of the sides opposite to each corner of each triangle, by which the chart is measured in place
-  /// of its points: those of another metric. Empty: none.
+  /// Lengths of the sides opposite to each corner of each triangle. The chart is measured by these lengths of
+  /// another metric in place of its points. Empty: none.
   std::vector<std::array<double, 3>> sides = {};
 };
 

@@ -179,8 +179,8 @@ std::map<std::array<int, 2>, Vec3> directions_at_curves(const Mesh& mesh) {
 }
 
 /// From the middle of a triangle's side, a line of a curve, into its face, by the true surface and square to
-/// the line. `direction`: that of the triangles there. These are off by half of what the face turns by over
-/// one of them, which on a fillet is more than what is taken for smooth.
+/// the line. `direction`: the direction of the triangles there. These are off by half of the angle by which
+/// the face turns over one of them. On a fillet that is more than the angle that is taken for smooth.
 Vec3 inward_normal(const SurfaceModel& model, int curve, const HalfEdge& side, const Vec3& direction) {
   constexpr double kStep = 0.02;  // of the triangle's height
   const Mesh& mesh = model.fine;

@@ -5,6 +5,8 @@
 
 #include "geometry/surface/surface_model.h"
 
+// This header makes one face of several. The input of surfaces uses it.
+
 namespace delquad {
 
 struct CompoundOptions {
@@ -15,9 +17,9 @@ struct CompoundOptions {
 /// The model with the faces of each group (indices into fine.regions) made one face, which has the least tag
 /// of them and all their names. Curves with one group on both sides vanish. Where they ended, two curves that
 /// are left over, with the same names and without a sharp turn, become one, which has the lesser tag. Faces
-/// and curves keep their order otherwise. The projector goes to the face, of those that became one,
-/// whose fine triangles are nearest, and to the nearest curve. Throws InputError for a face that does not
-/// exist or is in two groups and for a group whose faces do not hang together along curves.
+/// and curves keep their order otherwise. The projector goes to the former face whose fine triangles are
+/// nearest, and to the nearest curve. Throws InputError for a face that does not exist or is in two groups.
+/// So it does for a group whose faces do not hang together along curves.
 SurfaceModel make_compound(SurfaceModel model, const std::vector<std::vector<int>>& groups,
                            const CompoundOptions& options = {});
 

@@ -7,6 +7,8 @@
 
 #include "geometry/surface/surface_model.h"
 
+// This header keeps the projector of a model whose faces were joined. Compounds, washers and imprints use it.
+
 namespace delquad {
 
 /// The former faces (or curves) that each face (or curve) was made of, by index.
@@ -14,9 +16,9 @@ using EntityGroups = std::vector<std::vector<int>>;
 
 EntityGroups singleton_groups(std::size_t n);
 
-/// Numbers what a model knows of its faces and curves anew, after these were made of former ones: the
-/// projector goes to those of the faces that became one on whose fine triangles the nearest point lies, and
-/// to the nearest of the curves. `former`: the triangulation before.
+/// Numbers a model's data of its faces and curves anew, after these were made of former ones. The projector
+/// goes to the former face on whose fine triangles the nearest point lies, and to the nearest of the curves.
+/// `former`: the triangulation before.
 void regroup(SurfaceModel& model, const Mesh& former, const EntityGroups& faces, EntityGroups curves);
 
 /// The same, with more curves, from `first_curve` on: each lies anywhere in its face, `faces`.

@@ -28,10 +28,10 @@ struct EdgeChain {
 std::vector<EdgeChain> chain_edges(const std::vector<std::array<int, 2>>& edges,
                                    const std::function<bool(int)>& is_end);
 
-/// Joins the lines of model.fine into maximal chains, which end at the marked points, where other than two
-/// lines meet and where the kind of the lines or the number of triangles on them changes. Sorts the lines and
-/// sets line_curve and the model's corners; returns for each chain the numbers that its lines had before.
-/// model.fine.curves is left to the caller.
+/// Joins the lines of model.fine into maximal chains. They end at the marked points and where other than two
+/// lines meet. They also end where the kind of the lines or the number of triangles on them changes. Sorts
+/// the lines and sets line_curve and the model's corners. Returns for each chain the numbers that its lines
+/// had before. model.fine.curves is left to the caller.
 std::vector<std::vector<int>> chain_lines(SurfaceModel& model, const std::vector<int>& line_kind,
                                           std::vector<char> corner);
 
@@ -41,7 +41,7 @@ std::vector<std::vector<int>> points_of_curves(const Mesh& mesh);
 
 std::vector<double> lengths_of_curves(const Mesh& mesh);
 
-/// An entity for each piece of the `given` ones: the first piece of one keeps its tag, others get new tags;
+/// An entity for each piece of the `given` ones. The first piece of one keeps its tag, others get new tags;
 /// all keep its names. given_of_piece -1: a piece of none.
 std::vector<Entity> entities_of_pieces(const std::vector<Entity>& given,
                                        const std::vector<int>& given_of_piece);

@@ -6,6 +6,8 @@
 
 #include "geometry/surface/cut_path.h"
 
+// This header chooses cuts of charts. Flattening uses it.
+
 namespace delquad {
 
 /// How good a place each fine node is for a cut to end.
@@ -22,8 +24,8 @@ std::vector<int> sharp_tips(const Chart& chart);
 /// A path between a tip and the boundary, of the same kind.
 std::optional<CutPath> plan_tip_cut(const Chart& chart, int tip, const std::vector<CutEnd>& ends);
 
-/// Where a cut ends at a blunt tip, a path that goes on from there to the rest of the boundary, so that both
-/// parts have half of the angle. None where no cut does, or other cuts bound the chart (`on_cut`: fine
+/// Where a cut ends at a blunt tip, a path that goes on from there to the rest of the boundary. It leaves
+/// both parts half of the angle. None where no cut does, or other cuts bound the chart (`on_cut`: fine
 /// nodes).
 std::optional<CutPath> plan_cut_through_tip(const Chart& chart, const std::vector<CutEnd>& ends,
                                             const std::vector<char>& on_cut);
@@ -32,8 +34,8 @@ std::optional<CutPath> plan_cut_through_tip(const Chart& chart, const std::vecto
 /// handles, rather one that separates nothing.
 std::optional<CutPath> plan_division(const Chart& chart);
 
-/// Parts a chart along edges of its triangles, which is always possible: for each triangle 0 or 1, both parts
-/// connected and of about the same extent. Empty for a single triangle.
+/// Parts a chart along edges of its triangles, which is always possible. Returns 0 or 1 for each triangle,
+/// both parts connected and of about the same extent. Empty for a single triangle.
 std::vector<char> plan_split(const Chart& chart);
 
 }  // namespace delquad

@@ -6,16 +6,18 @@
 
 #include "geometry/surface/cut_path.h"
 
+// This header cuts charts of a given mesh beside its elements. Flattening uses it.
+
 namespace delquad {
 
 /// Elements that consist of a chart's triangles. The chart is cut only along sides between them.
 struct ChartElements {
-  std::vector<int> element;        ///< of each triangle; those of one element hang together
+  std::vector<int> element;        ///< of each triangle; triangles of one element hang together
   std::vector<char> avoided = {};  ///< of each vertex, whether cuts should go around it
 };
 
-/// The shortest path along sides inside the chart from a vertex that is marked in `from` to one in `to`,
-/// which meets the boundary at most with its ends.
+/// The shortest path along sides inside the chart from a vertex that is marked in `from` to one in `to`. It
+/// meets the boundary at most with its ends.
 std::optional<CutPath> path_beside_elements(const Chart& chart, const ChartElements& elements,
                                             const std::vector<char>& from, const std::vector<char>& to);
 

@@ -6,6 +6,8 @@
 
 #include "delquad/mesh.h"
 
+// This header removes sharp edges that are noise. Triangulated models use it.
+
 namespace delquad {
 
 /// Kinds of sides of a triangle: nothing lies along it, a cut that was found, or else the index of a given
@@ -22,12 +24,11 @@ struct DroppedFeatures {
 };
 
 /// Takes away cuts that noise makes: short networks of them, and small faces between them (these join the
-/// neighbor with which they share most). Noise is what is made of very few edges, or of edges not much
-/// sharper than those beside it, while those beside it are not smooth either: an edge of a machined part
-/// stands out from what is around it, one of a scan does not. Free edges, given lines and borders of regions
-/// stay.
-/// `twin`: see side_twins; `angle`: of each side, radians between the normals; `cut`: of each side, the same
-/// on both sides of an edge.
+/// neighbor with which they share most). Noise is made of very few edges, or of edges not much sharper than
+/// the edges beside them, which are not smooth either. An edge of a machined part stands out from its
+/// surroundings, an edge of a scan does not. Free edges, given lines and borders of regions stay. `twin`: see
+/// side_twins; `angle`: of each side, radians between the normals; `cut`: of each side, the same on both
+/// sides of an edge.
 DroppedFeatures drop_noise(const Mesh& mesh, const std::vector<int>& twin, const std::vector<double>& angle,
                            std::vector<int>& cut);
 

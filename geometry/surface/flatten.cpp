@@ -50,13 +50,13 @@ FlatPatch to_patch(const Chart& chart, ConformalMap map) {
   return patch;
 }
 
-/// Part of the shorter side at a point of an outline that meets itself by which it is moved into its corner:
-/// far above rounding, far below any edge; less where triangles are thin.
+/// Part of the shorter side at a point of an outline that meets itself by which it is moved into its corner.
+/// Far above rounding, far below any edge; less where triangles are thin.
 constexpr double kOpenings[] = {1e-6, 1e-7, 1e-8, 1e-9};
 
-/// The places of a part of a chart in the chart's map. Where the part's boundary meets itself, along curves
-/// that stand in it and where these end on it, its points are moved apart into their corners, as in the plane
-/// (see build_domain()). None if that cannot be.
+/// The places of a part of a chart in the chart's map. The part's boundary meets itself along curves that
+/// stand in it and where these end on it. There its points are moved apart into their corners, as in the
+/// plane (see build_domain()). None if that cannot be.
 std::optional<std::vector<Vec2>> opened_map(const Chart& chart, const std::vector<Vec2>& map,
                                             const Chart& part) {
   std::map<int, std::size_t> place_of;  // of fine triangles in the chart
@@ -310,7 +310,7 @@ class Flattener {
     return norm(a.at - b.at) < kShortPiece * length;
   }
 
-  /// Triangles that cuts of neighbors split are no longer those of their patch.
+  /// Triangles that cuts of neighbors split are no longer triangles of their patch.
   void open_stale(const std::vector<std::pair<int, int>>& splits) {
     stuck_.resize(mesh_.triangles.size(), 0);
     tries_.resize(mesh_.triangles.size(), 0);

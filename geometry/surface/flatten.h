@@ -23,8 +23,9 @@ bool is_one_to_one(const Chart& chart, const std::vector<Vec2>& flat);
 /// The map must be one-to-one.
 FlatQuality measure_flat(const Chart& chart, const std::vector<Vec2>& flat);
 
-/// A piece of a face laid flat, one-to-one and positively oriented. Its area is that of the piece; those that
-/// embedded curves divide have it together. Along embedded curves it is open by a millionth of the lines.
+/// A piece of a face laid flat, one-to-one and positively oriented. Its area is the area of the piece; pieces
+/// that embedded curves divide have it together. Along embedded curves it is open by a millionth of the
+/// lines.
 struct FlatPatch {
   int face = -1;                   ///< index into Mesh::regions
   TriPatch flat;                   ///< boundary points first; two of them may be one point of the fine mesh
@@ -64,7 +65,7 @@ struct FlattenOptions {
 };
 
 /// Flattens all faces conformally, as if there were no embedded curves. Faces that cannot be flattened as
-/// they are, or only with much distortion, are cut: cuts are added to the model as curves, which refines the
+/// they are, or only with much distortion, are cut. Cuts are added to the model as curves, which refines the
 /// fine triangulation along them, and their ends as corners. The fine triangulation should have been improved
 /// before. Cuts and failures are reported in the model's warnings. Throws InputError where sides of triangles
 /// are on no curve but should be.

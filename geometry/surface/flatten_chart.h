@@ -8,6 +8,8 @@
 #include "geometry/surface/cut_planner.h"
 #include "geometry/surface/flatten.h"
 
+// This header flattens one chart, or tells how to cut it. Flattening uses it.
+
 namespace delquad {
 
 /// Holds the map of a chart, or how it is to be cut. It has neither for a triangle without area.

@@ -25,15 +25,13 @@ struct NarrowOptions {
 /// - parts of faces narrower than that (cusps, necks, steps that run out) are cut off, see
 /// cut_narrow_parts();
 /// - such a part, and a face narrower than that (twice its area by the length of its outline), becomes part
-/// of
-///   the neighbor with which it shares the longest curves, those that join smoothly counting most; that one
-///   keeps its tag and names;
+///   of a neighbor. This is the neighbor with which it shares the longest curves, smooth joints counting
+///   most. It keeps its tag and names;
 /// - a shorter curve becomes one with a curve that it continues (merge_short_curves);
-/// - of other shorter curves, both ends become one point, where the surface stays what it is by that, and no
-///   point moves farther than `length`.
-/// Warnings name each of these with its place, the short curves that stay, and names that no face and no
-/// curve has any more; `before` is what the model was. Throws InputError for a length that is not below the
-/// model's diagonal.
+/// - of other shorter curves, both ends become one point, if the surface keeps its topology by that, and no
+///   point moves farther than `length`. Warnings name each of these with its place, the short curves that
+///   stay, and names that no face and no curve has any more. `before` is the former model. Throws InputError
+///   for a length that is not below the model's diagonal.
 SurfaceModel ignore_small(SurfaceModel model, const NarrowOptions& narrow,
                           const CompoundOptions& options = {});
 

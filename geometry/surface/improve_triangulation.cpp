@@ -19,7 +19,7 @@ namespace delquad {
 
 namespace {
 
-/// How far flips may turn normals: where points lie on a smooth surface behind, any diagonal is as good as
+/// How far flips may turn normals. Where points lie on a smooth surface behind, any diagonal is as good as
 /// the other; else the triangles are the surface.
 const double kTurnSmooth = std::cos(25 * std::numbers::pi / 180);
 const double kTurnExact = std::cos(3 * std::numbers::pi / 180);
@@ -111,8 +111,8 @@ class Improver {
     return sum;
   }
 
-  /// Is c-d better than the edge a-b that the triangles (a, b, c) and (b, a, d) of a face share? Where one of
-  /// them is too thin to tell how the surface lies, as facets of long cylinders are, the normals at their
+  /// Is c-d better than the edge a-b that the triangles (a, b, c) and (b, a, d) of a face share? One of them
+  /// may be too thin to tell how the surface lies, as facets of long cylinders are. Then the normals at their
   /// points must not turn away from the triangles more than they did.
   bool should_flip(int a, int b, int c, int d, int face) const {
     constexpr double kTie = 1e-6;  // cocircular points stay as they are

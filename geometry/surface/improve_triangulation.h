@@ -13,14 +13,14 @@ struct ImproveOptions {
   /// Sides of a curved face are split when they are longer than this many times the shortest side of their
   /// triangle, as it was given.
   double max_aspect = 4;
-  /// Parts of the model's diagonal: sides that are shorter than the first are not split, those that are
-  /// longer than the second are in any case.
+  /// Parts of the model's diagonal: sides shorter than the first are not split, and sides longer than the
+  /// second are in any case.
   double min_length = 1.0 / 80;
   double max_length = 1.0 / 25;
 };
 
-/// Makes the fine triangulation fit for cotangent weights: edges inside faces are turned to be Delaunay where
-/// that does not bend the surface, long sides of curved faces are split and new points moved to the true
+/// Makes the fine triangulation fit for cotangent weights. Edges inside faces are turned to be Delaunay where
+/// that does not bend the surface. Long sides of curved faces are split, and new points moved to the true
 /// surface. Lines keep following their curves. Plane faces are only divided along with their neighbors.
 void improve_triangulation(SurfaceModel& model, const ImproveOptions& options = {});
 
@@ -28,8 +28,8 @@ void improve_triangulation(SurfaceModel& model, const ImproveOptions& options = 
 class RefinementRule {
  public:
   virtual ~RefinementRule() = default;
-  /// Is the triangle to be split? `curve[k]`: that of the side opposite to nodes[k]; -1: it is no line. Must
-  /// be false for triangles that are small enough in some sense, or refinement does not end.
+  /// Is the triangle to be split? `curve[k]`: the curve of the side opposite to nodes[k]; -1: it is no line.
+  /// Must be false for triangles that are small enough in some sense, or refinement does not end.
   virtual bool is_too_large(int face, const std::array<int, 3>& nodes,
                             const std::array<int, 3>& curve) const = 0;
   /// The length of a side, by which the longest is told, and what is Delaunay; `in_space`: that there.

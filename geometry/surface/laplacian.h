@@ -7,6 +7,8 @@
 
 #include "geometry/surface/chart.h"
 
+// This header has the cotangent Laplacian of a chart. Conformal maps and cuts use it.
+
 namespace delquad {
 
 /// Cotangent of the angle at each corner of each triangle, bounded where a triangle has almost no area.
@@ -31,7 +33,7 @@ class LaplaceSolver {
   std::shared_ptr<System> system_;
 };
 
-/// The slowest vibration of the chart with free boundary: its level curves divide the chart where it is
+/// The slowest vibration of the chart with free boundary. Its level curves divide the chart where it is
 /// narrow and meet the boundary at right angles.
 std::vector<double> fiedler_function(const Chart& chart);
 

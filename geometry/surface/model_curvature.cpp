@@ -16,7 +16,7 @@ namespace delquad {
 
 namespace {
 
-/// Rounds of averaging normals with those of the neighbors.
+/// Rounds of averaging normals with normals of the neighbors.
 constexpr int kSmoothing = 2;
 /// Sine of an angle below which a triangle is too thin to have a normal or a curvature.
 constexpr double kThinRing = 1e-3;

@@ -16,10 +16,11 @@ namespace delquad {
 /// How strongly the faces and curves of a model are curved, wherever one asks. Make it from a model as it was
 /// read: sides that are split later lie in the plane of their triangles and would hide it.
 ///
-/// The curvature of a CAD face is that of its surface; elsewhere it is estimated from the triangles: normals
-/// at points, the mean of the triangles around by their angles, smoothed against noise; the second
-/// fundamental form of each triangle from their differences [rusinkiewicz2004]; mean of the forms around a
-/// point. That of a curve is of the circle through neighboring points.
+/// The curvature of a CAD face comes from its surface; elsewhere it is estimated from the triangles
+/// [rusinkiewicz2004]. Normals at points are the mean of the triangles around by their angles, smoothed
+/// against noise. Their differences give the second fundamental form of each triangle, and the mean of the
+/// forms around a point counts there. The curvature of a curve is the curvature of the circle through
+/// neighboring points.
 class ModelCurvature {
  public:
   explicit ModelCurvature(const SurfaceModel& model);

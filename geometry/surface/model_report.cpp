@@ -40,7 +40,7 @@ struct BoundarySide {
   int curve;
 };
 
-/// Least distance between sides that look at each other, but for those of pairs of curves in `corners`.
+/// Least distance between sides that look at each other, except sides of pairs of curves in `corners`.
 double least_gap(const std::vector<BoundarySide>& sides, const std::vector<std::array<int, 2>>& corners) {
   std::vector<Box<Vec3>> boxes;
   for (const BoundarySide& s : sides) boxes.push_back(Box<Vec3>::around({s.from, s.to}));

@@ -6,6 +6,8 @@
 #include "delquad/metrics.h"
 #include "geometry/surface/surface_model.h"
 
+// This header describes a surface model. `info`, warnings and the pipeline use it.
+
 namespace delquad {
 
 /// Throws InputError as extract_charts() does.

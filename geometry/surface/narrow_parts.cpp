@@ -22,10 +22,10 @@ namespace delquad {
 
 namespace {
 
-/// In lengths: what is narrower is a narrow part where that lasts so long; how far apart places are from
-/// which one looks across; how many places may be missing in a part; how far ends of cuts move into corners
-/// and other points.
+/// In lengths. A part is narrow if it is below kNarrow wide for kLasts. Places from which one looks across
+/// are kApartOnLoop apart. Ends of cuts move so far into corners and other points.
 constexpr double kNarrow = 1.05, kLasts = 2, kApartOnLoop = 0.25, kIntoCorner = 0.25, kIntoPoint = 0.02;
+/// How many places may be missing in a part.
 constexpr int kMissing = 2;
 /// Sine of the angle up to which two sides face each other.
 constexpr double kFacingSine = 0.5;

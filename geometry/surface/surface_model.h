@@ -52,8 +52,8 @@ struct LooseLine {
   std::vector<std::string> names;  ///< physical groups; may be empty
   std::string where;               ///< what it is, for messages
   /// Whether the user asked for it: all its points become nodes, and it must lie on the surface. Else it is
-  /// from the model's file: its ends and sharp turns become nodes, and it is left out with a warning where it
-  /// lies elsewhere.
+  /// from the model's file. Then its ends and sharp turns become nodes, and it is left out with a warning
+  /// where it lies elsewhere.
   bool is_requested = false;
 };
 
@@ -67,13 +67,13 @@ struct EmbeddedCurve {
 /// A model made of faces that share curves, as a fine conforming triangulation.
 struct SurfaceModel {
   std::string source;  ///< file it was read from, for messages
-  /// Triangles tagged by face (triangle_region), lines tagged by curve (line_curve): every line is a side of
+  /// Triangles tagged by face (triangle_region), lines tagged by curve (line_curve). Every line is a side of
   /// triangles, and every side between two faces, on the outline or on a feature is a line. The lines of a
   /// curve form one chain, open or closed, listed from end to end, all in one direction. Triangles agree in
   /// orientation wherever the model is orientable.
   Mesh fine;
-  /// Points of `fine` that must be nodes of any mesh, ascending: ends of curves, points where more than two
-  /// curves meet, imprinted points. fine.named_points are among them.
+  /// Points of `fine` that must be nodes of any mesh, ascending. They are ends of curves, points where more
+  /// than two curves meet, and imprinted points. fine.named_points are among them.
   std::vector<int> corners;
   /// Null: the triangulation itself is the surface.
   std::shared_ptr<const SurfaceProjector> projector;

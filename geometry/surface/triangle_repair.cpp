@@ -211,8 +211,8 @@ std::vector<int> settle_lines(Mesh& mesh, std::vector<Warning>& warnings) {
   return side_of_line;
 }
 
-/// Corners of triangles (3 t + k: that at the start of side 3 t + k) that share an edge at their vertex
-/// belong to one fan, also where more than two triangles share it. The fans, each by one of its corners.
+/// Corners of triangles that share an edge at their vertex belong to one fan, also where more than two
+/// triangles share it. Corner 3 t + k is at the start of side 3 t + k. The fans, each by one of its corners.
 DisjointSets fans(const Mesh& mesh) {
   DisjointSets corners(3 * mesh.triangles.size());
   const auto corner_at = [&](int side, int v) {

@@ -12,22 +12,22 @@
 
 namespace delquad {
 
-/// Makes a surface of triangles as files hold them: each edge in one triangle, in two that agree in
-/// orientation, or in more, where the surface branches, each vertex in one fan, each line on an edge, no
-/// quads, no triangle without area, none twice, no unused point. Each kind of repair adds a line to
-/// `warnings`:
-/// - ends of open edges within `weld_tolerance` (a length) become one point; where others are nearly so, a
-///   warning tells what tolerance closes the gaps, if it does;
+/// Makes a surface of triangles as files hold them. Each edge is in one triangle, in two that agree in
+/// orientation, or in more, where the surface branches. Each vertex is in one fan, each line on an edge.
+/// There are no quads, no triangle without area, none twice, no unused point. Each kind of repair adds a line
+/// to `warnings`:
+/// - ends of open edges within `weld_tolerance` (a length) become one point. Where others are nearly so, a
+///   warning tells the tolerance that closes the gaps, if one does;
 /// - of triangles on the same vertices the first stays;
 /// - triangles without area go, and no gap opens (take_out_flat_triangles);
 /// - flat parts between branching edges that have the same outline are one place: the first stays;
-/// - triangles that run against their neighbors are turned, the fewer in each component; a closed component
-///   is turned outwards, unless it lies in the bounding box of the largest one and may be a cavity; where
+/// - triangles that run against their neighbors are turned, the fewer in each component. A closed component
+///   is turned outwards, unless it lies in the bounding box of the largest one and may be a cavity. Where
 ///   neighbors cannot agree, sharp edges between them stay as joints of sheets;
 /// - a vertex where fans touch becomes one vertex a fan;
-/// - lines that are not edges go.
-/// Throws InputError, beginning with `source`, for coordinates that are not finite, stray points, quads, no
-/// triangles, more branches than edges between two triangles, a surface that cannot be oriented.
+/// - lines that are not edges go. Throws InputError, beginning with `source`, for coordinates that are not
+///   finite, stray points, quads and no triangles. So it does for more branches than edges between two
+///   triangles, and a surface that cannot be oriented.
 Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
                       std::vector<Warning>& warnings);
 

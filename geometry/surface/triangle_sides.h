@@ -6,7 +6,8 @@
 
 #include "geometry/mesh/half_edges.h"
 
-/// Sides of triangles by number: side 3 t + k of triangle t runs from its vertex k to the next.
+/// This header numbers sides of triangles: side 3 t + k of triangle t runs from its vertex k to the next.
+// Features of triangulations use it.
 namespace delquad {
 
 inline int side_start(const Mesh& mesh, int side) { return mesh.triangles[side / 3][side % 3]; }

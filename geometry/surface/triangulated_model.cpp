@@ -23,7 +23,7 @@ namespace delquad {
 
 namespace {
 
-/// Unit normals; that of a sliver is its neighbor's across its longest side.
+/// Unit normals; a sliver has the normal of its neighbor across its longest side.
 std::vector<Vec3> steady_normals(const Mesh& mesh, const std::vector<int>& twin) {
   constexpr double kSliver = 1e-6;  // of the diagonal: some units in the last place of single precision
   const double least_height = kSliver * diagonal(mesh.points);
@@ -162,8 +162,8 @@ int given_curve_of(int n_curves, int kind) {
   return is_standing_kind(n_curves, kind) ? kind - n_curves - 1 : kind;
 }
 
-/// Cuts, and `standing` lines besides (sides with what lies along them), become the lines of the model,
-/// joined into curves. Returns of each what lay along it, those of standing lines beyond those of cuts: see
+/// Cuts, and `standing` lines besides (sides with the lines along them), become the lines of the model,
+/// joined into curves. Returns for each what lay along it, standing lines beyond the cuts: see
 /// standing_kind().
 std::vector<int> make_curves(SurfaceModel& model, const std::vector<int>& twin, const std::vector<int>& cut,
                              double angle, const std::vector<std::pair<int, int>>& standing = {}) {
@@ -194,8 +194,8 @@ std::vector<int> make_curves(SurfaceModel& model, const std::vector<int>& twin, 
   return kinds;
 }
 
-/// Lines that stand in faces: given ones that end there, and what has to go on from these and from named
-/// points that are on no line, as one edge alone would enclose nothing.
+/// Lines that stand in faces. They are given lines that end there, and lines that go on from these and from
+/// named points on no line. One edge alone would enclose nothing.
 class StandingLines {
  public:
   StandingLines(const Mesh& mesh, const std::vector<int>& twin, const std::vector<int>& element,

@@ -18,7 +18,7 @@ struct FeatureBall {
 };
 
 struct TriangulatedOptions {
-  /// Degrees, above 0 to 180: neighboring triangles whose normals differ by more lie in different faces, and
+  /// Degrees, above 0 to 180. Neighboring triangles whose normals differ by more lie in different faces, and
   /// a curve that turns by more has a corner there.
   double feature_angle = 40;
   /// Ends of open edges no further apart become one point; a part of the bounding box's diagonal, from 0.
@@ -30,16 +30,16 @@ struct TriangulatedOptions {
 
 /// A model of a triangulated surface, repaired (see repair_triangles).
 ///
-/// Faces are what is left when the surface is cut at its outline, between regions, along the given lines and
-/// along features. A face keeps the tag of its region; further faces of the same region get new tags and its
-/// names. Curves are the chains of these cuts, ended where other than two meet, where they turn sharply and
-/// where the given curve changes. A cut that ends inside a face bounds nothing and is dropped from its loose
-/// end, given lines to SurfaceModel::loose; a cut that has the same face on both sides but no loose end
-/// stays, like the seam of a tube. In the balls of options.kept_features all edges of more than 60 degrees
-/// stay.
+/// The faces are the parts of the surface when it is cut at its outline, between regions, along the given
+/// lines and along features. A face keeps the tag of its region; further faces of the same region get new
+/// tags and its names. Curves are the chains of these cuts, ended where other than two meet, where they turn
+/// sharply and where the given curve changes. A cut that ends inside a face bounds nothing. It is dropped
+/// from its loose end, given lines to SurfaceModel::loose. A cut that has the same face on both sides but no
+/// loose end stays, like the seam of a tube. In the balls of options.kept_features all edges of more than 60
+/// degrees stay.
 ///
-/// The direction of a triangle whose height is within the rounding of single precision coordinates is that of
-/// its neighbor across its longest side: such slivers make no features.
+/// The direction of a triangle. If its height is within the rounding of single precision, it is the direction
+/// of its neighbor across its longest side. Such slivers make no features.
 ///
 /// Throws InputError for what cannot be repaired; invalid_argument for a feature angle out of range.
 SurfaceModel make_surface_model(Mesh triangles, const TriangulatedOptions& options = {});
@@ -51,9 +51,9 @@ struct KeptModel {
   std::vector<int> given_curve, given_region;
 };
 
-/// The same of a mesh that needs no repair but that of settle_triangles(), and keeps its points and
-/// triangles. Triangles with the same `element` stay in one face. Given lines that end inside faces become
-/// embedded curves there, and so do two sides at a named point that is on no line.
+/// The same for a mesh that needs no repair except settle_triangles(), and keeps its points and triangles.
+/// Triangles with the same `element` stay in one face. Given lines that end inside faces become embedded
+/// curves there, and so do two sides at a named point that is on no line.
 KeptModel make_kept_model(Mesh triangles, const std::vector<int>& element,
                           const TriangulatedOptions& options = {});
 

@@ -6,6 +6,8 @@
 
 #include "delquad/mesher.h"
 
+// This header has the curves of a planar domain. Programs that use the library call it.
+
 namespace delquad {
 
 // Piece of a curve of a planar domain between two nodes, where it ends or other curves meet it.

@@ -22,7 +22,7 @@ inline constexpr const char* kDataFolder = "../shared/data";
 struct AdaptLoop {
   std::string kind = "stretched";  ///< one of adapt_kinds()
   int meshes = 6;                  ///< the first of which is uniform
-  AdaptSpec spec = {};             ///< its number of quads is that of the case
+  AdaptSpec spec = {};             ///< its number of quads is the number of the case
 };
 
 /// The part of a case that is no problem of meshing.

@@ -8,6 +8,8 @@
 #include "io/cases/case.h"
 #include "io/cases/toml_reader.h"
 
+// This header reads model files and cases. The program, experiments and the Python module use it.
+
 namespace delquad {
 
 /// Reads the keys of a case that the table has: model, data, mesh, curve, loop, pattern, surface, size,

@@ -14,7 +14,7 @@
 
 namespace delquad {
 
-/// The keys of a model, which are those of a case but for its name. Throws std::logic_error where options
+/// The keys of a model, which are the keys of a case without its name. Throws std::logic_error where options
 /// from outside have the name of another key.
 TomlKeys case_keys();
 /// The keys of criteria, and of the limits of a part.

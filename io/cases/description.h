@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-// A description of a struct: one list of its fields. Readers of files, schemas, documents, records, digests
-// and equality go by it.
+// This header describes structs, each by one list of its fields. Readers of files, schemas, documents,
+// records, digests and equality go by it.
 
 namespace delquad {
 

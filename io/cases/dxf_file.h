@@ -5,6 +5,8 @@
 
 #include "delquad/model.h"
 
+// This header reads drawings. Readers of models use it.
+
 namespace delquad {
 
 /// Reads a drawing, a DXF file in text [AutoCAD's DXF reference, "ENTITIES section"]. LINE, ARC, CIRCLE,

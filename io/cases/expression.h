@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+// This header has formulas. Readers of sizes and crosses use it.
+
 namespace delquad {
 
 /// A formula in named variables, parsed once: + - * / ^ (power), comparisons, && || ?:, the usual functions

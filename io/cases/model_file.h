@@ -6,6 +6,8 @@
 #include "geometry/planar/planar_model.h"
 #include "io/cases/toml_reader.h"
 
+// This header reads planar models. Readers of cases use it.
+
 namespace delquad {
 
 /// Reads `curve`, `loop`, `pattern` and `embed` of a table (docs/models.md explains them). Throws

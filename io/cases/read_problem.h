@@ -26,8 +26,9 @@ std::string text_of(const CrossSpec& cross);
 /// InputError with file and line.
 MeshProblem read_files(MeshProblem problem);
 
-/// Throws InputError with file and line where the model's file is missing (but for data that cases are
-/// skipped without) or formulas of size or crosses cannot be read: what is known before anything is meshed.
+/// Throws InputError with file and line where the model's file is missing, but for data that cases are
+/// skipped without. So it does if formulas of size or crosses cannot be read. These are the errors that are
+/// known before anything is meshed.
 void check_case(const Case& c);
 
 /// The size field of a mesh that is there already: `text` is a number, an expression, a file or "boundary",

@@ -109,8 +109,8 @@ class TomlTable {
   TomlTable with_choice(const TomlTable& lists, const std::vector<std::string>& leaves,
                         const std::vector<std::size_t>& choice) const;
 
-  /// Throws InputError for a key that is present and none of these, suggesting the nearest of them: to be
-  /// called first, before the key that was meant is missed.
+  /// Throws InputError for a key that is present and none of these, suggesting the nearest of them. It is to
+  /// be called first, before the key that was meant is missed.
   void require_known(const TomlKeys& keys) const;
 
   /// Keys that went, each with the way to do the same now.

@@ -13,6 +13,8 @@
 #include "base/text.h"
 #include "delquad/mesh.h"
 
+// This header reads and rewrites decks of solvers. The formats of Abaqus and Nastran use it.
+
 namespace delquad {
 
 /// Ignores case, as Abaqus and CalculiX do in names.

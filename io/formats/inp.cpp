@@ -50,7 +50,7 @@ constexpr const char *kAllElements = "Eall", *kAllNodes = "Nall";
 /// Kinds of labels: the tag or a name of an entity, by its dimension, or a set.
 enum InpName { kTagOf = 0, kNameOf = 4, kSet = 8 };
 
-/// "1, 4, 7, 9": the number of an element and those of its nodes, from 1.
+/// "1, 4, 7, 9": the number of an element and the numbers of its nodes, from 1.
 void write_inp_element(TextWriter& out, int number, const std::vector<int>& nodes) {
   out << number;
   std::size_t n = 1;
@@ -260,7 +260,7 @@ class InpWriter {
           add(node_sets_, labels_.of({kSet, pair_names(kind, i)[side]}), {nodes[side] + 1});
   }
 
-  /// Which node is the image of which: sets have no order in both programs (CalculiX knows no UNSORTED), and
+  /// Which node is the image of which. Sets have no order in both programs (CalculiX knows no UNSORTED), and
   /// equations of CalculiX take nodes one by one.
   template <class Pair>
   void write_pairs(const char* kind, const std::vector<Pair>& pairs) {

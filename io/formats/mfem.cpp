@@ -216,8 +216,8 @@ class MfemReader {
                     entities_.index(e.geometry == kMfemSegment ? 1 : 2, e.attribute, mesh_));
   }
 
-  /// The first node inside of the side from vertex a to b; the others follow it, from the lower vertex to the
-  /// higher one. -1: it is a new side.
+  /// The first node inside of the side from vertex a to b; -1: it is a new side. The others follow it, from
+  /// the lower vertex to the higher one.
   int& first_on_side(int a, int b) { return sides_.emplace(std::minmax(a, b), -1).first->second; }
 
   /// Numbers of the nodes of an element of a shared space, in rows.

@@ -9,11 +9,13 @@
 #include "delquad/model.h"
 #include "io/mesh_io.h"
 
+// This header reads and writes MSH files. Other formats, cases and experiments use it.
+
 namespace delquad {
 
 /// Reads MSH 2.2 or 4.1, text or binary, by content. Elements of dimension 1 and 2 become lines, triangles
-/// and quads, curved ones of one order; physical names and entity tags are kept (a group without a name goes
-/// by its number), and so are the further names that write_msh() leaves; points are ignored, and so are nodes
+/// and quads, curved ones of one order. Physical names and entity tags are kept (a group without a name goes
+/// by its number), and so are the further names that write_msh() leaves. Points are ignored, and so are nodes
 /// that no other element uses. `notes` tells of periodic pairs, which are not read. Throws InputError with
 /// file and line, or byte.
 Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nullptr,

@@ -76,8 +76,8 @@ struct MeshTags {
 /// Views are skipped unless they are asked for.
 Contents read_contents(TextScanner& scanner, bool with_views = false);
 
-/// Fills entity_physicals from the elements' own physical tags, as 2.2 keeps them: an element in several
-/// groups is listed once for each and becomes one; elements of one entity in different groups become entities
+/// Fills entity_physicals from the elements' own physical tags, as 2.2 keeps them. An element in several
+/// groups is listed once for each and becomes one. Elements of one entity in different groups become entities
 /// of their own.
 void settle_physicals(Contents& contents);
 

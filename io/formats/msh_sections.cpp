@@ -276,7 +276,7 @@ class SectionReader {
     return {{dim, std::abs(tag)}, as_utf8(name)};
   }
 
-  /// Bytes begin on the line after the section's title; in 2.2 after that of their number, which is text.
+  /// Bytes begin on the line after the section's title; in 2.2 after the line of their number, which is text.
   void begin_numbers() {
     if (!numbers_.are_bytes() || version_ == Version::k22) return;
     next_line();

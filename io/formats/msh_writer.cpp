@@ -224,7 +224,7 @@ void write_elements(MshNumbers& out, const std::vector<MshBlock>& blocks) {
   out.end_section("$EndElements");
 }
 
-/// An entity whose nodes are images of those of another.
+/// An entity whose nodes are images of another one's nodes.
 struct PeriodicLink {
   int dim, tag, master;
   const Motion* motion;

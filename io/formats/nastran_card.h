@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+// This header has cards of Nastran. Its reader uses it.
+
 namespace delquad {
 
 inline constexpr long long kMostNastran = 99'999'999;

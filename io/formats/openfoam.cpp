@@ -83,7 +83,7 @@ std::vector<PatchSides> sides_of_patches(const Mesh& mesh, const std::vector<Mes
   return patches;
 }
 
-/// A mesh one cell thick: the points of the plane, then those of its copy above.
+/// A mesh one cell thick: the points of the plane, then the points of its copy above.
 struct FoamMesh {
   double thickness = 0;                 ///< the mean size of cells
   std::vector<std::vector<int>> faces;  ///< they look out of their owner

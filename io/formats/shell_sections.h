@@ -8,6 +8,8 @@
 
 #include "delquad/mesh.h"
 
+// This header has sections of shells. Formats of decks carry them from one to another.
+
 namespace delquad {
 
 /// An isotropic material; density 0: it has none.

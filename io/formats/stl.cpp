@@ -94,7 +94,7 @@ Mesh read_binary(const TextScanner& in, const std::string& path, std::uint32_t n
   return mesh;
 }
 
-/// Words in capitals or not, those of an end in one or in two ("end solid"), lines of comments.
+/// Words in capitals or not, the words of an end in one or in two ("end solid"), lines of comments.
 class TextReader {
  public:
   TextReader(TextScanner& in, Strays strays) : in_(in), strays_(strays) {}

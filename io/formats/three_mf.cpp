@@ -21,8 +21,8 @@
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
 
-// 3D Manufacturing Format, core specification 1.3, its materials, and of production that objects may lie in
-// other files of the archive: a ZIP archive with models in XML.
+// 3D Manufacturing Format, core specification 1.3, with its materials: a ZIP archive with models in XML. By
+// its production extension, objects may lie in other files of the archive.
 
 namespace delquad {
 
@@ -59,7 +59,7 @@ struct Object {
   std::vector<Triangle> triangles;
   std::vector<Component> components;
   int depth = 0;    ///< of components in components
-  double size = 1;  ///< points, triangles and objects in it, those of its components, too
+  double size = 1;  ///< points, triangles and objects in it, also in its components
 };
 
 struct ZipCloser {

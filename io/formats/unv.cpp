@@ -77,7 +77,7 @@ class UnvWriter {
   const std::vector<MeshGroup>& groups_;
   std::size_t n_ = 0;  ///< elements so far
   std::array<std::size_t, 4>
-      first_{};  ///< elements before those of a dimension; nodes have numbers of their own
+      first_{};  ///< elements before the elements of a dimension; nodes have numbers of their own
 };
 
 /// I-DEAS universal: thin shells or bricks, a group for each name.

@@ -9,11 +9,13 @@
 #include "delquad/mesh.h"
 #include "io/mesh_io.h"
 
+// This header reads and writes VTU files. Fields, experiments and the tables of formats use it.
+
 namespace delquad {
 
-/// Reads VTK XML of an unstructured grid: lines, triangles and quads; arrays as text or base64, inline or
-/// appended (raw, too), plain or compressed by zlib. Curves, regions and names are those of write_vtu();
-/// files of other programs have one curve and one region.
+/// Reads VTK XML of an unstructured grid: lines, triangles and quads. Arrays are text or base64, inline or
+/// appended (raw, too), plain or compressed by zlib. Curves, regions and names are as write_vtu() writes
+/// them; files of other programs have one curve and one region.
 Mesh read_vtu(const std::filesystem::path& path);
 /// Writes VTK XML (base64). Cells are lines, then triangles, then quads; with hexahedra they are these, then
 /// quads, then lines. Arrays of tags tell the curve and the region of each cell, or the volume, face and

@@ -461,7 +461,7 @@ class VtuReader {
   std::map<std::pair<int, int>, int> index_;  // by dimension and tag
   NamedPoints point_names_;
   const FieldChoice* choice_ = nullptr;  // of fields; null: none are read
-  std::vector<MeshField> fields_;        // of cells those of triangles
+  std::vector<MeshField> fields_;        // triangles among the cells
   std::vector<std::vector<double>> of_quads_;
   size_t n_points_ = 0;  // of the file
 };

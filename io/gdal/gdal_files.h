@@ -8,8 +8,8 @@
 
 #include "delquad/mesh.h"
 
-// Files that the programs of GDAL read (Debian: gdal-bin). Throws InputError that names them where they are
-// not installed.
+// This header reads files by the programs of GDAL (Debian: gdal-bin). Readers of cases use it. Throws
+// InputError that names them where they are not installed.
 
 namespace delquad {
 
@@ -20,8 +20,8 @@ struct Outlines {
   bool in_degrees = false;
 };
 
-/// A layer by its name (empty: the only one), projected to a coordinate system, as PROJ reads it, or "utm":
-/// the zone of its middle (empty: as it is).
+/// A layer by its name (empty: the only one), projected to a coordinate system as PROJ reads it. "utm" is the
+/// zone of its middle; empty: as it is.
 Outlines read_layer(const std::filesystem::path& path, const std::string& layer, const std::string& project);
 
 /// Rows and columns of cells in the plane.

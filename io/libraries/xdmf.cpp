@@ -105,8 +105,8 @@ void write_xdmf_text(TextWriter& out, const Mesh& mesh, const std::vector<MeshGr
   out << "  </Domain>\n</Xdmf>\n";
 }
 
-/// XDMF 3, the numbers in an HDF5 file of the same name beside it; grids "mesh" (quads), "triangles" and
-/// "lines" with the numbers of names, which are Information elements.
+/// XDMF 3, the numbers in an HDF5 file of the same name beside it. Grids "mesh" (quads), "triangles" and
+/// "lines" have the numbers of names, which are Information elements.
 void write_xdmf(const std::filesystem::path& path, const Mesh& mesh) {
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
   const std::vector<XdmfGrid> grids = xdmf_grids(mesh, groups);

@@ -5,6 +5,8 @@
 
 #include "delquad/adapt.h"
 
+// This header has the parts of adaptation. The files of this folder use it.
+
 namespace delquad {
 
 /// Returns the integral of sqrt(det M), by the values at points.

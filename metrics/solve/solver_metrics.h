@@ -8,6 +8,8 @@
 #include "delquad/metrics.h"
 #include "metrics/solve/solve.h"
 
+// This header has measures by finite elements. Experiments and the program use it.
+
 namespace delquad {
 
 /// Returns "poisson" and "elasticity", the solvers that measures can use.

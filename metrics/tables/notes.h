@@ -6,6 +6,8 @@
 
 #include "metrics/tables/result_records.h"
 
+// This header makes the notes of tables. The tables use it.
+
 namespace delquad {
 
 /// Returns a note for each calibrated peer on each case: the change of its size, and whether it has the

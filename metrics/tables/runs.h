@@ -7,6 +7,8 @@
 #include "metrics/tables/result_records.h"
 #include "metrics/tables/study_file.h"
 
+// This header makes runs.csv. The tables use it.
+
 namespace delquad {
 
 /// An experiment's cells as CSV for other programs.

@@ -8,6 +8,8 @@
 #include "metrics/tables/study_file.h"
 #include "metrics/tables/table.h"
 
+// This header compares pipelines over all domains. The tables use it.
+
 namespace delquad {
 
 /// Compares pipelines over all domains: a row for each, in each measure in which pairs are compared. A study

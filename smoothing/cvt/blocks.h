@@ -8,6 +8,8 @@
 
 #include "base/parallel.h"
 
+// This header divides work into blocks. The files of this folder use it.
+
 namespace delquad {
 
 /// Items of one piece of work. It does not depend on the number of threads, so neither do results.

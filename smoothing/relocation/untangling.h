@@ -6,6 +6,9 @@
 #include "delquad/fields.h"
 #include "geometry/mesh/quad_topology.h"
 
+// This header untangles and lengthens by moves of vertices. Clean-up, treatment, grids and optimization use
+// it.
+
 namespace delquad {
 
 /// Moves `vertices` (interior ones of quads) together, from any start, until every corner on them turns left.

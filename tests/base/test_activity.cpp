@@ -104,7 +104,7 @@ TEST(Activity, BelongsToItsRun) {
     EXPECT_EQ(current_activities()->faces_text(), "face 7");
   }).join();
   EXPECT_EQ(told(), "reading");
-  const RunScope inner({.threads = 2});  // tells those of the scope around
+  const RunScope inner({.threads = 2});  // tells the activities of the scope around
   const FaceScope face(3);
   EXPECT_EQ(own.faces_text(), "face 3");
 }

@@ -12,15 +12,15 @@ TEST(Predicates, SimpleSigns) {
   EXPECT_EQ(in_circle({0, 0}, {1, 0}, {0, 1}, {2, 2}), -1);
 }
 
-// Points a few units in the last place off a line: floating-point determinants get most of these signs wrong,
-// the exact sign is that of the integer determinant in units of the last place.
+// Points a few units in the last place off a line. Floating-point determinants get most of these signs wrong.
+// The exact sign is the sign of the integer determinant in units of the last place.
 TEST(Predicates, OrientationNextToALineIsExact) {
   const double unit = std::ldexp(1.0, -53);
   int wrong_in_floating_point = 0;
   for (int i = 0; i < 64; ++i) {
     for (int j = 0; j < 64; ++j) {
       const Vec2 a{0.5 + i * unit, 0.5 + j * unit}, b{12, 12}, c{24, 24};
-      // a, b, c: the area's sign is that of (x - y) of a's offset, as b and c lie on the diagonal.
+      // a, b, c: the area has the sign of (x - y) of a's offset, as b and c lie on the diagonal.
       const int expected = (i < j) - (i > j);
       EXPECT_EQ(orient2d(b, c, a), expected) << i << " " << j;
       const double det = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What becomes of the models that are to be fetched, with servers on this machine.
+"""Tests the fetching of models, with servers on this machine.
 
 Usage: test_fetch.py FETCH.PY [unittest's arguments]
 """

@@ -90,7 +90,7 @@ class Public(unittest.TestCase):
         return subprocess.run([sys.executable, SCRIPTS / name, *arguments], check=True, capture_output=True, text=True).stdout
 
     def mesh(self, model):
-        """What the program's model file says, once it has been meshed."""
+        """The program's model file, once it has been meshed."""
         subprocess.run([DELQUAD, "mesh", model, "--size", "0.1", "-o", self.folder / "mesh.msh"], check=True, capture_output=True)
         return tomllib.loads(model.read_text())
 

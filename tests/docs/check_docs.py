@@ -7,9 +7,9 @@ Usage: check_docs.py links|messages|list|keys|blocks|tables|measured [--build FO
 
 `list` prints all messages of the sources with their places and ids.
 
-A block is fenced, or indented by four spaces and more. Those of a page run in their order, in one empty folder that looks like the repository:
-shell by bash, Python in one process, C++ as one program. TOML is checked against `delquad schema`, and saved where its first line is a comment
-that begins with the name of a file. A comment before a block, which readers do not see, says what is different:
+A block is fenced, or indented by four spaces and more. The blocks of a page run in their order, in one empty folder that looks like the
+repository: shell by bash, Python in one process, C++ as one program. TOML is checked against `delquad schema`. It is saved if its first
+line is a comment that begins with the name of a file. A comment before a block, which readers do not see, says what is different:
 
     <!-- not run: why -->       it cannot be run in a test
     <!-- slow: why -->          it is run with --slow alone
@@ -267,7 +267,7 @@ def run_block(block, names, schema):
 
 
 def run_page(page, build, schema, slow):
-    """What is wrong, and what is said: why blocks were not run, and how long others took."""
+    """Returns the problems, and what is said: why blocks were not run, and how long others took."""
     wrong, skipped, long, names, cpp = [], [], [], {"__name__": "__main__"}, []
     with tempfile.TemporaryDirectory() as home, contextlib.chdir(home):
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what blocks print

@@ -129,7 +129,7 @@ void check_model(const SurfaceModel& model) {
   }
 }
 
-/// Of the largest process that has ended.
+/// Belongs to the largest process that has ended.
 void check_memory_of_workers() {
   constexpr long kMost = 2L << 20;  // KiB
   rusage used{};

@@ -284,7 +284,7 @@ bool is_convex(const Mesh& mesh) {
   return std::ranges::all_of(mesh.quads, turns_left) && std::ranges::all_of(mesh.triangles, turns_left);
 }
 
-/// What is not sound may stay so, and only that.
+/// A mesh that is not sound may stay so, and only such a mesh.
 bool try_given(std::string_view bytes) {
   return result_or_input_error("", [&] {
     constexpr std::array kGivenWords = {"CO", "BCO", "B", "C", "O", "DB", "G", "T", "L", "DBCO"};

@@ -300,7 +300,7 @@ std::string archive_of(std::string_view model) {
       crc32(0, reinterpret_cast<const Bytef*>(model.data()), static_cast<uInt>(model.size())));
   const auto size = static_cast<std::uint32_t>(model.size()),
              name_size = static_cast<std::uint32_t>(name.size());
-  /// What a file's own header and its entry in the list of files have in common.
+  /// The part that a file's own header and its entry in the list of files have in common.
   const auto put_file = [&](Bytes& bytes) {
     bytes << std::uint16_t{20} << std::uint16_t{0} << std::uint16_t{0} << std::uint16_t{0}
           << std::uint16_t{33} << sum << size << size << static_cast<std::uint16_t>(name_size)

@@ -7,9 +7,8 @@
 
 #include "delquad/error.h"
 
-// What is fuzzed. A target takes any bytes: what it does with them must end with a result that holds, or with
-// an InputError that says what is wrong. Anything else (a crash, another exception, a wrong result) is a
-// finding.
+// What is fuzzed. A target takes any bytes. It must end with a result that holds, or with an InputError that
+// says what is wrong. Anything else (a crash, another exception, a wrong result) is a finding.
 
 namespace delquad::fuzz {
 
@@ -30,8 +29,8 @@ std::vector<Target> mesher_targets();  ///< public API: domains and triangulatio
 /// Throws std::logic_error, which is a finding, unless it is true.
 void require(bool is_true, std::string_view what);
 
-/// What the message of an InputError must be: one line that can be printed and begins with `where`. Throws as
-/// require().
+/// Requires that the message of an InputError is one line that can be printed and begins with `where`. Throws
+/// as require().
 void check_message(const std::string& message, const std::string& where);
 
 /// The last one that was checked: why an input was refused.

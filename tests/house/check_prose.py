@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Check prose against the style of CONTRIBUTING.md: pages, comments, docstrings, and messages in .cpp files.
 
-Usage: check_prose.py [--all] [FOLDER]
+Usage: check_prose.py [FOLDER]
 
-The rules bind the lines that differ from the commit BASE, uncommitted ones too. A sentence is new if any of its lines is.
-`--all` checks every line. Each problem is a line of output; the exit code is 1 if there is any.
+Each problem is a line of output; the exit code is 1 if there is any.
 """
 import argparse
 import io
@@ -16,7 +15,6 @@ import sys
 import textwrap
 import tokenize
 
-BASE = "5f0c9cae54cd7d3c8d3bc885e8ea4c6154ce77d3"  # the rules hold since this commit
 MOST_WORDS = 25  # of a sentence
 LICENSE_LINE = "SPDX-License-Identifier: GPL-3.0-or-later"
 GENERATED = ("docs/keys.md", "experiments/report/three/", "tests/fuzz/corpus/")
@@ -131,7 +129,7 @@ def settings(text):
 
 
 def problems(first, text, kind):
-    """Yield (first line, last line, line of the problem, problem, its words) for a paragraph."""
+    """Yield (line, problem, its words) for a paragraph."""
     same_lines = lambda put: lambda m: put + "\n" * m[0].count("\n")
     text = re.sub(r"`[^`]*`", same_lines("`"), text)
     text = re.sub(r"\]\([^)]*\)|\]\[[^\]]*\]", same_lines("]"), text)
@@ -143,20 +141,19 @@ def problems(first, text, kind):
         line = lambda at: first + text.count("\n", 0, begin + at)
         words = [w for w in sentence.split() if re.search(r"\w", w)]
         shown = " ".join(words[:6]) + " ..."
-        span = line(offset), line(len(sentence))
         if kind != TERSE and len(words) > MOST_WORDS:
-            yield *span, line(offset), f"a sentence of {len(words)} words: expected at most {MOST_WORDS}", shown
+            yield line(offset), f"a sentence of {len(words)} words: expected at most {MOST_WORDS}", shown
         fronted = re.match(r"\W*(Of|What|Those)\b" if kind == DOC else r"\W*(Of)\b", sentence)
         if fronted and kind != TERSE and not sentence.endswith("?"):
-            yield *span, line(offset), f"begins with '{fronted[1]}': expected subject, verb, object", shown
+            yield line(offset), f"begins with '{fronted[1]}': expected subject, verb, object", shown
         for pattern, problem, exempt in RULES:
             for m in pattern.finditer(sentence) if kind not in exempt else ():
-                yield *span, line(m.start()), problem, " ".join(sentence[max(0, m.start() - 15) : m.end() + 15].split())
+                yield line(m.start()), problem, " ".join(sentence[max(0, m.start() - 15) : m.end() + 15].split())
         begin = end
 
 
-def check(name, text, changed=None):
-    """Yield the problems of a file that touch a changed line; without `changed`, all."""
+def check(name, text):
+    """Yield (line, message) for each problem of a file."""
     if name.endswith(".md"):
         parts = pages(text)
     elif name.endswith((".h", ".cpp")):
@@ -164,45 +161,27 @@ def check(name, text, changed=None):
     else:
         parts = python(text) if name.endswith(".py") else settings(text)
     for part in parts:
-        for first, last, line, problem, words in problems(*part):
-            if changed is None or any(first <= c <= last for c in changed):
-                yield line, f"{name}:{line}: {problem}: {words}"
+        for line, problem, words in problems(*part):
+            yield line, f"{name}:{line}: {problem}: {words}"
 
 
-def git(root, *arguments):
-    return subprocess.run(["git", "-C", root, "-c", "core.quotePath=false", *arguments], check=True, capture_output=True, text=True).stdout
-
-
-def changed_lines(root, base):
-    """Map each changed file to the numbers of its new lines; an untracked one to None, for all."""
-    found = {}
-    options = "--no-color --no-ext-diff --unified=0 -M -l0 --src-prefix=a/ --dst-prefix=b/".split()
-    for line in git(root, "diff", *options, base, "--").split("\n"):
-        if line.startswith("+++ b/"):
-            lines = found.setdefault(line[6:].rstrip("\t"), set())
-        elif hunk := re.match(r"@@ -\S+ \+(\d+)(?:,(\d+))? @@", line):
-            lines.update(range(int(hunk[1]), int(hunk[1]) + int(hunk[2] or 1)))
-    return found | dict.fromkeys(git(root, "ls-files", "-o", "--exclude-standard").splitlines())
-
-
-def check_tree(root, base=BASE, every_line=False):
-    changed = dict.fromkeys(git(root, "ls-files", "-co", "--exclude-standard").splitlines()) if every_line else changed_lines(root, base)
-    for name, lines in sorted(changed.items()):
+def check_tree(root):
+    """Yield the problems of the files that git does not ignore."""
+    listed = ["git", "-C", root, "-c", "core.quotePath=false", "ls-files", "-co", "--exclude-standard"]
+    for name in sorted(set(subprocess.run(listed, check=True, capture_output=True, text=True).stdout.splitlines())):
         if name.endswith(SUFFIXES) and not name.startswith(GENERATED) and (root / name).is_file():
-            yield from (text for _, text in sorted(check(name, (root / name).read_text(errors="replace").replace(LICENSE_LINE, ""), lines)))
+            yield from (text for _, text in sorted(check(name, (root / name).read_text(errors="replace").replace(LICENSE_LINE, ""))))
 
 
 def main():
     parser = argparse.ArgumentParser(description="Check prose against the style of CONTRIBUTING.md.")
-    parser.add_argument("--all", action="store_true", help="check every line, not only those that changed")
     parser.add_argument("folder", nargs="?", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
     given = parser.parse_args()
     try:
-        git(given.folder, "cat-file", "-e", BASE + "^{commit}")
+        wrong = list(check_tree(given.folder))
     except (OSError, subprocess.CalledProcessError):
-        print(f"check_prose.py: prose not checked: no commit {BASE[:8]} in the history of {given.folder} (an archive, or a shallow clone?)")
+        print(f"check_prose.py: prose not checked: {given.folder} is no folder of git")
         return 0
-    wrong = list(check_tree(given.folder, every_line=given.all))
     print(*wrong, sep="\n", end="\n" if wrong else "")
     return 1 if wrong else 0
 

@@ -44,7 +44,7 @@ class ReaderTest : public Test {
     EXPECT_GT(refused, part * trials);
     EXPECT_LT(refused, trials);
   }
-  /// What has been read must bear this.
+  /// Every mesh that was read must bear this.
   virtual void check(const Mesh& /*mesh*/) {}
 
   TemporaryFolder folder_;

@@ -18,7 +18,7 @@ std::string changed(const std::string& text, const std::string& before, int by) 
   return text.substr(0, begin) + std::to_string(n + by) + text.substr(begin + length);
 }
 
-/// What a header says must be there, and no more: else a reader would leave out what follows, or take one
+/// The items of a header must be there, and no more. Else a reader would leave out the rest, or take one
 /// thing for another.
 TEST(AnnouncedNumbers, MustBeThoseThatFollow) {
   const Folder folder;

@@ -109,7 +109,7 @@ TEST(MisnamedFiles, AreCalledByTheirFormat) {
   refuses("mesh.stl", "PK\x03\x04 and so on", "holds a ZIP archive");
 }
 
-/// Of triangles that turn as the polygon does; nothing for polygons that cannot be split.
+/// Indices of triangles that turn as the polygon does; nothing for polygons that cannot be split.
 void expect_split(const std::vector<Vec3>& corners, double area) {
   const auto triangles = split_polygon(corners);
   ASSERT_TRUE(triangles);

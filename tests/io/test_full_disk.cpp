@@ -8,7 +8,7 @@ namespace {
 
 using testing_support::FailingDisk;
 
-/// What a folder holds.
+/// The contents of a folder.
 std::map<std::string, std::string> contents(const Folder& folder) {
   std::map<std::string, std::string> all;
   for (const auto& entry : fs::recursive_directory_iterator(folder.path()))

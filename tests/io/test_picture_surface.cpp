@@ -100,7 +100,7 @@ TEST(DrawSurface, SurvivesWhatHasNoExtent) {
   EXPECT_TRUE(holds(drawn(mesh), "</svg>"));
 }
 
-/// Sides are divided into eight pieces, or lines would be those of the corners.
+/// Sides are divided into eight pieces, or lines would be the lines of the corners.
 TEST(DrawSurface, DrawsCurvedSides) {
   const auto moves = [](const std::string& svg) {
     const size_t first = svg.find(" d=\"m"), last = svg.find('z', first);

@@ -114,7 +114,7 @@ TEST(AbaqusInp, NumbersComeBack) {
     }
     return all;
   };
-  // Of plane elements surfaces have the sides, of shells sets.
+  // Surfaces of plane elements have sides, surfaces of shells sets.
   for (const Mesh& mesh : {quad_grid(2, 2, 0.5, 0.5), bent()}) {
     write_mesh(folder / "a.inp", mesh);
     const Mesh read = read_mesh(folder / "a.inp");

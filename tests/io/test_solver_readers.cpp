@@ -28,8 +28,8 @@ TEST_F(MfemReader, ReadsFilesOfOthers) {
   EXPECT_EQ(read_mesh(folder_ / "a.mesh").quads.size(), 2u) << "as MFEM calls its files";
 }
 
-/// Nodes that elements share: vertices, sides in the order in which elements have them, from the lower vertex
-/// to the higher one, then what is inside, all at the points of Gauss and Lobatto.
+/// Nodes that elements share, all at the points of Gauss and Lobatto. Vertices come first, then sides in the
+/// order in which elements have them, from the lower vertex to the higher one, then the inside.
 TEST_F(MfemReader, ReadsSharedNodes) {
   const std::vector<std::vector<double>> points = {
       {0, 0.5, 1}, {0, 0.5 - 0.5 / std::sqrt(5.0), 0.5 + 0.5 / std::sqrt(5.0), 1}};

@@ -7,9 +7,9 @@
 namespace delquad {
 namespace {
 
-/// Where the solver of Ceres may not be thrown through, it goes on with steps that fail at their first check
-/// until it gives up: by its options at most 20 of them in a search, and a search anew. No more than this
-/// many checks come after the one that finds the run cancelled.
+/// The solver of Ceres may not be thrown through. It goes on with steps that fail at their first check until
+/// it gives up. By its options these are at most 20 in a search, and a search anew. No more than this many
+/// checks come after the one that finds the run cancelled.
 constexpr int kMostChecksAfter = 100;
 
 PlanarModel disc_with_hole() { return ModelMaker().circle({0, 0}, 1).circle({0.3, 0.1}, 0.2); }
@@ -93,8 +93,8 @@ TEST_P(Cancellation, AtAnyCheckEndsTheRun) {
   EXPECT_TRUE(same(mesh_of(GetParam()), whole));
 }
 
-/// By another thread after a random time: the answer comes within so many checks of all threads, or the mesh
-/// is the one that it would have been.
+/// Cancels from another thread after a random time. The answer comes within so many checks of all threads, or
+/// the mesh is the one that it would have been.
 TEST_P(Cancellation, ByAnotherThreadIsHeard) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();

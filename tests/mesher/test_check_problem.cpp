@@ -17,7 +17,7 @@ MeshProblem surface() {
   return problem;
 }
 
-/// What preparing says of the problem once it is changed.
+/// Returns the message of preparing the problem once it is changed.
 std::string complaint(MeshProblem problem, const std::function<void(MeshProblem&)>& change) {
   change(problem);
   return message_of([&] { prepare_problem(problem); });

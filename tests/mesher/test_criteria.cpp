@@ -46,7 +46,7 @@ TEST(Criteria, RefuseWhatContradictsItself) {
                      {"f.toml:7", "'min_length' is 3", "'max_length' 2", "no element is within both"});
 }
 
-/// Of plates with two holes, between which and the sides there is room for one or two quads.
+/// Plates with two holes, between which and the sides there is room for one or two quads.
 long long failing_beside_holes(const char* word) {
   long long failing = 0;
   for (const double radius : {0.41, 0.42, 0.43, 0.44}) {

@@ -33,7 +33,7 @@ TEST(Door, AllWaysLeadToTheSameMesh) {
   EXPECT_EQ(whole.metrics.values.at("eta_mean"), prepared.metrics(last.mesh).values.at("eta_mean"));
   EXPECT_NEAR(static_cast<double>(last.mesh.quads.size()), last.prepared->size.expected_quads,
               0.1 * last.prepared->size.expected_quads);
-  // Once each, those of the preparation first.
+  // Once each, stages of the preparation first.
   EXPECT_EQ(last.log.times.front().first, "read");
   for (const char* step : {"read", "fields", "insertion", "metrics"})
     EXPECT_EQ(std::ranges::count(last.log.times, step, &StepTimes::value_type::first), 1) << step;

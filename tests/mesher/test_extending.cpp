@@ -25,7 +25,7 @@ std::string complaint(const MeshProblem& problem, const char* word) {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// What it is called with last.
+/// The arguments of its last call.
 std::function<void(const StageInput&, PatchMesh&, StageLog&)>& stage_work() {
   static std::function<void(const StageInput&, PatchMesh&, StageLog&)> work;
   return work;
@@ -73,7 +73,7 @@ TEST_F(OwnStage, WhatItLeavesIsChecked) {
   EXPECT_TRUE(has(left([](PatchMesh&) { throw std::runtime_error("out of ideas"); }), "out of ideas"));
 }
 
-/// What is to be done to all patches is checked in the same way.
+/// Changes of all patches are checked in the same way.
 TEST_F(OwnStage, WhatItDoesToAllPatchesIsChecked) {
   static std::function<void(PatchMesh&)> spoil;
   add_stage({'W', "a test's finish", PatchForm::kQuads, PatchForm::kQuads,
@@ -286,7 +286,7 @@ class OwnCost : public testing::Test {
   MeshProblem problem_ = disc();
 };
 
-/// Of the worst angle, in [0, 360) degrees.
+/// The place of the worst angle, in [0, 360) degrees.
 double one_minus_eta(const MergedQuad& quad) {
   double worst = 0;
   for (int k = 0; k < 4; ++k) {

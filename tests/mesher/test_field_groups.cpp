@@ -28,8 +28,8 @@ TEST(FieldGroups, ClosedSurfacesHaveTheSingularitiesOfTheirGenus) {
   expect_indices(with_size_aware_crosses(double_torus(6).fine, 0.2), -8);
 }
 
-/// Two unit squares as two faces, the second bent up by `bend` (radians), and divided along the slanted line
-/// from (1.2, 0) to (0.8, 1) where `bend` is 0.
+/// Two unit squares as two faces, the second bent up by `bend` (radians). Where `bend` is 0, they are divided
+/// along the slanted line from (1.2, 0) to (0.8, 1).
 Mesh two_faces(double bend) {
   Mesh mesh = triangle_grid(16, 8, 2, 1);
   mesh.lines.clear();

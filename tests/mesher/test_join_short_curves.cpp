@@ -6,7 +6,7 @@ namespace {
 
 constexpr double kSize = 0.1;
 
-/// Two squares, [-1, 1] x [0, 1], with curves on the sides that are given numbers from 1 on: between the two,
+/// Two squares, [-1, 1] x [0, 1], with curves on the sides. The given numbers count from 1: between the two,
 /// and from there around. The one between is of three: up to y = 0.5, 0.01 long, and the rest.
 Mesh two_squares() {
   Mesh mesh = triangle_grid(16, 8, 2, 1);

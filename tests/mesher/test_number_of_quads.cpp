@@ -26,7 +26,7 @@ double size_at(const Prepared& prepared, const Vec3& x) {
   return prepared->size.field->at(x, hint);
 }
 
-/// What is divided by two has the same bytes as what is asked for at half of everything.
+/// A mesh divided by two has the same bytes as a mesh that is asked for at half of everything.
 TEST(Refine, DividesEverySize) {
   MeshProblem asked = plate_of_quads(), half = plate_of_quads();
   asked.size = {.text = "0.3 + 0.05*x",
@@ -78,7 +78,7 @@ TEST(Refine, MakesKSquaredAsManyQuads) {
   }
 }
 
-/// Edges and rows of a refined mesh lie in those of the one before.
+/// Edges and rows of a refined mesh lie in the edges and rows of the one before.
 TEST(Refine, DividesEdgesAndLayers) {
   MeshProblem problem = plate_of_quads();
   problem.size.text = "0.3";

@@ -6,8 +6,9 @@
 namespace delquad {
 namespace {
 
-// With four to eight nodes on the circle both caps have chords between the same two of them, or are one quad
-// each. check_invariants() says where an edge has more than two elements or two elements have the same nodes.
+// With four to eight nodes on the circle, both caps have chords between the same two of them, or are one quad
+// each. The function check_invariants() says where an edge has more than two elements or two elements have
+// the same nodes.
 TEST(PartTwins, CapsOnACoarseCircleShareNothingElse) {
   for (const double height : {0.45, 0.7})
     for (const double size : {5.0, 1.5, 1.2, 1.0, 0.8, 0.6}) {

@@ -17,8 +17,8 @@ TEST(ThinCone, AtLeastThreeQuadsStayAround) {
       }
 }
 
-// The wall of a drilled hole and its tip, of 118 degrees, of which the rim of the wall has no more edges than
-// the size asks for: 14 irregular vertices once, at a tau of 65.
+// The wall of a drilled hole and its tip, of 118 degrees. The rim of the wall has no more edges than the size
+// asks for: 14 irregular vertices once, at a tau of 65.
 TEST(ThinCone, ADrilledTipAsksForNoSmallSizes) {
   const double slant = 1 / std::sin(59 * std::numbers::pi / 180);
   const Mesh hole = grid_surface({36, 30, true, false, true}, [&](double u, double v) {

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes solver_reference.inc: what a dense solver, made apart from the project's, says of one small mesh.
 
-Usage: make_solver_reference.py > solver_reference.inc. Needs numpy. Moments of the domain are those of its outline, matrices
-are dense, eigenvalues LAPACK's, and triangles have formulas of their own.
+Usage: make_solver_reference.py > solver_reference.inc. Needs numpy. Moments of the domain come from its outline, matrices are dense,
+eigenvalues LAPACK's, and triangles have formulas of their own.
 """
 import numpy as np
 

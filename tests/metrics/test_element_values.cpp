@@ -11,7 +11,7 @@ constexpr double kOfSteps = 5e-4;  // what critical_step() promises
 using Quad = std::array<Vec3, 4>;
 
 const Quad kRectangle = {Vec3{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {0, 2, 0}};
-/// Of side 1, with an angle of 60 degrees.
+/// A rhombus of side 1, with an angle of 60 degrees.
 const Quad kRhombus = {Vec3{0, 0, 0}, {1, 0, 0}, {1.5, std::sqrt(0.75), 0}, {0.5, std::sqrt(0.75), 0}};
 /// Sides 2 and 1, a height of 1.
 const Quad kTrapezium = {Vec3{0, 0, 0}, {2, 0, 0}, {1.5, 1, 0}, {0.5, 1, 0}};

@@ -41,7 +41,7 @@ TEST(FlowLinks, OfBluntTrianglesEndAtTheirEdges) {
   mesh.points = {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {2, -1, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 3, 1}};
   mesh.lines.clear(), mesh.line_curve.clear();
-  // The first circle has its center in (2, -1), the second in (2, 1.5): both go back to the edge, the first
+  // The first circle has its center in (2, -1), the second in (2, 1.5). Both go back to the edge, the first
   // on the way from (5/3, 1/3), a fourth of it.
   const FlowLinks links = measure_flow_links(mesh);
   EXPECT_EQ(links.links, 1);

@@ -28,7 +28,7 @@ void expect_regularity(const Mesh& mesh, int necessary, int beyond, int unpaired
   EXPECT_EQ(metrics.pairs->burgers, burgers);
 }
 
-/// A regular polygon of n quads around its center, its corners those of the quads.
+/// A regular polygon of n quads around its center, with the corners of the quads.
 Mesh star(int n) {
   std::vector<Vec3> points = {{0, 0, 0}};
   std::vector<std::array<int, 4>> quads;

@@ -155,7 +155,7 @@ TEST(Solve, DoesNotSeeHowTheDomainLies) {
   }
 }
 
-/// Of an n x n grid of squares: eigenvalues of the bilinear stencil are known in closed form.
+/// An n x n grid of squares: eigenvalues of the bilinear stencil are known in closed form.
 TEST(Solve, KnowsTheConditionOfAGrid) {
   const int n = 20;
   const auto eigenvalue = [&](int k, int l) {

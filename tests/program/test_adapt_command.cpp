@@ -89,7 +89,7 @@ TEST(AdaptCommand, SeveralFiles) {
   EXPECT_GT(std::min(near[0], near[2]), 2 * near[1]);
 }
 
-// The elements of the next mesh have the order of those of this one.
+// The elements of the next mesh have the order of this mesh.
 TEST(AdaptCommand, CurvedElements) {
   const Workplace folder;
   const Mesh mesh = curved_grid(12, 12, 2, false);

@@ -49,7 +49,7 @@ TEST_P(Signals, EndTheRunWithoutAFile) {
 INSTANTIATE_TEST_SUITE_P(Of, Signals, testing::Values(Ending{SIGINT, 130}, Ending{SIGTERM, 143}),
                          [](const auto& ending) { return std::to_string(ending.param.exit_code); });
 
-/// What is being written then is written to its end.
+/// A file that is being written then is written to its end.
 TEST(Signals, WhileAFileIsWritten) {
   const Folder folder;
   const auto is_temporary = [&] {

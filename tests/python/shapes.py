@@ -41,6 +41,6 @@ def prism():
 
 
 def area(mesh):
-    """Of the quads, by their diagonals."""
+    """Sizes of the quads, by their diagonals."""
     a, b, c, d = (mesh.points[mesh.quads[:, k]] for k in range(4))
     return np.linalg.norm(np.cross(c - a, d - b), axis=1).sum() / 2

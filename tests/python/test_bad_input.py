@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What cannot be meshed: an exception that says what and where, and an interpreter that goes on."""
+"""Tests models that cannot be meshed: an exception that says what and where, and an interpreter that goes on."""
 
 import pathlib
 import re

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What can be meshed."""
+"""Tests models that can be meshed."""
 
 import math
 

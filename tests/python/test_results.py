@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What comes back."""
+"""Tests results."""
 
 import gc
 import math

@@ -22,7 +22,7 @@ FUNCTIONS = {node.name: node for node in TREE.body if isinstance(node, ast.Funct
 
 
 def parameters(function):
-    """Of a stub: (name, kind, default as text or None)."""
+    """Parameters of a stub: (name, kind, default as text or None)."""
     named = function.args.posonlyargs + function.args.args
     defaults = [None] * (len(named) - len(function.args.defaults)) + function.args.defaults
     all = [(a.arg, "plain", d) for a, d in zip(named, defaults)]
@@ -48,7 +48,7 @@ def actual_parameters(function):
 
 
 def members(name):
-    """Of a class in the stubs, with those of its bases there."""
+    """Members of a class in the stubs, with the members of its bases there."""
     own = {node.name: node for node in CLASSES[name].body if isinstance(node, ast.FunctionDef)}
     for base in CLASSES[name].bases:
         if base.id in CLASSES:

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes meshes in the formats of solvers, reads them by their libraries and compares nodes, elements and names with the MSH file of the same mesh.
+"""Writes meshes in the formats of solvers and reads them by their libraries. Compares nodes, elements and names with the MSH file of the
+same mesh.
 
 check_formats.py PROGRAM
 
@@ -36,7 +37,7 @@ class Found:
         points = numpy.asarray(points, float)
         self.points = points if points.shape[1] == 3 else numpy.c_[points, numpy.zeros(len(points))]
         self.elements, self.lines, self.points_of = {}, {}, {}
-        self.some_lines = False  # the format has those of some names alone
+        self.some_lines = False  # the format has only some of the names
 
     def add(self, kind, name, nodes):
         kind.setdefault(name, []).extend(tuple(int(v) for v in row) for row in nodes)
@@ -220,7 +221,7 @@ def read_gr3(path):
 
 
 def read_ugrid(path):
-    """By the UGRID conventions 1.0: what the topology variable names is there, and edges are those of faces."""
+    """By the UGRID conventions 1.0: everything that the topology variable names is there, and edges are edges of faces."""
     netCDF4 = needs.module("netCDF4", "python3-netcdf4")
     data = netCDF4.Dataset(path)
     assert "UGRID-1.0" in data.Conventions
@@ -281,7 +282,7 @@ def read_re2(path):
     for (e, k), (values, code) in conditions.items():
         row = [8 * e + k, 8 * e + (k + 1) % 4] + ([8 * e + 4 + k] if curves else [])
         found.add(found.lines, f"{code} {values[4]:.0f}", [row])
-    # Conditions have numbers in the place of names: those of the names in the order of the mesh.
+    # Conditions have numbers in the place of names: the numbers of the names in the order of the mesh.
     found.lines = {word(name): rows for name, (_, rows) in zip(CURVES[:4], sorted(found.lines.items()), strict=True)}
     return found
 

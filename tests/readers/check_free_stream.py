@@ -4,9 +4,10 @@
 
 check_free_stream.py PROGRAM
 
-Reads ISM-V2 as HOHQMesh's documentation has it ("The HOHQMesh Mesh File Formats"), maps elements by transfinite interpolation of their sides, and
-takes the residual of a constant flux in the strong form of the discontinuous Galerkin method at Legendre-Gauss-Lobatto points, with normals of the
-first element of each edge alone (Kopriva [2009], chapters 6 and 8). Exit code 1 where it is above 1e-12, 77 when numpy is not installed.
+Reads ISM-V2 as HOHQMesh's documentation has it ("The HOHQMesh Mesh File Formats"), and maps elements by transfinite interpolation of their
+sides. Takes the residual of a constant flux in the strong form of the discontinuous Galerkin method at Legendre-Gauss-Lobatto points.
+Normals come from the first element of each edge alone (Kopriva [2009], chapters 6 and 8). Exit code 1 where it is above 1e-12, 77 when
+numpy is not installed.
 """
 import os
 import subprocess

@@ -4,9 +4,9 @@
 
 check_readers.py --delquad PROGRAM --reader NAME[,NAME] [--dealii PROGRAM] [--size PART] [--mesh ARGUMENT]... [MODEL]...
 
-Without models, some are made: planar with named and with unnamed curves, CAD with and without names, a closed surface.
---size: part of the diagonal; --patience: seconds after which meshing a model is given up. Prints a line for each file; exit code 1 when one was not opened as it was written, 77 when
-the reader is not installed.
+Without models, some are made: planar with named and with unnamed curves, CAD with and without names, a closed surface. The option
+--size is a part of the diagonal; --patience is the seconds after which meshing a model is given up. Prints a line for each file.
+Exit code 1 if a file was not opened as it was written, 77 if the reader is not installed.
 """
 import argparse
 import collections
@@ -56,7 +56,7 @@ def diagonal(delquad, model):
 
 
 def expected(path):
-    """What an MSH file in text holds, read by hand; further names count for other formats."""
+    """Returns the contents of an MSH file in text, read by hand; further names count for other formats."""
     found = {"points": 0, "lines": 0, "triangles": 0, "quads": 0}
     groups, entities, sizes, more = {}, {}, collections.Counter(), []
     with open(path, encoding="utf-8") as text:
@@ -87,7 +87,7 @@ def expected(path):
 
 
 def differences(kind, wanted, found, everything):
-    """What is not as it was written. Files other than MSH have all lines, and every name."""
+    """Returns the differences from the written file. Files other than MSH have all lines, and every name."""
     result = []
     for key in ("points", "triangles", "quads", "lines"):
         reference = wanted if kind.endswith("msh") else everything

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether another solver's errors of Poisson's equation on a mesh are those of the program.
+"""Compares another solver's errors of Poisson's equation on a mesh with the program's.
 
 Usage: compare_solver.py DELQUAD TOLERANCE COMMAND... The command gets the mesh. Exit code 77: it is not installed, see needs.py.
 """

@@ -68,7 +68,7 @@ def read_meshio(path, _):
 
 
 def read_msh22(path):
-    """What Gmsh wrote: every element once for each of its groups."""
+    """The contents of Gmsh's file: every element once for each of its groups."""
     found = {"lines": 0, "triangles": 0, "quads": 0, "names": {}}
     kinds = {"1": "lines", "2": "triangles", "3": "quads"}
     names, sizes = {}, {}

@@ -4,8 +4,8 @@
 
 PROBLEM: patch, shell_patch, strip, shell, periodic, materials, kept_deck or joints, whose models WRITER writes.
 
-CalculiX prints seven digits of each number. What is zero in the exact solution is printed with its size, so that it can be
-checked to rounding: forces on nodes inside of a patch to 1e-10 of those on its boundary. All else is checked to seven digits.
+CalculiX prints seven digits of each number. A zero of the exact solution is printed with its size, so that it can be checked to rounding.
+Forces on nodes inside of a patch are zero to 1e-10 of forces on its boundary. All else is checked to seven digits.
 """
 import math
 import os
@@ -40,7 +40,7 @@ def mesh(delquad, folder, model, text, name, *arguments):
 
 
 def solve(folder, inp, section, lines, thickness=1.0):
-    """What is printed: for each request its title and rows of numbers."""
+    """Returns the printed tables: for each request its title and rows of numbers."""
     deck = [f"*INCLUDE, INPUT={os.path.basename(inp)}", "*MATERIAL, NAME=STEEL", "*ELASTIC", f"{YOUNG}, {POISSON}",
             f"*{section}, MATERIAL=STEEL", str(thickness), "*STEP", "*STATIC", *lines, "*END STEP", ""]
     with open(os.path.join(folder, "deck.inp"), "w", encoding="utf-8") as file:
@@ -162,8 +162,8 @@ def tilt(path, out):
 
 
 def shell_patch(delquad, folder):
-    """S8R, and S4 on a grid. The S4 of CalculiX 2.20 (a brick with incompatible modes) does not hold a linear field on distorted
-    quads, which CPS4 holds on the same ones: there it must be near."""
+    """S8R, and S4 on a grid. The S4 of CalculiX 2.20 (a brick with incompatible modes) does not hold a linear field on distorted quads.
+    CPS4 holds it on the same ones: there it must be near."""
     good = True
     grid = 'loop = { rectangle = [[0, 0], [2, 1]], region = "plate" }\n'
     for name, text, order, arguments in (("holes", PLATE, "2", []), ("grid", grid, "1", ["--mapped", "auto"]), ("holes", PLATE, "1", [])):
@@ -379,9 +379,9 @@ def outline_of_one_region(inp, elements):
 
 
 def joints(delquad, folder, writer):
-    """Glued shells under pressure, held at the outline of one face: the sum of the reactions is pressure times area. The pressure is
-    put on as forces at nodes, integrated over the shells' middle surfaces: CalculiX makes bricks of shells, which overlap where
-    shells meet at an angle, and its own pressure acts on the outsides of these, whose area is another by as much as a percent."""
+    """Glued shells under pressure, held at the outline of one face: the sum of the reactions is pressure times area. The pressure is put on
+    as forces at nodes, integrated over the shells' middle surfaces. CalculiX makes bricks of shells, which overlap where shells meet at an
+    angle. Its own pressure acts on the outsides of these, whose area differs by as much as a percent."""
     models = subprocess.run([writer, folder], check=True, capture_output=True, text=True).stdout.split("\n")
     good, worst = True, [0.0, 0.0]
     for name, exact, is_flat in (line.split() for line in models if line):

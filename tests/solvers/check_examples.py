@@ -17,8 +17,8 @@ import xml.etree.ElementTree
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import needs  # noqa: E402
 
-# Of the plate with two holes, between a difference of temperatures of one, by elements of order 4 (finite_elements.py) on 672 and
-# on 2698 quads.
+# The plate with two holes, between a difference of temperatures of one, by elements of order 4 (finite_elements.py) on 672 and on 2698
+# quads.
 HEAT = 2.2997566
 PRINTED = r"heat from hot to cold: (.*)"
 # Commands, what they print, its value and how far from it, as a part, they may be.
@@ -46,7 +46,7 @@ def rows(printed, word):
 
 
 def check_pairs(printed, problem="advection", gain=2):
-    """The L2 error of squares is that of a uniform mesh over the gain, or less; stretched quads halve both errors of squares."""
+    """The L2 error of squares is the error of a uniform mesh over the gain, or less; stretched quads halve both errors of squares."""
     uniform, squares, stretched = (rows(printed, f"{problem:11}{loop}")[-1] for loop in ("uniform", "squares", "stretched"))
     return squares[1] < uniform[1] / gain and stretched[1] < squares[1] / 2 and stretched[3] < squares[3] / 2
 

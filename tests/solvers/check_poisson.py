@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Poisson's equation on curved meshes, with conditions by the names of curves: check_poisson.py DELQUAD PROBLEM
 
-PROBLEM: annulus or plate. Errors in L2 must fall with order p + 1 of the elements' order p on
-curved elements, and must not where the sides of the same elements are straight. Linear fields are
-exact. Exit code 77: numpy, scipy or meshio are missing.
+PROBLEM: annulus or plate. Errors in L2 must fall with order p + 1 of the elements' order p on curved elements. They must not where the
+sides of the same elements are straight. Linear fields are exact. Exit code 77: numpy, scipy or meshio are missing.
 """
 import os
 import pathlib
@@ -84,8 +83,8 @@ def measured_order(counts, errors):
     return np.polyfit(-np.log(counts) / 2, np.log(errors), 1)[0]
 
 
-# Order of elements: sizes of the meshes, and how far the measured order of errors may be from the expected one: meshes of
-# different sizes are not alike, which the coarser ones of higher orders show most.
+# Order of elements: sizes of the meshes, and how far the measured order of errors may be from the expected one. Meshes of different sizes
+# are not alike, which the coarser ones of higher orders show most.
 SIZES = {1: ([0.03, 0.015], 0.05), 2: ([0.056, 0.04, 0.028, 0.02, 0.014], 0.1),
          3: ([0.1, 0.07, 0.05, 0.035], 0.5), 4: ([0.11, 0.08, 0.056], 0.8)}
 STRAIGHT = 2.4  # the most that straight sides have, for any order of elements

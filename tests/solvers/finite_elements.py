@@ -158,7 +158,7 @@ def solve_poisson(mesh, source, fixed, flux=None):
 
 
 def l2_error(mesh, u, exact):
-    """By a rule that is two points richer than that of the matrix."""
+    """By a rule that is two points richer than the rule of the matrix."""
     cells = Elements(mesh, mesh.order + 4)
     difference = np.einsum("qi,ci->cq", cells.shapes, u[mesh.quads]) - exact(cells.at[..., 0], cells.at[..., 1])
     return np.sqrt(np.sum(cells.weights * difference ** 2))

@@ -43,7 +43,7 @@ void expect_input_error(Call&& call, std::initializer_list<const char*> parts) {
   ADD_FAILURE() << "no InputError";
 }
 
-/// What it says of wrong input; empty: it throws no InputError.
+/// Returns the message about wrong input; empty: it throws no InputError.
 template <typename Call>
 std::string message_of(Call&& call) {
   try {

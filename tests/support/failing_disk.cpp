@@ -44,7 +44,7 @@ bool fails(int file) {
   return true;
 }
 
-/// Of so many bytes those that the disk has room for; -1: none, and sets errno.
+/// The part of so many bytes that the disk has room for; -1: none, and sets errno.
 long long taken(int file, std::size_t wanted) {
   if (!is_watched(file)) return static_cast<long long>(wanted);
   if (fails(file)) return -1;

@@ -3,7 +3,7 @@
 
 namespace delquad::testing_support {
 
-/// While one lives, files of this process and its children are on a disk that fails: writing, changing the
+/// While one lives, files of this process and its children are on a disk that fails. Writing, changing the
 /// length, flushing and closing of regular files go through failing_disk.cpp, which a program gets by being
 /// linked with it.
 class FailingDisk {

@@ -32,8 +32,8 @@ inline void expect_sound_curves(const SurfaceModel& model) {
   EXPECT_EQ(seen.size(), fine.curves.size());
 }
 
-/// The model is still sound, its patches hold each of its triangles once, are one-to-one and keep areas as a
-/// whole, and lines bound them on all sides.
+/// The model is still sound, and lines bound its patches on all sides. Its patches hold each of its triangles
+/// once, are one-to-one and keep areas as a whole.
 inline void expect_sound_flattening(const SurfaceModel& model, const Flattening& flattening) {
   const Mesh& fine = model.fine;
   EXPECT_TRUE(flattening.failed.empty());

@@ -12,7 +12,7 @@
 
 namespace delquad {
 
-/// What is wrong with the triangulation, one line each: ranges, orientation, neighbors that do not agree.
+/// Returns the errors of the triangulation, one line each: ranges, orientation, neighbors that do not agree.
 inline std::vector<std::string> check_invariants(const TriPatch& tri) {
   std::vector<std::string> wrong;
   const int n_points = static_cast<int>(tri.points.size()), n = static_cast<int>(tri.triangles.size());
@@ -42,7 +42,7 @@ inline std::vector<std::string> check_invariants(const TriPatch& tri) {
   return wrong;
 }
 
-/// What is wrong, one line each; empty when the mesh is sound.
+/// Returns the errors, one line each; empty when the mesh is sound.
 inline std::vector<std::string> check_invariants(const QuadTopology& mesh) {
   std::vector<std::string> wrong;
   const auto half_edge = [](int h) { return "half-edge " + std::to_string(h); };

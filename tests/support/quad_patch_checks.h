@@ -15,12 +15,12 @@
 #include "geometry/mesh/quad_corners.h"
 #include "geometry/mesh/quad_topology.h"
 
-/// What must hold for any quad mesh of a patch, whatever its geometry.
+/// Checks that must hold for any quad mesh of a patch, whatever its geometry.
 namespace delquad::testing_support {
 
 /// Violations, one line each: indices, repeated vertices, points that nothing uses, sides used twice in one
-/// direction or by more than two elements, a boundary that is not the given one, boundary points that moved,
-/// V - E + F not `euler` (1 - holes for one component).
+/// direction or by more than two elements. Further ones are a boundary that is not the given one, boundary
+/// points that moved, and V - E + F not `euler` (1 - holes for one component).
 inline std::vector<std::string> check_quad_patch(const QuadPatch& mesh, const PatchBoundary& boundary,
                                                  int euler) {
   std::vector<std::string> wrong;
@@ -83,7 +83,7 @@ inline int count_loops(const PatchBoundary& boundary) {
   return loops;
 }
 
-/// What check_quad_patch() finds, as failures of the test.
+/// The findings of check_quad_patch(), as failures of the test.
 inline void expect_sound(const QuadPatch& mesh, const PatchBoundary& boundary) {
   const auto wrong = check_quad_patch(mesh, boundary, 2 - count_loops(boundary));
   EXPECT_TRUE(wrong.empty()) << wrong.front();
@@ -97,7 +97,7 @@ inline double worst_sine(const QuadTopology& mesh) {
 }
 inline double worst_sine(const QuadPatch& mesh) { return worst_sine(QuadTopology(mesh)); }
 
-/// Of the quads' sides inside, the least length over the longer of the size (the least at the ends) and the
+/// For the quads' sides inside, the least length over the longer of the size (the least at the ends) and the
 /// quad's longest side. Left out are quads in narrow places: at vertices of quads that reach from one part of
 /// the boundary to another.
 inline double least_room(const QuadPatch& mesh, const ParametricSize& size) {

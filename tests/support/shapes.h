@@ -12,7 +12,7 @@
 #include "delquad/mesh.h"
 
 /// Boundaries made in code: points in loop order, the outer loop first (counterclockwise), then the holes
-/// (clockwise); each side or circle is a curve of its own, and each point is its own node.
+/// (clockwise). Each side or circle is a curve of its own, and each point is its own node.
 namespace delquad::shapes {
 
 /// Appends a closed loop through `points`; edge i runs from point i to the next and lies on curve

@@ -71,7 +71,7 @@ inline void check_faces(const Mesh& mesh, const std::map<std::array<int, 2>, int
   if (parts.size() != mesh.regions.size()) wrong.push_back("a face without triangles");
 }
 
-/// What breaks the promises of SurfaceModel, one line each.
+/// Returns breaks of the promises of SurfaceModel, one line each.
 inline std::vector<std::string> violations(const SurfaceModel& model) {
   const Mesh& mesh = model.fine;
   std::map<std::array<int, 2>, int> lines;  // curves

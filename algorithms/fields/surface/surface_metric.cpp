@@ -32,14 +32,14 @@ constexpr double kGraded = 1e-3;
 constexpr int kMostSweeps = 200, kMostRefinings = 4, kMostScalings = 20;
 /// How near the complexity comes to what is asked.
 constexpr double kNearComplexity = 0.005;
-/// In the metric: sides are halved that are longer than kShortest, and along which lengths differ by more
-/// than kSteepest (as a logarithm), and the longest whatever they do; of metrics that are functions, those
-/// that are longer than a part of the model's diagonal, too.
+/// In the metric. Sides are halved if they are longer than kShortest and lengths along them differ by more
+/// than kSteepest (as a logarithm). The longest sides are halved in any case. For metrics that are functions,
+/// sides longer than a part of the model's diagonal are halved, too.
 constexpr double kShortest = 0.6, kLongest = 3, kSteepest = 0.25, kLargestSide = 1.0 / 64;
 constexpr std::size_t kMostPoints = 4'000'000;
 
-/// No length is less than the least of both: where planes turn from point to point as those of slivers do,
-/// intersections would become ever smaller.
+/// No length is less than the least of both. Planes of slivers turn from point to point, and intersections
+/// would become ever smaller there.
 Tensor2 finer_of(const Tensor2& a, const Tensor2& b) {
   return limited(intersection(a, b), {.min = std::min(axes_of(a).h1, axes_of(b).h1)});
 }
@@ -113,8 +113,8 @@ Tensor2 SurfaceMetric::given_at(int face, const Vec3& x, const TangentMetric& fr
         is_metric(aspect > 0 ? limited(flat, {.aspect = aspect}) : flat)))
     throw InputError(fmt::format(
         "{}: the metric is [{:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}] (m11, m12, m13, m22, m23, m33) "
-        "at {}: expected finite numbers and a positive definite tangent part whose lengths differ by a "
-        "factor of less than {:g} (or a largest aspect)",
+        "at {}: expected finite numbers and a positive definite tangent part. Its lengths may differ by a "
+        "factor below {:g}, or give a largest aspect",
         wanted_.spec.where, m.xx, m.xy, m.xz, m.yy, m.yz, m.zz, show_point(x), kMostAspect));
   return flat;
 }
@@ -171,8 +171,9 @@ void SurfaceMetric::compose(const SurfaceModel& model) {
   grade(model.fine, std::move(is_less));
 }
 
-/// Each sweep goes on from what the one before has changed. By curvature lengths grow with the distance in
-/// space, so that what is long beside a curve is soon as wide; else with that in the metric.
+/// Each sweep goes on from the changes of the sweep before. By curvature, lengths grow with the distance in
+/// space, so that a length beside a curve soon counts in all directions. Otherwise they grow with the length
+/// in the metric.
 void SurfaceMetric::grade(const Mesh& fine, std::vector<char> is_new) {
   struct Link {
     int from, to;

@@ -76,9 +76,9 @@ class SurfaceMetric final : public SizeField {
   std::vector<int> face_of_;  ///< of the triangles of `all_`
 };
 
-/// Refines the fine triangulation until the metric hardly changes along its sides, or they are short in it,
-/// and turns its sides to be Delaunay in it. Returns the metric there. Throws InputError for what is no
-/// metric, with the place and the tensor.
+/// Refines the fine triangulation until the metric hardly changes along its sides, or they are short in it.
+/// Then turns its sides to be Delaunay in it. Returns the metric there. Throws InputError for values that are
+/// no metric, with the place and the tensor.
 std::shared_ptr<const SurfaceMetric> refine_for_metric(SurfaceModel& model, const WantedMetric& wanted);
 
 }  // namespace delquad

@@ -18,8 +18,8 @@ namespace delquad {
 
 namespace {
 
-/// Edges beside an edge of a short curve are at most so many times as long, but for this part of the base;
-/// a closed curve has so many edges at least.
+/// Edges beside an edge of a short curve are at most so many times as long, but for this part of the base. A
+/// closed curve has at least so many edges.
 constexpr double kBesideShort = 4, kLeastBeside = 1.0 / 50, kLoopEdges = 4;
 /// Points up to this part of the base away from where sizes are less belong there.
 constexpr double kOffSurface = 0.1;

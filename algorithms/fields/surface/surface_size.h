@@ -29,8 +29,8 @@ struct SizeBall {
 struct WantedSize {
   std::shared_ptr<const SizeField> base;            ///< in space; the largest size anywhere
   std::shared_ptr<const ModelCurvature> curvature;  ///< null: sizes do not follow curvature
-  /// Elements per full turn: delta = 2 pi r / per_turn with the smallest radius of curvature r of the face,
-  /// and of the curve on curves; > 0 where there is `curvature`.
+  /// Elements per full turn; > 0 where there is `curvature`. delta = 2 pi r / per_turn with the smallest
+  /// radius of curvature r of the face. On curves the radius of the curve counts, too.
   double per_turn = 0;
   /// In place of it, of each face and curve; empty: none; 0 in them: as `per_turn`; kNoTurns: no curvature.
   static constexpr double kNoTurns = -1;
@@ -59,7 +59,7 @@ struct WantedSize {
 };
 
 /// Sizes on a model's fine triangulation: the base, and where sizes follow curvature or have a limit of
-/// gradation, values at the fine points, linear on triangles and lines. The limit is that of the distance
+/// gradation, values at the fine points. These are linear on triangles and lines. The limit uses the distance
 /// along the surface, found by fast marching [sethian1996], so that sheets close in space do not mix.
 class SurfaceSize final : public SizeField {
  public:
@@ -96,8 +96,8 @@ class SurfaceSize final : public SizeField {
 /// its own sizes.
 std::vector<double> sizes_beside_short_curves(const Mesh& fine, const SizeField& base);
 
-/// Refines the fine triangulation until sizes that are linear on it are within 25 % of what they should be,
-/// or its sides as short as the size. Does nothing for sizes that are a function of space.
+/// Refines the fine triangulation until sizes that are linear on it are within 25 % of the true sizes. It
+/// stops where sides are as short as the size. Does nothing for sizes that are a function of space.
 void refine_for_size(SurfaceModel& model, const WantedSize& wanted);
 
 /// Lowers values at the points of a fine triangulation until none is more than `slope` times the distance

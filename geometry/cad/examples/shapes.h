@@ -8,6 +8,8 @@
 
 #include "geometry/cad/cad_shape.h"
 
+// This header has the shapes of the example models. The example models use it.
+
 namespace delquad::cad {
 
 TopoDS_Shape cylinder(const gp_Pnt& from, const gp_Dir& along, double radius, double length);
@@ -32,7 +34,7 @@ CadShape make_variable_fillet();
 
 /// One of all by its name, which must exist.
 CadShape make_example(const std::string& name);
-/// The same whose faces have the example's name first, as those of a product in a STEP file.
+/// The same whose faces have the example's name first, as the name of a product in a STEP file.
 CadShape make_product(const std::string& name);
 
 }  // namespace delquad::cad

@@ -54,7 +54,7 @@ FieldPatch field_patch(const std::shared_ptr<const BackgroundMesh>& background, 
   return {background, &size, std::make_shared<HarmonicCrossField>(background)};
 }
 
-/// [0, 2] x [0, 1], divided along the slanted line from (1.2, 0) to (0.8, 1); the right half is turned by
+/// [0, 2] x [0, 1], divided along the slanted line from (1.2, 0) to (0.8, 1). The right half is turned by
 /// kTurn and three times as large in its plane.
 class SlantedCut : public testing::Test {
  protected:

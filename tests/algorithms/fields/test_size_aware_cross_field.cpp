@@ -51,7 +51,8 @@ TEST(SizeAwareCross, ConstantSizesLeaveTheStartAsItIs) {
   }
 }
 
-// Where delta = |f'|, squares are carried to squares: the field is that of the grid's image, theta = arg f'.
+// Where delta = |f'|, squares are carried to squares: the field is the field of the grid's image, theta = arg
+// f'.
 TEST(SizeAwareCross, IsThatOfConformalGrids) {
   struct Map {
     const char* name;

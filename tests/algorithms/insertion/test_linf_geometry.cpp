@@ -137,7 +137,7 @@ TEST(LinfGeometry, EquilateralApexMakesHalfASquareOfAlignedAndDiagonalEdges) {
   }
 }
 
-/// Smallest R such that some square of half width R has all three points on its outline, by brute force over
+/// Smallest R such that some square of half width R has all three points on its outline. By brute force over
 /// the centers that the outline condition allows: with R given, each point lies on one of four sides.
 double brute_force_circumradius(const std::array<Vec2, 3>& v) {
   double best = INFINITY;

@@ -205,8 +205,8 @@ double aligned_share(const QuadPatch& mesh, double theta) {
   return aligned / inner;
 }
 
-// Squares with sides that the cross does not follow: a grid from the middle, with the triangles without
-// partner joined along the sides, not by rows of rhombs across it.
+// Squares with sides that the cross does not follow. Expected is a grid from the middle, with the triangles
+// without partner joined along the sides, not by rows of rhombs across it.
 TEST(Recombine, FollowsTheCrossWhereTheBoundaryIsAstray) {
   const auto boundary = shapes::rectangle(1, 1, 40, 40);
   const FunctionSize size(0.025), steep([](Vec2 u) { return 0.02 * std::exp(3 * (u.x + u.y)); });

@@ -9,7 +9,7 @@ namespace {
 constexpr double kHeight = 8;
 
 /// Rectangles side by side, each in a plane of its own, with so many edges on the curves between them and at
-/// both ends; those of the k-th curve are `counts`[k].
+/// both ends. `counts`[k] belongs to the k-th curve.
 class Rectangles {
  public:
   Rectangles(const std::vector<double>& widths, const std::vector<int>& counts) : widths_(widths) {

@@ -51,8 +51,8 @@ std::optional<int> least_irregular(const Outline& outline, int most = kMostIrreg
   return pattern ? std::optional(irregular_vertices(*pattern)) : std::nullopt;
 }
 
-/// The mesh of the best pattern, a conforming disk in which all vertices have the quads they should have, but
-/// for as many irregular ones as the pattern has; empty where there is none.
+/// The mesh of the best pattern, a conforming disk. All vertices have the quads they should have, but for as
+/// many irregular ones as the pattern has. Empty where there is none.
 QuadPatch expect_filled(const Outline& outline) {
   const std::optional<Pattern> pattern = best_pattern(outline, kMostIrregular);
   if (!pattern) return {};

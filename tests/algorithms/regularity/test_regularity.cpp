@@ -82,7 +82,7 @@ TEST(Regularity, WhatACornerForbidsIsNotTriedAgain) {
   }
 }
 
-/// Of all sides, over delta.
+/// The lengths of all sides, over delta.
 double longest_side(const QuadPatch& mesh, double delta) {
   double longest = 0;
   for (const auto& quad : mesh.quads)

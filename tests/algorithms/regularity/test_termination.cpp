@@ -61,8 +61,8 @@ PatchBoundary boundary_of(const std::vector<Vec2>& corners, double size, std::mt
   return boundary;
 }
 
-/// Elements looked at per element of the raw mesh. Ordinary patches take some hundreds, those of which every
-/// quad is bad up to 22 000: each tries a dozen moves and is remeshed within its budget.
+/// Elements looked at per element of the raw mesh. Ordinary patches take some hundreds. Patches of which
+/// every quad is bad take up to 22 000: each tries a dozen moves and is remeshed within its budget.
 constexpr double kMostLooks = 30000;
 
 void expect_linear_work(const QuadPatch& raw, const ParametricSize& size, const std::string& what) {

@@ -37,7 +37,7 @@ TEST(Greedy, SquaresCutInTwoComeBack) {
   expect_sound(treat_by_degrees(mesh, size), boundary);
 }
 
-/// What is merged is good enough, what is not has no free partner, and treatment keeps what it has to.
+/// Merged quads are good enough, other triangles have no free partner, and treatment keeps what it has to.
 TEST(Greedy, RandomDomains) {
   const FunctionSize size([](Vec2 u) { return 0.03 + 0.1 * std::abs(std::sin(3 * u.x) * u.y); });
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {

@@ -75,7 +75,7 @@ inline MatchingGraph cubic_graph(Random& random, int n) {
   return graph;
 }
 
-/// The triangles of a triangular lattice of k rows: k more of them point up than down; the ends of the fan of
+/// The triangles of a triangular lattice of k rows. k more of them point up than down. The ends of the fan of
 /// each corner on the rim have an edge that is dearer than all others.
 inline MatchingGraph triangle_lattice(int k, long long cost, long long rim_cost) {
   MatchingGraph graph;

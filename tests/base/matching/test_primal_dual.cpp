@@ -236,8 +236,8 @@ TEST(PrimalDual, TheSameGraphGivesTheSameMatching) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(make_primal_dual_solver()->solve(graph).mate, first.mate);
 }
 
-/// Of many ranges on all levels; in the second all costs tie, and the third has an odd number of triangles,
-/// one of which is left to a node that all others know.
+/// Graphs of many ranges on all levels. In the second all costs tie. The third has an odd number of
+/// triangles, one of which is left to a node that all others know.
 TEST(PrimalDual, EveryNumberOfThreadsGivesTheSameMatching) {
   Random random(10);
   std::vector<MatchingGraph> graphs = {cubic_graph(random, 60'000), triangle_lattice(200, 7, 1000),

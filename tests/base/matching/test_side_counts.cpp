@@ -139,7 +139,7 @@ TEST(SideCounts, NearlyTheLeastSumOfAll) {
 }
 
 TEST(SideCounts, SidesOfAThreeSidedFace) {
-  // The long side gives way, and the parity is mended.
+  // The long side gives way, and the parity is repaired.
   std::vector<CountedCurve> curves{{20, 20, 1, true}, {5, 5, 1, true}, {6, 6, 1, true}};
   CountedFace face{{std::vector{0}, {1}, {2}, {}}, 3};
   ASSERT_TRUE(balance_counts(curves, {face}).empty());

@@ -95,8 +95,8 @@ TEST_F(StudyPrograms, ClaimsAreConfirmedByAnotherProgram) {
   expect_refused("0 comparisons of ");
 }
 
-/// Every tabular is measured by LaTeX itself, at 8 points: the widest that tables of ours become by default,
-/// with half-widths, marks, published numbers and long names.
+/// Every tabular is measured by LaTeX itself, at 8 points. These are the widest that tables of ours become by
+/// default, with half-widths, marks, published numbers and long names.
 TEST(LatexPrograms, DefaultColumnsFitAPage) {
   if (!has_latex()) GTEST_SKIP() << "pdflatex and booktabs are not installed";
   const Folder folder;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kExact = 1e-6;  // coordinates are of single precision
 
-/// What page/packed_mesh.js does.
+/// The same as page/packed_mesh.js does.
 class Unpacker {
  public:
   explicit Unpacker(const PackedMesh& packed) : info_(packed.info) {

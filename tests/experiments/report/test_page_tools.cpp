@@ -226,7 +226,7 @@ TEST_F(PageToolsPrograms, SavesFigures) {
   text_of_pdf(folder_ / "f6.pdf");
 }
 
-/// What a drawing has that vectors here cannot say becomes an image; what it may not do, it does not do.
+/// Parts of a drawing that vectors here cannot say become an image; forbidden actions are not done.
 TEST_F(PageToolsPrograms, SavesFiguresOfTheFolder) {
   make_page(kSeedsExperiment);
   const fs::path figures = folder_ / "results/seeds/figures";

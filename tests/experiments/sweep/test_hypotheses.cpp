@@ -9,7 +9,7 @@ namespace {
 const std::string kHead =
     "pipelines = ['F', 'DB', 'DBC']\nsolver = ['poisson']\n[matrix]\ncross = ['boundary', 'x']\n"
     "seed = [1]\n";
-/// Of different proportions, and the last one as the first, but larger.
+/// Squares of different proportions, and the last one as the first, but larger.
 const std::string kRectangles = [] {
   std::string text;
   for (int i = 1; i <= 5; ++i)

@@ -126,7 +126,7 @@ TEST_F(MetricCommands, FailuresAreNamedAndTheMeshIsThere) {
   EXPECT_FALSE(fs::exists(folder_ / "out" / "square" / ".DB.work"));
 }
 
-/// What determines a value belongs to the cell's key; a cell whose measures have failed is tried again.
+/// All that determines a value belongs to the cell's key; a cell whose measures have failed is tried again.
 TEST_F(MetricCommands, AreMadeAgainWhenTheirFilesChange) {
   const auto script = write_text(folder_ / "measure.sh", "echo 1\n");
   write_text(folder_ / "data.txt", "x");

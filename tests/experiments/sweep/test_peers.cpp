@@ -212,7 +212,7 @@ TEST_F(Peers, FailAlone) {
   }
 }
 
-/// What others make is shown as it is, and said to be what it is.
+/// Meshes of others are shown as they are, and said to be what they are.
 TEST_F(Peers, MayMakeMeshesThatAreNotSound) {
   const std::string good = good_mesh();
   Mesh inverted = read_mesh(good);

@@ -186,7 +186,7 @@ TEST_F(CalibratedPeers, MayBeNotApplicable) {
       holds(table, "| code     |   0 | not applicable |", "- graded code is not applicable: needs a cube"));
 }
 
-/// Of a surface whose faces the case changes, the file would not do.
+/// For a surface whose faces the case changes, the file would not do.
 TEST_F(CalibratedPeers, AreNotGivenFilesOfChangedSurfaces) {
   write_mesh(folder_ / "lens.msh", testing_support::lens(24, 6, 0.45));
   const std::string text = "pipelines = ['file', 'mesh']\n" + peer("file", "exit 1", "") +
@@ -220,8 +220,8 @@ TEST_F(CalibratedPeers, GetSizesAtPoints) {
   EXPECT_GT(n, 50);
 }
 
-/// Of a metric those that know it get tensors in the domain's own plane, which calibration scales; others
-/// would be told something else.
+/// Peers that know a metric get tensors in the domain's own plane, which calibration scales; others would be
+/// told something else.
 TEST_F(CalibratedPeers, GetTensorsWhereThereIsAMetric) {
   const std::string script =
       "n=$(awk 'NR == 6 { print int(sqrt(sqrt($1 * $3)) / 1.3 + .5) }' $3)\nls $4 > told.txt\n" + kGrid;

@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What all processes see.
+/// State that all processes see.
 struct Shared {
   std::atomic<int> done = 0, working = 0, most_working = 0;
 };

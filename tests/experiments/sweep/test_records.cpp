@@ -468,7 +468,7 @@ TEST_F(Records, MergingRefusesWhatDoesNotFit) {
   for (const std::string& name : folder_.names()) EXPECT_FALSE(holds(name, ".all"));
 }
 
-/// What is not as it was written is never handed on.
+/// A file that is not as it was written is never handed on.
 TEST_F(Records, MergingLeavesDamagedCells) {
   run(kSizes);
   fs::copy(out(), out("copy"), fs::copy_options::recursive);
@@ -490,7 +490,7 @@ TEST_F(Records, MergingLeavesDamagedCells) {
   EXPECT_FALSE(fs::exists(out("none")));
 }
 
-/// What was done in one folder is taken before what failed in another.
+/// A cell that was done in one folder is taken before one that failed in another.
 TEST_F(Records, MergingTakesWhatWasDone) {
   const std::string text = "pipelines = ['DB']\n[[case]]\nname = 'lens'\ndata = 'lens.msh'\nsize = 0.3\n";
   run(text);

@@ -129,7 +129,7 @@ TEST_F(Resume, PipelinesThatBeginAlikeShareTheirStages) {
   EXPECT_NE(inserting("F"), inserting("DB"));
 }
 
-/// What is left of an earlier run does not stand for what a new one failed to make.
+/// Remains of an earlier run do not stand for files that a new one failed to make.
 TEST_F(Resume, AForcedRunThatFailsLeavesNoOldResult) {
   const std::string file = write(kSweep).string();
   done();

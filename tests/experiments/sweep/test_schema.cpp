@@ -26,7 +26,7 @@ std::vector<KeyPlace> places() {
 
 class Schema : public testing::Test {
  protected:
-  /// What the program says to a key with this value; empty: nothing.
+  /// The program's message to a key with this value; empty: nothing.
   std::string complaint(const KeyPlace& place, const std::string& key, const std::string& value) {
     std::string line = key + " = " + value;
     if (!place.path.empty()) {

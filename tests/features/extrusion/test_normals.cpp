@@ -74,7 +74,8 @@ TEST(Normals, EachPlaneMovesByTheThickness) {
   }
 }
 
-/// Quads so warped that flat triangles in their place cross those of the other side: no reason to refuse.
+/// Quads so warped that flat triangles in their place cross the triangles of the other side: no reason to
+/// refuse.
 TEST(Normals, CoarseMeshesOfRoundBodiesGetThinWalls) {
   std::mt19937_64 random(3);
   const auto noise = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };

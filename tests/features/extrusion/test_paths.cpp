@@ -57,8 +57,8 @@ TEST(Extrude, LayersGrow) {
   expect_input_error([] { layer_ends(3, 0); }, {"growth of 0"});
 }
 
-/// Between sections that are turned by an angle lie hexahedra with straight edges: of a ring of n parts the
-/// n-th of sin(2 pi / n) n / (2 pi) of Pappus' volume.
+/// Between sections that are turned by an angle lie hexahedra with straight edges. A ring of n parts has
+/// sin(2 pi / n) n / (2 pi) of Pappus' volume.
 TEST(Extrude, AroundAnAxisVolumeIsThatOfPappus) {
   const Mesh plate = holed_plate(4);
   const double pappus = 2 * kPi * (4 + 1.5) * 8;

@@ -192,7 +192,7 @@ TEST(GivenMeshes, TheWayThroughAFileIsTheSame) {
   const auto& halves = result.metrics.values;
   EXPECT_NEAR(halves.at("d4"), whole.at("d4"), 2);
   EXPECT_NEAR(halves.at("eta_mean"), whole.at("eta_mean"), 0.01);
-  // Without a size, that of the elements is about the one they were made for.
+  // Without a size, the size of the elements is about the size they were made for.
   problem.size = {};
   const MeshResult alone = mesh(problem, "CO");
   EXPECT_NEAR(alone.metrics.values.at("d4"), whole.at("d4"), 2);

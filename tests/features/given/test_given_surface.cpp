@@ -254,7 +254,7 @@ TEST(GivenSurfaces, LinesInsideStay) {
   expect_kept_in_space(halved(given, 3), improve_given(halved(given, 3), "BCO"));
 }
 
-/// Three squares on one edge; that of the second stands upright.
+/// Three squares on one edge; the second one stands upright.
 Mesh rib(int n) {
   Mesh mesh;
   std::map<std::array<int, 3>, int> index;
@@ -396,7 +396,7 @@ TEST(GivenSurfaces, WhatCannotBeUsedIsNamed) {
   expect_input_error([&] { improve_given(halved(shell, 3), "CO"); }, {"triangles", "B"});
 }
 
-/// What words do in two steps is about what they do in one.
+/// Pipelines in two steps do about the same as in one.
 TEST(GivenSurfaces, TheBracketInTwoSteps) {
   MeshProblem problem = problem_of(ExampleModel{"bracket"}, 4);
   const auto whole = mesh(problem, "DBCO").metrics.values;

@@ -9,7 +9,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// A square [0, 4]^2 on the curve of tag 1, and one of [1, 3]^2 inside it on that of tag 2.
+/// A square [0, 4]^2 on the curve of tag 1, and a square [1, 3]^2 inside it on the curve of tag 2.
 Mesh nested_squares() {
   Mesh mesh;
   for (const double r : {0.0, 1.0}) {

@@ -107,7 +107,7 @@ TEST(MappedFaces, ARingIsAGrid) {
       EXPECT_EQ(along, std::count(r.mesh.line_curve.begin(), r.mesh.line_curve.end(), 2));
       EXPECT_EQ(r.mesh.quads.size(), along * 10u);
       if (spec.automatic && word != "DB") continue;  // O has moved it
-      // The grid is that of polar coordinates.
+      // The grid follows polar coordinates.
       for (const Vec3& x : r.mesh.points) {
         const double step = norm(x) * 10;
         EXPECT_NEAR(step, std::round(step), 1e-9);
@@ -272,7 +272,7 @@ TEST(MappedFaces, RingsCloseAround) {
   }
 }
 
-/// Of a mesh by a constant size 1.
+/// Belongs to a mesh by a constant size 1.
 struct Rows {
   std::size_t quads = 0;
   long outer = 0;                                                          ///< edges of the first curve
@@ -345,7 +345,7 @@ TEST(MappedFaces, NarrowBandsAreRowsToTheirEnds) {
     }
 }
 
-/// What cannot be a grid is meshed, and told of, as if it were wide.
+/// A face that cannot be a grid is meshed, and told of, as if it were wide.
 TEST(MappedFaces, NarrowFacesAreNoDemand) {
   MeshProblem problem = mapped_problem(half_ring(0.8, 0.8), 1, {});
   problem.divisions = {{"outer", 20, 1, 1, "d 1"}, {"inner", 12, 1, 1, "d 2"}};

@@ -35,7 +35,7 @@ TEST(LayerEnds, BluntTrailingEdges) {
     MeshProblem problem = naca0012(false, first);
     std::get<PlanarModel>(problem.model).curves[5].name = "base";
     const MeshResult result = expect_whole(problem);
-    // Nodes of the base are as far apart as those of the sides that stand at its ends.
+    // Nodes of the base are as far apart as nodes of the sides that stand at its ends.
     double shortest = 1;
     for (const auto& [a, b] : lines_named(result.mesh, "base"))
       shortest = std::min(shortest, norm(result.mesh.points[b] - result.mesh.points[a]));

@@ -85,7 +85,7 @@ MeshProblem ring(double outer, double inner) {
   return problem_of(ModelMaker().circle({0, 0}, outer, "outer", "ring").circle({0, 0}, inner, "inner"));
 }
 
-// Rows that are thinner than the sagitta of their length, and a hole that is smaller than all lengths: sides
+// Rows that are thinner than the sagitta of their length, and a hole that is smaller than all lengths. Sides
 // along bends become shorter, and lengths grow from there on.
 TEST(MetricPlane, BendsAndSmallHolesStayUpright) {
   for (const MeshProblem& problem :
@@ -155,7 +155,7 @@ TEST(MetricPlane, WithoutDirectionsItIsASize) {
   for (std::size_t i = 0; i < a.points.size(); ++i) EXPECT_LT(norm(a.points[i] - b.points[i]), 1e-9);
 }
 
-// Of constants to the last bit, around a hole that is smaller, too.
+// For constants to the last bit, around a hole that is smaller, too.
 TEST(MetricPlane, AConstantWithoutDirectionsIsThatSize) {
   for (const char* h : {"0.1", "0.25"}) {
     MeshProblem by_size = ring(1, 0.05);
@@ -167,7 +167,7 @@ TEST(MetricPlane, AConstantWithoutDirectionsIsThatSize) {
   }
 }
 
-// Limits, a complexity and the gradation of a metric are those of the size that it is.
+// Limits, a complexity and the gradation of a metric are those which the size has.
 TEST(MetricPlane, WithoutDirectionsItsLimitsAreThoseOfASize) {
   const std::string h = "0.01+abs(x-0.5)";
   MeshProblem problem = by_sizes(square(), h, h);

@@ -91,7 +91,7 @@ TEST(MetricSurface, APlaneInSpaceIsThePlane) {
   const Mesh& nodes = std::get<TriangleModel>(in_space.model).mesh;
   std::vector<Tensor3> metric(nodes.points.size());
   in_space.metric.in_space(nodes.points, metric);
-  // Of that only the tangent part counts, and it must have a logarithm.
+  // Only its tangent part counts, and it must have a logarithm.
   const Vec3 n = cross(e, f);
   for (Tensor3& m : metric)
     m = {m.xx + n.x * n.x, m.xy + n.x * n.y, m.xz + n.x * n.z,

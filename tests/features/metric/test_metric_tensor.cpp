@@ -24,7 +24,7 @@ TEST(MetricTensor, IntersectionOfRectanglesIsTheirCommonPart) {
   expect_near(intersection(tensor_of({1, 4, 0}), tensor_of({2, 3, 0})), tensor_of({1, 3, 0}), 1e-14);
 }
 
-// The unit circle of the intersection lies in those of both and touches each.
+// The unit circle of the intersection lies in both unit circles and touches each.
 TEST(MetricTensor, IntersectionIsTheLargestInBoth) {
   const Tensor2 a = tensor_of({1, 10, 0.3}), b = tensor_of({2, 5, -0.9}), both = intersection(a, b);
   double least_a = std::numeric_limits<double>::infinity(), least_b = least_a, least = least_a;

@@ -19,7 +19,7 @@ const std::vector<PeriodicPair> kCellPairs = {{"region_1", "region_2", {{1, 0, 0
                                               {"region_3", "region_4", {{0, 1, 0}}, "p 2"},
                                               {"region_5", "region_6", {{0, 0, 1}}, "p 3"}};
 
-/// All nodes of an image are images of those of its master, to rounding, and so are its quads, one by one.
+/// All nodes of an image are images of its master's nodes, to rounding, and so are its quads, one by one.
 void expect_images(const Mesh& mesh, std::size_t n_pairs) {
   ASSERT_EQ(mesh.periodic_faces.size(), n_pairs);
   const double rounding = 1e-12 * diagonal(mesh);
@@ -50,7 +50,7 @@ void expect_images(const Mesh& mesh, std::size_t n_pairs) {
       EXPECT_LE(norm(pair.motion(mesh.points[of]) - mesh.points[node]), rounding);
 }
 
-/// What a solid is around: positive if its quads look outwards.
+/// The volume of a solid: positive if its quads look outwards.
 double volume(const Mesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c, d] : mesh.quads) {
@@ -86,7 +86,7 @@ TEST(PeriodicFaces, SizesOnTheFirstFaceCount) {
   EXPECT_GT(quads_on(fine.mesh, 2), 3 * quads_on(coarse.mesh, 1));
 }
 
-/// The unit cube with a hole of radius 0.3 along z. Regions 1 to 6 as those of box(), 7 is the hole.
+/// The unit cube with a hole of radius 0.3 along z. Regions 1 to 6 are as in box(), 7 is the hole.
 Mesh cell_with_hole(int n) {
   TriangulatedShape shape;
   const int around = 4 * n;
@@ -135,7 +135,7 @@ TEST(PeriodicFaces, HolesThroughFacesMatch) {
   }
 }
 
-/// A solid swept by a polygon of the half-plane y = 0, x >= 0, about z by `angle`: regions 1 and 2 are the
+/// A solid swept by a polygon of the half-plane y = 0, x >= 0, about z by `angle`. Regions 1 and 2 are the
 /// polygon at its first and last place, the others its sides. Sides on the axis sweep nothing.
 Mesh swept(const std::vector<Vec2>& polygon, Vec2 middle, double angle, int steps) {
   TriangulatedShape shape;
@@ -216,7 +216,7 @@ TEST(PeriodicFaces, CurvedFacesMatch) {
   EXPECT_NEAR(volume(r.mesh), 1, 0.01);
 }
 
-/// The unit cube without balls of radius r around its corners. Regions 1 to 6 as those of box(), then the
+/// The unit cube without balls of radius r around its corners. Regions 1 to 6 are as in box(), then come the
 /// pores.
 Mesh cell_with_corner_pores(double r, int n) {
   TriangulatedShape shape;

@@ -167,7 +167,7 @@ TEST(Symmetry, PlanesAreFound) {
   const MeshResult r = mesh(symmetric_problem(symmetric_plate(), 0.1, {{}, true}), "DBCO");
   expect_mirrored(r.mesh, about_x2);
   expect_mirrored(r.mesh, about_y1);
-  // Of a triangle with two equal sides there is one, of a scalene one none.
+  // A triangle with two equal sides has one, a scalene one none.
   const MeshResult t =
       mesh(symmetric_problem(polygons({{{-1, 0}, {1, 0}, {0, 3}}}), 0.2, {{}, true}), "DBCO");
   expect_mirrored(t.mesh, [](Vec3 x) { return Vec3{-x.x, x.y, x.z}; });

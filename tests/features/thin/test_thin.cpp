@@ -9,7 +9,7 @@ constexpr int kLayers = 5;
 
 Vec2 on_interface(int i, double x) { return {x, i * kHigh + 0.3 * std::sin(0.5 * x)}; }
 
-/// Layers of less than half the size between a slanted fault and a straight one; the middle one is cut in two
+/// Layers of less than half the size between a slanted fault and a straight one. The middle one is cut in two
 /// wedges of one degree.
 PlanarModel stack_of_layers() {
   ModelMaker model;

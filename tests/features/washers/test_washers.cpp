@@ -19,7 +19,7 @@ MeshProblem problem_of(Model model, double size, std::vector<WasherSpec> washers
 }
 
 /// Rows of so many quads around a center, all of whose nodes lie on circles from the hole to `radius`, to 2
-/// %; -1: something else is there.
+/// %. If something else is there, -1.
 int rows_around(const Mesh& mesh, const Vec3& centre, double hole, double radius, int rows, int edges) {
   int n = 0;
   for (const auto& quad : mesh.quads) {

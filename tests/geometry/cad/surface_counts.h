@@ -33,8 +33,8 @@ inline SurfaceCounts count(const Mesh& mesh) {
   return n;
 }
 
-/// What SurfaceModel promises: a sound mesh, chains in one direction from end to end, all sides between faces
-/// and on the outline are lines, corners where curves end or meet.
+/// The promises of SurfaceModel: a sound mesh, and chains in one direction from end to end. All sides between
+/// faces and on the outline are lines; corners are where curves end or meet.
 inline void expect_sound(const SurfaceModel& model) {
   const Mesh& mesh = model.fine;
   std::vector<std::pair<int, int>> lines;

@@ -6,7 +6,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Of areas and volumes against closed forms: the triangulation is as fine as 0.15 radians.
+/// Tolerance of areas and volumes against closed forms: the triangulation is as fine as 0.15 radians.
 constexpr double kFineExample = 4e-3;
 
 std::filesystem::path write_file(const TemporaryFolder& folder, const std::string& name, CadFormat format) {
@@ -111,7 +111,7 @@ const std::vector<ShapeCounts> kTopologies = {
     {"loft", 6, 12, 8, 2, 0},
     // Two bends, and of the outline two sides of each face, a step and two ends; six holes.
     {"sheet", 3, 18, 10, -5, 16},
-    // Five sides outside and the rim, five of each room, six holes in walls.
+    // Five sides outside and the rim, five of each space inside, six holes in walls.
     {"thin_box", 6 + 4 * 5 + 6, 72, 40, 2 - 2 * 6, 0},
     // A block's six sides, four fillets, a hole.
     {"variable_fillet", 6 + 4 + 1, 26, 16, 0, 0},

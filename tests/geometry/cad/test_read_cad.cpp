@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Of area and volume against closed forms: the triangulation is as fine as 0.15 radians.
+/// Tolerance of area and volume against closed forms: the triangulation is as fine as 0.15 radians.
 constexpr double kFine = 4e-3;
 
 struct Solid {
@@ -207,8 +207,8 @@ TEST(ReadCad, KeepsAMirroredInstanceTheRightWayRound) {
 }
 
 TEST(ReadCad, KeepsAPocketAroundPoles) {
-  // Both poles of the sphere lie in the pocket, whose boundary crosses the seam; from STEP the kernel makes
-  // of it what lies outside, the whole sphere once more on top.
+  // Both poles of the sphere lie in the pocket, whose boundary crosses the seam. From STEP the kernel makes
+  // the outside of it, the whole sphere once more on top.
   const TemporaryFolder folder;
   const auto cylinder = BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, -1}, {0, 0, 1}), 1, 2).Shape();
   const auto ball = BRepPrimAPI_MakeSphere(gp_Ax2({0.5, 0.75, -0.25}, {0, 0, 1}), 0.75).Shape();

@@ -9,7 +9,7 @@
 namespace delquad {
 namespace {
 
-/// What read_cad promises, as a fraction of the diagonal.
+/// The accuracy that read_cad promises, as a fraction of the diagonal.
 constexpr double kAccuracy = 1e-9;
 
 SurfaceModel read(const TopoDS_Shape& shape) {

@@ -56,7 +56,7 @@ TEST(ConstrainedDelaunay, RefusesWhatIsNotAPatch) {
 }
 
 TEST(ConstrainedDelaunay, RefusesHolesThatAreTurnedInsideOut) {
-  // Meshed on both sides, its edges would be those of no boundary.
+  // Meshed on both sides, its edges would be edges of no boundary.
   const std::vector<Vec2> hole = {{0.4, 0.4}, {0.4, 0.6}, {0.6, 0.6}, {0.6, 0.4}};
   for (const bool is_turned : {false, true}) {
     PatchBoundary boundary = shapes::rectangle(1, 1, 4, 4);

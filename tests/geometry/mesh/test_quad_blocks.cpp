@@ -82,8 +82,8 @@ TEST(QuadBlocks, EveryPlaceIsWorkedOn) {
 }
 
 TEST(QuadBlocks, AHeldVertexHasAPointForEachFan) {
-  // Four blocks meet at few points only; fans of one block on both sides of a vertex are rarer still, so that
-  // all vertices are counted: corners of a block around a held point are one fan.
+  // Four blocks meet at few points only. Fans of one block on both sides of a vertex are rarer still, so all
+  // vertices are counted. Corners of a block around a held point are one fan.
   QuadBlocks whole(large_grid());
   for (const QuadBlock& block : whole.next()) {
     const QuadTopology topology(block.mesh, block.first_held);

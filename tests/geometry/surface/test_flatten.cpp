@@ -178,7 +178,7 @@ TEST(Flatten, CutsOfNeighboursMeet) {
   ASSERT_EQ(f.patches.size(), 3u);
   int corners = 0;
   for (const int c : model.corners) corners += std::abs(fine.points[c].z) < 1e-9 ? 1 : 0;
-  EXPECT_EQ(corners, 2);  // of the cut through the tip, and one of them is that of the tube
+  EXPECT_EQ(corners, 2);  // of the cut through the tip, and one of them is the tube's
 }
 
 TEST(Flatten, SameInputSameOutput) {

@@ -88,8 +88,8 @@ TEST(IgnoreSmall, ShortCurvesAtTheEndOfAWedgeBecomePoints) {
   EXPECT_LT(wedge.fine.regions.size(), model.fine.regions.size());
 }
 
-/// The unit cube with an octagonal hole of this radius in its top, region 2, which goes down to `depth`;
-/// region 7 is its wall, region 8 its bottom when it does not go through. Regions 3 to 6 are sides, 1 is the
+/// The unit cube with an octagonal hole of this radius in its top, region 2, which goes down to `depth`.
+/// Region 7 is its wall, region 8 its bottom when it does not go through. Regions 3 to 6 are sides, 1 is the
 /// bottom.
 Mesh cube_with_hole(double radius, double depth) {
   TriangulatedShape shape;

@@ -47,8 +47,8 @@ SurfaceModel wedge(double slope) {
                                        : 2; });
 }
 
-/// Two squares, [0, 1] x [0, 1] and [2, 3] x [0, 1], and between them a neck 0.02 wide: region 1, in a sheet
-/// of regions 2 and 3 below and above the neck, or of none.
+/// Two squares, [0, 1] x [0, 1] and [2, 3] x [0, 1], and between them a neck 0.02 wide. The neck is region 1,
+/// in a sheet of regions 2 and 3 below and above it, or of none.
 SurfaceModel dumbbell(bool has_sheet) {
   constexpr double kHeights[] = {0, 0.49, 0.51, 1};
   return sheet(

@@ -26,7 +26,7 @@ Mesh band(int n, int turns) {
   return mesh;
 }
 
-/// Every second side of an octahedron and its three middle squares: each edge has two of these, and no choice
+/// Every second side of an octahedron and its three middle squares. Each edge has two of these, and no choice
 /// of sides agrees at all of them.
 Mesh one_sided_sheets() {
   Mesh mesh;

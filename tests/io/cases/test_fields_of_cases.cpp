@@ -111,7 +111,7 @@ TEST_F(Cases, CurvesAreDivided) {
   ASSERT_EQ(top.size(), 31u);
   EXPECT_NEAR((top[1] - top[0]) / (top[16] - top[15]), 0.25, 0.02);  // no edge is in the middle
   EXPECT_NEAR(top[1] - top[0], top[30] - top[29], 1e-12);
-  // Sizes near the curve are those of its edges, smaller or larger.
+  // Sizes near the curve are the lengths of its edges, smaller or larger.
   const MeshingSetup one =
       prepare_case(read(model + "divide = { name = 'bottom', edges = 8, progression = 1.5 }\n"));
   EXPECT_GT(size_at(one, 1.9, 0), 0.8 * (bottom[8] - bottom[7]));

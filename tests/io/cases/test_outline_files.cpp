@@ -172,8 +172,8 @@ class DxfFiles : public OutlineFiles {
 };
 
 TEST_F(DxfFiles, ArcsAndSplinesStayWhatTheyAre) {
-  // A square of 10 whose last corner is a quarter of a circle of 2, a hole, and a quarter of a circle as a
-  // spline.
+  // A square of 10, whose last corner is a quarter of a circle of 2. It has a hole, and a quarter of a circle
+  // as a spline.
   const PlanarModel model = read(
       "0 LWPOLYLINE 8 rim 90 5 70 1 10 0 20 0 10 10 20 0 10 10 20 8 42 0.41421356237309503 10 8 20 10 10 0 "
       "20 10 0 CIRCLE 8 0 10 5 20 5 40 1 0 SPLINE 8 vane 71 2 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 "

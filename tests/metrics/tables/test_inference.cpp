@@ -117,8 +117,8 @@ void expect_few_claims(const Shape& shape, const Alike& alike) {
   EXPECT_LE(claiming, alike.most_claiming());
 }
 
-/// Now the one, now the other is truly better on a domain, with all of its seeds, and none over domains:
-/// nothing may be claimed of pairs.
+/// Now the one, now the other is truly better on a domain, with all of its seeds, and none over domains.
+/// Nothing may be claimed of pairs.
 void expect_few_claims_of_pairs(const Shape& shape, const Alike& alike) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;

@@ -43,7 +43,7 @@ TEST(Tables, TexIsEscapedBooktabs) {
                     "\\end{longtable}"));
 }
 
-/// What a reader of the paper has to know stands in the paper, not in comments.
+/// Everything that a reader of the paper has to know stands in the paper, not in comments.
 TEST(Tables, TexSaysWhatFailed) {
   const std::string text = to_tex(example());
   EXPECT_TRUE(holds(text, "case$|$2}} \\tabularnewline\nDB & failed &  \\tabularnewline\n"));

@@ -92,7 +92,7 @@ TEST(BoundedVoronois, CellsAreWhatTheirSeedsSeeNearest) {
 }
 
 TEST(BoundedVoronois, SeeNothingThroughThinWalls) {
-  // Two rooms, 1e-4 apart, joined at the right; seeds near the wall on both sides.
+  // Two boxes, 1e-4 apart, joined at the right; seeds near the wall on both sides.
   const PatchBoundary boundary = shapes::polygon(
       {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, 1e-4}, {0.5, 1e-4}, {0.5, -1e-4}, {-1, -1e-4}});
   EXPECT_GT(check_cells(boundary, {{-0.5, 0.01}, {-0.4, -0.02}, {0.1, 0.1}, {0.2, 0.02}, {0.3, -0.01}}, 1),

@@ -5,7 +5,7 @@
 namespace delquad {
 namespace {
 
-/// Of the derivative by central differences, relative to the largest of all components.
+/// The error of the derivative by central differences, relative to the largest of all components.
 constexpr double kGradientTolerance = 1e-6;
 
 void check_gradient(const PatchBoundary& boundary, const std::vector<Vec2>& seeds, int p,

@@ -119,8 +119,8 @@ TEST(QuadEnergy, RegularGridIsAMinimum) {
 TEST(QuadEnergy, FiniteWhereQuadsAreInverted) {
   const QuadEnergy energy = energy_of(grid_patch(2, 2), 1, 0, 0.8, {});
   ASSERT_EQ(energy.variables(), 2);
-  // The middle goes right by x: the corners at the middles of bottom and top have the sine 1 / sqrt(1 + x^2),
-  // 0.8 at x = 0.75; beyond x = 1 two quads are inverted.
+  // The middle goes right by x. The corners at the middles of bottom and top have the sine 1 / sqrt(1 + x^2),
+  // 0.8 at x = 0.75. Beyond x = 1 two quads are inverted.
   double before = 0;
   for (const double x : {0.0, 0.3, 0.75 - 1e-5, 0.75 + 1e-5, 0.9, 1.5}) {
     SCOPED_TRACE(x);

@@ -35,7 +35,7 @@ struct Meshed : MeshedSurface {
   std::vector<Vec3> places;
 };
 
-/// Of each vertex, the shortest edge.
+/// For each vertex, the shortest edge.
 std::vector<double> shortest_edges(const Meshed& m) {
   std::vector<double> shortest(m.places.size(), 1e300);
   for (const auto& quad : m.tracks->quads())

@@ -63,7 +63,7 @@ void expect_on_tracks(const Slid& slid) {
   const NearestTriangle triangles(slid.model.fine.points, slid.model.fine.triangles);
   for (std::size_t p = 0; p < slid.quads.size(); ++p) {
     for (const Vec3& x : slid.inside[p]) EXPECT_LT(triangles.find(x).distance, 1e-9);
-    // The boundary in the plane is that of the nodes.
+    // The boundary in the plane follows the nodes.
     const SurfacePatch& patch = slid.domain.patches[p];
     int hint = -1;
     for (std::size_t i = 0; i < patch.boundary.points.size(); ++i)
