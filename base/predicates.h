@@ -12,7 +12,7 @@ namespace delquad {
 
 namespace exact {
 
-/// Exact predicates for the few calls that the filters below cannot decide.
+/// Decides exactly, for the few calls that the filters below cannot decide.
 int orient2d(Vec2 a, Vec2 b, Vec2 c);
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 

@@ -12,11 +12,11 @@
 
 namespace delquad {
 
-/// Edges joined where one begins at the end of another: the nodes of each chain one after the other. A closed
-/// chain has the first node again at the end. Chains end where not just one edge goes on.
+/// Returns the edges joined where one begins at the end of another: the nodes of each chain one after the
+/// other. A closed chain has the first node again at the end. Chains end where not just one edge goes on.
 std::vector<std::vector<int>> join_edges(const std::vector<std::array<int, 2>>& edges);
 
-/// The groups of lines, as indices, by their ends, the lower one first.
+/// Returns the groups of lines, as indices, by their ends, the lower one first.
 std::map<std::array<int, 2>, int> groups_of_lines(const Mesh& mesh, const std::vector<MeshGroup>& groups);
 
 /// A side on the boundary of the mesh, which lies on its left.
@@ -25,7 +25,7 @@ struct BoundarySide {
   int element, side;  ///< as in CellSide
   int group;          ///< index into the groups of the mesh; -1: no line is there
 };
-/// All of them, sorted by their first node.
+/// Returns all sides of the boundary, sorted by their first node.
 std::vector<BoundarySide> boundary_sides(const Mesh& mesh, const std::vector<MeshGroup>& groups);
 
 /// A piece of the boundary for codes that know open ones, where water comes and goes, and land.

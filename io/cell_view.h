@@ -37,15 +37,15 @@ struct CellBlock {
 /// see nodes_of_quad(). By default it is Gmsh's order, without the middle one if that is a corner, as
 /// write_serendipity() has it.
 std::vector<CellBlock> cell_blocks(const Mesh& mesh, std::vector<int> places = {});
-/// 3 with hexahedra, else 2.
+/// Returns 3 with hexahedra, else 2.
 int dimension_of(const Mesh& mesh);
-/// The number of points (0), of lines (1), of triangles and quads (2), or of hexahedra (3).
+/// Returns the number of points (0), of lines (1), of triangles and quads (2), or of hexahedra (3).
 std::size_t n_cells(const Mesh& mesh, int dim);
-/// Whether the nodes in the middle of quads of order 2 are left out.
+/// Returns whether the nodes in the middle of quads of order 2 are left out.
 bool has_eight_nodes(const Mesh& mesh);
 /// Places of the corners and of the nodes on sides of quads of order 1 or 2, for formats with no others.
 std::vector<int> places_on_sides(int order);
-/// For each point whether it is the node in the middle of a quad of order 2.
+/// Returns for each point whether it is the node in the middle of a quad of order 2.
 std::vector<char> are_in_middles(const Mesh& mesh);
 
 /// How a format calls elements of a shape with so many nodes.
@@ -74,8 +74,8 @@ CellSide cell_side(const Mesh& mesh, const HalfEdge& edge);
 class CellSides {
  public:
   explicit CellSides(const Mesh& mesh);
-  /// The sides on a line, or on a quad beside hexahedra: one on the boundary, else two, in the order of the
-  /// elements.
+  /// Returns the sides on a line, or on a quad beside hexahedra: one on the boundary, else two, in the order
+  /// of the elements.
   std::vector<CellSide> at(int item) const;
 
  private:
@@ -99,17 +99,17 @@ struct MeshGroup {
   std::vector<int> items;
 };
 
-/// All named points, the lines on the boundary and the named ones inside (of hexahedra all), all elements.
-/// Groups of the highest dimension come first. Entities have the names of group_names().
+/// Returns all named points, the lines on the boundary and the named ones inside (of hexahedra all), all
+/// elements. Groups of the highest dimension come first. Entities have the names of group_names().
 std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& rules);
-/// The nodes of a group, ascending, each once.
+/// Returns the nodes of a group, ascending, each once.
 std::vector<int> nodes_of_group(const Mesh& mesh, const MeshGroup& group);
-/// The groups' numbers of all items of a dimension; 0: in none.
+/// Returns the groups' numbers of all items of a dimension; 0: in none.
 std::vector<int> group_numbers(const Mesh& mesh, const std::vector<MeshGroup>& groups, int dim);
-/// The elements of a group that a block has, by their indices in it.
+/// Returns the elements of a group that a block has, by their indices in it.
 std::vector<std::size_t> items_in_block(const MeshGroup& group, const CellBlock& cells);
 
-/// "curve "Ein|aus" is Ein_aus", one for each group whose label is not its name.
+/// Returns "curve "Ein|aus" is Ein_aus", one for each group whose label is not its name.
 std::vector<std::string> renamed_groups(const std::vector<MeshGroup>& groups);
 
 }  // namespace delquad

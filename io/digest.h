@@ -27,13 +27,13 @@ struct FileMark {
 FileMark mark_of(const std::filesystem::path& file);
 /// Returns the marks of the regular files in a folder and in folders inside it, by their paths in it.
 std::map<std::string, FileMark> marks_of(const std::filesystem::path& folder);
-/// How a file differs from its mark, in words ("holds 12 bytes, expected 300"); empty: it does not.
+/// Returns how a file differs from its mark, in words ("holds 12 bytes, expected 300"); empty: it does not.
 std::string difference(const std::filesystem::path& file, const FileMark& mark);
 
-/// The text of a JSON object, printed over several lines, with one more entry before the others. This is
-/// "digest", by which every later change of the text shows.
+/// Returns the text of a JSON object, printed over several lines, with one more entry before the others. This
+/// is "digest", by which every later change of the text shows.
 std::string sealed(const std::string& object);
-/// Whether the text is as sealed() made it.
+/// Returns whether the text is as sealed() made it.
 bool is_sealed(std::string_view text);
 
 }  // namespace delquad

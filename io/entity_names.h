@@ -29,13 +29,13 @@ std::string tag_label(int dim, int tag);
 /// name here only if they share it.
 std::vector<std::string> group_names(const std::vector<Entity>& entities, int dim);
 
-/// The tags of the entities that have each name.
+/// Returns the tags of the entities that have each name.
 std::map<std::string, std::vector<std::int32_t>> tags_of_names(const std::vector<Entity>& entities);
 
-/// Whether a name has the word in it, in small letters or large ones.
+/// Returns whether a name has the word in it, in small letters or large ones.
 bool name_contains(std::string name, std::string_view word);
 
-/// The name in one line of at most 200 bytes, for comments.
+/// Returns the name in one line of at most 200 bytes, for comments.
 std::string one_line(std::string_view name);
 
 /// Names as a format can hold them. Different names get different labels: a name that can stay as it is does,
@@ -74,7 +74,7 @@ class NumberedEntities {
   /// end in
   /// "\r". It must stand before the elements. False: it is no such comment.
   bool take_name(std::string_view comment, std::string_view before, std::string_view after, int dim);
-  /// Index into Mesh::curves or Mesh::regions.
+  /// Returns the index into Mesh::curves or Mesh::regions.
   int index(int dim, long long number, Mesh& mesh);
 
  private:
@@ -82,15 +82,16 @@ class NumberedEntities {
   std::map<std::pair<int, long long>, int> index_;
 };
 
-/// The unit of lengths that a comment of our writers tells after its mark ("#"); empty: it tells none.
+/// Returns the unit of lengths that a comment of our writers tells after its mark ("#"); empty: it tells
+/// none.
 std::string unit_in_comment(std::string_view comment, std::string_view mark);
 
-/// Whether all points have one z and the elements run counterclockwise as seen from above.
+/// Returns whether all points have one z and the elements run counterclockwise as seen from above.
 bool is_planar(const Mesh& mesh);
 
 /// Throws InputError where is_planar() is false.
 void require_planar(const std::filesystem::path& path, const std::string& format, const Mesh& mesh);
-/// The same but for meshes of z over the plane, such as the ground below water.
+/// Does the same but for meshes of z over the plane, such as the ground below water.
 void require_terrain(const std::filesystem::path& path, const std::string& format, const Mesh& mesh);
 /// Throws InputError where there are triangles.
 void require_quads(const std::filesystem::path& path, const std::string& format, const Mesh& mesh);
@@ -98,24 +99,25 @@ void require_quads(const std::filesystem::path& path, const std::string& format,
 /// Throws InputError where there are more of something than numbers that a format can hold.
 void require_fits(const std::filesystem::path& path, const std::string& format, std::size_t n,
                   const std::string& what, std::size_t most);
-/// Nodes, and lines, triangles and quads together, are numbered from 1.
+/// Throws InputError unless the format holds the numbers of nodes, and of lines, triangles and quads
+/// together. These are numbered from 1.
 void require_numbers(const std::filesystem::path& path, const std::string& format, const Mesh& mesh,
                      std::size_t most);
 
-/// A name in one line.
+/// Returns a name in one line.
 std::string one_line_label(const std::string& name);
-/// A name for CGNS, where it has no slash.
+/// Returns a name for CGNS, where it has no slash.
 std::string cgns_label(const std::string& name);
-/// A name for MED, whose readers take letters of other alphabets in several ways.
+/// Returns a name for MED, whose readers take letters of other alphabets in several ways.
 std::string ascii_label(const std::string& name);
 /// Labels of formats that have no comments to tell what was renamed. Names of CGNS have at most 32
 /// characters, names of MED 80 bytes, names of Exodus as many as the file says.
 inline constexpr UniqueLabels::Rules kExodusLabels{one_line_label, false, 70};
 inline constexpr UniqueLabels::Rules kCgnsLabels{cgns_label, false, 22};
 inline constexpr UniqueLabels::Rules kMedLabels{ascii_label, false, 70};
-/// A name of ASCII letters, digits and _-.+@, as flag_meanings of netCDF are.
+/// Returns a name of ASCII letters, digits and _-.+@, as flag_meanings of netCDF are.
 std::string word_label(const std::string& name);
-/// A name of letters, digits and underscores that begins with a letter.
+/// Returns a name of letters, digits and underscores that begins with a letter.
 std::string plain_label(const std::string& name);
 
 }  // namespace delquad

@@ -41,14 +41,14 @@ class NamedPoints {
 class FaceReader {
  protected:
   FaceReader(const std::filesystem::path& path, const char* kind, Strays strays);
-  /// One more coordinate of the point on this line.
+  /// Reads one more coordinate of the point on this line.
   double coordinate();
-  /// A point that was read just now.
+  /// Adds a point that was read just now.
   void add_point(const Vec3& p);
   /// Adds a face of these vertices to the mesh, as a quad or triangles. Throws InputError with the line for
   /// one that cannot be split.
   void add_face(const std::vector<int>& corners, int region);
-  /// The mesh without points that nothing uses. Notes how many faces were split, if any.
+  /// Returns the mesh without points that nothing uses. Notes how many faces were split, if any.
   Mesh finished(ReadNotes* notes);
 
   TextScanner in_;
@@ -66,7 +66,8 @@ class FaceColours {
  public:
   static constexpr std::size_t kMost = 64;  ///< more than these paint a picture and divide nothing
 
-  /// Index of the region of faces with this color ("rrggbb"; empty: none) in a part that goes by `name`.
+  /// Returns the index of the region of faces with this color ("rrggbb"; empty: none) in a part that goes by
+  /// `name`.
   int region(const std::string& name, const std::string& colour) {
     const auto [at, is_new] = index_.try_emplace({name, colour}, static_cast<int>(regions_.size()));
     if (is_new) {
@@ -86,7 +87,7 @@ class FaceColours {
   std::vector<Entity> regions_;
 };
 
-/// "rrggbb" of parts of 255.
+/// Returns "rrggbb" of parts of 255.
 std::string colour_text(const std::array<int, 3>& rgb);
 
 }  // namespace delquad

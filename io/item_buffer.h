@@ -54,10 +54,10 @@ class ItemBuffer {
   }
 
   double depth(size_t sample) const { return depth_[sample]; }
-  /// For each sample the item; -1: none.
+  /// Returns for each sample the item; -1: none.
   const std::vector<int>& items() const { return item_; }
 
-  /// Least depth of the samples around a point: what is behind it is hidden.
+  /// Returns the least depth of the samples around a point: what is behind it is hidden.
   double depth_around(double x, double y) const {
     double least = std::numeric_limits<double>::infinity();
     const int cx = static_cast<int>(std::lround(x)), cy = static_cast<int>(std::lround(y));

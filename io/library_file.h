@@ -26,15 +26,15 @@ struct OpenFile {
   auto close_now() { return close(std::exchange(id, -1)); }
 };
 
-/// All of a file. Throws InputError where it cannot be read; what the stream does not take is left to its
-/// state.
+/// Copies all of a file. Throws InputError where it cannot be read; what the stream does not take is left to
+/// its state.
 void copy_into(std::ostream& out, const std::filesystem::path& file);
 
-/// For formats whose library writes files by their name. `write` fills a temporary one in a process of its
-/// own, which is then copied to the stream.
+/// Returns a writer for formats whose library writes files by their name. `write` fills a temporary one in a
+/// process of its own, which is then copied to the stream.
 std::function<void(std::ostream&)> by_library(
     const std::filesystem::path& path, std::function<void(const std::filesystem::path& temporary)> write);
-/// The file itself is written whole or not at all, see write_file_atomically().
+/// Writes a file by a library, whole or not at all, see write_file_atomically().
 void write_by_library(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 

@@ -78,15 +78,15 @@ inline constexpr const char* kShell = "S4";
 /// Adds that shells of the source stay shells in .inp.
 MshOptions options_for_source(const std::filesystem::path& source, MshOptions options);
 
-/// By this program, or by one with its library.
+/// Returns whether a format can be written by this program, or by one with its library.
 bool can_write(const MeshFormat& format);
 
-/// In the order of the documentation.
+/// Returns the formats in the order of the documentation.
 const std::vector<MeshFormat>& mesh_formats();
 
 /// Reads a mesh to improve it: with the regions and points that rewrite_mesh() needs, if it keeps such files.
 Mesh read_given_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
-/// Whether what else `source` holds stays in `path`: both are decks of Abaqus or CalculiX, or both of
+/// Returns whether what else `source` holds stays in `path`: both are decks of Abaqus or CalculiX, or both of
 /// Nastran.
 bool keeps_file(const std::filesystem::path& source, const std::filesystem::path& path);
 /// Writes the source again with a mesh that read_given_mesh() read from it, or stages made of that. All else
@@ -103,9 +103,9 @@ ShellSections carry_sections(const std::filesystem::path& source, const std::fil
 std::string ignored_keywords(const std::filesystem::path& path,
                              const std::map<std::string, int>& carried = {});
 
-/// The highest order of elements that write_mesh() writes there. Throws as check_mesh_format().
+/// Returns the highest order of elements that write_mesh() writes there. Throws as check_mesh_format().
 int most_order_of(const std::filesystem::path& path);
-/// The mesh of its corners, of order 1.
+/// Returns the mesh of its corners, of order 1.
 Mesh straightened(Mesh mesh);
 /// Returns the parts of a mesh that a file of that name cannot hold, one line each: names, and a higher
 /// order.

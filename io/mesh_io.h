@@ -18,8 +18,8 @@ namespace delquad {
 
 class TextWriter;
 
-/// Where a file lies that is reached by symbolic links, whether it exists or not. Throws InputError for links
-/// in a circle.
+/// Returns where a file lies that is reached by symbolic links, whether it exists or not. Throws InputError
+/// for links in a circle.
 std::filesystem::path behind_links(std::filesystem::path path);
 
 /// Writes a file whole or not at all: `write` fills a temporary file beside it, which is then renamed.
@@ -28,7 +28,7 @@ std::filesystem::path behind_links(std::filesystem::path path);
 /// passes through.
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(std::ostream&)>& write);
-/// The same of a text.
+/// Writes a text in the same way.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 void write_text_file(const std::filesystem::path& path, const std::function<void(TextWriter&)>& write);
 
@@ -43,14 +43,14 @@ void write_files_atomically(const std::vector<FileToWrite>& files);
 /// Removes the temporary files of write_file_atomically(), for a process that is about to end; safe in signal
 /// handlers.
 void remove_unfinished_files() noexcept;
-/// The same, and keeps every file from getting its place from now on: the process must end next. False, and
-/// nothing happens, once a file got its place.
+/// Does the same, and keeps every file from getting its place from now on: the process must end next. False,
+/// and nothing happens, once a file got its place.
 bool abandon_files();
 
-/// The path's extension in small letters, such as ".stl"; for "part.STL.gz" it is ".stl", too.
+/// Returns the path's extension in small letters, such as ".stl"; for "part.STL.gz" it is ".stl", too.
 std::string kind_of_file(const std::filesystem::path& path);
 
-/// Whether a name can stand in an MSH file: it has no double quote and no line break.
+/// Returns whether a name can stand in an MSH file: it has no double quote and no line break.
 bool fits_msh(std::string_view name);
 
 /// Treatment of numbers that can hardly be coordinates: values that are not finite, and stray points
@@ -60,7 +60,7 @@ enum class Strays {
   kKept,     ///< for a caller who leaves them out; the greatest number stands for one that is not finite
 };
 
-/// read_mesh() that keeps strays, in formats of triangles alone.
+/// Reads a mesh as read_mesh() does and keeps strays, in formats of triangles alone.
 Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes, Strays strays);
 
 // All readers unpack files that are compressed by gzip. They refuse a file that holds another format than its
@@ -79,9 +79,9 @@ struct NodalValues {
 /// InputError for a missing field, naming the others, for a field that has no numbers, and for points without
 /// a value.
 NodalValues read_values(const std::filesystem::path& path, const std::string& name);
-/// The same of tensors: xx, xy, xz, yy, yz and zz of each point. They come from MSH fields of 3 x 3 numbers,
-/// and from SOL and BAMG files. VTU arrays of 3 (xx, yy, xy), 4, 6 or 9 numbers hold them, too. Tensors of
-/// the plane have no z, and zz = 1.
+/// Returns the same of tensors: xx, xy, xz, yy, yz and zz of each point. They come from MSH fields of 3 x 3
+/// numbers, and from SOL and BAMG files. VTU arrays of 3 (xx, yy, xy), 4, 6 or 9 numbers hold them, too.
+/// Tensors of the plane have no z, and zz = 1.
 NodalValues read_tensors(const std::filesystem::path& path, const std::string& name);
 
 /// Numbers at each point of a mesh, or of each of its triangles, then quads: so many side by side. NaN: there
@@ -103,22 +103,22 @@ MeshWithFields read_fields(const std::filesystem::path& path);
 /// Writes MSH or VTU with fields, whole or not at all.
 void write_fields(const std::filesystem::path& path, const Mesh& mesh, const std::vector<MeshField>& fields,
                   const MshOptions& options = {});
-/// Whether it reads files of that name.
+/// Returns whether it reads files of that name.
 bool holds_values(const std::filesystem::path& path);
 
-/// InputError if write_mesh() knows no format for the path's extension, naming the known ones. So it does if
-/// the format has no such option, or no elements of that order.
+/// Throws InputError if write_mesh() knows no format for the path's extension, naming the known ones. So it
+/// does if the format has no such option, or no elements of that order.
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {}, int order = 1);
 
-/// InputError when no hexahedra are written there, naming the formats that have them.
+/// Throws InputError when no hexahedra are written there, naming the formats that have them.
 void check_hex_format(const std::filesystem::path& path, const MshOptions& options);
 
-/// InputError when write_mesh() takes no depths there, naming the formats that do.
+/// Throws InputError when write_mesh() takes no depths there, naming the formats that do.
 void check_depths(const std::filesystem::path& path);
 
-/// write_mesh() with quads of eight nodes: of order 2, in formats that have them.
+/// Writes a mesh as write_mesh() does, with quads of eight nodes: of order 2, in formats that have them.
 void write_serendipity(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
-/// InputError where write_serendipity() would throw one.
+/// Throws InputError where write_serendipity() would throw one.
 void check_serendipity(const std::filesystem::path& path, const MshOptions& options, int order);
 
 /// Names that write_mesh() changes without telling in the file, whose format has no comments: "curve "a/b" is

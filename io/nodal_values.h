@@ -19,8 +19,8 @@ struct FieldForm {
   bool of_points = false;               ///< not of elements
 };
 
-/// The index of the field `name`, the last one of several; of the only name that there is where `name` is
-/// empty. Throws InputError where there is none, or where it has another form.
+/// Returns the index of the field `name`, the last one of several; of the only name that there is where
+/// `name` is empty. Throws InputError where there is none, or where it has another form.
 std::size_t choose_field(const std::vector<MeshField>& fields, const std::string& name,
                          const std::string& file, const FieldForm& form);
 

@@ -39,11 +39,11 @@ class Path {
   char last_ = 0;
 };
 
-/// #rrggbb of t in [0, 1]: dark violet, green, yellow, perceptually even (viridis).
+/// Returns #rrggbb of t in [0, 1]: dark violet, green, yellow, perceptually even (viridis).
 std::string colour(double t);
 
-/// Color of an irregular vertex or singularity of index +1 (valence one too small), -1 (one too large),
-/// others.
+/// Returns the color of an irregular vertex or singularity of index +1 (valence one too small), -1 (one too
+/// large), others.
 std::string_view mark_colour(int index);
 
 /// Color of lines that join pairs of irregular vertices.
@@ -74,7 +74,7 @@ class Picture {
   /// Marks, and lines that join pairs of them.
   void add_marks(const std::vector<Mark>& marks, const std::vector<std::array<Vec2, 2>>& pairs);
 
-  /// Color bar: labels at positions in [0, 1].
+  /// Adds a color bar: labels at positions in [0, 1].
   void add_colour_bar(std::string_view title, const std::vector<std::pair<double, std::string>>& labels);
   /// Labels of marks by index, below the bar, and of lines between pairs where there are any.
   void add_mark_legend(const std::vector<std::pair<int, std::string>>& labels);

@@ -15,7 +15,7 @@
 
 namespace delquad {
 
-/// The whole file, unpacked when it is compressed by gzip. Throws InputError.
+/// Returns the whole file, unpacked when it is compressed by gzip. Throws InputError.
 std::string read_whole_file(const std::filesystem::path& path);
 
 /// A file cut into tokens at white space, or into bytes. Every error is an InputError "file:line: message"
@@ -25,28 +25,28 @@ class TextScanner {
   /// Reads the whole file, as read_whole_file(). Without its byte order mark; UTF-16 becomes UTF-8.
   explicit TextScanner(const std::filesystem::path& path);
 
-  /// Whether only white space is left.
+  /// Returns whether only white space is left.
   bool at_end();
-  /// Whether only white space is left on the line.
+  /// Returns whether only white space is left on the line.
   bool at_end_of_line();
-  /// Whether the next token begins with c.
+  /// Returns whether the next token begins with c.
   bool next_is(char c) { return !at_end() && text_[at_] == c; }
   /// Goes to what follows lines that begin with '#' or "//".
   void skip_comments();
   /// Lines that end with a backslash go on with the next one from now on.
   void join_continued_lines();
-  /// The next token; `what` names it in errors.
+  /// Returns the next token; `what` names it in errors.
   std::string_view token(std::string_view what);
   long long integer(std::string_view what, long long low, long long high);
-  /// A number of things that follow, each of a byte at least.
+  /// Returns a number of things that follow, each of a byte at least.
   long long count(std::string_view what);
-  /// A finite number.
+  /// Returns a finite number.
   double real(std::string_view what, Strays strays = Strays::kRefused);
-  /// The same of a number that was read as bytes.
+  /// Returns the same of a number that was read as bytes.
   double finite(double value, Strays strays) const;
-  /// A token as it can be shown in a message: short, printable, in quotes.
+  /// Returns a token as it can be shown in a message: short, printable, in quotes.
   static std::string printable(std::string_view token);
-  /// The next bytes, as they are; `what` names them in errors.
+  /// Returns the next bytes, as they are; `what` names them in errors.
   std::string_view bytes(size_t count, std::string_view what);
   /// Goes behind the next occurrence of a text; false, and no step, when there is none.
   bool skip_past(std::string_view text);
@@ -57,10 +57,10 @@ class TextScanner {
   bool next_line();
 
   int line() const { return line_; }
-  /// The line, or the byte; and "file:line" or "file: byte N" of what this returned.
+  /// Returns the line, or the byte; the other one returns "file:line" or "file: byte N" of it.
   size_t position() const { return in_bytes_ ? at_ : static_cast<size_t>(line_); }
   std::string place(size_t position) const;
-  /// The whole file.
+  /// Returns the whole file.
   std::string_view text() const { return text_; }
   size_t bytes_left() const { return text_.size() - at_; }
   /// Errors with the place, or the line, and a message that is made as by fmt::format().
@@ -85,7 +85,7 @@ class TextScanner {
 std::string content_kind(std::string_view text);
 inline constexpr const char* kMfemFile = "an MFEM file";
 
-/// InputError when the file shows to be something else than `expected`, which is a name of a format as
+/// Throws InputError when the file shows to be something else than `expected`, which is a name of a format as
 /// content_kind() uses it.
 void refuse_other_kinds(const TextScanner& in, std::string_view expected);
 

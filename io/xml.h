@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// Text as it stands in an XML file, in attributes too; control characters become blanks.
+/// Returns the text as it stands in an XML file, in attributes too; control characters become blanks.
 inline std::string xml_escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -28,7 +28,7 @@ inline std::string xml_escaped(std::string_view text) {
   return result;
 }
 
-/// Boost's iterators take more than twice as long.
+/// Returns the bytes in base64. Boost's iterators take more than twice as long.
 inline std::string base64(std::string_view bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text((bytes.size() + 2) / 3 * 4, '=');

@@ -8,8 +8,8 @@
 
 namespace delquad {
 
-/// The fields of all patches; null where the problem has a metric in place of sizes. `prepared` has to
-/// outlive it.
+/// Returns the fields of all patches; null where the problem has a metric in place of sizes. `prepared` has
+/// to outlive it.
 CrossInSpace cross_in_space(const MeshingSetup& prepared);
 
 }  // namespace delquad

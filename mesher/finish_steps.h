@@ -60,7 +60,7 @@ struct FinishStep {
   void (*run)(FinishContext& on);  ///< null: see FinishAt::kProblem
 };
 
-/// All of them, in the order in which they run.
+/// Returns all steps, in the order in which they run.
 const std::vector<FinishStep>& finish_steps();
 
 /// Runs the steps of one place. The log gets the time of each.
@@ -69,8 +69,8 @@ void run_finish_steps(FinishAt at, FinishContext& on);
 /// Notes the seconds of a step, and adds them to "finish".
 void note_seconds(const char* step, double seconds, Summaries& summaries);
 
-/// Whether cuts hinder such stages, which begin from quads. This holds for stages that fill cavities, as no
-/// cavity crosses a cut. In a given mesh, nodes on cuts can only move along these, so cuts hinder every
+/// Returns whether cuts hinder such stages, which begin from quads. This holds for stages that fill cavities,
+/// as no cavity crosses a cut. In a given mesh, nodes on cuts can only move along these, so cuts hinder every
 /// stage.
 bool cuts_obstruct(const MeshingSetup& prepared, const std::vector<const Stage*>& of_quads);
 
@@ -81,33 +81,34 @@ void run_across_cuts(FinishContext& on);
 /// prepare_problem() of the same problem.
 using PrepareWithHints = std::function<MeshingSetup(const RetryHints&)>;
 
-/// The work on a mesh as a number of quads that take as long. It counts quads, lifting, looks of stages,
-/// steps of curves and triangles of maps, so that it is the same on every machine.
+/// Returns the work on a mesh as a number of quads that take as long. It counts quads, lifting, looks of
+/// stages, steps of curves and triangles of maps, so that it is the same on every machine.
 long long work_on(const MeshingSetup& prepared, const MeshResult& result);
 
-/// If the mesh of a surface is not sound, the size is too large for what is there. Halves it around these
-/// places and meshes anew, as long as there get fewer such places, within a budget of work_on(). If that does
-/// not help, sharp edges there become features. `prepared` and `result` become the best mesh, with a warning
-/// and the time of all tries. If it is not sound, a warning says why there are no more tries. Then what is
-/// narrower than a tenth of the size is left out. Last, another size, fewer stages or, of triangulations,
-/// another feature angle are tried. Each is taken if the mesh is sound, with a warning. If the problem says
-/// keep_going, faces with such places are left out if others remain.
+/// Halves the size around places where the mesh of a surface is not sound, and meshes anew. It goes on as
+/// long as there get fewer such places, within a budget of work_on(). If that does not help, sharp edges
+/// there become features. `prepared` and `result` become the best mesh, with a warning and the time of all
+/// tries. If it is not sound, a warning says why there are no more tries. Then what is narrower than a tenth
+/// of the size is left out. Last, another size, fewer stages or, of triangulations, another feature angle are
+/// tried. Each is taken if the mesh is sound, with a warning. If the problem says keep_going, faces with such
+/// places are left out if others remain.
 void refine_unsound(const PrepareWithHints& prepare_with_hints, const Word& word, MeshingSetup& prepared,
                     MeshResult& result);
 
-/// Whether a mesh that was made of a given one is worse. It is worse if it is not sound where the given one
-/// was, or has harm. It is worse, too, if none of eta mean, eta worst and d4 is better and one of them is
-/// worse. It is not worse if it is sound where the given one was not.
+/// Returns whether a mesh that was made of a given one is worse. It is worse if it is not sound where the
+/// given one was, or has harm. It is worse, too, if none of eta mean, eta worst and d4 is better and one of
+/// them is worse. It is not worse if it is sound where the given one was not.
 bool is_worse(const MeshResult& after, const MeshResult& before);
 
-/// Whether it is not worse, and fewer quads fail, see failing_part(). If as many fail, the sum of eta mean,
-/// eta worst and the share of regular vertices must be larger.
+/// Returns whether it is not worse, and fewer quads fail, see failing_part(). If as many fail, the sum of eta
+/// mean, eta worst and the share of regular vertices must be larger.
 bool is_better(const MeshingSetup& prepared, const MeshResult& after, const MeshResult& before);
 
-/// Whether there are fewer irregular vertices, no more quads fail, and edges are as near to their size.
+/// Returns whether there are fewer irregular vertices, no more quads fail, and edges are as near to their
+/// size.
 bool is_more_regular(const MeshingSetup& prepared, const MeshResult& after, const MeshResult& before);
 
-/// Whether the worst eta is above this or what it was.
+/// Returns whether the worst eta is above this or what it was.
 bool keeps_worst_eta(double eta, const MeshResult& after, const MeshResult& before);
 
 /// Takes another mesh and what is measured of it.

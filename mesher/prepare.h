@@ -28,7 +28,7 @@ struct RetryHints {
   std::shared_ptr<const SurfaceModel> cad = {};  ///< SurfaceSetup::cad of before; null: it is read
 };
 
-/// Nothing; CAD need not be read again.
+/// Returns no hints; CAD need not be read again.
 RetryHints no_hints(const MeshingSetup& prepared);
 
 /// Prepares the boundary, background mesh and fields of a problem whose files are read. Throws InputError for
@@ -40,10 +40,10 @@ MeshingSetup prepare_problem(const MeshProblem& problem, const RetryHints& hints
 class ModelSteps {
  public:
   virtual ~ModelSteps() = default;
-  /// The model, and the size that it asks for.
+  /// Reads the model, and the size that it asks for.
   virtual void read(MeshingSetup& p) = 0;
   virtual bool is_surface() const = 0;
-  /// The maps of a surface's faces into the plane.
+  /// Makes the maps of a surface's faces into the plane.
   virtual void flatten(MeshingSetup&) {}
   /// Curves, and the patches' boundaries.
   virtual void mesh_curves(MeshingSetup& p) = 0;
@@ -55,10 +55,10 @@ std::unique_ptr<ModelSteps> planar_steps(const MeshProblem& problem, const Retry
 std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const RetryHints& hints);
 std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem, const GivenMesh& given);
 
-/// How far numbers of edges agree; with few steps for a problem that is meshed anew.
+/// Returns how far numbers of edges agree; with few steps for a problem that is meshed anew.
 CurveAgreement agreement_of(const MeshProblem& problem, const RetryHints& hints);
 
-/// All of them in turn.
+/// Runs all steps in turn.
 MeshingSetup run_model_steps(const MeshProblem& problem, ModelSteps& model);
 
 /// Throws InputError, saying what is wrong and where, for a problem that makes no sense, whatever its model
@@ -72,8 +72,8 @@ void check_problem(const MeshProblem& problem);
 MeshingSetup prepare_given_surface(const MeshProblem& problem, GivenSurface surface, const Mesh& given,
                                    std::shared_ptr<const SizeField> size);
 
-/// The problem, whose files are read, by sizes at which as many quads are expected; these are its own then.
-/// Where it has none, the size is the same everywhere. Throws InputError for numbers that cannot be.
+/// Returns the problem, whose files are read, by sizes at which as many quads are expected; these are its own
+/// then. Where it has none, the size is the same everywhere. Throws InputError for numbers that cannot be.
 MeshingSetup prepare_for_quads(MeshProblem& problem);
 
 /// Meshes a problem, whose files are read.

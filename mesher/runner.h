@@ -41,19 +41,19 @@ PipelineState begin_meshing(const MeshingSetup& prepared);
 void run_across_curves(const MeshingSetup& prepared, PipelineState& state);
 /// Lays all patches of a surface out anew, with other numbers of edges on curves, where that is better.
 void run_joint_layouts(const MeshingSetup& prepared, PipelineState& state);
-/// Whether the patch is on both sides of one of its curves, and two of its quads have the same four nodes.
-/// These are two quads around a tube.
+/// Returns whether the patch is on both sides of one of its curves, and two of its quads have the same four
+/// nodes. These are two quads around a tube.
 bool has_duplicate_quads(const QuadPatch& mesh, const std::vector<int>& point_node);
 /// Takes every patch through one stage. Throws InputError when the mesher had to stop.
 void run_stage(const Stage& stage, const MeshingSetup& prepared, PipelineState& state);
 void add_times(const StepTimes& times, StageLog& log);
 struct FinishContext;
-/// The finish steps on patches, and these as one mesh.
+/// Runs the finish steps on patches, and returns these as one mesh.
 Mesh finish_patches(FinishContext& on);
 /// Metrics of the mesh and, at the same time, the report of a surface and what is sound. `left_out`: by
 /// region.
 void measure(const MeshingSetup& prepared, const std::vector<char>& left_out, MeshResult& result);
-/// By the size, or by the metric, that is meshed by.
+/// Returns measures by the size, or by the metric, that is meshed by.
 MeshMetrics metrics_of(const MeshingSetup& prepared, const Mesh& mesh, std::span<const HalfEdge> sides);
 /// Adds how well the edges follow the cross field.
 void add_misalignment(const MeshingSetup& prepared, const Mesh& mesh, std::span<const HalfEdge> sides,
@@ -61,14 +61,14 @@ void add_misalignment(const MeshingSetup& prepared, const Mesh& mesh, std::span<
 /// Adds the measures from outside.
 void measure_added_metrics(const MeshingSetup& prepared, const Mesh& mesh, const std::string& word,
                            MeshMetrics& metrics);
-/// The same of a curved mesh, after its vertices moved: adds what is not sound of its straight form.
+/// Does the same for a curved mesh, after its vertices moved: adds what is not sound of its straight form.
 void measure_straight_form(const MeshingSetup& prepared, const std::vector<char>& left_out,
                            MeshResult& result);
-/// The mesh gets the curves and regions that were given, and no other lines.
+/// Gives the mesh the curves and regions that were given, and no other lines.
 void put_back_entities(const GivenEntities& given, Mesh& mesh);
 /// Returns the warning about a step that would have taken too long, with the tag of a face.
 Warning stopped_early(const MeshingSetup& prepared, const std::string& step, int face);
-/// By patch: those whose mesh no step edits.
+/// Returns, by patch, whether it is one whose mesh no step edits.
 std::vector<char> unedited_patches(const MeshingSetup& prepared, const PipelineState& state);
 /// Puts the patches together, measures the mesh and says whether it is sound, with all finish steps but
 /// refine_unsound(). `label` names the case and pipeline in warnings.

@@ -39,11 +39,11 @@ std::pair<CLI::App*, Arguments&> add_command(CLI::App& app, Commands& commands, 
 // Each adds a command, or several, with its options. They are explained in this order.
 void add_run(CLI::App& app, Commands& commands);
 void add_batch(CLI::App& app, Commands& commands);
-/// tables, rerun, verify, merge and report.
+/// Adds tables, rerun, verify, merge and report.
 void add_results(CLI::App& app, Commands& commands);
-/// schema and formats.
+/// Adds schema and formats.
 void add_lists(CLI::App& app, Commands& commands);
-/// mesh and improve.
+/// Adds mesh and improve.
 void add_mesh(CLI::App& app, Commands& commands);
 void add_view(CLI::App& app, Commands& commands);
 void add_convert(CLI::App& app, Commands& commands);

@@ -46,11 +46,11 @@ struct MeshArguments : KeyArguments {
   bool strict = false, failing_sets = false;
   MshOptions msh{false, MshCurves::kNamed};
 };
-/// `--binary` and `--curves`.
+/// Adds `--binary` and `--curves`.
 void add_msh(CLI::App& command, MshOptions& msh);
 CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments);
 CLI::App* add_improve_options(CLI::App& app, MeshArguments& arguments);
-/// All that the command line says, in place of what the model says.
+/// Sets all that the command line says, in place of the model's settings.
 void set_problem(const MeshArguments& arguments, Case& c);
 
 }  // namespace delquad

@@ -28,7 +28,7 @@ extern const CLI::Validator kLength;
 /// Keeps an empty text apart from none.
 CLI::Option* add_size(CLI::App& command, std::optional<std::string>& size, const char* help);
 void add_data(CLI::App& command, std::filesystem::path& data);
-/// `--criteria` and `--strict`.
+/// Adds `--criteria` and `--strict`.
 void add_criteria(CLI::App& command, std::string& criteria, bool& strict);
 void add_threads(CLI::App& command, int& threads);
 void add_max_elements(CLI::App& command, long long& most,

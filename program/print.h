@@ -13,14 +13,14 @@ namespace delquad {
 
 // All to stdout.
 
-/// A measure on a line of its own; "-" where it is not defined.
+/// Prints a measure on a line of its own; "-" where it is not defined.
 void print_metric(const Metric& metric, const MeshMetrics& metrics);
-/// Every measure except the measures of solvers.
+/// Prints every measure except the measures of solvers.
 void print_metrics(const MeshMetrics& metrics);
 
-/// The measures that tell most, in four lines: shapes, sizes, irregular vertices, and their charges.
+/// Prints the measures that tell most, in four lines: shapes, sizes, irregular vertices, and their charges.
 void print_summary(const MeshMetrics& metrics);
-/// Every measure with -v, otherwise the summary.
+/// Prints every measure with -v, otherwise the summary.
 void print_measures(const MeshMetrics& metrics);
 
 /// Returns "9 quads, 0 triangles, 16 vertices"; "nodes" if elements are curved and have more than corners.
@@ -29,18 +29,18 @@ std::string show_counts(const Mesh& mesh);
 /// Prints the names of the parts of a mesh in one line, and nothing if no part has a name.
 void print_names(const Mesh& mesh);
 
-/// How a mesh does by criteria, and why.
+/// Prints how a mesh does by criteria, and why.
 void print_criteria(const CriteriaReport& report, const Mesh& mesh);
 
-/// How long each step took, the times of all threads added up.
+/// Prints how long each step took, the times of all threads added up.
 void print_seconds(const StepTimes& times);
 
-/// How the mesh fits its surface, in one line.
+/// Prints how the mesh fits its surface, in one line.
 void print_surface_summary(const SurfaceReport& report);
-/// The same at length, with how good the maps of the surface are and how it was cut.
+/// Prints the same at length, with how good the maps of the surface are and how it was cut.
 void print_surface_report(const Prepared& prepared, const SurfaceReport& report);
 
-/// The tables of an experiment that have rows.
+/// Prints the tables of an experiment that have rows.
 void print_tables(const Outcome& outcome);
 
 }  // namespace delquad

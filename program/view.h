@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// Where the page of a mesh goes: to `page`, or beside the mesh where that is empty.
+/// Returns where the page of a mesh goes: to `page`, or beside the mesh where that is empty.
 std::filesystem::path page_of(const std::filesystem::path& mesh, const std::filesystem::path& page = {});
 
 /// Writes the page of a mesh, prints its name and opens it in a browser where there is a display.

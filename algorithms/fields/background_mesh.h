@@ -26,7 +26,7 @@ class BackgroundMesh {
   explicit BackgroundMesh(TriPatch triangulation);
 
   const TriPatch& triangles() const { return tri_; }
-  /// Patch that each triangle lies in.
+  /// Returns the patch that each triangle lies in.
   const std::vector<int>& triangle_patch() const { return patch_; }
 
   /// Where a vertex lies on the boundary: on the edge of the patch's boundary which begins there or which it
@@ -47,8 +47,8 @@ class BackgroundMesh {
     int triangle;
     double b[3];
   };
-  /// Visibility walk from `hint` (-1: from anywhere), which is then set to the triangle found. Same answer
-  /// for any hint.
+  /// Finds the triangle by a visibility walk from `hint` (-1: from anywhere), which it then sets to the
+  /// triangle. The answer is the same for any hint.
   Location locate(Vec2 u, int& hint) const;
 
  private:

@@ -22,8 +22,8 @@ struct PatchUnknowns {
   /// For each triangle, the turn of 4 theta from the centroid to the middles of its sides.
   const std::vector<std::array<double, 3>>* turns;
 
-  /// By which 4 theta of the k-th side of triangle t, counted from its direction, is more than at the
-  /// centroid.
+  /// Returns by how much 4 theta of the k-th side of triangle t, counted from its direction, exceeds the
+  /// centroid's (radians).
   double phase(int t, int k) const { return (*turns)[t][k] - direction[sides.of_triangle[t][k]]; }
 };
 
@@ -37,10 +37,10 @@ class CrossDiffusion {
   /// triangle's stiffness is about 1.
   static constexpr double kGiven = -1;
 
-  /// `z`: the unknowns, of unit length, which must stay; `alignment`: of each.
+  /// Begins with `z`: the unknowns, of unit length, which must stay; `alignment`: of each.
   CrossDiffusion(const std::vector<PatchUnknowns>& patches, const std::vector<double>& alignment,
                  std::vector<Complex>& z);
-  /// One step of diffusion over `tau` elements, up to a relative residual, then back to unit length.
+  /// Makes one step of diffusion over `tau` elements, up to a relative residual, then back to unit length.
   void step(double tau, double tolerance);
 
  private:

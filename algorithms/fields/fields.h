@@ -15,19 +15,19 @@ namespace delquad {
 // --- size fields
 // -------------------------------------------------------------------------------------------------
 
-/// The smallest of the base (may be null when there is a source) and all sources.
+/// Returns the smallest of the base (may be null when there is a source) and all sources.
 std::unique_ptr<SizeField> make_source_size(std::shared_ptr<const SizeField> base,
                                             std::vector<SizeSource> sources);
 
-/// The base, but nowhere more than `most`.
+/// Returns the base, but nowhere more than `most`.
 std::unique_ptr<SizeField> make_capped_size(std::shared_ptr<const SizeField> base, double most);
 
-/// The boundary's own edge lengths, extended smoothly into the domain over the background mesh.
+/// Returns the boundary's own edge lengths, extended smoothly into the domain over the background mesh.
 std::unique_ptr<SizeField> make_boundary_size(std::shared_ptr<const BackgroundMesh> background,
                                               const Mesh& boundary);
 
-/// The base made no steeper than |grad delta| <= slope: delta(x) = min over y of base(y) + slope |x - y|. The
-/// sample points y are dense enough to see the base, and x itself is one.
+/// Returns the base made no steeper than |grad delta| <= slope: delta(x) = min over y of base(y) + slope |x -
+/// y|. The sample points y are dense enough to see the base, and x itself is one.
 std::unique_ptr<SizeField> limit_gradation(std::shared_ptr<const SizeField> base,
                                            std::shared_ptr<const BackgroundMesh> background, double slope);
 
@@ -67,7 +67,7 @@ class HarmonicCrossField final : public SolvedCrossField {
  public:
   explicit HarmonicCrossField(std::shared_ptr<const BackgroundMesh> background);
   ~HarmonicCrossField() override;
-  /// Zero at singularities and small far from the boundary: only its angle means anything.
+  /// Returns the cross, zero at singularities and small far from the boundary: only its angle means anything.
   Cross at(Vec2 u, int& hint) const override;
 
  private:
@@ -75,24 +75,24 @@ class HarmonicCrossField final : public SolvedCrossField {
   std::unique_ptr<Data> data_;
 };
 
-/// theta = direction of grad delta, by central differences over `step` (a length; e.g. 1e-6 of the domain's
-/// diagonal).
+/// Makes a field with theta = direction of grad delta, by central differences over `step` (a length; e.g.
+/// 1e-6 of the domain's diagonal).
 std::unique_ptr<CrossField> make_gradient_cross(std::shared_ptr<const SizeField> size, double step);
 
-/// Integral of dA/delta^2 over a triangulation: the expected number of quads. `relative_error` is what the
-/// adaptive quadrature aims at. The domain is seen at `coarsest` of its diagonal at least; what is smaller
-/// and appears in no sample is missed.
+/// Returns the integral of dA/delta^2 over a triangulation: the expected number of quads. `relative_error` is
+/// what the adaptive quadrature aims at. The domain is seen at `coarsest` of its diagonal at least; what is
+/// smaller and appears in no sample is missed.
 double expected_quads(const TriPatch& triangulation, const SizeField& size, double relative_error = 0.01,
                       double coarsest = 1.0 / 64);
 
 /// Returns the least size that curvature may ask for if the size is else `base`: `min`, or a part of the base
 /// if `min` is 0.
 double least_by_curvature(double base, double min);
-/// The base, or less where it takes that to make `per_turn` elements of a full turn with the curvature k
-/// (1/length); 0: as the base.
+/// Returns the base, or less where it takes that to make `per_turn` elements of a full turn with the
+/// curvature k (1/length); 0: as the base.
 double size_by_curvature(double base, double k, double per_turn, double min);
 
-/// Whether curvature is asked for overall or by name.
+/// Returns whether curvature is asked for overall or by name.
 bool follows_curvature(const SizeSpec& size);
 
 }  // namespace delquad

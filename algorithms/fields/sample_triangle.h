@@ -21,8 +21,8 @@ inline double longest_side(const Corners& c) {
   return std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});
 }
 
-/// Slope of the function that is linear on the triangle (counterclockwise) and has these values at its
-/// corners; zero on a triangle without area.
+/// Returns the slope of the linear function with these values at the corners of a triangle
+/// (counterclockwise). It is zero on a triangle without area.
 inline Vec2 slope(const Corners& c, const std::array<double, 3>& values) {
   const double twice_area = cross(c[1] - c[0], c[2] - c[0]);
   if (!(twice_area > 0)) return {0, 0};

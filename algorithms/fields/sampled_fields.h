@@ -56,7 +56,7 @@ class SampleTree {
 
   std::span<const Vec3> points() const { return points_; }
   std::span<const double> values() const { return values_; }
-  /// Whether there were more samples to take than are allowed.
+  /// Returns whether there were more samples to take than are allowed.
   bool is_cut_short() const { return cut_short_; }
 
  private:
@@ -91,15 +91,15 @@ inline constexpr double kSampledCrossError = 0.02;
 /// Samples of a function lie no closer than this part of the size there: a mesh would not show more.
 inline constexpr double kClosestSamples = 0.25;
 
-/// A function as a field: it is called here, on points in and beside the domain, and linear along the axes
-/// between them. It may be further off than kSampledSizeError where values change within kClosestSamples of
-/// the size, and where there would be too many samples. `warnings` tells of the latter. Throws InputError if
-/// none of its values is a size. A bad value next to the domain does not count while others are nearer.
+/// Makes a field of a function. It is called here, on points in and beside the domain, and linear along the
+/// axes between them. It may be further off than kSampledSizeError where values change within kClosestSamples
+/// of the size, and where there would be too many samples. `warnings` tells of the latter. Throws InputError
+/// if none of its values is a size. A bad value next to the domain does not count while others are nearer.
 /// Messages call the function by `name`.
 std::shared_ptr<const SizeField> sample_size(const SizeFunction& function, const SampleDomain& domain,
                                              const std::string& name, std::vector<Warning>& warnings);
 
-/// The same of an angle, on the plane of a flat domain. `size` says how close samples lie.
+/// Returns the same of an angle, on the plane of a flat domain. `size` says how close samples lie.
 std::shared_ptr<const CrossField> sample_cross(const CrossFunction& function, const SampleDomain& domain,
                                                const SizeField& size, const std::string& name,
                                                std::vector<Warning>& warnings);

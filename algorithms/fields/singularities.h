@@ -24,8 +24,8 @@ struct FieldWinding {
   std::vector<char> is_inside;  ///< of each vertex
 };
 
-/// crosses[side] is the field there. `expected` may say by how much the phase is expected to turn from a
-/// triangle's centroid to the middles of its sides; empty: not at all.
+/// Returns how a field winds. crosses[side] is the field there. `expected` may say by how much the phase is
+/// expected to turn from a triangle's centroid to the middles of its sides; empty: not at all.
 FieldWinding find_winding(const BackgroundMesh& background, const Sides& sides,
                           const std::vector<Cross>& crosses,
                           const std::vector<std::array<double, 3>>& expected = {});
@@ -39,8 +39,8 @@ struct JoinedVertices {
 /// inside where all sides are shared.
 void join_windings(const std::vector<JoinedVertices>& joined, std::vector<FieldWinding>& windings);
 
-/// The indices of a patch: their sum, all vertices included, and the list of those inside. Opposite indices
-/// of cells that touch are noise and not listed; they do not change the sum.
+/// Returns the indices of a patch: their sum, all vertices included, and the list of those inside. Opposite
+/// indices of cells that touch are noise and not listed; they do not change the sum.
 FieldTopology find_singularities(const BackgroundMesh& background, const Sides& sides,
                                  const std::vector<Cross>& crosses, const FieldWinding& winding);
 

@@ -54,8 +54,8 @@ struct FieldSeam {
 /// patch.
 class SizeAwareCrossField final : public SolvedCrossField {
  public:
-  /// On one patch. It is the start, exactly, where delta' hardly varies: by too little over the whole patch
-  /// for a single row of quads to end.
+  /// Makes the field on one patch. It is the start, exactly, where delta' hardly varies: by too little over
+  /// the whole patch for a single row of quads to end.
   SizeAwareCrossField(std::shared_ptr<const BackgroundMesh> background, const ParametricSize& size,
                       std::shared_ptr<const CrossField> start);
   /// Returns a cross of about unit length, but zero at singularities.
@@ -70,14 +70,14 @@ class SizeAwareCrossField final : public SolvedCrossField {
   std::shared_ptr<const Data> data_;
 };
 
-/// The field of patches that hang together by seams, on each of them. Each has the sum of indices and the
-/// Euler characteristic of all together. Singularities are listed where they are inside of a patch.
+/// Returns the field of patches that hang together by seams, on each of them. Each has the sum of indices and
+/// the Euler characteristic of all together. Singularities are listed where they are inside of a patch.
 std::vector<std::shared_ptr<const SizeAwareCrossField>> make_size_aware_fields(
     const std::vector<FieldPatch>& patches, const std::vector<FieldSeam>& seams);
 
-/// Number of places where a row of quads of size delta' along the field has to end, in the mean. It is the
-/// integral of (|v . e1| + |v . e2|)/delta', v = grad theta - J grad log delta'. The background mesh must
-/// resolve both fields.
+/// Returns the number of places where a row of quads of size delta' along the field has to end, in the mean.
+/// It is the integral of (|v . e1| + |v . e2|)/delta', v = grad theta - J grad log delta'. The background
+/// mesh must resolve both fields.
 double expected_dislocations(const BackgroundMesh& background, const CrossField& cross,
                              const ParametricSize& size);
 

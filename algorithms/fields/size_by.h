@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// The size that a function says, of a place and a hint as SizeField::at() has them.
+/// Returns the size that a function says, of a place and a hint as SizeField::at() has them.
 template <class F>
 std::shared_ptr<const SizeField> size_by(F size) {
   struct SizeBy final : SizeField {

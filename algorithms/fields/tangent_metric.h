@@ -14,13 +14,13 @@ inline Tensor2 times(double factor, const Tensor2& m) {
   return {factor * m.xx, factor * m.xy, factor * m.yy};
 }
 inline double determinant(const Tensor2& m) { return std::max(0.0, m.xx * m.yy - m.xy * m.xy); }
-/// Whether the first asks for no larger lengths in any direction.
+/// Returns whether the first asks for no larger lengths in any direction.
 inline bool is_finer(const Tensor2& a, const Tensor2& b) {
   const Tensor2 d{a.xx - b.xx, a.xy - b.xy, a.yy - b.yy};
   return d.xx >= 0 && d.yy >= 0 && d.xx * d.yy >= d.xy * d.xy;
 }
 
-/// |H| det(|H|)^(-1/(2p + 2)): as l2_metric(), for the Lp error, 1 <= p <= infinity [loseille2011].
+/// Returns |H| det(|H|)^(-1/(2p + 2)): as l2_metric(), for the Lp error, 1 <= p <= infinity [loseille2011].
 Tensor2 lp_metric(const Tensor2& hessian, double p);
 
 /// A metric of the tangent plane at a point.
@@ -35,11 +35,11 @@ struct TangentMetric {
   Tensor2 seen(const TangentMetric& other) const;
 };
 
-/// The square of the length of a vector that is turned into the plane.
+/// Returns the square of the length of a vector that is turned into the plane.
 double metric_square(const Vec3& d, const TangentMetric& at);
-/// As for the plane, see delquad/fields.h.
+/// Returns the length as for the plane, see delquad/fields.h.
 double metric_length(const Vec3& d, const TangentMetric& a, const TangentMetric& b);
-/// log_mean() in the plane of the first.
+/// Returns log_mean() in the plane of the first.
 TangentMetric log_mean(std::span<const TangentMetric> metrics, std::span<const double> weights);
 
 }  // namespace delquad

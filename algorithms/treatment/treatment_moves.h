@@ -58,7 +58,7 @@ class ValenceEnergy {
     return static_cast<std::size_t>(valence) < inside_.size() ? inside_[valence] : misfit(valence, kInside);
   }
   int of(int v) const { return of(v, mesh_.valence(v)); }
-  /// The ideal valence.
+  /// Returns the ideal valence.
   int ideal(int v) const { return mesh_.on_boundary(v) ? ideal_[v].valence : kInside.valence; }
   /// Returns the decrease of the sum by a move. It is not defined for insets.
   int gain(const TreatmentMove& move) const;

@@ -177,7 +177,7 @@ struct PrimalDualState {
     each_in_list(blossoms[b].first, blossoms[b].last, f);
   }
 
-  /// Valid while no search runs.
+  /// Returns the total, which is valid while no search runs.
   Value total(int v) const { return nodes[v].value + nodes[nodes[v].container].offset; }
 
   bool inside(int container, int begin, int end) const {

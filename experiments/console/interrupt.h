@@ -16,9 +16,8 @@ inline constexpr int kInterrupted = 130, kTerminated = 143;
 /// Exit code when time is up.
 inline constexpr int kTimeIsUp = 1;
 
-/// From now on SIGINT and SIGTERM end the program at once with kInterrupted and kTerminated. While an
-/// Uninterrupted lives, they do so as soon as the last of them dies. Files that are being written are
-/// removed.
+/// Lets SIGINT and SIGTERM end the program at once with kInterrupted and kTerminated. While an Uninterrupted
+/// lives, they do so as soon as the last of them dies. Files that are being written are removed.
 void exit_on_interrupt();
 
 /// While files are written that belong together.
@@ -35,7 +34,7 @@ class StageTimes {
  public:
   /// `at`: seconds on any clock, ascending.
   void begin(const std::string& stage, double at);
-  /// "; boundary took longest: 4.2 s"; empty if the stage of the moment did.
+  /// Returns "; boundary took longest: 4.2 s"; empty if the stage of the moment did.
   std::string longest(double at);
 
  private:

@@ -21,7 +21,7 @@ enum class Verbosity { kQuiet, kNormal, kAll };
 void set_verbosity(Verbosity verbosity);
 Verbosity verbosity();
 
-/// The warnings as lines to print, as many as verbosity() says.
+/// Returns the warnings as lines to print, as many as verbosity() says.
 std::vector<std::string> lines_of(const std::vector<Warning>& warnings);
 
 /// Where an experiment stands among those that one command runs.
@@ -48,7 +48,7 @@ class Progress {
   void skip(int steps);
   /// Prints a line to stderr, above the bar.
   void message(const std::string& text);
-  /// The same for each line of the warnings.
+  /// Does the same for each line of the warnings.
   void warn(const std::vector<Warning>& warnings);
   /// Takes the bar away.
   void finish();

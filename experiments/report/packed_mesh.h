@@ -25,11 +25,11 @@ struct PackedMesh {
   std::string text;
 };
 
-/// `failing`: quads that get a color of their own.
+/// Packs a mesh. `failing`: quads that get a color of their own.
 PackedMesh pack_mesh(const Mesh& mesh, const std::vector<std::size_t>& failing = {},
                      bool with_entities = false);
 
-/// Base64 of the zlib-compressed bytes, as `inflate` of page/packed_mesh.js takes it apart.
+/// Returns base64 of the zlib-compressed bytes, as `inflate` of page/packed_mesh.js takes it apart.
 std::string packed_text(std::string_view bytes);
 
 }  // namespace delquad

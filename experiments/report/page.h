@@ -14,7 +14,7 @@
 namespace delquad {
 
 void begin_page(std::ostream& out, std::string_view title, std::string_view style, std::string_view body);
-/// `data`: what the script shows; the page adds which program wrote it.
+/// Ends a page. `data`: what the script shows; the page adds which program wrote it.
 void end_page(std::ostream& out, Json data, bool in_space, std::string_view script);
 
 /// Writes a packed mesh as the text of the node `id`; returns what `unpackMesh` of page/packed_mesh.js wants

@@ -19,18 +19,19 @@ namespace delquad {
 
 using Json = nlohmann::ordered_json;
 
-/// As the page shows it, with its files; empty ones are null.
+/// Returns a table as the page shows it, with its files; empty ones are null.
 Json table_json(const Table& table);
 
 /// y = factor * x^exponent.
 struct PowerLaw {
   double factor, exponent;
 };
-/// The law that fits positive pairs best, by least squares of the logarithms; nothing where all x are alike.
+/// Returns the law that fits positive pairs best, by least squares of the logarithms; nothing where all x are
+/// alike.
 std::optional<PowerLaw> fit_power_law(const std::vector<double>& x, const std::vector<double>& y);
 
-/// For each pipeline and case: elements and seconds of the case's variants, and the power law that they
-/// follow. The law needs three sizes or more, the largest at least four times the smallest.
+/// Returns for each pipeline and case: elements and seconds of the case's variants, and the power law that
+/// they follow. The law needs three sizes or more, the largest at least four times the smallest.
 Json growth_json(const std::vector<CellRecord>& records);
 
 /// Returns the meaning of stages and measures, and colors by eta.
@@ -42,11 +43,12 @@ extern const std::string_view kPageStyle, kPageScript, kThreeScript;
 extern const std::string_view kPageBody, kReportScript;
 extern const std::string_view kViewStyle, kViewBody, kViewScript;
 
-/// Empty where there is none.
+/// Returns the seed; empty where there is none.
 std::string seed_of(const CellRecord& record);
 
-/// For each pipeline of a sheet with several seeds: how many of its cells are done, and means by column key.
-/// With them comes half the width of their 95 % confidence intervals. Empty where no pipeline has two.
+/// Returns for each pipeline of a sheet with several seeds: how many of its cells are done, and means by
+/// column key. With them comes half the width of their 95 % confidence intervals. Empty where no pipeline has
+/// two.
 Json means_json(std::span<const CellRecord* const> cells, const std::vector<TableColumn>& columns);
 
 /// Returns the values of finished cells in each column, for charts of their spread. `sheets` have `cases`,
@@ -54,7 +56,7 @@ Json means_json(std::span<const CellRecord* const> cells, const std::vector<Tabl
 /// key.
 Json samples_json(const std::vector<CellRecord>& records, const std::vector<TableColumn>& columns);
 
-/// With five digits, more than a chart shows; null of NaN.
+/// Returns a number with five digits, more than a chart shows; null of NaN.
 Json brief_number(double value);
 
 /// A bad quad and what is around it, seen from its front.
@@ -68,8 +70,8 @@ struct Closeup {
   std::vector<double> etas;                ///< of the elements; triangles have 1
 };
 
-/// The `count` worst quads of which no two have a vertex in common, worst first. With them come the elements
-/// that are at most three steps from element to element away.
+/// Returns the `count` worst quads of which no two have a vertex in common, worst first. With them come the
+/// elements that are at most three steps from element to element away.
 std::vector<Closeup> worst_quads(const Mesh& mesh, std::size_t count);
 Json closeups_json(const Mesh& mesh, std::size_t count);
 

@@ -13,10 +13,10 @@ namespace delquad {
 
 /// Reads the keys of CaseOfStudy. Throws InputError with file and line.
 void read_study_keys(const TomlTable& table, Case& target);
-/// They do not go with everything: throws InputError with file and line.
+/// Checks a case, since loops do not go with everything. Throws InputError with file and line.
 void check_adapt(const Case& c);
 
-/// Its solution with the gradient; empty where it has none. `c` need not outlive it.
+/// Returns its solution with the gradient; empty where it has none. `c` need not outlive it.
 Solution solution_of(const Case& c);
 
 /// Returns the mesh that `make` makes of the case. If the case asks for a loop, returns the last mesh of the

@@ -12,18 +12,18 @@
 
 namespace delquad {
 
-/// Digest of what a case is made from: the bytes of its file, or its curves, loops and names.
+/// Returns the digest of what a case is made from: the bytes of its file, or its curves, loops and names.
 std::string model_digest(const Case& c);
 
 /// Sets the text of parts that are in no file of the program. The text counts as the program's bytes do, and
 /// cells made with another text are repeated. Call this before cells are identified.
 void set_added_parts(const std::string& text);
 
-/// The cell of a pipeline on a variant of a case.
+/// Returns the cell of a pipeline on a variant of a case.
 CellIdentity identify(const Experiment& experiment, const Case& c, const std::string& model_digest,
                       const Word& word);
 
-/// Where the results of a cell lie, below the folder of the experiment.
+/// Returns where the results of a cell lie, below the folder of the experiment.
 std::filesystem::path cell_folder(const std::filesystem::path& folder, const Case& c, const Word& word);
 
 /// Lets other programs take the measures of a cell, in the folder `scratch`. It is made if need be, and then

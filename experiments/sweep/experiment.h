@@ -49,14 +49,14 @@ class Experiment : public TablePlan, public ExperimentKeys {
   /// Reads the [[peer]] tables of a file of their own; returns their names, which `words` does not have yet.
   /// Throws InputError with file and line.
   std::vector<std::string> add_peer_file(const std::filesystem::path& path);
-  /// Null for a word of stages.
+  /// Returns the peer; null for a word of stages.
   const Peer* peer_of(const Word& word) const;
 
   std::size_t n_cases() const { return cases_.size(); }
   std::size_t n_variants() const;  ///< of each case
   std::size_t n_cells() const { return n_cases() * n_variants() * words.size(); }
-  /// The experiment's file and all that it names beside it: models, published rows, files of peers and
-  /// measures. Without those that cases call data and those that are not there.
+  /// Returns the experiment's file and all that it names beside it: models, published rows, files of peers
+  /// and measures. Without those that cases call data and those that are not there.
   std::vector<std::filesystem::path> files() const;
   /// Throws InputError with file and line.
   Case read_variant(std::size_t index_of_case, std::size_t variant = 0) const;
@@ -96,7 +96,8 @@ class Experiment : public TablePlan, public ExperimentKeys {
   std::vector<TomlTable> hypothesis_tables_;  ///< that hypotheses were read from
 };
 
-/// By its title; throws InputError with file and line of the key for one that does not vary, and the seed.
+/// Returns an axis by its title. Throws InputError with file and line of the key for one that does not vary,
+/// and the seed.
 const Axis& find_axis(const std::vector<Axis>& axes, const std::string& title, const TomlTable& table,
                       const char* key);
 

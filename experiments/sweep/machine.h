@@ -25,9 +25,9 @@ struct MachineState {
 };
 MachineState machine_state();
 
-/// The program's own version ("delquad"), "commit", "build" and "compiler".
+/// Returns the program's own version ("delquad"), "commit", "build" and "compiler".
 std::vector<std::pair<std::string, std::string>> own_versions();
-/// These, and the versions of the libraries by name. It starts the helper program that reads CAD.
+/// Returns these, and the versions of the libraries by name. It starts the helper program that reads CAD.
 std::vector<std::pair<std::string, std::string>> versions();
 
 }  // namespace delquad

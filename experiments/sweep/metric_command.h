@@ -41,12 +41,12 @@ struct MetricOutcome {
 MetricOutcome run_metric(const MetricCommand& metric, const Case& c, const std::string& pipeline,
                          const std::filesystem::path& folder);
 
-/// The values in a text: a number, or a JSON object of numbers, as the whole or as its last line. A value
-/// that is null or NaN is not defined.
+/// Returns the values in a text: a number, or a JSON object of numbers, as the whole or as its last line. A
+/// value that is null or NaN is not defined.
 MetricOutcome parse_metric_output(const std::string& key, const std::string& text);
 
-/// The files that determine the value, with their digests. Throws InputError for one of `files` that cannot
-/// be read.
+/// Returns the files that determine the value, with their digests. Throws InputError for one of `files` that
+/// cannot be read.
 std::map<std::string, std::string> metric_files(const MetricCommand& metric);
 
 }  // namespace delquad

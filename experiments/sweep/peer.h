@@ -65,8 +65,8 @@ class PeerError : public Error {
 /// Returns the placeholders in the arguments of a peer's command.
 const std::vector<std::string>& peer_placeholders();
 
-/// The peer's own word on its version, in one line: it is asked once. Throws PeerError, and InputError where
-/// there is no room for what it prints.
+/// Returns the peer's own word on its version, in one line: it is asked once. Throws PeerError, and
+/// InputError where there is no room for what it prints.
 std::string peer_version(const Peer& peer);
 
 /// The task that a peer gets for a case.
@@ -94,18 +94,19 @@ struct ReferenceCell {
 /// see Prepared::measure(), is a result that says so.
 MeshResult run_peer(const Peer& peer, const Case& c, const Prepared& prepared, const std::string& label,
                     const std::filesystem::path& scratch, const ReferenceCell& reference = {});
-/// The mesh of a cell, by the word or, unless it is null, by the peer. If the case asks for it, a loop runs
-/// peers at the sizes that they are told.
+/// Returns the mesh of a cell, by the word or, unless it is null, by the peer. If the case asks for it, a
+/// loop runs peers at the sizes that they are told.
 MeshResult mesh_cell(const Case& c, const Word& word, const Peer* peer, const std::filesystem::path& scratch);
 
-/// delta where it is the same everywhere, as it was written.
+/// Returns delta where it is the same everywhere, as it was written.
 std::optional<double> uniform_size(const Case& c);
 
-/// Program and arguments for a task. Throws NotApplicable where they ask for what the case does not have.
+/// Returns the program and arguments for a task. Throws NotApplicable where they ask for what the case does
+/// not have.
 std::vector<std::string> peer_command(const PeerTask& task, const std::filesystem::path& input,
                                       const std::string& output, const std::filesystem::path& size_field);
 
-/// The command with the case's name in it: files that it names belong to the cell's key.
+/// Returns the command with the case's name in it: files that it names belong to the cell's key.
 std::vector<std::string> command_of_case(const Peer& peer, const std::string& name);
 
 /// A size field by its values at the nodes of triangles that are as large as it says, or a metric.
@@ -122,7 +123,7 @@ SampledSize sample_sizes(const PeerTask& task);
 std::filesystem::path write_size_field(const SampledSize& size, const std::string& format,
                                        const std::filesystem::path& folder);
 
-/// The lines of a planar domain, in its own plane also where a metric has another.
+/// Returns the lines of a planar domain, in its own plane also where a metric has another.
 Mesh boundary_of(const Prepared& prepared);
 
 /// Writes what the peer reads to `folder`; returns the file. Throws NotApplicable when the case cannot be
@@ -137,13 +138,13 @@ void check_peer_mesh(const Peer& peer, const Prepared& prepared, Mesh& mesh);
 /// there. In the plane the boundaries are compared, and the edges have to follow the curves between regions.
 void check_place(const Prepared& prepared, const Mesh& mesh);
 
-/// The number of quads that a word makes of a case, see count_of_quads(). It comes from the record of its
-/// cell. If that is missing or of something else, a process of its own runs the word, which gives the same
-/// number. Nothing if the word has no mesh of the case. Throws JobFailed if that process crashes.
+/// Returns the number of quads that a word makes of a case, see count_of_quads(). It comes from the record of
+/// its cell. If that is missing or of something else, a process of its own runs the word, which gives the
+/// same number. Nothing if the word has no mesh of the case. Throws JobFailed if that process crashes.
 std::optional<double> reference_quads(const Prepared& prepared, const std::string& word,
                                       const ReferenceCell& cell);
 
-/// The planar problem with every size multiplied by `scale`, its boundary made anew at those. Throws
+/// Returns the planar problem with every size multiplied by `scale`, its boundary made anew at those. Throws
 /// InputError as prepare() does.
 Prepared prepare_scaled(const Prepared& prepared, double scale);
 

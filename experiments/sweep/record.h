@@ -35,23 +35,23 @@ struct CellIdentity {
   std::vector<std::string> solvers = {};  ///< that measure the mesh
 };
 
-/// The JSON record of a pipeline on a case: every option, what the stages did, times, metrics, versions.
-/// Ends with a newline; is sealed() in experiments. `cell`: null outside of these.
+/// Returns the JSON record of a pipeline on a case: every option, what the stages did, times, metrics,
+/// versions. Ends with a newline; is sealed() in experiments. `cell`: null outside of these.
 std::string run_record(const Case& c, const Word& word, const MeshResult& result,
                        const CellIdentity* cell = nullptr);
-/// The record of a cell that was not run, "failed" or "skipped" by its status, and the kind of the reason.
-/// Kinds are as in ProcessFailure, or "data not found".
+/// Returns the record of a cell that was not run, "failed" or "skipped" by its status, and the kind of the
+/// reason. Kinds are as in ProcessFailure, or "data not found".
 std::string failure_record(const Case& c, const Word& word, const std::string& status,
                            const std::string& kind, const std::string& reason,
                            const CellIdentity* cell = nullptr);
-/// The metrics of a mesh from a file; `criteria`: null where it was not judged.
+/// Returns the metrics of a mesh from a file; `criteria`: null where it was not judged.
 std::string metrics_record(const std::string& mesh_file, const Mesh& mesh, const std::string& size,
                            const MeshMetrics& metrics, const CriteriaReport* criteria = nullptr);
 /// Returns the inputs that determine the mesh of a peer's cell besides the case, in one line of JSON.
 std::string peer_record(const CellIdentity& cell);
 /// Returns the inputs that determine a cell's measures by command and by solvers, in one line of JSON.
 std::string metrics_by_command_record(const CellIdentity& cell);
-/// Version, commit, compiler and libraries in one line of JSON.
+/// Returns version, commit, compiler and libraries in one line of JSON.
 std::string versions_record();
 
 }  // namespace delquad

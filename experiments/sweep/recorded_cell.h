@@ -27,7 +27,7 @@ struct RecordedCell {
 RecordedCell recorded_cell(const nlohmann::ordered_json& record, const std::filesystem::path& file,
                            const std::filesystem::path& data = {});
 
-/// The folder of the results that a cell's record belongs to.
+/// Returns the folder of the results that a cell's record belongs to.
 std::filesystem::path results_of(const std::filesystem::path& record_file);
 
 }  // namespace delquad

@@ -45,18 +45,18 @@ struct SweepOptions {
 Outcome run_experiment(const Experiment& experiment, const std::filesystem::path& folder,
                        const SweepOptions& options = {});
 
-/// Where the folder holds the results of another experiment; empty: it does not.
+/// Returns the reason if the folder holds the results of another experiment; empty: it does not.
 std::string why_folder_is_refused(const Experiment& experiment, const std::filesystem::path& folder);
 
-/// Whether the folder had records already when its plan was made, or made otherwise than by `study`.
+/// Returns whether the folder had records already when its plan was made, or made otherwise than by `study`.
 bool is_plan_changed(const StudyFile& study, const std::filesystem::path& folder);
 
-/// How long the cells that are to be made may take with two jobs, by the minutes of the experiment. Nothing:
-/// it has none.
+/// Returns how long the cells that are to be made may take with two jobs, by the minutes of the experiment.
+/// Nothing: it has none.
 std::optional<double> expected_seconds(const Experiment& experiment, const std::filesystem::path& folder);
 
-/// The cells in their order, a line each, and what there is of them: as in state_of_cell(), or "data not
-/// found".
+/// Returns the cells in their order, a line each, and what there is of them: as in state_of_cell(), or "data
+/// not found".
 std::string list_cells(const Experiment& experiment, const std::filesystem::path& folder);
 /// Adds the time that the run would take, by records in the folder, and what it could prove. An empty folder
 /// has no records; a warning says if the folder is of another experiment. Throws InputError as

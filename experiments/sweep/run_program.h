@@ -23,7 +23,7 @@ struct ProgramRun {
   int exit_code() const;  ///< -1: it was ended by a signal
 };
 
-/// In words, for "it ...": "ended with exit code 3"; empty: with 0, or one of `good`.
+/// Returns how it ended, for "it ...": "ended with exit code 3"; empty: with 0, or one of `good`.
 std::string how_it_ended(const ProgramRun& run, const std::vector<int>& good = {0});
 
 /// Runs a program (words[0], looked for on the PATH unless it has a slash) in `folder`, without input. Its
@@ -34,14 +34,14 @@ ProgramRun run_program(const std::vector<std::string>& words, const std::filesys
                        const std::filesystem::path& log, unsigned seconds = 0,
                        const std::filesystem::path& errors = {});
 
-/// The file beside the experiment, in `folder`, that the `i`-th word of a command stands for; empty: none. A
-/// program without a slash is one of the PATH, whatever lies beside the experiment.
+/// Returns the file beside the experiment, in `folder`, that the `i`-th word of a command stands for; empty:
+/// none. A program without a slash is one of the PATH, whatever lies beside the experiment.
 std::filesystem::path file_of_word(const std::filesystem::path& folder, const std::vector<std::string>& words,
                                    std::size_t i);
 
 /// A placeholder, such as "{mesh}", and what stands for it.
 using Filling = std::pair<const char*, std::function<std::string()>>;
-/// The words of a command with files in `folder`, where they name some, and fillings in place of
+/// Returns the words of a command with files in `folder`, where they name some, and fillings in place of
 /// placeholders. A program with a slash counts from `folder`, too.
 std::vector<std::string> filled_in(const std::filesystem::path& folder, const std::vector<std::string>& words,
                                    const std::vector<Filling>& fillings);
@@ -52,7 +52,7 @@ std::vector<std::string> lines_printed(const std::filesystem::path& file);
 /// it that is not indented, else the last line. Empty: it printed nothing.
 std::string complaint(const std::filesystem::path& file);
 
-/// The words of a command that stand for files, with the digests of these.
+/// Returns the words of a command that stand for files, with the digests of these.
 std::map<std::string, std::string> command_files(const std::filesystem::path& folder,
                                                  const std::vector<std::string>& words);
 

@@ -10,14 +10,14 @@
 
 namespace delquad {
 
-/// The keys of an experiment file, and the keys of its tables that models lack.
+/// Returns the keys of an experiment file, and the keys of its tables that models lack.
 TomlKeys experiment_keys();
 TomlKeys experiment_case_keys();
 /// Returns the keys of a [[variant]].
 TomlKeys variant_keys();
 
-/// The JSON Schema (draft 2020-12) of experiment files, made from the keys that they are read against. Ends
-/// with a newline.
+/// Returns the JSON Schema (draft 2020-12) of experiment files, made from the keys that they are read
+/// against. Ends with a newline.
 std::string experiment_schema();
 
 /// Checks the placeholders in the arguments of `command`. Throws InputError with file and line for a
@@ -27,7 +27,7 @@ void check_placeholders(const TomlTable& table, const std::vector<std::string>& 
                         const std::vector<std::string>& known,
                         const std::vector<std::vector<std::string>>& needed);
 
-/// Whether a word of the command holds `placeholder`, such as "{mesh}".
+/// Returns whether a word of the command holds `placeholder`, such as "{mesh}".
 bool has_placeholder(const std::vector<std::string>& command, const std::string& placeholder);
 
 /// Names of cases and peers become folders, on file systems that may not tell capitals from small letters.

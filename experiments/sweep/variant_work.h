@@ -54,7 +54,7 @@ class SweepProgress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// A line on standard error, in one piece: several processes may speak at once.
+/// Prints a line on standard error, in one piece: several processes may speak at once.
 void print_line(const std::string& text);
 
 struct Cell {
@@ -77,11 +77,11 @@ struct VariantWork {
   Prepared prepared;
   std::optional<Meshing> meshing;  ///< of a word
 
-  /// Before the first stage.
+  /// Prepares the variant before the first stage.
   void prepare();
-  /// After the last one: the cell's files, measured and in place.
+  /// Finishes a cell after the last stage: its files are measured and in place.
   void finish(const Cell& cell);
-  /// A cell whose process did not get to its end.
+  /// Records a cell whose process did not get to its end.
   void fail(const Cell& cell, const ProcessFailure& why) const;
   /// Leaves a record of why there is no mesh, and what a peer read and printed; nothing where the cell was
   /// interrupted: it is to be made yet.

@@ -54,7 +54,7 @@ int split_flat_corners(const MeshingSetup& prepared, const SurfaceNodes& nodes, 
 bool curve_mesh(const MeshingSetup& prepared, const SurfaceNodes& nodes, Mesh& mesh, Soundness& soundness,
                 std::vector<Warning>& warnings, CurvingSummary& summary);
 
-/// The mesh of straight elements with the same vertices.
+/// Returns the mesh of straight elements with the same vertices.
 Mesh straight_form(const Mesh& curved);
 
 }  // namespace delquad

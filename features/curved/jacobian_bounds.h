@@ -35,7 +35,7 @@ JacobianBounds jacobian_bounds(std::span<const Vec3> nodes, int order, double en
 /// nodes leave it out. For other orders see jacobian_bounds().
 JacobianBounds element_bounds(std::span<const Vec3> nodes, int order, double enough = 1);
 
-/// Integral of x_u x x_v, as a unit vector; (0, 0, 0) where it vanishes.
+/// Returns the integral of x_u x x_v, as a unit vector; (0, 0, 0) where it vanishes.
 Vec3 mean_normal(std::span<const Vec3> nodes, int order);
 
 /// A polynomial in (u, v) over the unit square, of degrees `du` and `dv`, by its Bernstein coefficients: row
@@ -48,7 +48,7 @@ struct Bernstein {
   const T& at(int i, int j) const { return c[static_cast<std::size_t>(j) * (du + 1) + i]; }
 };
 
-/// The map of an element from its nodes, as nodes_of_quad() orders them.
+/// Returns the map of an element from its nodes, as nodes_of_quad() orders them.
 Bernstein<Vec3> bernstein_of(std::span<const Vec3> nodes, int order);
 
 Bernstein<Vec3> derivative_u(const Bernstein<Vec3>& f);
@@ -59,7 +59,7 @@ Bernstein<double> dot_product(const Bernstein<Vec3>& f, const Vec3& n);
 
 Vec3 value_at(const Bernstein<Vec3>& f, double u, double v);
 
-/// The halves of a square, left and right or lower and upper, each over the unit square again.
+/// Returns the halves of a square, left and right or lower and upper, each over the unit square again.
 std::array<Bernstein<double>, 2> halves(const Bernstein<double>& f, bool along_u);
 
 }  // namespace delquad

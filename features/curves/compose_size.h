@@ -30,12 +30,12 @@
 
 namespace delquad {
 
-/// The size without what depends on the model; `own` makes the one that stands in for a base. A function is
-/// sampled on `domain`.
+/// Returns the size without what depends on the model; `own` makes the one that stands in for a base. A
+/// function is sampled on `domain`.
 std::shared_ptr<const SizeField> base_size(const SizeSpec& spec, const SampleDomain& domain,
                                            std::vector<Warning>& warnings,
                                            const std::function<std::shared_ptr<const SizeField>()>& own);
-/// For a planar model of curves, which has no edge lengths of its own.
+/// Makes the base size of a planar model of curves, which has no edge lengths of its own.
 std::shared_ptr<const SizeField> planar_base_size(const SizeSpec& spec, const PlanarModel& model,
                                                   std::vector<Warning>& warnings);
 /// Returns the largest size, in place of a base that was not given. Throws InputError with `why` where there
@@ -47,24 +47,24 @@ PointSize as_function(std::shared_ptr<const SizeField> size, double scale = 1);
 /// Throws InputError for more quads than problem.max_elements. Else calls on_estimate().
 void check_count(double quads, const MeshProblem& problem);
 
-/// Whether planes of symmetry are given or looked for.
+/// Returns whether planes of symmetry are given or looked for.
 bool is_symmetric(const MeshProblem& problem);
 
-/// A planar model of curves, meshed by its size, which is composed on the way. p.size, p.symmetry and
+/// Returns a planar model of curves, meshed by its size, which is composed on the way. p.size, p.symmetry and
 /// p.plane.background belong to the domain. `spots`: see Refinement.
 PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
                           const std::vector<SizeBall>& spots, const CurveAgreement& agreement,
                           MeshingSetup& p);
 
-/// The size on a surface, of `base` and all ingredients that follow it. `divisions` belong to the model.
-/// `cut`: null, or the model is the part.
+/// Returns the size on a surface, of `base` and all ingredients that follow it. `divisions` belong to the
+/// model. `cut`: null, or the model is the part.
 WantedSize surface_size(const MeshProblem& problem, const SurfaceModel& model,
                         std::shared_ptr<const SizeField> base, const std::vector<CurveDivision>& divisions,
                         const std::vector<SizeBall>& spots, const CutSurface* cut);
 
-/// Integral of dA/delta^2 over the fine triangles, by their centroids; faces that are images have the
-/// integral of their masters. `part`: of what, if the triangles are a part of a symmetric model; null: they
-/// are all.
+/// Returns the integral of dA/delta^2 over the fine triangles, by their centroids; faces that are images have
+/// the integral of their masters. `part`: of what, if the triangles are a part of a symmetric model; null:
+/// they are all.
 double expected_quads(const Mesh& fine, const SurfaceSize& size, const std::vector<FacePair>& images = {},
                       const CutSurface* part = nullptr);
 

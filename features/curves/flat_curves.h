@@ -17,8 +17,8 @@ struct FlatCurves {
   SurfaceCurves curves;  ///< chain i is piece i: its points are the nodes of the piece
 };
 
-/// `lines`: the edges of the pieces. True curves give the angles at corners. There is a patch for each face
-/// that has a region, in their order.
+/// Makes the curves. `lines`: the edges of the pieces. True curves give the angles at corners. There is a
+/// patch for each face that has a region, in their order.
 FlatCurves flat_curves(const Mesh& lines, const Arrangement& arrangement, const FaceRegions& regions,
                        const BoundaryNames& names, const std::vector<CurvePiece>& pieces);
 

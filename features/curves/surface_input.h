@@ -13,11 +13,11 @@
 
 namespace delquad {
 
-/// The surface model of a problem with a TriangleModel, CadModel or ExampleModel, with its compounds. Throws
-/// InputError for models that cannot be read, and for options that have no effect on them. So it does for
-/// compounds of faces that do not exist or do not hang together. `kept`: where features of triangles stay,
-/// and the small parts of any model. `cad`: the contents of a file of CAD, without compounds, are left there,
-/// and are not read again.
+/// Returns the surface model of a problem with a TriangleModel, CadModel or ExampleModel, with its compounds.
+/// Throws InputError for models that cannot be read, and for options that have no effect on them. So it does
+/// for compounds of faces that do not exist or do not hang together. `kept`: where features of triangles
+/// stay, and the small parts of any model. `cad`: the contents of a file of CAD, without compounds, are left
+/// there, and are not read again.
 SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept,
                           std::shared_ptr<const SurfaceModel>& cad);
 SurfaceModel make_surface(const MeshProblem& problem);
@@ -30,7 +30,7 @@ double length_of_small(const MeshProblem& problem, std::span<const Vec3> points)
 KeptNames names_that_stay(const MeshProblem& problem, const std::vector<Entity>& curves,
                           const std::vector<Entity>& regions);
 
-/// The model with curves shorter than a part of the size (`curves.join_below`) made one with their
+/// Returns the model with curves shorter than a part of the size (`curves.join_below`) made one with their
 /// continuations, see merge_short_curves(). No node is needed where these meet, and so many short edges would
 /// make as many rows of quads end. Sizes that vary count where they are least. Curves with names stay, and
 /// curves that the problem names by their numbers. All stay where sides are periodic or corners of grids are

@@ -38,17 +38,18 @@ void check_divisions_even(const std::string& prefix, const Mesh& fine, const Sur
 void warn_of_lost_nodes(const Mesh& fine, const SurfaceCurves& curves, const CurveDemands& wanted,
                         const std::vector<CurveDivision>& divisions, SurfaceDomain& domain);
 
-/// The size, and near divided curves the lengths of their edges, larger ones too. `domain`: of the model, as
-/// it is divided.
+/// Returns the size, and near divided curves the lengths of their edges, larger ones too. `domain`: of the
+/// model, as it is divided.
 std::shared_ptr<const SizeField> as_divided(std::shared_ptr<const SizeField> size, const PlanarModel& model,
                                             const PlanarDomain& domain,
                                             const std::vector<CurveDivision>& divisions);
 std::shared_ptr<const SizeField> as_divided(std::shared_ptr<const SizeField> size, const SurfaceModel& model,
                                             const std::vector<CurveDivision>& divisions);
 
-/// The nodes of a curve that is cut into pieces of these lengths. For each piece these are the lengths from
-/// its beginning to its nodes, ascending, both ends included. Ends of pieces are nodes already, and count as
-/// the nearest of the wanted ones. Throws InputError for fewer edges than pieces; `label` is the curve's.
+/// Returns the nodes of a curve that is cut into pieces of these lengths. For each piece these are the
+/// lengths from its beginning to its nodes, ascending, both ends included. Ends of pieces are nodes already,
+/// and count as the nearest of the wanted ones. Throws InputError for fewer edges than pieces; `label` is the
+/// curve's.
 std::vector<std::vector<double>> division_places(const CurveDivision& division,
                                                  const std::vector<double>& lengths,
                                                  const std::string& label);

@@ -13,7 +13,7 @@
 
 namespace delquad {
 
-/// Whether one of these curves of the model is a crack.
+/// Returns whether one of these curves of the model is a crack.
 bool is_crack(const PlanarModel& model, const std::vector<int>& curves);
 
 /// A point that stands alone in a region becomes a node because an edge leaves it. Returns the ends of these
@@ -25,7 +25,7 @@ std::vector<std::array<Vec2, 2>> dangling_ends(const std::vector<CurveSpan>& cur
                                                const std::vector<double>& sizes,
                                                const std::vector<std::string>& labels);
 
-/// Points that are on no curve get two edges, pieces without curves. Throws InputError as dangling_ends().
+/// Gives points that are on no curve two edges, pieces without curves. Throws InputError as dangling_ends().
 /// `fold(at, x)`: mirrors x as it mirrors `at` into the fundamental part of a symmetric model.
 void add_dangling_edges(const PlanarModel& model, const PointSize& size,
                         const std::function<Vec2(Vec2, Vec2)>& fold, ModelChain& chain,

@@ -21,7 +21,7 @@ struct SectionPlane {
 };
 SectionPlane section_plane(const Mesh& mesh, int a, int b, const Vec3& normal);
 
-/// The place in space.
+/// Returns the place in space.
 Vec3 position(const Mesh& mesh, const SectionPlane& plane, const SectionPlace& place);
 
 /// The shortest way from a to b in the section of the triangulation with a plane: places that share

@@ -30,14 +30,15 @@ struct Section {
 /// Throws InputError with the place. `notes` learns what is left out.
 Section make_section(const Mesh& mesh, ReadNotes* notes);
 
-/// One of length 1 at right angles to a vector that is not 0.
+/// Returns a vector of length 1 at right angles to a vector that is not 0.
 Vec3 unit_across(const Vec3& v);
 
 /// Throws InputError unless a line has two points, no two of which in a row are the same, and does not close.
 void check_open_line(const std::vector<Vec3>& line);
 
-/// Points of a polyline at parts of its length, from 0 to 1. For each corner, where segments turn by 40
-/// degrees or more, the nearest of them moves there. Throws InputError where there is none for a corner.
+/// Returns the points of a polyline at parts of its length, from 0 to 1. For each corner, where segments turn
+/// by 40 degrees or more, the nearest of them moves there. Throws InputError where there is none for a
+/// corner.
 std::vector<Vec3> points_at_lengths(const std::vector<Vec3>& line, const std::vector<double>& parts);
 
 /// A section that moves along a polyline without a turn about it. Between two points of the line it keeps its
@@ -47,7 +48,7 @@ class MovingSection {
  public:
   /// Throws InputError as check_open_line() does, and with the place where the line turns back.
   explicit MovingSection(std::vector<Vec3> line);
-  /// A place beside the first point of the line, and where it is at point `i`.
+  /// Returns a place beside the first point of the line, and where it is at point `i`.
   Vec3 place(const Vec3& p, std::size_t i) const;
 
  private:

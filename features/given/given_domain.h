@@ -19,14 +19,14 @@ struct GivenDomain {
   std::vector<Warning> warnings;
 };
 
-/// `given` is in a plane of constant z. Lines, edges of one element and edges between regions bound the
-/// patches, so that they stay; so do two edges at a named point inside. Throws InputError, naming places, for
-/// what is not conforming: edges in more than two elements, hanging nodes, elements with a corner twice,
-/// outlines that cross.
+/// Makes the domain. `given` is in a plane of constant z. Lines, edges of one element and edges between
+/// regions bound the patches, so that they stay; so do two edges at a named point inside. Throws InputError,
+/// naming places, for what is not conforming: edges in more than two elements, hanging nodes, elements with a
+/// corner twice, outlines that cross.
 GivenDomain make_given_domain(const GivenMesh& given);
 
-/// Edge lengths of squares with the areas of the elements (triangles are half a square), meaned over two
-/// rings around each point.
+/// Returns edge lengths of squares with the areas of the elements (triangles are half a square), meaned over
+/// two rings around each point.
 std::vector<double> sizes_of_elements(const Mesh& mesh, const std::string& source);
 
 /// Returns the mesh from which a pipeline begins: the elements in this form, with halved quads if the form is

@@ -25,7 +25,7 @@ struct GivenSurface {
   std::vector<char> avoided = {};              ///< as in FlattenOptions
 };
 
-/// Whether its elements are not all in one plane of constant z.
+/// Returns whether its elements are not all in one plane of constant z.
 bool is_in_space(const Mesh& mesh);
 
 /// Faces end at lines, edges of one element or of more than two, edges between regions and edges sharper than
@@ -39,9 +39,9 @@ GivenSurface make_given_surface(const GivenMesh& given, double feature_angle);
 /// other points.
 QuadPatch elements_within(const GivenSurface& surface, const SurfacePatch& patch, std::vector<Vec3>& inside);
 
-/// The domain of a model whose curves are kept point by point: all their points are nodes. No stage moves a
-/// node that is on no cut. The k-th point of a patch's boundary is the vertex of its map from which the k-th
-/// side of its outline begins. Warnings name the patches with an odd boundary.
+/// Returns the domain of a model whose curves are kept point by point: all their points are nodes. No stage
+/// moves a node that is on no cut. The k-th point of a patch's boundary is the vertex of its map from which
+/// the k-th side of its outline begins. Warnings name the patches with an odd boundary.
 SurfaceDomain make_kept_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size);
 
 }  // namespace delquad

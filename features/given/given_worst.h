@@ -14,11 +14,11 @@ namespace delquad {
 /// Returns the worst values of a mesh. Planar meshes are seen from above.
 GivenWorst worst_of_given(const Mesh& mesh, bool is_in_plane, const SizeField& size);
 
-/// Whether a quad is worse than the worst given one, or below both a poor eta and the eta of the worst sound
-/// one.
+/// Returns whether a quad is worse than the worst given one, or below both a poor eta and the eta of the
+/// worst sound one.
 bool is_beyond_given(const MeshingSetup& prepared, const std::array<Vec3, 4>& corners);
 
-/// A given mesh with what was worst in it before its unsound quads were opened.
+/// Returns a given mesh with what was worst in it before its unsound quads were opened.
 MeshResult as_it_was(MeshResult given, const GivenWorst& worst);
 
 /// How many times the worst angle (eta), the shortest edge (in sizes), the largest aspect, and a differing
@@ -30,7 +30,7 @@ struct Degradation {
 };
 Degradation degradation_of(const MeshResult& after, const MeshResult& before);
 
-/// Whether the worse value comes from a poor quad, see poor_quads.h, or from the number of quads.
+/// Returns whether the worse value comes from a poor quad, see poor_quads.h, or from the number of quads.
 bool costs_too_much(const MeshResult& after, const MeshResult& before);
 
 /// Returns the loss of quality that soundness costs, with its place: "the worst eta goes from ...; ...".

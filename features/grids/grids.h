@@ -52,8 +52,8 @@ class GridFinder {
   /// Throws InputError for names that no region has. The arguments outlive this object.
   GridFinder(const MappedSpec& spec, const std::vector<Entity>& regions, const NamedPlaces& points);
 
-  /// Nothing where the face stays free. `quads`: as many as its area holds. Throws InputError where a named
-  /// one cannot be a grid.
+  /// Returns the grid of a face; nothing where the face stays free. `quads`: as many as its area holds.
+  /// Throws InputError where a named one cannot be a grid.
   std::optional<MappedFace> find(int face, const Entity& region, const FaceOutline& outline, double quads);
   /// Throws InputError for corners that lie on no outline.
   void finish() const;
@@ -78,14 +78,14 @@ std::vector<UnbalancedFace> balance_grids(std::vector<CountedCurve>& curves,
                                           const std::vector<std::vector<int>>& around,
                                           const std::vector<int>& leader, std::vector<MappedFace>& mapped);
 
-/// Why it cannot be balanced. `mapped`: null of a free face. `curves`: with the numbers of edges that they
-/// have, `names` what they are called.
+/// Returns why it cannot be balanced. `mapped`: null of a free face. `curves`: with the numbers of edges that
+/// they have, `names` what they are called.
 std::string why_unbalanced(const UnbalancedFace& bad, const std::string& label, const MappedFace* mapped,
                            const std::vector<CountedCurve>& curves, const std::vector<std::string>& names);
 
-/// The patches (MappedFace::face) that become grids of their faces, see GridFinder. A face that was cut open
-/// into one patch may be a tube, with the cut on two opposite sides. Throws InputError as GridFinder does,
-/// and for a named face of several patches.
+/// Returns the patches (MappedFace::face) that become grids of their faces, see GridFinder. A face that was
+/// cut open into one patch may be a tube, with the cut on two opposite sides. Throws InputError as GridFinder
+/// does, and for a named face of several patches.
 std::vector<MappedFace> find_surface_grids(const MappedSpec& spec, const Mesh& fine,
                                            const SurfaceCurves& curves, const CurveDemands& wanted);
 
@@ -96,14 +96,14 @@ std::vector<int> grid_counts(const MappedSpec& spec, const Mesh& fine, const Sur
                              const CurveDemands& wanted, std::vector<MappedFace>& mapped,
                              std::vector<int>& odd_patches);
 
-/// Whether opposite sides, or the loops of a ring, have as many edges.
+/// Returns whether opposite sides, or the loops of a ring, have as many edges.
 bool is_balanced(const MappedFace& face, const std::vector<int>& counts);
 
-/// The same by the places where sides begin on the patches' boundaries.
+/// Returns the same by the places where sides begin on the patches' boundaries.
 std::vector<MappedPatch> grid_patches(const std::vector<MappedFace>& mapped, const SurfaceCurves& curves,
                                       const std::vector<int>& counts);
 
-/// The same of a planar domain whose curves were meshed. Chain i of `curves` is piece i.
+/// Returns the same of a planar domain whose curves were meshed. Chain i of `curves` is piece i.
 std::vector<MappedPatch> mapped_patches(const std::vector<MappedFace>& mapped, const SurfaceCurves& curves,
                                         const std::vector<CurvePiece>& pieces, const Arrangement& arrangement,
                                         const FaceRegions& regions);

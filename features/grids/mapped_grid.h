@@ -31,10 +31,12 @@ std::optional<MappedGrid<Vec>> interpolated_grid(const PatchBoundary& boundary,
                                                  const std::vector<int>& corners,
                                                  const std::vector<double>& layers);
 
-/// Where the nodes between the loops of a ring lie, by the mean of the sizes along the lines between them.
+/// Returns where the nodes between the loops of a ring lie, by the mean of the sizes along the lines between
+/// them.
 std::vector<double> ring_layers(const PatchBoundary& boundary, const ParametricSize& size);
 
-/// Whether all corners of all quads turn left, by exact predicates. Else `at` is the first one that does not.
+/// Returns whether all corners of all quads turn left, by exact predicates. Else `at` is the first one that
+/// does not.
 bool are_convex(const std::vector<Vec2>& points, const std::vector<std::array<int, 4>>& quads,
                 Vec2* at = nullptr);
 
@@ -42,7 +44,7 @@ bool are_convex(const std::vector<Vec2>& points, const std::vector<std::array<in
 /// stage O does, for shape and lengths; no quad gets inverted.
 void smooth_grid(QuadPatch& grid, const CrossField& cross, const ParametricSize& size);
 
-/// A grid in the form that a stage leaves.
+/// Returns a grid in the form that a stage leaves.
 PatchMesh grid_as(PatchForm form, const QuadPatch& grid);
 
 }  // namespace delquad

@@ -54,7 +54,7 @@ LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, d
 /// rest of the mesh is far coarser than they are.
 void put_layers(const MeshProblem& problem, PlanarDomain& domain, MeshingSetup& p);
 
-/// Which quads of a mesh are of layers: in each region the first ones.
+/// Returns which quads of a mesh are of layers: in each region the first ones.
 std::vector<char> quads_in_layers(const MeshingSetup& prepared, const Mesh& mesh);
 
 }  // namespace delquad

@@ -39,7 +39,8 @@ class WallTrack {
 
   int n_edges() const { return static_cast<int>(points_.size()) - 1; }
   double length() const { return length_.back(); }
-  /// A place is an edge's number and the part of it: from 0 to n_edges(). By the length from the first point.
+  /// Returns a place. It is an edge's number and the part of it: from 0 to n_edges(). By the length from the
+  /// first point.
   double place(double length) const;
   Vec2 point(double place) const;
   /// On the curve.
@@ -60,14 +61,15 @@ class BoundaryGraph {
  public:
   explicit BoundaryGraph(const PlanarDomain& domain);
 
-  /// The patch on the left of the edge, and the edge's index there; images of other patches count, too.
+  /// Returns the patch on the left of the edge, and the edge's index there; images of other patches count,
+  /// too.
   std::optional<std::array<int, 2>> edge_from(int a, int b) const;
   bool is_image(int patch) const { return is_image_[static_cast<std::size_t>(patch)] != 0; }
-  /// Whether the edge lies between a patch and its mirror image.
+  /// Returns whether the edge lies between a patch and its mirror image.
   bool is_on_axis(int a, int b) const;
-  /// Whether a piece of the boundary ends there. It ends at corners of more than kLayerCorner, where curves
-  /// meet or other curves follow, and at named points and cracks. It also ends where that is so at a periodic
-  /// or mirror image.
+  /// Returns whether a piece of the boundary ends there. It ends at corners of more than kLayerCorner, where
+  /// curves meet or other curves follow, and at named points and cracks. It also ends where that is so at a
+  /// periodic or mirror image.
   bool stops(int node) const { return stops_[static_cast<std::size_t>(node)] != 0; }
   bool is_on_crack(int node) const { return on_crack_[static_cast<std::size_t>(node)] != 0; }
 
@@ -82,7 +84,7 @@ class BoundaryGraph {
 /// Points at which the boundary turns by more than this are corners, radians.
 inline constexpr double kLayerCorner = 20 * 0.017453292519943295;
 
-/// The angle inside of the boundary at a point, in (0, 2 pi).
+/// Returns the angle inside of the boundary at a point, in (0, 2 pi).
 double inner_angle(Vec2 before, Vec2 at, Vec2 after);
 
 /// Edges of a patch's boundary, one after the other, that get layers.
@@ -112,7 +114,7 @@ struct LayerWall {
   int id = -1;               ///< of the wall among the lines of all patches, see LayerWalls
   bool is_reversed = false;  ///< against that one
 
-  /// How far nodes at the heights of layers may reach, from one end.
+  /// Returns how far nodes at the heights of layers may reach, from one end.
   double room() const { return (is_taken[0] && is_taken[1] ? 0.45 : 0.9) * track.length(); }
 };
 
@@ -125,7 +127,7 @@ struct LayerChains {
 LayerChains find_layer_chains(const PlanarDomain& domain, std::size_t patch, std::span<const LayerSpec> specs,
                               const CurveLayers& layers, const BoundaryGraph& graph);
 
-/// The wall along these points of a patch. Throws InputError where its number of edges was asked for.
+/// Returns the wall along these points of a patch. Throws InputError where its number of edges was asked for.
 LayerWall make_layer_wall(const PlanarDomain& domain, std::size_t patch, std::vector<int> points,
                           const BoundaryGraph& graph, const std::string& where);
 

@@ -60,11 +60,11 @@ class LayerColumns {
   double height(int c, int k, int layer) const;
   double thickness(int c, int k) const { return height(c, k, layers_at(c, k)); }
 
-  /// The walls of other patches' layers, to know them by their places in found().walls.
+  /// Returns the walls of other patches' layers, to know them by their places in found().walls.
   LayerWall& wall(int w) { return found_.walls[w]; }
-  /// Length along the wall by height, at an end of an open chain.
+  /// Returns the length along the wall by height, at an end of an open chain.
   double slant(int c, int end) const { return slants_[c][end]; }
-  /// An end gets the mean heights of its own layer and these, and this slant.
+  /// Gives an end the mean heights of its own layer and these, and this slant.
   void join_end(int c, int end, std::vector<int> others, double slant);
   /// To be called once the scales have changed.
   void place();

@@ -20,9 +20,9 @@ struct PatchLayers {
   LayerColumns columns;
 };
 
-/// The layers of all patches that have some, or walls at which other layers end, in the patches' order; none
-/// of mirror images. Throws InputError as find_layer_chains(), and where layers end on a curve that has
-/// layers on its other side.
+/// Returns the layers of all patches that have some, or walls at which other layers end, in the patches'
+/// order; none of mirror images. Throws InputError as find_layer_chains(), and where layers end on a curve
+/// that has layers on its other side.
 std::vector<PatchLayers> find_patch_layers(const PlanarDomain& domain, std::span<const LayerSpec> specs,
                                            const CurveLayers& layers, const BoundaryGraph& graph,
                                            const std::vector<std::vector<double>>& heights);
@@ -43,8 +43,8 @@ class LayerWalls {
   /// InputError where that cannot be.
   void count_edges();
 
-  /// Nodes of a wall, as its patch sees it: from an end up to the height of the layers there, and between
-  /// these. Made when they are asked for first.
+  /// Returns the nodes of a wall, as its patch sees it: from an end up to the height of the layers there, and
+  /// between these. Made when they are asked for first.
   std::vector<int> side(const LayerWall& wall, int end);
   std::vector<int> between(const LayerWall& wall);
   /// Adds the new pairs of nodes to the periodic curves.

@@ -18,16 +18,17 @@ namespace delquad {
 WantedMetric wanted_metric(const MeshProblem& problem, const SurfaceModel& model,
                            const std::vector<SizeBall>& spots);
 
-/// flatten() by lengths in a metric.
+/// Runs flatten() by lengths in a metric.
 Flattening flatten_by_metric(SurfaceModel& model, const SurfaceMetric& metric);
 
-/// How much the field of a patch is drawn to the metric's axes.
+/// Returns how much the field of a patch is drawn to the metric's axes.
 CrossPull pull_at(const SurfaceSetup& surface, int patch, Vec2 u, int& hint);
 
-/// By which factor lengths in a plane are larger than the metric's own: where it is told to be finer, or not.
+/// Returns by which factor lengths in a plane are larger than the metric's own: where it is told to be finer,
+/// or not.
 double scale_of(const MeshingSetup& prepared);
 
-/// The metric that meshes are measured by; null: none.
+/// Returns the metric that meshes are measured by; null: none.
 MetricAt metric_of(const MeshingSetup& prepared);
 
 }  // namespace delquad

@@ -27,7 +27,7 @@ struct PeriodicSides {
   bool empty() const { return curves.empty() && faces.empty(); }
 };
 
-/// The periodic sides of a surface model: faces where both names belong to faces, else curves. Throws
+/// Returns the periodic sides of a surface model: faces where both names belong to faces, else curves. Throws
 /// InputError for names that nothing has, for faces that do not match and for faces of two pairs.
 PeriodicSides find_periodic_sides(const SurfaceModel& model, const std::vector<PeriodicPair>& asked,
                                   std::vector<Warning>& warnings);
@@ -51,8 +51,8 @@ struct ChainPairs {
 /// Throws InputError for pieces without an image, and where images of images do not agree.
 ChainPairs pair_chains(const Mesh& fine, const std::vector<CurveChain>& chains,
                        const std::vector<PairedChains>& sides);
-/// The pairs of pieces that periodic sides consist of, of a model that was flattened so. `cut_face`: of each
-/// curve, -1 where it is no cut.
+/// Returns the pairs of pieces that periodic sides consist of, of a model that was flattened so. `cut_face`:
+/// of each curve, -1 where it is no cut.
 ChainPairs pair_chains(const SurfaceModel& model, const std::vector<CurveChain>& chains,
                        const std::vector<int>& cut_face, const PeriodicSides& periodic);
 

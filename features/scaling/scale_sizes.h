@@ -9,12 +9,13 @@
 
 namespace delquad {
 
-/// The problem, whose files are read, with a size that is `factor` times as large everywhere. Distances stay,
-/// so that growth and gradation change with the size; curvature gets kLeastPerTurn elements at least.
+/// Returns the problem, whose files are read, with a size that is `factor` times as large everywhere.
+/// Distances stay, so that growth and gradation change with the size; curvature gets kLeastPerTurn elements
+/// at least.
 MeshProblem with_scaled_sizes(MeshProblem problem, double factor);
 
-/// The problem, whose files are read, with what `refine` asks for: sizes, numbers of edges, and layers of the
-/// same thickness. Throws InputError where it cannot be.
+/// Returns the problem, whose files are read, with what `refine` asks for: sizes, numbers of edges, and
+/// layers of the same thickness. Throws InputError where it cannot be.
 MeshProblem refined(MeshProblem problem);
 
 /// Throws InputError where lines are given, which say how long edges are; `asked` names what was asked for.

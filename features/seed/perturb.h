@@ -13,8 +13,8 @@ namespace delquad {
 /// Small changes of a domain by a seed, on which a mesh should not depend. How much it does tells which
 /// differences between pipelines mean something.
 
-/// The size times 1 +- 3 %, smoothly, over distances of about a tenth of `diagonal`: curves that are meshed
-/// by it get their nodes elsewhere.
+/// Returns the size times 1 +- 3 %, smoothly, over distances of about a tenth of `diagonal`: curves that are
+/// meshed by it get their nodes elsewhere.
 std::shared_ptr<const SizeField> jittered(std::shared_ptr<const SizeField> size, long long seed,
                                           double diagonal);
 

@@ -23,16 +23,17 @@ struct LocalSize {
   std::optional<Vec3> c = {};  ///< of a triangle
 };
 
-/// The field, and less around the spots.
+/// Returns the field, and less around the spots.
 std::shared_ptr<const SizeField> finer_near(std::shared_ptr<const SizeField> base,
                                             std::vector<LocalSize> spots);
 
-/// The field, and near the spots their sizes, larger ones too. Where spots disagree the smaller ones count.
+/// Returns the field, and near the spots their sizes, larger ones too. Where spots disagree the smaller ones
+/// count.
 std::shared_ptr<const SizeField> as_near(std::shared_ptr<const SizeField> base,
                                          const std::vector<LocalSize>& spots);
 
-/// The edges that are much shorter than the size, because the curves between two nodes are; each is a spot of
-/// its own length, times `aspect`. Only of domains with junctions.
+/// Returns the edges that are much shorter than the size, because the curves between two nodes are. Each is a
+/// spot of its own length, times `aspect`. Only of domains with junctions.
 std::vector<LocalSize> short_edges(const PlanarDomain& domain, const SizeField& size, double aspect = 1);
 
 }  // namespace delquad

@@ -34,7 +34,7 @@ class NamedParts {
   void add_lines(const Mesh& mesh, std::size_t first_curve = 0, std::size_t first_point = 0);
   /// Returns the sizes that are requested by names. Throws InputError for an unknown name.
   std::vector<LocalSize> spots(const std::vector<NamedSize>& wanted) const;
-  /// Without those that nothing has.
+  /// Returns the spots without those names that nothing has.
   std::vector<LocalSize> known_spots(const std::vector<NamedSize>& wanted) const;
 
  private:

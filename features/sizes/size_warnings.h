@@ -28,7 +28,7 @@ void warn_of_large_size(const SizeField& size, const Mesh& model, std::vector<Wa
 void warn_of_coarse_turns(const PlanarModel& model, const PlanarDomain& domain, const SizeSpec& spec,
                           const SizeField& asked, std::vector<Warning>& warnings);
 
-/// The same for the curves and faces of a CAD model.
+/// Does the same for the curves and faces of a CAD model.
 void warn_of_coarse_turns(const WantedSize& wanted, const SurfaceSetup& surface,
                           std::vector<Warning>& warnings);
 

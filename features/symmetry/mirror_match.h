@@ -36,11 +36,11 @@ class MirrorMatcher {
   ~MirrorMatcher();
 
   MirrorMatch match(const SymmetryPlanes& planes, int plane) const;
-  /// Whether a few places have images, ten times as far off as they may be in the end.
+  /// Returns whether a few places have images, ten times as far off as they may be in the end.
   bool can_match(const SymmetryPlanes& planes, int plane) const;
-  /// The plane that fits the model best, near one that nearly does.
+  /// Returns the plane that fits the model best, near one that nearly does.
   SymmetryPlane adjusted(const SymmetryPlane& plane) const;
-  /// The mean distance of images from the model, over some places.
+  /// Returns the mean distance of images from the model, over some places.
   double misfit(const SymmetryPlane& plane) const;
 
  private:

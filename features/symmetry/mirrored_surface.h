@@ -66,13 +66,13 @@ struct CutSurface {
 std::optional<CutSurface> cut_at_planes(const MeshProblem& problem, SurfaceModel& model,
                                         std::shared_ptr<const SizeField>& size);
 
-/// The divisions of the curves of the part: divisions of curves that go through a plane are shared by both
-/// sides. Throws InputError for numbers that cannot be, naming one that can, and for curves that are divided
-/// otherwise than their images.
+/// Returns the divisions of the curves of the part: divisions of curves that go through a plane are shared by
+/// both sides. Throws InputError for numbers that cannot be, naming one that can, and for curves that are
+/// divided otherwise than their images.
 std::vector<CurveDivision> divisions_of_part(const std::vector<CurveDivision>& divisions,
                                              const CutSurface& surface);
 
-/// The most of these values, of the faces or curves of the whole, at their images; of the part.
+/// Returns the most of these values, of the faces or curves of the whole, at their images; of the part.
 std::vector<double> most_of_faces(std::vector<double> values, const CutSurface& surface);
 std::vector<double> most_of_curves(const std::vector<double>& values, const CutSurface& surface);
 
@@ -80,18 +80,18 @@ std::vector<double> most_of_curves(const std::vector<double>& values, const CutS
 /// sizes of the problem count at all images.
 void add_whole(CutSurface cut, SurfaceSetup& surface, MeshingSetup& p);
 
-/// The image of a face of the whole at all planes whose bits are set.
+/// Returns the image of a face of the whole at all planes whose bits are set.
 int image_face(const MirroredSurface& mirrored, int planes, int face);
 
-/// The faces that are marked, and all that are their images.
+/// Returns the faces that are marked, and all that are their images.
 std::vector<char> with_images(const MirroredSurface& mirrored, std::vector<char> faces);
 
 /// Adds the faces that are images of those that failed, for the same reasons.
 void add_failures_of_images(const MirroredSurface& mirrored, std::vector<FaceFailure>& failures);
 
-/// The mesh of the part, whose first points are the nodes on its curves, completed by its images. Nodes on
-/// planes, which are moved onto them to rounding, stand once, and so do elements in them. It has the curves,
-/// faces and named points of the whole.
+/// Returns the mesh of the part, whose first points are the nodes on its curves, completed by its images.
+/// Nodes on planes, which are moved onto them to rounding, stand once, and so do elements in them. It has the
+/// curves, faces and named points of the whole.
 Mesh mirror_mesh(const MirroredSurface& mirrored, Mesh part);
 
 }  // namespace delquad

@@ -23,17 +23,17 @@ class Symmetry {
   /// Planes that are perpendicular to each other; one or two.
   Symmetry(std::vector<SymmetryPlane> planes, double tolerance);
 
-  /// The planes that the fundamental part of x lies behind, by their indices; empty: x is in it.
+  /// Returns the planes that the fundamental part of x lies behind, by their indices; empty: x is in it.
   std::vector<int> folds_of(Vec2 x) const;
-  /// x mirrored at these.
+  /// Returns x mirrored at these.
   Vec2 reflect(const std::vector<int>& folds, Vec2 x) const;
-  /// The planes that x lies on.
+  /// Returns the planes that x lies on.
   bool is_on(int plane, Vec2 x) const;
   Vec2 put_on(int plane, Vec2 x) const;
   int n_planes() const { return static_cast<int>(planes_.size()); }
   std::vector<SymmetryPlane> planes() const;
   double tolerance() const { return tolerance_; }
-  /// Where the plane crosses the box.
+  /// Returns where the plane crosses the box.
   std::array<Vec2, 2> axis(int plane, const Box<Vec2>& box) const;
 
  private:
@@ -46,17 +46,17 @@ class Symmetry {
   double tolerance_;
 };
 
-/// The planes of a problem; with SymmetrySpec::automatic those that are found, which go through the centroid
-/// of the curves, or none. Throws InputError for planes that are given and not perpendicular, or about which
-/// the model is not symmetric.
+/// Returns the planes of a problem; with SymmetrySpec::automatic those that are found, which go through the
+/// centroid of the curves, or none. Throws InputError for planes that are given and not perpendicular, or
+/// about which the model is not symmetric.
 std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySpec& spec);
 
 /// Returns a warning if no plane is found for the model, but its loops have one. The warning names the parts
 /// in the regions without an image. It is empty if the loops have no plane.
 std::string why_not_symmetric(const PlanarModel& model);
 
-/// The model with the planes' axes as curves after its own, and with points, after its own, where its nodes
-/// have their images.
+/// Returns the model with the planes' axes as curves after its own, and with points, after its own, where its
+/// nodes have their images.
 PlanarModel with_axes(const PlanarModel& model, const Symmetry& symmetry);
 
 /// Takes out the parts of axes, the model's curves from `first_axis` on, that lie outside of everything.
@@ -76,10 +76,10 @@ std::vector<ChainPair> pair_symmetric(const PlanarModel& model, const Symmetry& 
 std::vector<PatchImage> patch_images(const std::vector<PatchBoundary>& patches, const Symmetry& symmetry,
                                      const std::string& where);
 
-/// The mirror image of a patch's mesh. `boundary`: the boundary of the image, whose points stay.
+/// Returns the mirror image of a patch's mesh. `boundary`: the boundary of the image, whose points stay.
 PatchMesh image_of(const PatchMesh& master, const PatchBoundary& boundary, const PatchImage& image);
 
-/// On the master's boundary the ends of edges at single points move; their images follow. `points`: of the
+/// Moves ends of edges at single points on images, as they moved on the master's boundary. `points`: of the
 /// nodes of all boundaries.
 void move_image_nodes(const MeshingSetup& prepared, const PatchImage& image, std::vector<Vec3>& points);
 

@@ -23,14 +23,14 @@ class SymmetryPlanes {
   const Vec3& normal(int plane) const { return planes_[plane].normal; }
   double height(int plane, const Vec3& x) const { return dot(x - planes_[plane].at, planes_[plane].normal); }
   Vec3 put_on(int plane, const Vec3& x) const;
-  /// On all planes whose bits are set.
+  /// Returns the point on all planes whose bits are set.
   Vec3 put_on_all(int mask, Vec3 x) const;
   Vec3 reflect(int plane, const Vec3& x) const;
-  /// At all planes whose bits are set.
+  /// Reflects at all planes whose bits are set.
   Vec3 reflect_all(int mask, Vec3 x) const;
-  /// The bits of the planes that x lies behind by more than `tolerance`.
+  /// Returns the bits of the planes that x lies behind by more than `tolerance`.
   int folds_of(const Vec3& x, double tolerance = 0) const;
-  /// The image of x on the positive side of all.
+  /// Returns the image of x on the positive side of all.
   Vec3 fold(const Vec3& x) const { return reflect_all(folds_of(x), x); }
 
  private:
@@ -40,20 +40,20 @@ class SymmetryPlanes {
   std::vector<Plane> planes_;
 };
 
-/// The planes that are given. Throws InputError, beginning with `where`, for more than three and for those
-/// that are not perpendicular.
+/// Returns the planes that are given. Throws InputError, beginning with `where`, for more than three and for
+/// those that are not perpendicular.
 SymmetryPlanes given_planes(const std::vector<SymmetryPlane>& planes, const std::string& where);
 
-/// At each place the least of the sizes there and at its mirror images. Images whose size is the same to
-/// rounding change nothing.
+/// Returns at each place the least of the sizes there and at its mirror images. Images whose size is the same
+/// to rounding change nothing.
 std::shared_ptr<const SizeField> least_of_images(std::shared_ptr<const SizeField> size,
                                                  const SymmetryPlanes& planes);
 
-/// The size on the positive sides, and its mirror image.
+/// Returns the size on the positive sides, and its mirror image.
 std::shared_ptr<const SizeField> folded_size(std::shared_ptr<const SizeField> size,
                                              const SymmetryPlanes& planes);
 
-/// Half a model of triangles, completed with its mirror image, which runs the other way round so that both
+/// Completes half a model of triangles with its mirror image, which runs the other way round so that both
 /// agree in orientation. Ends of open edges within the tolerance are moved onto the plane and belong to both
 /// halves; lines there go. Both images of a line are on its curve. Throws InputError, beginning with
 /// `source`, if points lie on both sides of the plane beyond the tolerance. So it does if no open edge lies

@@ -11,9 +11,9 @@
 
 namespace delquad {
 
-/// Edges of curves that face others across a region nearer than `rows` times the size. Beside each, the size
-/// fits a gap which holds so many rows, though it is no less than a twentieth of the size before. Near a
-/// corner between the curves there is no gap.
+/// Returns the edges of curves that face others across a region nearer than `rows` times the size. Beside
+/// each, the size fits a gap which holds so many rows, though it is no less than a twentieth of the size
+/// before. Near a corner between the curves there is no gap.
 std::vector<LocalSize> gap_spots(const PlanarDomain& domain, const SizeField& size, double rows);
 
 }  // namespace delquad

@@ -28,7 +28,7 @@ struct Hole {
   double length() const;
   Vec3 middle() const;
 };
-/// The diameter; nothing of what has corners or is not convex.
+/// Returns the diameter; nothing of what has corners or is not convex.
 std::optional<double> hole_diameter(const std::vector<Vec3>& outline);
 
 /// How far a hole is from all else that bounds its region.
@@ -39,7 +39,8 @@ class HoleClearance {
     int hole = -1;  ///< that gets rows, too
   };
   explicit HoleClearance(std::vector<Wall> walls);
-  /// From other walls, and from other holes with rows; as much as `reach` where there is nothing.
+  /// Returns the distances from other walls, and from other holes with rows; as much as `reach` where there
+  /// is nothing.
   std::array<double, 2> around(const Hole& hole, int number, double reach) const;
 
  private:
@@ -53,20 +54,20 @@ struct HoleRows {
   double height = 0;       ///< of each
   std::vector<int> edges;  ///< on each part of the outline
 };
-/// The range that a hole falls into; null: none.
+/// Returns the range that a hole falls into; null: none.
 const WasherSpec* washer_of(const std::vector<WasherSpec>& washers, const Hole& hole);
-/// The size at the rim of a hole: `size`, or less if curvature asks for more edges. Edges that are given
-/// stay. A warning tells which of them gives way.
+/// Returns the size at the rim of a hole: `size`, or less if curvature asks for more edges. Edges that are
+/// given stay. A warning tells which of them gives way.
 double rim_size(const Hole& hole, const WasherSpec& washer, const SizeSpec& spec, double size,
                 std::vector<Warning>& warnings);
-/// Whether edges are about as long as the size: neither shorter nor longer than a sheet allows.
+/// Returns whether edges are about as long as the size: neither shorter nor longer than a sheet allows.
 bool edge_fits(double length, double size);
-/// Edges of parts with these lengths; opposite parts of equal lengths get equal numbers.
+/// Returns the edges of parts with these lengths; opposite parts of equal lengths get equal numbers.
 std::vector<int> share_edges(const std::vector<double>& parts, int edges);
-/// Fewer and lower rows where there is less room, and where edges around the last row would be longer than
-/// fits. To walls a row is left free, and between two holes with rows one, too. Another number of edges, the
-/// next in ratio, where no rows of 0.6 of their height fit this one, or edges of the rim. Nothing where none
-/// does. Warnings tell of all.
+/// Returns the rows of a hole, fewer and lower where there is less room. So they are where edges around the
+/// last row would be longer than fits. To walls a row is left free, and between two holes with rows one, too.
+/// Another number of edges, the next in ratio, where no rows of 0.6 of their height fit this one, or edges of
+/// the rim. Nothing where none does. Warnings tell of all.
 std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSpec& washer, double size,
                                     const HoleClearance& room, std::vector<Warning>& warnings);
 

@@ -40,7 +40,7 @@ class SurfaceWashers {
   /// Adds the rings to the lines that are to be imprinted. Warnings, of the model, tell of holes that get
   /// other rows than asked for, or none.
   void plan(const PointSize& size);
-  /// Once they are imprinted: parts the faces, and divides the fillets.
+  /// Parts the faces, and divides the fillets.
   void cut();
   /// Takes the divisions that were added out again that are of curves of a face, which cannot be meshed with
   /// them. Returns whether there were some.

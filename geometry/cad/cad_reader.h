@@ -64,9 +64,9 @@ struct CadOptions {
 SurfaceModel read_cad(const CadModel& model, const CadOptions& options = {});
 SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& options = {});
 
-/// The program that does it (see find_worker()); empty: there is none, and nothing can be read.
+/// Returns the program that does it (see find_worker()); empty: there is none, and nothing can be read.
 std::filesystem::path cad_program();
-/// The library with the kernel, which is loaded when needed; empty: there is none.
+/// Returns the library with the kernel, which is loaded when needed; empty: there is none.
 std::filesystem::path cad_library();
 
 }  // namespace delquad

@@ -12,8 +12,8 @@
 
 namespace delquad::cad {
 
-/// The program that works on CAD files: what DELQUAD_CAD_WORKER names, else what set_cad_worker() was given,
-/// else see find_program().
+/// Returns the program that works on CAD files: what DELQUAD_CAD_WORKER names, else what set_cad_worker() was
+/// given, else see find_program().
 std::filesystem::path find_worker();
 
 /// The task of a worker: to read, heal and triangulate a shape.
@@ -29,7 +29,7 @@ struct CadRequest {
   std::vector<int> late_faces = {};  ///< ascending
 };
 
-/// As bytes, and back. Throws InputError for the bytes of a program of another version.
+/// Turns a request into bytes, and back. Throws InputError for the bytes of a program of another version.
 std::string to_bytes(const CadRequest& request);
 CadRequest request_from(const std::string& bytes);
 

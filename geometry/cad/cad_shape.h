@@ -22,12 +22,12 @@
 
 namespace delquad::cad {
 
-/// A shape as all its instances know it, wherever they are placed.
+/// Returns a shape as all its instances know it, wherever they are placed.
 inline TopoDS_Shape unplaced(const TopoDS_Shape& shape) { return shape.Located(TopLoc_Location()); }
 
 inline Vec3 vec_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
-/// Whether an edge bounds the face that has it: others stand in it, or belong to it by name only.
+/// Returns whether an edge bounds the face that has it: others stand in it, or belong to it by name only.
 inline bool is_boundary(const TopoDS_Shape& edge) {
   return edge.Orientation() == TopAbs_FORWARD || edge.Orientation() == TopAbs_REVERSED;
 }
@@ -71,7 +71,7 @@ inline TopoDS_Compound empty_compound() {
   return compound;
 }
 
-/// The faces, edges, vertices or solids of a shape, each once, in the kernel's order.
+/// Returns the faces, edges, vertices or solids of a shape, each once, in the kernel's order.
 inline TopTools_IndexedMapOfShape parts(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
   TopTools_IndexedMapOfShape map;
   TopExp::MapShapes(shape, kind, map);

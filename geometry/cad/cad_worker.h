@@ -7,11 +7,11 @@
 
 namespace delquad::cad {
 
-/// Version of the OpenCASCADE that is at work here, such as "7.6.3".
+/// Returns the version of the OpenCASCADE that is at work here, such as "7.6.3".
 std::string kernel_version();
 
-/// The life of a worker process: it answers the one request that comes through the socket. On damaged files
-/// the kernel crashes, follows broken references or runs in circles: nobody but this process suffers. It ends
+/// Runs a worker process, which answers the one request that comes through the socket. On damaged files the
+/// kernel crashes, follows broken references or runs in circles: nobody but this process suffers. It ends
 /// when its parent, the process of this number, does.
 [[noreturn]] void run_worker(int socket, int parent);
 

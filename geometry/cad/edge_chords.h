@@ -17,15 +17,15 @@ class EdgeChords {
  public:
   EdgeChords(const TopoDS_Shape& shape, double deflection, double angle);
 
-  /// Ascending, at least two.
+  /// Returns the parameters of an edge, ascending, at least two.
   const std::vector<double>& of(const TopoDS_Edge& edge);
   /// Halves the chord between the parameters k and k + 1. False when nothing lies between them, or there may
   /// be no point.
   bool halve(const TopoDS_Edge& edge, int k);
-  /// From now on no point between an edge's ends lies within the tolerances of both edge and end. The kernel
-  /// does not tell such points from the end. Small closed edges stay.
+  /// Moves points of an edge, so that none between its ends lies within the tolerances of both edge and end.
+  /// The kernel does not tell such points from the end. Small closed edges stay.
   void keep_off_ends(const TopoDS_Edge& edge);
-  /// The faces (not placed) that an edge bounds.
+  /// Returns the faces (not placed) that an edge bounds.
   const TopTools_ListOfShape& faces_of(const TopoDS_Edge& edge) const;
 
  private:

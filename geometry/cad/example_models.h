@@ -19,7 +19,7 @@ enum class CadFormat { kStep, kBrep };
 /// STEP only. Throws InputError for unknown names, and where the program was built without OpenCASCADE.
 void write_example(const std::string& name, CadFormat format, std::ostream& out);
 
-/// An example as read_cad() would read it from a STEP file. Throws as write_example().
+/// Returns an example as read_cad() would read it from a STEP file. Throws as write_example().
 SurfaceModel read_example(const std::string& name, const CadOptions& options = {});
 
 }  // namespace delquad

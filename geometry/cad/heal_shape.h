@@ -29,14 +29,15 @@ void heal_shape(CadShape& cad, double tolerance);
 /// edges.
 bool drop_strips(CadShape& cad, const std::vector<int>& faces);
 
-/// The kernel's reader of STEP turns some faces with a pole inside over. It moves their edges by a period in
-/// (u, v) until they fit. The face then is the other part of the sphere and more, going around more than
-/// once. Such faces are turned back, where that makes them fit into a period; a warning tells how many.
+/// Turns faces back that the kernel's reader of STEP turned over, because they have a pole inside. It moves
+/// their edges by a period in (u, v) until they fit. The face then is the other part of the sphere and more,
+/// going around more than once. Such faces are turned back, where that makes them fit into a period; a
+/// warning tells how many.
 void unwind_faces(CadShape& cad);
 
-/// The edges that bound no face, both inside of faces and beside all, as polylines, and the vertices that no
-/// edge has. Polylines are no further than `deflection` (a length) from their edges. Edges without a curve
-/// and infinite ones are left to others.
+/// Returns the edges that bound no face, both inside of faces and beside all, as polylines, and the vertices
+/// that no edge has. Polylines are no further than `deflection` (a length) from their edges. Edges without a
+/// curve and infinite ones are left to others.
 std::vector<LooseLine> loose_edges(const CadShape& cad, double deflection);
 
 /// Takes edges and vertices inside of one face alone out of it: the kernel fails to triangulate some faces
@@ -50,14 +51,14 @@ void drop_inner_edges(CadShape& cad);
 /// if the kernel cannot do it or a body gets lost.
 void glue_shape(CadShape& cad, double tolerance);
 
-/// The solids, then the shells outside of them, then the faces outside of these.
+/// Returns the solids, then the shells outside of them, then the faces outside of these.
 TopTools_ListOfShape bodies_of(const TopoDS_Shape& shape);
 
 /// Reads, heals and triangulates a shape in a worker process: on damaged files the kernel follows broken
 /// references or runs in circles. Throws InputError and Cancelled.
 CadShape prepare_shape(const CadModel& model, const CadOptions& options);
 
-/// The same for a shape as it was made.
+/// Returns the same for a shape as it was made.
 CadShape prepare_shape(const CadShape& shape, const CadOptions& options);
 
 }  // namespace delquad::cad

@@ -37,8 +37,9 @@ struct LooseJoints {
 LooseJoints loose_joints(const SurfaceModel& model, const TopTools_IndexedMapOfShape& faces,
                          const std::vector<std::vector<int>>& shells, const JointOptions& options);
 
-/// Where faces that do not hang together share a vertex, and for one of them it is no end of a curve. It is a
-/// single point inside of that face, or the pole of a sphere. No node of a mesh joins them there.
+/// Returns the places where faces that do not hang together share a vertex, and for one of them it is no end
+/// of a curve. It is a single point inside of that face, or the pole of a sphere. No node of a mesh joins
+/// them there.
 std::vector<LooseJoint> joints_at_points(const TopTools_IndexedMapOfShape& faces);
 
 }  // namespace delquad::cad

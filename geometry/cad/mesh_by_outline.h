@@ -36,14 +36,14 @@ struct OutlineChord {
   int passage, k;
 };
 
-/// The outline of a face that is not placed and looks forward. Ends of edges that meet are one point: those
-/// of a vertex that are nearest to each other in the parameter plane. `collapses`: without degenerate edges
-/// that are not at a pole, but lead through the tolerance of a vertex. Throws InputError where an end finds
-/// none.
+/// Returns the outline of a face that is not placed and looks forward. Ends of edges that meet are one point:
+/// ends at a vertex that are nearest to each other in the parameter plane. `collapses`: without degenerate
+/// edges that are not at a pole, but lead through the tolerance of a vertex. Throws InputError where an end
+/// finds none.
 FaceOutline outline_of(const TopoDS_Face& face, EdgeChords& chords, bool collapses);
 
-/// The chords from point to point in the direction of the wires, the face on their left; edges inside the
-/// face in both directions. `scale` multiplies parameters.
+/// Returns the chords from point to point in the direction of the wires, the face on their left; edges inside
+/// the face in both directions. `scale` multiplies parameters.
 PatchBoundary boundary_of(const FaceOutline& outline, Vec2 scale);
 
 /// Chords that cross, overlap, or touch elsewhere than at their ends.

@@ -14,10 +14,10 @@ namespace delquad::cad {
 /// Reads STEP, IGES or BREP, by content; silences the kernel for good. Throws InputError without the name of
 /// the file, also for files of which a part cannot be read, unless options.keep_going leaves it out.
 CadShape read_shape(const std::filesystem::path& path, const CadOptions& options);
-/// The same from the contents of such a file.
+/// Returns the same from the contents of such a file.
 CadShape read_shape_bytes(const std::string& bytes, const CadOptions& options);
 
-/// A shape with its triangulation, names and warnings as bytes, exactly, and back.
+/// Returns a shape with its triangulation, names and warnings as bytes, exactly, and back.
 std::string to_bytes(const CadShape& cad);
 CadShape from_bytes(const std::string& bytes);
 

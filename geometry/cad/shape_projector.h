@@ -12,8 +12,8 @@
 
 namespace delquad::cad {
 
-/// Nearest points of the true surfaces and curves. There are closed forms on planes, cylinders, cones,
-/// spheres and tori; elsewhere Newton's method starts from the nearest fine triangle or line. A face's
+/// Returns the nearest points of the true surfaces and curves. There are closed forms on planes, cylinders,
+/// cones, spheres and tori; elsewhere Newton's method starts from the nearest fine triangle or line. A face's
 /// surface is taken near the face, not cut off at its boundary. `tolerance` is a length.
 std::shared_ptr<const SurfaceProjector> make_projector(std::vector<FaceMesh> faces,
                                                        const std::vector<CurveMesh>& curves,

@@ -24,7 +24,7 @@ struct FaceMesh {
       triangles;  ///< counterclockwise about the face's normal as its shell sees it
 };
 
-/// "face 12 (lid)", by its number and first name.
+/// Returns "face 12 (lid)", by its number and first name.
 std::string face_title(int number, const std::vector<std::string>& names);
 
 /// Triangulates the faces of a shape, but the late ones; the kernel keeps the triangulation in the shape.

@@ -56,14 +56,15 @@ WeldedFaces weld_usable(std::vector<FaceMesh>& meshes, const TopTools_IndexedMap
 double repair_face(const std::vector<Vec3>& points, const std::vector<std::array<int, 2>>& boundary,
                    std::vector<std::array<int, 3>>& triangles);
 
-/// Two faces that share more than one curve, or nodes at its ends only, may both have a side between the same
-/// two nodes. One or both of these sides are inside, and each is its own way over the surface. Such inner
-/// sides get a node on their middle, so that an edge of the mesh tells the sides of its two triangles.
-/// `boundary`: the sides (lower node first) that edges of each face have, sorted. Returns the new points.
+/// Gives sides that two faces both have a node each. Two faces that share more than one curve, or nodes at
+/// its ends only, may both have a side between the same two nodes. One or both of these sides are inside, and
+/// each is its own way over the surface. Such inner sides get a node on their middle, so that an edge of the
+/// mesh tells the sides of its two triangles. `boundary`: the sides (lower node first) that edges of each
+/// face have, sorted. Returns the new points.
 std::vector<PointInside> split_duplicate_sides(Mesh& mesh,
                                                const std::vector<std::vector<std::array<int, 2>>>& boundary);
 
-/// True when no side belongs to more than two of the triangles.
+/// Returns whether no side belongs to more than two of the triangles.
 bool is_manifold(const std::vector<std::array<int, 3>>& triangles);
 
 }  // namespace delquad::cad

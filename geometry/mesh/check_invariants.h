@@ -12,10 +12,10 @@
 
 namespace delquad {
 
-/// check_invariants() of meshes of branching surfaces: on edges of the marked curves (by index) any number of
-/// elements may meet.
+/// Runs check_invariants() on meshes of branching surfaces: on edges of the marked curves (by index) any
+/// number of elements may meet.
 std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<char>& branching);
-/// The same of a mesh whose indices are in range, with its sorted_half_edges().
+/// Returns the same of a mesh whose indices are in range, with its sorted_half_edges().
 std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<char>& branching,
                                           std::span<const HalfEdge> sides);
 

@@ -33,14 +33,15 @@ class DelaunayKernel {
   const std::vector<Vec2>& points() const { return points_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
-  /// The triangle that holds x, found by a visibility walk from `start`; -1 when the walk leaves the domain.
+  /// Returns the triangle that holds x, found by a visibility walk from `start`; -1 when the walk leaves the
+  /// domain.
   int locate(Vec2 x, int start) const;
 
   /// Finds the triangles whose circumcircles contain x, which lies in `triangle`. False when x cannot be
   /// connected to the whole shell (it lies on the boundary or on a vertex). Nothing changes until insert().
   bool find_cavity(Vec2 x, int triangle);
   std::span<const int> cavity() const { return cavity_; }
-  /// Counterclockwise.
+  /// Returns the edges of the shell, counterclockwise.
   std::span<const ShellEdge> shell() const { return shell_; }
 
   /// Replaces the last cavity by the star of x, whose index is points().size() - 1 afterwards. Returns the

@@ -11,7 +11,7 @@
 
 namespace delquad {
 
-/// Named points and pairs of periodic nodes get new numbers; they go if their points are gone (-1).
+/// Gives named points and pairs of periodic nodes new numbers; they go if their points are gone (-1).
 inline void renumber_nodes(Mesh& mesh, const std::vector<int>& renamed) {
   std::erase_if(mesh.named_points, [&](const NamedPoint& named) { return renamed[named.point] < 0; });
   for (NamedPoint& named : mesh.named_points) named.point = renamed[named.point];

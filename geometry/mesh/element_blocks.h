@@ -40,12 +40,12 @@ class ElementBlocks {
   std::size_t size() const { return own_.size(); }
   /// The elements of a block, near ones close to each other.
   std::span<const int> operator[](std::size_t block) const { return own_[block]; }
-  /// Whether the one block is all elements, in their order.
+  /// Returns whether the one block is all elements, in their order.
   bool is_whole() const { return pass_ == Pass::kWhole; }
   bool has_element(std::size_t element) const { return taken_[element] != 0; }
-  /// The block that a vertex belongs to; negative: none.
+  /// Returns the block that a vertex belongs to; negative: none.
   int owner(std::size_t vertex) const { return owner_[vertex]; }
-  /// Whether there is still work to do at a vertex: in the first pass everywhere, then near its cuts.
+  /// Returns whether there is still work to do at a vertex: in the first pass everywhere, then near its cuts.
   bool is_near(std::size_t vertex) const { return near_.empty() || near_[vertex] != 0; }
   /// Vertices get other numbers before the next pass (-1: gone); there are `n` then.
   void renumber(std::span<const int> numbers, std::size_t n);

@@ -23,17 +23,18 @@ struct KeptNames {
 /// Returns the title of a region in messages.
 std::string region_label(const Entity& region);
 
-/// Whether a region has that name, or number as in files: "region_2".
+/// Returns whether a region has that name, or number as in files: "region_2".
 bool has_name(const Entity& region, const std::string& name);
 
 /// Returns the title of a curve in messages: its first name, or its number.
 std::string curve_title(const Entity& curve);
 
-/// The indices of those with that name, or of that number as it is in files. `kind`: "curve" or "region".
+/// Returns the indices of those with that name, or of that number as it is in files. `kind`: "curve" or
+/// "region".
 std::vector<int> entities_named(const std::vector<Entity>& entities, const std::string& kind,
                                 const std::string& name);
 
-/// The same. Throws InputError, beginning with `where`, for a name that none has.
+/// Returns the same. Throws InputError, beginning with `where`, for a name that none has.
 std::vector<int> find_entities(const std::vector<Entity>& entities, const std::string& kind,
                                const std::string& name, const std::string& where);
 

@@ -29,7 +29,7 @@ using MayCross = std::function<bool(int, int)>;
 std::vector<Crossing> find_crossings(const std::vector<Vec3>& points,
                                      const std::vector<std::array<int, 3>>& triangles,
                                      const MayCross& may_cross, double contact = 0);
-/// The first of them.
+/// Returns the first of them.
 std::optional<Crossing> find_crossing(
     const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>& triangles,
     const MayCross& may_cross = [](int, int) { return false; });

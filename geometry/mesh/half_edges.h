@@ -22,7 +22,7 @@ struct HalfEdge {
   int element;   ///< triangles first, then quads
   bool forward;  ///< the element runs from lo to hi
 
-  /// Its ends, as the element runs.
+  /// Returns its ends, as the element runs.
   std::array<int, 2> run() const { return forward ? std::array{lo, hi} : std::array{hi, lo}; }
 };
 
@@ -34,14 +34,14 @@ void for_each_element(const Mesh& mesh, Visit visit) {
   for (const auto& v : mesh.quads) visit(element++, v);
 }
 
-/// The region of an element, triangles first.
+/// Returns the region of an element, triangles first.
 inline int region_of(const Mesh& mesh, int element) {
   const int n_triangles = static_cast<int>(mesh.triangles.size());
   return element < n_triangles ? mesh.triangle_region[element] : mesh.quad_region[element - n_triangles];
 }
 
-/// All sides of all elements, sorted by (lo, hi, element): the sides of one edge follow each other. Indices
-/// must be in range.
+/// Returns all sides of all elements, sorted by (lo, hi, element): the sides of one edge follow each other.
+/// Indices must be in range.
 inline std::vector<HalfEdge> sorted_half_edges(const Mesh& mesh) {
   std::vector<int> start(mesh.points.size() + 1, 0);
   for_each_element(mesh, [&](int, const auto& v) {
@@ -68,7 +68,7 @@ inline std::vector<HalfEdge> sorted_half_edges(const Mesh& mesh) {
   return sides;
 }
 
-/// The sides of the edge between two points; none where no element has it.
+/// Returns the sides of the edge between two points; none where no element has it.
 inline std::span<const HalfEdge> sides_of_edge(std::span<const HalfEdge> sides, int a, int b) {
   const auto key = std::pair(std::min(a, b), std::max(a, b));
   const auto first = std::lower_bound(sides.begin(), sides.end(), key, [](const HalfEdge& s, const auto& k) {

@@ -14,7 +14,7 @@ namespace delquad {
 class NearestOnRegions {
  public:
   explicit NearestOnRegions(const Mesh& mesh);
-  /// The point of a region nearest to x; x itself where it has no triangles.
+  /// Returns the point of a region nearest to x; x itself where it has no triangles.
   Vec3 place(int region, const Vec3& x) const;
 
  private:

@@ -26,7 +26,7 @@ class NearestTriangle {
   };
   /// Triangles further than `reach` from x are not looked at.
   Found find(const Vec3& x, double reach = std::numeric_limits<double>::infinity()) const;
-  /// The same without bound, faster where x is in or near triangle `guess` (-1: no guess).
+  /// Returns the same without bound, faster where x is in or near triangle `guess` (-1: no guess).
   Found find_from(int guess, const Vec3& x) const;
   const std::array<int, 3>& triangle(int t) const { return triangles_[t]; }
 

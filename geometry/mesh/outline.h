@@ -7,10 +7,11 @@
 
 namespace delquad {
 
-/// Whether some triangle or quad does not lie in the plane of constant z of the first.
+/// Returns whether some triangle or quad does not lie in the plane of constant z of the first.
 bool holds_surface(const Mesh& mesh);
 
-/// The boundary of a mesh as lines alone: its own lines, or the sides of one element only when it has none.
+/// Returns the boundary of a mesh as lines alone: its own lines, or the sides of one element only when it has
+/// none.
 Mesh outline(const Mesh& mesh);
 
 }  // namespace delquad

@@ -24,7 +24,7 @@ struct QuadBlock {
   std::vector<char> near;       ///< by point: 1 where there is work to do; empty: everywhere
   std::vector<int> whole = {};  ///< the point of the whole mesh, by boundary point
 
-  /// Points that are made later are near.
+  /// Returns whether a point is near a cut. Points that are made later are near.
   bool is_near(int v) const { return static_cast<std::size_t>(v) >= near.size() || near[v] != 0; }
 };
 
@@ -33,12 +33,12 @@ class QuadBlocks {
  public:
   explicit QuadBlocks(QuadPatch mesh) : mesh_(std::move(mesh)) {}
 
-  /// The blocks of the next pass, disjoint; none when all places have been in one. A mesh with corners that
-  /// are no points is one block, for others to refuse.
+  /// Returns the blocks of the next pass, disjoint; none when all places have been in one. A mesh with
+  /// corners that are no points is one block, for others to refuse.
   std::vector<QuadBlock> next();
   /// Takes the blocks of this pass back, with the same boundary points.
   void put_back(std::vector<QuadBlock> blocks);
-  /// The mesh: its boundary's points in their order.
+  /// Returns the mesh: its boundary's points in their order.
   QuadPatch take() { return std::move(mesh_); }
 
  private:

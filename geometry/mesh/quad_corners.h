@@ -16,7 +16,7 @@ namespace delquad {
 /// A side shorter than this counts as this long: no division by 0.
 inline constexpr double kTinyLength = 1e-300;
 
-/// Normal of a quad from its diagonals; of no use in the plane.
+/// Returns the normal of a quad from its diagonals; of no use in the plane.
 inline Vec2 quad_normal(Vec2, Vec2) { return {}; }
 inline Vec3 quad_normal(const Vec3& first, const Vec3& second) { return cross(first, second); }
 
@@ -27,7 +27,7 @@ struct QuadCorner;
 template <>
 struct QuadCorner<Vec2> {
   QuadCorner(Vec2 in, Vec2 out, Vec2 /*normal*/) : sine(cross(in, out)) {}
-  /// A vector turned by 90 degrees in the corner's plane.
+  /// Returns a vector turned by 90 degrees in the corner's plane.
   Vec2 quarter_turn(Vec2 v) const { return perp(v); }
   double sine;  ///< negative where the corner turns against the normal
 };
@@ -42,7 +42,7 @@ struct QuadCorner<Vec3> {
   double sine;
 };
 
-/// eta of a quad whose worst corner is so far from a right angle [equation (4)]; radians.
+/// Returns eta of a quad whose worst corner is so far from a right angle [equation (4)]; radians.
 inline double eta_of_deviation(double radians) { return 1 - radians * 2 / std::numbers::pi; }
 
 /// Returns eta of a quad by the sine of its worst corner. It is 1 for 90 degrees, 0 for 0 and for 180, and
@@ -56,7 +56,7 @@ inline double sine_of_eta(double eta) { return std::sin(eta * std::numbers::pi /
 /// below 0.1, half of the angle over 90 degrees.
 inline constexpr double kLeastSharedAngle = 18 * std::numbers::pi / 180;
 
-/// How many quads best share an angle of the boundary that is so many right angles wide.
+/// Returns how many quads best share an angle of the boundary that is so many right angles wide.
 inline int ideal_quads(double right_angles) {
   return std::max(1, static_cast<int>(std::lround(right_angles)));
 }
@@ -70,7 +70,8 @@ inline constexpr double kShortSide = 0.1, kKeptSide = 1.25 * kShortSide;
 /// shortest side. Then come eta of corners from 40 to 140 degrees, and the warpage (quad_warp(), radians).
 inline constexpr double kBatchShort = 0.33, kBatchLong = 1.75, kBatchAspect = 5, kBatchEta = 4.0 / 9,
                         kBatchWarp = std::numbers::pi / 9;
-/// Whether a quad is beyond that. `shortest`, `longest`: sides over the wanted size; `sine`: the least.
+/// Returns whether a quad is beyond that. `shortest`, `longest`: sides over the wanted size; `sine`: the
+/// least.
 inline bool is_beyond_batch(double shortest, double longest, double aspect, double sine) {
   static const double batch_sine = sine_of_eta(kBatchEta);
   return shortest < kBatchShort || longest > kBatchLong || aspect > kBatchAspect || sine < batch_sine;
@@ -80,7 +81,7 @@ inline constexpr double kShortWall = 0.4, kLongWall = 1.65;
 
 /// Sines of an element's corners, negative where reflex or inverted; a triangle's fourth is 1.
 std::array<double, 4> corner_sines(const QuadTopology& mesh, int element);
-/// The least of them.
+/// Returns the least of them.
 double least_sine(const QuadTopology& mesh, int element);
 
 /// Sines of a quad's corners.

@@ -27,21 +27,21 @@ class QuadTopology {
   /// The boundary's points from `first_held` on are held, see QuadBlock.
   QuadTopology(const QuadPatch& mesh, int first_held);
 
-  /// Boundary points first, then live interior ones, each in the order of their creation; live elements
-  /// likewise.
+  /// Returns the mesh: boundary points first, then live interior ones, each in the order of their creation;
+  /// live elements likewise.
   QuadPatch to_patch() const;
 
   int vertex_slots() const { return static_cast<int>(points_.size()); }
   int element_slots() const { return static_cast<int>(corner_.size() / 4); }
   bool vertex_alive(int v) const { return out_[v] >= 0; }
   bool alive(int element) const { return corner_[4 * element] >= 0; }
-  /// False for triangles and for dead slots.
+  /// Returns whether the element is a quad; false for triangles and for dead slots.
   bool is_quad(int element) const { return corner_[4 * element + 3] >= 0; }
   bool on_boundary(int v) const { return v < n_boundary_; }
-  /// On the boundary, and other meshes have elements there.
+  /// Returns whether the vertex is on the boundary, and other meshes have elements there.
   bool held(int v) const { return v < n_boundary_ && v >= first_held_; }
   bool any_held() const { return first_held_ < n_boundary_; }
-  /// Whether v or one of its neighbors is held.
+  /// Returns whether v or one of its neighbors is held.
   bool near_held(int v) const {
     bool near = held(v);
     if (any_held()) for_each_out(v, [&](int h) { near |= held(target(h)) || held(origin(prev(h))); });
@@ -49,7 +49,7 @@ class QuadTopology {
   }
 
   static int element(int h) { return h >> 2; }
-  /// -1 for the fourth of a triangle.
+  /// Returns a corner of an element; -1 for the fourth of a triangle.
   int corner(int element, int k) const { return corner_[4 * element + k]; }
   int origin(int h) const { return corner_[h]; }
   int target(int h) const { return corner_[next(h)]; }
@@ -59,11 +59,12 @@ class QuadTopology {
     return k == 3 || (k == 2 && corner_[h + 1] < 0) ? h - k : h + 1;
   }
   int prev(int h) const { return (h & 3) != 0 ? h - 1 : corner_[h + 3] < 0 ? h + 2 : h + 3; }
-  /// A half-edge that leaves v; the boundary's own one for a boundary vertex.
+  /// Returns a half-edge that leaves v; the boundary's own one for a boundary vertex.
   int out(int v) const { return out_[v]; }
-  /// The half-edge after h counterclockwise around its origin; -1 past the last element of a boundary vertex.
+  /// Returns the half-edge after h counterclockwise around its origin; -1 past the last element of a boundary
+  /// vertex.
   int around(int h) const { return twin_[prev(h)]; }
-  /// How many elements meet at v.
+  /// Returns how many elements meet at v.
   int valence(int v) const { return valence_[v]; }
   Vec2 point(int v) const { return points_[v]; }
   bool adjacent(int a, int b) const;
@@ -78,37 +79,38 @@ class QuadTopology {
     } while (h >= 0 && h != out_[v]);
   }
 
-  /// The hexagon of the two quads at an interior edge, counterclockwise: h's target first, its origin fourth.
+  /// Returns the hexagon of the two quads at an interior edge, counterclockwise: h's target first, its origin
+  /// fourth.
   std::array<int, 6> hexagon(int h) const;
-  /// Both elements are quads and the rotated edge would be a new one.
+  /// Returns whether both elements are quads and the rotated edge would be a new one.
   bool can_rotate(int h, bool counterclockwise) const;
   /// Turns edge h within its hexagon: its ends go to the next corners (counterclockwise or clockwise).
   /// Half-edges of both quads get other places; returns the new edge's half-edge in h's element.
   int rotate(int h, bool counterclockwise);
 
-  /// Both elements at h are quads and no two of their corners are the same.
+  /// Returns whether both elements at h are quads and no two of their corners are the same.
   bool can_open(int h) const;
   /// Turns edge h as rotate() does and opens it to two more quads. The next corners get an edge each to a new
   /// vertex, h's ends keep theirs, one to each of the two. These are the last slots.
   void open(int h, bool counterclockwise);
 
-  /// The opposite corner of h's quad can be merged into h's origin.
+  /// Returns whether the opposite corner of h's quad can be merged into h's origin.
   bool can_collapse(int h) const;
   /// Removes h's quad by merging its opposite corner (interior) into h's origin, which keeps its place.
   void collapse(int h);
 
-  /// Half-edges `from` and `to` leave one vertex, by interior edges, with at least two elements on either
-  /// side (one suffices on the side that holds a boundary).
+  /// Returns whether half-edges `from` and `to` leave one vertex, by interior edges, with at least two
+  /// elements on either side. One suffices on the side that holds a boundary.
   bool can_split(int from, int to) const;
-  /// The inverse of collapse(): opens both edges to a new quad. The elements from `from`'s counterclockwise
-  /// to the one before `to`'s leave the vertex for a new one, the last slot, at the same place.
+  /// Inverts collapse(): opens both edges to a new quad. The elements from `from`'s counterclockwise to the
+  /// one before `to`'s leave the vertex for a new one, the last slot, at the same place.
   void split(int from, int to);
 
   bool can_remove_doublet(int v) const;
   /// Removes an interior vertex between two elements, which become one.
   void remove_doublet(int v);
 
-  /// The outline of these quads passes no vertex twice.
+  /// Returns whether the outline of these quads passes no vertex twice.
   bool can_pillow(std::span<const int> quads) const;
   /// Shrinks the quads and fills the gap with a ring of quads, one for each side of their outline. The new
   /// vertices, one for each on the outline, are the last slots. A single quad becomes five.

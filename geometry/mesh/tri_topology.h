@@ -9,7 +9,7 @@
 
 namespace delquad {
 
-/// The side of triangle t that faces triangle u, -1 when they share none.
+/// Returns the side of triangle t that faces triangle u, -1 when they share none.
 int facing_side(const TriPatch& tri, int t, int u);
 
 /// Finds the neighbors of all triangles, by their corners.
@@ -35,7 +35,7 @@ class TriTopology {
  public:
   explicit TriTopology(TriPatch tri);
 
-  /// Without what is dead.
+  /// Returns the mesh without its dead slots.
   TriPatch to_patch() const;
 
   int triangle_slots() const { return static_cast<int>(tri_.triangles.size()); }
@@ -45,21 +45,22 @@ class TriTopology {
   bool on_boundary(int i) const { return i < tri_.n_boundary; }
   const Vec2& point(int i) const { return tri_.points[i]; }
   void move(int i, Vec2 to) { tri_.points[i] = to; }
-  /// The vertex at corner k, where k may be 3 or 4 for 0 and 1.
+  /// Returns the vertex at corner k, where k may be 3 or 4 for 0 and 1.
   int vertex(int t, int k) const { return tri_.triangles[t][k % 3]; }
-  /// The triangle across side k; -1: boundary.
+  /// Returns the triangle across side k; -1: boundary.
   int across(int t, int k) const { return tri_.neighbours[t][k]; }
-  /// The corner of u opposite of its side to t.
+  /// Returns the corner of u opposite of its side to t.
   int facing(int u, int t) const { return facing_side(tri_, u, t); }
 
-  /// The corners at an inner vertex, counterclockwise.
+  /// Collects the corners at an inner vertex, counterclockwise.
   void star(int i, std::vector<TriCorner>& corners) const;
-  /// The corner opposite of an edge in a triangle that has it and a neighbor there; t < 0: there is none.
+  /// Returns the corner opposite of an edge in a triangle that has it and a neighbor there; t < 0: there is
+  /// none.
   TriCorner find_inner_edge(int a, int b) const;
-  /// Whether an edge joins two vertices; boundary edges count.
+  /// Returns whether an edge joins two vertices; boundary edges count.
   bool adjacent(int a, int b) const;
 
-  /// As swap_side() and split_side(); the latter returns the new vertex.
+  /// Edits the mesh as swap_side() and split_side() do; the latter returns the new vertex.
   void swap(int t, int k);
   int split(int t, int k, Vec2 at);
   /// Takes inner vertex `from` out by moving it onto its neighbor `to`; `star` belongs to `from`.

@@ -12,7 +12,7 @@
 
 namespace delquad {
 
-/// Twice the area of a triangle: in space along its normal, in the plane with a sign.
+/// Returns twice the area of a triangle: in space along its normal, in the plane with a sign.
 template <class Vec>
 auto area_vector(const std::vector<Vec>& points, const std::array<int, 3>& v) {
   return cross(points[v[1]] - points[v[0]], points[v[2]] - points[v[0]]);

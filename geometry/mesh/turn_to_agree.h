@@ -23,7 +23,7 @@ struct Turned {
   int clash = -1;                        ///< neighbors that cannot agree, as on a Moebius strip; -1: none
 };
 
-/// Which of `n` elements or faces are to be turned over.
+/// Returns which of `n` elements or faces are to be turned over.
 Turned turn_to_agree(std::size_t n, std::span<const Neighbours> neighbours);
 
 }  // namespace delquad

@@ -13,7 +13,7 @@ namespace delquad {
 /// Points of `mesh` by the names they should go by: name[name[i]] is name[i].
 using PointNames = std::vector<int>;
 
-/// Each point goes by the first with the same coordinates.
+/// Returns names by which each point goes by the first with the same coordinates.
 PointNames names_of_equal_points(const Mesh& mesh);
 /// Ends of open edges, which one triangle or quad only uses, go by the nearest point within `tolerance` (a
 /// length). It is an earlier end that keeps its own name, or a point inside that no side joins to them. All

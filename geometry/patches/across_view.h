@@ -30,9 +30,9 @@ class AcrossView {
   AcrossView(const Mesh& fine, const std::vector<CurveChain>& chains, const std::vector<FlatPatch>& maps,
              const std::vector<PatchOutline>& outlines);
 
-  /// Sides seen within `reach` from a place on a curve, in each patch that it bounds there, where the two
-  /// sides face each other. Corners of the boundary do not count, however the two sides near them meet,
-  /// unless they are cusps.
+  /// Returns the sides seen within `reach` from a place on a curve, in each patch that it bounds there, where
+  /// the two sides face each other. Corners of the boundary do not count, however the two sides near them
+  /// meet, unless they are cusps.
   std::vector<Opposite> look(int chain, double s, double reach) const;
 
  private:

@@ -28,11 +28,11 @@ struct LoopPoint {
 using BoundaryLoop = std::vector<LoopPoint>;
 PatchBoundary make_boundary(const std::vector<BoundaryLoop>& loops);
 
-/// A cone is laid flat by a cut to its tip. Where it is pointed, the corner there takes one quad. Both of its
-/// sides are the same, and that quad would meet itself. Such corners are cut off the boundary, at the first
-/// node of the cut from which enough edges go around the cone. Two quads take their place. In the boundary
-/// three points stand instead of the tip, so that the number of its edges keeps its parity. `add_node` makes
-/// a node at a point of the parameter plane.
+/// Cuts the tips of cones off. A cone is laid flat by a cut to its tip. Where it is pointed, the corner there
+/// takes one quad. Both of its sides are the same, and that quad would meet itself. Such corners are cut off
+/// the boundary, at the first node of the cut from which enough edges go around the cone. Two quads take
+/// their place. In the boundary three points stand instead of the tip, so that the number of its edges keeps
+/// its parity. `add_node` makes a node at a point of the parameter plane.
 std::vector<BoundaryCap> cap_tips(PatchBoundary& boundary, const std::function<int(Vec2)>& add_node);
 
 /// How a cap gets its nodes.

@@ -20,8 +20,8 @@ struct CurveChain {
   bool closed() const { return points.front() == points.back(); }
 };
 
-/// The pieces of all curves, in the curves' order. Throws InputError where the lines of a curve do not form
-/// one chain.
+/// Returns the pieces of all curves, in the curves' order. Throws InputError where the lines of a curve do
+/// not form one chain.
 std::vector<CurveChain> curve_chains(const SurfaceModel& model);
 
 /// How many edges a curve wants and must have.
@@ -39,7 +39,8 @@ struct ChainPair {
   Motion motion;
 };
 
-/// How the curves are to be meshed so that each pair has as many edges: what bounds the one bounds the other.
+/// Returns how the curves are to be meshed so that each pair has as many edges: what bounds the one bounds
+/// the other.
 std::vector<CurveDemand> joined_demands(std::vector<CurveDemand> demands,
                                         const std::vector<ChainPair>& pairs);
 
@@ -62,7 +63,7 @@ struct SizeIntegral {
   };
   std::vector<Entry> entries;
   double total() const { return entries.back().integral; }
-  /// Where the integral reaches this part of the total, and the other way round.
+  /// Returns the place where the integral reaches this part of the total, and the other way round.
   double s_at(double part) const { return interpolated(part * total(), &Entry::integral, &Entry::s); }
   double part_at(double s) const { return interpolated(s, &Entry::s, &Entry::integral) / total(); }
 
@@ -73,8 +74,8 @@ struct SizeIntegral {
 /// The size at x = (1 - t) a + t b of two fine points that are neighbors on a curve.
 using SizeOnLine = std::function<double(int a, int b, double t, const Vec3& x, int& hint)>;
 
-/// Two-point Gauss on pieces of the fine lines that are short against the size. `limits` (if any): what the
-/// size may be at most at each point of the chain, linear between them.
+/// Integrates by two-point Gauss on pieces of the fine lines that are short against the size. `limits` (if
+/// any): what the size may be at most at each point of the chain, linear between them.
 SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const SizeOnLine& size,
                            std::span<const double> limits = {});
 
@@ -89,10 +90,10 @@ SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain
                          const std::vector<int>& cut_face, const std::vector<SizeIntegral>& integrals,
                          const CurvePlaces& places);
 
-/// The point of the fine lines at `s`, as in CurveNode.
+/// Returns the point of the fine lines at `s`, as in CurveNode.
 Vec3 fine_point_at(const Mesh& fine, const CurveChain& chain, double s);
 
-/// The place in space of a node there.
+/// Returns the place in space of a node there.
 Vec3 place_on_curve(const SurfaceModel& model, const CurveChain& chain, const std::vector<int>& cut_face,
                     double s);
 

@@ -13,12 +13,12 @@
 
 namespace delquad {
 
-/// n + 1 or n - 1, whichever is nearer to the integral in ratio and allowed.
+/// Returns n + 1 or n - 1, whichever is nearer to the integral in ratio and allowed.
 int changed_by_one(int n, const CurveDemand& curve);
 
 /// The cost of changing n so.
 using ChangeCost = double (*)(int n, const CurveDemand& curve);
-/// |log((n +- 1) / n)|, more for curves of one or two edges, which splitting distorts most.
+/// Returns |log((n +- 1) / n)|, more for curves of one or two edges, which splitting distorts most.
 double cost_of_change(int n, const CurveDemand& curve);
 
 /// Rounds every curve's integral to a number of edges so that each patch is bounded by an even number of
@@ -34,11 +34,11 @@ std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patch
 /// QuadRelocation: two quads share an edge.
 inline constexpr double kDeviationCost = 1.5 / 2;
 
-/// The sums that are zero around patches which quads without irregular vertices can fill. They use the turns
-/// at corners: a right angle for each quad less than two. With these turns, the boundary of a disk comes back
-/// to its beginning in the grid, along both axes. So does a hole with four concave corners, and both loops of
-/// a ring lead equally far. Patches whose corners make irregular vertices necessary have no sums: these find
-/// their places so that rows need not end.
+/// Returns the sums that are zero around patches which quads without irregular vertices can fill. They use
+/// the turns at corners: a right angle for each quad less than two. With these turns, the boundary of a disk
+/// comes back to its beginning in the grid, along both axes. So does a hole with four concave corners, and
+/// both loops of a ring lead equally far. Patches whose corners make irregular vertices necessary have no
+/// sums: these find their places so that rows need not end.
 std::vector<ClosureSum> closure_sums(const SurfaceCurves& curves, const CurveDemands& wanted);
 
 /// Asks for more edges around small round holes in faces that need four irregular vertices beside each. It

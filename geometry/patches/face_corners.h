@@ -21,7 +21,7 @@ struct FaceCorner {
   int before, after;             ///< curves (chains), in the order of the patch's boundary
   bool before_ends, after_ends;  ///< whether the corner is the chain's last point, not its first
   double angle;  ///< inside the patch, in space: the sum of its fine triangles' angles; radians
-  /// The tip of a cone: both sides are the same.
+  /// Returns whether the corner is the tip of a cone: both sides are the same.
   bool is_tip() const { return before == after && before_ends == after_ends; }
 };
 
@@ -29,7 +29,7 @@ std::vector<FaceCorner> face_corners(const Mesh& fine, const std::vector<CurveCh
                                      const std::vector<FlatPatch>& maps,
                                      const std::vector<PatchOutline>& outlines);
 
-/// The best worst eta of the quads that share a corner of this angle (radians) evenly.
+/// Returns the best worst eta of the quads that share a corner of this angle (radians) evenly.
 double corner_eta_bound(double angle);
 
 /// Corners whose bound is below `eta`.

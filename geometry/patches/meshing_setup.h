@@ -68,7 +68,7 @@ struct SurfaceSetup {
   const std::vector<SurfaceCut>& all_cuts() const { return full_model ? full_model->cuts : cuts; }
 };
 
-/// The maps of all patches.
+/// Returns the maps of all patches.
 std::vector<const FlatPatch*> maps_of(const SurfaceSetup& surface);
 
 /// The model and curves that the patches of a planar domain were made from.
@@ -112,7 +112,7 @@ struct MeshingSetup : Preparation {
       metric_plane;                       ///< in which all of this lies; null: it is the domain's own
   std::optional<GivenWorst> given_worst;  ///< of a GivenMesh with quads
 
-  /// Whether the model is a GivenMesh in space.
+  /// Returns whether the model is a GivenMesh in space.
   bool is_given_surface() const { return surface && surface->given; }
   /// Corners of a surface that forbid a quad an eta of kBadEta.
   std::vector<SharpCorner> sharp_corners() const {

@@ -19,7 +19,7 @@ struct CurveSide {
   int chain, line;  ///< line: the chain's k-th
   bool forward;     ///< runs with the curve
 
-  /// Whether it is the first that a loop meets of its curve.
+  /// Returns whether it is the first that a loop meets of its curve.
   bool begins(const CurveChain& c) const {
     return forward ? line == 0 : line + 2 == static_cast<int>(c.points.size());
   }
@@ -44,8 +44,8 @@ class LineIndex {
   std::unordered_map<long long, Line> lines_;  // only looked up, never iterated
 };
 
-/// The boundary polygon in the parameter plane that the nodes make. `edge_chain` (if any) receives the curve
-/// chain of each edge.
+/// Returns the boundary polygon in the parameter plane that the nodes make. `edge_chain` (if any) receives
+/// the curve chain of each edge.
 PatchBoundary place_boundary(const FlatPatch& map, const PatchOutline& outline,
                              const std::vector<CurveChain>& chains, const SurfaceNodes& nodes,
                              std::vector<int>* edge_chain = nullptr);

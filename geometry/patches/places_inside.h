@@ -15,8 +15,9 @@
 
 namespace delquad {
 
-/// The places in space of the points inside a patch. `points` begins with points of its boundary, whose nodes
-/// are at `nodes` (all of the surface). `sides` are sides of the patch's elements, each once at least.
+/// Returns the places in space of the points inside a patch. `points` begins with points of its boundary,
+/// whose nodes are at `nodes` (all of the surface). `sides` are sides of the patch's elements, each once at
+/// least.
 ///
 /// A node lies on its true curve, off the fine triangulation. Where this is much against the sides at it, as
 /// in a face that is hardly wider, the points inside would end up beyond it. They are shifted along, by the
@@ -29,7 +30,7 @@ inline const std::vector<Vec2>& points_of(const PatchMesh& patch) {
   return patch.form == PatchForm::kTriangles ? patch.triangles.points : patch.quads.points;
 }
 
-/// The places in space of the points inside a patch (by its index); `nodes` belong to the boundaries.
+/// Returns the places in space of the points inside a patch (by its index); `nodes` belong to the boundaries.
 std::vector<Vec3> places_inside(const MeshingSetup& prepared, std::size_t patch, const PatchMesh& mesh,
                                 const std::vector<Vec3>& nodes);
 

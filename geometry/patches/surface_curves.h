@@ -36,7 +36,7 @@ struct SurfaceCurves {
 
 SurfaceCurves find_curves(const SurfaceModel& model, Flattening flattening, const SizeField& size);
 
-/// For each chain the one whose number of edges it has: its master, or itself.
+/// Returns for each chain the one whose number of edges it has: its master, or itself.
 std::vector<int> leaders(const SurfaceCurves& curves);
 
 /// How many edges curves want and must have, by chain.
@@ -51,18 +51,19 @@ struct CurveDemands {
   std::vector<std::vector<double>> divided = {};
 };
 
-/// `size` outlives it.
+/// Makes the size on lines; `size` outlives it.
 SizeOnLine size_on_lines(const SurfaceSize& size);
 
-/// `asked`: the size as the user wants it, of which `size` may be less beside short curves.
+/// Measures the curves. `asked`: the size as the user wants it, of which `size` may be less beside short
+/// curves.
 CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across,
                             const SurfaceSize& size, const SizeField& asked);
 
-/// One for each curve that is much shorter than the size.
+/// Returns a warning for each curve that is much shorter than the size.
 std::vector<Warning> warn_of_short_curves(const Mesh& fine, const std::vector<CurveChain>& chains,
                                           const CurveDemands& wanted);
 
-/// Nodes, lines, curves and regions, once the nodes are those that remain.
+/// Returns a mesh of the nodes, lines, curves and regions, once the nodes are those that remain.
 Mesh boundary_mesh(const Mesh& fine, const std::vector<CurveChain>& chains, const SurfaceNodes& nodes);
 
 std::string face_name(const Mesh& fine, const FlatPatch& map);

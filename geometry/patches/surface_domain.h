@@ -48,7 +48,7 @@ struct SurfaceDomain {
   std::vector<Warning> warnings;
 };
 
-/// Parameter length over length at each vertex of a map, by the areas around.
+/// Returns parameter length over length at each vertex of a map, by the areas around.
 std::vector<double> stretch_of(const FlatPatch& map, const Mesh& fine);
 
 /// delta' of a patch: delta at the point in space, or the size that a tube allows there if less, times the
@@ -66,14 +66,15 @@ class SurfacePatchSize final : public ParametricSize {
   std::vector<double> stretch_;  ///< of each vertex of the map
 };
 
-/// The point of the fine triangulation at u.
+/// Returns the point of the fine triangulation at u.
 Vec3 fine_place(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint);
 
-/// Outward normal of the fine triangles about u, any length. The large ones count most, since the slivers of
-/// a sharp corner may be turned over.
+/// Returns the outward normal of the fine triangles about u, any length. The large ones count most, since the
+/// slivers of a sharp corner may be turned over.
 Vec3 fine_normal(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint);
 
-/// The point of space at u: on the fine triangulation, then projected to the true surface where there is one.
+/// Returns the point of space at u: on the fine triangulation, then projected to the true surface where there
+/// is one.
 Vec3 lift(const SurfacePatch& patch, const SurfaceModel& model, Vec2 u, int& hint);
 
 }  // namespace delquad

@@ -22,13 +22,13 @@ class ArcMeasure {
   ArcMeasure(const Curve& curve, double t0, double t1, const PointSize& size, const std::string& label,
              double most);
 
-  /// To kIntegralTolerance, relative.
+  /// Returns the integral, to kIntegralTolerance, relative.
   double integral() const { return cells_.back().end; }
 
-  /// The parameters of the n - 1 nodes that split the piece in n parts of equal integral, in order; the ends
-  /// are not among them.
+  /// Returns the parameters of the n - 1 nodes that split the piece in n parts of equal integral, in order.
+  /// The ends are not among them.
   std::vector<double> interior_nodes(int n) const;
-  /// The parameters at which the integral from the beginning has these values, which ascend.
+  /// Returns the parameters at which the integral from the beginning has these values, which ascend.
   std::vector<double> nodes_at(const std::vector<double>& targets) const;
 
   static constexpr double kIntegralTolerance = 1e-7;

@@ -37,7 +37,7 @@ struct Arrangement {
 /// O(n log n) whatever the lines.
 Arrangement arrange(const std::vector<Vec2>& points, const std::vector<std::array<int, 2>>& lines);
 
-/// Point at which a side begins.
+/// Returns the point at which a side begins.
 inline int start_of(const std::vector<std::array<int, 2>>& lines, int side) {
   return lines[side / 2][side % 2];
 }

@@ -33,14 +33,14 @@ BoundaryNames names_of_curves(const Mesh& lines, const std::string& source);
 /// bounded face on either side: there the boundary is open.
 Arrangement arrange_lines(const Mesh& lines, const BoundaryNames& names);
 
-/// The edges of a patch's boundary, loop by loop, each from its first point on.
+/// Returns the edges of a patch's boundary, loop by loop, each from its first point on.
 std::vector<std::vector<int>> loops_of_edges(const PatchBoundary& boundary);
 
-/// One line for each patch whose boundary has an odd number of edges: it names the region, its odd loops and
-/// their curves. Such a boundary leaves a triangle when triangles are merged to quads.
+/// Returns one line for each patch whose boundary has an odd number of edges: it names the region, its odd
+/// loops and their curves. Such a boundary leaves a triangle when triangles are merged to quads.
 std::vector<std::string> odd_boundaries(const PlanarDomain& domain);
 
-/// All edges of the patches' boundaries as lines of one curve, with the points of the domain.
+/// Returns all edges of the patches' boundaries as lines of one curve, with the points of the domain.
 Mesh edges_of_patches(const PlanarDomain& domain);
 
 }  // namespace delquad

@@ -40,12 +40,12 @@ struct CurvePiece {
     interior = measure->interior_nodes(n);
   }
   Vec2 node(std::size_t k) const { return images.empty() ? shape->point(interior[k]) : images[k]; }
-  /// From its first or last end a little way along it.
+  /// Returns the direction from its first or last end a little way along it.
   Vec2 leaving(bool from_last) const {
     const double from_end = from_last ? to : from, step = 1e-3 * (from_last ? from - to : to - from);
     return shape->point(from_end + step) - shape->point(from_end);
   }
-  /// Whether its number of edges may change.
+  /// Returns whether its number of edges may change.
   bool is_free() const { return measure && !is_divided && master < 0; }
   std::pair<int, int> sorted_ends() const { return std::minmax(ends[0], ends[1]); }
 };
@@ -54,13 +54,13 @@ struct CurvePiece {
 /// InputError for curves of different loops that touch without an angle between them.
 std::vector<CurvePiece> cut_curves(const PlanarModel& model, const ModelChain& chain);
 
-/// The loops that have each curve of the model.
+/// Returns the loops that have each curve of the model.
 std::vector<std::vector<int>> loops_of_model_curves(const PlanarModel& model, const ModelChain& chain);
 
 /// Ends of pieces at each node.
 std::vector<int> pieces_at_nodes(const std::vector<CurvePiece>& pieces, std::size_t n_nodes);
 
-/// The model's curves with their names and numbers.
+/// Returns the model's curves with their names and numbers.
 std::vector<Entity> curve_entities(const PlanarModel& model);
 
 /// Returns the beginning of messages on a model: its file.

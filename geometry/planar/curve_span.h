@@ -24,14 +24,14 @@ class CurveSpan {
     Vec2 at;
     double distance;
   };
-  /// The place next to x.
+  /// Returns the place next to x.
   Place nearest(Vec2 x) const;
 
   struct Crossing {
     double mine, other;  ///< parameters
     Vec2 at;
   };
-  /// Where the two go through each other; touching is none.
+  /// Returns the places where the two go through each other; touching is none.
   std::vector<Crossing> crossings(const CurveSpan& other) const;
 
  private:

@@ -12,8 +12,8 @@ namespace delquad {
 /// A curve that tells how it was made.
 class DefinedCurve : public Curve {
  public:
-  /// A text that no other curve has, such as "arc" with its center, radius and angles. Numbers keep every
-  /// bit.
+  /// Returns a text that no other curve has, such as "arc" with its center, radius and angles. Numbers keep
+  /// every bit.
   virtual std::string definition() const = 0;
 };
 

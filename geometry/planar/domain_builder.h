@@ -21,10 +21,10 @@ struct SpecialCurves {
       false;  ///< lines without a region on either side are no error, see drop_stray_lines()
 };
 
-/// One patch for each face that has a region. In a patch's plane a point stands for each corner of its face.
-/// Where the boundary meets itself, at lines with the patch on both sides and at nodes that it passes twice,
-/// these are moved apart. They go into their corners by kOpening of the lines there, so that the outline is a
-/// polygon with holes. Throws InputError, naming it, for a line without a region on either side.
+/// Makes one patch for each face that has a region. In a patch's plane a point stands for each corner of its
+/// face. Where the boundary meets itself, at lines with the patch on both sides and at nodes that it passes
+/// twice, these are moved apart. They go into their corners by kOpening of the lines there, so that the
+/// outline is a polygon with holes. Throws InputError, naming it, for a line without a region on either side.
 PlanarDomain build_domain(Mesh lines, const Arrangement& arrangement, FaceRegions regions,
                           const BoundaryNames& names, const SpecialCurves& special = {});
 

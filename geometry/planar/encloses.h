@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// Whether a point lies in a closed polygon, by exact predicates.
+/// Returns whether a point lies in a closed polygon, by exact predicates.
 inline bool encloses(const std::vector<Vec2>& loop, Vec2 x) {
   bool inside = false;
   for (std::size_t i = 0; i < loop.size(); ++i) {

@@ -17,7 +17,7 @@ struct SmallOutlines {
   KeptNames keep = {};  ///< holes stay that have such names, of curves or of a region
 };
 
-/// The model without what is smaller:
+/// Returns the model without what is smaller:
 /// - holes and inclusions whose outline is shorter than `hole`, with what lies in them;
 /// - nodes: where corners and ends of curves follow each other within `length`, the ones that turn less are
 ///   none any more. Curves become one there, if they have one name and no others meet them. The outline

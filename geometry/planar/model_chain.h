@@ -34,14 +34,14 @@ struct ModelChain {
   std::vector<ModelLoop> loops;
 };
 
-/// Each loop is checked to be closed and in one piece; it may pass a node several times. Ends, corners and
-/// points nearer to each other than kJoinTolerance are one node. Throws InputError for open loops, curves
-/// without length, a model without loops.
+/// Chains the curves of loops. Each loop must be closed and in one piece; it may pass a node several times.
+/// Ends, corners and points nearer to each other than kJoinTolerance are one node. Throws InputError for open
+/// loops, curves without length, a model without loops.
 ModelChain chain_model(const PlanarModel& model);
 
-/// The curve as messages call it: its name or number, and where it was read.
+/// Returns the curve as messages call it: its name or number, and where it was read.
 std::string curve_label(const PlanarModel& model, int curve);
-/// The same for a point.
+/// Returns the same for a point.
 std::string point_label(const PlanarModel& model, int point);
 
 /// Returns the bounding box of the curves, by so many chords each.

@@ -18,7 +18,7 @@ class PointGrid {
   PointGrid(Vec2 low, double tolerance) : low_(low), tolerance_(tolerance) {}
 
   void add(Vec2 x, int number) { cells_[cell(x)].push_back(number); }
-  /// The first of `points` within the tolerance of x; -1: none.
+  /// Returns the first of `points` within the tolerance of x; -1: none.
   int find(Vec2 x, const std::vector<Vec2>& points) const {
     int found = -1;
     const auto [cx, cy] = cell(x);

@@ -28,28 +28,29 @@ struct Chart {
 
 /// Corners of a triangle with sides of these lengths, as far as there is one.
 std::array<Vec3, 3> corners_at(const std::array<double, 3>& sides);
-/// The corners of a triangle, or any others at these lengths from each other.
+/// Returns the corners of a triangle, or any others at these lengths from each other.
 std::array<Vec3, 3> corners_of(const Chart& chart, int triangle);
 
-/// The charts that the wanted triangles form, in the order of their first triangles. Throws InputError where
-/// a side is neither a line nor shared by two triangles of one face that agree in orientation. `open` (empty:
-/// none): lines, by index, that do not bound charts where wanted triangles of one face are on both sides.
+/// Returns the charts that the wanted triangles form, in the order of their first triangles. Throws
+/// InputError where a side is neither a line nor shared by two triangles of one face that agree in
+/// orientation. `open` (empty: none): lines, by index, that do not bound charts where wanted triangles of one
+/// face are on both sides.
 std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wanted,
                                   const std::vector<char>& open = {});
 
-/// Number of handles: 0 for a disk, an annulus, a sphere.
+/// Returns the number of handles: 0 for a disk, an annulus, a sphere.
 int genus(const Chart& chart);
 
 /// Returns the lengths of the sides of a disk's boundary, from each vertex to the next.
 std::vector<double> boundary_lengths(const Chart& chart);
 
-/// Area of each triangle.
+/// Returns the area of each triangle.
 std::vector<double> triangle_areas(const Chart& chart);
 
 /// Triangles around each vertex, ascending.
 std::vector<std::vector<int>> triangles_around(const Chart& chart);
 
-/// 2 pi minus the angles around each inner vertex; pi minus them on the boundary.
+/// Returns 2 pi minus the angles around each inner vertex; pi minus them on the boundary.
 std::vector<double> angle_defects(const Chart& chart);
 
 }  // namespace delquad

@@ -14,12 +14,12 @@ struct CompoundOptions {
   double feature_angle = 40;
 };
 
-/// The model with the faces of each group (indices into fine.regions) made one face, which has the least tag
-/// of them and all their names. Curves with one group on both sides vanish. Where they ended, two curves that
-/// are left over, with the same names and without a sharp turn, become one, which has the lesser tag. Faces
-/// and curves keep their order otherwise. The projector goes to the former face whose fine triangles are
-/// nearest, and to the nearest curve. Throws InputError for a face that does not exist or is in two groups.
-/// So it does for a group whose faces do not hang together along curves.
+/// Returns the model with the faces of each group (indices into fine.regions) made one face. It has the least
+/// tag of them and all their names. Curves with one group on both sides vanish. Where they ended, two curves
+/// that are left over, with the same names and without a sharp turn, become one, which has the lesser tag.
+/// Faces and curves keep their order otherwise. The projector goes to the former face whose fine triangles
+/// are nearest, and to the nearest curve. Throws InputError for a face that does not exist or is in two
+/// groups. So it does for a group whose faces do not hang together along curves.
 SurfaceModel make_compound(SurfaceModel model, const std::vector<std::vector<int>>& groups,
                            const CompoundOptions& options = {});
 

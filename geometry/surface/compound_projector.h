@@ -21,7 +21,7 @@ EntityGroups singleton_groups(std::size_t n);
 /// `former`: the triangulation before.
 void regroup(SurfaceModel& model, const Mesh& former, const EntityGroups& faces, EntityGroups curves);
 
-/// The same, with more curves, from `first_curve` on: each lies anywhere in its face, `faces`.
+/// Returns the same, with more curves, from `first_curve` on: each lies anywhere in its face, `faces`.
 std::shared_ptr<const SurfaceProjector> with_curves_on_faces(std::shared_ptr<const SurfaceProjector> base,
                                                              int first_curve, std::vector<int> faces);
 

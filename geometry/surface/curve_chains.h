@@ -12,7 +12,7 @@
 
 namespace delquad {
 
-/// Angle, in radians from 0 to pi, by which the way a, b, c turns at b.
+/// Returns the angle, in radians from 0 to pi, by which the way a, b, c turns at b.
 double turn_angle(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Marks in `corner` the points where exactly two lines meet and turn by more than `angle` (radians).
@@ -24,7 +24,7 @@ struct EdgeChain {
   std::vector<int> points;  ///< from end to end; of a closed one the last is the first
   std::vector<int> edges;   ///< by index
 };
-/// Maximal chains, which end at the points told and where other than two edges meet.
+/// Returns maximal chains, which end at the points told and where other than two edges meet.
 std::vector<EdgeChain> chain_edges(const std::vector<std::array<int, 2>>& edges,
                                    const std::function<bool(int)>& is_end);
 
@@ -35,14 +35,14 @@ std::vector<EdgeChain> chain_edges(const std::vector<std::array<int, 2>>& edges,
 std::vector<std::vector<int>> chain_lines(SurfaceModel& model, const std::vector<int>& line_kind,
                                           std::vector<char> corner);
 
-/// The points of each curve whose lines form one chain, from end to end; of a closed one the last is the
-/// first.
+/// Returns the points of each curve whose lines form one chain, from end to end; of a closed one the last is
+/// the first.
 std::vector<std::vector<int>> points_of_curves(const Mesh& mesh);
 
 std::vector<double> lengths_of_curves(const Mesh& mesh);
 
-/// An entity for each piece of the `given` ones. The first piece of one keeps its tag, others get new tags;
-/// all keep its names. given_of_piece -1: a piece of none.
+/// Returns an entity for each piece of the `given` ones. The first piece of one keeps its tag, others get new
+/// tags; all keep its names. given_of_piece -1: a piece of none.
 std::vector<Entity> entities_of_pieces(const std::vector<Entity>& given,
                                        const std::vector<int>& given_of_piece);
 

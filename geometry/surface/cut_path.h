@@ -28,8 +28,8 @@ struct CutPath {
 
 Vec3 position(const Chart& chart, const EdgePoint& point);
 
-/// The path with its length; none when it is no more than one side of the boundary, or visits a vertex or an
-/// edge twice.
+/// Returns the path with its length. None when it is no more than one side of the boundary, or visits a
+/// vertex or an edge twice.
 std::optional<CutPath> measured(const Chart& chart, CutPath path);
 
 /// A connected piece of a level curve.
@@ -39,12 +39,13 @@ struct LevelCurve {
       crossed;  ///< edges that the curve itself crosses, as (lower, higher), sorted
 };
 
-/// The connected pieces of the curve u = level. Pieces that touch the boundary other than with their ends, or
-/// themselves, are left out.
+/// Returns the connected pieces of the curve u = level. Pieces that touch the boundary other than with their
+/// ends, or themselves, are left out.
 std::vector<LevelCurve> level_curves(const Chart& chart, const std::vector<double>& u, double level);
 
-/// The path of steepest descent of u, linear on triangles, from a vertex to the first vertex or boundary side
-/// that is reached. A target may also be an inner vertex. None when it ends in a minimum elsewhere.
+/// Returns the path of steepest descent of u, linear on triangles, from a vertex to the first vertex or
+/// boundary side that is reached. A target may also be an inner vertex. None when it ends in a minimum
+/// elsewhere.
 std::optional<CutPath> descend(const Chart& chart, const std::vector<std::vector<int>>& around,
                                const std::vector<double>& u, int start, const std::vector<char>& target);
 

@@ -16,8 +16,8 @@ struct ChartElements {
   std::vector<char> avoided = {};  ///< of each vertex, whether cuts should go around it
 };
 
-/// The shortest path along sides inside the chart from a vertex that is marked in `from` to one in `to`. It
-/// meets the boundary at most with its ends.
+/// Returns the shortest path along sides inside the chart from a vertex that is marked in `from` to one in
+/// `to`. It meets the boundary at most with its ends.
 std::optional<CutPath> path_beside_elements(const Chart& chart, const ChartElements& elements,
                                             const std::vector<char>& from, const std::vector<char>& to);
 

@@ -17,10 +17,11 @@
 
 namespace delquad {
 
-/// No triangle is flipped or flat, and the boundary neither crosses nor touches itself: exact.
+/// Returns whether no triangle is flipped or flat, and the boundary neither crosses nor touches itself:
+/// exact.
 bool is_one_to_one(const Chart& chart, const std::vector<Vec2>& flat);
 
-/// The map must be one-to-one.
+/// Measures a map, which must be one-to-one.
 FlatQuality measure_flat(const Chart& chart, const std::vector<Vec2>& flat);
 
 /// A piece of a face laid flat, one-to-one and positively oriented. Its area is the area of the piece; pieces
@@ -38,7 +39,7 @@ struct FlatPatch {
   std::vector<std::array<double, 3>> sides = {};  ///< see Chart::sides
 };
 
-/// Twice the area of a triangle of a patch: in space, or by its sides.
+/// Returns twice the area of a triangle of a patch: in space, or by its sides.
 double double_area(const FlatPatch& patch, const Mesh& fine, std::size_t triangle);
 
 struct Flattening {

@@ -29,7 +29,7 @@ ChartOutcome flatten_chart(const Chart& chart, const std::vector<CutEnd>& ends,
                            const std::vector<char>& on_cut, const FlattenOptions& options, double tolerance,
                            int tries, bool stuck);
 
-/// For each triangle 0 or 1, see plan_split().
+/// Returns for each triangle 0 or 1, see plan_split().
 std::vector<char> split_chart(const Chart& chart, const FlattenOptions& options);
 
 }  // namespace delquad

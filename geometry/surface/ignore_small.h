@@ -20,7 +20,7 @@ struct NarrowOptions {
   std::vector<FeatureBall> kept = {};
 };
 
-/// The model without what is smaller than `length`:
+/// Returns the model without what is smaller than `length`:
 /// - holes of a shorter outline are closed, see close_small_holes();
 /// - parts of faces narrower than that (cusps, necks, steps that run out) are cut off, see
 /// cut_narrow_parts();
@@ -47,11 +47,11 @@ SurfaceModel close_small_holes(SurfaceModel model, const NarrowOptions& narrow);
 /// each face the one that it was a part of.
 std::vector<int> cut_narrow_parts(SurfaceModel& model, const NarrowOptions& narrow);
 
-/// Whether a triangle reaches into what is kept.
+/// Returns whether a triangle reaches into what is kept.
 bool is_kept(const Mesh& mesh, int triangle, const NarrowOptions& narrow);
-/// Whether it has all names of the other that are kept.
+/// Returns whether it has all names of the other that are kept.
 bool has_names_of(const Entity& host, const Entity& other, const KeptNames& keep);
-/// Whether a face may become part of another one across this curve.
+/// Returns whether a face may become part of another one across this curve.
 bool may_join(const Mesh& mesh, int curve, int face, int host, const NarrowOptions& narrow);
 
 }  // namespace delquad

@@ -28,16 +28,18 @@ void improve_triangulation(SurfaceModel& model, const ImproveOptions& options = 
 class RefinementRule {
  public:
   virtual ~RefinementRule() = default;
-  /// Is the triangle to be split? `curve[k]`: the curve of the side opposite to nodes[k]; -1: it is no line.
-  /// Must be false for triangles that are small enough in some sense, or refinement does not end.
+  /// Returns whether the triangle is to be split. `curve[k]`: the curve of the side opposite to nodes[k]; -1:
+  /// it is no line. Must be false for triangles that are small enough in some sense, or refinement does not
+  /// end.
   virtual bool is_too_large(int face, const std::array<int, 3>& nodes,
                             const std::array<int, 3>& curve) const = 0;
-  /// The length of a side, by which the longest is told, and what is Delaunay; `in_space`: that there.
+  /// Returns the length of a side, by which the longest is told, and what is Delaunay; `in_space`: that
+  /// there.
   virtual double length([[maybe_unused]] int face, [[maybe_unused]] int a, [[maybe_unused]] int b,
                         double in_space) const {
     return in_space;
   }
-  /// Whether that is another than in space.
+  /// Returns whether that is another than in space.
   virtual bool has_lengths() const { return false; }
   /// A node was put on the middle of the side a-b, of a triangle of the face; `curve`: as above.
   virtual void node_added(int node, int a, int b, int face, int curve) = 0;

@@ -11,10 +11,11 @@
 
 namespace delquad {
 
-/// Cotangent of the angle at each corner of each triangle, bounded where a triangle has almost no area.
+/// Returns the cotangent of the angle at each corner of each triangle, bounded where a triangle has almost no
+/// area.
 std::vector<std::array<double, 3>> corner_cotangents(const Chart& chart);
 
-/// A third of the area of the triangles around each vertex.
+/// Returns a third of the area of the triangles around each vertex.
 std::vector<double> vertex_areas(const Chart& chart);
 
 /// The cotangent Laplacian L of a chart (positive semi-definite), factorised for some fixed vertices.
@@ -23,9 +24,9 @@ class LaplaceSolver {
   /// `shift` times the vertex areas is added on the diagonal: needed when no vertex is fixed.
   LaplaceSolver(const Chart& chart, std::vector<char> fixed, double shift = 0);
 
-  /// (L + shift areas) x = load at the free vertices, x = values at the fixed ones.
+  /// Solves (L + shift areas) x = load at the free vertices, x = values at the fixed ones.
   std::vector<double> solve(const std::vector<double>& values, const std::vector<double>& load) const;
-  /// L x at every vertex.
+  /// Returns L x at every vertex.
   std::vector<double> apply(const std::vector<double>& x) const;
 
  private:
@@ -33,8 +34,8 @@ class LaplaceSolver {
   std::shared_ptr<System> system_;
 };
 
-/// The slowest vibration of the chart with free boundary. Its level curves divide the chart where it is
-/// narrow and meet the boundary at right angles.
+/// Returns the slowest vibration of the chart with free boundary. Its level curves divide the chart where it
+/// is narrow and meet the boundary at right angles.
 std::vector<double> fiedler_function(const Chart& chart);
 
 }  // namespace delquad

@@ -25,11 +25,11 @@ class ModelCurvature {
  public:
   explicit ModelCurvature(const SurfaceModel& model);
 
-  /// Largest curvature (1 / length) in any direction at the face's point nearest to x.
+  /// Returns the largest curvature (1 / length) in any direction at the face's point nearest to x.
   double of_face(int face, const Vec3& x) const;
-  /// In all directions; 0 where it is not known.
+  /// Returns the curvatures in all directions; 0 where it is not known.
   PrincipalCurvatures principal(int face, const Vec3& x) const;
-  /// The same of a curve that the model had when this was made.
+  /// Returns the same of a curve that the model had when this was made.
   double of_curve(int curve, const Vec3& x) const;
 
  private:

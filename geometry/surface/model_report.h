@@ -13,8 +13,8 @@ namespace delquad {
 /// Throws InputError as extract_charts() does.
 ModelReport report_model(const SurfaceModel& model);
 
-/// "disk", "annulus", "disk with 3 holes", "closed", "2 handles, 1 loop": what a map of the face has to cope
-/// with.
+/// Returns "disk", "annulus", "disk with 3 holes", "closed", "2 handles, 1 loop": what a map of the face has
+/// to cope with.
 std::string topology(const FaceReport& face);
 
 /// Adds warnings that tell of the curves with a face on one side only, and of those with more than two faces.

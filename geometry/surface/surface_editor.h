@@ -22,7 +22,7 @@ class SurfaceEditor {
   std::vector<int> triangles_on(int a, int b) const;
   /// The same, into a vector whose memory is used again.
   void find_triangles_on(int a, int b, std::vector<int>& found) const;
-  /// Index of the line between two nodes, -1: none.
+  /// Returns the index of the line between two nodes, -1: none.
   int line_on(int a, int b) const;
   bool is_on_line(int node) const { return !lines_at_[node].empty(); }
   std::span<const int> triangles_at(int node) const { return triangles_at_[node]; }

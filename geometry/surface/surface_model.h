@@ -25,18 +25,18 @@ struct PrincipalCurvatures {
 class SurfaceProjector {
  public:
   virtual ~SurfaceProjector() = default;
-  /// The point of a face (index into SurfaceModel::fine.regions) nearest to x; safe to call from several
-  /// threads.
+  /// Returns the point of a face (index into SurfaceModel::fine.regions) nearest to x; safe to call from
+  /// several threads.
   virtual Vec3 to_face(int face, const Vec3& x) const = 0;
-  /// The point of a curve (index into SurfaceModel::fine.curves) nearest to x; safe to call from several
-  /// threads.
+  /// Returns the point of a curve (index into SurfaceModel::fine.curves) nearest to x; safe to call from
+  /// several threads.
   virtual Vec3 to_curve(int curve, const Vec3& x) const = 0;
   /// Returns the curvatures of a face at a point next to x; not known at singular points of the
   /// parametrization. Several threads may call it.
   virtual PrincipalCurvatures curvatures([[maybe_unused]] int face, [[maybe_unused]] const Vec3& x) const {
     return {};
   }
-  /// The largest in any direction, >= 0.
+  /// Returns the largest in any direction, >= 0.
   double face_curvature(int face, const Vec3& x) const { return std::abs(curvatures(face, x).most); }
 };
 

@@ -31,12 +31,13 @@ namespace delquad {
 Mesh repair_triangles(Mesh mesh, double weld_tolerance, const std::string& source,
                       std::vector<Warning>& warnings);
 
-/// The repairs of orientation, of lines, and of vertices where fans touch, whose copies come last: triangles
-/// and points stay, and their order. Each edge must be in one triangle or more, none of them without area.
+/// Makes the repairs of orientation, of lines, and of vertices where fans touch, whose copies come last:
+/// triangles and points stay, and their order. Each edge must be in one triangle or more, none of them
+/// without area.
 void settle_triangles(Mesh& mesh, const std::string& source, std::vector<Warning>& warnings);
 
-/// Whether the triangle's height is more than what rounding leaves of collinear points (1e-12 of its longest
-/// side).
+/// Returns whether the triangle's height is more than what rounding leaves of collinear points (1e-12 of its
+/// longest side).
 bool has_area(const std::vector<Vec3>& points, const std::array<int, 3>& v);
 
 /// Triangles that were taken out, and a vertex of the first.

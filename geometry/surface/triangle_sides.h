@@ -21,7 +21,8 @@ inline int side_number(const Mesh& mesh, const HalfEdge& half) {
   return side;
 }
 
-/// For each side the other side of its edge, whichever way that runs; -1: there is none, or more than one.
+/// Returns for each side the other side of its edge, whichever way that runs; -1: there is none, or more than
+/// one.
 inline std::vector<int> side_twins(const Mesh& mesh) {
   std::vector<int> twin(3 * mesh.triangles.size(), -1);
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
@@ -33,7 +34,7 @@ inline std::vector<int> side_twins(const Mesh& mesh) {
   return twin;
 }
 
-/// The same where the two run opposite ways, so that their triangles agree.
+/// Returns the same where the two run opposite ways, so that their triangles agree.
 inline std::vector<int> agreeing_twins(const Mesh& mesh) {
   std::vector<int> twin = side_twins(mesh);
   for (int s = 0; s < static_cast<int>(twin.size()); ++s)

@@ -28,7 +28,7 @@ struct TriangulatedOptions {
   std::vector<FeatureBall> kept_features = {};
 };
 
-/// A model of a triangulated surface, repaired (see repair_triangles).
+/// Returns a model of a triangulated surface, repaired (see repair_triangles).
 ///
 /// The faces are the parts of the surface when it is cut at its outline, between regions, along the given
 /// lines and along features. A face keeps the tag of its region; further faces of the same region get new
@@ -51,9 +51,9 @@ struct KeptModel {
   std::vector<int> given_curve, given_region;
 };
 
-/// The same for a mesh that needs no repair except settle_triangles(), and keeps its points and triangles.
-/// Triangles with the same `element` stay in one face. Given lines that end inside faces become embedded
-/// curves there, and so do two sides at a named point that is on no line.
+/// Returns the same for a mesh that needs no repair except settle_triangles(), and keeps its points and
+/// triangles. Triangles with the same `element` stay in one face. Given lines that end inside faces become
+/// embedded curves there, and so do two sides at a named point that is on no line.
 KeptModel make_kept_model(Mesh triangles, const std::vector<int>& element,
                           const TriangulatedOptions& options = {});
 

@@ -46,11 +46,11 @@ struct Case : MeshProblem, CaseOfStudy {
 };
 
 bool has_model(const MeshProblem& problem);
-/// Null unless the model is one of curves.
+/// Returns the planar model; null unless the model is one of curves.
 const PlanarModel* planar_model(const MeshProblem& problem);
-/// The name of the example that the model is; empty: it is none.
+/// Returns the name of the example that the model is; empty: it is none.
 std::string example_of(const MeshProblem& problem);
-/// The file that the model is read from; empty: none.
+/// Returns the file that the model is read from; empty: none.
 std::filesystem::path model_path(const MeshProblem& problem);
 
 }  // namespace delquad

@@ -17,11 +17,11 @@ namespace delquad {
 /// from the table's file.
 void read_case_keys(const TomlTable& table, Case& target);
 
-/// A model file by itself: the keys of a case, at the top level; or a mesh of lines (.msh). `defaults`: what
-/// the file does not say. Throws InputError for other extensions and for experiment files.
+/// Returns a model file by itself: the keys of a case, at the top level; or a mesh of lines (.msh).
+/// `defaults`: what the file does not say. Throws InputError for other extensions and for experiment files.
 Case read_model_case(const std::filesystem::path& file, const Case& defaults = {});
 
-/// "all" or "tangent". Throws InputError, beginning with `where`, for anything else.
+/// Reads "all" or "tangent". Throws InputError, beginning with `where`, for anything else.
 Compounds parse_compounds(const std::string& text, const std::string& where);
 
 }  // namespace delquad

@@ -14,16 +14,16 @@
 
 namespace delquad {
 
-/// The keys of a model, which are the keys of a case without its name. Throws std::logic_error where options
-/// from outside have the name of another key.
+/// Returns the keys of a model, which are the keys of a case without its name. Throws std::logic_error where
+/// options from outside have the name of another key.
 TomlKeys case_keys();
-/// The keys of criteria, and of the limits of a part.
+/// Returns the keys of criteria, and of the limits of a part.
 TomlKeys criteria_keys();
 TomlKeys named_criteria_keys();
-/// The options of a group.
+/// Returns the options of a group.
 TomlKeys keys_of(const OptionGroup& group);
 
-/// JSON Schema of the value of a key, and of a table with these keys.
+/// Returns the JSON Schema of the value of a key, and of a table with these keys.
 nlohmann::ordered_json schema_of(const TomlKey& key);
 nlohmann::ordered_json schema_of(const TomlKeys& keys);
 
@@ -46,8 +46,8 @@ std::string points(const std::string& point, double least, std::optional<double>
 std::string one_of(const std::vector<std::string>& texts);
 }  // namespace toml_types
 
-/// The options of all stages as a table in Markdown: name, what it may be, default, what it is. Ends with a
-/// newline.
+/// Returns the options of all stages as a table in Markdown: name, what it may be, default, what it is. Ends
+/// with a newline.
 std::string option_table_text();
 
 }  // namespace delquad

@@ -44,7 +44,7 @@ struct Rule {
       nullptr;  ///< the reason why it determines no result: then it is in no digest and record
 };
 
-/// Each of the texts of Rule::words.
+/// Returns each of the texts of Rule::words.
 std::vector<std::string> words_of(const char* words);
 
 struct FieldInfo {
@@ -64,19 +64,19 @@ constexpr Field<Struct, Member> field(const char* key, Member Struct::*member, c
   return {{key, help, rule}, member};
 }
 
-/// A field that only programs set.
+/// Returns a field that only programs set.
 template <class Struct, class Member>
 constexpr Field<Struct, Member> inner(const char* key, Member Struct::*member) {
   return field(key, member, "", {.form = Form::kNone});
 }
 
-/// A field that determines no result, and the reason.
+/// Returns a field that determines no result, and the reason.
 template <class Struct, class Member>
 constexpr Field<Struct, Member> ignored(Member Struct::*member, const char* reason) {
   return field("ignored", member, "", {.form = Form::kNone, .no_result = reason});
 }
 
-/// The place in a file that a struct was read from.
+/// Returns the place in a file that a struct was read from.
 template <class Struct, class Member>
 constexpr Field<Struct, Member> place(Member Struct::*member) {
   return ignored(member, "it names a place in messages");

@@ -24,11 +24,12 @@ class Expression {
   Expression& operator=(Expression other) noexcept;
   ~Expression();
 
-  /// One value for each variable, in their order. Not-a-number and infinity are returned as they come.
+  /// Evaluates the formula. There is one value for each variable, in their order. Not-a-number and infinity
+  /// are returned as they come.
   double operator()(std::span<const double> values) const;
 
   const std::string& text() const;
-  /// The text as messages show it: one line, not longer than this.
+  /// Returns the text as messages show it: one line, not longer than this.
   std::string shown() const;
   static constexpr std::size_t kMostShown = 80;
 

@@ -32,9 +32,9 @@ struct OutlineFile {
   std::string layer;    ///< empty: the only one
   std::string project;  ///< coordinate system, as PROJ reads it, or "utm"; empty: as it is
 };
-/// Nothing for other texts.
+/// Returns the file and its layer; nothing for other texts.
 std::optional<OutlineFile> outline_file_of(const std::filesystem::path& text);
-/// These endings.
+/// Returns these endings.
 std::string outline_files();
 
 /// Returns what read_geojson() makes of GeoJSON and of all that GDAL reads, or read_dxf() of a drawing, and

@@ -128,8 +128,8 @@ class Recorder {
   RecordJson write_other(const Options& options, const Rule&);
 
   static RecordJson number(double value);
-  /// Kind and digest of a file, and the part of it that its name asks for ("FILE:LAYER@CRS"); null: there is
-  /// none.
+  /// Returns the kind and digest of a file, and the part of it that its name asks for ("FILE:LAYER@CRS");
+  /// null: there is none.
   static RecordJson content(const std::filesystem::path& file);
   /// Tells that there is a value which no record holds.
   RecordJson write_in_memory(bool is_there);
@@ -138,13 +138,13 @@ class Recorder {
   bool whole_;
 };
 
-/// A struct as its description says.
+/// Returns a struct as its description says.
 template <Described T>
 RecordJson record_of(const T& value) {
   return Recorder().object(value);
 }
 
-/// Whether two structs have the same result.
+/// Returns whether two structs have the same result.
 template <Described T>
 bool are_same(const T& a, const T& b) {
   return record_of(a) == record_of(b);

@@ -25,12 +25,13 @@
 
 namespace delquad {
 
-/// JSON Schema of a number within the limits of the rule; `type`: "number", "integer" or a list of types.
+/// Returns the JSON Schema of a number within the limits of the rule; `type`: "number", "integer" or a list
+/// of types.
 std::string limited_type(const std::string& type, const Rule& rule);
 /// The same of a list of such values.
 std::string list_type(const std::string& item, const Rule& rule);
 
-/// The keys of a table that the struct is read from.
+/// Returns the keys of a table that the struct is read from.
 template <Described T>
 TomlKeys keys_of();
 
@@ -124,7 +125,7 @@ void read_described(const TomlTable& table, T& value);
 
 namespace described {
 
-/// The number of the text among Rule::words.
+/// Returns the number of the text among Rule::words.
 std::size_t read_word(const TomlTable& table, const std::string& key, const Rule& rule);
 
 template <class T>

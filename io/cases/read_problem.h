@@ -14,16 +14,17 @@
 
 namespace delquad {
 
-/// Whether the file holds a surface by its extension: CAD or triangles.
+/// Returns whether the file holds a surface by its extension: CAD or triangles.
 bool is_surface_file(const std::filesystem::path& path);
-/// These extensions, for messages.
+/// Returns these extensions, for messages.
 std::string surface_files();
 
-/// How people write the directions: "boundary", "size-aware", "gradient", an angle; "angle" of fields.
+/// Returns how people write the directions: "boundary", "size-aware", "gradient", an angle; "angle" of
+/// fields.
 std::string text_of(const CrossSpec& cross);
 
-/// With the ModelFile in memory (but for CAD) and the texts of size and directions as fields. Throws
-/// InputError with file and line.
+/// Returns the problem with the ModelFile in memory (but for CAD) and the texts of size and directions as
+/// fields. Throws InputError with file and line.
 MeshProblem read_files(MeshProblem problem);
 
 /// Throws InputError with file and line where the model's file is missing, but for data that cases are
@@ -31,8 +32,8 @@ MeshProblem read_files(MeshProblem problem);
 /// known before anything is meshed.
 void check_case(const Case& c);
 
-/// The size field of a mesh that is there already: `text` is a number, an expression, a file or "boundary",
-/// as --size gives it.
+/// Returns the size field of a mesh that is there already: `text` is a number, an expression, a file or
+/// "boundary", as --size gives it.
 std::shared_ptr<const SizeField> size_of_mesh(const Mesh& mesh, const std::string& text);
 
 /// A size that a file gives at the points of its mesh, or a formula of the `value` of a raster.

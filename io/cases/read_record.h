@@ -108,7 +108,7 @@ class RecordReader {
 
   static void require_absent(const RecordJson& json);
   static double number(const RecordJson& json);
-  /// The number of the text among Rule::words.
+  /// Returns the number of the text among Rule::words.
   static std::size_t word_in(const RecordJson& json, const Rule& rule);
 
   FindFile find_;

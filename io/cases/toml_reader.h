@@ -52,31 +52,31 @@ class TomlTable {
   static TomlTable read(const std::filesystem::path& file);
   /// Keys that change a problem one by one, each as the name of an option, for messages, and a line of TOML.
   static TomlTable of_options(const std::vector<std::pair<std::string, std::string>>& lines);
-  /// Whether it is made of options: what it lacks stays as it is, inside of tables, too, and lists of tables
-  /// become longer.
+  /// Returns whether it is made of options: what it lacks stays as it is, inside of tables, too, and lists of
+  /// tables become longer.
   bool is_of_options() const;
 
   const std::filesystem::path& file() const;
-  /// "file:line" of the table.
+  /// Returns "file:line" of the table.
   std::string where() const;
-  /// "file:line" of a key of it.
+  /// Returns "file:line" of a key of it.
   std::string where(const std::string& key) const;
 
-  /// kNone: absent.
+  /// Returns the kind of a key; kNone: absent.
   TomlKind kind(const std::string& key) const;
   bool has(const std::string& key) const { return kind(key) != TomlKind::kNone; }
-  /// The keys present, in alphabetical order.
+  /// Returns the keys present, in alphabetical order.
   std::vector<std::string> keys() const;
 
-  /// A value of one of the types of TomlTarget. Numbers are finite, and integers are numbers, too. Vec2 is
-  /// [x, y]; Vec3 is [x, y, z], or [x, y] with z = 0.
+  /// Returns a value of one of the types of TomlTarget. Numbers are finite, and integers are numbers, too.
+  /// Vec2 is [x, y]; Vec3 is [x, y, z], or [x, y] with z = 0.
   template <class T>
   T get(const std::string& key) const {
     T value{};
     read(key, &value);
     return value;
   }
-  /// `absent`: where the table has no such key.
+  /// Returns a value; `absent`: where the table has no such key.
   template <class T>
   T get(const std::string& key, const T& absent) const {
     return has(key) ? get<T>(key) : absent;
@@ -85,27 +85,27 @@ class TomlTable {
   std::string text(const std::string& key) const { return get<std::string>(key); }
   std::string text(const std::string& key, const std::string& absent) const { return get(key, absent); }
   std::vector<std::string> texts(const std::string& key) const { return get<std::vector<std::string>>(key); }
-  /// A text, or a number as it would be written in an expression.
+  /// Returns a text, or a number as it would be written in an expression.
   std::string expression(const std::string& key) const;
   TomlTable table(const std::string& key) const;
   std::optional<TomlTable> optional_table(const std::string& key) const;
-  /// An array of tables, or one table; none when absent.
+  /// Returns an array of tables, or one table; none when absent.
   std::vector<TomlTable> tables(const std::string& key) const;
-  /// The same where texts may stand among the tables.
+  /// Returns the same where texts may stand among the tables.
   std::pair<std::vector<std::string>, std::vector<TomlTable>> texts_and_tables(
       const std::string& key, bool may_be_texts = true) const;
 
-  /// Dotted keys ("insertion.h_max") of everything below that is no table, in alphabetical order.
+  /// Returns the dotted keys ("insertion.h_max") of everything below that is no table, in alphabetical order.
   std::vector<std::string> leaves() const;
-  /// How many elements the list at a dotted key has, at least one.
+  /// Returns how many elements the list at a dotted key has, at least one.
   std::size_t count(const std::string& leaf) const;
   /// In place of an element: the value as it is.
   static constexpr std::size_t kWhole = static_cast<std::size_t>(-1);
-  /// Element `i` of the list at a dotted key, as TOML text; texts without their quotes.
+  /// Returns element `i` of the list at a dotted key, as TOML text; texts without their quotes.
   std::string element_text(const std::string& leaf, std::size_t i) const;
-  /// This table, where the value at each of the dotted keys is element `choice[k]` of the list that `lists`
-  /// has there. One more time, these count before. Throws InputError where such a key lies below one that is
-  /// no table.
+  /// Returns this table, where the value at each of the dotted keys is element `choice[k]` of the list that
+  /// `lists` has there. One more time, these count before. Throws InputError where such a key lies below one
+  /// that is no table.
   TomlTable with_choice(const TomlTable& lists, const std::vector<std::string>& leaves,
                         const std::vector<std::size_t>& choice) const;
 

@@ -41,7 +41,7 @@ struct Deck {
       const auto at = parameters.find(key);
       return at == parameters.end() ? "" : at->second;
     }
-    /// Whether its name is one of these, such as "|MPC|EQUATION|".
+    /// Returns whether its name is one of these, such as "|MPC|EQUATION|".
     bool is_among(std::string_view keywords) const {
       return keywords.find('|' + name + '|') != std::string_view::npos;
     }
@@ -64,7 +64,7 @@ struct Deck {
     int pin = -1;                        ///< see Node
     double angle = 0;                    ///< from the first side to the material's direction, in degrees
 
-    /// 2, 3 or 4; some programs write triangles as quads that name a corner twice.
+    /// Returns 2, 3 or 4; some programs write triangles as quads that name a corner twice.
     std::size_t corners() const {
       return nodes.size() == 4 && nodes[2] == nodes[3] ? 3 : std::min<std::size_t>(nodes.size(), 4);
     }
@@ -85,7 +85,7 @@ struct Deck {
     bool counts_nodes = false;  ///< one by one: no two nodes of the set may be joined
     bool may_grow = false;      ///< the set of nodes may get new ones
 
-    /// The set that it may name: "P-1.TOP" is the set TOP.
+    /// Returns the set that it may name: "P-1.TOP" is the set TOP.
     std::string set() const { return text.substr(text.rfind('.') + 1); }
   };
 
@@ -113,17 +113,17 @@ struct Deck {
   std::vector<int> point_of;  ///< the mesh's point of each node of a deck to improve; -1: none
   DeckSets growing;           ///< sets of all nodes of some regions: these regions, whose new nodes they get
 
-  /// The type of an element, in capitals.
+  /// Returns the type of an element, in capitals.
   std::string type_of(const Element& element) const { return upper(cards[element.card].parameter("TYPE")); }
-  /// The side of an element that a label names, from 0; -1: none, such as the top of a shell.
+  /// Returns the side of an element that a label names, from 0; -1: none, such as the top of a shell.
   int side_of(const Element& element, const std::string& label) const;
-  /// The elements that a row of a surface names, if they are read.
+  /// Returns the elements that a row of a surface names, if they are read.
   std::vector<int> elements_of(const Side& row) const;
-  /// Whether such a row names sides on curves.
+  /// Returns whether such a row names sides on curves.
   bool names_side(const Side& row) const;
   /// Sets of elements that have a side on a curve: they are made again from these sides.
   std::set<std::string, LessBlindToCase> sets_of_sides() const;
-  /// The regions all of whose nodes a set has, for each set without other nodes of regions.
+  /// Returns the regions all of whose nodes a set has, for each set without other nodes of regions.
   DeckSets filled_regions() const;
 };
 
@@ -132,20 +132,20 @@ class DeckText {
  public:
   explicit DeckText(const Deck& deck) : deck_(deck) {}
   virtual ~DeckText() = default;
-  /// A node of the set of a card; null: it is in no such set.
+  /// Returns a node of the set of a card; null: it is in no such set.
   virtual std::string node(long long number, const Vec3& at, const Deck::Card* card) const = 0;
   /// Says of further nodes that they belong to the set of a card of nodes, too.
   virtual std::string as_in(const Deck::Card& card, const std::vector<long long>& nodes,
                             bool are_new) const = 0;
-  /// The line before new nodes, and the line before new elements of a card.
+  /// Returns the line before new nodes, and the line before new elements of a card.
   virtual std::string head_of_nodes() const { return ""; }
   virtual std::string head(const Deck::Card& /*card*/, const std::string& /*type*/) const { return ""; }
-  /// An element like another one.
+  /// Returns an element like another one.
   virtual std::string element(long long number, const Deck::Element& model, const std::string& type,
                               const std::vector<long long>& nodes, double angle) const = 0;
-  /// The type of quads beside triangles of a type, or the other way round.
+  /// Returns the type of quads beside triangles of a type, or the other way round.
   virtual std::string type_with(std::string type, std::size_t corners) const = 0;
-  /// The card of a set again, with other members.
+  /// Returns the card of a set again, with other members.
   virtual std::string set(const Deck::Card& card, const std::vector<long long>& numbers) const = 0;
 
  protected:
@@ -160,14 +160,14 @@ class DeckText {
 /// *ELSET. Element sets become names of regions, unless their own begins with an underscore; surfaces of
 /// elements' sides (S1 to S4, E1 to E4) become curves. Other keywords are left out.
 Deck read_inp_deck(const std::filesystem::path& path, bool as_deck);
-/// Nastran's bulk data, in free, small and large fields: GRID, CQUAD4, CQUAD8, CTRIA3, and as lines
+/// Reads Nastran's bulk data, in free, small and large fields: GRID, CQUAD4, CQUAD8, CTRIA3, and as lines
 /// CBAR, CBEAM, CROD, CTUBE, CONROD and PLOTEL. Properties are tags, names those that write_nastran() leaves
 /// in comments. Nodes must be in the basic coordinate system. Other cards are left out.
 Deck read_nastran_deck(const std::filesystem::path& path, bool as_deck);
 /// Parts the regions, before there is a mesh, and names the points of such a deck.
 void part_elements(Deck& deck);
 void name_points(Deck& deck);
-/// The mesh of a deck to improve, of corners alone; notes how much must stay.
+/// Returns the mesh of a deck to improve, of corners alone; notes how much must stay.
 Mesh given_mesh(Deck deck, ReadNotes* notes);
 
 /// Writes a deck again with a mesh that read_..._deck() and stages made from it. Elements and nodes that
@@ -184,7 +184,7 @@ void rewrite_nastran(const std::filesystem::path& source, const std::filesystem:
 
 /// Numbers in lines of 16.
 std::string inp_lines(const std::vector<long long>& numbers);
-/// A coordinate in at most 20 characters: CalculiX cuts off what follows. "0" below `negligible`.
+/// Returns a coordinate in at most 20 characters: CalculiX cuts off what follows. "0" below `negligible`.
 std::string inp_number(double x, double negligible);
 
 }  // namespace delquad

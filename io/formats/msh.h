@@ -20,13 +20,13 @@ namespace delquad {
 /// file and line, or byte.
 Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nullptr,
               ReadNotes* notes = nullptr);
-/// MSH 4.1 with $PhysicalNames and $Entities, volumes with dimension 3. Coordinates read back exactly. Each
-/// entity is in exactly one physical group, for meshio, dolfinx and deal.II take no other files: the group of
-/// group_names(). Names beside it follow the elements in a section $MoreNames, which other programs skip. A
-/// group whose name is a number gets that number as its tag. The unit of lengths, where it is known, is a
-/// section $Unit after these.
+/// Writes MSH 4.1 with $PhysicalNames and $Entities, volumes with dimension 3. Coordinates read back exactly.
+/// Each entity is in exactly one physical group, for meshio, dolfinx and deal.II take no other files: the
+/// group of group_names(). Names beside it follow the elements in a section $MoreNames, which other programs
+/// skip. A group whose name is a number gets that number as its tag. The unit of lengths, where it is known,
+/// is a section $Unit after these.
 void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
-/// `fields`: become views ($NodeData, $ElementData).
+/// Writes a mesh whose `fields` become views ($NodeData, $ElementData).
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options = {},
                const std::vector<MeshField>& fields = {});
 }  // namespace delquad

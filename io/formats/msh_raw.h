@@ -81,7 +81,8 @@ Contents read_contents(TextScanner& scanner, bool with_views = false);
 /// of their own.
 void settle_physicals(Contents& contents);
 
-/// The groups of an entity by name, of which one without a name goes by its number, and its further names.
+/// Returns the groups of an entity by name, of which one without a name goes by its number, and its further
+/// names.
 std::vector<std::string> names_of(const Contents& contents, DimTag entity);
 
 /// Tags become indices: nodes in the order of their tags, without those that no element uses. Elements must

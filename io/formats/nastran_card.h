@@ -28,24 +28,24 @@ struct NastranCard {
   std::string take(const std::string& text);
 };
 
-/// A line with blanks for its tabs, without what stands behind a "$".
+/// Returns a line with blanks for its tabs, without what stands behind a "$".
 std::string without_tabs(std::string_view line);
-/// Whether a line goes on with the card before it.
+/// Returns whether a line goes on with the card before it.
 bool continues_card(const std::string& text);
-/// The first card of a text that begins with it.
+/// Returns the first card of a text that begins with it.
 NastranCard first_card(std::string_view text);
-/// The card in lines of fields that it fits.
+/// Returns the card in lines of fields that it fits.
 std::string card_text(const std::string& name, std::vector<std::string> fields);
-/// Whether a card is an element, of any kind.
+/// Returns whether a card is an element, of any kind.
 bool is_nastran_element(const std::string& name);
 
-/// A number from 1 on.
+/// Returns a number from 1 on.
 std::optional<long long> as_nastran_integer(std::string_view text);
-/// "1.5-3" and "1.5D-3" are 0.0015, and nothing is 0.
+/// Reads a number: "1.5-3" and "1.5D-3" are 0.0015, and nothing is 0.
 std::optional<double> as_nastran_real(std::string_view text);
-/// A coordinate in 16 characters, with the point that Nastran wants.
+/// Returns a coordinate in 16 characters, with the point that Nastran wants.
 std::string nastran_number(double x);
-/// "SET 5 = 1, 2, 3," in lines of at most 72 characters.
+/// Returns "SET 5 = 1, 2, 3," in lines of at most 72 characters.
 std::string nastran_set(const std::string& number, const std::vector<long long>& members);
 
 }  // namespace delquad

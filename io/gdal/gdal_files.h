@@ -20,8 +20,8 @@ struct Outlines {
   bool in_degrees = false;
 };
 
-/// A layer by its name (empty: the only one), projected to a coordinate system as PROJ reads it. "utm" is the
-/// zone of its middle; empty: as it is.
+/// Returns a layer by its name (empty: the only one), projected to a coordinate system as PROJ reads it.
+/// "utm" is the zone of its middle; empty: as it is.
 Outlines read_layer(const std::filesystem::path& path, const std::string& layer, const std::string& project);
 
 /// Rows and columns of cells in the plane.
@@ -37,12 +37,12 @@ struct Raster {
   RasterGrid grid;
   std::vector<float> values;  ///< row by row; not a number: there is none
 
-  /// Bilinear between the middles of cells, of those that have a value; constant from the outer ones on. Not
-  /// a number where none of four has one.
+  /// Interpolates bilinearly between the middles of cells, of those that have a value; constant from the
+  /// outer ones on. Not a number where none of four has one.
   double at(Vec2 p) const;
 };
 
-/// Projected to `crs` where both are known and differ.
+/// Reads a raster, projected to `crs` where both are known and differ.
 Raster read_raster(const std::filesystem::path& path, const std::string& crs);
 bool is_raster_file(const std::filesystem::path& path);
 

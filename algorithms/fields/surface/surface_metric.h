@@ -39,10 +39,10 @@ class SurfaceMetric final : public SizeField {
   /// Returns the length of a side of a triangle of the face.
   double length(const Mesh& fine, int face, int a, int b) const;
   double area(const Mesh& fine, int triangle) const;
-  /// By how much each line is longer than in space, by its ends, the lower first: the most of the faces
-  /// there.
+  /// Returns by which factor each line is longer than in space, by its ends, the lower first: the most of the
+  /// faces there.
   std::map<std::pair<int, int>, double> stretches_of_lines(const Mesh& fine) const;
-  /// The geometric mean of both lengths, in space.
+  /// Returns the geometric mean of both lengths, in space.
   double at(const Vec3& x, int& hint) const override;
 
  private:

@@ -47,10 +47,10 @@ struct WantedSize {
   /// By which everything is measured in place of lengths in space; null: none. The base is 1 then, and all.
   std::shared_ptr<const SurfaceMetric> metric = nullptr;
 
-  /// Without the limit of gradation.
+  /// Returns the size without the limit of gradation.
   double in_face(int face, const Vec3& x) const;
   double on_curve(int curve, const Vec3& x) const;
-  /// Whether it is more than a function of space.
+  /// Returns whether it is more than a function of space.
   bool depends_on_surface() const { return gradation > 0; }
 
  private:
@@ -67,14 +67,14 @@ class SurfaceSize final : public SizeField {
   /// The fine triangulation should have been refined for it: see refine_for_size().
   SurfaceSize(const SurfaceModel& model, const WantedSize& wanted);
 
-  /// At the point x with these weights of points of the fine triangulation it was made from. This is what
-  /// meshing uses.
+  /// Returns the size at the point x with these weights of points of the fine triangulation it was made from.
+  /// This is what meshing uses.
   double on_fine(std::span<const int> nodes, std::span<const double> weights, const Vec3& x, int& hint) const;
-  /// The same along a line, in space.
+  /// Returns the same along a line, in space.
   double along_line(int a, int b, double t, const Vec3& x, int& hint) const;
-  /// How many quads a fine triangle is.
+  /// Returns how many quads a fine triangle is.
   double quads_in(const Mesh& fine, int triangle, int& hint) const;
-  /// At the point of the surface nearest to x, in space, for measuring meshes.
+  /// Returns the size at the point of the surface nearest to x, in space, for measuring meshes.
   double at(const Vec3& x, int& hint) const override;
   double edge_turn() const { return edge_turn_; }
   bool has_metric() const { return metric_ != nullptr; }

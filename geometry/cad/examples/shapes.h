@@ -32,9 +32,9 @@ CadShape make_sheet();
 CadShape make_thin_box();
 CadShape make_variable_fillet();
 
-/// One of all by its name, which must exist.
+/// Makes an example by its name, which must exist.
 CadShape make_example(const std::string& name);
-/// The same whose faces have the example's name first, as the name of a product in a STEP file.
+/// Returns the same whose faces have the example's name first, as the name of a product in a STEP file.
 CadShape make_product(const std::string& name);
 
 }  // namespace delquad::cad
