@@ -165,7 +165,8 @@ void require_quads(const std::filesystem::path& path, const std::string& format,
 void require_fits(const std::filesystem::path& path, const std::string& format, std::size_t n,
                   const std::string& what, std::size_t most) {
   if (n > most)
-    refuse("{}: {} holds no numbers above {}: there are {} {}", path.string(), format, most, n, what);
+    refuse("{}: {} holds no numbers above {}: there are {} {}, expected a coarser mesh", path.string(),
+           format, most, n, what);
 }
 
 void require_numbers(const std::filesystem::path& path, const std::string& format, const Mesh& mesh,

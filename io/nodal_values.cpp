@@ -139,7 +139,8 @@ void require_values(NodalValues& field, const std::string& file) {
       if (width > 1) std::copy_n(kUnit, width, field.values.begin() + static_cast<long>(width * i));
     } else if (std::isnan(field.values[width * i])) {
       const Vec3& p = field.mesh.points[i];
-      refuse("{}: the field has no value at {}", file, show_point(p));
+      refuse("{}: the field has no value at {}: expected a value at each point of its mesh", file,
+             show_point(p));
     }
   }
 }
@@ -171,7 +172,8 @@ std::size_t choose_field(const std::vector<MeshField>& fields, const std::string
   if (of_elements != nullptr)
     refuse("{}: the field {} is of elements: expected one of points [field-of-elements]", file,
            TextScanner::printable(of_elements->name));
-  if (names.empty()) refuse("{}: has no field of points", file);
+  if (names.empty())
+    refuse("{}: has no field of points: expected $NodeData, or point data in a VTU file", file);
   refuse("{}: has no field {}: expected {}", file, TextScanner::printable(name), fmt::join(names, ", "));
 }
 
@@ -279,7 +281,7 @@ void write_fields(const std::filesystem::path& path, const Mesh& mesh, const std
   else if (kind == ".msh")
     write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options, fields); });
   else
-    refuse("{}: fields are written to .msh and .vtu files", path.string());
+    refuse("{}: cannot hold fields: expected a .msh or .vtu file", path.string());
 }
 
 NodalValues read_values(const std::filesystem::path& path, const std::string& name) {

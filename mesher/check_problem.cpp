@@ -45,7 +45,7 @@ void check(const auto& model, const std::string&) {
 
 void check(const CadModel& model, const std::string& where) {
   if (model.file.empty() && model.bytes.empty())
-    throw InputError(where + ": a CAD model needs a file or bytes, and has neither");
+    throw InputError(where + ": a CAD model has neither a file nor bytes: expected one of them");
 }
 
 void check(const ModelFile& model, const std::string& where) {
@@ -53,7 +53,8 @@ void check(const ModelFile& model, const std::string& where) {
 }
 
 void check(const ExampleModel& model, const std::string& where) {
-  if (model.name.empty()) throw InputError(where + ": the example has no name");
+  if (model.name.empty())
+    throw InputError(where + ": the example has no name: expected one of 'delquad example --list'");
 }
 
 void check(const CrossSpec& cross, bool has_metric) {
@@ -75,13 +76,13 @@ void check(const CrossSpec& cross, bool has_metric) {
 void check_curves_are_meshed(const MeshProblem& problem) {
   if (is_symmetric(problem))
     throw InputError(problem.symmetry.where +
-                     ": planes of symmetry are for planar models of curves and for surfaces");
+                     ": symmetry needs a planar model of curves or a surface: leave it out");
   if (!problem.mapped.asks()) return;
   const std::string& where =
       problem.mapped.corners.empty() || problem.mapped.automatic || !problem.mapped.names.empty()
           ? problem.mapped.where
           : problem.mapped.corners[0].where;
-  throw InputError(where + ": grids are for planar models of curves and for surfaces");
+  throw InputError(where + ": grids need a planar model of curves or a surface: leave them out");
 }
 
 /// Refuses requests that are impossible if lines are kept.
@@ -118,9 +119,8 @@ void check_no_surface(const MeshProblem& problem, bool in_space) {
       in_space ? "a mesh that is given keeps its faces, lines and unit" : "the model is planar",
       in_space ? "models" : "surfaces");
   if (!std::holds_alternative<PlanarModel>(problem.model) && follows_curvature(problem.size))
-    throw InputError(
-        problem.size.where +
-        ": sizes by curvature are for models of curves and for surfaces, not for given lines and meshes");
+    throw InputError(problem.size.where +
+                     ": sizes by curvature need a model of curves or a surface: leave 'curvature' out");
 }
 
 /// Refuses to leave out small parts if other requests name curves by number, or pair them.
@@ -163,11 +163,12 @@ void check_washers(const MeshProblem& problem) {
   const bool is_kept =
       std::holds_alternative<LineModel>(problem.model) || std::holds_alternative<GivenMesh>(problem.model);
   if (!problem.fillet_rows.empty() && (is_planar || is_kept))
-    throw InputError(problem.fillet_rows[0].where + ": rows across fillets are for CAD models");
+    throw InputError(problem.fillet_rows[0].where + ": rows across fillets need a CAD model: leave them out");
   if (problem.washers.empty() && problem.fillet_rows.empty()) return;
   const std::string& where =
       problem.washers.empty() ? problem.fillet_rows[0].where : problem.washers[0].where;
-  if (is_kept) throw InputError(where + ": washers are for planar models of curves and for surfaces");
+  if (is_kept)
+    throw InputError(where + ": washers need a planar model of curves or a surface: leave them out");
   if (!is_planar && (is_symmetric(problem) || !problem.periodic.empty()))
     throw InputError(where +
                      ": rows around holes and across fillets of a surface go neither with symmetry nor with "
@@ -189,7 +190,8 @@ void check_kind(const MeshProblem& problem) {
   check_lines_are_free(problem, given != nullptr ? given->source : lines->source);
   check_curves_are_meshed(problem);
   if (given != nullptr && !problem.layers.empty())
-    throw InputError(problem.layers[0].where + ": a mesh that is given gets no layers");
+    throw InputError(problem.layers[0].where +
+                     ": a given mesh gets no layers: leave them out, or mesh its model");
   if (in_space) check_no_surface(problem, true);
 }
 
@@ -201,12 +203,14 @@ void check_problem(const MeshProblem& problem) {
   const bool is_planar =
       std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
   if (!problem.layers.empty() && !is_planar)
-    throw InputError(problem.layers[0].where + ": layers are for planar domains, and this is a surface");
+    throw InputError(problem.layers[0].where +
+                     ": layers need a planar domain, and this is a surface: leave them out");
   const bool is_flat = is_planar || std::holds_alternative<GivenMesh>(problem.model);
   for (const SymmetryPlane& plane : problem.symmetry.planes)
     if (is_flat && !(std::hypot(plane.normal.x, plane.normal.y) > 0))
-      throw InputError(problem.symmetry.where +
-                       ": the normal of a plane of symmetry has no length in the plane");
+      throw InputError(
+          problem.symmetry.where +
+          ": the normal of a plane of symmetry has no length in the plane: expected x or y other than 0");
   check(problem.cross, problem.metric.asks());
   check_washers(problem);
   check_kind(problem);

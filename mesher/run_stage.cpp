@@ -58,8 +58,10 @@ void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const
 /// Returns the mesh of a patch from which a pipeline begins with this stage.
 PatchMesh initial_mesh(const Stage& stage, const MeshingSetup& prepared, const PatchSetup& patch) {
   if (patch.given.points.empty())
-    throw InputError(fmt::format("{}: '{}' cannot begin a pipeline here: no mesh is given to begin from",
-                                 prepared.settings.where, stage.letter));
+    throw InputError(
+        fmt::format("{}: '{}' cannot begin a pipeline here: expected a stage that inserts points, or "
+                    "'delquad improve' for a given mesh",
+                    prepared.settings.where, stage.letter));
   const auto has_quads = [](const PatchSetup& other) { return !other.given.quads.empty(); };
   PatchMesh start;
   // In space regions may be small, and cuts may part triangles from quads: they stay.

@@ -34,7 +34,8 @@ std::vector<Vec3> read_text_points(const std::filesystem::path& path) {
     }
     Vec3 p;
     for (double* x : {&p.x, &p.y, &p.z}) *x = in.real("a coordinate");
-    if (!in.at_end_of_line() && !in.next_is('#')) in.fail("more than three coordinates on a line");
+    if (!in.at_end_of_line() && !in.next_is('#'))
+      in.fail("more than three coordinates on a line: expected x, y and z");
     points.push_back(p);
   }
   return points;

@@ -103,7 +103,7 @@ int metrics_command(const MetricsArguments& arguments) {
   if (std::string torn = describe_unjoined(mesh); !torn.empty()) notes.push_back(std::move(torn));
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
   if (mesh.triangles.empty() && mesh.quads.empty())
-    throw InputError(arguments.mesh.string() + ": holds no triangles and no quads to measure");
+    throw InputError(arguments.mesh.string() + ": holds no triangles and no quads: expected some to measure");
   std::shared_ptr<const SizeField> size;
   if (arguments.size) size = size_of_mesh(mesh, *arguments.size);
   MeshMetrics metrics = evaluate_metrics(mesh, size.get());

@@ -36,7 +36,8 @@ void check_output(const fs::path& path) {
   if (fs::exists(target, error) && !fs::is_regular_file(target, error))
     return;  // a device: no folder to check
   const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  if (!fs::is_directory(folder, error)) refuse("{}: there is no folder '{}'", path.string(), folder.string());
+  if (!fs::is_directory(folder, error))
+    refuse("{}: there is no folder '{}': make it first", path.string(), folder.string());
   prepare_folder(folder);
 }
 
@@ -46,7 +47,8 @@ void check_distinct(const std::vector<std::pair<std::string, fs::path>>& files) 
       const auto& [role, path] = files[i];
       const auto& [other_role, other] = files[j];
       if (path.empty() || other.empty() || !is_same(path, other)) continue;
-      refuse("{} {}: is the same file as {} {}", role, path.string(), other_role, other.string());
+      refuse("{} {}: is the same file as {} {}: expected another file", role, path.string(), other_role,
+             other.string());
     }
 }
 

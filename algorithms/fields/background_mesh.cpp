@@ -263,7 +263,7 @@ class TriangleTree {
 };
 
 BackgroundMesh::BackgroundMesh(std::span<const PatchBoundary> patches) {
-  if (patches.empty()) throw InputError("the domain has no patch: there is nothing to mesh");
+  if (patches.empty()) throw InputError("the domain has no patch to mesh: expected at least one region");
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const TriPatch part = refine_patch(patches[p]);
     const auto boundary = trace_boundary(patches[p], part);

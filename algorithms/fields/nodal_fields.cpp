@@ -84,8 +84,8 @@ void check_nodal(const Mesh& mesh, std::size_t n_values, const std::string& what
   if (mesh.triangles.empty() && mesh.quads.empty())
     throw InputError(where + " has neither triangles nor quads");
   if (n_values != mesh.points.size())
-    throw InputError(
-        fmt::format("{} has {} points, but there are {} values", where, mesh.points.size(), n_values));
+    throw InputError(fmt::format("{} has {} points, but there are {} values: expected one for each", where,
+                                 mesh.points.size(), n_values));
 }
 
 }  // namespace
@@ -127,8 +127,9 @@ SpaceMetricFunction make_nodal_space_metric(const Mesh& mesh, std::vector<Tensor
   std::vector<Eigen::Matrix3d> logs;
   for (std::size_t i = 0; i < metric.size(); ++i) {
     if (!matrix(metric[i]).allFinite() || !(Solver(matrix(metric[i])).eigenvalues()[0] > 0))
-      throw InputError(fmt::format("the nodal metric {} at {} is not finite and positive definite", i,
-                                   show_point(mesh.points[i])));
+      throw InputError(fmt::format(
+          "the nodal metric {} at {} is not finite and positive definite: expected eigenvalues above 0", i,
+          show_point(mesh.points[i])));
     const Solver solver(matrix(metric[i]));
     logs.emplace_back(solver.eigenvectors() * solver.eigenvalues().array().log().matrix().asDiagonal() *
                       solver.eigenvectors().transpose());

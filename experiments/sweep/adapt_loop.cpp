@@ -44,7 +44,8 @@ void check_adapt(const Case& c) {
   if (!c.adapt) return;
   if (c.solution.empty()) refuse("{}: 'adapt' needs a 'solution', a formula in x and y", c.where);
   if (!c.quads) refuse("{}: 'adapt' needs 'quads', a number of quads", c.where);
-  if (planar_model(c) == nullptr) refuse("{}: 'adapt' needs a planar model", c.where);
+  if (planar_model(c) == nullptr)
+    refuse("{}: 'adapt' needs a planar model: expected 'loop', or a model file of curves", c.where);
   if (c.metric.asks()) refuse("{}: 'adapt' makes metrics of its own: expected no 'metric'", c.where);
 }
 

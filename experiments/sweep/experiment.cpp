@@ -245,7 +245,7 @@ std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& tex
   std::vector<Word> found;
   for (const std::string& text : texts) {
     if (std::ranges::find(found, text, &Word::text) != found.end())
-      throw InputError("pipeline '" + text + "' is given twice");
+      throw InputError("pipeline '" + text + "' is given twice: expected it once");
     found.push_back(find_pipeline(text));
   }
   return found;

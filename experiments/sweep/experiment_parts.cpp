@@ -107,7 +107,9 @@ bool makes_quads(const std::string& text) {
 
 void check_reference_pipeline(const std::string& text) {
   parse_word(text);
-  if (!makes_quads(text)) throw InputError("'calibrate_to' is '" + text + "', which makes no quads");
+  if (!makes_quads(text))
+    throw InputError("'calibrate_to' is '" + text +
+                     "', which makes no quads: expected a pipeline such as DBCO");
 }
 
 void check_command(const TomlTable& table, const char* key, const std::vector<std::string>& command) {
@@ -318,7 +320,7 @@ void Experiment::check_hypotheses() const {
       shared = static_cast<std::size_t>(made) >= needed;
     }
     if (!shared)
-      refuse("{}: there is no case of which '{}' and '{}' have quads to compare", table.where("than"),
+      refuse("{}: '{}' and '{}' have quads of no case in common: expected such a case", table.where("than"),
              h.better, h.than);
   }
 }

@@ -381,9 +381,9 @@ class CurveMesher {
       total += p.measure->integral();
     }
     if (total > max_edges)
-      throw InputError(
-          fmt::format("{}the boundary needs about {:.3g} edges of this size; at most {:.3g} are allowed",
-                      prefix(), total, max_edges));
+      throw InputError(fmt::format(
+          "{}the boundary needs about {:.3g} edges of this size, more than {:.3g}: expected a larger size",
+          prefix(), total, max_edges));
   }
 
   /// The model's curves, then the curves of pieces where several lie on each other, which have all their

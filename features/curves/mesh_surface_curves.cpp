@@ -333,9 +333,9 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   if (!divisions.empty())
     check_divisions_even(divisions[0].where + ": ", fine, curves, wanted, placed.odd_patches);
   for (const int p : placed.odd_patches)
-    domain.warnings.push_back(
-        {"faces with an odd boundary that no curve can make even", 0,
-         face_name(fine, curves.maps[p]) + " has an odd boundary that no curve can make even"});
+    domain.warnings.push_back({"faces with an odd boundary that no curve can make even", 0,
+                               face_name(fine, curves.maps[p]) +
+                                   " has an odd boundary that no curve can make even: one triangle is left"});
 
   std::vector<std::shared_ptr<BackgroundMesh>> backgrounds(curves.maps.size());
   for_each_patch(fine, curves.maps,

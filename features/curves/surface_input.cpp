@@ -122,8 +122,9 @@ SurfaceModel make_compounds(const MeshProblem& problem, const std::vector<Featur
 
 void check_for_cad(const SurfaceSpec& spec) {
   const auto refuse = [&](const char* what) {
-    throw InputError(fmt::format("{}: {} has no effect on a CAD model, whose faces and curves are its own",
-                                 spec.where, what));
+    throw InputError(
+        fmt::format("{}: {} has no effect on a CAD model, whose faces and curves are its own: leave it out",
+                    spec.where, what));
   };
   if (spec.mirror) refuse("a mirror");
   if (spec.feature_angle && spec.compounds == Compounds::kNone && spec.ignore_below == 0 && !spec.idealize)

@@ -56,7 +56,7 @@ std::vector<std::vector<double>> divide_chains(const Mesh& fine, const std::vect
       }
       const std::string label = fmt::format("curve {}", fine.curves[curve].tag);
       if (std::ranges::any_of(own, [&](std::size_t c) { return !divided[c].empty(); }))
-        throw InputError(fmt::format("{}: {} is divided twice", division.where, label));
+        throw InputError(fmt::format("{}: {} is divided twice: expected once", division.where, label));
       const auto places = division_places(division, lengths, label);
       for (std::size_t i = 0; i < own.size(); ++i)
         for (const double length : places[i]) divided[own[i]].push_back(s_at_length(along[i], length));

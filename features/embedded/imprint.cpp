@@ -291,10 +291,11 @@ class Imprinter {
       if (nodes.empty() || nodes.back() != node)
         nodes.push_back(node);
       else if (line.is_requested)
-        throw InputError(fmt::format("{} has length zero at {}", line.where, show_point(x)));
+        throw InputError(
+            fmt::format("{} has length zero at {}: expected different points", line.where, show_point(x)));
     }
     if (nodes.size() == 1 && line.points.size() > 1) {
-      refuse(line, "has length zero");
+      refuse(line, "has length zero: expected different points");
       return std::nullopt;
     }
     return nodes;

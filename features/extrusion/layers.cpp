@@ -67,7 +67,9 @@ void require_beside_axis(const Section& section, const Vec3& point, const Vec3& 
         throw InputError(fmt::format("the section crosses its axis between {} and {} [sweep-at-the-axis]",
                                      show_point(points[quad[k]]), show_point(points[quad[(k + 1) % 4]])));
     if (winding(corners) != 0)
-      throw InputError(fmt::format("the axis goes through the quad at {}", show_point(points[quad[0]])));
+      throw InputError(
+          fmt::format("the axis goes through the quad at {}: expected an axis beside the section",
+                      show_point(points[quad[0]])));
   }
 }
 
@@ -78,12 +80,13 @@ void require_layers(const Section& section, const SweepLayers& layers, long long
   const auto n_quads = static_cast<long long>(section.mesh.quads.size());
   const auto n_points = static_cast<long long>(section.mesh.points.size());
   if (number > layers.max_elements / n_quads)
-    throw InputError(
-        fmt::format("{} layers of {} quads are more than {} hexahedra, the most that are allowed", number,
-                    n_quads, layers.max_elements));
+    throw InputError(fmt::format(
+        "{} layers of {} quads are more than {} hexahedra: expected fewer layers, or a larger --max-elements",
+        number, n_quads, layers.max_elements));
   if ((number + 1) * n_points > std::numeric_limits<int>::max())
     throw InputError(
-        fmt::format("{} layers of {} points are more points than can be numbered", number, n_points));
+        fmt::format("{} layers of {} points are more points than can be numbered: expected fewer layers",
+                    number, n_points));
 }
 
 /// Fills in the points of `result`. `place_of`: a point's place in a layer of nodes.
@@ -146,7 +149,8 @@ LayeredPoints along(const Section& section, const AroundAxis& path, const SweepL
 LayeredPoints along(const Section& section, const AlongCurve& path, const SweepLayers& layers) {
   std::vector<Vec3> line = path.points;
   for (const Vec3& p : line)
-    if (!is_finite(p)) throw InputError("the curve has a point that is not finite");
+    if (!is_finite(p))
+      throw InputError("the curve has a point that is not finite: expected finite coordinates");
   if (layers.number == 0 && layers.growth != 1)
     throw InputError(
         "growth along a curve needs a number of layers: without one they end at the curve's points");
@@ -198,8 +202,10 @@ std::vector<double> layer_ends(int number, double growth) {
   ends[number] = 1;
   for (int k = 1; k <= number; ++k)
     if (!(ends[k] > ends[k - 1]))
-      throw InputError(fmt::format("a growth of {} makes some of {} layers thinner than numbers can tell",
-                                   growth, number));
+      throw InputError(
+          fmt::format("a growth of {} makes some of {} layers thinner than numbers can tell: expected a "
+                      "growth nearer to 1",
+                      growth, number));
   return ends;
 }
 
@@ -268,8 +274,9 @@ Vec3 offset_direction(const std::vector<CornerNormal>& all, const Vec3& at) {
   for (const CornerNormal& a : different)
     for (const CornerNormal& b : different)
       if (1 + dot(a.normal, b.normal) < kFoldsBack)
-        throw InputError(
-            fmt::format("the surface folds back on itself at {}, where it has no normal", show_point(at)));
+        throw InputError(fmt::format(
+            "the surface folds back on itself at {} and has no normal there: expected a smooth surface",
+            show_point(at)));
   if (different.size() > 2) return by_least_squares(different);
   const Vec3 sum = different[0].normal + different[1].normal;
   return (2 / dot(sum, sum)) * sum;
@@ -301,8 +308,10 @@ std::vector<Vec3> offset_directions(const Section& section) {
       ends.push_back({quad[(k + 1) % 4], quad[(k + 3) % 4]});
     }
     if (!is_one_fan(ends))
-      throw InputError(fmt::format("quads touch at {} in a point only, which has no one normal",
-                                   show_point(mesh.points[i])));
+      throw InputError(
+          fmt::format("quads touch at {} in a point only, where the normal is not unique: expected quads "
+                      "that share edges",
+                      show_point(mesh.points[i])));
     directions[i] = offset_direction(normals, mesh.points[i]);
   });
   return directions;

@@ -48,8 +48,9 @@ void refuse_repeated_corners(const GivenMesh& given) {
     const Vec3 at = given.mesh.points[v[0]];
     std::ranges::sort(v);
     if (std::ranges::adjacent_find(v) != v.end())
-      throw InputError(fmt::format("{}: an element at ({:.10g}, {:.10g}, {:.10g}) has a corner twice",
-                                   given.source, at.x, at.y, at.z));
+      throw InputError(fmt::format(
+          "{}: an element at ({:.10g}, {:.10g}, {:.10g}) has a corner twice: expected different corners",
+          given.source, at.x, at.y, at.z));
   });
 }
 

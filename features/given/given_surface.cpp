@@ -107,7 +107,8 @@ void refuse_hanging_nodes(const GivenMesh& given, std::span<const HalfEdge> side
     const Vec3 &p = mesh.points[a], &q = mesh.points[b], along = q - p, middle = 0.5 * (p + q);
     const double length = norm(along), limit = length * length / 4;
     if (!(length > 0))
-      throw InputError(fmt::format("{}: the edge at {} has no length", given.source, text_of_place(p)));
+      throw InputError(fmt::format("{}: the edge at {} has no length: expected different nodes, or --weld",
+                                   given.source, text_of_place(p)));
     tree.nearest(middle, limit, [&](int i) {
       const Vec3 from_start = mesh.points[nodes[i]] - p;
       const double s = dot(from_start, along) / length;

@@ -157,7 +157,7 @@ void add_grids(const MappedSpec& spec, const std::vector<MappedPatch>& mapped, M
         }))
       p.warnings.push_back(
           {"rings that have no rows", 0,
-           fmt::format("{} did not get {} rows: it is no ring, or the numbers of edges forbid it", region,
+           fmt::format("{} did not get {} rows: it is no ring, or its numbers of edges differ", region,
                        rows)});
   }
   const auto has_grid = [](const PatchSetup& patch) { return patch.grid.has_value(); };

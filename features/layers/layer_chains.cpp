@@ -89,8 +89,8 @@ CurveLayers layers_of_curves(const PlanarDomain& domain, std::span<const LayerSp
           const auto other =
               std::ranges::find_if(here, [&](int o) { return goes_into(static_cast<std::size_t>(o), r); });
           if (other != here.end())
-            throw InputError(fmt::format("{}: {} has a layer already, by {}", specs[s].where,
-                                         curve_title(curves[c]), specs[*other].where));
+            throw InputError(fmt::format("{}: {} has a layer already, by {}: expected one of the two",
+                                         specs[s].where, curve_title(curves[c]), specs[*other].where));
         }
         here.push_back(static_cast<int>(s));
       }

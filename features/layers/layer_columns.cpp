@@ -245,20 +245,24 @@ std::vector<double> layer_heights(const LayerSpec& spec) {
     throw InputError(fmt::format("{}: {} of 'number' and 'thickness': expected one", spec.where,
                                  spec.number == 0 ? "none" : "both"));
   if (spec.number == 0 && spec.thickness < spec.first)
-    throw InputError(fmt::format("{}: thickness {} is less than the first height, {}", spec.where,
-                                 spec.thickness, spec.first));
+    throw InputError(
+        fmt::format("{}: thickness {} is less than the first height, {}: expected a larger thickness",
+                    spec.where, spec.thickness, spec.first));
   // This leaves room for the rounding of the sums.
   const double enough = spec.thickness * (1 - 1e-9);
   std::vector<double> heights;
   double height = spec.first, sum = 0;
   while (spec.number > 0 ? static_cast<int>(heights.size()) < spec.number : sum < enough) {
     if (heights.size() == static_cast<std::size_t>(kMostLayers))
-      throw InputError(fmt::format("{}: the thickness needs more than {} layers", spec.where, kMostLayers));
+      throw InputError(
+          fmt::format("{}: the thickness needs more than {} layers: expected a larger first height or growth",
+                      spec.where, kMostLayers));
     heights.push_back(sum += height);
     height *= spec.growth;
   }
   if (!(sum > 0) || !std::isfinite(sum))
-    throw InputError(spec.where + ": the layers have no finite thickness");
+    throw InputError(spec.where +
+                     ": the layers have no finite thickness: expected a smaller growth or fewer layers");
   return heights;
 }
 

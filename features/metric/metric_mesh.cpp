@@ -103,9 +103,9 @@ class MetricMesher {
         const auto& node = patch.point_node;
         fine.triangles.push_back({node[v[0]], node[v[1]], node[v[2]]});
         if (const auto& [a, b, c] = fine.triangles.back(); orient2d(at(a), at(b), at(c)) <= 0)
-          throw InputError(
-              fmt::format("{}: lines in a region are too close to each other at {} to be meshed by a metric",
-                          spec_.where, show_point(at(a))));
+          throw InputError(fmt::format(
+              "{}: lines in a region are too close to each other at {} for a metric: move them apart",
+              spec_.where, show_point(at(a))));
       }
     fine.triangle_region.assign(fine.triangles.size(), 0);
     fine.curves.resize(domain_.pieces.size());

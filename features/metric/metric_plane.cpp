@@ -485,8 +485,7 @@ MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings)
   if (const FlatQuality& quality = shared->quality; quality.sigma_95 > kPoorSigma)
     warnings.emplace_back(
         fmt::format("{}: the map to the flat plane of the metric distorts angles by {:.3g} in 5 % of the "
-                    "domain: the metric "
-                    "changes faster than it is sampled",
+                    "domain: the metric changes faster than it is sampled. A gradation helps",
                     problem.metric.where, quality.sigma_95));
   return problem;
 }

@@ -173,9 +173,9 @@ class PairForest {
       return true;
     }
     if (root_[chain] != root_[master])
-      throw InputError(
-          fmt::format("{}: {} would be the image of two curves that are not images of each other",
-                      a.of->where, images_.label(chain)));
+      throw InputError(fmt::format(
+          "{}: {} would be the image of two curves that are not images of each other: expected one of them",
+          a.of->where, images_.label(chain)));
     for (std::size_t k = 0; k < marks.size(); ++k)
       if (!images_.are_near(marks[k], of_root_[chain][k]))
         throw InputError(

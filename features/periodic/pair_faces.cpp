@@ -105,8 +105,9 @@ std::vector<PairedFace> paired_faces(const SurfaceModel& model, const std::vecto
   for (const int f : faces) {
     all.emplace_back(model, f);
     if (all.back().is_empty())
-      throw InputError(fmt::format("{}: face {} has no triangles: a periodic face has to be meshed",
-                                   pair.where, model.fine.regions[f].tag));
+      throw InputError(
+          fmt::format("{}: periodic face {} has no triangles: expected a face that can be meshed", pair.where,
+                      model.fine.regions[f].tag));
   }
   return all;
 }
@@ -148,9 +149,9 @@ std::vector<FacePair> pair_faces(const SurfaceModel& model, const std::vector<in
     check_apart(fine, *image, back, master, pair);
     for (const FacePair& known : pairs)
       if (known.face == image->face())
-        throw InputError(fmt::format("{}: face {} would be the image of face {} and of face {}", pair.where,
-                                     fine.regions[known.face].tag, fine.regions[known.master].tag,
-                                     fine.regions[master.face()].tag));
+        throw InputError(fmt::format(
+            "{}: face {} would be the image of face {} and of face {}: expected one of them", pair.where,
+            fine.regions[known.face].tag, fine.regions[known.master].tag, fine.regions[master.face()].tag));
     const Vec3 origin = pair.motion({});
     const Vec3 normal = pair.motion(master.normal(master.largest())) - origin;
     const bool is_reversed = dot(normal, image->normal(image->find(x).triangle)) < 0;

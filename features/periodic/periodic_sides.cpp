@@ -43,8 +43,8 @@ void check_faces_once(const Mesh& fine, const FacePair& pair, const std::vector<
     for (const int face : {pair.face, pair.master})
       if (face == other.face || face == other.master)
         throw InputError(fmt::format(
-            "{}: face {} is in two pairs of periodic sides, with '{}' and '{}', and "
-            "with '{}' and '{}'",
+            "{}: face {} is in two pairs of periodic sides, with '{}' and '{}', and with '{}' and '{}': "
+            "expected one pair",
             pair.of.where, fine.regions[face].tag, other.of.from, other.of.to, pair.of.from, pair.of.to));
 }
 

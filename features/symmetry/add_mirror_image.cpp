@@ -59,8 +59,9 @@ Mesh add_mirror_image(Mesh half, const MirrorPlane& plane, const std::string& so
   check_one_side(half.points, height, tolerance, source);
   const std::vector<char> both = points_of_both(half, height, tolerance);
   if (std::find(both.begin(), both.end(), 1) == both.end())
-    throw InputError(
-        fmt::format("{}: no open edge lies in the mirror's plane, within {:.3g} of it", source, tolerance));
+    throw InputError(fmt::format(
+        "{}: no open edge lies within {:.3g} of the mirror's plane: expected half a model, open there",
+        source, tolerance));
   keep_lines(half, [&](size_t i) { return !both[half.lines[i][0]] || !both[half.lines[i][1]]; });
 
   const int offset = plane.join ? 0 : double_regions(half);
@@ -83,8 +84,9 @@ Mesh add_mirror_image(Mesh half, const MirrorPlane& plane, const std::string& so
   for (size_t t = 0; t < n_triangles; ++t) {
     const auto [a, b, c] = half.triangles[t];
     if (both[a] && both[b] && both[c])
-      throw InputError(fmt::format("{}: the triangle at {} lies in the mirror's plane", source,
-                                   show_point(half.points[a])));
+      throw InputError(fmt::format(
+          "{}: the triangle at {} lies in the mirror's plane: expected a model without a wall there", source,
+          show_point(half.points[a])));
     half.triangles.push_back({image[a], image[c], image[b]});
     half.triangle_region.push_back(half.triangle_region[t] + offset);
   }

@@ -154,7 +154,9 @@ std::optional<CutSurface> cut_at_planes(const MeshProblem& problem, SurfaceModel
       model, planes, matches, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); },
       spec.where);
   if (half.model.fine.triangles.empty())
-    throw InputError(spec.where + ": nothing of the model lies on the positive sides of the planes");
+    throw InputError(
+        spec.where +
+        ": nothing of the model lies on the positive sides of the planes: expected opposite normals");
   return CutSurface{std::move(model), planes, std::move(matches), std::move(half)};
 }
 

@@ -35,7 +35,10 @@ void get(std::string_view& bytes, T& value) {
   if constexpr (requires { value.emplace_back(); }) {
     for (; n > 0; --n) get(bytes, value.emplace_back());
   } else {
-    if (bytes.size() < n) throw InputError("the program that reads CAD files sent an incomplete answer");
+    if (bytes.size() < n)
+      throw InputError(
+          "the program that reads CAD files sent an incomplete answer: install it and this library from one "
+          "build");
     if constexpr (std::is_same_v<T, std::string>)
       value = bytes.substr(0, n);
     else

@@ -177,7 +177,9 @@ void split_single_lines(SurfaceModel& model) {
 
 void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
   const Agreement agreement = agree_faces(model.fine);
-  if (!agreement.orientable) model.warnings.push_back("the faces cannot be oriented alike");
+  if (!agreement.orientable)
+    model.warnings.push_back(
+        "the faces cannot be oriented alike, as on a Moebius strip: normals jump on some curve");
   if (agreement.n_turned > 0) {
     model.warnings.push_back(fmt::format(
         "{} faces were oriented against their neighbors and were turned over", agreement.n_turned));

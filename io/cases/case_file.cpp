@@ -168,7 +168,7 @@ void read_model_keys(const TomlTable& table, Case& target) {
   int models = drawn ? 1 : 0;
   for (const char* key : {"mesh", "model", "data", "example"})
     if (table.has(key) && ++models > 1)
-      refuse("{}: '{}' and another model exclude each other", table.where(key), key);
+      refuse("{}: '{}' and another model exclude each other: expected one of them", table.where(key), key);
   if (table.has("data")) {
     read_data(table, target);
   } else if (table.has("model")) {
@@ -183,7 +183,8 @@ void read_model_keys(const TomlTable& table, Case& target) {
   } else if (table.has("mesh")) {
     const ModelFile file{folder / table.text("mesh"), table.get("start", false)};
     if (kind_of_file(file.path) != ".msh" && !file.given)
-      refuse("{}: '{}' is not a .msh file", table.where("mesh"), file.path.string());
+      refuse("{}: '{}' is not a .msh file: expected one, such as 'delquad convert' writes",
+             table.where("mesh"), file.path.string());
     set_model(file, target);
   } else if (drawn) {
     set_model(read_planar_model(table), target);

@@ -112,9 +112,10 @@ void check_together(const LayerSpec& layer, const std::string&) { layer_heights(
 
 void check_together(const SurfaceSpec& surface, const std::string& where) {
   if (surface.compounds != Compounds::kGroups) return;
-  if (surface.groups.empty()) refuse("{}: compounds by groups need a group of faces", where);
+  if (surface.groups.empty())
+    refuse("{}: compounds by groups have no group: expected 'faces', a list of lists", where);
   for (const auto& group : surface.groups)
-    if (group.size() < 2) refuse("{}: a compound has two faces or more", where);
+    if (group.size() < 2) refuse("{}: a compound of fewer than two faces: expected two or more", where);
 }
 
 void check_together(const WasherSpec& washer, const std::string& where) {

@@ -175,7 +175,8 @@ class DxfReader {
     }
     for (const Block::Insert& insert : block.inserts) {
       const auto inner = blocks_.find(insert.block);
-      if (inner == blocks_.end()) refuse("{}: there is no block '{}'", insert.where, insert.block);
+      if (inner == blocks_.end())
+        refuse("{}: there is no block '{}': expected a whole drawing", insert.where, insert.block);
       put(inner->second, place.after(insert.place).after({{1, 0}, {0, 1}, Vec2{} - inner->second.base}),
           layer_of(insert.layer), depth + 1);
     }

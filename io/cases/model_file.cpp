@@ -71,7 +71,8 @@ Curves curves_of(const TomlTable& table, const ClosedShape& shape, Vec2 offset) 
   std::vector<Vec2> corners = shape.polygon;
   if (shape.rectangle) {
     const auto [low, high] = Box<Vec2>::around(*shape.rectangle);
-    if (low.x == high.x || low.y == high.y) refuse("{}: the rectangle has no area", table.where("rectangle"));
+    if (low.x == high.x || low.y == high.y)
+      refuse("{}: the rectangle has no area: expected two opposite corners", table.where("rectangle"));
     corners = {low, {high.x, low.y}, high, {low.x, high.y}};
   }
   Curves sides;
@@ -144,7 +145,9 @@ class ModelReader {
 
   PlanarModel finish() {
     for (const auto& [name, index] : named_)
-      if (!used_[index]) refuse("{}: no loop uses the curve '{}'", model_.curves[index].where, name);
+      if (!used_[index])
+        refuse("{}: no loop uses the curve '{}': remove it, or add 'crack = true' or a loop",
+               model_.curves[index].where, name);
     return std::move(model_);
   }
 
@@ -203,7 +206,8 @@ PlanarModel read_planar_model(const TomlTable& table) {
   for (const TomlTable& pattern : table.tables("pattern")) reader.read_pattern(pattern);
   for (const TomlTable& embedded : table.tables("embed")) reader.read_embedded(embedded);
   PlanarModel model = reader.finish();
-  if (model.loops.empty()) refuse("{}: the model has no loops", table.where());
+  if (model.loops.empty())
+    refuse("{}: the model has no loops: expected 'loop', or curves that close", table.where());
   return model;
 }
 

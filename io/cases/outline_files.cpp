@@ -249,7 +249,8 @@ std::vector<Vec2> read_points(const std::filesystem::path& path) {
       continue;
     }
     const double x = in.real("x"), y = in.real("y");
-    if (!in.at_end_of_line() && !in.next_is('#')) in.fail("more than two coordinates on a line");
+    if (!in.at_end_of_line() && !in.next_is('#'))
+      in.fail("more than two coordinates on a line: expected x and y");
     points.push_back({x, y});
   }
   // Two counts, then both sides from the nose: round the profile from the trailing edge of the upper one.

@@ -277,7 +277,8 @@ MeshProblem read_files(MeshProblem problem) {
 
 void check_case(const Case& c) {
   if (const auto file = model_path(c); !c.may_be_absent && !file.empty() && !std::filesystem::exists(file))
-    refuse("{}: case '{}': there is no file '{}'", c.where, c.name, file.string());
+    refuse("{}: case '{}': there is no file '{}': expected its path from the folder of this file", c.where,
+           c.name, file.string());
   MeshProblem fields;
   fields.size = c.size;
   fields.cross = c.cross;

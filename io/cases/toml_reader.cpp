@@ -328,7 +328,8 @@ std::vector<std::string> TomlTable::leaves() const {
   collect_leaves(*data_->table, "", leaves);
   std::ranges::sort(leaves);
   const auto twice = std::ranges::adjacent_find(leaves);
-  if (twice != leaves.end()) throw InputError(where() + ": '" + *twice + "' is given twice");
+  if (twice != leaves.end())
+    throw InputError(where() + ": '" + *twice + "' is given twice: expected it once");
   return leaves;
 }
 

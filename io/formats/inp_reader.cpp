@@ -111,7 +111,7 @@ class InpReader {
         deck_.cards.back().end = line_end();
       }
     }
-    if (!pending_.empty()) in_.fail("the file ends within an element: is it whole?");
+    if (!pending_.empty()) in_.fail("the file ends within an element: expected a whole file");
     if (deck_.elements.empty() && unread_line_ > 0) fail_type(unread_line_);
     if (deck_.elements.empty()) in_.fail("the file holds no *ELEMENT of two, three, four or eight nodes");
     add_sides_of_shells();
@@ -156,7 +156,7 @@ class InpReader {
   }
 
   void begin(const std::string& line, size_t place) {
-    if (!pending_.empty()) in_.fail("an element ends without its last nodes");
+    if (!pending_.empty()) in_.fail("an element ends too early: expected more nodes");
     Card& card = deck_.cards.emplace_back(card_of(line));
     card.line = in_.line();
     card.begin = place;
@@ -272,7 +272,8 @@ class InpReader {
               begin_of_element_, line_end()};
     for (size_t k = 1; k < pending_.size(); ++k) {
       const auto found = deck_.node_of.find(pending_[k]);
-      if (found == deck_.node_of.end()) in_.fail("there is no node {} yet", pending_[k]);
+      if (found == deck_.node_of.end())
+        in_.fail("there is no node {} yet: expected *NODE before it", pending_[k]);
       e.nodes.push_back(found->second);
     }
     const int index = static_cast<int>(deck_.elements.size());
@@ -296,7 +297,7 @@ class InpReader {
       if (const auto found = index_of.find(number); found != index_of.end())
         all.push_back(found->second);
       else if (of_elements && !deck_.unread.contains(number))
-        in_.fail("there is no element {} yet", number);
+        in_.fail("there is no element {} yet: expected *ELEMENT before it", number);
     };
     const bool generates = card.parameters.contains("GENERATE");
     if (generates && fields.size() < 2) in_.fail("expected the first and the last {}", what);
@@ -320,7 +321,7 @@ class InpReader {
       card.names.emplace_back(field);
       const auto other = sets.find(std::string(field));
       if (other == sets.end() && of_elements)
-        in_.fail("there is no element set {} yet", TextScanner::printable(field));
+        in_.fail("there is no element set {} yet: expected *ELSET before it", TextScanner::printable(field));
       if (other == sets.end()) continue;
       const std::vector<int> copy = other->second;
       all.insert(all.end(), copy.begin(), copy.end());

@@ -251,7 +251,8 @@ class MfemReader {
     const long long in_file =
         space_.is_shared ? n_nodes + inside : static_cast<long long>(elements_.size()) * row * row;
     if (static_cast<long long>(values_.size()) != in_file * dim_)
-      in_.fail("{} numbers for {} nodes of {} coordinates", values_.size(), in_file, dim_);
+      in_.fail("{} numbers for {} nodes of {} coordinates: expected one for each coordinate", values_.size(),
+               in_file, dim_);
     mesh_.points.resize(static_cast<size_t>(n_nodes + inside));
     is_placed_.assign(mesh_.points.size(), 0);
     int next = n_nodes;

@@ -98,7 +98,7 @@ class PlyReader : FaceReader {
       }
       in_.rest_of_line();
     }
-    if (!has_format) in_.fail("the header has no line 'format'");
+    if (!has_format) in_.fail("the header has no line 'format': expected a whole PLY file");
     check_vertices();
     if (coding_ == Coding::kText) return;
     if (!in_.skip_past("\n")) in_.fail("the file ends too early: expected its numbers");
@@ -128,7 +128,7 @@ class PlyReader : FaceReader {
   }
 
   void read_property() {
-    if (elements_.empty()) in_.fail("a property before any element");
+    if (elements_.empty()) in_.fail("a property stands before any element: expected a line 'element' first");
     Property property{};
     if (in_.next_is('l')) {
       in_.token("'list'");
@@ -144,7 +144,7 @@ class PlyReader : FaceReader {
   /// Faces name vertices by number, so that these come first.
   void check_vertices() {
     const auto vertex = std::ranges::find(elements_, "vertex", &Element::name);
-    if (vertex == elements_.end()) in_.fail("the header has no element 'vertex'");
+    if (vertex == elements_.end()) in_.fail("the header has no element 'vertex': expected points");
     for (const char* name : {"x", "y", "z"})
       if (std::ranges::find(vertex->properties, name, &Property::name) == vertex->properties.end())
         in_.fail("the vertices have no property '{}'", name);
@@ -251,7 +251,8 @@ class PlyReader : FaceReader {
     check_line(element, i, line);
     if (is_vertex) add_point(point);
     if (is_face) {
-      if (static_cast<long long>(mesh_.points.size()) < n_vertices_) in_.fail("faces before the vertices");
+      if (static_cast<long long>(mesh_.points.size()) < n_vertices_)
+        in_.fail("the faces stand before the vertices: expected them behind");
       add_face(corners, colours_.region("", std::ranges::min(rgb) < 0 ? "" : colour_text(rgb)));
     }
   }

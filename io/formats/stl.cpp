@@ -169,7 +169,8 @@ Mesh read_stl(const std::filesystem::path& path, ReadNotes*, Strays strays) {
   if (!is_whole) refuse_other_kinds(scanner, "STL");
   TextReader text(scanner, strays);
   Mesh mesh = n ? read_binary(scanner, path.string(), *n, strays) : text.read();
-  if (mesh.triangles.empty()) throw InputError(path.string() + ": the file holds no triangles");
+  if (mesh.triangles.empty())
+    throw InputError(path.string() + ": the file holds no triangles: expected a surface");
   rename_points(mesh, names_of_equal_points(mesh));
   check_strays(mesh, strays, [&](int i) {
     const auto corner = static_cast<size_t>(i);

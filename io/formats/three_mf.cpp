@@ -100,7 +100,8 @@ class Archive {
       if (n < 0) fail(name, zip_file_strerror(file.get()));
       text.resize(before + static_cast<std::size_t>(n));
       if (n == 0) return text;
-      if (text.size() > kMostBytes) throw InputError(path_ + ": " + name + " has more than 1 GB");
+      if (text.size() > kMostBytes)
+        throw InputError(path_ + ": " + name + " has more than 1 GB: expected a smaller part");
     }
   }
 
@@ -249,7 +250,8 @@ class ModelParser {
       refuse("an object in {}: expected objects in other files in the main model alone",
              TextScanner::printable(path));
     if (!parts_.insert(part).second) return part;
-    if (!archive_.text_of(part)) refuse("there is no file {} in the archive", TextScanner::printable(path));
+    if (!archive_.text_of(part))
+      refuse("there is no file {} in the archive: expected a whole 3MF file", TextScanner::printable(path));
     ModelParser(archive_, part, objects, this).parse();
     return part;
   }
@@ -334,7 +336,8 @@ class ModelParser {
 
   void add_component(const Component& component) {
     constexpr int kDeepest = 64;
-    if (&objects.at(component.object) == object_) throw InputError("an object that holds itself");
+    if (&objects.at(component.object) == object_)
+      throw InputError("an object holds itself: expected objects without a circle");
     object_->depth = std::max(object_->depth, objects.at(component.object).depth + 1);
     if (object_->depth > kDeepest) refuse("objects within objects to more than {} levels", kDeepest);
     object_->components.push_back(component);
@@ -373,7 +376,8 @@ class Assembly {
     for (Vec3 p : object.points) {
       for (const Transform& t : transforms) p = t(p);
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-        throw InputError("an object is placed where coordinates are not finite");
+        throw InputError(
+            "an object is placed where coordinates are not finite: expected a finite 'transform'");
       mesh.points.push_back(p);
     }
     if (!object.points.empty()) first_points_[first] = component.object;

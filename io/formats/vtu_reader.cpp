@@ -183,7 +183,7 @@ class VtuReader {
 
   std::uint64_t header_number(std::string_view bytes, size_t k) const {
     const size_t width = wide_header_ ? 8 : 4;
-    if (bytes.size() < (k + 1) * width) fail("a data array ends within its header");
+    if (bytes.size() < (k + 1) * width) fail("a data array ends within its header: expected a whole file");
     return wide_header_ ? from_bytes<std::uint64_t>(bytes.data() + k * width)
                         : from_bytes<std::uint32_t>(bytes.data() + k * width);
   }
@@ -197,13 +197,14 @@ class VtuReader {
       const std::uint64_t n = header_number(bytes, 0);
       // Some programs encode the number apart from the data.
       if (!is_raw && bytes.size() == width) bytes += from_base64(text.substr(used));
-      if (bytes.size() - width < n) fail("a data array of {} bytes has only {}", n, bytes.size() - width);
+      if (bytes.size() - width < n)
+        fail("a data array of {} bytes has only {}: expected a whole file", n, bytes.size() - width);
       return bytes.substr(width, n);
     }
     size_t used = 0;
     std::string head = is_raw ? std::string(text) : from_base64(text, &used);
     const std::uint64_t n_blocks = header_number(head, 0);
-    if (n_blocks > head.size()) fail("a compressed data array has a damaged header");
+    if (n_blocks > head.size()) fail("a compressed data array has a damaged header: expected a whole file");
     const size_t header = (3 + n_blocks) * width;
     std::string data = head.substr(std::min(header, head.size()));
     if (!is_raw && data.empty()) data = from_base64(text.substr(used));
@@ -222,12 +223,12 @@ class VtuReader {
   std::string unpacked(const std::string& data, size_t at, std::uint64_t n, std::uint64_t size) const {
     constexpr std::uint64_t kMostRatio = 2000;  // zlib packs no more than 1032 times
     if (at > data.size() || n > data.size() - at || size > kMostRatio * (n + 1))
-      fail("a compressed data array is damaged");
+      fail("a compressed data array is damaged: expected a whole file");
     std::string bytes(size, '\0');
     uLongf length = size;
     const int status = uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length,
                                   reinterpret_cast<const Bytef*>(data.data() + at), n);
-    if (status != Z_OK || length != size) fail("a compressed data array is damaged");
+    if (status != Z_OK || length != size) fail("a compressed data array is damaged: expected a whole file");
     return bytes;
   }
 
@@ -247,7 +248,8 @@ class VtuReader {
     std::string bytes;
     if (format == "appended") {
       const auto offset = array.get<std::uint64_t>("<xmlattr>.offset", appended_.size() + 1);
-      if (offset > appended_.size()) fail("data array {} lies behind the appended data", shown(name));
+      if (offset > appended_.size())
+        fail("data array {} lies behind the appended data: expected a whole file", shown(name));
       bytes = payload(std::string_view(appended_).substr(offset), raw_);
     } else {
       bytes = payload(array.data(), false);
@@ -310,7 +312,7 @@ class VtuReader {
     double begin = 0;
     for (size_t c = 0; c < types.size(); ++c) {
       if (!(begin <= offsets[c] && offsets[c] <= static_cast<double>(corners.size())))
-        fail("cell {} lies outside of the connectivity", c);
+        fail("cell {} lies outside of the connectivity: expected a whole file", c);
       std::vector<int> v;
       for (auto k = static_cast<size_t>(begin); k < static_cast<size_t>(offsets[c]); ++k) {
         if (!(corners[k] >= 0 && corners[k] < static_cast<double>(n_points)))

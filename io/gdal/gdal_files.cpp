@@ -91,7 +91,7 @@ struct Layer {
 std::string utm_of(const Layer& layer) {
   double low[2], high[2], x = 0, y = 0;
   if (std::sscanf(layer.extent.c_str(), "(%lf, %lf) - (%lf, %lf)", &low[0], &low[1], &high[0], &high[1]) != 4)
-    refuse("the layer is empty");
+    refuse("the layer is empty: expected lines or polygons");
   const std::string middle = run_gdal(
       {"gdaltransform", "-s_srs", name_of(layer.system), "-t_srs", "EPSG:4326", "-output_xy", "-coord",
        fmt::format("{}", (low[0] + high[0]) / 2), fmt::format("{}", (low[1] + high[1]) / 2)});

@@ -218,7 +218,8 @@ Mesh read_ugrid(const std::filesystem::path& path, ReadNotes* notes, Strays) {
   while (topology < file.variables() && (file.text(topology, "cf_role") != "mesh_topology" ||
                                          file.number(topology, "topology_dimension", 0) != 2))
     ++topology;
-  if (topology == file.variables()) refuse("{}: no UGRID mesh of topology_dimension 2", path.string());
+  if (topology == file.variables())
+    refuse("{}: no UGRID mesh of topology_dimension 2: expected faces in a plane", path.string());
   std::istringstream names(file.text(topology, "node_coordinates"));
   std::string x_name, y_name;
   names >> x_name >> y_name;

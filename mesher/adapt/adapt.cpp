@@ -49,7 +49,8 @@ void require_quads(const PlanarModel& model, double quads) {
   for (const ModelCurve& curve : model.curves) sides += 1 + curve.shape->fixed_parameters().size();
   const double least = std::ceil(static_cast<double>(sides) / 2) - 1;
   if (quads < std::max(1.0, least))
-    refuse("{:g} quads: the {} sides of the outline need {:g} at least", quads, sides, std::max(1.0, least));
+    refuse("{:g} quads: the {} sides of the outline need {:g} at least: expected more quads", quads, sides,
+           std::max(1.0, least));
 }
 
 /// Replaces indices by the height, names and numbers of the mesh, see trace_mesh().

@@ -125,7 +125,7 @@ double complexity_of(const Mesh& mesh, const std::vector<Tensor2>& metric) {
 std::vector<Tensor2> adapted_metric(const Mesh& mesh, const std::vector<Recovery>& solutions,
                                     const AdaptSpec& spec) {
   check_spec(mesh, spec);
-  if (solutions.empty()) refuse("there is no field to adapt to");
+  if (solutions.empty()) refuse("there is no field to adapt to: expected at least one");
   const std::vector<double> area = areas_at_points(mesh);
   MetricLimits limits = spec.limits;
   if (!(limits.max > 0)) limits.max = diagonal(mesh);
@@ -149,8 +149,10 @@ std::vector<Tensor2> adapted_metric(const Mesh& mesh, const std::vector<Recovery
     if (std::abs(error / spec.error - 1) < 10 * kNear) return metric;
     quads *= error / spec.error;
   }
-  refuse("an error of {:g} is not reached by up to {:g} quads within the limits of their lengths", spec.error,
-         kMostQuads);
+  refuse(
+      "an error of {:g} is not reached by up to {:g} quads within the limits of their lengths: expected a "
+      "larger error or wider limits",
+      spec.error, kMostQuads);
 }
 
 }  // namespace delquad

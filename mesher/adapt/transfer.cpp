@@ -205,7 +205,8 @@ std::vector<double> project(const Mesh& from, std::span<const double> values, co
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-  if (solver.info() != Eigen::Success) refuse("the mesh to be filled has elements without area");
+  if (solver.info() != Eigen::Success)
+    refuse("the mesh to be filled has elements without area: expected a sound mesh");
   const Eigen::VectorXd solution = solver.solve(right);
   return {solution.begin(), solution.end()};
 }

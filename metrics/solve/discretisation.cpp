@@ -74,11 +74,13 @@ Discretisation::Discretisation(const Mesh& mesh)
       fixed_(mesh.points.size(), 0),
       row_(mesh.points.size(), -1),
       floating_part_(mesh.points.size(), -1) {
-  if (mesh.triangles.empty() && mesh.quads.empty()) throw InputError("there are no elements to compute with");
+  if (mesh.triangles.empty() && mesh.quads.empty())
+    throw InputError("there are no elements to compute with: expected triangles or quads");
   check_elements(mesh);
   for (const Vec3& p : mesh.points) planar_ = planar_ && p.z == mesh.points[0].z;
   number_nodes();
-  if (n_free_ == 0) throw InputError("all nodes are on the boundary: there is nothing to solve for");
+  if (n_free_ == 0)
+    throw InputError("all nodes are on the boundary, so nothing is unknown: expected a finer mesh");
   find_floating();
 }
 

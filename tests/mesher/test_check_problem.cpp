@@ -49,7 +49,7 @@ TEST(CheckProblem, RefusesWhatMakesNoSense) {
        "triangles: holds neither triangles nor quads"},
       {square_problem, [](P& p) { p.model = LineModel{}; }, "...holds no line elements"},
       {square_problem, [](P& p) { p.model = CadModel{}; },
-       "model: a CAD model needs a file or bytes, and has neither"},
+       "model: a CAD model has neither a file nor bytes: expected one of them"},
       {surface, [](P& p) { std::get<TriangleModel>(p.model).mesh.triangles[0][2] = 3; },
        "triangles: triangle 0 has point 3: there are 3, counted from 0"},
       {square_problem, [](P& p) { p.size.field = nullptr; }, "...expected a size"},

@@ -54,7 +54,7 @@ TEST(NodalSize, RefusesWhatDoesNotFit) {
   EXPECT_EQ(message_of([] {
               make_nodal_size(square(), {1, 1});
             }),
-            "the mesh of the nodal size has 6 points, but there are 2 values");
+            "the mesh of the nodal size has 6 points, but there are 2 values: expected one for each");
   EXPECT_EQ(message_of([] {
               make_nodal_size(square(), {1, 1, 1, -1, 1, 1});
             }),

@@ -370,7 +370,7 @@ TEST(PeriodicFaces, WhatDoesNotMatchIsRefused) {
   // Turned by 90 degrees about its middle the face is there again, but its edges are not where others say.
   refused(
       {{"region_1", "region_2", {{1, 0, 0}, kHalfTurn / 2, {0, 0.5, 0.5}, {1, 0, 0}}, "p 1"}, kCellPairs[1]},
-      {"would be the image of two curves that are not images of each other"}, cube);
+      {"would be the image of two curves that are not images of each other: expected one of them"}, cube);
   Mesh dented = box(4);
   for (Vec3& p : dented.points)
     if (p.x == 1 && p.y == 0.5 && p.z == 0.5) p.x = 1.01;
