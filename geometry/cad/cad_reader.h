@@ -19,14 +19,6 @@ struct CadOptions {
   /// Largest angle between neighboring sides of a curve, and normals of a face across an inner side,
   /// radians.
   double angle = 0.15;
-  /// Processor time that the kernel may take to triangulate a face, in one of its trials. Faces that take
-  /// longer are triangulated from their outlines, as faces for which it fails. It is nearly ten times the
-  /// time of any face of 24 models, so that the machine does not decide. Measured: 2.2 s, in the finest of
-  /// the trials; 0.1 s where a trial had success.
-  double face_seconds = 20;
-  /// The same for checking and healing all of the shape; then it is taken as it is. Forty times what any of
-  /// these models took.
-  double healing_seconds = 60;
   /// Unit of lengths, see length_unit.h; empty: millimeters, or the unit of a BREP file.
   std::string unit = {};
   /// Bodies share the faces, curves and points at which they touch: see glue_shape().

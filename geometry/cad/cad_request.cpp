@@ -8,15 +8,15 @@ namespace delquad::cad {
 namespace {
 
 /// To be changed with what is sent either way.
-constexpr int kProtocol = 6;
+constexpr int kProtocol = 7;
 
 /// Calls visit(member) for all that is sent.
 template <class Request, class Visit>
 void visit_request(Request& r, const Visit& visit) {
-  visit(r.source), visit(r.threads), visit(r.seconds), visit(r.heals), visit(r.late_faces);
+  visit(r.source), visit(r.threads), visit(r.seconds);
   auto& o = r.options;
-  visit(o.deflection), visit(o.angle), visit(o.face_seconds), visit(o.healing_seconds), visit(o.by_outline);
-  visit(o.unit), visit(o.glue), visit(o.weld), visit(o.keep_going), visit(r.text);
+  visit(o.deflection), visit(o.angle), visit(o.by_outline), visit(o.unit), visit(o.glue), visit(o.weld),
+      visit(o.keep_going), visit(r.text);
 }
 
 }  // namespace
@@ -39,19 +39,6 @@ CadRequest request_from(const std::string& bytes) {
   CadRequest request;
   visit_request(request, [&](auto& value) { get(rest, value); });
   return request;
-}
-
-std::string to_bytes(const std::vector<int>& numbers) {
-  std::string bytes;
-  put(bytes, numbers);
-  return bytes;
-}
-
-std::vector<int> numbers_from(const std::string& bytes) {
-  std::string_view rest = bytes;
-  std::vector<int> numbers;
-  get(rest, numbers);
-  return numbers;
 }
 
 }  // namespace delquad::cad

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "base/worker_process.h"
 #include "geometry/cad/cad_reader.h"
@@ -24,29 +23,23 @@ struct CadRequest {
   CadOptions options;
   int threads = 1;
   unsigned seconds = 0;  ///< of processor time, then the worker ends
-  /// Whether the worker heals the shape, and faces that it leaves out. It skips what took too long before.
-  bool heals = true;
-  std::vector<int> late_faces = {};  ///< ascending
 };
+
+/// Stages of a worker, as it tells them (activity.h).
+inline constexpr const char *kHealing = "healing", *kTriangulation = "triangulation";
 
 /// Turns a request into bytes, and back. Throws InputError for the bytes of a program of another version.
 std::string to_bytes(const CadRequest& request);
 CadRequest request_from(const std::string& bytes);
 
-/// The kinds of a worker's replies: the shape, a message, the numbers of faces that take too long, nothing.
-/// Further kinds are the name of a stage, and the number of a face that begins or ends.
+/// The kinds of a worker's replies: the shape, a message, the name of a stage, or the number of a face that
+/// begins or ends.
 enum class Reply : char {
   kShape = 'S',
   kMessage = delquad::kMessage,
-  kLateFaces = 'F',
-  kLateHealing = 'H',
   kStage = 's',
   kFaceBegins = 'b',
   kFaceEnds = 'e'
 };
-
-/// Numbers as bytes, and back.
-std::string to_bytes(const std::vector<int>& numbers);
-std::vector<int> numbers_from(const std::string& bytes);
 
 }  // namespace delquad::cad

@@ -60,8 +60,7 @@ struct CadShape {
   std::string unit = {};  ///< of lengths; empty: unknown
   std::vector<Warning> warnings = {};
   std::vector<std::string> missing = {};  ///< parts of the file that cannot be read, and are left out
-  std::vector<int> late_faces = {};   ///< numbers of the faces for which the kernel takes too long, ascending
-  std::vector<LooseLine> loose = {};  ///< edges and vertices of the file that bound no face
+  std::vector<LooseLine> loose = {};      ///< edges and vertices of the file that bound no face
   std::vector<std::string> why_not = {};  ///< of each face, why it has no triangulation; mostly empty texts
 };
 

@@ -37,7 +37,6 @@
 #include "geometry/cad/mesh_by_outline.h"
 #include "geometry/cad/shape_file.h"
 #include "geometry/cad/tessellate.h"
-#include "geometry/cad/watch_kernel.h"
 #include "geometry/cad/weld_faces.h"
 
 namespace delquad::cad {
@@ -89,15 +88,8 @@ void complete_edges(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape&
   }
 }
 
-void heal(CadShape& cad, const CadOptions& options, bool heals, KernelWatch& watch) {
-  if (!heals) {
-    cad.warnings.push_back(
-        fmt::format("checking and healing the shape takes longer than {:g} s: it is taken as it is",
-                    options.healing_seconds));
-    return;
-  }
+void heal(CadShape& cad, const CadOptions& options) {
   const StageScope stage(kHealing);
-  const KernelWatch::Healing limited(watch);
   heal_shape(cad, options.weld * cad.diagonal);
   unwind_faces(cad);
 }
@@ -162,18 +154,17 @@ void triangulate_faces(CadShape& cad, const CadOptions& options) {
                            names);
 }
 
-CadShape prepare(CadShape cad, const CadRequest& request, KernelWatch& watch) {
+CadShape prepare(CadShape cad, const CadOptions& options) {
   check_faces(cad, parts(cad.shape, TopAbs_FACE));
   cad.diagonal = diagonal_of(cad.shape);
-  cad.late_faces = request.late_faces;
   cad.loose = loose_edges(cad, kLooseDeflection * cad.diagonal);
   drop_inner_edges(cad);
-  heal(cad, request.options, request.heals, watch);
-  if (request.options.glue) glue_shape(cad, request.options.weld * cad.diagonal);
+  heal(cad, options);
+  if (options.glue) glue_shape(cad, options.weld * cad.diagonal);
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   check_faces(cad, faces);
   complete_edges(cad.shape, parts(cad.shape, TopAbs_EDGE));
-  triangulate_faces(cad, request.options);
+  triangulate_faces(cad, options);
   return cad;
 }
 
@@ -218,15 +209,11 @@ void answer(const CadRequest& request, int socket) {
   Activities activities(kMostFaces);
   activities.on_stage = [socket](const char* name) { send(socket, Reply::kStage, name); };
   activities.on_face = [socket](int face, bool begins) {
-    send(socket, begins ? Reply::kFaceBegins : Reply::kFaceEnds, to_bytes(std::vector<int>{face}));
+    send(socket, begins ? Reply::kFaceBegins : Reply::kFaceEnds, std::to_string(face));
   };
   const RunScope run({.threads = request.threads, .activities = &activities});
-  KernelWatch watch(
-      {request.options.face_seconds, request.options.healing_seconds},
-      [socket](const std::vector<int>& late) { send(socket, Reply::kLateFaces, to_bytes(late)); },
-      [socket] { send(socket, Reply::kLateHealing, ""); });
   set_kernel_threads();
-  send(socket, Reply::kShape, to_bytes(prepare(read(request), request, watch)));
+  send(socket, Reply::kShape, to_bytes(prepare(read(request), request.options)));
 }
 
 }  // namespace

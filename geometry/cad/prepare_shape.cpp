@@ -15,7 +15,6 @@
 #include "delquad/error.h"
 #include "geometry/cad/cad_request.h"
 #include "geometry/cad/shape_file.h"
-#include "geometry/cad/watch_kernel.h"
 
 namespace delquad::cad {
 
@@ -23,8 +22,6 @@ namespace {
 
 /// Processor time granted: a hundred times what files need.
 constexpr unsigned kSeconds = 60, kSecondsPerMegabyte = 60;
-/// So many times a worker begins anew, without what took too long.
-constexpr int kMostTrials = 4;
 
 /// The activity of a worker, as told to the run of this thread.
 class WorkersActivity {
@@ -36,12 +33,9 @@ class WorkersActivity {
         if (text == known) stage_.emplace(known);
     }
     if (reply == Reply::kFaceBegins)
-      for (const int face : numbers_from(text))
-        faces_.emplace_back(face, std::make_unique<RemoteFaceScope>(face, kTriangulation));
+      faces_.emplace_back(text, std::make_unique<RemoteFaceScope>(std::stoi(text), kTriangulation));
     if (reply == Reply::kFaceEnds)
-      for (const int face : numbers_from(text))
-        if (const auto at = std::ranges::find(faces_, face, &Face::first); at != faces_.end())
-          faces_.erase(at);
+      if (const auto at = std::ranges::find(faces_, text, &Face::first); at != faces_.end()) faces_.erase(at);
   }
   /// ": at the triangulation of face 7, face 9", or nothing where there is no face.
   std::string text() const {
@@ -53,7 +47,7 @@ class WorkersActivity {
   }
 
  private:
-  using Face = std::pair<int, std::unique_ptr<RemoteFaceScope>>;
+  using Face = std::pair<std::string, std::unique_ptr<RemoteFaceScope>>;
   std::optional<StageScope> stage_;
   std::vector<Face> faces_;  ///< in order of their beginnings
 };
@@ -73,28 +67,11 @@ std::pair<Reply, std::string> ask_worker(const CadRequest& request) {
   return *std::move(last);
 }
 
-CadShape prepare(CadRequest request) {
-  for (int n = 0; n < kMostTrials; ++n) {
-    const auto [reply, text] = ask_worker(request);
-    if (reply == Reply::kLateHealing) {
-      request.heals = false;
-    } else if (reply == Reply::kLateFaces) {
-      const std::vector<int> late = numbers_from(text);
-      request.late_faces.insert(request.late_faces.end(), late.begin(), late.end());
-      std::ranges::sort(request.late_faces);
-    } else if (reply == Reply::kShape) {
-      CadShape cad = from_bytes(text);
-      cad.late_faces = request.late_faces;
-      return cad;
-    } else if (reply == Reply::kMessage) {
-      throw InputError(text);
-    } else {
-      throw InputError(find_worker().string() + " is not the program that reads CAD files");
-    }
-  }
-  throw InputError(
-      fmt::format("cannot be triangulated: faces {}, ... take the CAD kernel longer than {:g} s each",
-                  fmt::join(request.late_faces, ", "), request.options.face_seconds));
+CadShape prepare(const CadRequest& request) {
+  const auto [reply, text] = ask_worker(request);
+  if (reply == Reply::kShape) return from_bytes(text);
+  if (reply == Reply::kMessage) throw InputError(text);
+  throw InputError(find_worker().string() + " is not the program that reads CAD files");
 }
 
 unsigned seconds_for(std::uintmax_t bytes) {

@@ -21,68 +21,47 @@
 #include "base/activity.h"
 #include "base/context.h"
 #include "base/parallel.h"
-#include "geometry/cad/watch_kernel.h"
+#include "geometry/cad/cad_request.h"
 #include "geometry/mesh/triangle_measures.h"
 
 namespace delquad::cad {
 
 namespace {
 
-/// The kernel's own algorithm for a face, with what is said and left out around it.
+/// The kernel's own algorithm for a face; it tells the face to the run.
 class WatchedAlgo : public IMeshTools_MeshAlgo {
  public:
-  WatchedAlgo(Handle(IMeshTools_MeshAlgo) own, const TopTools_IndexedMapOfShape& faces,
-              const std::vector<int>& skipped, Run* run)
-      : own_(own), faces_(faces), skipped_(skipped), run_(run) {}
+  WatchedAlgo(Handle(IMeshTools_MeshAlgo) own, const TopTools_IndexedMapOfShape& faces, Run* run)
+      : own_(own), faces_(faces), run_(run) {}
 
   void Perform(const IMeshData::IFaceHandle& face, const IMeshTools_Parameters& parameters,
                const Message_ProgressRange& range) override {
-    const int number = faces_.FindIndex(face->GetFace());
-    if (std::ranges::binary_search(skipped_, number)) {
-      face->SetStatus(IMeshData_Failure);
-      return;
-    }
     const WorkerScope works(run_);
-    const FaceScope face_scope(number);
+    const FaceScope face_scope(faces_.FindIndex(face->GetFace()));
     own_->Perform(face, parameters, range);
   }
 
  private:
   Handle(IMeshTools_MeshAlgo) own_;
   const TopTools_IndexedMapOfShape& faces_;
-  const std::vector<int>& skipped_;
   Run* run_;
 };
 
 class WatchedAlgos : public IMeshTools_MeshAlgoFactory {
  public:
-  WatchedAlgos(const TopTools_IndexedMapOfShape& faces, const std::vector<int>& skipped)
-      : faces_(faces), skipped_(skipped) {}
+  explicit WatchedAlgos(const TopTools_IndexedMapOfShape& faces) : faces_(faces) {}
 
   Handle(IMeshTools_MeshAlgo)
       GetAlgo(const GeomAbs_SurfaceType type, const IMeshTools_Parameters& parameters) const override {
     const Handle(IMeshTools_MeshAlgo) own = kernel_.GetAlgo(type, parameters);
-    return own.IsNull() ? own : Handle(IMeshTools_MeshAlgo)(new WatchedAlgo(own, faces_, skipped_, run_));
+    return own.IsNull() ? own : Handle(IMeshTools_MeshAlgo)(new WatchedAlgo(own, faces_, run_));
   }
 
  private:
   BRepMesh_MeshAlgoFactory kernel_;
   const TopTools_IndexedMapOfShape& faces_;
-  const std::vector<int>& skipped_;
   Run* run_ = current_run();  ///< the kernel's own threads, which ask for algorithms, know of none
 };
-
-/// The kernel's triangulation of a shape, which tells the faces (numbers in the map) that it is at, see
-/// activity.h. It does not begin the faces in `skipped` (ascending).
-void mesh_faces(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces,
-                const IMeshTools_Parameters& parameters, const std::vector<int>& skipped) {
-  const Handle(IMeshTools_Context) context = new BRepMesh_Context();
-  context->SetFaceDiscret(new BRepMesh_FaceDiscret(new WatchedAlgos(faces, skipped)));
-  BRepMesh_IncrementalMesh mesher;
-  mesher.SetShape(shape);
-  mesher.ChangeParameters() = parameters;
-  mesher.Perform(context);
-}
 
 /// Area of a face that counts as none, as a fraction of the square of the diagonal.
 constexpr double kNoArea = 1e-14;
@@ -124,13 +103,17 @@ std::string face_title(int number, const std::vector<std::string>& names) {
 void triangulate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double deflection,
                  double angle) {
   const StageScope stage(kTriangulation);
-  IMeshTools_Parameters parameters;
+  BRepMesh_IncrementalMesh mesher;
+  mesher.SetShape(cad.shape);
+  IMeshTools_Parameters& parameters = mesher.ChangeParameters();
   parameters.Deflection = deflection;
   parameters.Angle = angle;
   // The smallest sides follow the deflection, or a small edge's own length.
   parameters.AdjustMinSize = true;
   parameters.InParallel = thread_count() > 1;
-  mesh_faces(cad.shape, faces, parameters, cad.late_faces);
+  const Handle(IMeshTools_Context) context = new BRepMesh_Context();
+  context->SetFaceDiscret(new BRepMesh_FaceDiscret(new WatchedAlgos(faces)));
+  mesher.Perform(context);
 }
 
 std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,

@@ -27,8 +27,9 @@ struct FaceMesh {
 /// Returns "face 12 (lid)", by its number and first name.
 std::string face_title(int number, const std::vector<std::string>& names);
 
-/// Triangulates the faces of a shape, but the late ones; the kernel keeps the triangulation in the shape.
-/// Neighbors have the same nodes along their edges. `deflection` is a length, `angle` in radians.
+/// Triangulates the faces of a shape and tells each one to the run (activity.h). The kernel keeps the
+/// triangulation in the shape. Neighbors have the same nodes along their edges. `deflection` is a length,
+/// `angle` in radians.
 void triangulate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double deflection,
                  double angle);
 

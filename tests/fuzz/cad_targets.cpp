@@ -150,9 +150,7 @@ bool try_cad(std::string_view bytes) {
     model.bytes = Editor(draw, format).text();
   }
   const bool came = result_or_input_error("CAD data", [&] {
-    check_model(read_cad(
-        model,
-        {.deflection = 0.02, .angle = 0.6, .face_seconds = 2, .healing_seconds = 4, .keep_going = true}));
+    check_model(read_cad(model, {.deflection = 0.02, .angle = 0.6, .keep_going = true}));
   });
   check_memory_of_workers();
   return came;

@@ -74,16 +74,6 @@ TEST_F(ByOutline, KeepsToTheDeflectionAndTheAngle) {
   }
 }
 
-TEST_F(ByOutline, TakesOverWhereTheKernelFails) {
-  const SurfaceModel late =
-      read(BRepPrimAPI_MakeTorus(20, 5).Shape(), {.deflection = 1e-5, .face_seconds = 1e-9});
-  ASSERT_FALSE(late.warnings.empty());
-  EXPECT_EQ(
-      late.warnings[0].text,
-      "the CAD kernel could not triangulate all faces; triangulated from their outlines instead: face 1");
-  EXPECT_NEAR(count(late.fine).area / (400 * pi * pi), 1, 1e-3);
-}
-
 /// Half of a cylinder whose boundary runs along the line where the parameters begin and end, on one side
 /// only.
 TEST_F(ByOutline, FaceOnOneSideOfASeam) {
