@@ -8,6 +8,7 @@
 
 #include "base/sort_unique.h"
 #include "geometry/mesh/element_nodes.h"
+#include "io/text_writer.h"
 
 namespace delquad {
 
@@ -58,6 +59,15 @@ std::vector<char> are_in_middles(const Mesh& mesh) {
   for (std::size_t q = 0; q < mesh.quads.size() && mesh.order == 2; ++q)
     inside[nodes_of_quad(mesh, q)[4]] = 1;
   return inside;
+}
+
+void write_points_and_faces(TextWriter& out, const Mesh& mesh) {
+  for (const Vec3& x : mesh.points) out << x.x << ' ' << x.y << ' ' << x.z << '\n';
+  for_each_element(mesh, [&](int, const auto& v) {
+    out << v.size();
+    for (const int i : v) out << ' ' << i;
+    out << '\n';
+  });
 }
 
 std::vector<Entity> entities_of(const std::vector<NamedPoint>& points) {

@@ -17,6 +17,8 @@
 
 namespace delquad {
 
+class TextWriter;
+
 enum class CellShape { kPoint, kLine, kTriangle, kQuad, kHexahedron };
 
 /// All elements of one shape. They live as long as their mesh.
@@ -87,6 +89,10 @@ class CellSides {
   std::vector<HalfEdge> of_faces_;
   std::vector<HexSide> of_hexahedra_;
 };
+
+/// Writes a line with the coordinates of each point, then a line for each triangle and quad: the number of
+/// its corners, and their indices.
+void write_points_and_faces(TextWriter& out, const Mesh& mesh);
 
 std::vector<Entity> entities_of(const std::vector<NamedPoint>& points);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -13,6 +14,7 @@
 #include "base/utf8.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/split_polygon.h"
 #include "io/cell_view.h"
 #include "io/picture.h"
 
@@ -155,7 +157,8 @@ std::string ignored_keywords(const std::filesystem::path& path, const std::map<s
   return fmt::format("{}", fmt::join(others, ", "));
 }
 
-void check_mesh_format(const std::filesystem::path& path, const MshOptions& options, int order) {
+void check_mesh_format(const std::filesystem::path& path, const MshOptions& options, int order,
+                       bool has_quads) {
   const std::string kind = kind_to_write(path);
   const MeshFormat* format = find_format(kind);
   if (format == nullptr || !can_write(*format)) unknown(path, extensions_of(can_write));
@@ -167,6 +170,12 @@ void check_mesh_format(const std::filesystem::path& path, const MshOptions& opti
   if (order > format->most_order)
     refuse("{}: '{}' has no elements of order {} here: expected {}", path.string(), kind, order,
            extensions_of([&](const MeshFormat& f) { return can_write(f) && f.most_order >= order; }));
+  if (options.triangles && order > 1)
+    refuse("{}: quads of order {} are not split into triangles: expected order 1 with --triangles",
+           path.string(), order);
+  if (has_quads && !options.triangles && std::ranges::count(format->of_triangles, kind) > 0)
+    refuse("{}: '{}' has triangles only: add --triangles, which splits each quad in two [triangles-only]",
+           path.string(), kind);
   if (options.binary && !format->has_binary)
     throw InputError(path.string() + ": '" + kind + "' has no binary form here: expected .msh with --binary");
 }
@@ -215,10 +224,12 @@ void check_hex_format(const std::filesystem::path& path, const MshOptions& optio
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
   if (mesh.hexahedra.empty())
-    check_mesh_format(path, options, mesh.order);
+    check_mesh_format(path, options, mesh.order, !mesh.quads.empty());
   else
     check_hex_format(path, options);
-  find_format(kind_to_write(path))->write(path, mesh, options);
+  std::optional<Mesh> split;
+  if (ReadNotes notes; options.triangles) split_quads(split.emplace(mesh), notes);
+  find_format(kind_to_write(path))->write(path, split ? *split : mesh, options);
 }
 
 void check_serendipity(const std::filesystem::path& path, const MshOptions& options, int order) {

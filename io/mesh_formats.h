@@ -48,7 +48,8 @@ struct MeshFormat {
   /// function.
   const UniqueLabels::Rules* labels = nullptr;
   std::vector<std::string> (*renamed)(const Mesh&) = nullptr;
-  unsigned names = kAllNames;  ///< NameKinds
+  unsigned names = kAllNames;                  ///< NameKinds
+  std::vector<std::string> of_triangles = {};  ///< extensions of files that have no quads
   /// Reads and writes files that are kept, see read_given_mesh() and rewrite_mesh(); null: they are not.
   Mesh (*read_given)(const std::filesystem::path&, ReadNotes*) = nullptr;
   void (*rewrite)(const std::filesystem::path& source, const std::filesystem::path&, const Mesh&,

@@ -106,9 +106,10 @@ void write_fields(const std::filesystem::path& path, const Mesh& mesh, const std
 /// Returns whether it reads files of that name.
 bool holds_values(const std::filesystem::path& path);
 
-/// Throws InputError if write_mesh() knows no format for the path's extension, naming the known ones. So it
-/// does if the format has no such option, or no elements of that order.
-void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {}, int order = 1);
+/// Throws InputError for an extension that write_mesh() does not know, with the known ones. It also throws
+/// if the format has no such option, no elements of that order, or no quads.
+void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {}, int order = 1,
+                       bool has_quads = false);
 
 /// Throws InputError when no hexahedra are written there, naming the formats that have them.
 void check_hex_format(const std::filesystem::path& path, const MshOptions& options);

@@ -5,6 +5,7 @@
 #include "delquad/error.h"
 #include "experiments/console/progress.h"
 #include "geometry/mesh/check_mesh.h"
+#include "geometry/mesh/split_polygon.h"
 #include "geometry/mesh/weld.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
@@ -44,17 +45,19 @@ MeshWithFields read_whole(const std::filesystem::path& path, ReadNotes& notes,
 int convert_command(const ConvertArguments& arguments) {
   check_distinct({{"the mesh", arguments.mesh}, {"the other one", arguments.output}});
   check_mesh_format(arguments.output, arguments.msh);
+  check_triangles(arguments.mesh, arguments.output, arguments.msh);
   check_output(arguments.output);
   ReadNotes notes;
   std::vector<std::string> lost;
   const bool is_kept = keeps_file(arguments.mesh, arguments.output);
   auto [mesh, fields] =
       is_kept ? MeshWithFields{read_given_mesh(arguments.mesh), {}} : read_whole(arguments.mesh, notes, lost);
-  if (!fields.empty() && (!holds_fields(arguments.output) || arguments.weld > 0)) {
+  if (!fields.empty() && (!holds_fields(arguments.output) || arguments.weld > 0 || arguments.msh.triangles)) {
     std::vector<std::string> names;
     for (const MeshField& field : fields) names.push_back(field.name);
-    lost.push_back(fmt::format("fields, which are written to .msh and .vtu alone, and not with --weld: {}",
-                               fmt::join(names, ", ")));
+    lost.push_back(fmt::format(
+        "fields, which are written to .msh and .vtu alone, and not with --weld or --triangles: {}",
+        fmt::join(names, ", ")));
     fields.clear();
     mesh = read_mesh(arguments.mesh);  // without points that carry fields alone
   }
@@ -69,6 +72,7 @@ int convert_command(const ConvertArguments& arguments) {
       lost.push_back("a name as it was: " + name);
   }
   if (mesh.order > most_order_of(arguments.output)) mesh = straightened(std::move(mesh));
+  if (arguments.msh.triangles && mesh.order == 1) split_quads(mesh, notes);
   if (is_kept)
     rewrite_mesh(arguments.mesh, arguments.output, mesh, arguments.weld);
   else if (fields.empty())

@@ -310,7 +310,8 @@ int mesh_command(MeshArguments arguments) {
   const Word word = parse_word(text, word_start(c.model));
   c.allow_unsound = true;  // see below
   set_problem(arguments, c);
-  check_mesh_format(arguments.output, arguments.msh, c.order);
+  check_mesh_format(arguments.output, arguments.msh, c.order, word.result == PatchForm::kQuads);
+  if (arguments.improve) check_triangles(arguments.model, arguments.output, arguments.msh);
   if (arguments.serendipity) check_serendipity(arguments.output, arguments.msh, c.order);
   const auto size_file = size_file_of(c.size.text, c.size.folder);
   check_distinct(

@@ -237,8 +237,17 @@ void set_keys(const KeyArguments& arguments, Case& c) {
   read_case_keys(table, c);
 }
 
+void check_triangles(const std::filesystem::path& source, const std::filesystem::path& output,
+                     const MshOptions& msh) {
+  if (msh.triangles && keeps_file(source, output))
+    refuse("--triangles: {} keeps the elements of {}: leave it out, or write another format", output.string(),
+           source.string());
+}
+
 void add_msh(CLI::App& command, MshOptions& msh) {
   command.add_flag("--binary", msh.binary, "write .msh as bytes");
+  command.add_flag("--triangles", msh.triangles,
+                   "split each quad along its better diagonal; STL and ADCIRC have no quads");
   static const std::map<std::string, MshCurves> curves = {
       {"all", MshCurves::kAll}, {"named", MshCurves::kNamed}, {"boundary", MshCurves::kBoundary}};
   command

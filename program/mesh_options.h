@@ -46,7 +46,10 @@ struct MeshArguments : KeyArguments {
   bool strict = false, failing_sets = false;
   MshOptions msh{false, MshCurves::kNamed};
 };
-/// Adds `--binary` and `--curves`.
+/// Refuses `--triangles` for a deck whose elements are kept.
+void check_triangles(const std::filesystem::path& source, const std::filesystem::path& output,
+                     const MshOptions& msh);
+/// Adds `--binary`, `--triangles` and `--curves`.
 void add_msh(CLI::App& command, MshOptions& msh);
 CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments);
 CLI::App* add_improve_options(CLI::App& app, MeshArguments& arguments);

@@ -67,12 +67,17 @@ class EarCutter {
   }
 
   int best_known() {
+    const size_t n = ring_.size();
+    for (size_t k = 0; k < n; ++k)
+      if (double& known = quality_[ring_[k]]; known == kUnknown) known = ear_quality(static_cast<int>(k));
+    // An ear of four corners leaves the opposite one.
+    const auto quality = [&](size_t k) {
+      return n == 4 ? std::min(quality_[ring_[k]], quality_[ring_[(k + 2) % n]]) : quality_[ring_[k]];
+    };
     int best = -1;
-    for (size_t k = 0; k < ring_.size(); ++k) {
-      double& quality = quality_[ring_[k]];
-      if (quality == kUnknown) quality = ear_quality(static_cast<int>(k));
-      if (quality > kNoEar && (best < 0 || quality > quality_[ring_[best]])) best = static_cast<int>(k);
-    }
+    for (size_t k = 0; k < n; ++k)
+      if (quality(k) > kNoEar && (best < 0 || quality(k) > quality(static_cast<size_t>(best))))
+        best = static_cast<int>(k);
     return best;
   }
 

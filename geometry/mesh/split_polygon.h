@@ -11,9 +11,10 @@
 
 namespace delquad {
 
-/// Cuts a polygon in space into triangles that turn as it does, by its ears, best ones first. Seen along the
-/// axis nearest to its normal, the polygon must not cross itself. Corners may lie on others, as where a
-/// bridge leads to a hole. Nothing when that is not so, or when it has no area. Indices count the corners.
+/// Cuts a polygon in space into triangles that turn as it does. It cuts the best ears first; the worse of the
+/// last two triangles is as good as can be. Seen along the axis nearest to its normal, the polygon must not
+/// cross itself. Corners may lie on others, as where a bridge leads to a hole. Returns nothing for other
+/// polygons and without area. Indices count the corners.
 /// Takes time with the square of their number.
 std::optional<std::vector<std::array<int, 3>>> split_polygon(const std::vector<Vec3>& corners);
 

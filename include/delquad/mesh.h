@@ -156,6 +156,8 @@ struct MshOptions {
   /// Kind of hexahedra in .inp: C3D8, C3D8I or C3D8R; with nodes in the middle of straight edges C3D20 or
   /// C3D20R; for heat DC3D8 or DC3D20. Empty: C3D8. S4 makes shells of quads in a plane.
   std::string element = {};
+  /// Whether quads of order 1 are written as two triangles each. STL and ADCIRC have no quads.
+  bool triangles = false;
 };
 
 /// Writes a mesh by extension: .msh, .vtu (with eta per quad), .obj, .inp, .mesh or .svg (a picture).

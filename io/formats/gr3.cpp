@@ -53,11 +53,6 @@ double crest_of(const std::string& name) {
 /// of triangles, with weirs as pairs of nodes (its manual, IBTYPE 24).
 void write_gr3(const std::filesystem::path& path, const Mesh& mesh) {
   const bool is_adcirc = kind_of_file(path) != ".gr3";
-  if (is_adcirc && !mesh.quads.empty())
-    refuse(
-        "{}: ADCIRC has triangles only, and there are {} quads: expected triangles, of --pipeline D, or "
-        ".gr3, for SCHISM, which has both [triangles-only]",
-        path.string(), mesh.quads.size());
   require_terrain(path, "SCHISM's and ADCIRC's grid", mesh);
   std::vector<CoastPiece> pieces = coast_pieces(mesh);
   const std::vector<NodePairs> pairs =
@@ -131,7 +126,8 @@ MeshFormat gr3_format() {
           .write = write_by<write_gr3>,
           .has_depths = true,
           .has_open_sides = true,
-          .names = kBoundaryNames};
+          .names = kBoundaryNames,
+          .of_triangles = {".14", ".grd"}};
 }
 
 }  // namespace delquad

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <utility>
 
+#include "io/cell_view.h"
 #include "io/face_reader.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
+#include "io/text_writer.h"
 
 namespace delquad {
 
@@ -159,8 +161,21 @@ Mesh read_off(const std::filesystem::path& path, ReadNotes* notes, Strays strays
   return OffReader(path, strays).read(notes);
 }
 
+void write_off(const std::filesystem::path& path, const Mesh& mesh) {
+  write_text_file(path, [&](TextWriter& out) {
+    out << "OFF\n" << mesh.points.size() << ' ' << mesh.triangles.size() + mesh.quads.size() << " 0\n";
+    write_points_and_faces(out, mesh);
+  });
+}
+
 }  // namespace
 
-MeshFormat off_format() { return {{".off"}, "Object File Format", read_off}; }
+MeshFormat off_format() {
+  return {.extensions = {".off"},
+          .description = "Object File Format",
+          .read = read_off,
+          .write = write_by<write_off>,
+          .names = 0};
+}
 
 }  // namespace delquad

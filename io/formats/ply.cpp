@@ -8,10 +8,12 @@
 #include <cstdint>
 #include <cstring>
 
+#include "io/cell_view.h"
 #include "io/face_reader.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
+#include "io/text_writer.h"
 
 // CGAL's reader sets aside whatever memory a damaged length asks for, and does not say where it stopped.
 
@@ -276,8 +278,24 @@ Mesh read_ply(const std::filesystem::path& path, ReadNotes* notes, Strays strays
   return PlyReader(path, strays).read(notes);
 }
 
+void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
+  write_text_file(path, [&](TextWriter& out) {
+    out << "ply\nformat ascii 1.0\nelement vertex " << mesh.points.size();
+    for (const char* name : {"x", "y", "z"}) out << "\nproperty double " << name;
+    out << "\nelement face " << mesh.triangles.size() + mesh.quads.size()
+        << "\nproperty list uchar int vertex_indices\nend_header\n";
+    write_points_and_faces(out, mesh);
+  });
+}
+
 }  // namespace
 
-MeshFormat ply_format() { return {{".ply"}, "Polygon File Format", read_ply}; }
+MeshFormat ply_format() {
+  return {.extensions = {".ply"},
+          .description = "Polygon File Format, written as text",
+          .read = read_ply,
+          .write = write_by<write_ply>,
+          .names = 0};
+}
 
 }  // namespace delquad

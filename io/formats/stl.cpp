@@ -11,11 +11,13 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "geometry/mesh/drop_unused_points.h"
+#include "geometry/mesh/triangle_measures.h"
 #include "geometry/mesh/weld.h"
 #include "io/face_reader.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
+#include "io/text_writer.h"
 
 namespace delquad {
 
@@ -181,8 +183,40 @@ Mesh read_stl(const std::filesystem::path& path, ReadNotes*, Strays strays) {
   return mesh;
 }
 
+/// Writes STL as text, a solid for each region, with the region's first name.
+void write_stl(const std::filesystem::path& path, const Mesh& mesh) {
+  std::vector<std::vector<std::size_t>> of_region(mesh.regions.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) of_region[mesh.triangle_region[t]].push_back(t);
+  write_text_file(path, [&](TextWriter& out) {
+    const auto write = [&out](const char* word, const Vec3& x) {
+      out << word << ' ' << x.x << ' ' << x.y << ' ' << x.z << '\n';
+    };
+    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+      const Entity& region = mesh.regions[r];
+      const std::string name =
+          region.names.empty() ? fmt::format("region_{}", region.tag) : one_line(region.names[0]);
+      out << "solid " << name << '\n';
+      for (const std::size_t t : of_region[r]) {
+        const Vec3 area = area_vector(mesh.points, mesh.triangles[t]);
+        write("facet normal", norm(area) > 0 ? 1 / norm(area) * area : area);
+        out << "outer loop\n";
+        for (const int v : mesh.triangles[t]) write("vertex", mesh.points[v]);
+        out << "endloop\nendfacet\n";
+      }
+      out << "endsolid " << name << '\n';
+    }
+  });
+}
+
 }  // namespace
 
-MeshFormat stl_format() { return {{".stl"}, "stereolithography", read_stl}; }
+MeshFormat stl_format() {
+  return {.extensions = {".stl"},
+          .description = "stereolithography, written as text",
+          .read = read_stl,
+          .write = write_by<write_stl>,
+          .names = kRegionNames,
+          .of_triangles = {".stl"}};
+}
 
 }  // namespace delquad

@@ -61,10 +61,10 @@ Mesh make_mesh(const py::object& points, const py::object& lines, const py::obje
   return mesh;
 }
 
-void write(const Mesh& mesh, const std::string& path, bool binary) {
+void write(const Mesh& mesh, const std::string& path, bool binary, bool triangles) {
   const py::gil_scoped_release released;
   MshOptions options;
-  options.binary = binary;
+  options.binary = binary, options.triangles = triangles;
   write_mesh(path, mesh, options);
 }
 
@@ -124,7 +124,7 @@ void define_mesh(py::module_& m) {
                              "(index of a region, index of the master region, (n, 2) pairs of nodes)")
       .def_readonly("order", &Mesh::order, "of the elements, 1 to 4; lines and quads are their corners")
       .def_readonly("unit", &Mesh::unit, "of lengths; empty: not known")
-      .def("_write_file", &write, arg("path"), arg("binary") = false);
+      .def("_write_file", &write, arg("path"), arg("binary") = false, arg("triangles") = false);
   m.def("read_mesh", &read, arg("path"));
   m.def("_extensions", &extensions, arg("written"));
 }

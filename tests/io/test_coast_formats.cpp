@@ -158,7 +158,9 @@ TEST(Adcirc, TakesTrianglesOnly) {
   write_mesh(folder / "a.gr3", triangle_grid(2, 2));
   EXPECT_EQ(read_text(folder / "fort.14"), read_text(folder / "a.gr3"));
   expect_input_error([&] { write_mesh(folder / "fort.14", quad_grid(2, 2)); },
-                     {"fort.14: ADCIRC has triangles only, and there are 4 quads", ".gr3"});
+                     {"fort.14: '.14' has triangles only", "--triangles"});
+  write_mesh(folder / "fort.14", quad_grid(2, 2), {.triangles = true});
+  EXPECT_EQ(read_mesh(folder / "fort.14").triangles.size(), 8u);
 }
 
 TEST(Sms, NodeStringsOfOneNameHaveTheirOwn) {

@@ -152,6 +152,13 @@ TEST(Polygons, AreSplitWithoutInvertedTriangles) {
   EXPECT_FALSE(split_polygon({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}})) << "no area";
 }
 
+TEST(Polygons, LastTwoTrianglesAreGood) {
+  // The best ear would leave a triangle that is nearly flat.
+  const auto triangles = split_polygon({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0.95, 1.05, 0}});
+  ASSERT_TRUE(triangles);
+  for (const auto& t : *triangles) EXPECT_TRUE(std::ranges::count(t, 1) && std::ranges::count(t, 3));
+}
+
 TEST(Polygons, AreSaidWithTheirNumber) {
   const Folder folder;
   const std::string points = "v 0 0 7\nv 2 0 7\nv 2 2 7\nv 1 3 7\nv 0 2 7\n";

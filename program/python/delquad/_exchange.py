@@ -16,8 +16,8 @@ def read_mesh(path):
 read_mesh.__doc__ = f"Reads {', '.join(_core._extensions(written=False))}, perhaps with .gz behind."
 
 
-def _write(self, path, binary=False):
-    _core.Mesh._write_file(self, os.fspath(path), binary)
+def _write(self, path, binary=False, triangles=False):
+    _core.Mesh._write_file(self, os.fspath(path), binary, triangles)
 
 
 _write.__doc__ = f"Writes {', '.join(_core._extensions(written=True))} (docs/meshing.md tells more), whole or not at all."
