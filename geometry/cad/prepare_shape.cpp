@@ -20,8 +20,8 @@ namespace delquad::cad {
 
 namespace {
 
-/// Processor time granted: a hundred times what files need.
-constexpr unsigned kSeconds = 60, kSecondsPerMegabyte = 60;
+/// Processor time granted, at least ten times the time that files of 24 models need.
+constexpr unsigned kSeconds = 15, kSecondsPerMegabyte = 60;
 
 /// The activity of a worker, as told to the run of this thread.
 class WorkersActivity {
@@ -90,7 +90,8 @@ CadShape prepare_shape(const CadModel& model, const CadOptions& options) {
 }
 
 CadShape prepare_shape(const CadShape& shape, const CadOptions& options) {
-  return prepare({CadRequest::Source::kShape, to_bytes(shape), options, thread_count(), kSeconds});
+  const std::string bytes = to_bytes(shape);
+  return prepare({CadRequest::Source::kShape, bytes, options, thread_count(), seconds_for(bytes.size())});
 }
 
 }  // namespace delquad::cad
