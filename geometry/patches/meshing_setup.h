@@ -96,6 +96,7 @@ struct ProblemSettings {
   bool keep_going = false;
   int order = 1;
   Criteria criteria = {};
+  QuadLimits limits = {};  ///< by the criteria
 };
 
 /// What every pipeline on a case starts from.
