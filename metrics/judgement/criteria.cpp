@@ -119,6 +119,7 @@ std::function<double(const std::array<Vec3, 4>&, double)> excess_of(const Criter
 const CriterionLimit* least_length(const Criteria& criteria) { return find_limit(criteria, kMinLength, ""); }
 
 QuadLimits limits_of(const Criteria& criteria, const SizeField& size, std::span<const Vec3> points) {
+  if (criteria.empty()) return {};
   double most = 0;
   int hint = -1;
   for (const Vec3& x : points) most = std::max(most, size.at(x, hint));
