@@ -170,9 +170,11 @@ void lift(FinishContext& on) {
 
 void repair_failing(FinishContext& on) {
   const std::vector<char> left_out = unlifted_patches(on);
-  add_summary(on.result.log, repair_failing_quads({on.prepared, on.prepared.settings.options,
-                                                   on.state.patches, left_out, on.state.nodes},
-                                                  requested_size(on.prepared)));
+  const ProblemSettings& settings = on.prepared.settings;
+  add_summary(
+      on.result.log,
+      repair_failing_quads({on.prepared, settings.options, on.state.patches, left_out, on.state.nodes},
+                           {requested_size(on.prepared), settings.limits, excess_of(settings.criteria)}));
 }
 
 void split_corners(FinishContext& on) {
@@ -247,10 +249,9 @@ const OptionTable<RepairOptions>& repair_table() {
           .add({.name = "lift_bad_quads",
                 .help = "on surfaces: whether quads that are bad in space are improved there"},
                &RepairOptions::lift_bad_quads)
-          .add(
-              {.name = "failing_quads",
-               .help = "on surfaces with criteria: whether quads that fail the limits of batch are repaired"},
-              &RepairOptions::failing_quads)
+          .add({.name = "failing_quads",
+                .help = "on surfaces with criteria: whether quads that fail are repaired"},
+               &RepairOptions::failing_quads)
           .add({.name = "flat_corners",
                 .help = "for curved elements: whether quads with flat corners get a ring of quads"},
                &RepairOptions::flat_corners)

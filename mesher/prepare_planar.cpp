@@ -27,6 +27,7 @@
 #include "geometry/planar/check_lines.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
+#include "metrics/judgement/criteria.h"
 
 namespace delquad {
 namespace {
@@ -183,6 +184,7 @@ class PlanarSteps final : public ModelSteps {
     const auto cross = make_cross(problem_, given_cross_, p);
     const double z = p.boundary.points[0].z;
     const auto size = std::make_shared<PlanarSize>(p.size.field, z);
+    size->limits = p.settings.limits = limits_of(problem_.criteria, requested_size(p), p.boundary.points);
     for (std::size_t i = 0; i < domain_.patches.size(); ++i)
       p.patches.push_back({std::move(domain_.patches[i]),
                            domain_.patch_region[i],

@@ -36,6 +36,7 @@
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "mesher/prepare.h"
+#include "metrics/judgement/criteria.h"
 
 namespace delquad {
 namespace {
@@ -102,6 +103,8 @@ void check_surface_cross(const CrossSpec& cross) {
                      ": a surface takes its crosses from its curves: expected 'boundary' or 'size-aware'");
 }
 
+/// Sizes beside short curves are at least so many times the least length of the criteria.
+constexpr double kLeastSize = 1.5;
 /// Maps of given elements are taken when they distort less: these may be large, and every cut holds nodes.
 constexpr double kMaxSigmaOfGiven = 1.6;
 
@@ -113,9 +116,10 @@ void prepare_patches(const std::shared_ptr<SurfaceSetup>& surface, MeshingSetup&
       [&](std::size_t i) {
         const SurfacePatch& patch = patches[i];
         const FaceScope face(surface->model.fine.regions[patch.map.face].tag);
+        const auto size = std::make_shared<SurfacePatchSize>(patch, surface->model.fine, *surface->size);
+        size->limits = p.settings.limits;
         p.patches[i] = {
-            patch.boundary, patch.map.face, std::make_shared<HarmonicCrossField>(patch.background),
-            std::make_shared<SurfacePatchSize>(patch, surface->model.fine, *surface->size),
+            patch.boundary, patch.map.face, std::make_shared<HarmonicCrossField>(patch.background), size,
             [surface, &patch](Vec2 u, int& hint) { return lift(patch, surface->model, u, hint); }};
       },
       [&](std::size_t i) { return static_cast<double>(patches[i].map.flat.triangles.size()); });
@@ -130,7 +134,7 @@ class SurfaceSteps final : public ModelSteps {
   SurfaceSteps(const MeshProblem& problem, const RetryHints& hints) : problem_(problem), hints_(hints) {}
 
   void read(MeshingSetup& p) override {
-    read_model(p.warnings);
+    read_model(p);
     check_surface_cross(problem_.cross);
     check_count(expected_quads(model_.fine, SurfaceSize(asked_)), problem_);
     cut_ = cut_at_planes(problem_, model_, asked_);
@@ -140,6 +144,9 @@ class SurfaceSteps final : public ModelSteps {
       metric_ = wanted_metric(problem_, model_, hints_.spots);
     else
       wanted_ = surface_size(problem_, model_, asked_, divisions_, hints_.spots, part());
+    int hint = -1;
+    for (double& limit : wanted_.curve_limit)
+      limit = std::max(limit, kLeastSize * shortest_ * asked_->at(model_.fine.points[0], hint));
   }
 
   bool is_surface() const override { return true; }
@@ -168,10 +175,11 @@ class SurfaceSteps final : public ModelSteps {
       other.base = jittered(wanted_.base, problem_.seed, diagonal(model_.fine));
       on_curves = std::make_shared<SurfaceSize>(model_, other);
     }
-    surface_->domain =
-        mesh_curves_of(model_, std::move(flattening_), *on_curves,
-                       wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_, divisions_,
-                       washers_, mapped_, periodic_, agreement_of(problem_, hints_), failures_);
+    CurveAgreement agreement = agreement_of(problem_, hints_);
+    agreement.shortest = shortest_;
+    surface_->domain = mesh_curves_of(model_, std::move(flattening_), *on_curves,
+                                      wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_,
+                                      divisions_, washers_, mapped_, periodic_, agreement, failures_);
     surface_->is_retry = !hints_.spots.empty();
     surface_->model = std::move(model_);
     surface_->cad = cad_;
@@ -208,7 +216,7 @@ class SurfaceSteps final : public ModelSteps {
  private:
   const CutSurface* part() const { return cut_ ? &*cut_ : nullptr; }
 
-  void read_model(std::vector<Warning>& warnings) {
+  void read_model(MeshingSetup& p) {
     std::vector<FeatureBall> kept;
     if (hints_.keep_features)
       for (const SizeBall& spot : hints_.spots) kept.push_back({spot.at, spot.reach});
@@ -221,16 +229,18 @@ class SurfaceSteps final : public ModelSteps {
       return;
     }
     const SampleDomain domain = {Box<Vec3>::around(model_.fine.points), &model_.fine};
-    asked_ = base_size(problem_.size, domain, warnings, [&] {
+    asked_ = base_size(problem_.size, domain, p.warnings, [&] {
       return largest_size(problem_.size, problem_.size.from_boundary
                                              ? "'boundary' extends the lengths of a planar boundary that is "
                                                "kept; a surface's curves are meshed anew: expected a size (a "
                                                "number or an expression)"
                                              : "a surface needs a size (a number or an expression)");
     });
-    model_ = join_short_curves(problem_, *asked_, std::move(model_));
+    p.settings.limits = limits_of(problem_.criteria, *asked_, model_.fine.points);
+    if (least_length(problem_.criteria) != nullptr) shortest_ = p.settings.limits.shortest;
+    model_ = join_short_curves(problem_, *asked_, std::move(model_), shortest_);
     washers_.plan(as_function(asked_));
-    asked_ = imprint_named(problem_.size.named, std::move(asked_), model_, warnings);
+    asked_ = imprint_named(problem_.size.named, std::move(asked_), model_, p.warnings);
     washers_.cut();
   }
 
@@ -252,7 +262,8 @@ class SurfaceSteps final : public ModelSteps {
   SurfaceModel model_;
   std::shared_ptr<const SurfaceModel> cad_;  ///< SurfaceSetup::cad
   std::shared_ptr<const SizeField> asked_;
-  std::optional<CutSurface> cut_;                              ///< of a symmetric one, whose part is `model_`
+  double shortest_ = 0;            ///< least length of the criteria, in sizes; 0: none
+  std::optional<CutSurface> cut_;  ///< of a symmetric one, whose part is `model_`
   std::vector<CurveDivision> divisions_ = problem_.divisions;  ///< of the part
   MappedSpec mapped_ = problem_.mapped;
   SurfaceWashers washers_{problem_, model_, divisions_, mapped_};
@@ -298,6 +309,7 @@ class GivenSurfaceSteps final : public ModelSteps {
     surface_->cuts = flattening_.cuts;
     surface_->size = std::make_shared<SurfaceSize>(model, wanted_);
     p.size.field = surface_->size;
+    p.settings.limits = limits_of(problem_.criteria, *surface_->size, model.fine.points);
     p.size.expected_quads = expected_quads(model.fine, *surface_->size);
     if (source_ != nullptr) check_count(p.size.expected_quads, problem_);
     if (!mesh_.quads.empty()) p.given_worst = worst_of_given(mesh_, false, *surface_->size);
@@ -364,8 +376,10 @@ CurveAgreement agreement_of(const MeshProblem& problem, const RetryHints& hints)
   // A mesh that was not sound does not lack regularity, and there may be many rounds.
   constexpr long long kRetrySteps = kMostAgreementSteps / 10;
   const CurveOptions curves = curve_options(problem.options);
+  const CriterionLimit* least = least_length(problem.criteria);
   return {regularity_options(problem.options).weight * curves.agreement,
-          hints.spots.empty() ? kMostAgreementSteps : kRetrySteps, curves.round_holes};
+          hints.spots.empty() ? kMostAgreementSteps : kRetrySteps, curves.round_holes,
+          least != nullptr && least->in_sizes ? least->value : 0};
 }
 
 std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const RetryHints& hints) {

@@ -263,7 +263,9 @@ OptimisationSummary optimise(const AllPatches& in, std::vector<Vec>& points,
   std::vector<Vec2> positions;
   for (std::size_t v = 0; keep && v < points.size(); ++v)
     positions.push_back(tracks.position(static_cast<int>(v)));
-  const auto summary = optimise_on_tracks(points, quads, tracks, optimisation_options(in.options));
+  OptimisationOptions options = optimisation_options(in.options);
+  options.limits = in.prepared.settings.limits;
+  const auto summary = optimise_on_tracks(points, quads, tracks, options);
   if (keep) forbid_degradation(in.prepared, before, positions, quads, tracks, points);
   return summary;
 }

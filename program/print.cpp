@@ -149,6 +149,10 @@ void print_criteria(const CriteriaReport& report, const Mesh& mesh) {
   for (const auto& [program, step] : report.estimated_step) fmt::print(" {} {:.4g}", program, step);
   fmt::print("\n");
   for (const std::string& why : report.why) fmt::print("    {}\n", why);
+  for (const Cure& cure : report.cures)
+    fmt::print("    {} {:.3g} may cure {} of {} ({})\n",
+               cure.key == "size" ? "a --size there of" : "--ignore-below", cure.value, cure.count,
+               report.failing, cure.cause);
 }
 
 void print_seconds(const StepTimes& times) {

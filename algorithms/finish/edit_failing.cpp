@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -23,7 +22,7 @@ namespace {
 constexpr int kMostEdits = 2000, kSettlingSweeps = 6;
 /// Allowed loss of eta, summed over the quads around, for each failing quad that an edit removes.
 constexpr double kPriceOfFailing = 1;
-/// Least part of kBatchEta, or of the worst eta around, that an edit must keep; for given quads 1.
+/// Least part of the kept eta, or of the worst eta around, that an edit must keep; for given quads 1.
 constexpr double kKeptPart = 0.9;
 
 /// Sums and the worst value over quads around some vertices.
@@ -36,12 +35,12 @@ struct QuadsAround {
 
 class FailingEdits {
  public:
-  FailingEdits(const AllPatches& in, std::size_t patch, const SizeField& size)
+  FailingEdits(const AllPatches& in, std::size_t patch, const SpaceLimits& limits)
       : surface_(*in.prepared.surface),
         domain_(surface_.domain.patches[patch]),
         mesh_(in.patches[patch].quads),
         relocation_(mesh_, *in.prepared.patches[patch].size),
-        size_(size),
+        limits_(limits),
         kept_(surface_.given ? 1 : kKeptPart),
         positions_(in.patches[patch].quads.points) {
     for (const int node : in.prepared.patches[patch].boundary.point_node)
@@ -50,7 +49,7 @@ class FailingEdits {
     places_.insert(places_.end(), inside.begin(), inside.end());
     relocation_.keep_convex_corners();
     relocation_.hold_lengths();
-    relocation_.keep_sines_above(sine_of_eta(kBatchEta));
+    relocation_.keep_sines_above(sine_of_eta(limits_.kept.eta));
   }
 
   int run() {
@@ -85,16 +84,8 @@ class FailingEdits {
   }
 
   bool is_failing(const std::array<Vec3, 4>& at) const {
-    double least = std::numeric_limits<double>::max(), most = 0, shortest = least, longest = 0;
-    for (int k = 0; k < 4; ++k) {
-      const Vec3 &a = at[k], &b = at[(k + 1) % 4];
-      int hint = -1;
-      const double length = norm(b - a), part = length / size_.at(0.5 * (a + b), hint);
-      least = std::min(least, length), most = std::max(most, length);
-      shortest = std::min(shortest, part), longest = std::max(longest, part);
-    }
-    return quad_warp(at) > kBatchWarp ||
-           is_beyond_batch(shortest, longest, most / std::max(least, kTinyLength), sine_of_eta(eta(at)));
+    int hint = -1;
+    return limits_.excess(at, limits_.size.at(0.25 * (at[0] + at[1] + at[2] + at[3]), hint)) > 0;
   }
 
   template <class F>
@@ -159,12 +150,12 @@ class FailingEdits {
     for (int sweep = 0; sweep < kSettlingSweeps; ++sweep)
       for (const int v : touched_) relocation_.step(v);
     const ElementQuality settled = in_plane();
-    if (settled.least_sine < kept_ * std::min(flat.least_sine, sine_of_eta(kBatchEta)) ||
+    if (settled.least_sine < kept_ * std::min(flat.least_sine, sine_of_eta(limits_.kept.eta)) ||
         settled.failing > flat.failing || settled.crowding > flat.crowding)
       return 0;  // checked first, since places in space take longer
     const QuadsAround after = in_space();
     if (after.failing >= before.failing || after.ties > before.ties ||
-        after.worst < kept_ * std::min(before.worst, kBatchEta) || some_turn_from(before.area))
+        after.worst < kept_ * std::min(before.worst, limits_.kept.eta) || some_turn_from(before.area))
       return 0;
     return kPriceOfFailing * (before.failing - after.failing) - (after.deficit - before.deficit);
   }
@@ -191,7 +182,7 @@ class FailingEdits {
   const SurfacePatch& domain_;
   QuadTopology mesh_;
   QuadRelocation relocation_;
-  const SizeField& size_;
+  const SpaceLimits& limits_;
   const double kept_;            ///< least kept part of eta
   std::vector<Vec2> positions_;  ///< places of vertices in the plane
   std::vector<Vec3> places_;     ///< their places in space
@@ -203,8 +194,8 @@ class FailingEdits {
 
 }  // namespace
 
-int edit_failing(const AllPatches& in, std::size_t patch, const SizeField& size) {
-  FailingEdits edits(in, patch, size);
+int edit_failing(const AllPatches& in, std::size_t patch, const SpaceLimits& limits) {
+  FailingEdits edits(in, patch, limits);
   const int made = edits.run();
   if (made > 0) edits.store(in.patches[patch]);
   return made;

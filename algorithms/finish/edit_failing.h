@@ -4,15 +4,15 @@
 #include <cstddef>
 
 #include "geometry/patches/places_inside.h"
+#include "smoothing/surface/surface_lift.h"
 
 // This header edits quads that fail criteria. Repairs of quads in space use it.
 
 namespace delquad {
 
-/// Edits the quads of a patch around quads that fail in space. A quad fails by is_beyond_batch(), with sides
-/// over `size`, or by kBatchWarp. Edits are rotations, collapses, openings and splits; the best one must
-/// leave fewer failing quads after relocation at a small loss of eta. Boundary nodes stay. Returns the number
-/// of edits.
-int edit_failing(const AllPatches& in, std::size_t patch, const SizeField& size);
+/// Edits the quads of a patch around quads that fail in space. Edits are rotations, collapses, openings and
+/// splits; the best one must leave fewer failing quads after relocation at a small loss of eta. Boundary
+/// nodes stay. Returns the number of edits.
+int edit_failing(const AllPatches& in, std::size_t patch, const SpaceLimits& limits);
 
 }  // namespace delquad

@@ -35,8 +35,8 @@ constexpr int kRingPasses = 3;
 constexpr int kMostTrials = 200, kMostTried = 1'000'000, kWays = 21;
 /// Limit of tried places of vertices, see lift_worst_on_surface(): about ten seconds.
 constexpr long long kMostCost = 8'000'000;
-/// Limit for failing quads: about a second.
-constexpr long long kMostRepairs = 1'000'000;
+/// Limit for failing quads: about five seconds.
+constexpr long long kMostRepairs = 5'000'000;
 
 /// Badness of a quad that is inverted, folded or turned away from the model; a flat quad has 1.
 constexpr int kUnsound = 1000;
@@ -347,7 +347,7 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
   return summary;
 }
 
-FailingRepairSummary repair_failing_quads(const AllPatches& in, const SizeField& size) {
+FailingRepairSummary repair_failing_quads(const AllPatches& in, const SpaceLimits& limits) {
   FailingRepairSummary summary;
   const std::vector<std::size_t> which = patches_of_quads(in);
   place_inside(in);
@@ -355,14 +355,14 @@ FailingRepairSummary repair_failing_quads(const AllPatches& in, const SizeField&
   Budget trials(kMostRepairs);
   const auto move = [&] {
     summary.moved += move_on_tracks(in, which, [&](SurfaceTracks& tracks, std::vector<Vec3>& places) {
-      return repair_failing_on_surface(tracks, places, size, kRepairSweeps, trials);
+      return repair_failing_on_surface(tracks, places, limits, kRepairSweeps, trials);
     });
   };
   move();
   if (!in.prepared.boundary.periodic_faces.empty()) return summary;  // images of faces must not change
   std::vector<int> edits(which.size());
   parallel_for(
-      which.size(), [&](std::size_t k) { edits[k] = edit_failing(in, which[k], size); },
+      which.size(), [&](std::size_t k) { edits[k] = edit_failing(in, which[k], limits); },
       [&](std::size_t k) { return static_cast<double>(in.patches[which[k]].quads.quads.size()); });
   summary.edited = std::accumulate(edits.begin(), edits.end(), 0);
   if (summary.edited > 0) move();

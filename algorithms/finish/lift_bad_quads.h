@@ -5,6 +5,7 @@
 
 #include "base/counters.h"
 #include "geometry/patches/places_inside.h"
+#include "smoothing/surface/surface_lift.h"
 
 // This header has the last repairs of quads in space. The pipeline uses it after its stages.
 
@@ -49,9 +50,9 @@ struct Counters<FailingRepairSummary> {
 /// all patches of quads.
 LiftingSummary lift_bad_quads(const AllPatches& in);
 
-/// Repairs quads of a sound mesh that fail by `size`: by moves (repair_failing_on_surface()), edits
+/// Repairs quads of a sound mesh that fail: by moves (repair_failing_on_surface()), edits
 /// (edit_failing()), and moves again. It does nothing if a quad is inverted, folded or turned away from the
 /// model.
-FailingRepairSummary repair_failing_quads(const AllPatches& in, const SizeField& size);
+FailingRepairSummary repair_failing_quads(const AllPatches& in, const SpaceLimits& limits);
 
 }  // namespace delquad

@@ -392,7 +392,7 @@ class Visit {
       std::array<Vec2, 4> at;
       std::array<double, 4> wanted{};
       for (int k = 0; k < 4; ++k) at[k] = points[q[k]], wanted[k] = delta[q[k]];
-      after.add(quality_of(at, wanted));
+      after.add(quality_of(at, wanted, w.relocation.limits()));
     }
     const double more = double(fill.quads.size()) - double(cavity.elements().size());
     loss += before.value - after.value + more;

@@ -17,6 +17,8 @@ namespace {
 
 /// Weight of the square of deviations, so that large ones cost more than many small ones.
 constexpr double kUneven = 8;
+/// Cost of an edge beyond the most that a curve should have.
+constexpr double kPriceBeyond = 20;
 /// Least decrease of cost that counts.
 constexpr double kLeastDecrease = 1e-9;
 /// Limit of passes over all sums and curves.
@@ -215,7 +217,8 @@ class Agreement {
   double misfit(int curve, int n) const {
     if (n < curves_[curve].least) return kNever;
     const double log = std::abs(std::log(n / curves_[curve].ideal));
-    return n * log * (curves_[curve].weight + kUneven * log);
+    const double beyond = n > curves_[curve].most ? kPriceBeyond * (n - curves_[curve].most) : 0;
+    return n * log * (curves_[curve].weight + kUneven * log) + beyond;
   }
   double cost_of(Change change) const {
     if (std::abs(change.by) <= kNoted) return costs_[change.curve][change.by + kNoted];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -12,13 +13,18 @@
 
 namespace delquad {
 
-/// A curve whose number n of edges may change, at a cost of n |log(n / ideal)| (weight + 8 |log(n / ideal)|).
+/// Numbers of edges without an upper limit.
+inline constexpr int kAnyNumber = std::numeric_limits<int>::max();
+
+/// A curve whose number n of edges may change. It costs n |log(n / ideal)| (weight + 8 |log(n / ideal)|), and
+/// 20 for each edge beyond `most`.
 struct AgreeingCurve {
   double ideal;              ///< edges, > 0
   int least;                 ///< at least 1
   bool is_free;              ///< otherwise its number is fixed
   double weight;             ///< >= 0
   std::vector<int> patches;  ///< adjacent patches; a seam has its patch twice
+  int most = kAnyNumber;
 };
 
 /// A signed sum of numbers of edges. Unless it is zero, rows of quads end in a patch, at a cost of

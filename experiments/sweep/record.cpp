@@ -172,12 +172,16 @@ Json report_json(const CriteriaReport& report, const Mesh& mesh) {
     json["cause"] = r.cause;
     limits.push_back(json);
   }
+  Json cures = Json::array();
+  for (const Cure& cure : report.cures)
+    cures.push_back({{"cause", cure.cause}, {"key", cure.key}, {"value", cure.value}, {"count", cure.count}});
   return {{"elements", report.elements},
           {"failing", report.failing},
           {"failing_quads", failing_quads(report, mesh)},
           {"limits", limits},
           {"causes", report.causes},
           {"why", report.why},
+          {"cures", cures},
           {"critical_step", report.critical_step},
           {"estimated_step", report.estimated_step},
           {"step_of_squares", report.step_of_squares}};

@@ -13,6 +13,7 @@ struct CurveAgreement {
   double price = 0;  ///< of agree_on_counts(); 0: numbers follow the size alone
   long long most_steps = kMostAgreementSteps;
   bool round_holes = false;  ///< see widen_round_holes()
+  double shortest = 0;       ///< edges on curves, in sizes as asked, are longer if possible
 };
 
 }  // namespace delquad

@@ -39,7 +39,7 @@ namespace {
 class PieceCounts {
  public:
   PieceCounts(const PlanarModel& model, FlatCurves flat, const std::vector<ChainPair>& images,
-              const SizeField& size, std::vector<CurvePiece>& pieces)
+              const SizeField& size, double shortest, std::vector<CurvePiece>& pieces)
       : model_(model), pieces_(pieces), flat_(std::move(flat)) {
     flat_.curves.images = images;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -47,7 +47,7 @@ class PieceCounts {
       const bool is_free = p.is_free();
       const double integral = is_free ? p.measure->integral() : p.n;
       const auto lines = static_cast<double>(flat_.curves.chains[i].points.size() - 1);
-      wanted_.demands.push_back({integral, p.least, {}, is_free ? 0 : p.n});
+      wanted_.demands.push_back({integral, p.least, {}, is_free ? 0 : p.n, most_edges(integral, shortest)});
       wanted_.integrals.push_back({{{0, 0}, {lines, integral}}});
       wanted_.lengths.push_back(integral);
       // Each by itself: means of strips make numbers that fit worse.
@@ -433,7 +433,7 @@ class CurveMesher {
     const Arrangement arrangement = arrange_lines(lines, names);
     const FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
     PieceCounts& counts = counts_.emplace(model_, flat_curves(lines, arrangement, regions, names, pieces_),
-                                          images_, *size_field_, pieces_);
+                                          images_, *size_field_, agreement_.shortest, pieces_);
     if (mapped_spec_.asks() || narrow_grids_) mapped_ = counts.find_grids(mapped_spec_);
     if (!mapped_.empty()) counts.balance(mapped_spec_, grid_size_, mapped_);
     if (mapped_.empty()) counts.make_even();

@@ -314,6 +314,8 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   const AcrossView across(fine, curves.chains, curves.maps, curves.outlines);
   CurveDemands wanted = measure_curves(fine, curves, across, size, asked != nullptr ? *asked : size);
   if (agreement.round_holes) widen_round_holes(fine, curves, across, agreement.price, wanted);
+  for (std::size_t c = 0; c < wanted.demands.size(); ++c)
+    wanted.demands[c].most = most_edges(wanted.lengths[c], agreement.shortest);
   divide_curves(fine, curves, divisions, wanted);
   SurfaceDomain domain;
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);

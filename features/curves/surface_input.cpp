@@ -322,10 +322,12 @@ std::vector<char> named_curves(const MeshProblem& problem, const std::vector<Ent
 
 }  // namespace
 
-SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model) {
-  const double part = curve_options(problem.options).join_below;
+SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model,
+                               double least) {
+  double part = curve_options(problem.options).join_below;
   if (part == 0 || model.corners.empty() || !problem.periodic.empty() || !problem.mapped.corners.empty())
     return model;
+  part = std::max(part, least);
   const double length = kRoundingMargin * part * least_at_corners(size, model);
   const std::vector<char> named = named_curves(problem, model.fine.curves);
   const std::size_t n_warnings = model.warnings.size();

@@ -30,11 +30,12 @@ double length_of_small(const MeshProblem& problem, std::span<const Vec3> points)
 KeptNames names_that_stay(const MeshProblem& problem, const std::vector<Entity>& curves,
                           const std::vector<Entity>& regions);
 
-/// Returns the model with curves shorter than a part of the size (`curves.join_below`) made one with their
-/// continuations, see merge_short_curves(). No node is needed where these meet, and so many short edges would
-/// make as many rows of quads end. Sizes that vary count where they are least. Curves with names stay, and
-/// curves that the problem names by their numbers. All stay where sides are periodic or corners of grids are
-/// told.
-SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model);
+/// Joins curves that are shorter than a part of the size (`curves.join_below`, or `least` if that is more)
+/// with curves that they continue, see merge_short_curves(). No node is needed where these meet, and so many
+/// short edges would make as many rows of quads end. Sizes that vary count where they are least. Curves with
+/// names stay, and those that the problem names by their numbers. All stay where sides are periodic or
+/// corners of grids are told.
+SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model,
+                               double least = 0);
 
 }  // namespace delquad

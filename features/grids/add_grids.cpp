@@ -28,7 +28,7 @@ struct GridQuality {
   double fit = 0;      ///< of the sides: length / delta, or its inverse where that is less
   double longest = 0;  ///< of the sides, in sizes
   bool pays(bool is_narrow) const {
-    return is_narrow ? worst >= kBatchEta && longest <= kBatchLong
+    return is_narrow ? worst >= QuadLimits{}.eta && longest <= QuadLimits{}.longest
                      : worst >= kLeastEta && mean >= kLeastMeanEta && fit >= kLeastFit;
   }
 };

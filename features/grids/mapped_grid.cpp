@@ -228,7 +228,8 @@ std::vector<double> ring_layers(const PatchBoundary& boundary, const ParametricS
   for (int k = 0; k < kRingStations; ++k) edges[k + 1] = edges[k] + edges[k + 1] / lines;
   int wanted = std::max(1, static_cast<int>(std::lround(edges.back())));
   // More rows where edges across were longer than is asked for, and do not get shorter than that.
-  while (widest > kBatchLong * wanted && narrowest >= kBatchShort * (wanted + 1)) ++wanted;
+  while (widest > QuadLimits{}.longest * wanted && narrowest >= QuadLimits{}.shortest * (wanted + 1))
+    ++wanted;
   std::vector<double> layers;
   for (int j = 1, k = 0; j < wanted; ++j) {
     const double target = edges.back() * j / wanted;

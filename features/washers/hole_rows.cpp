@@ -29,7 +29,7 @@ constexpr double kLeastHeight = 0.6, kLeastFree = 0.5;
 constexpr int kFewestEdges = 6;
 constexpr double kMostEdges = 1e5;  // that are tried
 /// Lengths of edges, in sizes: quads beside them have others that are a fifth shorter or longer.
-constexpr double kShortest = 1.2 * kBatchShort, kLongest = kBatchLong / 1.2;
+constexpr double kShortest = 1.2 * QuadLimits{}.shortest, kLongest = QuadLimits{}.longest / 1.2;
 
 /// Twice the area, along the normal.
 Vec3 area_of(const std::vector<Vec3>& outline) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "delquad/fields.h"
 #include "delquad/mesh.h"
 #include "geometry/mesh/quad_topology.h"
 
@@ -66,18 +67,12 @@ inline int ideal_quads(double right_angles) {
 /// only.
 inline constexpr double kShortSide = 0.1, kKeptSide = 1.25 * kShortSide;
 
-/// Usual limits of engineers for quads (criteria "batch"): sides over the wanted size, and longest over
-/// shortest side. Then come eta of corners from 40 to 140 degrees, and the warpage (quad_warp(), radians).
-inline constexpr double kBatchShort = 0.33, kBatchLong = 1.75, kBatchAspect = 5, kBatchEta = 4.0 / 9,
-                        kBatchWarp = std::numbers::pi / 9;
-/// Returns whether a quad is beyond that. `shortest`, `longest`: sides over the wanted size; `sine`: the
+/// Returns whether a quad is beyond limits. `shortest`, `longest`: sides over the wanted size; `sine`: the
 /// least.
-inline bool is_beyond_batch(double shortest, double longest, double aspect, double sine) {
-  static const double batch_sine = sine_of_eta(kBatchEta);
-  return shortest < kBatchShort || longest > kBatchLong || aspect > kBatchAspect || sine < batch_sine;
+inline bool is_beyond(const QuadLimits& limits, double shortest, double longest, double aspect, double sine) {
+  return shortest < limits.shortest || longest > limits.longest || aspect > limits.aspect ||
+         (sine < std::numbers::pi / 2 * limits.eta && sine < sine_of_eta(limits.eta));
 }
-/// Walls of sides over delta: within that, so that vertices that move hold it.
-inline constexpr double kShortWall = 0.4, kLongWall = 1.65;
 
 /// Sines of an element's corners, negative where reflex or inverted; a triangle's fourth is 1.
 std::array<double, 4> corner_sines(const QuadTopology& mesh, int element);

@@ -128,7 +128,7 @@ void agree_on_counts(const SurfaceCurves& curves, const CurveDemands& wanted, do
   const std::vector<int> leader = leaders(curves);
   std::vector<AgreeingCurve> agreeing;
   for (const CurveDemand& d : joined_demands(wanted.demands, curves.images))
-    agreeing.push_back({std::max(d.integral, 1e-3), d.minimum, d.exact == 0, 0, d.patches});
+    agreeing.push_back({std::max(d.integral, 1e-3), d.minimum, d.exact == 0, 0, d.patches, d.most});
   for (const int c : kept) agreeing[leader[c]].is_free = false;
 
   std::vector<ClosureSum> sums = closure_sums(curves, wanted);

@@ -58,6 +58,7 @@ std::vector<CurveDemand> joined_demands(std::vector<CurveDemand> demands,
     CurveDemand &master = demands[pair.master], &image = demands[pair.chain];
     master.patches.insert(master.patches.end(), image.patches.begin(), image.patches.end());
     master.minimum = std::max(master.minimum, image.minimum);
+    master.most = std::min(master.most, image.most);
     image.patches.clear();
   }
   return demands;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
 
+#include "base/matching/edge_counts.h"
 #include "geometry/planar/planar_model.h"
 #include "geometry/surface/surface_model.h"
 
@@ -30,7 +32,14 @@ struct CurveDemand {
   int minimum = 1;
   std::vector<int> patches;  ///< that it bounds; a seam names its patch twice
   int exact = 0;             ///< where their number is given; 0: it is free
+  int most = kAnyNumber;     ///< with more, edges are shorter than the limits, see QuadLimits
 };
+
+/// Returns the most edges that are at least `shortest` long on a curve of this length, at least 1; both in
+/// sizes, 0: any.
+inline int most_edges(double length, double shortest) {
+  return shortest > 0 ? std::max(1, static_cast<int>(std::min(length / shortest, 1e9))) : kAnyNumber;
+}
 
 /// A piece of a curve that gets the images of the nodes of another.
 struct ChainPair {

@@ -15,6 +15,8 @@ namespace {
 
 /// Splitting a curve of one or two edges distorts it most: the T-join avoids these where it can.
 constexpr double kFewEdgesPenalty = 4;
+/// Cost of edges that would be shorter than the limits.
+constexpr double kTooShortPenalty = 10;
 
 /// Numbers mod 2, by the places of the ones.
 using Parities = std::set<int>;
@@ -113,6 +115,7 @@ void even_branches(const std::vector<CurveDemand>& curves, const std::vector<int
 int changed_by_one(int n, const CurveDemand& curve) {
   assert(n >= 1);
   if (n - 1 < curve.minimum) return n + 1;
+  if (n + 1 > curve.most) return n - 1;
   const auto misfit = [&](int m) { return std::abs(std::log(m / std::max(curve.integral, 1e-3))); };
   return misfit(n - 1) < misfit(n + 1) ? n - 1 : n + 1;
 }
@@ -134,8 +137,10 @@ std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patch
   std::vector<int> curve_of_edge, branching;
   for (size_t c = 0; c < curves.size(); ++c) {
     const CurveDemand& curve = curves[c];
-    const int n = curve.exact > 0 ? curve.exact
-                                  : std::max(curve.minimum, static_cast<int>(std::lround(curve.integral)));
+    const int n =
+        curve.exact > 0
+            ? curve.exact
+            : std::max(curve.minimum, std::min(curve.most, static_cast<int>(std::lround(curve.integral))));
     counts.push_back(n);
     for (const int p : curve.patches) total[p] += n;
     if (curve.exact > 0) continue;
@@ -143,7 +148,8 @@ std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patch
     if (patches.size() > 2) branching.push_back(static_cast<int>(c));
     if (patches.empty() || patches.size() > 2) continue;
     const int a = patches[0], b = patches.size() == 2 ? patches[1] : n_patches;
-    graph.edges.push_back({a, b, cost(n, curve)});
+    const double too_short = changed_by_one(n, curve) > curve.most ? kTooShortPenalty : 0;
+    graph.edges.push_back({a, b, cost(n, curve) + too_short});
     curve_of_edge.push_back(static_cast<int>(c));
   }
   even_branches(curves, branching, graph, cost, counts, total);

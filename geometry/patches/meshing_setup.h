@@ -99,6 +99,7 @@ struct ProblemSettings {
   bool keep_going = false;
   int order = 1;
   Criteria criteria = {};
+  QuadLimits limits = {};  ///< by the criteria
 };
 
 /// The state that every pipeline on a case starts from.

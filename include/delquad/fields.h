@@ -28,11 +28,22 @@ class SizeField {
   virtual double at(const Vec3& x, int& hint) const = 0;
 };
 
+/// Limits of quads that stages keep if they can. The defaults are usual for engineers (criteria "batch").
+struct QuadLimits {
+  double shortest = 0.33, longest = 1.75;  ///< sides over the wanted size
+  double aspect = 5;                       ///< longest over shortest side
+  double eta = 4.0 / 9;                    ///< corners from 40 to 140 degrees
+  /// Walls of sides that vertices keep while they move, so that quads stay within the limits.
+  double short_wall() const { return 0.4 / 0.33 * shortest; }
+  double long_wall() const { return 1.65 / 1.75 * longest; }
+};
+
 /// The wanted edge length delta' in the parameter plane of a patch. Several threads may call it.
 class ParametricSize {
  public:
   virtual ~ParametricSize() = default;
   virtual double at(Vec2 u, int& hint) const = 0;
+  QuadLimits limits = {};
 };
 
 /// delta' of a planar patch; its parameter plane is the plane z = constant.

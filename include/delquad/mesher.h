@@ -72,7 +72,7 @@ struct Material {
   double young = 0, poisson = 0, density = 0;
 };
 
-/// Limits by which an engineer judges a mesh. They do not change elements.
+/// Limits by which an engineer judges a mesh. Stages keep limits without a name if they can.
 struct Criteria {
   std::string name = {}, source = {};       ///< of a preset or a file
   std::vector<CriterionLimit> limits = {};  ///< a limit with a name replaces one without
@@ -103,12 +103,19 @@ struct CriterionResult {
   std::string text = {};   ///< "3 elements have ..." with places, as Soundness::beyond; empty: none fails
   std::vector<int> failing = {};  ///< elements: triangles, then quads
 };
+/// A change of a problem that may cure failing elements.
+struct Cure {
+  std::string cause, key;  ///< as in CriteriaReport::causes; "surface.ignore_below" or "size"
+  double value = 0;        ///< of the key; of a size, its value at the worst place
+  long long count = 0;     ///< elements that it may cure
+};
 struct CriteriaReport {
   std::string name;
   long long elements = 0, failing = 0;
   std::vector<CriterionResult> results;     ///< by limit
   std::map<std::string, long long> causes;  ///< failing quads by cause
-  std::vector<std::string> why;             ///< the same for people, with places and remedies
+  std::vector<std::string> why;             ///< the same for people, with places
+  std::vector<Cure> cures;                  ///< by cause, where one is known
   /// Largest stable time step of central differences for membrane waves, with bilinear elements and lumped
   /// mass; 0 if an element is inverted.
   double critical_step = 0;

@@ -20,6 +20,8 @@ namespace {
 
 constexpr double kMost = std::numeric_limits<double>::max();
 constexpr const char* kInSizes = "size";
+/// Limits of stages are at most as strict as this, for sizes vary in any mesh.
+constexpr double kMostShort = 0.7, kLeastLong = 1.5, kLeastAspect = 2, kMostEta = 0.6;
 
 /// Returns the limit of a key that counts for elements with the name; null: none.
 const CriterionLimit* find_limit(const Criteria& criteria, CriterionKind kind, const std::string& on) {
@@ -90,6 +92,51 @@ CriterionKind criterion_kind(const std::string& key) {
   return static_cast<CriterionKind>(at - known.begin());
 }
 
+double times_beyond(CriterionKind kind, double value, double limit) {
+  const auto positive = [](double x) { return std::max(x, 1e-300); };
+  if (limit == 0) return value < 0 ? kMost : 0;
+  if (kind == kMaxAngle) return (180 - limit) / positive(180 - value);
+  return criterion_registry()[kind].is_most ? value / limit : limit / positive(value);
+}
+
+std::function<double(const std::array<Vec3, 4>&, double)> excess_of(const Criteria& criteria) {
+  constexpr double kMargin = 0.02;
+  std::vector<std::pair<CriterionKind, CriterionLimit>> limits;
+  for (const CriterionLimit& limit : criteria.limits)
+    if (limit.on.empty()) limits.emplace_back(criterion_kind(limit.key), limit);
+  return [limits, by = step_length_named(criteria.time_step_by), speed = speed_of_sound(criteria)](
+             const std::array<Vec3, 4>& corners, double size) {
+    const ElementShape<4> shape = element_shape(corners, area_vector(corners));
+    double sum = 0;
+    for (const auto& [kind, limit] : limits) {
+      const double value = criterion_value(kind, corners, shape, by, speed) / (limit.in_sizes ? size : 1);
+      sum += std::max(0.0, std::log(std::max(times_beyond(kind, value, limit.value), 1e-300)) + kMargin);
+    }
+    return sum;
+  };
+}
+
+const CriterionLimit* least_length(const Criteria& criteria) { return find_limit(criteria, kMinLength, ""); }
+
+QuadLimits limits_of(const Criteria& criteria, const SizeField& size, std::span<const Vec3> points) {
+  if (criteria.empty()) return {};
+  double most = 0;
+  int hint = -1;
+  for (const Vec3& x : points) most = std::max(most, size.at(x, hint));
+  const auto limit_of = [&](CriterionKind kind, double otherwise) {
+    const CriterionLimit* limit = find_limit(criteria, kind, "");
+    if (limit == nullptr) return otherwise;
+    return criterion_registry()[kind].of_length && !limit->in_sizes ? limit->value / most : limit->value;
+  };
+  QuadLimits limits;
+  limits.shortest = std::clamp(limit_of(kMinLength, 0), limits.shortest, kMostShort);
+  limits.longest = std::clamp(limit_of(kMaxLength, kMost), kLeastLong, limits.longest);
+  limits.aspect = std::clamp(limit_of(kMaxAspect, kMost), kLeastAspect, limits.aspect);
+  limits.eta = std::clamp(std::max(limit_of(kMinAngle, 0) / 90, 2 - limit_of(kMaxAngle, 180) / 90),
+                          limits.eta, kMostEta);
+  return limits;
+}
+
 StepLength step_length_named(const std::string& name) {
   const auto* at = std::ranges::find(kStepLengths, name);
   if (at == std::end(kStepLengths))
@@ -133,16 +180,17 @@ Criteria& Criteria::set(const std::string& key, const std::string& value, const 
 }
 
 const std::vector<Criteria>& criteria_presets() {
+  const QuadLimits usual;
   static const std::vector<Criteria> all = {
       preset("batch",
              "Lengths and warpage: Altair, BatchMesher, Guidelines and Recommended Practices (2017). Aspect: "
              "Altair, HyperMesh, Element Quality Calculations. Angles and Jacobian at corners: Siemens, NX "
              "Open, sample criteria of its batch mesher",
-             {{"min_length", fmt::format("{} size", kBatchShort)},
-              {"max_length", fmt::format("{} size", kBatchLong)},
-              {"max_aspect", fmt::format("{}", kBatchAspect)},
-              {"min_angle", fmt::format("{}", 90 * kBatchEta)},
-              {"max_angle", fmt::format("{}", 180 - 90 * kBatchEta)},
+             {{"min_length", fmt::format("{} size", usual.shortest)},
+              {"max_length", fmt::format("{} size", usual.longest)},
+              {"max_aspect", fmt::format("{}", usual.aspect)},
+              {"min_angle", fmt::format("{}", 90 * usual.eta)},
+              {"max_angle", fmt::format("{}", 180 - 90 * usual.eta)},
               {"max_warpage", "20"},
               {"min_jacobian", "0.5"}}),
       preset("crash",

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +30,17 @@ double speed_of_sound(const Criteria& criteria);
 
 /// Returns "0.33 size" or "40 degrees".
 std::string text_of(const CriterionLimit& limit);
+
+/// Returns the factor by which a value exceeds a limit; above 1 if it does.
+double times_beyond(CriterionKind kind, double value, double limit);
+/// Returns a function for quads with a size. It adds up the excesses over all limits without a name, as
+/// logarithms; 0: the quad keeps them with a margin of 2 %.
+std::function<double(const std::array<Vec3, 4>& corners, double size)> excess_of(const Criteria& criteria);
+/// Returns the least length of all elements; null: none.
+const CriterionLimit* least_length(const Criteria& criteria);
+/// Returns the limits that stages keep: the usual ones, or these of the criteria that are stricter. Lengths
+/// count in sizes at `points`, where the size is largest.
+QuadLimits limits_of(const Criteria& criteria, const SizeField& size, std::span<const Vec3> points);
 
 /// Returns the requested size, before it was reduced.
 inline const SizeField& requested_size(const Preparation& prepared) {

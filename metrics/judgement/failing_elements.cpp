@@ -128,6 +128,9 @@ class CauseFinder {
     for (FailingElement& failing : all_.elements)
       if (is_explained(failing)) explain(failing);
     spread_causes();
+    find_irregular();
+    for (FailingElement& failing : all_.elements)
+      if (failing.cause == kOtherwise && failing.element >= all_.n_triangles()) explain_choice(failing);
   }
 
  private:
@@ -225,6 +228,46 @@ class CauseFinder {
             }
     }
   }
+  /// Finds the number of quads at each node, and an irregular node inside of faces near to each node.
+  void find_irregular() {
+    constexpr int kRings = 2;
+    valence_.assign(mesh_.points.size(), 0);
+    irregular_.assign(mesh_.points.size(), -1);
+    for (const auto& v : mesh_.quads)
+      for (const int i : v) ++valence_[i];
+    for (std::size_t i = 0; i < irregular_.size(); ++i)
+      if (valence_[i] > 0 && valence_[i] != 4 && !edges_.has(static_cast<int>(i)))
+        irregular_[i] = static_cast<int>(i);
+    for (int ring = 0; ring < kRings; ++ring) {
+      const std::vector<int> inner = irregular_;
+      for (const auto& v : mesh_.quads)
+        for (const int i : v)
+          for (const int j : v)
+            if (irregular_[i] < 0) irregular_[i] = inner[j];
+    }
+  }
+  /// Explains an element that the model does not force.
+  void explain_choice(FailingElement& failing) const {
+    const auto& v = quad(failing.element);
+    const double size = failing.size;
+    const auto found = [&](FailingCause cause, double what) { failing.cause = cause, failing.what = what; };
+    if (const double limit = limit_beyond(failing, kMaxWarpage); limit > 0)
+      return found(kAtBend, size * limit * kDegree / quad_warp(corners_of(mesh_, v)));
+    constexpr double kReduced = 0.9;
+    if (int hint = -1; prepared_ && prepared_->size.asked)
+      if (const double here = prepared_->size.field->at(all_.place_of(failing.element).at, hint);
+          here < kReduced * size)
+        return found(kAtFineSize, here);
+    double shortest = kAny;
+    for (int k = 0; k < 4; ++k)
+      if (const int a = v[k], b = v[(k + 1) % 4], c = edges_.curve(a, b); c >= 0)
+        if (const double length = norm(mesh_.points[b] - mesh_.points[a]); length < shortest)
+          shortest = length, failing.curves[0] = c;
+    if (limit_beyond(failing, kMinLength, size) > shortest) return found(kAtNumber, shortest);
+    for (const int i : v)
+      if (irregular_[i] >= 0) return found(kAtIrregular, valence_[irregular_[i]]);
+    if (shortest < kAny) found(kAtNumber, shortest);
+  }
   bool is_triangulated() const {
     return prepared_ && prepared_->surface && !prepared_->surface->given &&
            !prepared_->surface->model.projector;
@@ -242,6 +285,7 @@ class CauseFinder {
   const Mesh& mesh_;
   CurveEdges edges_;
   std::vector<SharpCorner> sharp_corners_;
+  std::vector<int> valence_, irregular_;  ///< by node; -1: none
 };
 
 bool is_given(const MeshingSetup& prepared) {
@@ -249,15 +293,13 @@ bool is_given(const MeshingSetup& prepared) {
                              [](const PatchSetup& patch) { return !patch.given.points.empty(); });
 }
 
-/// Returns a remedy for a cause; empty: none is known. `ignored` of its `n` elements lie below the length
-/// `below`.
-std::string advice(const MeshingSetup* prepared, const FailingElement& first, int n, int ignored,
-                   double below) {
+/// Returns a remedy for a cause with `n` elements; empty: none is known.
+std::string advice(const MeshingSetup* prepared, const FailingElement& first, int n, const Cure& cure) {
   if (!prepared || is_given(*prepared) || (first.cause != kAtGap && first.cause != kAtFineCurve)) return "";
-  if ((prepared->surface && ignored == 0) || !(first.what > 0)) return "";
+  if ((prepared->surface && cure.count == 0) || !(first.what > 0)) return "";
   if (prepared->surface)
-    return fmt::format(": --ignore-below {:.3g} may help{}", below,
-                       ignored < n ? fmt::format(" against {} of them", ignored) : "");
+    return fmt::format(": --ignore-below {:.3g} may help{}", cure.value,
+                       cure.count < n ? fmt::format(" against {} of them", cure.count) : "");
   constexpr double kAbove = 1.01;
   const PlaneSetup& plane = prepared->plane;
   std::string other;
@@ -296,14 +338,6 @@ std::vector<char> elements_named(const Mesh& mesh, const std::string& name) {
     in.push_back(is_in);
   });
   return in;
-}
-
-/// Returns the factor by which a value exceeds a limit; above 1 if it does.
-double times_beyond(CriterionKind kind, double value, double limit) {
-  const auto positive = [](double x) { return std::max(x, 1e-300); };
-  if (limit == 0) return value < 0 ? kAny : 0;
-  if (kind == kMaxAngle) return (180 - limit) / positive(180 - value);
-  return criterion_registry()[kind].is_most ? value / limit : limit / positive(value);
 }
 
 }  // namespace
@@ -416,17 +450,26 @@ std::string FailingElements::text_of(std::size_t limit) const {
   return describe(judged.mesh, tally.places, "1 element has " + what, "elements have " + what);
 }
 
-std::string FailingElements::text_of(FailingCause cause, bool named) const {
+Cure FailingElements::cure_of(FailingCause cause) const {
+  constexpr double kAbove = 1.05;  // part of the length that must be exceeded
+  Cure cure{kCauseNames[cause], "surface.ignore_below"};
+  if (!judged.prepared || !judged.prepared->surface || is_given(*judged.prepared)) return cure;
+  for (const FailingElement& element : elements) {
+    if (element.cause != cause) continue;
+    if (element.ignored_below > 0)
+      ++cure.count, cure.value = std::max(cure.value, kAbove * element.ignored_below);
+    if (cause == kAtBend && (cure.count++ == 0 || element.what < cure.value))
+      cure.key = "size", cure.value = element.what;
+  }
+  return cure;
+}
+
+std::string FailingElements::text_of(FailingCause cause, bool named, bool advised) const {
   const Mesh& mesh = judged.mesh;
   const FailingElement* first = nullptr;
-  double below = 0;
-  int n = 0, ignored = 0;
-  for (const FailingElement& quad : elements) {
-    if (quad.cause != cause) continue;
-    if (++n == 1 || quad.what < first->what) first = &quad;
-    ignored += quad.ignored_below > 0;
-    below = std::max(below, quad.ignored_below);
-  }
+  int n = 0;
+  for (const FailingElement& quad : elements)
+    if (quad.cause == cause && (++n == 1 || quad.what < first->what)) first = &quad;
   if (n == 0) return "";
   const std::string at = show_place(mesh, place_of(first->cause_at));
   std::string why;
@@ -446,11 +489,24 @@ std::string FailingElements::text_of(FailingCause cause, bool named) const {
     case kAtSharpEdge:
       why = fmt::format("at sharp edges of the triangulation, as in {}", at);
       break;
+    case kAtBend:
+      why = fmt::format("where faces bend within an element, as in {}", at);
+      break;
+    case kAtFineSize:
+      why = fmt::format("where short curves reduce the size, to {:.3g} in {}", first->what, at);
+      break;
+    case kAtNumber:
+      why = fmt::format("at curves whose numbers of edges leave no better quads, as {}in {}",
+                        named ? show_curve(mesh, first->curves[0]) + " " : "", at);
+      break;
+    case kAtIrregular:
+      why = fmt::format("near irregular vertices, as one with {} quads in {}", first->what, at);
+      break;
     default:
-      return fmt::format("{} for other reasons, as in {}", n, at);
+      return fmt::format("{} without a known cause, as in {}", n, at);
   }
-  constexpr double kAbove = 1.05;  // part of the length that must be exceeded
-  return fmt::format("{} {}{}", n, why, advice(judged.prepared, *first, n, ignored, kAbove * below));
+  return fmt::format("{} {}{}", n, why,
+                     advice(judged.prepared, *first, n, advised ? cure_of(cause) : Cure()));
 }
 
 }  // namespace delquad

@@ -27,8 +27,21 @@ struct JudgedMesh {
 };
 
 /// Cause of a failing element.
-enum FailingCause { kAtCorner, kAtFineCurve, kAtGap, kAtSharpEdge, kOtherwise, kFailingCauses };
-inline constexpr const char* kCauseNames[] = {"corner", "short curve", "narrow gap", "sharp edge", "choice"};
+enum FailingCause {
+  kAtCorner,
+  kAtFineCurve,
+  kAtGap,
+  kAtSharpEdge,
+  kAtBend,
+  kAtFineSize,
+  kAtNumber,
+  kAtIrregular,
+  kOtherwise,
+  kFailingCauses
+};
+inline constexpr const char* kCauseNames[] = {"corner",          "short curve",      "narrow gap",
+                                              "sharp edge",      "curvature",        "reduced size",
+                                              "number of edges", "irregular vertex", "choice"};
 
 /// A failing element with its cause, if known.
 struct FailingElement {
@@ -37,8 +50,8 @@ struct FailingElement {
   double badness;         ///< factor by which it exceeds its limit
   double size;            ///< wanted size there; NaN if its sides are requested
   FailingCause cause = kOtherwise;
-  double what = 0;              ///< angle of the corner in radians, or a length
-  std::array<int, 2> curves{};  ///< curves at the corner, or the short curve
+  double what = 0;              ///< angle of the corner in radians, a length, or a number of edges
+  std::array<int, 2> curves{};  ///< curves at the corner, or the curve
   double ignored_below = 0;     ///< on surfaces: length below which the cause can be ignored; 0: unknown
 };
 
@@ -59,8 +72,11 @@ class FailingElements {
   /// Finds the causes.
   void explain();
   /// Describes the elements with a cause, after explain(), with a remedy: "12 where curves are finer than the
-  /// size, ...". `named` tells curves. Empty: there are none.
-  std::string text_of(FailingCause cause, bool named) const;
+  /// size, ...". `named` tells curves, `advised` the remedy for a surface. Empty: there are none.
+  std::string text_of(FailingCause cause, bool named, bool advised = true) const;
+  /// Returns the change that may cure elements with a cause, after explain(); its count is 0 if none is
+  /// known.
+  Cure cure_of(FailingCause cause) const;
   /// Describes limit k: "3 elements have an angle below 20 degrees, the least 9.5: at ..."; empty: it is
   /// kept.
   std::string text_of(std::size_t limit) const;

@@ -158,9 +158,12 @@ CriteriaReport report_on(const JudgedMesh& judged, const Criteria& criteria) {
     result.failing = std::move(tally.failing);
     report.results.push_back(std::move(result));
   }
-  for (int cause = 0; cause < kFailingCauses; ++cause)
-    if (std::string why = failing.text_of(static_cast<FailingCause>(cause), true); !why.empty())
+  for (int k = 0; k < kFailingCauses; ++k) {
+    const auto cause = static_cast<FailingCause>(k);
+    if (std::string why = failing.text_of(cause, true, false); !why.empty())
       report.why.push_back(std::move(why));
+    if (Cure cure = failing.cure_of(cause); cure.count > 0) report.cures.push_back(std::move(cure));
+  }
   for (const char* program : kStepLengths)
     report.estimated_step[program] = estimated_step(judged, criteria, program);
   report.critical_step = critical_step(judged.mesh) / speed_of_sound(criteria);

@@ -265,9 +265,9 @@ double QuadEnergy<Vec>::add_edge(const Edge& edge) const {
   const double c = dot(u, edge.arm), c2 = c * c;
   const double near = std::max(kNear * edge.least_length * inverse - 1, 0.0);
   // Missing length as a logarithm; negative if the edge is too long.
-  const double lacks = ratio < kShortWall  ? std::log(kShortWall / ratio)
-                       : ratio > kLongWall ? std::log(kLongWall / ratio)
-                                           : 0;
+  const double lacks = ratio < weights_.short_wall  ? std::log(weights_.short_wall / ratio)
+                       : ratio > weights_.long_wall ? std::log(weights_.long_wall / ratio)
+                                                    : 0;
   const double soft = 1 / (1 + lacks * lacks / (kCurable * kCurable));
   const double by_length = weights_.size * sinh * (cosh / rounded - 1) * inverse -
                            2 * weights_.wall * lacks * soft * soft * inverse -

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "delquad/fields.h"
 #include "delquad/mesh.h"
 
 // This header has the energy that vertex optimization minimizes. Stage O uses it.
@@ -21,6 +22,7 @@ struct QuadEnergyWeights {
   double alignment = 0.02;   ///< weight of directions of edges
   double wall = 80;          ///< weight of lengths beyond the walls
   double orthogonality = 0;  ///< weight of quads whose corners lie on no circle
+  double short_wall = QuadLimits{}.short_wall(), long_wall = QuadLimits{}.long_wall();  ///< over delta
 };
 
 /// A vertex that moves to its place + x * axes[0] + y * axes[1]. On a curve the second axis is zero.
@@ -51,7 +53,7 @@ struct QuadEnergyMesh {
 ///   traded for a better mean.
 /// - size * (1 - min(l/d, d/l)) over edges, with length l and mean d of delta at both ends: the loss of an
 ///   edge in tau.
-/// - wall * m^2 / (1 + 16 m^2) over edges, with excess m of log(l/d) over kShortWall or kLongWall. Angles
+/// - wall * m^2 / (1 + 16 m^2) over edges, with excess m of log(l/d) over a wall. Angles
 ///   alone would leave some edges too short or long. The term is bounded, so that lengths forbidden by the
 ///   model do not outweigh shapes.
 /// - orthogonality * sin^2 (alpha_0 + alpha_2) over quads: 0 if the four corners lie on a circle. Then links

@@ -155,6 +155,7 @@ class TrackOptimisation {
   const std::vector<std::array<int, 4>>& quads_;
   VertexTracks<Vec>& tracks_;
   OptimisationOptions options_;
+  const double short_wall_ = options_.limits.short_wall(), long_wall_ = options_.limits.long_wall();
   std::vector<char> free_;                            ///< by vertex
   std::vector<double> delta_;                         ///< by vertex
   std::vector<Vec> delta_at_;                         ///< place of the evaluation
@@ -247,7 +248,7 @@ bool TrackOptimisation<Vec>::beyond_walls(std::size_t quad) const {
     const int a = v[k], b = v[(k + 1) % 4];
     if (!free_[a] && !free_[b]) continue;
     const double part = 2 * norm(points_[b] - points_[a]) / (delta_[a] + delta_[b]);
-    if (part < kShortWall || part > kLongWall) return true;
+    if (part < short_wall_ || part > long_wall_) return true;
   }
   return false;
 }
@@ -262,7 +263,8 @@ bool TrackOptimisation<Vec>::is_failing(std::size_t quad) const {
     least = std::min(least, length), most = std::max(most, length);
     shortest = std::min(shortest, part), longest = std::max(longest, part);
   }
-  return is_beyond_batch(shortest, longest, most / std::max(least, kTinyLength), movable_sine(quad));
+  return is_beyond(options_.limits, shortest, longest, most / std::max(least, kTinyLength),
+                   movable_sine(quad));
 }
 
 /// Returns the movable vertices around quads below this eta or with sides beyond the walls.
@@ -466,7 +468,7 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
       for (int k = 0; k < 4; ++k) {
         const int a = quads_[q][k], b = quads_[q][(k + 1) % 4];
         const double length = norm(points_[b] - points_[a]), delta = std::min(delta_[a], delta_[b]);
-        least_lengths_[q][k] = (length < kShortWall * delta ? kShort : kShortest) * std::min(length, delta);
+        least_lengths_[q][k] = (length < short_wall_ * delta ? kShort : kShortest) * std::min(length, delta);
       }
   });
   find_room();
@@ -475,6 +477,7 @@ OptimisationSummary TrackOptimisation<Vec>::run() {
   weights.size = options_.size;
   weights.alignment = options_.alignment;
   weights.orthogonality = options_.orthogonality;
+  weights.short_wall = short_wall_, weights.long_wall = long_wall_;
   QuadEnergyWeights for_worst = weights;
   for_worst.bad = kWorstWeight;
   for_worst.bad_power = kWorstPower;

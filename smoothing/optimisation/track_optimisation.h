@@ -19,6 +19,7 @@ struct OptimisationOptions {
   double size = 0.4;    ///< weight of lengths of edges, see QuadEnergyWeights
   double alignment = 0.02;   ///< weight of directions of edges
   double orthogonality = 0;  ///< weight of quads whose corners lie on no circle
+  QuadLimits limits = {};    ///< of the result
 };
 
 OptionGroup optimisation_group();
@@ -89,7 +90,7 @@ class VertexTracks {
 /// Vertices of flat or inverted quads stay. In each pass vertices move along tangents and are then put on
 /// their tracks. Limits hold for each quad: its least sine may fall by half a percent, or to the sine of
 /// kOptimisedFloorEta if that is lower. It stays above the least sine of the whole mesh, or that floor. It
-/// does not get beyond the usual requirements (is_beyond_batch()). No edge gets shorter than a fifth of its
+/// does not get beyond the limits (is_beyond()). No edge gets shorter than a fifth of its
 /// old length, or of delta if that is less. Vertices that would violate a limit move only a part of the way,
 /// or not at all. The same input gives the same mesh.
 template <class Vec>

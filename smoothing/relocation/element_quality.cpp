@@ -11,7 +11,8 @@ constexpr double kSizeWeight = 1.5;
 
 }  // namespace
 
-ElementQuality quality_of(const std::array<Vec2, 4>& at, const std::array<double, 4>& delta, int n) {
+ElementQuality quality_of(const std::array<Vec2, 4>& at, const std::array<double, 4>& delta,
+                          const QuadLimits& limits, int n) {
   std::array<Vec2, 4> side;
   double deviation = 0, shortest_side = std::numeric_limits<double>::max(), longest_side = 0;
   double shortest = shortest_side, longest = 0;  // over delta'
@@ -27,8 +28,8 @@ ElementQuality quality_of(const std::array<Vec2, 4>& at, const std::array<double
   double least = std::min(1.0, cross(side[n - 1], side[0]));
   for (int k = 1; k < n; ++k) least = std::min(least, cross(side[k - 1], side[k]));
   const double aspect = longest_side / std::max(shortest_side, kTinyLength);
-  const bool is_failing = is_beyond_batch(shortest, longest, aspect, least);
-  const bool is_thin = shortest < kBatchShort || aspect > kBatchAspect;
+  const bool is_failing = is_beyond(limits, shortest, longest, aspect, least);
+  const bool is_thin = shortest < limits.shortest || aspect > limits.aspect;
   const bool roomy = shortest >= kKeptSide && shortest_side >= kKeptSide * longest_side;
   return {eta_of_sine(least) - kSizeWeight * (deviation / n), least, is_failing, is_thin, roomy ? 0.0 : 1.0};
 }
@@ -41,7 +42,7 @@ ElementQuality element_quality(const QuadTopology& mesh, const QuadRelocation& r
     const int v = mesh.corner(element, k);
     at[k] = mesh.point(v), delta[k] = relocation.delta(v);
   }
-  ElementQuality quality = quality_of(at, delta, n);
+  ElementQuality quality = quality_of(at, delta, relocation.limits(), n);
   if (quality.crowding > 0) quality.crowding = relocation.crowding(element);
   return quality;
 }

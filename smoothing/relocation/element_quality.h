@@ -16,7 +16,7 @@ namespace delquad {
 struct ElementQuality {
   double value = 0;       ///< eta - 1.5 * (size deviation)
   double least_sine = 1;  ///< of all corners
-  int failing = 0;        ///< 1 if is_beyond_batch()
+  int failing = 0;        ///< 1 if is_beyond() limits
   int thin = 0;           ///< 1 if its shortest side is too short, which angles cannot repair
   double crowding = 0;    ///< QuadRelocation::crowding()
   void add(const ElementQuality& other) {
@@ -32,7 +32,8 @@ struct ElementQuality {
 /// With a weight of 1, edits would pay for regular vertices with tau.
 ElementQuality element_quality(const QuadTopology& mesh, const QuadRelocation& relocation, int element);
 /// Measures n corners and their delta' without surroundings: crowding is 0 or 1, if there may be some.
-ElementQuality quality_of(const std::array<Vec2, 4>& at, const std::array<double, 4>& delta, int n = 4);
+ElementQuality quality_of(const std::array<Vec2, 4>& at, const std::array<double, 4>& delta,
+                          const QuadLimits& limits, int n = 4);
 
 /// Returns how close the ends of an inner side are. The reference is delta, clamped to between one and two
 /// times the longest side, so a small element is not crowded. In `narrow` places, `width` (area over longest

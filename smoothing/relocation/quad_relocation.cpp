@@ -21,8 +21,6 @@ constexpr double kLengthWeight = 0.12;
 constexpr double kSteepSine = 0.05, kSteep = 40;
 /// Square of the misfit (logarithm of length / delta) above which the length term levels off.
 constexpr double kHopeless = 2;
-/// Misfits at the walls.
-const double kShortMisfit = std::log(kShortWall), kLongMisfit = std::log(kLongWall);
 /// Length of a step, in Newton steps.
 constexpr double kOverRelaxation = 1.4;
 /// Limit of a step, in shortest edges.
@@ -96,10 +94,10 @@ struct Sums {
       hyy += second * turn_y * turn_y;
     }
   }
-  /// `wall` is the weight of walls.
-  void add_edge(Number ux, Number uy, Number inverse, Number misfit, double wall) {
+  /// `wall` is the weight of walls at the misfits `low` and `high`.
+  void add_edge(Number ux, Number uy, Number inverse, Number misfit, double wall, double low, double high) {
     const Number zero{};
-    const Number beyond = smaller(zero, misfit - kShortMisfit) + larger(zero, misfit - kLongMisfit);
+    const Number beyond = smaller(zero, misfit - low) + larger(zero, misfit - high);
     const Number soft = 1 / (1 + misfit * misfit / kHopeless);
     cost += kLengthWeight * misfit * misfit * soft + wall * beyond * beyond;
     if constexpr (kDerivatives) {
@@ -117,7 +115,11 @@ struct Sums {
 
 }  // namespace
 
-QuadRelocation::QuadRelocation(QuadTopology& mesh, const ParametricSize& size) : mesh_(mesh), size_(size) {
+QuadRelocation::QuadRelocation(QuadTopology& mesh, const ParametricSize& size)
+    : mesh_(mesh),
+      size_(size),
+      short_misfit_(std::log(limits().short_wall())),
+      long_misfit_(std::log(limits().long_wall())) {
   adopt_new_vertices(0);
   for (int h = 0; h < 4 * mesh_.element_slots(); ++h) {
     if (mesh_.origin(h) < 0 || mesh_.twin(h) >= 0) continue;
@@ -260,7 +262,8 @@ QuadRelocation::Value QuadRelocation::add_up(Derivatives* derivatives) const {
     sums.add_corner(px * uy - py * ux, px * ux + py * uy, turn_x - before * py, turn_y + before * px);
     sums.add_corner(ux * ly - uy * lx, -(ux * lx + uy * ly), turn_x, turn_y);
     sums.add_corner(rx * uy - ry * ux, -(rx * ux + ry * uy), -turn_x, -turn_y);
-    sums.add_edge(ux, uy, inverse, load<Number>(&rays_.misfit[i + 1]), wall_weight_);
+    sums.add_edge(ux, uy, inverse, load<Number>(&rays_.misfit[i + 1]), wall_weight_, short_misfit_,
+                  long_misfit_);
   }
   if constexpr (kDerivatives)
     *derivatives = {{sum_of(sums.gx), sum_of(sums.gy)}, sum_of(sums.hxx), sum_of(sums.hxy), sum_of(sums.hyy)};

@@ -18,7 +18,7 @@ namespace delquad {
 /// Each vertex lowers a sum. Over corners that its place changes and over its edges, the terms are
 /// - c + 40 max(0, c - 0.95)^2 with c = 1 - sin alpha;
 /// - 0.12 m^2 / (1 + m^2 / 2) with m = log(l/d), length l, and mean d of delta' at both ends;
-/// - 5 n^2 if lengths are held, with the excess n of m over log kShortWall or log kLongWall.
+/// - 5 n^2 if lengths are held, with the excess n of m over the logarithms of the walls.
 /// A Pade approximant gives m, within 0.2 % from d/2 to 2 d. The vertex takes a damped Newton step of 1.4
 /// times its length, at most a part of its shortest edge. That is too far for fixed neighbors, but since they
 /// follow it needs half as many sweeps. The value c grows with |alpha - 90 degrees| up to 180 degrees, so
@@ -31,6 +31,7 @@ class QuadRelocation {
   QuadRelocation(QuadTopology& mesh, const ParametricSize& size);
 
   double delta(int v) const { return delta_[v]; }
+  const QuadLimits& limits() const { return size_.limits; }
   /// Evaluates delta' at new vertices, `first` and later ones.
   void adopt_new_vertices(int first);
 
@@ -116,6 +117,7 @@ class QuadRelocation {
 
   QuadTopology& mesh_;
   const ParametricSize& size_;
+  const double short_misfit_, long_misfit_;  ///< logarithms of the walls
   std::vector<double> delta_;
   std::vector<Vec2> delta_at_;  ///< place of the evaluation of delta_
   std::vector<int> hint_;

@@ -34,8 +34,8 @@ constexpr double kInvertedPenalty = 2;
 constexpr double kShortestOnCurve = 0.5, kShortestInside = 0.2;
 
 /// Repair of failing quads: costs of a failing quad and of its excess (as a logarithm, 1 at most), beside the
-/// lack of eta. Limits are kept with a margin of kLimitMargin, and smaller gains are ignored.
-constexpr double kFailing = 100, kBeyond = 20, kLimitMargin = 0.02, kLeastRepair = 0.02;
+/// lack of eta. Smaller gains are ignored.
+constexpr double kFailing = 100, kBeyond = 20, kLeastRepair = 0.02;
 /// Allowed loss of eta, summed over the quads around, for each removed failing quad.
 constexpr double kRepairPrice = 1;
 /// Steps of a search, steps without gain that end it, and rounds for the vertices of a quad.
@@ -316,12 +316,12 @@ class PoorLift final : public SurfaceMoves {
   double warp2_;      ///< square of the tangent of the largest sufficient warp
 };
 
-/// Repairs quads that fail by is_beyond_batch() for a size.
+/// Repairs quads that fail by limits.
 class FailingRepair final : public SurfaceMoves {
  public:
-  FailingRepair(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size, Budget& trials)
-      : SurfaceMoves(tracks, places, trials, kRepairSteps, kMostIdleSteps) {
-    find_limits(size);
+  FailingRepair(SurfaceTracks& tracks, std::vector<Vec3>& places, const SpaceLimits& limits, Budget& trials)
+      : SurfaceMoves(tracks, places, trials, kRepairSteps, kMostIdleSteps), limits_(limits) {
+    find_limits();
   }
 
  private:
@@ -371,12 +371,12 @@ class FailingRepair final : public SurfaceMoves {
     return false;
   }
 
-  void find_limits(const SizeField& size) {
+  void find_limits() {
     delta_.resize(places_.size());
     least_.resize(quads_.size());
     parallel_ranges(places_.size(), [&](std::size_t begin, std::size_t end) {
       int hint = -1;
-      for (std::size_t v = begin; v < end; ++v) delta_[v] = size.at(places_[v], hint);
+      for (std::size_t v = begin; v < end; ++v) delta_[v] = limits_.size.at(places_[v], hint);
     });
     parallel_ranges(quads_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t q = begin; q < end; ++q) least_[q] = quality(static_cast<int>(q));
@@ -384,27 +384,13 @@ class FailingRepair final : public SurfaceMoves {
     double worst = 1, warp = 0;
     for (std::size_t q = 0; q < quads_.size(); ++q)
       if (least_[q] < worst) worst = std::min(worst, quality(static_cast<int>(q), -1, &warp));
-    for (double& least : least_) least = std::min(least, std::max(worst, kBatchEta));
+    for (double& least : least_) least = std::min(least, std::max(worst, limits_.kept.eta));
   }
 
-  /// Returns the excess of a quad over the requirements, as logarithms; 0: none.
   double beyond(int q) const {
-    const auto& v = quads_[q];
-    double warp = 0, sum = 0, least = std::numeric_limits<double>::max(), most = 0;
-    const auto add = [&](double ratio) {
-      sum += std::max(0.0, std::log(std::max(ratio, kTinyLength)) + kLimitMargin);
-    };
-    for (int k = 0; k < 4; ++k) {
-      const double length = norm(places_[v[(k + 1) % 4]] - places_[v[k]]);
-      const double part = 2 * length / (delta_[v[k]] + delta_[v[(k + 1) % 4]]);
-      least = std::min(least, length), most = std::max(most, length);
-      add(kBatchShort / std::max(part, kTinyLength));
-      add(part / kBatchLong);
-    }
-    add(most / std::max(least, kTinyLength) / kBatchAspect);
-    add((1 - quality(q, -1, &warp)) / (1 - kBatchEta));
-    add(warp / kBatchWarp);
-    return sum;
+    const auto& [a, b, c, d] = quads_[q];
+    return limits_.excess({places_[a], places_[b], places_[c], places_[d]},
+                          (delta_[a] + delta_[b] + delta_[c] + delta_[d]) / 4);
   }
 
   double deficit_around(int v) const override {
@@ -423,7 +409,7 @@ class FailingRepair final : public SurfaceMoves {
 
   /// Not below the requirement and the initial length.
   double least_edge(int v) const override {
-    return std::min(shortest_edge(v, start_), kBatchShort * delta_[v]);
+    return std::min(shortest_edge(v, start_), limits_.kept.shortest * delta_[v]);
   }
 
   /// Improves both ends of an edge by the same move, since a single end would warp quads more.
@@ -466,6 +452,7 @@ class FailingRepair final : public SurfaceMoves {
     return gained;
   }
 
+  const SpaceLimits& limits_;
   std::vector<double> delta_;  ///< by vertex, at its initial place
   std::vector<double> least_;  ///< quality that each quad must keep
 };
@@ -477,9 +464,9 @@ int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, doub
   return PoorLift(tracks, places, eta, trials, ball).run(max_sweeps);
 }
 
-int repair_failing_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size,
+int repair_failing_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, const SpaceLimits& limits,
                               int max_sweeps, Budget& trials) {
-  return FailingRepair(tracks, places, size, trials).run(max_sweeps);
+  return FailingRepair(tracks, places, limits, trials).run(max_sweeps);
 }
 
 }  // namespace delquad

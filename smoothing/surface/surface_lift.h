@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -26,10 +28,18 @@ struct LiftedBall {
 int lift_worst_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, double eta, int max_sweeps,
                           Budget& trials, const LiftedBall& ball = {});
 
-/// Does the same for quads that fail by is_beyond_batch(), with sides over `size`, or by kBatchWarp. Vertices
-/// of such a quad move if fewer quads fail then, at a small loss of eta. No eta falls below kBatchEta or, if
-/// it was lower, below its old value or the least of all.
-int repair_failing_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, const SizeField& size,
+/// Limits for quads in space, which fail if they exceed one.
+struct SpaceLimits {
+  const SizeField& size;
+  QuadLimits kept;  ///< limits of sides and eta that moves and edits keep
+  /// Returns by how much a quad with this size is beyond all limits, as logarithms; 0: it keeps them.
+  std::function<double(const std::array<Vec3, 4>& corners, double size)> excess;
+};
+
+/// Does the same for quads that fail by `limits`. Vertices of such a quad move if fewer quads fail then, at a
+/// small loss of eta. No eta falls below the kept eta or, if it was lower, below its old value or the least
+/// of all.
+int repair_failing_on_surface(SurfaceTracks& tracks, std::vector<Vec3>& places, const SpaceLimits& limits,
                               int max_sweeps, Budget& trials);
 
 }  // namespace delquad

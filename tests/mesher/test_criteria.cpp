@@ -97,7 +97,23 @@ TEST(Criteria, ArePassedBySquares) {
   EXPECT_EQ(result.metrics.values.count("failing_max_skew"), 0u);
 }
 
-TEST(Criteria, LeaveTheMeshAsItIs) {
+TEST(Criteria, AreAimedAtByAllStages) {
+  long long failing = 0, elements = 0;
+  for (const double gap : {0.8, 1.0, 1.2, 1.4, 1.6}) {
+    MeshProblem problem = ModelMaker()
+                              .rectangle({0, 0}, {16, 9})
+                              .circle({6 - gap / 2, 4.5}, 2)
+                              .circle({10 + gap / 2, 4.5}, 2)
+                              .problem(1);
+    problem.cross.kind = CrossKind::kSizeAware;
+    problem.criteria = preset("crash");
+    const CriteriaReport report = *mesh(problem, "DBQO").criteria;
+    failing += report.failing, elements += report.elements;
+  }
+  EXPECT_LT(failing, 0.05 * static_cast<double>(elements));
+}
+
+TEST(Criteria, UsualOnesLeaveThePlaneAsItIs) {
   const auto problem = [](const Criteria& c) {
     return judged_problem({{{0, 0}, {6, -0.7}, {5, 1}}}, 0.2, c);
   };

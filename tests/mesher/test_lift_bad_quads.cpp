@@ -3,6 +3,7 @@
 #include "algorithms/finish/lift_bad_quads.h"
 #include "geometry/mesh/quad_corners.h"
 #include "mesher/finish_steps.h"
+#include "metrics/judgement/criteria.h"
 #include "metrics/judgement/poor_quads.h"
 #include "tests/support/meshing.h"
 
@@ -66,7 +67,7 @@ TEST(RepairFailingQuads, MovesLeaveFewer) {
       };
       const auto [mean, worst] = run(false);
       const auto [repaired_mean, repaired_worst] = run(true);
-      EXPECT_GE(repaired_worst, std::min(worst, kBatchEta) - 1e-9);
+      EXPECT_GE(repaired_worst, std::min(worst, QuadLimits{}.eta) - 1e-9);
       EXPECT_GE(repaired_mean, mean - 0.02);
     }
   EXPECT_GT(before, 0.1);
@@ -127,7 +128,7 @@ TEST(RepairFailingQuads, EditsLeaveFewer) {
     for (std::size_t p = 0; p < state.patches.size(); ++p) {
       const double was = failing();
       const int tied = ties(state.patches[p].quads);
-      edits += edit_failing(all, p, *size);
+      edits += edit_failing(all, p, {*size, {}, excess_of(batch())});
       EXPECT_LE(failing(), was);
       EXPECT_LE(ties(state.patches[p].quads), tied);
       before += was, after += failing();

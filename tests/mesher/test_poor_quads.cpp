@@ -57,7 +57,7 @@ TEST(PoorQuads, OfAHoleBesideAWall) {
     for (const char* word : {"DB", "DBCO"}) {
       const std::string text = poor_in(mesh(problem_of(polygons(loops), 0.1), word));
       expect_told(text, {"narrower than the size, " + fmt::format("{:.3g} in", gap)});
-      for (const char* wrong : {"finer than the size", "for other reasons"})
+      for (const char* wrong : {"finer than the size", "without a known cause"})
         EXPECT_EQ(text.find(wrong), std::string::npos) << text;
     }
   }

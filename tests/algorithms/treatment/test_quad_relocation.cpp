@@ -58,8 +58,8 @@ TEST(QuadRelocation, HoldsLengthsWhereItIsAsked) {
     for (int v = strip.n_boundary; v < mesh.vertex_slots(); ++v) least = std::min(least, mesh.point(v).y);
     return least;
   };
-  EXPECT_LT(shortest(false), kBatchShort);
-  EXPECT_GT(shortest(true), kBatchShort);
+  EXPECT_LT(shortest(false), QuadLimits{}.shortest);
+  EXPECT_GT(shortest(true), QuadLimits{}.shortest);
 }
 
 TEST(QuadRelocation, StepsNeverRaiseTheCost) {

@@ -49,6 +49,21 @@ TEST(EvenCounts, ASeamChangesNothing) {
   EXPECT_TRUE(odd.empty());
 }
 
+TEST(EvenCounts, EdgesKeepTheirLeastLengthIfTheyCan) {
+  std::mt19937_64 random(4);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<CurveDemand> curves;
+    for (int c = 0; c < 4; ++c) {
+      const double integral = 1.2 + 3 * shapes::uniform(random);
+      curves.push_back({integral, 1, {0}, 0, most_edges(integral, 0.95)});
+    }
+    std::vector<int> odd;
+    const auto counts = even_counts(curves, 1, *make_primal_dual_solver(), odd);
+    EXPECT_EQ(totals(curves, counts, 1)[0] % 2, 0);
+    for (std::size_t c = 0; c < curves.size(); ++c) EXPECT_LE(counts[c], curves[c].most) << trial;
+  }
+}
+
 /// Curves where three patches meet, as at a rib: they alone can make groups of patches even that share no
 /// other curve.
 TEST(EvenCounts, BranchingCurvesTakePart) {

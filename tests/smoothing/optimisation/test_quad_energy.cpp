@@ -154,6 +154,7 @@ TEST(QuadEnergy, SizeAndCrossPull) {
 
 TEST(QuadEnergy, WallsHoldLengthsAndLevelOff) {
   const QuadPatch grid = grid_patch(4, 4);
+  const double short_wall = QuadLimits{}.short_wall(), long_wall = QuadLimits{}.long_wall();
   double of_shapes = 0;
   const auto value = [&](double delta) {
     double result = 0;
@@ -162,12 +163,12 @@ TEST(QuadEnergy, WallsHoldLengthsAndLevelOff) {
     return result - of_shapes;
   };
   of_shapes = value(1);
-  EXPECT_EQ(value(1 / (kLongWall - 1e-9)), 0);
-  EXPECT_EQ(value(1 / (kShortWall + 1e-9)), 0);
+  EXPECT_EQ(value(1 / (long_wall - 1e-9)), 0);
+  EXPECT_EQ(value(1 / (short_wall + 1e-9)), 0);
   // A tenth beyond, to either side, costs the same; five times as far not much more than twice.
-  EXPECT_GT(value(1 / (1.1 * kLongWall)), 1);
-  EXPECT_NEAR(value(1 / (1.1 * kLongWall)), value(1.1 / kShortWall), 1e-9);
-  EXPECT_LT(value(5 / kShortWall), 1.2 * value(2 / kShortWall));
+  EXPECT_GT(value(1 / (1.1 * long_wall)), 1);
+  EXPECT_NEAR(value(1 / (1.1 * long_wall)), value(1.1 / short_wall), 1e-9);
+  EXPECT_LT(value(5 / short_wall), 1.2 * value(2 / short_wall));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/patches/places_inside.h"
+#include "metrics/judgement/criteria.h"
 #include "metrics/shape.h"
 #include "smoothing/surface/surface_lift.h"
 #include "tests/smoothing/meshed_surface.h"
@@ -130,11 +131,16 @@ TEST(SurfaceLift, WhatPassesIsNotMended) {
   Meshed m(polygon_face({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, 0.5), 0.5);
   const auto before = m.places;
   Budget trials(1000);
-  EXPECT_EQ(repair_failing_on_surface(*m.tracks, m.places, *make_constant_size(0.5), 6, trials), 0);
+  const auto repair = [&](double size) {
+    const auto field = make_constant_size(size);
+    return repair_failing_on_surface(*m.tracks, m.places, {*field, {}, excess_of(criteria_presets()[0])}, 6,
+                                     trials);
+  };
+  EXPECT_EQ(repair(0.5), 0);
   EXPECT_EQ(m.places, before);
   EXPECT_EQ(trials.left(), 1000);
   // Nothing helps against sides that are all too short.
-  EXPECT_EQ(repair_failing_on_surface(*m.tracks, m.places, *make_constant_size(5), 6, trials), 0);
+  EXPECT_EQ(repair(5), 0);
   EXPECT_EQ(m.places, before);
   EXPECT_LT(trials.left(), 1000);
 }
