@@ -144,10 +144,9 @@ MeshProblem without_small_outlines(MeshProblem problem, std::vector<Warning>& mo
   return problem;
 }
 
-/// Returns options for a surface whose faces are joined, so that rows run on there. In large faces the ends
-/// of rows lie far apart. Options that allow no cost stay, and so does a requested number of quads of
-/// cavities.
-Options for_compounds(Options options) {
+/// Returns options for a surface with large faces, in which the ends of rows lie far apart: of compounds and
+/// triangulations. Options that allow no cost stay, and so does a requested number of quads of cavities.
+Options for_large_faces(Options options) {
   constexpr double kMostTolerance = 100;
   const RegularityOptions regularity = regularity_options(options);
   if (regularity.tolerance == 0 || regularity.joined == 1) return options;
@@ -168,7 +167,8 @@ MeshingSetup run_model_steps(const MeshProblem& problem, ModelSteps& model) {
   p.metric_plane = problem.metric.plane;
   p.settings = {problem.name,       problem.where, problem.options, problem.max_elements,
                 problem.keep_going, problem.order, problem.criteria};
-  if (problem.surface.compounds != Compounds::kNone) p.settings.options = for_compounds(p.settings.options);
+  if (problem.surface.compounds != Compounds::kNone || std::holds_alternative<TriangleModel>(problem.model))
+    p.settings.options = for_large_faces(p.settings.options);
   const auto timed = [&](const char* time, const char* doing, void (ModelSteps::*step)(MeshingSetup&)) {
     const Stopwatch watch;
     const StageScope stage(doing);

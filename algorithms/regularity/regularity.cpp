@@ -243,8 +243,8 @@ const OptionTable<RegularityOptions>& table() {
                 .help = "on surfaces: whether cavities go over curves, and change their numbers of edges"},
                &RegularityOptions::across_curves)
           .add({.name = "joined",
-                .help = "factor of the tolerance on surfaces with compounds, with cavities of up to 1000 "
-                        "quads; 1: no change",
+                .help = "factor of the tolerance on compounds and triangulations, with cavities of up to "
+                        "1000 quads; 1: no change",
                 .least = 1,
                 .most = 100},
                &RegularityOptions::joined);

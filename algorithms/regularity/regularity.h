@@ -17,7 +17,7 @@ struct RegularityOptions {
   int rounds = 3;        ///< rounds in which the tolerance grows
   double weight = 1;     ///< factor for the tolerances of all stages
   bool across_curves = true;  ///< for surfaces, see make_regular_across_curves()
-  double joined = 4;          ///< factor for the tolerance of surfaces with compounds
+  double joined = 4;          ///< factor for the tolerance of compounds and triangulations
 };
 
 OptionGroup regularity_group();

@@ -48,6 +48,9 @@ TEST(OptionValues, WhereFacesAreJoinedRegularityMayCostMore) {
   EXPECT_EQ(tolerance(Compounds::kAll, Options{}.set("regularity.joined", 1)), 3);
   EXPECT_EQ(tolerance(Compounds::kAll, quality_named("good").options), 0);
   EXPECT_EQ(tolerance(Compounds::kAll, Options{}.set("regularity.weight", 2)), 12) << "it counts once, later";
+  EXPECT_EQ(prepare_problem(problem_of(TriangleModel{can(12, 4)}, 0.5), {})
+                .settings.options.number("regularity.tolerance"),
+            12);
   EXPECT_EQ(prepared(Compounds::kAll, {}).integer("regularity.quads"), 1000);
   EXPECT_EQ(prepared(Compounds::kAll, Options{}.set("regularity.quads", 50)).integer("regularity.quads"), 50);
 }

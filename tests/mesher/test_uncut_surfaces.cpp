@@ -105,5 +105,45 @@ TEST(AcrossCuts, LinesAndPointsInsideStay) {
   EXPECT_LT(norm(mesh.points[mesh.named_points[0].point] - point), 0.003);
 }
 
+/// Solids that a ball becomes if its points move along their rays.
+Mesh star(int n, const std::function<double(const Vec3&)>& radius) {
+  Mesh mesh = round_sphere(n).fine;
+  for (Vec3& p : mesh.points) p = radius(p) * p;
+  return mesh;
+}
+
+Mesh bumpy_ball() {
+  return star(20, [](const Vec3& p) {
+    return 1 + 0.4 * std::sin(5 * p.x + 1) * std::sin(6 * p.y + 0.5) * std::sin(5 * p.z + 2);
+  });
+}
+
+/// Two blunt tubes, one along x and one along y, that cross.
+Mesh crossing_tubes() {
+  return star(16, [](const Vec3& p) {
+    const auto along = [](double axis, double a, double b) {
+      return std::pow(axis / 2, 8) + std::pow(std::hypot(a, b) / 0.9, 8);
+    };
+    return 1 / std::pow(std::min(along(p.x, p.y, p.z), along(p.y, p.z, p.x)), 1.0 / 8);
+  });
+}
+
+class ScansOf : public testing::TestWithParam<Mesh (*)()> {};
+
+TEST_P(ScansOf, LargeFacesPayMoreForRegularity) {
+  MeshProblem problem = problem_of(TriangleModel{GetParam()()}, 0.12);
+  const auto irregular = [&] {
+    const MeshResult result = mesh(problem, "best", {.threads = 1});
+    EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
+    EXPECT_GT(result.metrics.values.at("eta_mean"), 0.9);
+    return result.metrics.values.at("n_irregular");
+  };
+  const double now = irregular();
+  problem.options.set("regularity.joined", 1);
+  EXPECT_LT(now, irregular());
+}
+
+INSTANTIATE_TEST_SUITE_P(AcrossCuts, ScansOf, testing::Values(bumpy_ball, crossing_tubes));
+
 }  // namespace
 }  // namespace delquad
