@@ -189,7 +189,7 @@ class CurveMesher {
         size_field_(options.size_field ? options.size_field : std::make_shared<SizeOfFunction>(size)),
         chain_(chain_model(model)),
         pieces_(cut_curves(model, chain_)) {
-    if (symmetry != nullptr) first_axis_ = static_cast<int>(model.curves.size()) - symmetry->n_planes();
+    if (symmetry != nullptr) first_axis_ = static_cast<int>(model.curves.size()) - symmetry->count();
     measure(size, options.max_edges);
     name_curves();
     set_least();

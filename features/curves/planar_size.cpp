@@ -89,7 +89,7 @@ std::vector<LocalSize> fine_spots(const MeshProblem& problem, const std::vector<
 std::vector<SymmetryPlane> planes_of(const MeshProblem& problem, const PlanarModel& model) {
   if (!is_symmetric(problem)) return {};
   const std::optional<Symmetry> symmetry = find_symmetry(model, problem.symmetry);
-  return symmetry ? symmetry->planes() : std::vector<SymmetryPlane>{};
+  return symmetry ? symmetry->all() : std::vector<SymmetryPlane>{};
 }
 
 /// A model whose curves are meshed as often as a decision on their size depends on how they were.

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/text.h"
 #include "delquad/error.h"
@@ -18,8 +20,6 @@ namespace {
 
 /// Curves are seen by so many points where symmetries are looked for.
 constexpr int kSamplesOfCurve = 32, kProbesOfCurve = 5;
-/// Normals of planes may be so far from perpendicular; radians.
-constexpr double kPerpendicular = 1e-9;
 
 /// The parameters of the corners of a curve, and of its ends.
 std::vector<double> corner_parameters(const Curve& shape) {
@@ -92,7 +92,7 @@ std::vector<double> candidate_angles(const PlanarModel& model, Vec2 centre) {
 const ModelPoint* point_without_image(const PlanarModel& model, const NearCurves& curves,
                                       const Symmetry& symmetry, int plane) {
   const auto has_image = [&](const ModelPoint& p) {
-    const Vec2 image = symmetry.reflect({plane}, p.at);
+    const Vec2 image = symmetry.reflect(1 << plane, p.at);
     return curves.has(p.at, symmetry.tolerance()) ||
            std::ranges::any_of(model.points, [&](const ModelPoint& other) {
              return norm(other.at - image) <= symmetry.tolerance();
@@ -107,7 +107,8 @@ std::pair<int, Vec2> curve_without_image(const PlanarModel& model, const NearCur
                                          const Symmetry& symmetry, int plane) {
   for (std::size_t c = 0; c < model.curves.size(); ++c)
     for (int k = 0; k < kProbesOfCurve; ++k) {
-      const Vec2 image = symmetry.reflect({plane}, model.curves[c].shape->point((k + 0.37) / kProbesOfCurve));
+      const Vec2 image =
+          symmetry.reflect(1 << plane, model.curves[c].shape->point((k + 0.37) / kProbesOfCurve));
       if (!curves.has(image, symmetry.tolerance())) return {static_cast<int>(c), image};
     }
   return {-1, {}};
@@ -123,43 +124,29 @@ SymmetryPlane plane_at(Vec2 centre, double axis_angle) {
   return {{centre.x, centre.y, 0}, {exact(std::sin(axis_angle)), exact(-std::cos(axis_angle)), 0}};
 }
 
-}  // namespace
-
-Symmetry::Symmetry(std::vector<SymmetryPlane> planes, double tolerance) : tolerance_(tolerance) {
-  for (const SymmetryPlane& p : planes) {
-    const double length = std::hypot(p.normal.x, p.normal.y);
-    planes_.push_back({{p.point.x, p.point.y}, {p.normal.x / length, p.normal.y / length}});
-  }
-}
-
-std::vector<SymmetryPlane> Symmetry::planes() const {
-  std::vector<SymmetryPlane> planes;
-  for (const Axis& a : planes_) planes.push_back({{a.at.x, a.at.y, 0}, {a.normal.x, a.normal.y, 0}});
+std::vector<SymmetryPlane> in_plane(std::vector<SymmetryPlane> planes) {
+  for (SymmetryPlane& p : planes) p.point.z = p.normal.z = 0;
   return planes;
 }
 
-double Symmetry::distance(int plane, Vec2 x) const {
-  return dot(x - planes_[plane].at, planes_[plane].normal);
+}  // namespace
+
+Symmetry::Symmetry(std::vector<SymmetryPlane> planes, double tolerance)
+    : SymmetryPlanes(in_plane(std::move(planes))), tolerance_(tolerance) {}
+
+Vec2 Symmetry::reflect(int folds, Vec2 x) const {
+  const Vec3 image = reflect_all(folds, {x.x, x.y, 0});
+  return {image.x, image.y};
 }
 
-std::vector<int> Symmetry::folds_of(Vec2 x) const {
-  std::vector<int> folds;
-  for (int k = 0; k < n_planes(); ++k)
-    if (distance(k, x) < -tolerance_) folds.push_back(k);
-  return folds;
+Vec2 Symmetry::put_on(int plane, Vec2 x) const {
+  const Vec3 on = SymmetryPlanes::put_on(plane, {x.x, x.y, 0});
+  return {on.x, on.y};
 }
-
-Vec2 Symmetry::reflect(const std::vector<int>& folds, Vec2 x) const {
-  for (const int k : folds) x = x - (2 * distance(k, x)) * planes_[k].normal;
-  return x;
-}
-
-bool Symmetry::is_on(int plane, Vec2 x) const { return std::abs(distance(plane, x)) <= tolerance_; }
-
-Vec2 Symmetry::put_on(int plane, Vec2 x) const { return x - distance(plane, x) * planes_[plane].normal; }
 
 std::array<Vec2, 2> Symmetry::axis(int plane, const Box<Vec2>& box) const {
-  const Vec2 along = perp(planes_[plane].normal), middle = put_on(plane, 0.5 * (box.low + box.high));
+  const Vec2 along = perp({normal(plane).x, normal(plane).y}),
+             middle = put_on(plane, 0.5 * (box.low + box.high));
   const double reach = norm(box.size());
   return {middle - reach * along, middle + reach * along};
 }
@@ -168,16 +155,11 @@ std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySp
   const double tolerance = kTouch * norm(box_of(model, kSamplesOfCurve).size());
   const NearCurves curves(model);
   if (!spec.automatic) {
-    const auto& planes = spec.planes;
-    const auto angle = [](const Vec3& n) { return std::atan2(n.y, n.x); };
-    if (planes.size() > 2 ||
-        (planes.size() == 2 &&
-         std::abs(std::cos(angle(planes[0].normal) - angle(planes[1].normal))) > kPerpendicular))
-      throw InputError(spec.where + ": expected one plane of symmetry, or two that are perpendicular");
-    Symmetry symmetry(planes, tolerance);
-    for (int k = 0; k < symmetry.n_planes(); ++k)
+    given_planes(in_plane(spec.planes), spec.where);
+    Symmetry symmetry(spec.planes, tolerance);
+    for (int k = 0; k < symmetry.count(); ++k)
       if (const ModelPoint* p = point_without_image(model, curves, symmetry, k)) {
-        const Vec2 image = symmetry.reflect({k}, p->at);
+        const Vec2 image = symmetry.reflect(1 << k, p->at);
         throw InputError(
             fmt::format("{}: the model is not symmetric: the point '{}' ({}) has no mirror image at "
                         "({:.10g}, {:.10g}) [not-symmetric]",
@@ -215,11 +197,11 @@ std::string why_not_symmetric(const PlanarModel& model) {
     item = curve_label(model, curve);
   } else if (const ModelPoint* point = point_without_image(model, curves, *symmetry, 0)) {
     item = point_label(model, static_cast<int>(point - model.points.data()));
-    image = symmetry->reflect({0}, point->at);
+    image = symmetry->reflect(1, point->at);
   } else {
     return {};
   }
-  const SymmetryPlane plane = symmetry->planes()[0];
+  const SymmetryPlane plane = symmetry->all()[0];
   return fmt::format(
       "the plane through {} with the normal {} would be one, but {} has no "
       "mirror image at {}",
@@ -233,15 +215,13 @@ namespace {
 /// side may begin anywhere.
 void add_images_of_nodes(const ModelCurve& curve, const Symmetry& symmetry, PlanarModel& model) {
   const Vec2 begin = curve.shape->point(0);
-  const std::vector<int> side = symmetry.folds_of(begin);
+  const int side = symmetry.folds_of(begin);
   bool is_cut = norm(curve.shape->point(1) - begin) > symmetry.tolerance();
   for (int k = 1; k < kSamplesOfCurve; ++k)
     is_cut |= symmetry.folds_of(curve.shape->point(static_cast<double>(k) / kSamplesOfCurve)) != side;
   if (!is_cut) return;
-  const std::vector<std::vector<int>> all{{0}, {1}, {0, 1}};
   for (const double t : corner_parameters(*curve.shape))
-    for (const std::vector<int>& folds : all) {
-      if (folds.back() >= symmetry.n_planes()) continue;
+    for (int folds = 1; folds < 1 << symmetry.count(); ++folds) {
       const Vec2 image = symmetry.reflect(folds, curve.shape->point(t));
       if (std::ranges::none_of(
               model.points, [&](const ModelPoint& p) { return norm(p.at - image) <= symmetry.tolerance(); }))
@@ -255,7 +235,7 @@ PlanarModel with_axes(const PlanarModel& model, const Symmetry& symmetry) {
   PlanarModel result = model;
   for (const ModelCurve& curve : model.curves) add_images_of_nodes(curve, symmetry, result);
   const Box<Vec2> box = box_of(model, kSamplesOfCurve);
-  for (int k = 0; k < symmetry.n_planes(); ++k) {
+  for (int k = 0; k < symmetry.count(); ++k) {
     const auto [a, b] = symmetry.axis(k, box);
     result.curves.push_back({make_segment(a, b), {}, {}});
   }
@@ -287,7 +267,7 @@ class SymmetricPairs {
         valence_(pieces_at_nodes(pieces, chain.nodes.size())) {}
 
   /// Whether there is one.
-  bool pair(CurvePiece& piece, const std::vector<int>& folds) {
+  bool pair(CurvePiece& piece, int folds) {
     const auto folded = [&](double s) {
       return symmetry_.reflect(folds, piece.shape->point(piece.from + s * (piece.to - piece.from)));
     };
@@ -315,7 +295,7 @@ class SymmetricPairs {
   }
 
  private:
-  void replace_by_image(CurvePiece& piece, int index, const std::vector<int>& folds) {
+  void replace_by_image(CurvePiece& piece, int index, int folds) {
     CurvePiece& master = pieces_[index];
     piece.master = index;
     piece.is_mirrored = true;
@@ -394,13 +374,13 @@ std::vector<ChainPair> pair_symmetric(const PlanarModel& model, const Symmetry& 
                                       const std::string& where, ModelChain& chain,
                                       std::vector<CurvePiece>& pieces) {
   for (Vec2& x : chain.nodes)
-    for (int k = 0; k < symmetry.n_planes(); ++k)
+    for (int k = 0; k < symmetry.count(); ++k)
       if (symmetry.is_on(k, x)) x = symmetry.put_on(k, x);
   SymmetricPairs pairs(symmetry, chain, pieces);
   for (CurvePiece& piece : pieces) {
     const Vec2 middle = piece.shape->point((piece.from + piece.to) / 2);
-    const std::vector<int> folds = symmetry.folds_of(middle);
-    if (folds.empty()) continue;
+    const int folds = symmetry.folds_of(middle);
+    if (folds == 0) continue;
     if (!pairs.pair(piece, folds))
       throw InputError(fmt::format(
           "{}: the model is not symmetric: {} has no mirror image at ({:.10g}, {:.10g}) [not-symmetric]",
@@ -431,8 +411,8 @@ std::vector<PatchImage> patch_images(const std::vector<PatchBoundary>& patches, 
   };
   std::vector<PatchImage> images;
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    const std::vector<int> folds = symmetry.folds_of(mean(patches[p]));
-    if (folds.empty()) continue;
+    const int folds = symmetry.folds_of(mean(patches[p]));
+    if (folds == 0) continue;
     const std::vector<Vec2>& own = patches[p].points;
     std::vector<int> by_x(own.size());
     for (std::size_t i = 0; i < own.size(); ++i) by_x[i] = static_cast<int>(i);
@@ -449,9 +429,9 @@ std::vector<PatchImage> patch_images(const std::vector<PatchBoundary>& patches, 
                      -1,
                      {},
                      [folds, symmetry](Vec2 x) { return symmetry.reflect(folds, x); },
-                     folds.size() % 2 == 1};
+                     std::popcount(static_cast<unsigned>(folds)) % 2 == 1};
     for (std::size_t m = 0; m < patches.size() && image.master < 0; ++m) {
-      if (patches[m].points.size() != own.size() || !symmetry.folds_of(mean(patches[m])).empty()) continue;
+      if (patches[m].points.size() != own.size() || symmetry.folds_of(mean(patches[m])) != 0) continue;
       image.point.clear();
       for (const Vec2 x : patches[m].points) {
         const int found = nearest(image.motion(x));

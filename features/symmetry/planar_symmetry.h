@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/box.h"
 #include "delquad/extend.h"
+#include "features/symmetry/symmetry_planes.h"
 #include "geometry/patches/curve_nodes.h"
 #include "geometry/patches/meshing_setup.h"
 #include "geometry/planar/curve_pieces.h"
@@ -17,32 +19,23 @@
 
 namespace delquad {
 
-/// A symmetric model: what lies on the positive sides of all planes, and its mirror images.
-class Symmetry {
+/// One or two planes of symmetry of a planar model.
+class Symmetry : public SymmetryPlanes {
  public:
-  /// Planes that are perpendicular to each other; one or two.
+  /// Planes that are perpendicular to each other; they are seen in the plane.
   Symmetry(std::vector<SymmetryPlane> planes, double tolerance);
 
-  /// Returns the planes that the fundamental part of x lies behind, by their indices; empty: x is in it.
-  std::vector<int> folds_of(Vec2 x) const;
-  /// Returns x mirrored at these.
-  Vec2 reflect(const std::vector<int>& folds, Vec2 x) const;
-  /// Returns the planes that x lies on.
-  bool is_on(int plane, Vec2 x) const;
+  /// Returns the bits of the planes that x lies behind by more than the tolerance.
+  int folds_of(Vec2 x) const { return SymmetryPlanes::folds_of({x.x, x.y, 0}, tolerance_); }
+  /// Returns x mirrored at all planes whose bits are set.
+  Vec2 reflect(int folds, Vec2 x) const;
+  bool is_on(int plane, Vec2 x) const { return std::abs(height(plane, {x.x, x.y, 0})) <= tolerance_; }
   Vec2 put_on(int plane, Vec2 x) const;
-  int n_planes() const { return static_cast<int>(planes_.size()); }
-  std::vector<SymmetryPlane> planes() const;
   double tolerance() const { return tolerance_; }
   /// Returns where the plane crosses the box.
   std::array<Vec2, 2> axis(int plane, const Box<Vec2>& box) const;
 
  private:
-  double distance(int plane, Vec2 x) const;
-
-  struct Axis {
-    Vec2 at, normal;
-  };
-  std::vector<Axis> planes_;
   double tolerance_;
 };
 
