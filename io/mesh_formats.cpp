@@ -137,15 +137,6 @@ MshOptions options_for_source(const std::filesystem::path& source, MshOptions op
   return options;
 }
 
-ShellSections carry_sections(const std::filesystem::path& source, const std::filesystem::path& path,
-                             const Mesh& mesh) {
-  const MeshFormat *from = find_format(kind_of_file(source)), *to = find_format(kind_to_write(path));
-  if (from == nullptr || from->sections == nullptr || to->add_sections == nullptr) return {};
-  ShellSections sections = from->sections(source);
-  if (!sections.sections.empty()) to->add_sections(path, mesh, sections);
-  return sections;
-}
-
 std::string ignored_keywords(const std::filesystem::path& path, const std::map<std::string, int>& carried) {
   const MeshFormat* format = find_format(kind_of_file(path));
   if (format == nullptr || format->others == nullptr) return "";
@@ -155,6 +146,18 @@ std::string ignored_keywords(const std::filesystem::path& path, const std::map<s
     if (count > 0) others.push_back(fmt::format("{} ({})", name, count));
   }
   return fmt::format("{}", fmt::join(others, ", "));
+}
+
+std::vector<std::string> carry_sections(const std::filesystem::path& source,
+                                        const std::filesystem::path& path, const Mesh& mesh) {
+  const MeshFormat *from = find_format(kind_of_file(source)), *to = find_format(kind_to_write(path));
+  ShellSections sections;
+  if (from != nullptr && from->sections != nullptr && to->add_sections != nullptr)
+    sections = from->sections(source);
+  if (!sections.sections.empty()) to->add_sections(path, mesh, sections);
+  if (const auto others = ignored_keywords(source, sections.carried); !others.empty())
+    sections.lost.push_back("keywords and how many: " + others);
+  return std::move(sections.lost);
 }
 
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options, int order,

@@ -95,10 +95,10 @@ bool keeps_file(const std::filesystem::path& source, const std::filesystem::path
 /// weld_open_edges() joined points of it. Throws InputError if a line names something that is gone.
 void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh,
                   double weld);
-/// Adds the sections of a deck to one of another program that write_mesh() made of its mesh. Returns what it
-/// carried and what it lost; nothing if one of both formats has no sections.
-ShellSections carry_sections(const std::filesystem::path& source, const std::filesystem::path& path,
-                             const Mesh& mesh);
+/// Adds the sections of a deck to one of another program that write_mesh() made of its mesh, if both formats
+/// have sections. Returns what gets lost of the source, ignored_keywords() included.
+std::vector<std::string> carry_sections(const std::filesystem::path& source,
+                                        const std::filesystem::path& path, const Mesh& mesh);
 /// Keywords of a file that are no part of a mesh, and how many: "*CLOAD (2), *MATERIAL (1)". Leaves out those
 /// that were carried.
 std::string ignored_keywords(const std::filesystem::path& path,

@@ -29,10 +29,10 @@ constexpr int kMostRounds = 8, kMostIdle = 2;
 constexpr int kFirstWithFeatures = 4;
 /// The size becomes this part of what it was, so many of these sizes around.
 constexpr double kPart = 0.5, kReach = 3;
-/// Budget of work on all meshes: some 30 seconds, or a multiple of the quads of a large mesh. Half as much
-/// more is for other tries, if one of these is likely not to need more. The next mesh may exceed what is left
-/// by as much.
-constexpr long long kLeastWork = 150'000, kMostTimes = 4;
+/// Budget of work on all meshes: by the quads, up to some 30 seconds, or a multiple of the quads of a large
+/// mesh. Half as much more is for other tries, if one of these is likely not to need more. The next mesh may
+/// exceed what is left by as much.
+constexpr long long kLeastWork = 40'000, kWorkPerQuad = 40, kUsualWork = 150'000, kMostTimes = 4;
 /// A quad takes as long as these: places that lifting tries (LiftingSummary::cost), steps of curves, looks of
 /// stages, triangles of maps.
 constexpr long long kCostPerQuad = 300, kStepsPerQuad = 7500, kLooksPerQuad = 300, kTrianglesPerQuad = 10;
@@ -337,8 +337,10 @@ long long work_on(const MeshingSetup& prepared, const MeshResult& result) {
 
 void refine_unsound(const PrepareWithHints& prepare_with_hints, const Word& word, MeshingSetup& prepared,
                     MeshResult& result) {
+  const auto quads = static_cast<long long>(result.mesh.quads.size());
   const long long once = work_on(prepared, result),
-                  most = std::max(kLeastWork, kMostTimes * static_cast<long long>(result.mesh.quads.size()));
+                  most =
+                      std::max(std::min(kLeastWork + kWorkPerQuad * quads, kUsualWork), kMostTimes * quads);
   Budget finer(most - once), others(most / 2);
   undo_across_curves(word, finer, prepared, result);
   const auto within_patches = [&prepare_with_hints](const RetryHints& hints) {

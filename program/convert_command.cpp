@@ -79,12 +79,9 @@ int convert_command(const ConvertArguments& arguments) {
     write_mesh(arguments.output, mesh, options_for_source(arguments.mesh, arguments.msh));
   else
     write_fields(arguments.output, mesh, fields, arguments.msh);
-  if (!is_kept) {
-    const ShellSections sections = carry_sections(arguments.mesh, arguments.output, mesh);
-    lost.insert(lost.end(), sections.lost.begin(), sections.lost.end());
-    if (const auto others = ignored_keywords(arguments.mesh, sections.carried); !others.empty())
-      lost.push_back("keywords and how many: " + others);
-  }
+  if (!is_kept)
+    for (std::string& what : carry_sections(arguments.mesh, arguments.output, mesh))
+      lost.push_back(std::move(what));
   if (verbosity() != Verbosity::kQuiet) {
     for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
     for (const std::string& what : lost) fmt::print(stderr, "lost: {}\n", what);

@@ -114,8 +114,6 @@ bool keeps_given(const MeshArguments& arguments, const std::optional<Mesh>& give
     lost.push_back(fmt::format("{} loses {}", output, fmt::join(names, "; ")));
   for (const std::string& what : missing_in_file(arguments.output, result.mesh, !arguments.depth.empty()))
     lost.push_back(what);
-  if (const auto others = given ? ignored_keywords(arguments.model) : ""; !others.empty())
-    lost.push_back(fmt::format("{} loses what {} holds: {}", output, arguments.model.string(), others));
   result.warnings.insert(result.warnings.end(), lost.begin(), lost.end());
   progress.warn(lost);
   return false;
@@ -277,9 +275,19 @@ void check_fields_file(const std::filesystem::path& file) {
   check_output(file);
 }
 
+/// Adds the shell sections of a given deck to one of another program, and tells what gets lost.
+void carry_given(const MeshArguments& arguments, const Mesh& mesh, MeshResult& result, Progress& progress) {
+  std::vector<Warning> lost;
+  for (const std::string& what : carry_sections(arguments.model, arguments.output, mesh))
+    lost.push_back(fmt::format("{} loses {}", arguments.output.string(), what));
+  result.warnings.insert(result.warnings.end(), lost.begin(), lost.end());
+  progress.warn(lost);
+}
+
 /// `depth`: of water, at points; null: none is written. `is_kept`: the file of the given mesh is.
 void write_result(const MeshArguments& arguments, const Case& c, const Word& word,
-                  const std::function<double(const Vec3&)>& depth, bool is_kept, MeshResult& result) {
+                  const std::function<double(const Vec3&)>& depth, bool is_kept, Progress& progress,
+                  MeshResult& result) {
   const StageScope writing_files("writing");
   const Uninterrupted whole;
   if (!arguments.keep_numbers) reduce_bandwidth(result.mesh);
@@ -292,6 +300,7 @@ void write_result(const MeshArguments& arguments, const Case& c, const Word& wor
   const auto write = arguments.serendipity ? write_serendipity : write_mesh;
   is_kept ? rewrite_mesh(arguments.model, arguments.output, last, c.surface.weld_tolerance.value_or(0))
           : write(arguments.output, last, options_for_source(arguments.model, arguments.msh));
+  if (arguments.improve && !is_kept) carry_given(arguments, last, result, progress);
   result.log.add_time("write", writing.time());
   if (!arguments.fields.empty()) write_wanted(arguments.fields, result.mesh, result.prepared);
   if (!arguments.json.empty()) write_text_file(arguments.json, run_record(c, word, result));
@@ -346,7 +355,7 @@ int mesh_command(MeshArguments arguments) {
   progress.warn(prepared->warnings);
   MeshResult result = mesh_or_report(arguments, prepared, word, told(c.name + " " + word.text), progress);
   const bool is_kept = keeps_given(arguments, given, result, progress);
-  write_result(arguments, c, word, depth, is_kept, result);
+  write_result(arguments, c, word, depth, is_kept, progress, result);
   progress.finish();
   if (given) print_before(arguments.model.string(), *given, result.prepared);
   print_after(arguments.output.string(), result, command.seconds());

@@ -33,8 +33,8 @@ constexpr double kFlat = 1e-3;
 constexpr int kRingPasses = 3;
 /// Trials of edits; quads of all meshes of these trials; edits of one quad.
 constexpr int kMostTrials = 200, kMostTried = 1'000'000, kWays = 21;
-/// Limit of tried places of vertices, see lift_worst_on_surface(): about ten seconds.
-constexpr long long kMostCost = 8'000'000;
+/// Limit of tried places of vertices, see lift_worst_on_surface(): by the quads, and about ten seconds.
+constexpr long long kLeastCost = 500'000, kCostPerQuad = 1000, kMostCost = 8'000'000;
 /// Limit for failing quads: about five seconds.
 constexpr long long kMostRepairs = 5'000'000;
 
@@ -313,13 +313,15 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
   LiftingSummary summary;
   const std::vector<std::size_t> which = patches_of_quads(in);
   place_inside(in);
-  Budget cost(kMostCost);
+  std::size_t n_quads = 1;
+  for (const std::size_t i : which) n_quads += in.patches[i].quads.quads.size();
+  const auto by_quads = kLeastCost + kCostPerQuad * static_cast<long long>(n_quads);
+  const long long most_cost = std::min(by_quads, kMostCost);
+  Budget cost(most_cost);
   summary.moved = lift_all(in, which, cost);
 
   const Badness badness_of(in.prepared.surface->model.fine);
   std::vector<BadQuad> bad = all_bad_quads(in, badness_of, which);
-  std::size_t n_quads = 1;
-  for (const std::size_t i : which) n_quads += in.patches[i].quads.quads.size();
   const int most = static_cast<int>(std::min<std::size_t>(kMostTrials, kMostTried / n_quads));
   int trials = most;
   // Rings make a mesh less regular, so a given mesh gets them last.
@@ -341,7 +343,7 @@ LiftingSummary lift_bad_quads(const AllPatches& in) {
     bad = std::move(left);
   }
   while (repair_one(in, badness_of, which, bad, trials, cost, summary)) continue;
-  summary.cost = kMostCost - cost.left();
+  summary.cost = most_cost - cost.left();
   if (cost.is_spent() && !bad.empty())
     summary.stopped = in.prepared.boundary.regions[in.prepared.patches[bad[0].patch].region].tag;
   return summary;

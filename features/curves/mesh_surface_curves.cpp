@@ -146,6 +146,8 @@ constexpr int kRefinements = 8;
 constexpr long long kMostEdges = 1'000'000;
 /// So many times curves that keep boundaries from enclosing quads leave agreement.
 constexpr int kMostKept = 10;
+/// Steps of agreement: so many, and so many for each quad.
+constexpr double kLeastAgreement = 1e6, kAgreementPerQuad = 1e4;
 /// Where a patch is narrowest between these chains, and how wide: the least height of triangles with all
 /// corners on them; empty: there are none.
 std::string narrowest_between(const Mesh& fine, const FlatPatch& map, const std::vector<CurveChain>& chains,
@@ -166,7 +168,11 @@ std::string narrowest_between(const Mesh& fine, const FlatPatch& map, const std:
     const double height = norm(cross(x[1] - x[0], x[2] - x[0])) / longest;
     if (is_between && height < width) width = height, at = (1.0 / 3) * (x[0] + x[1] + x[2]);
   }
-  return std::isfinite(width) ? fmt::format("; it is {:.3g} wide at {}", width, show_point(at)) : "";
+  return std::isfinite(width) ? fmt::format(
+                                    "; it is {:.3g} wide at {}: --ignore-below {:.3g} leaves narrower "
+                                    "places out",
+                                    width, show_point(at), 2 * width)
+                              : "";
 }
 
 /// The curves that keep boundaries from enclosing quads do not take part in agreement, then get more edges,
@@ -321,10 +327,13 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
   std::vector<MappedFace> grids;
   if (mapped.asks()) grids = find_surface_grids(mapped, fine, curves, wanted);
-  Budget steps(agreement.most_steps);
+  const double quads = std::accumulate(wanted.quads.begin(), wanted.quads.end(), 0.0);
+  const long long most_steps =
+      std::min(agreement.most_steps, static_cast<long long>(kLeastAgreement + kAgreementPerQuad * quads));
+  Budget steps(most_steps);
   PatchBoundaries placed = place_sound_boundaries(model, curves, across, wanted, size, solver, mapped,
                                                   agreement.price, steps, grids);
-  domain.steps = agreement.most_steps - steps.left();
+  domain.steps = most_steps - steps.left();
   if (steps.is_spent()) domain.warnings.push_back(warn_of_spent_steps());
   if (agreement.price > 0)
     for (MappedFace& face : find_surface_grids({}, fine, curves, wanted))

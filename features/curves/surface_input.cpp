@@ -161,12 +161,12 @@ std::string leave_out_strays(Mesh& mesh) {
                      gone == 1 ? "is" : "are", why);
 }
 
-/// Warns of parts that hang together and go through each other, or lie on each other.
+/// Warns of parts that go through each other, or lie on each other. A part ends where three triangles meet.
 void warn_of_penetrating(const std::string& source, SurfaceModel& model) {
   const Mesh& mesh = model.fine;
   DisjointSets parts(mesh.triangles.size());
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
-    for (const HalfEdge& side : edge) parts.join(edge[0].element, side.element);
+    if (edge.size() == 2) parts.join(edge[0].element, edge[1].element);
   });
   const std::vector<int> part = parts.roots();
   if (std::ranges::all_of(part, [&](int p) { return p == part[0]; })) return;

@@ -17,6 +17,8 @@ namespace {
 /// The other side must face this one: cosine of the angle between them. If they are far from parallel and the
 /// way between them along the boundary is at most so many widths, there is only a corner.
 constexpr double kFacing = 0.3, kParallel = 0.97, kCornerPath = 8;
+/// Triangles that a look goes through: more lie in a row only where they are needles.
+constexpr size_t kMostTriangles = 1000;
 
 Vec2 flat_point(const FlatPatch& map, int v) { return map.flat.points[v]; }
 
@@ -85,7 +87,7 @@ void AcrossView::look_from(const Side& side, double t, double reach, std::vector
   const Vec2 direction = (1 / norm(b - a)) * perp(b - a);
   int triangle = side.triangle, entered = side.k;
   double distance = 0, before = 0;
-  for (size_t steps = 0; steps < map.flat.triangles.size(); ++steps) {
+  for (size_t steps = 0; steps < std::min(kMostTriangles, map.flat.triangles.size()); ++steps) {
     const auto& v = map.flat.triangles[triangle];
     int exit = -1;
     double way = std::numeric_limits<double>::infinity();

@@ -25,6 +25,8 @@ namespace {
 
 /// Part of the model's diagonal within which a face counts as plane.
 constexpr double kPlane = 1e-9;
+/// Limit of triangles that are mapped in all rounds: so many, and so many for each triangle of the model.
+constexpr std::size_t kLeastMapped = 100'000, kMappedPerTriangle = 20;
 
 }  // namespace
 
@@ -90,6 +92,7 @@ class Flattener {
         mesh_(model.fine),
         options_(options),
         tolerance_(kPlane * diagonal(mesh_)),
+        to_be_mapped_(kLeastMapped + kMappedPerTriangle * mesh_.triangles.size()),
         open_(mesh_.triangles.size(), 1),
         tries_(mesh_.triangles.size(), 0),
         stuck_(mesh_.triangles.size(), 0),
@@ -157,7 +160,8 @@ class Flattener {
       check_cancelled();
       Chart& chart = charts[i];
       ChartOutcome& outcome = outcomes[i];
-      if (outcome.cut || !outcome.parts.empty()) {
+      to_be_mapped_ -= std::min(to_be_mapped_, chart.triangles.size());
+      if (to_be_mapped_ > 0 && (outcome.cut || !outcome.parts.empty())) {
         planned.push_back({std::move(chart), std::move(outcome)});
         continue;
       }
@@ -439,9 +443,10 @@ class Flattener {
   Mesh& mesh_;
   const FlattenOptions& options_;
   double tolerance_;
-  std::vector<char> open_;   ///< triangles that are in no finished patch
-  std::vector<int> tries_;   ///< of each triangle, cuts through its chart although it had a map
-  std::vector<char> stuck_;  ///< first triangles of charts whose last cut could not be made
+  std::size_t to_be_mapped_;  ///< triangles, at most
+  std::vector<char> open_;    ///< triangles that are in no finished patch
+  std::vector<int> tries_;    ///< of each triangle, cuts through its chart although it had a map
+  std::vector<char> stuck_;   ///< first triangles of charts whose last cut could not be made
   std::vector<char> failed_;
   std::vector<char> is_embedded_;  ///< of the curves that the model had
   std::set<std::pair<int, int>>

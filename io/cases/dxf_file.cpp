@@ -259,6 +259,8 @@ class DxfReader {
 
   void add(const std::string& kind) {
     constexpr double kDegree = std::numbers::pi / 180;
+    constexpr int kMesh = 16 | 64;  // flags of a polyline
+    if (value(67) != 0) return;     // it is on paper, around views of the model
     // If the plane of a shape is seen from below, x points to the left.
     const double side = value(230, 1) < 0 ? -1 : 1;
     const Vec2 centre{side * value(10), value(20)};
@@ -275,6 +277,8 @@ class DxfReader {
       const double from = value(41), to = value(42, 2 * std::numbers::pi);
       push(make_parametric_curve([=](double t) { return c + std::cos(t) * a + std::sin(t) * b; }, from,
                                  to > from ? to : to + 2 * std::numbers::pi));
+    } else if (kind == "POLYLINE" && (static_cast<int>(value(70)) & kMesh) != 0) {
+      ++left_out_["mesh (POLYLINE)"];
     } else if (kind == "LWPOLYLINE" || kind == "POLYLINE") {
       add_polyline(side);
     } else if (kind == "SPLINE") {

@@ -29,5 +29,20 @@ TEST(PenetratingBodies, ThatLieOnEachOtherAreTold) {
     EXPECT_EQ(count_told(prepare(two_cubes(shift, 0.4))->warnings, "face 2 on face 7 at"), told) << shift.y;
 }
 
+TEST(PenetratingBodies, WithACommonEdgeAreTold) {
+  for (const auto& [shift, height, told] :
+       {std::tuple(Vec3{1, 0, 0}, 0.5, true), {Vec3{1, 1, 0}, 1.0, false}, {Vec3{1, 0, 0}, 1.0, false}}) {
+    Mesh mesh = box(1);
+    append(mesh, box(1, 1, 1, height), shift);
+    for (auto& triangle : mesh.triangles)
+      for (int& v : triangle)
+        v = static_cast<int>(std::ranges::find(mesh.points, mesh.points[v]) - mesh.points.begin());
+    EXPECT_EQ(count_told(prepare(problem_of(TriangleModel{std::move(mesh)}, 0.5))->warnings,
+                         "1 pair of bodies touch or go through each other"),
+              told)
+        << shift.y << ' ' << height;
+  }
+}
+
 }  // namespace
 }  // namespace delquad

@@ -40,6 +40,12 @@ TEST(CarriedSections, FromInpToBdfAndBack) {
             (Strings{"CQUAD4  3       2       3       4       9       8       "}));
   EXPECT_TRUE(bulk.ends_with("ENDDATA\n"));
 
+  const auto improved = folder.run("improve a.inp -o d.bdf");
+  ASSERT_EQ(improved.exit_code, 0) << improved.err;
+  EXPECT_TRUE(holds(improved.err, "d.bdf loses keywords and how many: *EXPANSION (1)\n")) << improved.err;
+  for (const char* cards : {"$ material", "MAT1", "$ property", "PSHELL"})
+    EXPECT_EQ(lines_with(read_text(folder / "d.bdf"), cards), lines_with(bulk, cards));
+
   const auto back = folder.run("convert b.bdf c.inp");
   ASSERT_EQ(back.exit_code, 0) << back.err;
   EXPECT_EQ(back.err, "");

@@ -56,6 +56,24 @@ TEST(AcrossView, SeesTheOtherSideOfAStripStraightAcross) {
   EXPECT_TRUE(strip.across->look(bottom, 0.31 * lines, 0.39).empty());
 }
 
+TEST(AcrossView, GoesThroughALimitedNumberOfNeedles) {
+  // Rows of two triangles each, as long as the strip.
+  const auto seen_through = [](int rows) {
+    Mesh fine;
+    for (int r = 0; r <= rows; ++r) {
+      for (const double x : {0., 10.}) fine.points.push_back({x, 1. * r / rows, 0});
+      if (r > 0) fine.triangles.push_back({2 * r - 2, 2 * r - 1, 2 * r + 1});
+      if (r > 0) fine.triangles.push_back({2 * r - 2, 2 * r + 1, 2 * r});
+    }
+    fine.triangle_region.assign(fine.triangles.size(), 0);
+    fine.regions = {{1, {}}};
+    const Narrow strip(make_surface_model(fine), 1);
+    return strip.across->look(strip.chain({0, 0}, {10, 0}), 0.31, 2).size();
+  };
+  EXPECT_EQ(seen_through(300), 1u);
+  EXPECT_EQ(seen_through(900), 0u);
+}
+
 TEST(AcrossView, CornersAreNotNarrowButCuspsAre) {
   const auto near_corner = [](double degrees) {
     const double a = degrees * std::numbers::pi / 180;

@@ -264,6 +264,15 @@ TEST_F(DxfFiles, TheOuterOutlineCountsWhereThreeCurvesMeet) {
   EXPECT_TRUE(holds(apart.notes.at(0), "1 curve or point outside of all outlines"));
 }
 
+TEST_F(DxfFiles, PaperAndMeshesStayOut) {
+  const PlanarModel model = read(
+      "0 CIRCLE 8 rim 10 5 20 5 40 3 0 CIRCLE 8 sheet 67 1 10 5 20 5 40 9 0 POLYLINE 70 65 0 VERTEX 10 "
+      "0 20 0 0 VERTEX 10 20 20 0 0 VERTEX 10 20 20 20 0 SEQEND");
+  ASSERT_EQ(model.curves.size(), 1u);
+  EXPECT_EQ(model.curves[0].name, "rim");
+  EXPECT_TRUE(holds(model.notes.at(0), "1 mesh (POLYLINE) are left out"));
+}
+
 TEST_F(DxfFiles, MistakesAreLocated) {
   expect_input_error([&] { read("0 LINE 8 0 10 zero 20 0 11 1 21 1"); }, {"a.dxf:10", "group 10 is 'zero'"});
   expect_input_error(
