@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "features/layers/add_layers.h"
+#include "geometry/patches/narrow_places.h"
+#include "geometry/patches/surface_curves.h"
+
+namespace delquad {
+namespace {
+
+/// Searches for a distance in space end at this part of it, or after so many steps.
+constexpr double kSameLength = 1e-11;
+constexpr int kMostSteps = 8;
+
+class SurfacePlaces final : public PatchPlaces {
+ public:
+  SurfacePlaces(const SurfaceModel& model, const SurfaceDomain& domain)
+      : model_(model), domain_(domain), hint_(domain.patches.size(), -1) {
+    for (std::size_t c = 0; c < domain.nodes.on_curve.size(); ++c) {
+      const std::vector<CurveNode>& on_curve = domain.nodes.on_curve[c];
+      for (std::size_t k = 0; k + 1 < on_curve.size(); ++k)
+        edges_[std::minmax(on_curve[k].node, on_curve[k + 1].node)] = {static_cast<int>(c), on_curve[k],
+                                                                       on_curve[k + 1]};
+      ends_.insert({on_curve.front().node, on_curve.back().node});
+    }
+  }
+
+  double stretch(int patch, Vec2 u, Vec2 along) const override {
+    const double length = norm(along);
+    double stretch = 1;
+    for (int step = 0; step < 3; ++step)
+      stretch *= length / norm(place(patch, u + stretch * along) - place(patch, u));
+    return stretch;
+  }
+
+  PatchPlace next(int patch, const PatchPlace& from, Vec2 along, double length) const override {
+    const Vec3 foot = place(patch, from.u);
+    PatchPlace to;
+    double part = 1;
+    for (int step = 0; step < kMostSteps; ++step) {
+      to.u = from.u + part * along;
+      to.x = from.x + (place(patch, to.u) - foot);
+      if (model_.projector) to.x = model_.projector->to_face(domain_.patches[patch].map.face, to.x);
+      const double ratio = length / norm(to.x - from.x);
+      if (std::abs(ratio - 1) < kSameLength) break;
+      part *= ratio;
+    }
+    return to;
+  }
+
+  Vec2 in_plane(int patch, const Vec3& x, Vec2 near) const override {
+    const auto [at, axes] = frame(patch, near);
+    const Vec3 d = x - at;
+    const double aa = dot(axes[0], axes[0]), ab = dot(axes[0], axes[1]), bb = dot(axes[1], axes[1]);
+    const double da = dot(d, axes[0]), db = dot(d, axes[1]), area2 = aa * bb - ab * ab;
+    return near + Vec2{(bb * da - ab * db) / area2, (aa * db - ab * da) / area2};
+  }
+
+  Vec3 between(int a, int b, double part) const override {
+    if (part == 0) return domain_.nodes.points[a];
+    if (part == 1) return domain_.nodes.points[b];
+    return place_on_curve(model_, domain_.chains[chain_of(a, b)], domain_.cut_face, s_between(a, b, part));
+  }
+
+  bool is_cut(int curve) const override { return domain_.cut_face[curve] >= 0; }
+  bool is_end(int node) const override { return ends_.contains(node); }
+  bool is_divided(int a, int b) const override { return domain_.chain_stays[chain_of(a, b)] != 0; }
+
+  int chain_of(int a, int b) const { return edges_.at(std::minmax(a, b)).chain; }
+  double s_between(int a, int b, double part) const {
+    const Edge& edge = edges_.at(std::minmax(a, b));
+    return edge.from.node == a ? std::lerp(edge.from.s, edge.to.s, part)
+                               : std::lerp(edge.to.s, edge.from.s, part);
+  }
+
+ private:
+  struct Edge {
+    int chain;
+    CurveNode from, to;
+  };
+
+  /// The place of u, and its derivatives; the nearest triangle goes on beyond the patch.
+  std::pair<Vec3, std::array<Vec3, 2>> frame(int patch, Vec2 u) const {
+    const SurfacePatch& on = domain_.patches[patch];
+    const int t = on.background->locate(u, hint_[patch]).triangle, v = on.map.flat.triangles[t][0];
+    const std::array<Vec3, 2> axes = tangents(on, model_.fine, t);
+    const Vec2 d = u - on.map.flat.points[v];
+    return {model_.fine.points[on.map.fine_node[v]] + d.x * axes[0] + d.y * axes[1], axes};
+  }
+  Vec3 place(int patch, Vec2 u) const { return frame(patch, u).first; }
+
+  const SurfaceModel& model_;
+  const SurfaceDomain& domain_;
+  mutable std::vector<int> hint_;              ///< of each patch
+  std::map<std::pair<int, int>, Edge> edges_;  ///< between neighboring nodes
+  std::set<int> ends_;                         ///< of curves
+};
+
+/// Replaces the nodes of a wall on its curve.
+void place_wall(const WallNodes& wall, const SurfacePlaces& places, SurfaceDomain& domain) {
+  const int chain = places.chain_of(wall.old[0], wall.old[1]);
+  std::vector<CurveNode>& on_curve = domain.nodes.on_curve[chain];
+  std::erase_if(on_curve, [&](const CurveNode& node) {
+    return std::find(wall.old.begin() + 1, wall.old.end() - 1, node.node) != wall.old.end() - 1;
+  });
+  for (const auto& [node, place] : wall.places) {
+    if (node == wall.old.front() || node == wall.old.back()) continue;
+    const auto edge = std::min(static_cast<std::size_t>(place), wall.old.size() - 2);
+    on_curve.push_back(
+        {places.s_between(wall.old[edge], wall.old[edge + 1], place - static_cast<double>(edge)), node});
+  }
+  std::ranges::sort(on_curve, {}, &CurveNode::s);
+  domain.chain_stays[chain] = 1;
+}
+
+}  // namespace
+
+std::vector<LocalSize> put_layers(const MeshProblem& problem, const SurfaceModel& model,
+                                  SurfaceDomain& domain, MeshingSetup& p) {
+  PlanarDomain view;
+  view.boundary = domain.boundary;
+  view.mapped = domain.mapped;
+  for (const SurfacePatch& patch : domain.patches) {
+    view.patches.push_back(patch.boundary);
+    view.patch_region.push_back(patch.map.face);
+  }
+  const SurfacePlaces places(model, domain);
+  view.in_space = &places;
+  const std::vector<LocalSize> fine = put_layers(problem, view, p);
+  const std::vector<char> is_layered = layered_curves(model.fine.curves, problem.layers);
+  for (std::size_t c = 0; c < domain.chains.size(); ++c)
+    if (is_layered[domain.chains[c].curve]) domain.chain_stays[c] = 1;
+  domain.nodes.points = view.boundary.points;
+  for (const WallNodes& wall : p.layers->walls) place_wall(wall, places, domain);
+  for (const int changed : p.layers->patches) {
+    PatchBoundary& boundary = domain.patches[changed].boundary;
+    boundary = std::move(view.patches[changed]);
+    seed_narrow_places(boundary);
+  }
+  domain.mapped = std::move(view.mapped);
+  domain.boundary = boundary_mesh(model.fine, domain.chains, domain.nodes);
+  domain.boundary.quads = std::move(view.boundary.quads);
+  domain.boundary.quad_region = std::move(view.boundary.quad_region);
+  return fine;
+}
+
+}  // namespace delquad
