@@ -12,8 +12,8 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/layers/layer_builder.h"
-#include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/mesh/entity_names.h"
+#include "geometry/patches/patch_outline.h"
 #include "geometry/planar/domain_builder.h"
 
 namespace delquad {
@@ -398,16 +398,22 @@ void drop_grids(const MeshProblem& problem, const LayerReport& layers, PlanarDom
 /// Returns a background mesh of the parts of patches without layers; null on a surface.
 std::shared_ptr<const BackgroundMesh> mesh_rest(const MeshProblem& problem, const PlanarDomain& domain,
                                                 const std::vector<int>& changed) {
-  try {
-    if (domain.in_space == nullptr) return std::make_shared<BackgroundMesh>(domain.patches);
-    for (const int p : changed) constrained_delaunay(domain.patches[p]);
-    return nullptr;
-  } catch (const InputError& error) {
+  const auto no_place = [&](const std::string& why) {
     std::vector<std::string> on;
     for (const LayerSpec& layer : problem.layers) on.insert(on.end(), layer.on.begin(), layer.on.end());
-    throw InputError(
+    return InputError(
         fmt::format("{}: there is no place for the layers on '{}': beside them, {} [no-place-for-layers]",
-                    problem.layers[0].where, fmt::join(on, "', '"), error.what()));
+                    problem.layers[0].where, fmt::join(on, "', '"), why));
+  };
+  for (const int p : changed)
+    if (domain.in_space != nullptr && !meshable(domain.patches[p]))
+      throw no_place(fmt::format("the boundary of face {} crosses itself",
+                                 domain.boundary.regions[domain.patch_region[p]].tag));
+  if (domain.in_space != nullptr) return nullptr;
+  try {
+    return std::make_shared<BackgroundMesh>(domain.patches);
+  } catch (const InputError& error) {
+    throw no_place(error.what());
   }
 }
 

@@ -66,8 +66,7 @@ std::array<double, 2> LayerColumns::edges_at(int c, int k) const {
 double LayerColumns::stretch_at(int c, int k) const {
   if (domain_.in_space == nullptr) return 1;
   const ChainCorner& corner = corners_[c][k];
-  const double h = thickness(c, k);
-  const auto along = [&](Vec2 edge) { return domain_.in_space->stretch(index_, foot(c, k), h * perp(edge)); };
+  const auto along = [&](Vec2 edge) { return domain_.in_space->stretch(index_, foot(c, k), perp(edge)); };
   return (along(corner.in) + along(corner.out)) / 2;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <utility>
-
 #include "delquad/mesh.h"
 
 // This header tells how patches of surfaces lie in space. Layers use it.
@@ -19,8 +17,7 @@ struct PatchPlace {
 class PatchPlaces {
  public:
   virtual ~PatchPlaces() = default;
-  /// Returns the length in the plane over the length in space, from u along a vector that is as long as in
-  /// space.
+  /// Returns the length in the plane over the length in space, at u along a unit vector.
   virtual double stretch(int patch, Vec2 u, Vec2 along) const = 0;
   /// Returns the place at a distance in space from another one, in a direction of the plane.
   virtual PatchPlace next(int patch, const PatchPlace& from, Vec2 along, double length) const = 0;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "features/layers/add_layers.h"
+#include "geometry/mesh/triangle_measures.h"
 #include "geometry/patches/narrow_places.h"
 #include "geometry/patches/surface_curves.h"
 
@@ -16,6 +17,8 @@ namespace {
 /// Searches for a distance in space end at this part of it, or after so many steps.
 constexpr double kSameLength = 1e-11;
 constexpr int kMostSteps = 8;
+/// A triangle of so many times the area of its neighbor has the better directions.
+constexpr double kMuchLarger = 4;
 
 class SurfacePlaces final : public PatchPlaces {
  public:
@@ -31,33 +34,31 @@ class SurfacePlaces final : public PatchPlaces {
   }
 
   double stretch(int patch, Vec2 u, Vec2 along) const override {
-    const double length = norm(along);
-    double stretch = 1;
-    for (int step = 0; step < 3; ++step)
-      stretch *= length / norm(place(patch, u + stretch * along) - place(patch, u));
-    return stretch;
+    const auto [a, b] = axes(patch, u);
+    return 1 / norm(along.x * a + along.y * b);
   }
 
   PatchPlace next(int patch, const PatchPlace& from, Vec2 along, double length) const override {
+    const auto [a, b] = axes(patch, from.u);
     const Vec3 foot = place(patch, from.u);
     PatchPlace to;
     double part = 1;
     for (int step = 0; step < kMostSteps; ++step) {
       to.u = from.u + part * along;
-      to.x = from.x + (place(patch, to.u) - foot);
+      to.x = from.x + (model_.projector ? part * (along.x * a + along.y * b) : place(patch, to.u) - foot);
       if (model_.projector) to.x = model_.projector->to_face(domain_.patches[patch].map.face, to.x);
       const double ratio = length / norm(to.x - from.x);
-      if (std::abs(ratio - 1) < kSameLength) break;
+      if (!(std::abs(ratio - 1) > kSameLength) || !std::isfinite(ratio)) break;
       part *= ratio;
     }
     return to;
   }
 
   Vec2 in_plane(int patch, const Vec3& x, Vec2 near) const override {
-    const auto [at, axes] = frame(patch, near);
-    const Vec3 d = x - at;
-    const double aa = dot(axes[0], axes[0]), ab = dot(axes[0], axes[1]), bb = dot(axes[1], axes[1]);
-    const double da = dot(d, axes[0]), db = dot(d, axes[1]), area2 = aa * bb - ab * ab;
+    const auto [a, b] = axes(patch, near);
+    const Vec3 d = x - place(patch, near);
+    const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b);
+    const double da = dot(d, a), db = dot(d, b), area2 = aa * bb - ab * ab;
     return near + Vec2{(bb * da - ab * db) / area2, (aa * db - ab * da) / area2};
   }
 
@@ -84,15 +85,35 @@ class SurfacePlaces final : public PatchPlaces {
     CurveNode from, to;
   };
 
-  /// The place of u, and its derivatives; the nearest triangle goes on beyond the patch.
-  std::pair<Vec3, std::array<Vec3, 2>> frame(int patch, Vec2 u) const {
+  /// The place of u on the fine triangles, which go on beyond the patch.
+  Vec3 place(int patch, Vec2 u) const {
     const SurfacePatch& on = domain_.patches[patch];
-    const int t = on.background->locate(u, hint_[patch]).triangle, v = on.map.flat.triangles[t][0];
-    const std::array<Vec3, 2> axes = tangents(on, model_.fine, t);
-    const Vec2 d = u - on.map.flat.points[v];
-    return {model_.fine.points[on.map.fine_node[v]] + d.x * axes[0] + d.y * axes[1], axes};
+    const auto [t, weights] = on.background->locate(u, hint_[patch]);
+    Vec3 x;
+    Vec2 beyond = u;
+    for (int k = 0; k < 3; ++k) {
+      const int v = on.map.flat.triangles[t][k];
+      x = x + weights[k] * model_.fine.points[on.map.fine_node[v]];
+      beyond = beyond - weights[k] * on.map.flat.points[v];
+    }
+    const auto [a, b] = axes(patch, u);
+    return x + beyond.x * a + beyond.y * b;
   }
-  Vec3 place(int patch, Vec2 u) const { return frame(patch, u).first; }
+
+  /// The derivatives of the place at u. Slivers at the boundary may stand on edge: much larger neighbors
+  /// count.
+  std::array<Vec3, 2> axes(int patch, Vec2 u) const {
+    const SurfacePatch& on = domain_.patches[patch];
+    const TriPatch& flat = on.map.flat;
+    const auto area = [&](int t) { return t < 0 ? 0 : area_vector(flat.points, flat.triangles[t]); };
+    int at = on.background->locate(u, hint_[patch]).triangle;
+    for (int last = -1; last != at;) {
+      last = at;
+      for (const int t : flat.neighbours[last])
+        if (area(t) > std::max(kMuchLarger * area(last), area(at))) at = t;
+    }
+    return tangents(on, model_.fine, at);
+  }
 
   const SurfaceModel& model_;
   const SurfaceDomain& domain_;
