@@ -324,13 +324,14 @@ Vec2 WallTrack::point(double place) const {
   if (part == 0) return points_[edge];
   if (part == 1) return points_[edge + 1];
   if (curve_) return curve_->point(param(place));
-  const Vec2 straight = (1 - part) * points_[edge] + part * points_[edge + 1];
-  return in_space_ == nullptr ? straight : in_space_->in_plane(patch_, spot(place), straight);
+  const Vec2 near = straight(edge, part);
+  return in_space_ == nullptr ? near : in_space_->in_plane(patch_, spot(place), near);
 }
 
 Vec3 WallTrack::spot(double place) const {
   const auto [edge, part] = edge_at(place);
-  if (in_space_ != nullptr) return in_space_->between(nodes_[edge], nodes_[edge + 1], part);
+  if (in_space_ != nullptr)
+    return in_space_->between(nodes_[edge], nodes_[edge + 1], part, patch_, straight(edge, part));
   const Vec2 p = point(place);
   return {p.x, p.y, 0};
 }

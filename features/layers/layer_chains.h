@@ -57,6 +57,9 @@ class WallTrack {
 
   void measure();
   std::pair<std::size_t, double> edge_at(double place) const;
+  Vec2 straight(std::size_t edge, double part) const {
+    return (1 - part) * points_[edge] + part * points_[edge + 1];
+  }
 
   std::vector<Vec2> points_;
   std::shared_ptr<const Curve> curve_;

@@ -23,8 +23,9 @@ class PatchPlaces {
   virtual PatchPlace next(int patch, const PatchPlace& from, Vec2 along, double length) const = 0;
   /// Returns where a point near the patch is in its plane, by the triangle at `near`.
   virtual Vec2 in_plane(int patch, const Vec3& x, Vec2 near) const = 0;
-  /// Returns the place on a curve between two neighboring nodes, at a part of the way.
-  virtual Vec3 between(int a, int b, double part) const = 0;
+  /// Returns the place on a curve between two neighboring nodes, at a part of the way. Cuts, which may be
+  /// jagged, are straight in the plane of the patch: through `straight`.
+  virtual Vec3 between(int a, int b, double part, int patch, Vec2 straight) const = 0;
   /// Whether the faces on both sides are one.
   virtual bool is_cut(int curve) const = 0;
   /// Whether a curve begins or ends at a node.

@@ -46,7 +46,7 @@ class SurfacePlaces final : public PatchPlaces {
     for (int step = 0; step < kMostSteps; ++step) {
       to.u = from.u + part * along;
       to.x = from.x + (model_.projector ? part * (along.x * a + along.y * b) : place(patch, to.u) - foot);
-      if (model_.projector) to.x = model_.projector->to_face(domain_.patches[patch].map.face, to.x);
+      to.x = to_face(patch, to.x);
       const double ratio = length / norm(to.x - from.x);
       if (!(std::abs(ratio - 1) > kSameLength) || !std::isfinite(ratio)) break;
       part *= ratio;
@@ -62,10 +62,12 @@ class SurfacePlaces final : public PatchPlaces {
     return near + Vec2{(bb * da - ab * db) / area2, (aa * db - ab * da) / area2};
   }
 
-  Vec3 between(int a, int b, double part) const override {
+  Vec3 between(int a, int b, double part, int patch, Vec2 straight) const override {
     if (part == 0) return domain_.nodes.points[a];
     if (part == 1) return domain_.nodes.points[b];
-    return place_on_curve(model_, domain_.chains[chain_of(a, b)], domain_.cut_face, s_between(a, b, part));
+    const CurveChain& chain = domain_.chains[chain_of(a, b)];
+    if (is_cut(chain.curve)) return to_face(patch, place(patch, straight));
+    return place_on_curve(model_, chain, domain_.cut_face, s_between(a, b, part));
   }
 
   bool is_cut(int curve) const override { return domain_.cut_face[curve] >= 0; }
@@ -84,6 +86,10 @@ class SurfacePlaces final : public PatchPlaces {
     int chain;
     CurveNode from, to;
   };
+
+  Vec3 to_face(int patch, const Vec3& x) const {
+    return model_.projector ? model_.projector->to_face(domain_.patches[patch].map.face, x) : x;
+  }
 
   /// The place of u on the fine triangles, which go on beyond the patch.
   Vec3 place(int patch, Vec2 u) const {
