@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "base/segment.h"
 #include "features/layers/add_layers.h"
 #include "geometry/mesh/triangle_measures.h"
 #include "geometry/patches/narrow_places.h"
@@ -80,6 +82,20 @@ class SurfacePlaces final : public PatchPlaces {
     return edge.from.node == a ? std::lerp(edge.from.s, edge.to.s, part)
                                : std::lerp(edge.to.s, edge.from.s, part);
   }
+  /// Returns where the curve from a to b is nearest to a point.
+  double s_near(int a, int b, const Vec3& x) const {
+    const Edge& edge = edges_.at(std::minmax(a, b));
+    const CurveChain& chain = domain_.chains[edge.chain];
+    double s = edge.from.s, distance = std::numeric_limits<double>::max();
+    for (double from = edge.from.s, to; from < edge.to.s; from = to) {
+      to = std::min(std::floor(from) + 1, edge.to.s);
+      const Vec3 p = fine_point_at(model_.fine, chain, from), way = fine_point_at(model_.fine, chain, to) - p;
+      const double part = nearest_part(x, p, p + way);
+      if (const double d = norm(p + part * way - x); d < distance)
+        distance = d, s = from + part * (to - from);
+    }
+    return s;
+  }
 
  private:
   struct Edge {
@@ -130,18 +146,29 @@ class SurfacePlaces final : public PatchPlaces {
 
 /// Replaces the nodes of a wall on its curve.
 void place_wall(const WallNodes& wall, const SurfacePlaces& places, SurfaceDomain& domain) {
-  const int chain = places.chain_of(wall.old[0], wall.old[1]);
+  const std::vector<int>& old = wall.old;
+  const int chain = places.chain_of(old[0], old[1]);
+  std::vector<std::pair<double, int>> nodes;
+  for (const auto& [node, place] : wall.places)
+    if (node != old.front() && node != old.back()) nodes.emplace_back(place, node);
+  std::ranges::sort(nodes);
+  const bool forward = places.s_between(old[0], old[1], 0) < places.s_between(old[0], old[1], 1);
+  if (!forward) std::ranges::reverse(nodes);
+  std::vector<CurveNode> fresh;
+  for (const auto& [place, node] : nodes) {
+    const auto edge = std::min(static_cast<std::size_t>(place), old.size() - 2);
+    const int a = old[edge], b = old[edge + 1];
+    const double s = places.is_cut(domain.chains[chain].curve)
+                         ? places.s_near(a, b, domain.nodes.points[node])
+                         : places.s_between(a, b, place - static_cast<double>(edge));
+    fresh.push_back({fresh.empty() ? s : std::max(s, fresh.back().s), node});
+  }
   std::vector<CurveNode>& on_curve = domain.nodes.on_curve[chain];
   std::erase_if(on_curve, [&](const CurveNode& node) {
-    return std::find(wall.old.begin() + 1, wall.old.end() - 1, node.node) != wall.old.end() - 1;
+    return std::find(old.begin() + 1, old.end() - 1, node.node) != old.end() - 1;
   });
-  for (const auto& [node, place] : wall.places) {
-    if (node == wall.old.front() || node == wall.old.back()) continue;
-    const auto edge = std::min(static_cast<std::size_t>(place), wall.old.size() - 2);
-    on_curve.push_back(
-        {places.s_between(wall.old[edge], wall.old[edge + 1], place - static_cast<double>(edge)), node});
-  }
-  std::ranges::sort(on_curve, {}, &CurveNode::s);
+  const auto first = std::ranges::find(on_curve, forward ? old.front() : old.back(), &CurveNode::node);
+  on_curve.insert(first + 1, fresh.begin(), fresh.end());
   domain.chain_stays[chain] = 1;
 }
 
