@@ -173,6 +173,9 @@ std::shared_ptr<const MeshingSetup> with_nodes(const MeshingSetup& prepared, con
   domain.nodes = nodes;
   domain.boundary = boundary_mesh(surface->model.fine, domain.chains, nodes);
   domain.boundary.unit = prepared.boundary.unit;
+  domain.boundary.quads = prepared.boundary.quads;
+  domain.boundary.quad_region = prepared.boundary.quad_region;
+  for (auto& quad : domain.boundary.quads) std::ranges::for_each(quad, renumber);
   other->boundary = domain.boundary;
   other->surface = std::move(surface);
   return other;

@@ -79,6 +79,7 @@ Mesh assemble(const MeshingSetup& prepared, const std::vector<Vec3>& nodes,
       [&](std::size_t i) { return static_cast<double>(points_of(patches[i]).size()); });
   Mesh mesh = prepared.boundary;
   mesh.points = nodes;
+  keep_elements(mesh.quads, mesh.quad_region, [&](std::size_t q) { return !left_out[mesh.quad_region[q]]; });
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const PatchMesh& patch = patches[i];
     const int region = prepared.patches[i].region;
@@ -96,7 +97,7 @@ Mesh assemble(const MeshingSetup& prepared, const std::vector<Vec3>& nodes,
     add_caps(domain, patches, left_out, mesh);
     add_face_images(left_out, mesh);
     if (prepared.surface->mirrored) mesh = mirror_mesh(*prepared.surface->mirrored, std::move(mesh));
-    if (!domain.caps.empty()) drop_unused_points(mesh);
+    if (!domain.caps.empty() || prepared.layers) drop_unused_points(mesh);
   }
   if (std::ranges::find(left_out, 1) != left_out.end()) {
     drop_stray_lines(mesh, sorted_half_edges(mesh));

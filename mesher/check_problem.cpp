@@ -202,9 +202,11 @@ void check_problem(const MeshProblem& problem) {
   std::visit([&](const auto& model) { check(model, problem.where); }, problem.model);
   const bool is_planar =
       std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
-  if (!problem.layers.empty() && !is_planar)
-    throw InputError(problem.layers[0].where +
-                     ": layers need a planar domain, and this is a surface: leave them out");
+  if (!problem.layers.empty() && !is_planar &&
+      (is_symmetric(problem) || !problem.periodic.empty() || problem.metric.asks()))
+    throw InputError(
+        problem.layers[0].where +
+        ": layers on a surface go neither with symmetry, nor with periodic sides, nor with a metric");
   const bool is_flat = is_planar || std::holds_alternative<GivenMesh>(problem.model);
   for (const SymmetryPlane& plane : problem.symmetry.planes)
     if (is_flat && !(std::hypot(plane.normal.x, plane.normal.y) > 0))

@@ -139,8 +139,10 @@ bool has_criteria(const FinishContext& f) {
   return is_treated(f) && !f.prepared.settings.criteria.empty() && !is_curved(f) && !f.state.of_quads.empty();
 }
 /// A mesh that is not sound is made anew, see refine_unsound(): until then this takes time for nothing.
+/// Layers stay.
 bool may_try_other_cuts(const FinishContext& f) {
-  return !(f.prepared.surface && f.prepared.surface->metric) && cuts_obstruct(f.prepared, f.state.of_quads) &&
+  return !(f.prepared.surface && f.prepared.surface->metric) && !f.prepared.layers &&
+         cuts_obstruct(f.prepared, f.state.of_quads) &&
          (f.result.soundness.sound() || f.prepared.surface->given);
 }
 

@@ -154,10 +154,14 @@ class PlanarSteps final : public ModelSteps {
     domain_ = planar_domain(problem_, hints_, given_, p);
     for (const std::string& note : domain_.notes) p.warnings.emplace_back(note);
     if (!std::holds_alternative<GivenMesh>(problem_.model)) warn_of_gaps(domain_, p.warnings);
-    if (!problem_.layers.empty())
-      put_layers(problem_, domain_, p);
-    else if (std::holds_alternative<PlanarModel>(problem_.model) && curve_options(problem_.options).thin_rows)
+    if (!problem_.layers.empty()) {
+      const std::vector<LocalSize> fine = put_layers(problem_, domain_, p);
+      if (!fine.empty() && !p.size.asked) p.size.asked = p.size.field;
+      if (!fine.empty()) p.size.field = finer_near(p.size.field, fine);
+    } else if (std::holds_alternative<PlanarModel>(problem_.model) &&
+               curve_options(problem_.options).thin_rows) {
       cut_wedges(domain_);
+    }
     if (std::holds_alternative<LineModel>(problem_.model))
       for (const std::string& line : odd_boundaries(domain_))
         p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});

@@ -24,6 +24,7 @@
 #include "features/given/given_surface.h"
 #include "features/given/given_worst.h"
 #include "features/grids/grids.h"
+#include "features/layers/add_layers.h"
 #include "features/metric/metric_surface.h"
 #include "features/periodic/periodic.h"
 #include "features/seed/perturb.h"
@@ -87,7 +88,8 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
     try {
       const bool may_repeat = failures.are_left_out() || washers.can_give_way();
       return make_surface_domain(model, may_repeat ? flattening : std::move(flattening), size, *solver, asked,
-                                 divisions, periodic, mapped, agreement);
+                                 divisions, periodic, mapped, agreement,
+                                 layered_curves(model.fine.curves, problem.layers));
     } catch (const FaceError& error) {
       if (washers.give_way(error)) continue;
       failures.add(error.face(), error.what());
@@ -180,6 +182,7 @@ class SurfaceSteps final : public ModelSteps {
     surface_->domain = mesh_curves_of(model_, std::move(flattening_), *on_curves,
                                       wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_,
                                       divisions_, washers_, mapped_, periodic_, agreement, failures_);
+    put_layers_on(p);
     surface_->is_retry = !hints_.spots.empty();
     surface_->model = std::move(model_);
     surface_->cad = cad_;
@@ -242,6 +245,18 @@ class SurfaceSteps final : public ModelSteps {
     washers_.plan(as_function(asked_));
     asked_ = imprint_named(problem_.size.named, std::move(asked_), model_, p.warnings);
     washers_.cut();
+  }
+
+  void put_layers_on(MeshingSetup& p) {
+    if (problem_.layers.empty()) return;
+    const std::vector<LocalSize> fine = put_layers(problem_, model_, surface_->domain, p);
+    p.size.expected_quads += p.layers->count.quads;
+    check_count(p.size.expected_quads, problem_);
+    if (fine.empty()) return;
+    wanted_.base = finer_near(wanted_.base, fine);
+    surface_->size = std::make_shared<SurfaceSize>(model_, wanted_);
+    p.size.field = surface_->size;
+    p.size.asked = asked_;
   }
 
   void set_size(MeshingSetup& p) {

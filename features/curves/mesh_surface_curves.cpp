@@ -220,25 +220,12 @@ Warning warn_of_spent_steps() {
           "may be irregular without need; wider faces or a larger size help [search-stopped]"};
 }
 
-/// Nodes of a patch where two curves meet that have it on one side only.
-std::set<int> corners_between_curves(int p, const std::vector<FaceCorner>& corners,
-                                     const std::vector<CurveDemand>& demands, const SurfaceNodes& nodes) {
-  const auto is_seam = [&](int chain) { return std::ranges::count(demands[chain].patches, p) > 1; };
-  std::set<int> found;
-  for (const FaceCorner& c : corners) {
-    if (c.patch != p || is_seam(c.before) || is_seam(c.after)) continue;
-    const auto& on_curve = nodes.on_curve[c.after];
-    found.insert((c.after_ends ? on_curve.back() : on_curve.front()).node);
-  }
-  return found;
-}
-
 /// Takes pointed tips and sharp corners out of patches, and the nodes that this drops from their curves.
 class Capping {
  public:
   Capping(const SurfaceModel& model, const SurfaceCurves& curves, const std::vector<CurveDemand>& demands,
-          SurfaceDomain& domain)
-      : model_(model), curves_(curves), demands_(demands), domain_(domain) {}
+          const std::vector<char>& is_layered, SurfaceDomain& domain)
+      : model_(model), curves_(curves), demands_(demands), is_layered_(is_layered), domain_(domain) {}
 
   /// Caps that leave no area are not made, as where two boundaries are nearer than an edge. Nor are caps that
   /// take nodes of periodic curves away.
@@ -259,6 +246,21 @@ class Capping {
   }
 
  private:
+  /// Nodes of a patch where two curves without layers meet that have it on one side only.
+  std::set<int> corners_to_cut(int p) const {
+    const auto stays = [&](int chain) {
+      return (!is_layered_.empty() && is_layered_[curves_.chains[chain].curve] != 0) ||
+             std::ranges::count(demands_[chain].patches, p) > 1;
+    };
+    std::set<int> found;
+    for (const FaceCorner& c : curves_.corners) {
+      if (c.patch != p || stays(c.before) || stays(c.after)) continue;
+      const auto& on_curve = domain_.nodes.on_curve[c.after];
+      found.insert((c.after_ends ? on_curve.back() : on_curve.front()).node);
+    }
+    return found;
+  }
+
   std::vector<BoundaryCap> find(int p, SurfacePatch& patch, bool tips) {
     SurfaceNodes& nodes = domain_.nodes;
     const auto add = [&](const Vec3& x) {
@@ -268,7 +270,7 @@ class Capping {
     int hint = -1;
     std::vector<BoundaryCap> caps;
     if (tips) caps = cap_tips(patch.boundary, [&](Vec2 u) { return add(lift(patch, model_, u, hint)); });
-    const std::set<int> corners = corners_between_curves(p, curves_.corners, demands_, nodes);
+    const std::set<int> corners = corners_to_cut(p);
     const CapNodes cap_nodes{[&](int node) { return corners.contains(node); },
                              [&](int node) { return nodes.points[node]; },
                              [&](const Vec3& x, Vec2 u) {
@@ -304,6 +306,7 @@ class Capping {
   const SurfaceModel& model_;
   const SurfaceCurves& curves_;
   const std::vector<CurveDemand>& demands_;
+  const std::vector<char>& is_layered_;
   SurfaceDomain& domain_;
 };
 
@@ -312,7 +315,8 @@ class Capping {
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked,
                                   const std::vector<CurveDivision>& divisions, const PeriodicSides& periodic,
-                                  const MappedSpec& mapped, const CurveAgreement& agreement) {
+                                  const MappedSpec& mapped, const CurveAgreement& agreement,
+                                  const std::vector<char>& is_layered) {
   const Mesh& fine = model.fine;
   SurfaceCurves curves = find_curves(model, std::move(flattening), size.on_maps());
   ChainPairs pairs = pair_chains(model, curves.chains, curves.cut_face, periodic);
@@ -354,7 +358,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   domain.nodes = std::move(placed.nodes);
   domain.sharp_corners =
       find_sharp_corners(curves.corners, curves.chains, curves.maps, domain.nodes, kBadEta);
-  Capping capping(model, curves, wanted.demands, domain);
+  Capping capping(model, curves, wanted.demands, is_layered, domain);
   for (size_t p = 0; p < curves.maps.size(); ++p) {
     domain.patches.push_back({std::move(curves.maps[p]), std::move(curves.outlines[p]),
                               std::move(placed.boundaries[p]), std::move(backgrounds[p]),

@@ -18,12 +18,14 @@ namespace delquad {
 /// `asked` is the size that these refer to (null: `size` itself, which may be less beside such curves).
 /// Curves of `divisions` get these edges, and the second sides of `periodic` the images of the nodes of the
 /// first: faces that are images have no patches, see `boundary.periodic_faces`. Patches that become grids, as
-/// `mapped` asks, get numbers that fit. Throws FaceError when no refinement gives a valid boundary, naming
+/// `mapped` asks, get numbers that fit. `is_layered`: the curves that get layers, at which no corner is cut
+/// off; empty: none. Throws FaceError when no refinement gives a valid boundary, naming
 /// the face, and InputError where divisions leave a patch with an odd number of edges.
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked = nullptr,
                                   const std::vector<CurveDivision>& divisions = {},
                                   const PeriodicSides& periodic = {}, const MappedSpec& mapped = {},
-                                  const CurveAgreement& agreement = {});
+                                  const CurveAgreement& agreement = {},
+                                  const std::vector<char>& is_layered = {});
 
 }  // namespace delquad

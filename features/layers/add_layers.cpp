@@ -12,8 +12,8 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/layers/layer_builder.h"
-#include "features/sizes/fine_spots.h"
 #include "geometry/mesh/entity_names.h"
+#include "geometry/patches/patch_outline.h"
 #include "geometry/planar/domain_builder.h"
 
 namespace delquad {
@@ -167,7 +167,8 @@ using ReplacedLines = std::map<std::pair<int, int>, std::vector<int>>;
 void check_thickness(const PlanarDomain& domain, std::span<const LayerSpec> specs,
                      const std::vector<std::vector<double>>& heights) {
   const auto [low, high] = Box<Vec3>::around(domain.boundary.points);
-  const double width = std::min(high.x - low.x, high.y - low.y);
+  const Vec3 size = high - low;
+  const double width = domain.in_space != nullptr ? norm(size) : std::min(size.x, size.y);
   for (std::size_t s = 0; s < specs.size(); ++s)
     if (heights[s].back() >= width)
       throw InputError(
@@ -206,7 +207,7 @@ void count(const PlanarDomain& domain, const PatchLayers& patch, int images, Lay
       result.count.fans += (1 + images) * layers.corner(c, k).quads;
       if (layers.scales[c][k] >= result.count.least_scale) continue;
       result.count.least_scale = layers.scales[c][k];
-      result.least_at = layers.foot(c, k);
+      result.least_at = show_node(domain, layers.foot_node(c, k));
       result.least_on = title(k);
     }
     layers.for_each_pair(c, [&](int a, int b) {
@@ -215,7 +216,7 @@ void count(const PlanarDomain& domain, const PatchLayers& patch, int images, Lay
       result.count.columns += 1 + images;
       const int k = columns[a].at, top = layers.layers_between(c, a, b);
       const double last = layers.height(c, k, top) - layers.height(c, k, top - 1);
-      const double edge = norm(layers.node(c, {a, top}) - layers.node(c, {b, top}));
+      const double edge = norm(layers.node(c, {a, top}) - layers.node(c, {b, top})) / layers.stretch(c, k);
       if (layers.scales[c][k] < 1 || edge <= result.largest_jump * last) return;
       result.largest_jump = edge / last;
       result.jump_on = title(k);
@@ -266,6 +267,21 @@ void add_replaced(const std::vector<std::pair<std::vector<int>, std::vector<int>
       replaced[{old[i], old[i + 1]}] = i == 0 ? nodes : std::vector<int>();
 }
 
+/// Points of patches at layered curves get the places of their nodes, which are off the fine triangles.
+void put_on_true_curves(const CurveLayers& layers, PlanarDomain& domain) {
+  std::vector<char> is_layered(domain.boundary.points.size(), 0);
+  for (std::size_t l = 0; l < domain.boundary.lines.size(); ++l)
+    for (const int v : domain.boundary.lines[l])
+      if (!layers.of_curve[domain.boundary.line_curve[l]].empty()) is_layered[v] = 1;
+  for (std::size_t p = 0; p < domain.patches.size(); ++p) {
+    PatchBoundary& patch = domain.patches[p];
+    if (std::ranges::none_of(patch.point_node, [&](int v) { return is_layered[v] != 0; })) continue;
+    for (std::size_t i = 0; i < patch.points.size(); ++i)
+      patch.points[i] = domain.in_space->in_plane(
+          static_cast<int>(p), domain.boundary.points[patch.point_node[i]], patch.points[i]);
+  }
+}
+
 /// Layers that end at one place have the same height there.
 void fit(const PlanarDomain& domain, std::span<const LayerSpec> specs, std::vector<PatchLayers>& patches,
          LayerWalls& walls) {
@@ -276,7 +292,7 @@ void fit(const PlanarDomain& domain, std::span<const LayerSpec> specs, std::vect
     if (round == kMostRounds)
       throw InputError(specs[0].where + ": layers that end at one place find no common height there");
     for (const std::size_t p : left)
-      fit_layers(domain.patches[patches[p].patch], specs, patches[p].columns, round > 0);
+      fit_layers(domain, patches[p].patch, specs, patches[p].columns, round > 0);
     left = walls.lower_shared_scales();
   }
 }
@@ -289,6 +305,7 @@ LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, d
   const CurveLayers of_curves = layers_of_curves(domain, specs);
   check_thickness(domain, specs, heights);
   check_layers_symmetric(domain, specs, of_curves);
+  if (domain.in_space != nullptr) put_on_true_curves(of_curves, domain);
   const BoundaryGraph graph(domain);
   std::vector<PatchLayers> patches = find_patch_layers(domain, specs, of_curves, graph, heights);
   check_number(patches, specs, max_quads);
@@ -304,6 +321,7 @@ LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, d
     layered[patch.patch] = build_layers(domain, patch, walls);
   }
   walls.pair_nodes();
+  if (domain.in_space != nullptr) result.walls = walls.nodes();
   mirror_layers(domain, layered);
   ReplacedLines replaced;
   for (std::size_t p = 0; p < layered.size(); ++p) {
@@ -315,8 +333,10 @@ LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, d
     result.patches.push_back(static_cast<int>(p));
     add_replaced(patch.walls, replaced);
   }
-  replace(domain.boundary, replaced);
-  drop_unused_nodes(domain);
+  if (domain.in_space == nullptr) {
+    replace(domain.boundary, replaced);
+    drop_unused_nodes(domain);
+  }
   result.count.quads = static_cast<int>(domain.boundary.quads.size());
   return result;
 }
@@ -328,16 +348,22 @@ constexpr double kShortFront = 0.8;
 /// Beyond this, solvers see the jump from the last layer to the quads beside it.
 constexpr double kLargeJump = 4;
 
-std::vector<LocalSize> short_boundary_edges(const PlanarDomain& domain, const SizeField& size) {
-  const double z = domain.boundary.points[0].z;
+/// On surfaces of the patches that changed.
+std::vector<LocalSize> short_boundary_edges(const PlanarDomain& domain, const std::vector<int>& changed,
+                                            const SizeField& size) {
   std::vector<LocalSize> spots;
   int hint = -1;
-  for (const PatchBoundary& patch : domain.patches)
+  for (std::size_t p = 0; p < domain.patches.size(); ++p) {
+    const PatchBoundary& patch = domain.patches[p];
+    if (domain.in_space != nullptr && std::ranges::find(changed, static_cast<int>(p)) == changed.end())
+      continue;
     for (const auto& [i, j] : patch.edges) {
-      const Vec3 a{patch.points[i].x, patch.points[i].y, z}, b{patch.points[j].x, patch.points[j].y, z};
+      const Vec3 &a = domain.boundary.points[patch.point_node[i]],
+                 &b = domain.boundary.points[patch.point_node[j]];
       const double length = norm(b - a);
       if (length < kShortFront * size.at(0.5 * (a + b), hint)) spots.push_back({a, b, length, length});
     }
+  }
   return spots;
 }
 
@@ -347,7 +373,7 @@ void warn_of_layers(const MeshProblem& problem, const LayerReport& layers, std::
     warnings.emplace_back(
         fmt::format("{}: layers are lower where there is no room for them, down to {:.2g} of their height at "
                     "{} on {} [low-layers]",
-                    where, layers.count.least_scale, show_point(layers.least_at), layers.least_on));
+                    where, layers.count.least_scale, layers.least_at, layers.least_on));
   if (layers.largest_jump > kLargeJump)
     warnings.emplace_back(
         fmt::format("{}: edges on the last layer are up to {:.3g} times as long as it is high, on {}. Ask "
@@ -369,32 +395,47 @@ void drop_grids(const MeshProblem& problem, const LayerReport& layers, PlanarDom
   });
 }
 
-/// Returns a background mesh of the parts of patches without layers.
-std::shared_ptr<const BackgroundMesh> mesh_rest(const MeshProblem& problem, const PlanarDomain& domain) {
+/// Returns a background mesh of the parts of patches without layers; null on a surface.
+std::shared_ptr<const BackgroundMesh> mesh_rest(const MeshProblem& problem, const PlanarDomain& domain,
+                                                const std::vector<int>& changed) {
+  const auto no_place = [&](const std::string& why) {
+    std::vector<std::string> on;
+    for (const LayerSpec& layer : problem.layers) on.insert(on.end(), layer.on.begin(), layer.on.end());
+    return InputError(
+        fmt::format("{}: there is no place for the layers on '{}': beside them, {} [no-place-for-layers]",
+                    problem.layers[0].where, fmt::join(on, "', '"), why));
+  };
+  for (const int p : changed)
+    if (domain.in_space != nullptr && !meshable(domain.patches[p]))
+      throw no_place(fmt::format("the boundary of face {} crosses itself",
+                                 domain.boundary.regions[domain.patch_region[p]].tag));
+  if (domain.in_space != nullptr) return nullptr;
   try {
     return std::make_shared<BackgroundMesh>(domain.patches);
   } catch (const InputError& error) {
-    std::vector<std::string> on;
-    for (const LayerSpec& layer : problem.layers) on.insert(on.end(), layer.on.begin(), layer.on.end());
-    throw InputError(
-        fmt::format("{}: there is no place for the layers on '{}': beside them, {} [no-place-for-layers]",
-                    problem.layers[0].where, fmt::join(on, "', '"), error.what()));
+    throw no_place(error.what());
   }
 }
 
 }  // namespace
 
-void put_layers(const MeshProblem& problem, PlanarDomain& domain, MeshingSetup& p) {
+std::vector<LocalSize> put_layers(const MeshProblem& problem, PlanarDomain& domain, MeshingSetup& p) {
   LayerReport report = add_layers(domain, problem.layers, static_cast<double>(p.settings.max_elements));
   drop_grids(problem, report, domain);
-  p.plane.background = mesh_rest(problem, domain);
+  p.plane.background = mesh_rest(problem, domain, report.patches);
   warn_of_layers(problem, report, p.warnings);
+  std::vector<LocalSize> fine = short_boundary_edges(domain, report.patches, *p.size.field);
   p.layers = std::make_shared<LayerReport>(std::move(report));
-  std::vector<LocalSize> fine = short_boundary_edges(domain, *p.size.field);
-  if (fine.empty()) return;
-  p.size.adapted_to.push_back("layers");
-  if (!p.size.asked) p.size.asked = p.size.field;
-  p.size.field = finer_near(p.size.field, std::move(fine));
+  if (!fine.empty()) p.size.adapted_to.push_back("layers");
+  return fine;
+}
+
+std::vector<char> layered_curves(const std::vector<Entity>& curves, std::span<const LayerSpec> specs) {
+  std::vector<char> is_layered(curves.size(), 0);
+  for (const LayerSpec& spec : specs)
+    for (const std::string& name : spec.on)
+      for (const int c : find_entities(curves, "curve", name, spec.where)) is_layered[c] = 1;
+  return is_layered;
 }
 
 std::vector<char> quads_in_layers(const MeshingSetup& prepared, const Mesh& mesh) {

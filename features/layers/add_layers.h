@@ -8,6 +8,8 @@
 
 #include "base/counters.h"
 #include "delquad/model.h"
+#include "features/layers/layer_walls.h"
+#include "features/sizes/fine_spots.h"
 #include "geometry/patches/meshing_setup.h"
 #include "geometry/planar/planar_model.h"
 
@@ -33,13 +35,14 @@ struct Counters<LayerCount> {
 
 struct LayerReport {
   LayerCount count;
-  Vec2 least_at;  ///< where heights are scaled the most
+  std::string least_at;  ///< where heights are scaled the most
   /// Most length of an edge of a front by the height of its last layer, where that is as it was asked for.
   double largest_jump = 1;
   std::string jump_on;  ///< the curve where that is so
   /// The curve where heights are scaled the most.
   std::string least_on;
-  std::vector<int> patches;  ///< those that changed
+  std::vector<int> patches;      ///< those that changed
+  std::vector<WallNodes> walls;  ///< of a surface
 };
 
 /// Adds quads to domain.boundary, along the curves that the layers name. It takes the covered parts from the
@@ -49,10 +52,18 @@ struct LayerReport {
 /// layers of their masters. Throws InputError for layers that cannot be, and for more than `max_quads`.
 LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, double max_quads);
 
-/// Puts the layers of a problem into its domain, and makes the background mesh of the rest. Sizes become less
-/// beside edges that are much shorter than these. Warnings tell where layers had to be lower, and where the
-/// rest of the mesh is far coarser than they are.
-void put_layers(const MeshProblem& problem, PlanarDomain& domain, MeshingSetup& p);
+/// Puts the layers of a problem into its domain, and makes the background mesh of the rest in the plane.
+/// Warnings tell where layers had to be lower, and where the rest of the mesh is far coarser than they are.
+/// Returns the edges that are much shorter than the size, beside which it is to become less.
+std::vector<LocalSize> put_layers(const MeshProblem& problem, PlanarDomain& domain, MeshingSetup& p);
+
+/// Puts the layers of a problem into the patches of a surface. Returns the same. The nodes of curves that
+/// have layers, or on which these end, stay.
+std::vector<LocalSize> put_layers(const MeshProblem& problem, const SurfaceModel& model,
+                                  SurfaceDomain& domain, MeshingSetup& p);
+
+/// Returns which curves of a model have layers. Throws InputError for names that no curve has.
+std::vector<char> layered_curves(const std::vector<Entity>& curves, std::span<const LayerSpec> specs);
 
 /// Returns which quads of a mesh are of layers: in each region the first ones.
 std::vector<char> quads_in_layers(const MeshingSetup& prepared, const Mesh& mesh);

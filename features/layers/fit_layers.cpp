@@ -51,8 +51,8 @@ bool overlap(const Box<Vec2>& a, const Box<Vec2>& b) {
 
 class LayerFitter {
  public:
-  LayerFitter(const PatchBoundary& patch, std::span<const LayerSpec> specs, LayerColumns& layers)
-      : patch_(patch), specs_(specs), layers_(layers) {
+  LayerFitter(const PlanarDomain& domain, int patch, std::span<const LayerSpec> specs, LayerColumns& layers)
+      : domain_(domain), patch_(domain.patches[patch]), specs_(specs), layers_(layers) {
     add_boundary();
   }
 
@@ -90,8 +90,7 @@ class LayerFitter {
       // `edge`: the point at which that between both begins.
       const auto limit = [&](int from, int to, int edge) {
         const int top = layers_.layers_on(c, edge);
-        const double most =
-            layers_.height(c, from, top) + kSteepest * norm(layers_.foot(c, to) - layers_.foot(c, from));
+        const double most = layers_.height(c, from, top) + kSteepest * layers_.distance(c, from, to);
         if (const double h = layers_.height(c, to, top); h > most) layers_.scales[c][to] *= most / h;
       };
       const bool is_closed = layers_.chain(c).is_closed;
@@ -217,9 +216,11 @@ class LayerFitter {
     const auto k = static_cast<std::size_t>(std::ranges::find(chain->points, p) - chain->points.begin());
     const LayerSpec& spec = specs_[chain->spec[std::min(k, chain->spec.size() - 1)]];
     throw InputError(fmt::format("{}: there is no place for the layer on '{}' at {} [no-place-for-layers]",
-                                 spec.where, fmt::join(spec.on, "', '"), show_point(patch_.points[p])));
+                                 spec.where, fmt::join(spec.on, "', '"),
+                                 show_node(domain_, patch_.point_node[p])));
   }
 
+  const PlanarDomain& domain_;
   const PatchBoundary& patch_;
   std::span<const LayerSpec> specs_;
   LayerColumns& layers_;
@@ -229,9 +230,9 @@ class LayerFitter {
 
 }  // namespace
 
-void fit_layers(const PatchBoundary& patch, std::span<const LayerSpec> specs, LayerColumns& layers,
+void fit_layers(const PlanarDomain& domain, int patch, std::span<const LayerSpec> specs, LayerColumns& layers,
                 bool again) {
-  LayerFitter(patch, specs, layers).fit(again);
+  LayerFitter(domain, patch, specs, layers).fit(again);
 }
 
 }  // namespace delquad

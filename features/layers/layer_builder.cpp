@@ -10,21 +10,28 @@ namespace delquad {
 
 namespace {
 
+/// A node as one side of a patch sees it.
+struct PatchNode {
+  int node;
+  Vec2 u;
+};
+
 /// Nodes at an end of a wall, from there on.
 struct WallSide {
-  std::vector<int> nodes;
+  std::vector<PatchNode> nodes;
   bool is_front = false;  ///< the front begins at the last; else the wall is free from its end on
 };
 
-struct WallNodes {
+struct WallParts {
   std::array<WallSide, 2> sides;
-  std::vector<int> between = {};
+  std::vector<PatchNode> between = {};
 };
 
 class LayerBuilder {
  public:
   LayerBuilder(PlanarDomain& domain, const PatchLayers& layers, LayerWalls& walls)
       : domain_(domain),
+        index_(layers.patch),
         patch_(domain.patches[layers.patch]),
         layers_(layers.columns),
         all_walls_(walls),
@@ -34,7 +41,8 @@ class LayerBuilder {
     for (int c = 0; c < layers_.n_chains(); ++c) add_columns(c);
     const std::vector<LayerWall>& found = layers_.found().walls;
     for (const LayerWall& wall : found) walls_.push_back({{wall_side(wall, 0), wall_side(wall, 1)}});
-    for (std::size_t w = 0; w < walls_.size(); ++w) walls_[w].between = walls.between(found[w]);
+    for (std::size_t w = 0; w < walls_.size(); ++w)
+      walls_[w].between = on_wall(found[w], walls.between(found[w]));
     for (int c = 0; c < layers_.n_chains(); ++c) add_quads(c, domain.patch_region[layers.patch]);
   }
 
@@ -79,14 +87,38 @@ class LayerBuilder {
       const int foot = patch_.point_node[columns[a].point];
       if (!domain_.places.empty()) domain_.places[foot] = {};
       if (columns[a].wall >= 0) {
-        columns_[c].push_back(all_walls_.side(layers_.found().walls[columns[a].wall], 1 - columns[a].end));
+        columns_[c].push_back(wall_side(layers_.found().walls[columns[a].wall], 1 - columns[a].end).nodes);
         continue;
       }
-      std::vector<int> nodes = {foot};
-      for (int i = 1; i <= layers_.layers_at(c, columns[a].at); ++i)
-        nodes.push_back(add_node(domain_, layers_.node(c, {a, i})));
+      std::vector<PatchNode> nodes = {{foot, patch_.points[columns[a].point]}};
+      for (int i = 1; i <= layers_.layers_at(c, columns[a].at); ++i) {
+        const Vec2 u = layers_.node(c, {a, i});
+        nodes.push_back(domain_.in_space != nullptr ? above(c, {a, i}, nodes.back())
+                                                    : PatchNode{add_node(domain_, u), u});
+      }
       columns_[c].push_back(std::move(nodes));
     }
+  }
+
+  /// Adds a node of a column above the last one.
+  PatchNode above(int c, ColumnNode node, const PatchNode& last) {
+    const LayerColumn& column = layers_.columns(c)[node.column];
+    const auto height = [&](int layer) { return layers_.height(c, column.at, layer); };
+    const double rise = height(node.layer) - height(node.layer - 1);
+    const PatchPlace place = domain_.in_space->next(index_, {last.u, domain_.boundary.points[last.node]},
+                                                    rise * layers_.stretch(c, column.at) * column.direction,
+                                                    rise * norm(column.direction));
+    return {add_node(domain_, place.x), place.u};
+  }
+
+  std::vector<PatchNode> on_wall(const LayerWall& wall, const std::vector<int>& nodes) const {
+    std::vector<PatchNode> result;
+    for (const int node : nodes) {
+      const Vec3& p = domain_.boundary.points[node];
+      result.push_back({node, domain_.in_space != nullptr ? wall.track.point(all_walls_.place(wall, node))
+                                                          : Vec2{p.x, p.y}});
+    }
+    return result;
   }
 
   bool ends_free(int c, int end) const {
@@ -99,13 +131,13 @@ class LayerBuilder {
   WallSide wall_side(const LayerWall& wall, int end) {
     const int c = wall.chain[end];
     // The wall begins where the chain ends.
-    return {all_walls_.side(wall, end), c >= 0 && !ends_free(c, 1 - end)};
+    return {on_wall(wall, all_walls_.side(wall, end)), c >= 0 && !ends_free(c, 1 - end)};
   }
 
   void add_quads(int c, int region) {
     layers_.for_each_quad(c, [&](const std::array<ColumnNode, 4>& quad) {
       std::array<int, 4> nodes;
-      for (int i = 0; i < 4; ++i) nodes[i] = columns_[c][quad[i].column][quad[i].layer];
+      for (int i = 0; i < 4; ++i) nodes[i] = columns_[c][quad[i].column][quad[i].layer].node;
       domain_.boundary.quads.push_back(nodes);
       domain_.boundary.quad_region.push_back(region);
     });
@@ -136,10 +168,6 @@ class LayerBuilder {
   }
 
   LoopPoint patch_point(int p) const { return {patch_.points[p], patch_.point_node[p], curve_[p]}; }
-  LoopPoint node_point(int node, int curve) const {
-    const Vec3& p = domain_.boundary.points[node];
-    return {{p.x, p.y}, node, curve};
-  }
 
   /// All but the last point of a chain that is open.
   void add_chain(int c, bool with_layers, BoundaryLoop& loop) const {
@@ -156,26 +184,29 @@ class LayerBuilder {
     std::vector<int> levels;  // of the pair from each column
     layers_.for_each_pair(c, [&](int a, int b) { levels.push_back(layers_.layers_between(c, a, b)); });
     // From `from` on to `to`, without it.
-    const auto climb = [&](const std::vector<int>& column, int from, int to) {
-      for (int i = from; i != to; i += from < to ? 1 : -1)
-        loop.push_back(node_point(column[static_cast<std::size_t>(i)], -1));
+    const auto add = [&](const std::vector<PatchNode>& column, int i) {
+      const auto& [node, u] = column[static_cast<std::size_t>(i)];
+      loop.push_back({u, node, -1});
+    };
+    const auto climb = [&](const std::vector<PatchNode>& column, int from, int to) {
+      for (int i = from; i != to; i += from < to ? 1 : -1) add(column, i);
     };
     if (ends_free(c, 0)) climb(columns.front(), 0, levels.front());
     int last = chain.is_closed ? levels.back() : levels.front();
     for (std::size_t a = 0; a < levels.size(); ++a) {
       climb(columns[a], last, levels[a]);
       last = levels[a];
-      loop.push_back(node_point(columns[a][static_cast<std::size_t>(last)], -1));
+      add(columns[a], last);
     }
     if (ends_free(c, 1)) climb(columns.back(), last, 0);
   }
 
   /// All but the last point.
   void add_wall_points(int w, bool with_layers, BoundaryLoop& loop) const {
-    const WallNodes& wall = walls_[w];
+    const WallParts& wall = walls_[w];
     const int curve = layers_.found().walls[w].curve;
     const auto& [first, last] = wall.sides;
-    const auto add = [&](int node) { loop.push_back(node_point(node, curve)); };
+    const auto add = [&](const PatchNode& p) { loop.push_back({p.u, p.node, curve}); };
     std::for_each(first.nodes.begin() + (with_layers || !first.is_front ? 0 : std::ssize(first.nodes) - 1),
                   first.nodes.end(), add);
     std::ranges::for_each(wall.between, add);
@@ -183,12 +214,13 @@ class LayerBuilder {
   }
 
   PlanarDomain& domain_;
+  const int index_;
   const PatchBoundary& patch_;
   const LayerColumns& layers_;
   LayerWalls& all_walls_;
-  std::vector<int> curve_;                              ///< of the edge from each point
-  std::vector<std::vector<std::vector<int>>> columns_;  ///< nodes, by chain and column, from the foot up
-  std::vector<WallNodes> walls_;
+  std::vector<int> curve_;                                    ///< of the edge from each point
+  std::vector<std::vector<std::vector<PatchNode>>> columns_;  ///< by chain and column, from the foot up
+  std::vector<WallParts> walls_;
 };
 
 }  // namespace

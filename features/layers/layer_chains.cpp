@@ -148,7 +148,8 @@ class ChainFinder {
         graph_(graph),
         next_(patch_.points.size()),
         before_(patch_.points.size()),
-        spec_(patch_.points.size()) {
+        spec_(patch_.points.size()),
+        curve_(patch_.points.size()) {
     std::set<int> nodes;
     for (const int v : patch_.point_node)
       if (!nodes.insert(v).second) repeated_.insert(v);
@@ -156,6 +157,7 @@ class ChainFinder {
       const auto& [a, b] = patch_.edges[e];
       next_[a] = b;
       before_[b] = a;
+      curve_[a] = patch_.edge_curve[e];
       spec_[a] = layers.at(patch_.edge_curve[e], domain.patch_region[patch]);
     }
   }
@@ -196,11 +198,15 @@ class ChainFinder {
 
   void check_point(const LayerChain& chain, int p) const {
     const int node = patch_.point_node[p];
+    const auto is_cut = [&](int curve) {
+      return domain_.in_space != nullptr && domain_.in_space->is_cut(curve);
+    };
     if (!repeated_.contains(node) && !graph_.is_on_crack(node)) return;
+    if (is_cut(curve_[p]) || is_cut(curve_[before_[p]])) return;
     throw InputError(
         fmt::format("{}: another curve meets the layer inside of its region at {}: expected "
                     "layers beside which only boundaries of regions go on",
-                    where(chain), show_point(patch_.points[p])));
+                    where(chain), show_node(domain_, node)));
   }
 
   /// Whether a wall ends at a point inside of it.
@@ -229,8 +235,9 @@ class ChainFinder {
   const PatchBoundary& patch_;
   std::span<const LayerSpec> specs_;
   const BoundaryGraph& graph_;
-  std::vector<int> next_, before_, spec_;  ///< by point of the patch; the layer: of the edge from it
-  std::set<int> repeated_;                 ///< nodes for which several points stand
+  /// By point of the patch; layer and curve: of the edge from it.
+  std::vector<int> next_, before_, spec_, curve_;
+  std::set<int> repeated_;  ///< nodes for which several points stand
   LayerChains found_;
 };
 
@@ -253,14 +260,27 @@ LayerWall make_layer_wall(const PlanarDomain& domain, std::size_t patch, std::ve
   const auto edge = graph.edge_from(nodes[0], nodes[1]);
   const int curve = boundary.edge_curve[(*edge)[1]];
   const bool is_axis = graph.is_on_axis(nodes[0], nodes[1]);
-  if (domain.places.empty())
-    return {std::move(points), curve, WallTrack(std::move(places), nullptr, {}), {-1, -1}, is_axis};
-  auto [piece, params] = piece_with(domain, nodes);
-  if (piece->is_divided)
+  const auto refuse_divided = [&] {
     throw InputError(
         fmt::format("{}: the layer ends on {} at {}, of which 'divide' gives the number of edges: expected "
                     "one of the two [layer-at-a-divided-curve]",
-                    where, curve_title(domain.boundary.curves[curve]), show_point(places[0])));
+                    where, curve_title(domain.boundary.curves[curve]), show_node(domain, nodes[0])));
+  };
+  if (domain.in_space != nullptr) {
+    if (domain.in_space->is_divided(nodes[0], nodes[1])) refuse_divided();
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+      if (graph.branches(nodes[i], nodes[i + 1]))
+        throw InputError(
+            fmt::format("{}: the layer ends on {} at {}, where more than two faces meet: expected "
+                        "layers 'into' other faces",
+                        where, curve_title(domain.boundary.curves[curve]), show_node(domain, nodes[i])));
+    return {std::move(points), curve,
+            WallTrack(std::move(places), std::move(nodes), *domain.in_space, static_cast<int>(patch))};
+  }
+  if (domain.places.empty())
+    return {std::move(points), curve, WallTrack(std::move(places), nullptr, {}), {-1, -1}, is_axis};
+  auto [piece, params] = piece_with(domain, nodes);
+  if (piece->is_divided) refuse_divided();
   return {std::move(points),
           curve,
           WallTrack(std::move(places), piece->shape, std::move(params)),
@@ -270,9 +290,18 @@ LayerWall make_layer_wall(const PlanarDomain& domain, std::size_t patch, std::ve
 
 WallTrack::WallTrack(std::vector<Vec2> points, std::shared_ptr<const Curve> curve, std::vector<double> params)
     : points_(std::move(points)), curve_(std::move(curve)), params_(std::move(params)) {
-  Vec2 last = points_[0];
+  measure();
+}
+
+WallTrack::WallTrack(std::vector<Vec2> points, std::vector<int> nodes, const PatchPlaces& places, int patch)
+    : points_(std::move(points)), nodes_(std::move(nodes)), in_space_(&places), patch_(patch) {
+  measure();
+}
+
+void WallTrack::measure() {
+  Vec3 last = spot(0);
   for (int i = 1; i <= kSamples * n_edges(); ++i) {
-    const Vec2 next = point(static_cast<double>(i) / kSamples);
+    const Vec3 next = spot(static_cast<double>(i) / kSamples);
     length_.push_back(length_.back() + norm(next - last));
     last = next;
   }
@@ -285,17 +314,31 @@ double WallTrack::place(double length) const {
   return (static_cast<double>(i - 1) + std::clamp(part, 0.0, 1.0)) / kSamples;
 }
 
-Vec2 WallTrack::point(double place) const {
+std::pair<std::size_t, double> WallTrack::edge_at(double place) const {
   const auto edge = static_cast<std::size_t>(std::min(std::floor(place), n_edges() - 1.0));
-  const double part = place - static_cast<double>(edge);
+  return {edge, place - static_cast<double>(edge)};
+}
+
+Vec2 WallTrack::point(double place) const {
+  const auto [edge, part] = edge_at(place);
   if (part == 0) return points_[edge];
   if (part == 1) return points_[edge + 1];
-  return curve_ ? curve_->point(param(place)) : (1 - part) * points_[edge] + part * points_[edge + 1];
+  if (curve_) return curve_->point(param(place));
+  const Vec2 near = straight(edge, part);
+  return in_space_ == nullptr ? near : in_space_->in_plane(patch_, spot(place), near);
+}
+
+Vec3 WallTrack::spot(double place) const {
+  const auto [edge, part] = edge_at(place);
+  if (in_space_ != nullptr)
+    return in_space_->between(nodes_[edge], nodes_[edge + 1], part, patch_, straight(edge, part));
+  const Vec2 p = point(place);
+  return {p.x, p.y, 0};
 }
 
 double WallTrack::param(double place) const {
-  const auto edge = static_cast<std::size_t>(std::min(std::floor(place), n_edges() - 1.0));
-  return std::lerp(params_[edge], params_[edge + 1], place - static_cast<double>(edge));
+  const auto [edge, part] = edge_at(place);
+  return std::lerp(params_[edge], params_[edge + 1], part);
 }
 
 BoundaryGraph::BoundaryGraph(const PlanarDomain& domain)
@@ -308,7 +351,9 @@ BoundaryGraph::BoundaryGraph(const PlanarDomain& domain)
     const PatchBoundary& patch = domain.patches[p];
     for (std::size_t e = 0; e < patch.edges.size(); ++e) {
       const auto& [a, b] = patch.edges[e];
-      edges_[{patch.point_node[a], patch.point_node[b]}] = {static_cast<int>(p), static_cast<int>(e)};
+      const int from = patch.point_node[a], to = patch.point_node[b];
+      const std::array at{static_cast<int>(p), static_cast<int>(e)};
+      if (!edges_.insert_or_assign({from, to}, at).second) branching_.insert(std::minmax(from, to));
     }
   }
   find_stops(domain);
@@ -331,7 +376,9 @@ void BoundaryGraph::find_stops(const PlanarDomain& domain) {
   for (const auto& [a, b] : domain.boundary.lines) edges.insert(std::minmax(a, b));
   std::vector<int> degree(stops_.size(), 0);
   for (const auto& [a, b] : edges) ++degree[a], ++degree[b];
-  for (std::size_t v = 0; v < stops_.size(); ++v) stops_[v] = degree[v] != 2 || on_crack_[v];
+  for (std::size_t v = 0; v < stops_.size(); ++v)
+    stops_[v] = degree[v] != 2 || on_crack_[v] ||
+                (domain.in_space != nullptr && domain.in_space->is_end(static_cast<int>(v)));
   for (const NamedPoint& named : domain.boundary.named_points) stops_[named.point] = 1;
   for (const PatchBoundary& patch : domain.patches) {
     std::vector<std::size_t> edge_to(patch.points.size());
@@ -359,6 +406,11 @@ void BoundaryGraph::share_stops(const PlanarDomain& domain) {
         share(own.point_node[image.point[i]], of.point_node[i]);
     }
   }
+}
+
+std::string show_node(const PlanarDomain& domain, int node) {
+  const Vec3& x = domain.boundary.points[static_cast<std::size_t>(node)];
+  return domain.in_space != nullptr ? show_point(x) : show_point(Vec2{x.x, x.y});
 }
 
 double inner_angle(Vec2 before, Vec2 at, Vec2 after) {

@@ -6,12 +6,14 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "delquad/model.h"
+#include "features/layers/patch_places.h"
 #include "geometry/planar/planar_model.h"
 
 // This header finds the chains of edges on which layers stand. Features use it.
@@ -36,6 +38,8 @@ class WallTrack {
  public:
   /// `params`: of the points on the curve; a null curve: the edges.
   WallTrack(std::vector<Vec2> points, std::shared_ptr<const Curve> curve, std::vector<double> params);
+  /// On the curve of a surface that has these nodes.
+  WallTrack(std::vector<Vec2> points, std::vector<int> nodes, const PatchPlaces& places, int patch);
 
   int n_edges() const { return static_cast<int>(points_.size()) - 1; }
   double length() const { return length_.back(); }
@@ -43,6 +47,8 @@ class WallTrack {
   /// first point.
   double place(double length) const;
   Vec2 point(double place) const;
+  /// In space; of planar domains with z = 0.
+  Vec3 spot(double place) const;
   /// On the curve.
   double param(double place) const;
   const std::shared_ptr<const Curve>& curve() const { return curve_; }
@@ -50,10 +56,19 @@ class WallTrack {
  private:
   static constexpr int kSamples = 16;  // an edge
 
+  void measure();
+  std::pair<std::size_t, double> edge_at(double place) const;
+  Vec2 straight(std::size_t edge, double part) const {
+    return (1 - part) * points_[edge] + part * points_[edge + 1];
+  }
+
   std::vector<Vec2> points_;
   std::shared_ptr<const Curve> curve_;
   std::vector<double> params_;
-  std::vector<double> length_ = {0};  ///< up to each sample
+  std::vector<int> nodes_ = {};            ///< on a surface
+  const PatchPlaces* in_space_ = nullptr;  ///< there
+  int patch_ = -1;
+  std::vector<double> length_ = {0};  ///< up to each sample, in space
 };
 
 /// The boundaries of all patches as one: what meets at a node, and which patch has an edge.
@@ -72,17 +87,23 @@ class BoundaryGraph {
   /// periodic or mirror image.
   bool stops(int node) const { return stops_[static_cast<std::size_t>(node)] != 0; }
   bool is_on_crack(int node) const { return on_crack_[static_cast<std::size_t>(node)] != 0; }
+  /// Whether more than two patches meet at the edge.
+  bool branches(int a, int b) const { return branching_.contains(std::minmax(a, b)); }
 
  private:
   void find_stops(const PlanarDomain& domain);
   void share_stops(const PlanarDomain& domain);
 
   std::map<std::pair<int, int>, std::array<int, 2>> edges_;
+  std::set<std::pair<int, int>> branching_;
   std::vector<char> is_image_, stops_, on_crack_;
 };
 
 /// Points at which the boundary turns by more than this are corners, radians.
 inline constexpr double kLayerCorner = 20 * 0.017453292519943295;
+
+/// Returns the place of a node, for messages.
+std::string show_node(const PlanarDomain& domain, int node);
 
 /// Returns the angle inside of the boundary at a point, in (0, 2 pi).
 double inner_angle(Vec2 before, Vec2 at, Vec2 after);

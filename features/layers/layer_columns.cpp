@@ -36,16 +36,20 @@ Vec2 bisector(const ChainCorner& corner) {
 
 }  // namespace
 
-LayerColumns::LayerColumns(const PatchBoundary& patch, const LayerChains& found,
+LayerColumns::LayerColumns(const PlanarDomain& domain, int patch, const LayerChains& found,
                            std::span<const LayerSpec> specs, const std::vector<std::vector<double>>& heights)
-    : patch_(patch), found_(found), heights_(heights) {
+    : domain_(domain), index_(patch), patch_(domain.patches[patch]), found_(found), heights_(heights) {
   for (int c = 0; c < n_chains(); ++c) {
     const int n = chain(c).n_points();
     scales.emplace_back(n, 1.0);
     corners_.emplace_back(n);
     slants_.push_back({1, 1});
     joined_.emplace_back();
-    for (int k = 0; k < n; ++k) set_corner(c, k, specs);
+    stretches_.emplace_back(n, 1.0);
+    for (int k = 0; k < n; ++k) {
+      set_corner(c, k, specs);
+      stretches_[c][k] = stretch_at(c, k);
+    }
   }
   columns_.resize(n_chains());
 }
@@ -53,9 +57,17 @@ LayerColumns::LayerColumns(const PatchBoundary& patch, const LayerChains& found,
 std::array<double, 2> LayerColumns::edges_at(int c, int k) const {
   const LayerChain& chain = this->chain(c);
   const int n = chain.n_points();
-  const auto length = [&](int from) { return norm(foot(c, (from + 1) % n) - foot(c, from)); };
+  const auto length = [&](int from) { return distance(c, from, (from + 1) % n); };
   const int before = k > 0 ? k - 1 : chain.is_closed ? n - 1 : 0;
   return {length(before), length(k + 1 < n || chain.is_closed ? k : n - 2)};
+}
+
+/// The mean beside both edges.
+double LayerColumns::stretch_at(int c, int k) const {
+  if (domain_.in_space == nullptr) return 1;
+  const ChainCorner& corner = corners_[c][k];
+  const auto along = [&](Vec2 edge) { return domain_.in_space->stretch(index_, foot(c, k), perp(edge)); };
+  return (along(corner.in) + along(corner.out)) / 2;
 }
 
 int LayerColumns::layers_at(int c, int k) const {
@@ -188,7 +200,7 @@ LayerColumn LayerColumns::on_wall(int c, int k) const {
 }
 
 Vec2 LayerColumns::point(int c, const LayerColumn& column, double height) const {
-  if (column.wall < 0) return foot(c, column.at) + height * column.direction;
+  if (column.wall < 0) return foot(c, column.at) + height * stretch(c, column.at) * column.direction;
   const WallTrack& track = found_.walls[column.wall].track;
   const double along = column.slant * height;
   return track.point(track.place(column.end == 0 ? track.length() - along : along));
@@ -211,7 +223,7 @@ double LayerColumns::lean_of(int c, int k, bool forward) const {
   if (corner.kind == ChainCorner::kMitre) return (forward ? 1 : -1) / std::tan(corner.angle / 2);
   if (corner.kind != ChainCorner::kOnWall) return 0;
   const double h = thickness(c, k);
-  return dot(point(c, on_wall(c, k), h) - foot(c, k), corner.in) / h;
+  return dot(point(c, on_wall(c, k), h) - foot(c, k), corner.in) / (h * stretch(c, k));
 }
 
 void LayerColumns::lean_beside(int c, int k, bool forward, std::vector<double>& leans) const {
@@ -226,7 +238,7 @@ void LayerColumns::lean_beside(int c, int k, bool forward, std::vector<double>& 
   double length = 0;
   for (int i = k, j = next(k);; i = j, j = next(j)) {
     if (j < 0 || j >= n) return;  // there is no chain on that side
-    length += norm(foot(c, j) - foot(c, i));
+    length += distance(c, i, j);
     if (corners_[c][j].kind != ChainCorner::kSmooth || j == k) break;
     beside.emplace_back(j, length);
   }

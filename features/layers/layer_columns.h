@@ -7,7 +7,8 @@
 
 #include "features/layers/layer_chains.h"
 
-// This header has the columns of nodes of layers. Features use it.
+// This header has the columns of nodes of layers. Heights are lengths in space, directions are of the plane
+// of the patch. Features use it.
 
 namespace delquad {
 
@@ -15,7 +16,7 @@ namespace delquad {
 struct LayerColumn {
   int at;            ///< the point's place in its chain
   int point;         ///< of the patch
-  Vec2 direction;    ///< from a node at height h to the point: h * direction; not of unit length
+  Vec2 direction;    ///< from a node at height h to the point: h * stretch * direction; not of unit length
   int wall = -1;     ///< the wall that the nodes lie on, instead of along the direction
   int end = 0;       ///< of the wall
   double slant = 1;  ///< length along the wall by height
@@ -38,8 +39,8 @@ struct ChainCorner {
 /// The columns of all chains of a patch, for given scales of their heights.
 class LayerColumns {
  public:
-  LayerColumns(const PatchBoundary& patch, const LayerChains& found, std::span<const LayerSpec> specs,
-               const std::vector<std::vector<double>>& heights);
+  LayerColumns(const PlanarDomain& domain, int patch, const LayerChains& found,
+               std::span<const LayerSpec> specs, const std::vector<std::vector<double>>& heights);
 
   int n_chains() const { return static_cast<int>(found_.chains.size()); }
   const LayerChains& found() const { return found_; }
@@ -51,7 +52,14 @@ class LayerColumns {
   /// Returns the number of layers between two neighboring columns.
   int layers_between(int c, int a, int b) const;
   Vec2 foot(int c, int k) const { return patch_.points[chain(c).points[k]]; }
-  /// Lengths of the edges at a point; at an end both are of its edge.
+  int foot_node(int c, int k) const { return patch_.point_node[chain(c).points[k]]; }
+  /// Returns the distance of two points in space.
+  double distance(int c, int k, int l) const {
+    return norm(domain_.boundary.points[foot_node(c, l)] - domain_.boundary.points[foot_node(c, k)]);
+  }
+  /// Returns the length in the patch's plane over the length in space, inwards from a point.
+  double stretch(int c, int k) const { return stretches_[c][k]; }
+  /// Lengths of the edges at a point, in space; at an end both are of its edge.
   std::array<double, 2> edges_at(int c, int k) const;
 
   /// Factors of the heights at each point of each chain.
@@ -113,10 +121,15 @@ class LayerColumns {
   double lean_of(int c, int k, bool forward) const;
   LayerColumn on_wall(int c, int k) const;
 
+  double stretch_at(int c, int k) const;
+
+  const PlanarDomain& domain_;
+  const int index_;
   const PatchBoundary& patch_;
   LayerChains found_;
   const std::vector<std::vector<double>>& heights_;
   std::vector<std::vector<ChainCorner>> corners_;
+  std::vector<std::vector<double>> stretches_;
   std::vector<std::array<double, 2>> slants_;            ///< of chains' ends
   std::vector<std::array<std::vector<int>, 2>> joined_;  ///< layers of others that share the end
   std::vector<std::vector<LayerColumn>> columns_;
@@ -126,7 +139,7 @@ class LayerColumns {
 /// curve below. Fronts then also keep a distance from each other and from the boundary: at most half their
 /// thickness, or an edge. Scales change smoothly along a chain. Throws InputError where nothing helps.
 /// `again`: they were fitted before, and some ends are lower now, which may be all right.
-void fit_layers(const PatchBoundary& patch, std::span<const LayerSpec> specs, LayerColumns& layers,
+void fit_layers(const PlanarDomain& domain, int patch, std::span<const LayerSpec> specs, LayerColumns& layers,
                 bool again = false);
 
 }  // namespace delquad

@@ -86,11 +86,12 @@ class WallSharing {
     const int curve = domain_.patches[patch].edge_curve[edge];
     const int spec = layers_.at(curve, domain_.patch_region[patch]);
     if (spec < 0) return;
-    const Vec2 at = domain_.patches[patch].points[domain_.patches[patch].edges[edge][0]];
+    const PatchBoundary& boundary = domain_.patches[patch];
+    const int at = boundary.point_node[boundary.edges[edge][0]];
     throw InputError(
         fmt::format("{}: other layers end on {} at {}, where it has layers on its other side, or "
                     "at its periodic image: expected layers on both sides",
-                    specs_[spec].where, curve_title(domain_.boundary.curves[curve]), show_point(at)));
+                    specs_[spec].where, curve_title(domain_.boundary.curves[curve]), show_node(domain_, at)));
   }
 
   const PlanarDomain& domain_;
@@ -114,7 +115,8 @@ std::vector<PatchLayers> find_patch_layers(const PlanarDomain& domain, std::span
   std::vector<PatchLayers> result;
   for (std::size_t p = 0; p < found.size(); ++p)
     if (!found[p].chains.empty() || !found[p].walls.empty())
-      result.push_back({static_cast<int>(p), LayerColumns(domain.patches[p], found[p], specs, heights)});
+      result.push_back(
+          {static_cast<int>(p), LayerColumns(domain, static_cast<int>(p), found[p], specs, heights)});
   return result;
 }
 
@@ -212,7 +214,7 @@ void LayerWalls::group_ends() {
       wall.group[end] = master.group[there];
       if (wall.ends[end].empty() != master.ends[there].empty()) {
         const ChainEnd& one = wall.ends[end].empty() ? master.ends[there][0] : wall.ends[end][0];
-        const Vec2 at = columns(one).foot(one.chain, point_of(one));
+        const int at = columns(one).foot_node(one.chain, point_of(one));
         const auto title = [&](const Wall& w) {
           return curve_title(domain_.boundary.curves[shape_of(w).curve]);
         };
@@ -221,7 +223,7 @@ void LayerWalls::group_ends() {
                         "expected layers at "
                         "both, or at none",
                         specs_[spec_of(one)].where, title(wall.ends[end].empty() ? master : wall),
-                        show_point(at), title(wall.ends[end].empty() ? wall : master)));
+                        show_node(domain_, at), title(wall.ends[end].empty() ? wall : master)));
       }
       std::vector<ChainEnd>& group = groups_[master.group[there]];
       group.insert(group.end(), wall.ends[end].begin(), wall.ends[end].end());
@@ -235,12 +237,12 @@ void LayerWalls::join(const std::vector<ChainEnd>& group) {
   double slant = 1;
   for (const ChainEnd& e : group) {
     if (number(e) != number(group[0])) {
-      const Vec2 at = columns(e).foot(e.chain, point_of(e));
+      const int at = columns(e).foot_node(e.chain, point_of(e));
       throw InputError(
           fmt::format("{}: {} layers meet {} of {} on one curve, or on periodic ones, at {}: "
                       "expected the same number [numbers-of-layers]",
                       specs_[spec_of(group[0])].where, number(group[0]), number(e), specs_[spec_of(e)].where,
-                      show_point(at)));
+                      show_node(domain_, at)));
     }
     slant = std::max(slant, columns(e).slant(e.chain, e.end));
   }
@@ -307,13 +309,13 @@ void LayerWalls::count_edges() {
   for (Wall& wall : walls_) count(wall);
   for (Wall& wall : walls_)
     if (wall.master >= 0) wall.n = walls_[wall.master].n;
-  if (make_even() || domain_.places.empty()) return;
+  if (make_even() || (domain_.places.empty() && domain_.in_space == nullptr)) return;
   const PatchLayers& patch = patches_[odd_patches()[0]];
-  const Vec2 at = domain_.patches[patch.patch].points[0];
+  const int at = domain_.patches[patch.patch].point_node[0];
   throw InputError(
       fmt::format("{}: layers leave an odd number of edges around the region at {}: expected an even number "
                   "of layers, or ends on the boundary",
-                  specs_[0].where, show_point(at)));
+                  specs_[0].where, show_node(domain_, at)));
 }
 
 /// Patches whose number of edges around what is left is odd.
@@ -421,11 +423,38 @@ bool LayerWalls::make_even() {
 }
 
 int add_node(PlanarDomain& domain, Vec2 at) {
+  return add_node(domain, Vec3{at.x, at.y, domain.boundary.points[0].z});
+}
+
+int add_node(PlanarDomain& domain, const Vec3& at) {
   std::vector<Vec3>& points = domain.boundary.points;
-  const double z = points[0].z;
-  points.push_back({at.x, at.y, z});
+  points.push_back(at);
   if (!domain.places.empty()) domain.places.emplace_back();
   return static_cast<int>(points.size()) - 1;
+}
+
+int LayerWalls::add(Wall& wall, double place) {
+  const WallTrack& track = shape_of(wall).track;
+  const int node = domain_.in_space != nullptr ? add_node(domain_, track.spot(place))
+                                               : add_node(domain_, track.point(place));
+  wall.places[node] = place;
+  return node;
+}
+
+double LayerWalls::place(const LayerWall& wall, int node) const {
+  const double place = walls_[wall.id].places.at(node);
+  return wall.is_reversed ? wall.track.n_edges() - place : place;
+}
+
+std::vector<WallNodes> LayerWalls::nodes() const {
+  std::vector<WallNodes> all;
+  for (const Wall& wall : walls_) {
+    auto& [old, places] = all.emplace_back();
+    for (const int p : shape_of(wall).points)
+      old.push_back(domain_.patches[patches_[wall.patch].patch].point_node[p]);
+    places = wall.places;
+  }
+  return all;
 }
 
 const std::vector<int>& LayerWalls::make_side(int id, int end) {
@@ -440,13 +469,13 @@ const std::vector<int>& LayerWalls::make_side(int id, int end) {
     const std::vector<int>& masters = make_side(wall.master, wall.runs_as_master ? end : 1 - end);
     for (std::size_t i = 1; i < masters.size(); ++i) {
       const Vec3 x = motion(domain_.boundary.points[masters[i]]);
-      nodes.push_back(add_node(domain_, {x.x, x.y}));
+      nodes.push_back(add_node(domain_, Vec2{x.x, x.y}));
     }
     return nodes;
   }
+  wall.places[nodes[0]] = end == 0 ? 0 : shape.track.n_edges();
   for (const double along : wall.along[end])
-    nodes.push_back(add_node(
-        domain_, shape.track.point(shape.track.place(end == 0 ? along : shape.track.length() - along))));
+    nodes.push_back(add(wall, shape.track.place(end == 0 ? along : shape.track.length() - along)));
   return nodes;
 }
 
@@ -458,7 +487,7 @@ void LayerWalls::make_between(int id) {
     make_between(wall.master);
     for (const int v : walls_[wall.master].nodes) {
       const Vec3 x = motion(domain_.boundary.points[v]);
-      wall.nodes.push_back(add_node(domain_, {x.x, x.y}));
+      wall.nodes.push_back(add_node(domain_, Vec2{x.x, x.y}));
     }
     if (!wall.runs_as_master) std::ranges::reverse(wall.nodes);
     return;
@@ -469,7 +498,7 @@ void LayerWalls::make_between(int id) {
   const bool may_slide = !wall.is_paired && (images == 0 || (images == 1 && shape.is_axis));
   for (int k = 1; k < wall.n; ++k) {
     const double place = wall.from + (wall.to - wall.from) * k / wall.n;
-    wall.nodes.push_back(add_node(domain_, shape.track.point(place)));
+    wall.nodes.push_back(add(wall, place));
     if (domain_.places.empty() || !may_slide) continue;
     const auto [low, high] = std::minmax({shape.track.param(wall.from), shape.track.param(wall.to)});
     domain_.places.back() = {shape.track.curve(), shape.track.param(place), low, high};

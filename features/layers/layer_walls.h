@@ -27,8 +27,15 @@ std::vector<PatchLayers> find_patch_layers(const PlanarDomain& domain, std::span
                                            const CurveLayers& layers, const BoundaryGraph& graph,
                                            const std::vector<std::vector<double>>& heights);
 
+/// The nodes on a wall as they were, and the new ones with their places: see WallTrack::place().
+struct WallNodes {
+  std::vector<int> old;
+  std::map<int, double> places;
+};
+
 /// Adds a node that stays where it is; returns its number.
 int add_node(PlanarDomain& domain, Vec2 at);
+int add_node(PlanarDomain& domain, const Vec3& at);
 
 /// The walls of all patches, each once, however many patches have it.
 class LayerWalls {
@@ -47,6 +54,10 @@ class LayerWalls {
   /// between these. Made when they are asked for first.
   std::vector<int> side(const LayerWall& wall, int end);
   std::vector<int> between(const LayerWall& wall);
+  /// Where a node of side() or between() is, as the patch of the wall sees it.
+  double place(const LayerWall& wall, int node) const;
+  /// Returns the nodes of each wall on a surface.
+  std::vector<WallNodes> nodes() const;
   /// Adds the new pairs of nodes to the periodic curves.
   void pair_nodes();
 
@@ -72,6 +83,7 @@ class LayerWalls {
     std::array<std::vector<int>, 2> sides = {};
     std::vector<int> nodes = {};
     bool has_nodes = false;
+    std::map<int, double> places = {};  ///< of its nodes
   };
 
   const LayerWall& shape_of(const Wall& wall) const {
@@ -96,6 +108,7 @@ class LayerWalls {
   std::vector<std::vector<std::size_t>> patches_changed_by() const;
   const std::vector<int>& make_side(int id, int end);
   void make_between(int id);
+  int add(Wall& wall, double place);
 
   PlanarDomain& domain_;
   std::vector<PatchLayers>& patches_;

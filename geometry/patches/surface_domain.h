@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -68,6 +69,9 @@ class SurfacePatchSize final : public ParametricSize {
 
 /// Returns the point of the fine triangulation at u.
 Vec3 fine_place(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint);
+
+/// Returns the derivatives of the place by both parameters, on a triangle of a patch's map.
+std::array<Vec3, 2> tangents(const SurfacePatch& patch, const Mesh& fine, int triangle);
 
 /// Returns the outward normal of the fine triangles about u, any length. The large ones count most, since the
 /// slivers of a sharp corner may be turned over.

@@ -57,6 +57,16 @@ Vec3 fine_place(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint) 
   return x;
 }
 
+std::array<Vec3, 2> tangents(const SurfacePatch& patch, const Mesh& fine, int triangle) {
+  const auto& v = patch.map.flat.triangles[triangle];
+  const auto& u = patch.map.flat.points;
+  const auto x = [&](int k) { return fine.points[patch.map.fine_node[v[k]]]; };
+  const Vec2 a = u[v[1]] - u[v[0]], b = u[v[2]] - u[v[0]];
+  const Vec3 p = x(1) - x(0), q = x(2) - x(0);
+  const double inverse = 1 / cross(a, b);
+  return {inverse * (b.y * p - a.y * q), inverse * (a.x * q - b.x * p)};
+}
+
 Vec3 fine_normal(const SurfacePatch& patch, const Mesh& fine, Vec2 u, int& hint) {
   const TriPatch& flat = patch.map.flat;
   std::vector<int> around{patch.background->locate(u, hint).triangle};

@@ -50,7 +50,9 @@ struct MappedPatch {
   int rows = 0;              ///< of a ring; 0: as the size asks for
 };
 
-/// The regions that a line mesh bounds.
+class PatchPlaces;
+
+/// The regions that a line mesh bounds, or the patches of a surface in their parameter planes.
 struct PlanarDomain {
   Mesh boundary;  ///< points, lines, curves, regions; of elements the quads of layers and wedges alone
   std::vector<CurvePlace> places;  ///< of the boundary's points; empty where the lines were given
@@ -68,7 +70,8 @@ struct PlanarDomain {
   std::vector<DomainPiece> pieces = {};  ///< of the curves; empty where the lines were given
   /// Where there are layers or wedges: the patches with these. `patches` are what is left to be meshed.
   std::vector<PatchBoundary> outlines = {};
-  std::vector<std::string> notes = {};  ///< for warnings
+  std::vector<std::string> notes = {};    ///< for warnings
+  const PatchPlaces* in_space = nullptr;  ///< of a surface; null: the patches lie in the plane of the domain
 };
 
 /// Tells what the lines enclose, whatever their order and orientation: regions side by side, and by nesting

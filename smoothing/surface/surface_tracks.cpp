@@ -3,23 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "base/parallel.h"
 
 namespace delquad {
 
 namespace {
-
-/// Returns the derivatives of the place by both parameters, on a triangle of a patch's map.
-std::array<Vec3, 2> tangents(const SurfacePatch& patch, const Mesh& fine, int triangle) {
-  const auto& v = patch.map.flat.triangles[triangle];
-  const auto& u = patch.map.flat.points;
-  const auto x = [&](int k) { return fine.points[patch.map.fine_node[v[k]]]; };
-  const Vec2 a = u[v[1]] - u[v[0]], b = u[v[2]] - u[v[0]];
-  const Vec3 p = x(1) - x(0), q = x(2) - x(0);
-  const double inverse = 1 / cross(a, b);
-  return {inverse * (b.y * p - a.y * q), inverse * (a.x * q - b.x * p)};
-}
 
 /// Returns the place of the patch's map nearest to u.
 Vec2 place_within(const SurfacePatch& patch, Vec2 u, int& hint) {
@@ -202,28 +193,22 @@ Vec3 SurfaceTracks::arm(int quad, int side, TrackHint& hint) const {
   return (1 / norm(arm)) * arm;
 }
 
-int SurfaceTracks::points_at(const SurfacePatch& patch, int node) const {
-  for (const auto& [p, cap] : domain_.caps) {
-    if (&domain_.patches[p] != &patch) continue;
-    if (cap.tip == node) return cap.points;
-    if (std::ranges::find(cap.within, node) != cap.within.end()) return 0;
-  }
-  return -1;
-}
-
 void SurfaceTracks::store(const std::vector<Vec3>& points) {
   std::copy_n(points.begin(), nodes_.points.size(), nodes_.points.begin());
   std::size_t v = nodes_.points.size();
   for (const Patch& patch : patches_) {
     const PatchBoundary boundary =
         place_boundary(patch.patch->map, patch.patch->outline, domain_.chains, nodes_);
-    auto to = patch.mesh->points.begin();
-    for (size_t i = 0; i < boundary.points.size(); ++i) {
-      const int fixed = points_at(*patch.patch, boundary.point_node[i]);
-      if (fixed >= 0)
-        to += fixed;
-      else
-        *to++ = boundary.points[i];
+    std::map<std::pair<int, int>, std::array<int, 2>> edges;  // by nodes
+    for (const auto& [a, b] : boundary.edges)
+      edges[{boundary.point_node[a], boundary.point_node[b]}] = {a, b};
+    // Caps and layers have other edges.
+    const PatchBoundary& own = patch.patch->boundary;
+    for (const auto& edge : own.edges) {
+      const auto found = edges.find({own.point_node[edge[0]], own.point_node[edge[1]]});
+      for (const int end : {0, 1})
+        if (found != edges.end() && is_on_curve(own.point_node[edge[end]]))
+          patch.mesh->points[edge[end]] = boundary.points[found->second[end]];
     }
     for (std::size_t i = 0; i < patch.inside->size(); ++i, ++v) {
       patch.mesh->points[patch.mesh->n_boundary + i] = position_[v];

@@ -64,8 +64,6 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
 
   void add_curves();
   void add_patch(const Patch& patch);
-  /// Returns the number of fixed boundary points in place of a node that a cap cut off; -1: none did.
-  int points_at(const SurfacePatch& patch, int node) const;
   /// Returns the index of the line plus the fraction along it, at a length along the chain.
   double s_at(int chain, double length) const;
   Vec3 direction(int chain, double length) const;

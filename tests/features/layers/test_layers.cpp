@@ -246,9 +246,6 @@ TEST(Layers, BadInput) {
   expect_refused(twice, "DB", {"'south' has a layer already"});
   bad = good, bad.into = {"flud"};
   refused(bad, {"no region is called 'flud'"});
-  MeshProblem surface = plate.problem(0.1, {good});
-  surface.model = ExampleModel{"bracket"};
-  expect_refused(surface, "DB", {"planar"});
 }
 
 TEST(Layers, CracksAndLinesInOneRegionHaveNone) {
