@@ -89,7 +89,7 @@ SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, c
       const bool may_repeat = failures.are_left_out() || washers.can_give_way();
       return make_surface_domain(model, may_repeat ? flattening : std::move(flattening), size, *solver, asked,
                                  divisions, periodic, mapped, agreement,
-                                 layered_curves(model.fine.curves, problem.layers));
+                                 layered_curves(model.fine, problem.layers));
     } catch (const FaceError& error) {
       if (washers.give_way(error)) continue;
       failures.add(error.face(), error.what());
@@ -233,11 +233,13 @@ class SurfaceSteps final : public ModelSteps {
     }
     const SampleDomain domain = {Box<Vec3>::around(model_.fine.points), &model_.fine};
     asked_ = base_size(problem_.size, domain, p.warnings, [&] {
-      return largest_size(problem_.size, problem_.size.from_boundary
-                                             ? "'boundary' extends the lengths of a planar boundary that is "
-                                               "kept; a surface's curves are meshed anew: expected a size (a "
-                                               "number or an expression)"
-                                             : "a surface needs a size (a number or an expression)");
+      return largest_size(
+          problem_.size,
+          problem_.size.from_boundary
+              ? "'boundary' extends the lengths of a planar boundary that is "
+                "kept; a surface's curves are meshed anew: expected a size (a "
+                "number or an expression)"
+              : "there is no size: expected a number, an expression or a number of quads (--size, --quads)");
     });
     p.settings.limits = limits_of(problem_.criteria, *asked_, model_.fine.points);
     if (least_length(problem_.criteria) != nullptr) shortest_ = p.settings.limits.shortest;

@@ -146,7 +146,7 @@ Json info_json(const ModelInfo& info, double size) {
   return json;
 }
 
-/// Rows of a list, and numbers in a row, that fit a terminal.
+/// Rows of a list, without -v, and numbers in a row.
 constexpr std::size_t kMostRows = 20, kMostTags = 8;
 
 double read_size(const std::optional<std::string>& text) {
@@ -178,8 +178,9 @@ std::string names_of(const Json& part) {
 /// Prints the first rows of a list by print(row, its number from 1).
 template <class Print>
 void print_rows(const Json& rows, Print print) {
-  for (std::size_t i = 0; i < std::min(rows.size(), kMostRows); ++i) print(rows[i], i + 1);
-  if (rows.size() > kMostRows) fmt::print("  ... and {} more (--json has all)\n", rows.size() - kMostRows);
+  const std::size_t n = verbosity() == Verbosity::kAll ? rows.size() : std::min(rows.size(), kMostRows);
+  for (std::size_t i = 0; i < n; ++i) print(rows[i], i + 1);
+  if (rows.size() > n) fmt::print("  ... and {} more (-v has all)\n", rows.size() - n);
 }
 
 void print_overview(const Json& json) {

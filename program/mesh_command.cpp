@@ -203,9 +203,10 @@ std::pair<double, double> size_on(const Mesh& mesh, const SizeField& size) {
 }
 
 /// `seconds`: on the clock, of the whole command.
-void print_after(const std::string& file, const MeshResult& result, double seconds) {
+void print_after(const MeshArguments& arguments, const MeshResult& result, double seconds) {
   const Preparation& prepared = *result.prepared;
-  fmt::print("{}: {} in {:.2f} s\n", file, show_counts(result.mesh), seconds);
+  fmt::print("{}: {}{} in {:.2f} s\n", arguments.output.string(), show_counts(result.mesh),
+             arguments.msh.triangles ? ", with each quad written as two triangles," : "", seconds);
   const bool all = verbosity() == Verbosity::kAll;
   print_measures(result.metrics);
   const Summaries& log = result.log.summaries;
@@ -358,7 +359,7 @@ int mesh_command(MeshArguments arguments) {
   write_result(arguments, c, word, depth, is_kept, progress, result);
   progress.finish();
   if (given) print_before(arguments.model.string(), *given, result.prepared);
-  print_after(arguments.output.string(), result, command.seconds());
+  print_after(arguments, result, command.seconds());
   if (arguments.view)
     view(page_of(arguments.output), result.mesh, arguments.output.filename().string(),
          {.warnings = lines_of(result.warnings), .failing = failing_quads(result)});

@@ -139,7 +139,7 @@ GridFinder::GridFinder(const MappedSpec& spec, const std::vector<Entity>& region
       if (point == points.end()) {
         std::vector<std::string> known;
         for (const auto& [name, at] : points) known.push_back(name);
-        throw InputError(fmt::format("{}: no point is called '{}'{}", asked.where, corner.name,
+        throw InputError(fmt::format("{}: no point is called '{}'{} [unknown-name]", asked.where, corner.name,
                                      suggestion_or_all(corner.name, known)));
       }
       requested.at.push_back(point->second);

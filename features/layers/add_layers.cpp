@@ -430,11 +430,18 @@ std::vector<LocalSize> put_layers(const MeshProblem& problem, PlanarDomain& doma
   return fine;
 }
 
-std::vector<char> layered_curves(const std::vector<Entity>& curves, std::span<const LayerSpec> specs) {
-  std::vector<char> is_layered(curves.size(), 0);
+std::vector<char> layered_curves(const Mesh& fine, std::span<const LayerSpec> specs) {
+  std::vector<char> is_layered(fine.curves.size(), 0);
   for (const LayerSpec& spec : specs)
-    for (const std::string& name : spec.on)
-      for (const int c : find_entities(curves, "curve", name, spec.where)) is_layered[c] = 1;
+    for (const std::string& name : spec.on) {
+      if (entities_named(fine.curves, "curve", name).empty() &&
+          !entities_named(fine.regions, "region", name).empty())
+        throw InputError(
+            fmt::format("{}: '{}' names faces, and layers stand on curves: name curves by surface.name with "
+                        "of = \"curves\" [unknown-name]",
+                        spec.where, name));
+      for (const int c : find_entities(fine.curves, "curve", name, spec.where)) is_layered[c] = 1;
+    }
   return is_layered;
 }
 

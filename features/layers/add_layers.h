@@ -62,8 +62,8 @@ std::vector<LocalSize> put_layers(const MeshProblem& problem, PlanarDomain& doma
 std::vector<LocalSize> put_layers(const MeshProblem& problem, const SurfaceModel& model,
                                   SurfaceDomain& domain, MeshingSetup& p);
 
-/// Returns which curves of a model have layers. Throws InputError for names that no curve has.
-std::vector<char> layered_curves(const std::vector<Entity>& curves, std::span<const LayerSpec> specs);
+/// Returns which curves of a fine triangulation have layers. Throws InputError for names that no curve has.
+std::vector<char> layered_curves(const Mesh& fine, std::span<const LayerSpec> specs);
 
 /// Returns which quads of a mesh are of layers: in each region the first ones.
 std::vector<char> quads_in_layers(const MeshingSetup& prepared, const Mesh& mesh);

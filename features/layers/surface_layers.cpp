@@ -186,7 +186,7 @@ std::vector<LocalSize> put_layers(const MeshProblem& problem, const SurfaceModel
   const SurfacePlaces places(model, domain);
   view.in_space = &places;
   const std::vector<LocalSize> fine = put_layers(problem, view, p);
-  const std::vector<char> is_layered = layered_curves(model.fine.curves, problem.layers);
+  const std::vector<char> is_layered = layered_curves(model.fine, problem.layers);
   for (std::size_t c = 0; c < domain.chains.size(); ++c)
     if (is_layered[domain.chains[c].curve]) domain.chain_stays[c] = 1;
   domain.nodes.points = view.boundary.points;

@@ -27,7 +27,7 @@ NamedSide named_side(const Mesh& fine, const PeriodicPair& pair, const std::stri
   std::vector<std::string> known;
   for (const auto* entities : {&fine.regions, &fine.curves})
     for (const Entity& e : *entities) known.insert(known.end(), e.names.begin(), e.names.end());
-  throw InputError(fmt::format("{}: no curve and no face is called '{}'{}", pair.where, name,
+  throw InputError(fmt::format("{}: no curve and no face is called '{}'{} [unknown-name]", pair.where, name,
                                suggestion_or_all(name, known)));
 }
 

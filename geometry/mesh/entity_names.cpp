@@ -47,8 +47,8 @@ std::vector<int> find_entities(const std::vector<Entity>& entities, const std::s
   if (!found.empty()) return found;
   std::vector<std::string> known;
   for (const Entity& e : entities) known.insert(known.end(), e.names.begin(), e.names.end());
-  throw InputError(
-      fmt::format("{}: no {} is called '{}'{}", where, kind, name, suggestion_or_all(name, known)));
+  throw InputError(fmt::format("{}: no {} is called '{}'{} [unknown-name]", where, kind, name,
+                               suggestion_or_all(name, known)));
 }
 
 }  // namespace delquad

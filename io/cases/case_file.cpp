@@ -284,7 +284,7 @@ Case read_model_case(const std::filesystem::path& file, const Case& defaults) {
   set_model({}, result);
   if (set_model_file(file, result)) return result;
   std::error_code ignored;
-  if (kind_of_file(file) != ".toml" && !std::filesystem::is_directory(file, ignored))
+  if (kind_of_file(file) != ".toml" && std::filesystem::is_regular_file(file, ignored))
     throw InputError(file.string() + ": unknown kind of model '" + file.extension().string() +
                      "'; known: .toml (curves and loops), .msh (lines or triangles), " + surface_files() +
                      ", and outlines: " + outline_files() +

@@ -128,8 +128,7 @@ TEST(MeshFields, WhatIsWrittenIsRead) {
       EXPECT_TRUE(std::ranges::equal(read.fields, fields, same)) << name;
     }
   }
-  expect_input_error([&] { write_fields(folder / "a.obj", quad_grid(1, 1), {}); },
-                     {"a.obj", ".msh and .vtu"});
+  expect_input_error([&] { write_fields(folder / "a.obj", quad_grid(1, 1), {}); }, {"a.obj", ".msh or .vtu"});
 }
 
 TEST(MeshFields, StepsGapsAndRefusals) {

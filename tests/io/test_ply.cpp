@@ -84,7 +84,7 @@ TEST_F(Ply, ColoursThatPaintAPictureAreNoRegions) {
   EXPECT_EQ(mesh.regions.size(), 1u);
   EXPECT_EQ(mesh.triangle_region, std::vector<int>(100, 0));
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_TRUE(holds(notes[0], "100 colours"));
+  EXPECT_TRUE(holds(notes[0], "100 colors"));
 }
 
 TEST_F(Ply, NamesThePlaceOfWhatIsWrong) {

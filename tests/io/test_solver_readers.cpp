@@ -173,7 +173,7 @@ TEST_F(NastranReader, NamesTheLineOfWhatIsWrong) {
   expect_error("GRID,1,,0.,a,0.\n", {"case.bdf:1: ", "coordinate", "'a'"});
   expect_error("GRID,1,,0.,1.e999,0.\n", {"case.bdf:1: ", "finite"});
   expect_error("GRID,1,5,0.,1.,0.\n", {"case.bdf:1: ", "coordinate system '5'"});
-  expect_error("+A,1,5,0.,1.,0.\n", {"case.bdf:1: ", "before all cards"});
+  expect_error("+A,1,5,0.,1.,0.\n", {"case.bdf:1: ", "before the first card"});
   expect_error("INCLUDE 'nodes.bdf'\n", {"case.bdf:1: ", "INCLUDE"});
   expect_error(points + "CTETRA,1,1,1,2,3,4\n", {"case.bdf:5: ", "CTETRA", "CQUAD4"});
   expect_error(points + "CTRIA6,1,1,1,2,3,4,4,4\n", {"case.bdf:5: ", "CTRIA6"});

@@ -64,12 +64,12 @@ TEST_F(OwnStage, WhatItLeavesIsChecked) {
   };
   EXPECT_EQ(left([](PatchMesh&) {}), "");
   EXPECT_TRUE(has(left([](PatchMesh& p) { p.form = PatchForm::kQuads; }), "another form"));
-  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles = {}; }), "not those of the boundary"));
-  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.points[0].x += 1; }), "not those of the boundary"));
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles = {}; }), "not the boundary's"));
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.points[0].x += 1; }), "not the boundary's"));
   EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.triangles[0][1] = 1 << 30; }), "no point"));
   EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.triangles[0][1] = -1; }), "no point"));
-  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.neighbours.clear(); }), "without neighbours"));
-  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.neighbours[0][0] = -2; }), "without neighbours"));
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.neighbours.clear(); }), "without neighbors"));
+  EXPECT_TRUE(has(left([](PatchMesh& p) { p.triangles.neighbours[0][0] = -2; }), "without neighbors"));
   EXPECT_TRUE(has(left([](PatchMesh&) { throw std::runtime_error("out of ideas"); }), "out of ideas"));
 }
 

@@ -273,7 +273,7 @@ TEST(Junctions, RefusesWhatMakesNoSense) {
   expect_input_error(
       meshing(
           ModelMaker(square).rectangle({0, 0}, {0.5, 1}, {""}, "a").rectangle({0.5, 0}, {1, 1}, {""}, "b")),
-      {"'square'", "nothing is left"});
+      {"'square'", "is empty"});
   expect_input_error(meshing(ModelMaker(square).rectangle({0, 0}, {1, 1}, {""}, "again")), {"same curves"});
 }
 

@@ -150,7 +150,7 @@ TEST(AdaptCommand, WrongFields) {
         {"a.vtu:tiny --quads 100", "the field tiny has values up to 1e-300"},
         {"a.vtu:u --quads 0.5", "the 4 sides of the outline need 1 at least"},
         {"a.vtu:u --quads 9 --goal-weight flow", "expected one number"},
-        {"a.vtu:u b.msh:u --quads 100", "its mesh is another one"},
+        {"a.vtu:u b.msh:u --quads 100", "its mesh differs from the mesh of"},
         {"c.vtu:eta --quads 100", "the field 'eta' is of elements: expected one of points"},
         {"a.vtu:u --quads 9 -o a.inp", "is the same file as the solution"},
         {"a.vtu:u", "expected --quads N"},

@@ -25,8 +25,9 @@ TEST(MeshCommand, AFullDiskLeavesNothing) {
   const Folder folder;
   const auto model = write_text(folder / "model.toml", kSquare);
   const auto refused = [&](const std::string& name, long long room, const char* why) {
-    const ProgramResult result = run_program(
-        DELQUAD_PROGRAM, {{"mesh", "-q", model, "-o", folder / name, "--size", "0.04"}, room, {}});
+    Strings words = {"mesh", "-q", model, "-o", folder / name, "--size", "0.04"};
+    if (name.ends_with(".stl")) words.emplace_back("--triangles");
+    const ProgramResult result = run_program(DELQUAD_PROGRAM, {words, room, {}});
     EXPECT_EQ(result.exit_code, 2) << name;
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
     EXPECT_TRUE(holds(result.err, "error: ", why));

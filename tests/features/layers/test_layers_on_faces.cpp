@@ -105,6 +105,7 @@ TEST(LayersOnFaces, FollowTriangulations) {
 TEST(LayersOnFaces, RefuseWhatCannotBe) {
   expect_refused(bracket({layer_on({"curve_7"}, 200, 3)}), "DB", {"thick", "wide", "[no-place-for-layers]"});
   expect_refused(bracket({layer_on({"curve_999"}, 0.1, 3)}), "DB", {"no curve is called 'curve_999'"});
+  expect_refused(bracket({layer_on({"holes"}, 0.1, 3)}), "DB", {"'holes' names faces", "[unknown-name]"});
   MeshProblem symmetric = bracket({layer_on({"curve_7"}, 0.1, 3)});
   symmetric.symmetry.automatic = true;
   expect_refused(symmetric, "DB", {"layer", "symmetry"});

@@ -160,7 +160,11 @@ TEST(MetricSurface, RefusesWhatDoesNotGoWithIt) {
   refuses([](MeshProblem& p) { p.size.text = "1"; }, {"a size does not go with a metric"});
   refuses([](MeshProblem& p) { p.size.curvature = 12; }, {"a size does not go with a metric"});
   refuses([](MeshProblem& p) { p.symmetry.automatic = true; }, {"symmetry", "not go with a metric"});
-  refuses([](MeshProblem& p) { p.metric = {.sizes = {"1", "2"}}; }, {"expected of a surface 'chord'"});
+  refuses(
+      [](MeshProblem& p) {
+        p.metric = {.sizes = {"1", "2"}};
+      },
+      {"a metric of a surface: expected 'chord'"});
   refuses(
       [](MeshProblem& p) {
         p.metric = {.tensor = {"1", "0", "0", "-1", "0", "1"}};
