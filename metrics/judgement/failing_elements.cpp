@@ -39,7 +39,7 @@ class CurveEdges {
         shortest_(mesh.points.size(), kAny),
         shortest_curve_(shortest_),
         shortest_on_(mesh.points.size(), -1) {
-    std::vector<double> curve_length(mesh.curves.size());
+    curve_length_.resize(mesh.curves.size());
     std::vector<char> is_cut(mesh.curves.size(), 0);
     if (prepared && prepared->surface)
       for (const SurfaceCut& cut : prepared->surface->all_cuts()) is_cut[cut.curve] = 1;
@@ -52,12 +52,12 @@ class CurveEdges {
       const bool is_there = l < first.lines.size() && first.lines[l] == mesh.lines[l];
       const auto& points = is_there ? first.points : mesh.points;
       const double length = norm(points[b] - points[a]);
-      curve_length[mesh.line_curve[l]] += length;
+      curve_length_[mesh.line_curve[l]] += length;
       for (const int v : {a, b})
         if (length < shortest_[v]) shortest_[v] = length, shortest_on_[v] = mesh.line_curve[l];
     }
     for (const auto& [a, b, c] : edges_)
-      for (const int v : {a, b}) shortest_curve_[v] = std::min(shortest_curve_[v], curve_length[c]);
+      for (const int v : {a, b}) shortest_curve_[v] = std::min(shortest_curve_[v], curve_length_[c]);
     std::ranges::sort(edges_);
     std::vector<Face> faces(mesh.regions.size());
     std::vector<Box<Vec3>> boxes;
@@ -91,6 +91,19 @@ class CurveEdges {
   double width(int region) const { return width_[region]; }
   /// Returns the length of the shortest curve at a node.
   double shortest_curve(int v) const { return shortest_curve_[v]; }
+  /// Returns the nearest curve that is at most so long; -1: none.
+  int nearest_short(const Vec3& x, double most) const {
+    double limit2 = kAny;
+    int found = -1;
+    tree_.nearest(x, limit2, [&](int i) {
+      const auto& [a, b, face] = sides_[i];
+      const int c = curve(a, b);
+      if (curve_length_[c] > most) return;
+      const double d = distance_to_segment(x, mesh_.points[a], mesh_.points[b]);
+      if (d * d < limit2) found = c, limit2 = d * d;
+    });
+    return found;
+  }
   /// Returns the distance from a node on a curve to the nearest other edge on its face's outline, up to
   /// `most`. Edges that begin at the node or next to it do not count. Infinite: none.
   double gap(int v, int region, double most) const {
@@ -111,7 +124,7 @@ class CurveEdges {
   };
   const Mesh& mesh_;
   std::vector<std::array<int, 3>> edges_;
-  std::vector<double> shortest_, shortest_curve_, width_;
+  std::vector<double> shortest_, curve_length_, shortest_curve_, width_;
   std::vector<int> shortest_on_;
   std::vector<std::array<int, 3>> sides_;  ///< two nodes and a region
   BoxTree<Vec3> tree_;
@@ -254,10 +267,12 @@ class CauseFinder {
     if (const double limit = limit_beyond(failing, kMaxWarpage); limit > 0)
       return found(kAtBend, size * limit * kDegree / quad_warp(corners_of(mesh_, v)));
     constexpr double kReduced = 0.9;
-    if (int hint = -1; prepared_ && prepared_->size.asked)
-      if (const double here = prepared_->size.field->at(all_.place_of(failing.element).at, hint);
-          here < kReduced * size)
-        return found(kAtFineSize, here);
+    if (int hint = -1; prepared_ && prepared_->size.asked) {
+      const Vec3 at = all_.place_of(failing.element).at;
+      const double here = prepared_->size.field->at(at, hint);
+      failing.curves[0] = here < kReduced * size ? edges_.nearest_short(at, here) : -1;
+      if (failing.curves[0] >= 0) return found(kAtFineSize, here);
+    }
     double shortest = kAny;
     for (int k = 0; k < 4; ++k)
       if (const int a = v[k], b = v[(k + 1) % 4], c = edges_.curve(a, b); c >= 0)
@@ -493,7 +508,8 @@ std::string FailingElements::text_of(FailingCause cause, bool named, bool advise
       why = fmt::format("where faces bend within an element, as in {}", at);
       break;
     case kAtFineSize:
-      why = fmt::format("where short curves reduce the size, to {:.3g} in {}", first->what, at);
+      why = fmt::format("where short curves reduce the size, to {:.3g} {}in {}", first->what,
+                        named ? "by " + show_curve(mesh, first->curves[0]) + " " : "", at);
       break;
     case kAtNumber:
       why = fmt::format("at curves whose numbers of edges leave no better quads, as {}in {}",

@@ -215,8 +215,11 @@ py::object dict_of(const CriteriaReport& report) {
                            "in_sizes"_a = r.limit.in_sizes, "on"_a = r.limit.on, "failing"_a = r.failing,
                            "worst"_a = r.worst, "at"_a = py::make_tuple(r.at.at.x, r.at.at.y, r.at.at.z),
                            "cause"_a = r.cause));
+  py::list cures;
+  for (const Cure& c : report.cures)
+    cures.append(py::dict("cause"_a = c.cause, "key"_a = c.key, "value"_a = c.value, "count"_a = c.count));
   return py::dict("name"_a = report.name, "elements"_a = report.elements, "failing"_a = report.failing,
-                  "limits"_a = limits, "causes"_a = report.causes, "why"_a = report.why,
+                  "limits"_a = limits, "causes"_a = report.causes, "why"_a = report.why, "cures"_a = cures,
                   "critical_step"_a = report.critical_step, "estimated_step"_a = report.estimated_step,
                   "step_of_squares"_a = report.step_of_squares);
 }

@@ -3,6 +3,7 @@
 
 import gc
 import math
+import re
 import xml.etree.ElementTree
 
 import numpy as np
@@ -198,3 +199,13 @@ def test_criteria_judge_elements():
     ):
         with pytest.raises(delquad.InputError, match=what):
             delquad.mesh(wedge, 0.4, criteria=wrong)
+
+
+def test_criteria_name_curves_and_cures():
+    limits = {"max_aspect": 1.3, "min_length": "0.2 size"}
+    report = delquad.mesh(delquad.example("sheet"), 2, criteria=limits).criteria
+    assert any(re.search(r"reduce the size, to [0-9.]+ by curve \d+ in face", why) for why in report["why"])
+    (cure,) = report["cures"]
+    assert (cure["cause"], cure["key"]) == ("short curve", "surface.ignore_below")
+    assert 0.3 < cure["value"] < 0.33, "the step in the outline is 0.3 long"
+    assert 0 < cure["count"] <= report["causes"]["short curve"]

@@ -127,8 +127,9 @@ def judge(mesh, criteria, size=None):
 
     Returns a dict with the numbers of "elements" and of "failing" ones. "limits" has, for each limit, its "failing"
     elements (triangles first), the "worst" value, its place "at", and the "cause". "causes" has the numbers of failing
-    quads, and "why" explains them. "critical_step" and, by program, "estimated_step" are times with a material, else
-    lengths. "step_of_squares" is the step of squares of the least size.
+    quads, and "why" explains them. "cures" has changes of a "key" to a "value" that may cure "count" elements
+    with a "cause". "critical_step" and, by program, "estimated_step" are times with a material, else lengths.
+    "step_of_squares" is the step of squares of the least size.
     """
     return _core.judge(mesh, _core.Criteria(_lines("criteria", criteria)), None if size is None else float(size))
 
