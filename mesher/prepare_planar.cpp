@@ -219,7 +219,7 @@ class PlanarSteps final : public ModelSteps {
  private:
   /// Where nodes face each other, single edges across may be impossible.
   void seed_narrow(const CurveAgreement& agreement) {
-    if (agreement.price == 0 || curve_options(problem_.options).thin_rows) return;
+    if (agreement.price == 0 || agreement.thin_rows) return;
     for (std::size_t p = 0; p < domain_.patches.size(); ++p)
       if (std::ranges::find(domain_.mapped, static_cast<int>(p), &MappedPatch::patch) == domain_.mapped.end())
         seed_narrow_places(domain_.patches[p]);

@@ -396,7 +396,7 @@ CurveAgreement agreement_of(const MeshProblem& problem, const RetryHints& hints)
   const CriterionLimit* least = least_length(problem.criteria);
   return {regularity_options(problem.options).weight * curves.agreement,
           hints.spots.empty() ? kMostAgreementSteps : kRetrySteps, curves.round_holes,
-          least != nullptr && least->in_sizes ? least->value : 0};
+          least != nullptr && least->in_sizes ? least->value : 0, curves.thin_rows};
 }
 
 std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const RetryHints& hints) {

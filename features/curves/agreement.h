@@ -14,6 +14,7 @@ struct CurveAgreement {
   long long most_steps = kMostAgreementSteps;
   bool round_holes = false;  ///< see widen_round_holes()
   double shortest = 0;       ///< edges on curves, in sizes as asked, are longer if possible
+  bool thin_rows = false;    ///< see CurveOptions::thin_rows
 };
 
 }  // namespace delquad

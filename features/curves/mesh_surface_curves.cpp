@@ -148,6 +148,8 @@ constexpr long long kMostEdges = 1'000'000;
 constexpr int kMostKept = 10;
 /// Steps of agreement: so many, and so many for each quad.
 constexpr double kLeastAgreement = 1e6, kAgreementPerQuad = 1e4;
+/// With curves.thin = "rows" narrower places keep one row, in edges: two would be thinner than sheets allow.
+constexpr double kLeastSplit = 0.66;
 /// Where a patch is narrowest between these chains, and how wide: the least height of triangles with all
 /// corners on them; empty: there are none.
 std::string narrowest_between(const Mesh& fine, const FlatPatch& map, const std::vector<CurveChain>& chains,
@@ -330,7 +332,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   SurfaceDomain domain;
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
   std::vector<MappedFace> grids;
-  if (mapped.asks()) grids = find_surface_grids(mapped, fine, curves, wanted);
+  if (mapped.asks() || agreement.thin_rows) grids = find_surface_grids(mapped, fine, curves, wanted);
   const double quads = std::accumulate(wanted.quads.begin(), wanted.quads.end(), 0.0);
   const long long most_steps =
       std::min(agreement.most_steps, static_cast<long long>(kLeastAgreement + kAgreementPerQuad * quads));
@@ -368,7 +370,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
     const FaceScope face(fine.regions[patch.map.face].tag);
     try {
       capping.cap(static_cast<int>(p));
-      seed_narrow_places(patch.boundary);
+      seed_narrow_places(patch.boundary, agreement.thin_rows ? kLeastSplit : 0);
     } catch (const InputError& error) {
       throw FaceError(patch.map.face, fmt::format("{}: {}", face_name(fine, patch.map), error.what()));
     }

@@ -24,12 +24,12 @@ const OptionTable<CurveOptions>& curve_table() {
                 .most = 100},
                &CurveOptions::join_below)
           .choice({.name = "thin",
-                   .help = "in the plane, regions thinner than the size: smaller sizes where they end, or "
-                           "rows of long quads"},
+                   .help = "thin regions and narrow faces: smaller sizes where they end, or whole rows of "
+                           "long quads"},
                   &CurveOptions::thin_rows,
                   std::vector<std::pair<std::string, bool>>{{"refine", false}, {"rows", true}})
           .add({.name = "aspect",
-                .help = "aspect of quads at the ends of such rows, above which sizes shrink",
+                .help = "in the plane: aspect of quads at the ends of such rows, above which sizes shrink",
                 .least = 1,
                 .most = 100},
                &CurveOptions::aspect)

@@ -17,7 +17,8 @@ struct CurveOptions {
   /// Curves shorter than so many sizes become one with those that they continue, see join_short_curves().
   double join_below = 0.25;
   /// In the plane, regions thinner than the size get whole rows of quads. Else sizes become smaller where
-  /// these regions end.
+  /// these regions end. On surfaces, numbers of edges agree first around narrow faces that can be grids, and
+  /// narrow places keep one row.
   bool thin_rows = false;
   double aspect = 3;  ///< of quads in such rows, beyond which sizes become smaller
   /// Rows of quads for which sizes make room between curves that face each other, see gap_spots(); 0: none.

@@ -91,7 +91,7 @@ double sine(Vec2 a, Vec2 b) { return std::abs(cross(a, b)) / (norm(a) * norm(b))
 
 class NarrowSeeds {
  public:
-  explicit NarrowSeeds(PatchBoundary& boundary) : boundary_(boundary) {
+  NarrowSeeds(PatchBoundary& boundary, double least) : boundary_(boundary), least_(least) {
     const size_t n = boundary.points.size();
     next_.resize(n), previous_.resize(n), loop_.resize(n), place_.resize(n);
     for (const auto& [a, b] : boundary.edges) next_[a] = b, previous_[b] = a;
@@ -111,7 +111,8 @@ class NarrowSeeds {
     for (const auto& [length, a, b] : rungs()) {
       if (used[a] || used[b]) continue;
       used[a] = used[b] = 1;
-      if (cuts_off_odd(a, b)) boundary_.seeds.push_back(0.5 * (at(a) + at(b)));
+      if (length >= least_ * edge_at(a, b) && cuts_off_odd(a, b))
+        boundary_.seeds.push_back(0.5 * (at(a) + at(b)));
     }
   }
 
@@ -134,11 +135,19 @@ class NarrowSeeds {
     return found;
   }
 
+  /// The mean length of the edges at both nodes.
+  double edge_at(int a, int b) const {
+    double sum = 0;
+    for (const int v : {a, b})
+      for (const int w : {next_[v], previous_[v]}) sum += norm(at(w) - at(v));
+    return sum / 4;
+  }
+
   bool opposite(int a, int b) const {
     const Vec2 across = at(b) - at(a);
     const Vec2 a_on = at(next_[a]) - at(a), a_back = at(previous_[a]) - at(a);
     const Vec2 b_on = at(next_[b]) - at(b), b_back = at(previous_[b]) - at(b);
-    if (norm(across) > kWidest / 4 * (norm(a_on) + norm(a_back) + norm(b_on) + norm(b_back))) return false;
+    if (norm(across) > kWidest * edge_at(a, b)) return false;
     if (next_[next_[a]] == b && !sharp(next_[a])) return false;
     if (next_[next_[b]] == a && !sharp(next_[b])) return false;
     return std::min(sine(a_on, across), sine(b_back, across)) > kAcross ||
@@ -175,6 +184,7 @@ class NarrowSeeds {
   }
 
   PatchBoundary& boundary_;
+  const double least_;
   std::vector<int> next_, previous_, loop_;
   std::vector<int> place_;  ///< in its loop
   std::vector<std::vector<int>> loops_;
@@ -182,6 +192,6 @@ class NarrowSeeds {
 
 }  // namespace
 
-void seed_narrow_places(PatchBoundary& boundary) { NarrowSeeds(boundary).run(); }
+void seed_narrow_places(PatchBoundary& boundary, double least) { NarrowSeeds(boundary, least).run(); }
 
 }  // namespace delquad

@@ -20,7 +20,8 @@ std::vector<int> group_facing_curves(const Mesh& fine, const std::vector<CurveCh
 /// Adds seeds where single edges across a narrow place cannot be. A mesh of quads has an even number of edges
 /// around either side of such an edge. Nodes that lie opposite each other may cut off an odd number. A vertex
 /// halfway, and so two rows of quads instead of one, puts it right. In a sharp corner that is always
-/// so: the one quad that fits into it has its fourth vertex inside.
-void seed_narrow_places(PatchBoundary& boundary);
+/// so: the one quad that fits into it has its fourth vertex inside. Places narrower than `least` edges stay
+/// whole.
+void seed_narrow_places(PatchBoundary& boundary, double least = 0);
 
 }  // namespace delquad

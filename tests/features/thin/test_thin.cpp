@@ -167,6 +167,23 @@ TEST(ThinRows, EndInWedgesWithoutFlatQuads) {
   }
 }
 
+/// Half a ring of width 2 on a cone: its arcs want 9 and 16 edges.
+TEST(ThinRows, OfNarrowFacesDoNotEnd) {
+  const SurfaceModel face = testing_support::grid_surface({.nu = 60, .nv = 6}, [](double u, double v) {
+    const double angle = std::numbers::pi * (1 - u), radius = 3 + 2 * v;
+    return Vec3{radius * std::cos(angle), radius * std::sin(angle), 0.3 * radius};
+  });
+  const auto irregular = [&](const std::string& thin) {
+    MeshProblem problem = problem_of(TriangleModel{face.fine}, 1);
+    problem.options.set("curves.thin", thin);
+    const MeshResult result = mesh(problem, "DBQO");
+    EXPECT_TRUE(result.soundness.sound());
+    return result.metrics.values.at("n_irregular");
+  };
+  EXPECT_GT(irregular("refine"), 0);
+  EXPECT_EQ(irregular("rows"), 0);
+}
+
 TEST(ThinRows, AreTheSameForAnyNumberOfThreads) {
   const MeshResult one = mesh(problem_of(stack_of_layers(), "rows"), "DBCO", {.threads = 1});
   const MeshResult three = mesh(problem_of(stack_of_layers(), "rows"), "DBCO", {.threads = 3});

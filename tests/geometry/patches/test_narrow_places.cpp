@@ -160,7 +160,9 @@ TEST(NarrowSeeds, ANeckIsSeededWhereItCutsOffAnOddNumberOfEdges) {
     if (odd) points.erase(points.begin() + 7), points.insert(points.begin() + 1, {0.5, -1});
     return points;
   };
-  PatchBoundary even = polygon(dumbbell(false)), odd = polygon(dumbbell(true));
+  PatchBoundary even = polygon(dumbbell(false)), odd = polygon(dumbbell(true)), whole = even;
+  seed_narrow_places(whole, 0.5);
+  EXPECT_TRUE(whole.seeds.empty());
   seed_narrow_places(even);
   seed_narrow_places(odd);
   // 4 edges of a square's outline, 2 to the neck, 1 across: odd.
