@@ -30,8 +30,8 @@ constexpr int kFirstWithFeatures = 4;
 /// The size becomes this part of what it was, so many of these sizes around.
 constexpr double kPart = 0.5, kReach = 3;
 /// Budget of work on all meshes: by the quads, up to some 30 seconds, or a multiple of the quads of a large
-/// mesh. Half as much more is for other tries, if one of these is likely not to need more. The next mesh may
-/// exceed what is left by as much.
+/// mesh. A third as much more is for other tries, if one of these is likely not to need more. The next mesh
+/// may exceed what is left by as much.
 constexpr long long kLeastWork = 40'000, kWorkPerQuad = 40, kUsualWork = 150'000, kMostTimes = 4;
 /// A quad takes as long as these: places that lifting tries (LiftingSummary::cost), steps of curves, looks of
 /// stages, triangles of maps.
@@ -341,7 +341,7 @@ void refine_unsound(const PrepareWithHints& prepare_with_hints, const Word& word
   const long long once = work_on(prepared, result),
                   most =
                       std::max(std::min(kLeastWork + kWorkPerQuad * quads, kUsualWork), kMostTimes * quads);
-  Budget finer(most - once), others(most / 2);
+  Budget finer(most - once), others(most / 3);
   undo_across_curves(word, finer, prepared, result);
   const auto within_patches = [&prepare_with_hints](const RetryHints& hints) {
     MeshingSetup anew = prepare_with_hints(hints);

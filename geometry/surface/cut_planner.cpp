@@ -95,7 +95,8 @@ class Separation {
 
   double smaller_side(const LevelCurve& curve) const {
     const auto [start, beyond] = curve.crossed.front();
-    std::vector<char> reached(areas_.size(), 0);
+    std::vector<char> reached(areas_.size(), 0), beside(areas_.size(), 0);
+    for (const auto& [a, b] : curve.crossed) beside[a] = beside[b] = 1;
     std::vector<int> stack = {start};
     reached[start] = 1;
     double area = 0;
@@ -106,7 +107,8 @@ class Separation {
       for (int t : around_[v])
         for (int w : chart_.triangles[t])
           if (!reached[w] &&
-              !std::ranges::binary_search(curve.crossed, std::pair(std::min(v, w), std::max(v, w)))) {
+              !(beside[v] && beside[w] &&
+                std::ranges::binary_search(curve.crossed, std::pair(std::min(v, w), std::max(v, w))))) {
             reached[w] = 1;
             stack.push_back(w);
           }

@@ -25,8 +25,9 @@ namespace {
 
 /// Part of the model's diagonal within which a face counts as plane.
 constexpr double kPlane = 1e-9;
-/// Limit of triangles that are mapped in all rounds: so many, and so many for each triangle of the model.
-constexpr std::size_t kLeastMapped = 100'000, kMappedPerTriangle = 20;
+/// Limit of triangles that are mapped in all rounds: so many, and so many for each triangle of the model. A
+/// model of a cow took 14 for each.
+constexpr std::size_t kLeastMapped = 100'000, kMappedPerTriangle = 15;
 
 }  // namespace
 

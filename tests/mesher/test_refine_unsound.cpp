@@ -156,6 +156,27 @@ TEST(RefineUnsound, TriesFeatureAnglesLast) {
   EXPECT_TRUE(is_reported(result.warnings, "with a feature angle of 25 degrees"));
 }
 
+TEST(RefineUnsound, TakesAsMuchWorkAsItsQuadsAllow) {
+  const MeshProblem problem = ridge(0.5);
+  const Word word = parse_word("DB");
+  const auto tries_after = [&](long long lifting_cost) {
+    MeshingSetup prepared = prepare_problem(problem);
+    MeshResult result = run_pipeline(prepared, word);
+    result.lifting_cost = lifting_cost;
+    std::string tries;
+    const auto anew = [&](const RetryHints& hints) -> MeshingSetup {
+      if (!hints.spots.empty()) tries += "finer ";
+      if (hints.ignore_below > 0) tries += "simpler ";
+      throw InputError("no mesh");
+    };
+    refine_unsound(anew, word, prepared, result);
+    return tries;
+  };
+  EXPECT_EQ(tries_after(3'000'000), "finer simpler ");
+  EXPECT_EQ(tries_after(5'400'000), "finer ");
+  EXPECT_EQ(tries_after(15'000'000), "");
+}
+
 TEST(RefineUnsound, CountsAllWork) {
   const MeshingSetup prepared = prepare_problem(ridge(0.2));
   MeshResult result = run_pipeline(prepared, parse_word("DB"));
