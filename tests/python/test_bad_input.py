@@ -62,6 +62,7 @@ def test_models_that_fail_when_they_are_meshed(tmp_path):
     says(delquad.InputError, "no loops", delquad.planar([]), 1)
     says(delquad.InputError, "no such example|unknown example|'nothing'", delquad.example("nothing"), 1)
     says(delquad.InputError, "none.step", tmp_path / "none.step", 1)
+    (tmp_path / "a.xyz").touch()
     says(delquad.InputError, "unknown kind", tmp_path / "a.xyz", 1)
     says(TypeError, "model: expected", 17, 1)
     (tmp_path / "broken.msh").write_bytes(b"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2 3")
@@ -108,7 +109,7 @@ def test_keys_of_stages(key, value, words):
 
 def test_surfaces():
     model = delquad.triangles(*octahedron())
-    says(delquad.InputError, "a surface needs a size", model)
+    says(delquad.InputError, "there is no size: expected a number", model)
     says(delquad.InputError, "feature_angle: 'feature_angle' is 200", model, 0.2, feature_angle=200)
     says(delquad.InputError, "weld: 'weld_tolerance' is 2", model, 0.2, weld=2)
     says(delquad.InputError, "curvature: 'curvature' is 1", model, 0.2, curvature=1)
