@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -146,9 +148,22 @@ class SurfaceSteps final : public ModelSteps {
       metric_ = wanted_metric(problem_, model_, hints_.spots);
     else
       wanted_ = surface_size(problem_, model_, asked_, divisions_, hints_.spots, part());
+    if (shortest_ > 0 && !wanted_.curve_limit.empty()) keep_size_beside_curves();
+  }
+
+  /// Raises the sizes beside short curves to kLeastSize, by the least wanted size on each curve.
+  void keep_size_beside_curves() {
+    const Mesh& fine = model_.fine;
+    std::vector<double> least(fine.curves.size(), std::numeric_limits<double>::infinity());
     int hint = -1;
-    for (double& limit : wanted_.curve_limit)
-      limit = std::max(limit, kLeastSize * shortest_ * asked_->at(model_.fine.points[0], hint));
+    for (std::size_t l = 0; l < fine.lines.size(); ++l)
+      for (const int v : fine.lines[l]) {
+        double& size = least[fine.line_curve[l]];
+        size = std::min(size, asked_->at(fine.points[v], hint));
+      }
+    for (std::size_t c = 0; c < least.size(); ++c)
+      if (std::isfinite(least[c]))
+        wanted_.curve_limit[c] = std::max(wanted_.curve_limit[c], kLeastSize * shortest_ * least[c]);
   }
 
   bool is_surface() const override { return true; }

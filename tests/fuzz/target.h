@@ -7,8 +7,9 @@
 
 #include "delquad/error.h"
 
-// What is fuzzed. A target takes any bytes. It must end with a result that holds, or with an InputError that
-// says what is wrong. Anything else (a crash, another exception, a wrong result) is a finding.
+// This header describes a fuzz target. A target takes any bytes. It must end with a result that holds, or
+// with an InputError that says what is wrong. Anything else (a crash, another exception, a wrong result) is a
+// finding.
 
 namespace delquad::fuzz {
 
