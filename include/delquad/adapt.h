@@ -10,8 +10,8 @@
 #include "delquad/mesher.h"
 
 // This header leads from a solution to the next mesh: derivatives, errors, a metric, and transfer of values.
-// Solvers use it for planar meshes of triangles and quads. All functions throw InputError for other meshes,
-// and for values that are not finite or not one per point.
+// Solvers use it for planar meshes of triangles and quads. All functions throw InputError, with the place,
+// for other meshes, and for values that are not finite or not one per point.
 
 namespace delquad {
 
@@ -36,11 +36,13 @@ struct ErrorEstimate {
   std::vector<double> of_elements;  ///< triangles, then quads; their p-norm is the whole
 };
 
-/// Estimates the error of linear (triangles) and bilinear (quads) interpolation in the Lp norm, 1 <= p <=
-/// infinity. Each element counts as a quadratic function with the mean Hessian of its corners.
+/// Estimates the error of linear (triangles) and bilinear (quads) interpolation in the Lp norm, in the unit
+/// of the field. Each element counts as a quadratic with the mean Hessian of its nodes. Throws InputError
+/// unless 1 <= p <= infinity.
 ErrorEstimate interpolation_error(const Recovery& solution, double p);
 
-/// Estimates the error by the L2 norm of recovered gradient minus element gradient [zienkiewicz1992].
+/// Estimates the error of the gradient: the L2 norm of recovered gradient minus element gradient
+/// [zienkiewicz1992].
 ErrorEstimate gradient_error(const Recovery& solution);
 
 /// Values at the points of a mesh.
@@ -49,15 +51,15 @@ struct NodalField {
   std::vector<double> values;
 };
 
-/// Goals of the next mesh.
+/// Goals of the next mesh. Weights are for example an adjoint solution.
 struct AdaptSpec {
-  double quads = 0;  ///< wanted number of quads, or else
-  double error = 0;  ///< wanted Lp error of interpolation of the worst field
+  double quads = 0;  ///< wanted number of quads, above 0, or else
+  double error = 0;  ///< wanted Lp error of interpolation of the worst field, above 0
   double norm = 2;   ///< p, from 1 to infinity
   MetricLimits limits = {};
   double gradation = 1.5;           ///< as in MetricSpec
   bool isotropic = false;           ///< square quads, by the larger second derivative
-  std::vector<double> weight = {};  ///< at least 0 at each point, such as an adjoint solution; empty: 1
+  std::vector<double> weight = {};  ///< at least 0, one above 0, at each point; empty: 1
   std::string quality = kDefaultQuality;
 };
 
@@ -72,15 +74,16 @@ struct Adapted {
   std::vector<Error> errors;
 };
 
-/// Returns the metric at the points of the mesh; its complexity is about spec.quads. Several solutions get
-/// the intersection of their metrics, each with this complexity.
+/// Returns the metric at the points of the mesh [loseille2011]; its complexity is about spec.quads. Several
+/// solutions get the intersection of their metrics, each with this complexity. Also throws InputError for a
+/// spec out of range, without solutions, and if no field bends.
 std::vector<Tensor2> adapted_metric(const Mesh& mesh, const std::vector<Recovery>& solutions,
                                     const AdaptSpec& spec);
 
 /// Meshes `problem` for the fields at the points of the mesh. A null problem stands for the domain of the
 /// mesh, with its curves, regions and names. Its curves are chains of sides on the outline, between regions
 /// and of lines, from corner to corner (docs/adaptation.md). Constant fields do not count, and one must vary.
-/// The size, metric and seed of the problem do not count. Also throws as mesh().
+/// The size, metric and seed of the problem do not count. Also throws as adapted_metric() and mesh().
 Adapted adapt(const Mesh& mesh, const std::vector<NodalField>& fields, const AdaptSpec& spec,
               const MeshProblem* problem = nullptr, const Context& context = {});
 
@@ -91,10 +94,11 @@ enum class Transfer {
   kBounded,  ///< conservative, and within the extremes of the elements that overlap the elements of a point
 };
 
-/// Transfers values at points to points.
+/// Returns the values at points of `to` from the values at points of `from`.
 std::vector<double> transfer_points(const Mesh& from, std::span<const double> values, const Mesh& to,
                                     Transfer how = Transfer::kInterpolated);
-/// Transfers values of elements (triangles, then quads) to elements.
+/// Returns the values of elements of `to` from the values of elements of `from`; triangles come first, then
+/// quads.
 std::vector<double> transfer_elements(const Mesh& from, std::span<const double> values, const Mesh& to,
                                       Transfer how = Transfer::kInterpolated);
 

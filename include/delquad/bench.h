@@ -6,7 +6,8 @@
 
 namespace delquad {
 
-/// Runs the `delquad` program with all additions, see extend.h. Returns its exit code; it prints errors.
+/// Runs the `delquad` program with all additions, see extend.h. Returns its exit code (README.md); errors are
+/// printed, not thrown.
 int run_program(int argc, char** argv);
 
 }  // namespace delquad

@@ -10,8 +10,6 @@
 
 namespace delquad {
 
-// Piece of a curve of a planar domain between two nodes, where it ends or other curves meet it.
-
 /// A curve of a planar domain from a node to another one. At these it ends, or others meet it.
 struct DomainCurve {
   std::shared_ptr<const Curve> shape;

@@ -26,7 +26,7 @@ namespace delquad {
 /// Orthonormal frame whose axes are directions of a cross.
 struct Frame {
   Vec2 e1{1, 0}, e2{0, 1};
-  static Frame from_angle(double theta);
+  static Frame from_angle(double theta);  ///< radians
   /// Returns the frame at the angle of a cross, by halving angles with square roots. (0, 0) counts as angle
   /// 0.
   static Frame from_cross(Cross cross);
@@ -76,7 +76,9 @@ struct Candidates {
 class PointPlacement {
  public:
   virtual ~PointPlacement() = default;
+  /// Returns the name for messages.
   virtual std::string name() const = 0;
+  /// Returns insertion.h_max if it is not set: larger triangles, by triangle_size(), get a point. Above 0.
   virtual double default_h_max() const = 0;
   /// Returns the size of a triangle over delta' at its centroid: 1 for the ideal triangle of the strategy.
   /// `cross` is the field at the centroid, not always of unit length.
@@ -92,8 +94,8 @@ class PointPlacement {
 /// equilateral.
 std::unique_ptr<PointPlacement> make_l2_frontal();
 
-/// Makes the placement of stage D: insertion in the L-infinity norm of the crosses; the ideal triangle is
-/// half a square.
+/// Makes the placement of stage D: insertion in the L-infinity norm of the crosses [paper, section 5]; the
+/// ideal triangle is half a square.
 std::unique_ptr<PointPlacement> make_linf_delquad();
 
 /// Content of a patch between two stages.
@@ -129,7 +131,8 @@ struct AllPatches {
   bool began_from_given = false;      ///< the pipeline began from given quads
 };
 
-/// Returns the boundary and fields of a patch. Its points stand for the nodes boundary.point_node.
+/// Returns the boundary and fields of a patch. Its points stand for the nodes boundary.point_node. Throws
+/// std::out_of_range for an unknown patch.
 StageInput input_of(const AllPatches& all, std::size_t patch);
 /// Returns the places in space of all nodes on curves.
 const std::vector<Vec3>& node_places(const AllPatches& all);
@@ -156,7 +159,7 @@ const std::deque<Stage>& stage_registry();
 /// Adds a stage, before any pipeline is parsed. Throws std::invalid_argument if its letter is taken or no
 /// capital from A to Z, or if `run` is empty.
 void add_stage(Stage stage);
-/// Returns a stage of frontal insertion with points by `make_placement`.
+/// Returns a stage of frontal insertion [paper, section 5] with points by `make_placement`.
 Stage insertion_stage(char letter, const std::string& name,
                       std::function<std::unique_ptr<PointPlacement>(const Options&)> make_placement);
 
@@ -175,6 +178,7 @@ using MergeCost = std::function<void(std::span<const MergedQuad> quads, std::spa
 /// Adds a value of `recombination.cost` beside "eta", which is 1 - eta, and up to 3 for angles above 180
 /// degrees. Throws std::invalid_argument for a name that is taken or empty.
 void add_merge_cost(const std::string& name, std::function<MergeCost(const Options&)> make);
+/// Returns "eta" and the added names.
 std::vector<std::string> merge_cost_names();
 
 /// Adds a name for `size`, also in files: `fill` sets the field or the function of the spec. Throws

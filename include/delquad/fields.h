@@ -60,16 +60,18 @@ class PlanarSize final : public ParametricSize {
 /// Makes a constant size. Throws InputError unless it is finite and positive.
 std::unique_ptr<SizeField> make_constant_size(double delta);
 
-/// Makes delta from a function, which several threads may call. Messages call it by `name`.
+/// Makes delta from a function, which several threads may call. Messages call it by `name`. at() throws
+/// InputError, with the place, if it is not finite and positive.
 std::unique_ptr<SizeField> make_function_size(std::function<double(const Vec3&)> delta, std::string name);
 
 /// Makes delta from a formula in x, y, z with + - * / ^ (power), comparisons, && || ?:, pi and e. Functions
 /// are sin, sqrt, exp, abs, min, max, atan2 and others. Throws InputError with the position of a syntax
-/// error.
+/// error; at() as for make_function_size().
 std::unique_ptr<SizeField> make_expression_size(const std::string& formula);
 
 /// Makes delta from the values at the points of an MSH or VTU file (also .gz), as make_nodal_size(). `field`
-/// may be empty for the only one. Throws InputError for unreadable files.
+/// may be empty for the only one. Throws InputError for unreadable files, for a missing field, and as
+/// make_nodal_size().
 std::unique_ptr<SizeField> make_file_size(const std::filesystem::path& file, const std::string& field = {});
 
 /// Function that writes delta of each point of a batch. The thread that calls mesh() calls it for thousands
@@ -77,12 +79,13 @@ std::unique_ptr<SizeField> make_file_size(const std::filesystem::path& file, con
 using SizeFunction = std::function<void(std::span<const Vec3> points, std::span<double> delta)>;
 
 /// Makes delta that is linear between the points of a mesh of triangles or quads (quads are split). Outside,
-/// delta is the value at the nearest point of the mesh. Throws InputError unless each point has one finite,
-/// positive value.
+/// delta is the value at the nearest point of the mesh. Throws InputError, with the place, unless each point
+/// has one finite, positive value.
 std::unique_ptr<SizeField> make_nodal_size(const Mesh& mesh, std::vector<double> delta);
 
 /// A point (a == b) or segment as source of sizes [paper, section 8.2]. The size is size_near within
-/// radius_near and size_far beyond radius_far, and linear in the distance between.
+/// radius_near and size_far beyond radius_far, and linear in the distance between. Sizes are above 0, and 0
+/// <= radius_near <= radius_far.
 struct SizeSource {
   Vec3 a, b;
   double size_near, size_far, radius_near, radius_far;
@@ -94,8 +97,8 @@ struct NamedSize {
   /// The largest size up to `reach` from them, and everywhere inside regions; 0: only `curvature` counts.
   double size = 0;
   double reach = 0;
-  double growth = kNamedGrowth;  ///< growth of sizes from there on, per unit length
-  /// Elements per full turn of faces and curves of this name; 0: SizeSpec::curvature.
+  double growth = kNamedGrowth;  ///< growth of sizes from there on, per unit length; above 0
+  /// Elements per full turn of faces and curves of this name, at least kLeastPerTurn; 0: SizeSpec::curvature.
   double curvature = 0;
   std::string where = {};  ///< origin of the request, for messages
   static constexpr double kNamedGrowth = 0.3;
@@ -129,17 +132,17 @@ class CrossField {
 };
 
 /// Makes crosses from a function for theta (radians), which several threads may call. Messages call it by
-/// `name`.
+/// `name`. at() throws InputError, with the place, for an angle that is not finite.
 std::unique_ptr<CrossField> make_function_cross(std::function<double(Vec2)> theta, std::string name);
 
-/// Makes crosses from a formula in x, y, z for theta (radians), as make_expression_size().
+/// Makes crosses from a formula in x, y, z (z = 0) for theta (radians), as make_expression_size().
 std::unique_ptr<CrossField> make_expression_cross(const std::string& formula);
 
 /// Function for theta (radians) of a batch of points of the plane, called like SizeFunction.
 using CrossFunction = std::function<void(std::span<const Vec2> points, std::span<double> theta)>;
 
 /// Makes crosses from theta (radians) at the points of a planar mesh, as make_nodal_size(). exp(4 i theta) is
-/// linear between them.
+/// linear between them. Throws InputError for points of different z, and unless each has one finite angle.
 std::unique_ptr<CrossField> make_nodal_cross(const Mesh& mesh, std::vector<double> theta);
 
 /// Singularity of the directions of a problem.
@@ -161,7 +164,7 @@ struct SizeSpec {
   std::vector<SizeSource> sources = {};  ///< the smallest counts
   std::vector<NamedSize> named = {};     ///< the smallest counts, too
   double gradation = 0;  ///< upper limit of |grad delta|; 0: none, or kCurvatureGradation with `curvature`
-  double curvature = 0;  ///< elements per full turn; 0: sizes do not follow curvature
+  double curvature = 0;  ///< elements per full turn, at least kLeastPerTurn; 0: sizes do not follow curvature
   double min = 0;  ///< least size that curvature may ask for; 0: a twentieth of the size without curvature
   double max = 0;  ///< largest size; 0: none
   std::string where = "size";  ///< origin of the request, for messages
@@ -215,6 +218,7 @@ struct MetricAxes {
   double h1 = 1, h2 = 1;
   double theta = 0;  ///< angle of the first direction, radians
 };
+/// Returns the tensor of axes; h1 and h2 must be above 0.
 Tensor2 tensor_of(const MetricAxes& axes);
 /// Returns axes with h1 <= h2 and theta in (-pi/2, pi/2].
 MetricAxes axes_of(const Tensor2& m);
@@ -222,25 +226,26 @@ MetricAxes axes_of(const Tensor2& m);
 bool is_metric(const Tensor2& m);
 inline constexpr double kMostAspect = 1e6;
 
-/// Returns the logarithm of the largest factor by which lengths differ.
+/// Returns the logarithm of the largest factor by which lengths in two metrics differ; 0: they are equal.
 double difference(const Tensor2& a, const Tensor2& b);
 /// Returns the length of d if the metric changes along it from `a` to `b` as the exponential of a linear
-/// function. With the lengths la and lb in both metrics it is (la - lb) / log(la / lb).
+/// function [alauzet2010]. With the lengths la and lb in both metrics it is (la - lb) / log(la / lb).
 double metric_length(Vec2 d, const Tensor2& a, const Tensor2& b);
 /// Returns the largest tensor whose unit circle lies in both unit circles, by simultaneous reduction
 /// [alauzet2010].
 Tensor2 intersection(const Tensor2& a, const Tensor2& b);
-/// Returns exp(sum of weight log(tensor)) [arsigny2006].
+/// Returns exp(sum of weight log(tensor)) [arsigny2006]. Each tensor has a weight.
 Tensor2 log_mean(std::span<const Tensor2> tensors, std::span<const double> weights);
 /// Returns the metric that m allows at a distance `length`, measured in m. Sizes grow by a factor of
 /// `gradation` (above 1) per unit length [alauzet2010].
 Tensor2 grown(const Tensor2& m, double length, double gradation);
 
-/// Bounds of the lengths of a metric; 0: none. `min` wins over the other bounds.
+/// Bounds of the lengths of a metric, in the unit of the model; 0: none. `min` wins over the other bounds.
 struct MetricLimits {
   double min = 0, max = 0;
-  double aspect = 0;  ///< upper limit of h2 / h1; the larger length becomes less
+  double aspect = 0;  ///< upper limit of h2 / h1, at least 1; the larger length becomes less
 };
+/// Returns m with its lengths brought within the limits; the axes stay.
 Tensor2 limited(const Tensor2& m, const MetricLimits& limits);
 
 /// Function that writes the metric at each point of a batch. The thread that calls mesh() calls it before
@@ -253,17 +258,19 @@ using MetricFunction = std::function<void(std::span<const Vec2> points, std::spa
 /// metric.
 Tensor2 l2_metric(const Tensor2& hessian);
 
-/// Makes a metric from formulas in x and y for m11, m12 and m22.
+/// Makes a metric from formulas in x and y for m11, m12 and m22. Throws InputError, like the next two makers,
+/// with the position of a syntax error.
 MetricFunction make_expression_metric(const std::array<std::string, 3>& tensor);
-/// Makes a metric from formulas for the length h1 along theta (radians) and h2 across it.
+/// Makes a metric from formulas for the length h1 along theta (radians) and h2 across it. The function throws
+/// InputError, with the place, for lengths that are not finite and positive.
 MetricFunction make_sizes_metric(const std::string& h1, const std::string& h2, const std::string& theta);
-/// Makes l2_metric() from the Hessian of a formula, by differences over `step`.
+/// Makes l2_metric() from the Hessian of a formula, by central differences over the length `step`, above 0.
 MetricFunction make_solution_metric(const std::string& solution, double step);
 /// Makes a metric from tensors at the points of a mesh of triangles or quads, exp(linear) between them.
-/// Throws InputError unless each point has one metric.
+/// Throws InputError, with the place, unless is_metric() holds for one tensor at each point.
 MetricFunction make_nodal_metric(const Mesh& mesh, std::vector<Tensor2> metric);
 /// Makes a metric from tensors at the points of a mesh in a file: an MSH view or a VTU array. `field` may be
-/// empty for the only one.
+/// empty for the only one. Throws InputError for unreadable files, and as make_nodal_metric().
 MetricFunction make_file_metric(const std::filesystem::path& file, const std::string& field = {});
 
 /// A metric in space, for surfaces. A vector d in the tangent plane has the length sqrt(d M d).
@@ -272,11 +279,13 @@ struct Tensor3 {
   friend bool operator==(const Tensor3&, const Tensor3&) = default;
 };
 using SpaceMetricFunction = std::function<void(std::span<const Vec3> points, std::span<Tensor3> metric)>;
-/// Makes a metric from formulas in x, y and z for m11, m12, m13, m22, m23 and m33.
+/// Makes a metric from formulas in x, y and z for m11, m12, m13, m22, m23 and m33. Throws InputError with the
+/// position of a syntax error.
 SpaceMetricFunction make_expression_space_metric(const std::array<std::string, 6>& tensor);
 /// Makes a metric from tensors at the points of a mesh; a place gets the metric of the nearest point on the
-/// mesh.
+/// mesh. Throws InputError, with the place, unless each point has one finite, positive definite tensor.
 SpaceMetricFunction make_nodal_space_metric(const Mesh& mesh, std::vector<Tensor3> metric);
+/// Does the same with a file, as make_file_metric().
 SpaceMetricFunction make_file_space_metric(const std::filesystem::path& file, const std::string& field = {});
 
 struct MetricPlane;
@@ -297,7 +306,7 @@ struct MetricSpec {
   MetricLimits limits = {};
   double gradation = 0;          ///< upper limit of the growth of sizes per unit length, above 1; 0: none
   double complexity = 0;         ///< integral of sqrt(det M), about the number of quads; 0: not scaled
-  double scale = 1;              ///< last of all, multiplies all lengths on surfaces
+  double scale = 1;              ///< last of all, multiplies all lengths on surfaces; above 0
   std::string where = "metric";  ///< origin of the request, for messages
   /// prepare() sets it for itself.
   std::shared_ptr<const MetricPlane> plane = nullptr;

@@ -14,17 +14,18 @@ namespace delquad {
 struct AlongVector {
   Vec3 shift;  ///< from the first layer of nodes to the last
 };
-/// Sweep around an axis. Hexahedra have straight edges, so a ring is a polygon.
+/// Sweep around an axis. Hexahedra have straight edges, so a ring is a polygon. Angles count counterclockwise
+/// seen from the tip of the axis, and each layer turns by less than 180 degrees.
 struct AroundAxis {
   Vec3 point, axis;      ///< the axis need not have unit length
-  double degrees = 360;  ///< counterclockwise seen from the tip of the axis; at most +-360, which closes
+  double degrees = 360;  ///< in [-360, 360], not 0; a full turn closes
 };
 /// Sweep along a polyline. The quads start at their own place, not at the first point, and turn with the
 /// tangent, but not about it. They keep their profile along a segment, so legs are mitered at a corner.
 /// Tangents halve the angles between segments. End tangents continue the next turn if it is below 40 degrees;
 /// otherwise they follow the segments.
 struct AlongCurve {
-  std::vector<Vec3> points;  ///< open line
+  std::vector<Vec3> points;  ///< open line of two points or more, no two in a row the same
 };
 /// Sweep along the normals, which look to the side from which quads run counterclockwise. At edges and
 /// corners between planes each plane moves by the thickness.
@@ -38,16 +39,17 @@ struct SweepLayers {
   /// Number of layers; 0: one for each segment of a curve. Along curves, layers end at equal (graded)
   /// lengths. At each corner of 40 degrees or more the nearest layer ends.
   int number = 0;
-  double growth = 1;  ///< height of each layer over the height of the previous one
+  double growth = 1;  ///< height of each layer over the height of the previous one, above 0
   long long max_elements = 50'000'000;
 };
 
-/// Sweeps a mesh of quads of order 1. Each region becomes a volume of its names, or "region_3" by its number.
-/// Unless the sweep closes, its quads become faces NAME + " start" and NAME + " end". Curves on the boundary
-/// and named curves inside become faces of their names ("curve_5"); named points become curves. Quads may run
-/// either way round. `notes` tells the omissions. Throws InputError, with the place, for triangles, higher
-/// order, edges of three quads, one-sided surfaces, and sections that touch the axis. It also refuses
-/// hexahedra that are not positive, and a body that meets itself.
+/// Sweeps a mesh of quads of order 1 and returns hexahedra. Each region becomes a volume of its names, or
+/// "region_3" by its number. Unless the sweep closes, its quads become faces NAME + " start" and NAME + "
+/// end". Curves on the boundary and named curves inside become faces of their names ("curve_5"); named points
+/// become curves. Quads may run either way round. `notes` tells the omissions. Throws InputError, with the
+/// place, for triangles, higher order, edges of three quads, one-sided surfaces, and sections that touch the
+/// axis. It also refuses hexahedra that are not positive, a body that meets itself, paths out of range, and
+/// more than max_elements.
 Mesh extrude(const Mesh& mesh, const SweepPath& path, const SweepLayers& layers, ReadNotes* notes = nullptr);
 
 /// Measures of hexahedra.
@@ -58,6 +60,7 @@ struct HexMeasures {
   double volume = 0;
   std::vector<double> jacobian;  ///< value of each hexahedron
 };
+/// Returns the measures of a mesh of hexahedra of order 1.
 HexMeasures measure(const Mesh& hexahedra);
 
 }  // namespace delquad

@@ -50,7 +50,7 @@ struct MatchingCertificate {
 };
 
 /// Returns whether the mates are a perfect matching and the certificate proves that none is cheaper. The
-/// exact arithmetic shares nothing with a solver. A failure is explained in `why`.
+/// exact arithmetic shares nothing with a solver. A failure is explained in `why`, unless it is null.
 bool proves_optimal(const MatchingGraph& graph, const std::vector<int>& mate,
                     const MatchingCertificate& certificate, std::string* why = nullptr);
 
@@ -78,6 +78,7 @@ class MatchingSolver {
  public:
   virtual ~MatchingSolver() = default;
   virtual std::string name() const = 0;
+  /// Returns a perfect matching of minimum cost, or kNotPerfect.
   virtual MatchingResult solve(const MatchingGraph& graph) const = 0;
 };
 

@@ -125,9 +125,9 @@ struct Mesh {
 /// Returns the diagonal of the bounding box; 0 without points.
 double diagonal(const Mesh& mesh);
 
-/// Returns the defects of a mesh, one line each; empty if it is sound. Indices are in range, elements have
-/// distinct vertices, and no element is repeated. An edge has at most two elements, in opposite directions.
-/// Every vertex is used. Every line is an edge of an element, if there are any.
+/// Returns the defects of the topology of a mesh, one line each; empty: it has none. Indices are in range,
+/// elements have distinct vertices, and no element is repeated. An edge has at most two elements, in opposite
+/// directions. Every vertex is used. Every line is an edge of an element, if there are any.
 std::vector<std::string> check_invariants(const Mesh& mesh);
 
 /// Returns the largest difference of node numbers in an element; 0 without elements.
@@ -140,7 +140,8 @@ void reduce_bandwidth(Mesh& mesh);
 using ReadNotes = std::vector<std::string>;
 
 /// Reads a file whose extension names its format, such as `.msh` or `.vtu`; `delquad formats` lists all.
-/// Throws InputError with file and line or byte. The message for another extension names the known ones.
+/// `notes` may be null. Throws InputError with file and line or byte. The message for another extension names
+/// the known ones.
 Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 
 /// Line elements of an MSH file. deal.II refuses all lines inside the mesh.
@@ -162,7 +163,8 @@ struct MshOptions {
 
 /// Writes a mesh by extension: .msh, .vtu (with eta per quad), .obj, .inp, .mesh or .svg (a picture).
 /// Hexahedra go to .msh (4.1), .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv. The file is written
-/// completely or not at all. Throws InputError with the path, also for a format without the given option.
+/// completely or not at all. Throws InputError, with the path, if it cannot be written, and for a format
+/// without the given option or kind of elements.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options = {});
 
 /// The closed boundary of one patch, discretized, in its parameter plane.

@@ -67,7 +67,7 @@ struct CriterionLimit {
   friend bool operator==(const CriterionLimit&, const CriterionLimit&) = default;
 };
 
-/// Material of elastic shells, in any consistent units.
+/// Material of elastic shells, in any consistent units. Poisson's ratio is from 0 to 0.5, the others above 0.
 struct Material {
   double young = 0, poisson = 0, density = 0;
 };
@@ -91,7 +91,8 @@ struct Criteria {
 const std::vector<Criteria>& criteria_presets();
 /// Returns a preset by name, or reads a file (docs/criteria.md). Throws InputError with file and line.
 Criteria read_criteria(const std::string& preset_or_file);
-/// Throws InputError for limits that contradict each other, and for times without a material.
+/// Throws InputError for limits that contradict each other, for times without a material, and for a material
+/// out of range.
 void check_criteria(const Criteria& criteria);
 
 /// Result of a mesh for a limit.
@@ -124,7 +125,8 @@ struct CriteriaReport {
   std::vector<std::string> beyond() const;       ///< as Soundness::beyond
 };
 /// Judges any mesh, with its own curves as the curves of the model. `size` is the wanted size; null: the mean
-/// edge.
+/// edge. Throws InputError for a mesh whose indices or coordinates cannot be used, and for criteria that do
+/// not fit it.
 CriteriaReport judge(const Mesh& mesh, const Criteria& criteria, const SizeField* size = nullptr);
 
 /// A model and all options of its mesh. It is a plain value: it can be copied and meshed again.
@@ -143,12 +145,12 @@ struct MeshProblem {
   std::vector<WasherSpec> washers = {};      ///< for planar models of curves, and for surfaces
   std::vector<FilletRows> fillet_rows = {};  ///< for CAD models
   MappedSpec mapped = {};                    ///< for planar models of curves, and for surfaces
-  long long seed = 0;      ///< 0: no change; else the domain is turned, and nodes are shifted along curves
+  long long seed = 0;      ///< 0: no change; above 0 the domain is turned, and nodes are shifted along curves
   Options options = {};    ///< of the stages
   Criteria criteria = {};  ///< criteria that judge the mesh; empty: none
-  double refine = 1;       ///< divides all sizes; numbers of edges and of layers grow with it
-  std::optional<long long> quads = {};  ///< approximate number of quads, by a factor for all sizes
-  int order = 1;                        ///< of the elements, 1 to 4; above 1 they are curved, see Mesh::order
+  double refine = 1;       ///< divides all sizes, above 0; numbers of edges and of layers grow with it
+  std::optional<long long> quads = {};  ///< wanted number, at least 1, by a factor for all sizes
+  int order = 1;                        ///< from 1 to 4; above 1 elements are curved, see Mesh::order
   long long max_elements = 50'000'000;  ///< refuse sizes with a larger integral of dA/delta^2
   bool keep_going = false;     ///< leave out faces that cannot be meshed, instead of refusing the model
   bool allow_unsound = false;  ///< return meshes that are not accepted, instead of throwing UnsoundError
@@ -166,14 +168,14 @@ MeshProblem read_model_file(const std::filesystem::path& file);
 
 /// Reads and measures the model of a problem. A planar model is measured between points on its curves, at
 /// most 1/2000 of its diagonal apart; lines are measured unchanged. A `size` above 0 warns if it is larger
-/// than the model. Throws InputError for unreadable models.
+/// than the model. Throws InputError, with file and line or entity, for models that cannot be read.
 ModelInfo model_info(MeshProblem problem, double size = 0);
 
-/// Settings of a run that never change its result.
+/// Settings of a run that never change its result. A requested stop makes mesh() throw Cancelled within a
+/// fraction of a second.
 struct Context {
   int threads = 0;  ///< 0: number of cores
-  std::stop_token cancel =
-      {};                 ///< a requested stop makes mesh() throw Cancelled within a fraction of a second
+  std::stop_token cancel = {};
   double time_limit = 0;  ///< seconds until mesh() throws TimeIsUp; 0: none
   /// Only the thread that calls mesh() calls it, at the start of each step. Its exceptions end mesh() and
   /// pass through.
@@ -234,7 +236,7 @@ class Prepared {
   bool is_surface() const;
 
   std::size_t n_patches() const;
-  const PatchBoundary& patch(std::size_t i) const;  ///< in its parameter plane
+  const PatchBoundary& patch(std::size_t i) const;  ///< in its parameter plane; throws std::out_of_range
   /// Returns the triangulation of a surface. It does not exist for planar domains, like the next two.
   const Mesh& fine() const;
   const std::vector<SurfaceCut>& cuts() const;
@@ -244,12 +246,14 @@ class Prepared {
   /// Returns the triangles that carry the fields of a planar domain; null on surfaces.
   const TriPatch* background() const;
   /// Returns the expected number of rows of quads that must end along the fields of all patches to keep the
-  /// sizes. It takes about as long as stage D unless the fields are size-aware.
+  /// sizes. It takes about as long as stage D unless the fields are size-aware. Own method, see
+  /// docs/algorithms.md.
   double row_ends() const;
 
   /// Measures a mesh of this problem, made by the pipeline `word`. Only added measures may use `word`.
   MeshMetrics metrics(const Mesh& made, const std::string& word = {}) const;
-  /// Measures a mesh of the same model by other programs: measures, bad quads and soundness of elements.
+  /// Measures a mesh of the same model by other programs: measures, bad quads, criteria and soundness of
+  /// elements.
   MeshResult measure(Mesh of_others) const;
 
   const MeshingSetup& inside() const { return *made_; }  ///< for the library itself
@@ -265,6 +269,7 @@ struct WantedAt {
   /// Vectors along the cross, or the axes of the metric, of the wanted length. 0 without a field.
   std::vector<std::array<Vec3, 2>> edges;
 };
+/// Returns the wanted edges at the points of a mesh of the problem.
 WantedAt wanted_at(const Prepared& prepared, const Mesh& mesh);
 
 /// A metric given by its values.
@@ -322,7 +327,8 @@ class Meshing {
   Meshing& operator=(Meshing&&) noexcept;
   ~Meshing();
 
-  /// Takes every patch through one more stage. Throws InputError if the mesher had to stop.
+  /// Takes every patch through one more stage, which must continue the form of the last one. Throws
+  /// InputError if the mesher had to stop.
   void run(const Stage& stage);
   /// Returns the mesh after the stages so far.
   Mesh mesh() const;
@@ -336,13 +342,13 @@ class Meshing {
 };
 
 /// Meshes by a pipeline such as "DB" or "DBCO" (see stage_registry()). Pipelines of a GivenMesh may begin
-/// from its elements, such as "CO". Throws as prepare(), for unusable pipelines, and UnsoundError unless the
-/// problem allows it.
+/// from its elements, such as "CO". Throws as prepare() and parse_word(), and UnsoundError, with the mesh,
+/// unless the problem allows it.
 MeshResult mesh(const Prepared& prepared, const std::string& word, const Context& context = {});
 
 /// Prepares and meshes. `word` is a pipeline, or the name of a quality. A quality has a pipeline, and
 /// directions unless the problem sets them; it improves a GivenMesh by CO or, without quads, BCO. Problem and
-/// `word` fix every bit of the mesh, for any context. Several threads may call it at once.
+/// `word` fix every bit of the mesh, for any context. Throws as above. Several threads may call it at once.
 MeshResult mesh(MeshProblem problem, const std::string& word = kDefaultQuality, const Context& context = {});
 
 /// Throws UnsoundError if the mesh is not accepted. The message begins with `label`.

@@ -87,8 +87,8 @@ MeshMetrics evaluate_metrics(const Mesh& mesh, const SizeField* size, const Size
 /// A quad with a lower eta has an angle below 10 or above 170 degrees, and is bad.
 inline constexpr double kBadEta = 1.0 / 9;
 
-/// Returns eta of a quad in space, equation (4): 1 for a square, 0 with an angle <= 0 or >= 180 degrees. The
-/// quad must run counterclockwise as seen from `normal`; a reflex or inverted corner gives 0.
+/// Returns eta of a quad in space [paper, equation (4)]: 1 for a square, 0 with an angle <= 0 or >= 180
+/// degrees. The quad must run counterclockwise as seen from `normal`; a reflex or inverted corner gives 0.
 double quad_eta(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& normal);
 /// Returns eta of each quad.
 std::vector<double> quad_etas(const Mesh& mesh);
@@ -100,7 +100,7 @@ struct ProvenJacobians {
   double least = 1, mean = 1;
   int unproven = 0;  ///< elements without a proof that they are positive
 };
-/// Proves bounds for a mesh with an order above 1.
+/// Proves bounds for a mesh with an order above 1 [johnen2013, extended to scaled Jacobians].
 ProvenJacobians proven_jacobians(const Mesh& mesh);
 
 /// A place on a model or a mesh.

@@ -23,6 +23,7 @@ namespace delquad {
 class Curve {
  public:
   virtual ~Curve() = default;
+  /// Several threads may call it.
   virtual Vec2 point(double t) const = 0;
   /// Returns ascending parameters, strictly between 0 and 1, with a compulsory mesh node (corners of a
   /// polyline).
@@ -30,7 +31,7 @@ class Curve {
 };
 
 // Makers of curves. Each curve begins and ends exactly at its given points. All throw InputError, with the
-// argument, for coordinates that are not finite and for curves without length.
+// argument, for numbers that are not finite, curves without length, and arguments beyond the ranges below.
 
 std::shared_ptr<const Curve> make_segment(Vec2 a, Vec2 b);
 
@@ -43,8 +44,8 @@ std::shared_ptr<const Curve> make_polyline(std::vector<Vec2> points);
 /// more than `corner` (radians) makes a corner with a node, and ends of the spline there.
 std::shared_ptr<const Curve> make_spline(std::vector<Vec2> points, double corner = std::numbers::pi / 3);
 
-/// Makes an arc from angle0 to angle1 (radians), counterclockwise if angle1 > angle0, of at most one turn. A
-/// full turn, to rounding, ends exactly at its start.
+/// Makes an arc of a radius above 0 from angle0 to angle1 (radians), counterclockwise if angle1 > angle0, of
+/// at most one turn. A full turn, to rounding, ends exactly at its start.
 std::shared_ptr<const Curve> make_arc(Vec2 centre, double radius, double angle0, double angle1);
 
 /// Makes a circle, counterclockwise from the point at angle 0.
@@ -53,7 +54,8 @@ std::shared_ptr<const Curve> make_circle(Vec2 centre, double radius);
 /// Makes point(t) for t from t0 to t1, in either direction. Several threads may call `point`.
 std::shared_ptr<const Curve> make_parametric_curve(std::function<Vec2(double)> point, double t0, double t1);
 
-/// Makes (x(t), y(t)) for t from t0 to t1, in either direction, from formulas as in make_expression_size().
+/// Makes (x(t), y(t)) for t from t0 to t1, in either direction, from formulas in t as in
+/// make_expression_size().
 std::shared_ptr<const Curve> make_expression_curve(const std::string& x, const std::string& y, double t0,
                                                    double t1);
 
@@ -66,7 +68,7 @@ struct ModelCurve {
   bool is_data = false;   ///< measured points: some may get no node, see SurfaceSpec::simplify
 };
 
-/// Numbers of edges on curves, independent of size.
+/// Numbers of edges on curves, independent of size; from 1 to 100 million on each.
 struct CurveDivision {
   std::string name;        ///< name or number of the curves, as in files: "curve_7"
   int edges = 0;           ///< for each curve, at least 1
@@ -150,7 +152,8 @@ struct PlanarModel {
 };
 
 /// Makes a domain bounded by polygons, each a loop of at least three corners without repetition of the first.
-/// Nested loops are holes. Every corner gets a node.
+/// Nested loops are holes. Every corner gets a node. Throws InputError, with the polygon, for fewer corners
+/// and for equal ones in a row.
 PlanarModel polygons(const std::vector<std::vector<Vec2>>& loops);
 
 /// Surfaces that a mesh file declares, with or without elements.
@@ -167,9 +170,9 @@ struct DeclaredSurfaces {
 /// of a column of stacked quads.
 struct LayerSpec {
   std::vector<std::string> on;         ///< names of curves that bound regions
-  double first = 0;                    ///< height of the quads at the curve
+  double first = 0;                    ///< height of the quads at the curve, above 0
   double growth = 1.2;                 ///< height of a quad over the height of the quad below, at least 1
-  int number = 0;                      ///< quads in a column; 0: enough to reach `thickness`
+  int number = 0;                      ///< quads in a column, at most 10 000; 0: enough to reach `thickness`
   double thickness = 0;                ///< height of a column; 0: `number` sets it. Exactly one is given
   double fan = 60;                     ///< degrees in (0, 120]; corners that turn away by more get a fan
   std::vector<std::string> into = {};  ///< names of regions that get layers; empty: both sides
@@ -177,10 +180,10 @@ struct LayerSpec {
 };
 
 /// Returns the distance of each layer of a column from the curve, in ascending order. Throws InputError for
-/// numbers that make no layers.
+/// numbers that make no layers or more than 10 000.
 std::vector<double> layer_heights(const LayerSpec& layer);
 
-/// Rows of quads around round and slotted holes of planar models of curves and of surface faces.
+/// Rows of quads around round and slotted holes of planar models of curves and of surface faces: 1 to 1000.
 struct WasherSpec {
   double least = 0, most = 0;     ///< diameters of the holes; width of slots and ovals
   int rows = 1;                   ///< number of rows, if space allows
@@ -191,7 +194,7 @@ struct WasherSpec {
 
 /// Rows of quads across fillets of CAD models: faces of one radius with two smooth opposite sides.
 struct FilletRows {
-  double least = 0, most = 0;  ///< radii
+  double least = 0, most = 0;  ///< radii, in the unit of the model
   int rows = 1;
   std::string where = "fillet_rows";  ///< origin of the request, for messages
 };
@@ -231,8 +234,9 @@ struct CadModel {
   std::string bytes = {};  ///< used if there is no file
 };
 
-/// Sets the program delquad-cad, which reads CAD files for this process. By default it is beside the running
-/// program or where it was installed. The environment variable DELQUAD_CAD_WORKER overrides both.
+/// Sets the program delquad-cad, which reads CAD files for this process; it is not checked before the first
+/// file. By default it is beside the running program or where it was installed. The environment variable
+/// DELQUAD_CAD_WORKER overrides both.
 void set_cad_worker(const std::filesystem::path& program);
 
 /// Built-in model, see example_models().
@@ -254,16 +258,17 @@ using Model =
 struct Example {
   std::string name, description;
 };
+/// Returns all built-in models.
 const std::vector<Example>& example_models();
 
 /// Faces of a surface that are meshed as one.
 enum class Compounds { kNone, kTangent, kAll, kGroups };
 
-/// Plane that completes a half model.
+/// Plane that completes a half model. Open edges lie on it within `tolerance`, from 0 to 0.1 diagonals of the
+/// model.
 struct MirrorPlane {
   Vec3 point, normal;  ///< the normal need not have unit length
-  double tolerance =
-      0;  ///< largest distance of open edges from the plane, in diagonals of the model; at least 0
+  double tolerance = 0;
   /// Both images of a triangle share its region, so that faces continue through the plane. Otherwise the
   /// other half has its own regions of the same names, and curves run along the plane.
   bool join = true;

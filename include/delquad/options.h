@@ -58,19 +58,20 @@ class Options {
   /// Restores the default. Throws InputError for unknown options.
   Options& reset(const std::string& name);
 
-  /// Returns the value, or the default. Throws InputError for an unknown option or another type.
+  /// Returns the value, or the default. The last four throw InputError for another type, all for an unknown
+  /// option.
   OptionValue value(const std::string& name) const;
   bool flag(const std::string& name) const;
   long long integer(const std::string& name) const;
   double number(const std::string& name) const;
   std::string text(const std::string& name) const;
 
-  /// Returns null if it was not set.
+  /// Returns the value that was set, or null.
   const OptionValue* find(const std::string& name) const {
     const auto at = values_.find(name);
     return at == values_.end() ? nullptr : &at->second;
   }
-  /// Sets the values of `others` that are not set here.
+  /// Sets the values of `others` that are not set here. Returns this object.
   Options& set_absent(const Options& others);
   /// Returns the values that were set.
   const std::map<std::string, OptionValue>& values() const { return values_; }
@@ -108,6 +109,7 @@ class Summaries {
  public:
   /// Adds values to the earlier values of a step, key by key. Throws std::invalid_argument if types differ.
   void add(const std::string& step, const std::vector<SummaryField>& fields);
+  /// Adds the report of another patch, step by step.
   void add(const Summaries& other);
 
   /// Returns the steps in order of first use.
