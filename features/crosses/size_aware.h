@@ -10,14 +10,17 @@
 
 namespace delquad {
 
-/// Replaces each patch's boundary-aligned field by the size-aware one, on a background mesh made for it: one
-/// that follows delta', so that it resolves it. Notes singularities, sum of indices and dislocations.
-/// `pull`: what they are drawn to besides, by patch; null: nothing.
+/// Returns the direction that the field of a patch is drawn to at u, with its strength. `hint` is as in
+/// SizeField::at.
 using PatchPullAt = std::function<CrossPull(int patch, Vec2 u, int& hint)>;
+/// Replaces the boundary-aligned field of each patch by the size-aware one, on a background mesh that
+/// resolves delta'. Stores singularities, the sum of indices and dislocations. A null `pull` draws to
+/// nothing. Own method (docs/algorithms.md, cross field).
 void make_crosses_size_aware(MeshingSetup& prepared, const PatchPullAt& pull = nullptr);
 
-/// Rows of quads that have to end along the fields of all patches so that sizes are as wanted, in the mean:
-/// see expected_dislocations(). Takes about as long as D unless the fields are size-aware.
+/// Returns the expected number of rows of quads that must end along the fields of all patches to keep the
+/// sizes, see expected_dislocations(). It takes about as long as stage D unless the fields are size-aware.
+/// Own method.
 double expected_row_ends(const MeshingSetup& prepared);
 
 }  // namespace delquad

@@ -13,37 +13,36 @@
 
 namespace delquad {
 
-/// The true model behind a mesh: where nodes of curved elements go. Safe to call from several threads.
+/// The true model behind a mesh, on which nodes of curved elements lie. Several threads may call it.
 class ModelGeometry {
  public:
   virtual ~ModelGeometry() = default;
-  /// Returns the points of the curve of a line (index into Mesh::lines) at these parts of the way, by length
-  /// along the curve. The way leads from the line's first end to its second. Parts are strictly between 0 and
-  /// 1, ascending.
+  /// Returns points on the curve of a line (index into Mesh::lines), from its first end to its second.
+  /// `parts` are shares of the length along the curve, ascending, strictly between 0 and 1.
   virtual std::vector<Vec3> on_line(int line, std::span<const double> parts) const = 0;
-  /// Returns the point of a curve (index into Mesh::curves) nearest to x; none: its lines are straight.
+  /// Returns the point of a curve (index into Mesh::curves) nearest to x; nothing if its lines are straight.
   virtual std::optional<Vec3> on_curve(int curve, const Vec3& x) const = 0;
-  /// Returns whether a vertex of the straight mesh is one inside of a curve along which it may be moved.
+  /// Returns whether a vertex of the straight mesh lies inside of a curve and may move along it.
   virtual bool slides(int vertex) const = 0;
   /// Returns the point of a face (index into Mesh::regions) nearest to x.
   virtual Vec3 on_face(int region, const Vec3& x) const = 0;
 };
 
-/// Returns the true model behind a mesh that was made of a problem: curves and formulas, CAD or triangles.
-/// `nodes`: where the nodes on curves came to lie. Given lines, and lines of the mesh that are on no curve,
-/// are straight. All arguments outlive it.
+/// Returns the true model behind a mesh of a problem: curves and formulas, CAD or triangles. `nodes` has the
+/// places of nodes on curves. Given lines, and lines of the mesh that are on no curve, are straight. All
+/// arguments must outlive it.
 std::unique_ptr<ModelGeometry> true_geometry(const MeshingSetup& prepared, const SurfaceNodes& nodes,
                                              const Mesh& mesh);
 
 /// A corner of a quad between two sides that both lie on lines.
 struct CurveCorner {
   int quad, corner;  ///< index into Mesh::quads, 0 to 3
-  int out, in;       ///< the lines (indices into Mesh::lines) of the sides after it and before it
-  double angle;      ///< inside the quad, between the true curves' tangents: radians, in [-pi / 2, 3 pi / 2)
+  int out, in;       ///< indices into Mesh::lines of the sides after the corner and before it
+  double angle;      ///< radians inside the quad, between tangents of the true curves, in [-pi / 2, 3 pi / 2)
 };
 
-/// Returns all corners, in the quads' order, of a mesh of straight quads. An element that follows both curves
-/// has no more than the angle's sine as its scaled Jacobian there.
+/// Returns all such corners of a mesh of straight quads, in the order of the quads. There the scaled Jacobian
+/// of an element that follows both curves is at most the sine of the angle.
 std::vector<CurveCorner> curve_corners(const Mesh& straight, const ModelGeometry& geometry);
 
 }  // namespace delquad

@@ -12,18 +12,18 @@
 
 namespace delquad {
 
-/// How a mesh got curved elements.
+/// Result of curving a mesh. Jacobians are scaled, in [-1, 1].
 struct CurvingSummary {
   int order = 1;
   int poor = 0, improved = 0;     ///< see UntanglingSummary
-  int unproven = 0;               ///< elements whose scaled Jacobian is not proven to be positive
-  int unproven_elsewhere = 0;     ///< those that no narrow corner of the model explains
-  double least_jacobian = 1;      ///< the least proven scaled Jacobian
-  double least_elsewhere = 1;     ///< the least that no narrow corner of the model explains
-  int below = 0, in_corners = 0;  ///< elements below kLowJacobian, and those that narrow corners explain
-  double mean_jacobian = 1;       ///< the mean of the proven ones
-  double distance = 0;            ///< the greatest from curved elements to the model, in its diagonals
-  double distance_straight = 0;   ///< the same of the straight ones
+  int unproven = 0;               ///< elements without a proof that their scaled Jacobian is positive
+  int unproven_elsewhere = 0;     ///< unproven elements that no narrow corner of the model explains
+  double least_jacobian = 1;      ///< least proven scaled Jacobian
+  double least_elsewhere = 1;     ///< least one that no narrow corner of the model explains
+  int below = 0, in_corners = 0;  ///< elements below kLowJacobian; number that narrow corners explain
+  double mean_jacobian = 1;       ///< mean proven scaled Jacobian
+  double distance = 0;            ///< largest distance of curved elements from the model, in its diagonals
+  double distance_straight = 0;   ///< the same for the straight elements
 };
 
 template <>
@@ -44,12 +44,13 @@ struct Counters<CurvingSummary> {
                                          counter("distance_straight", &S::distance_straight)};
 };
 
-/// Parts quads of the straight mesh that have flat corners, where the problem asks for curved elements.
-/// Returns how many.
+/// Divides quads of the straight mesh that have flat corners between two curves into five quads, if the
+/// problem asks for curved elements. Returns the number of divided quads. Own method (docs/algorithms.md,
+/// curved elements).
 int split_flat_corners(const MeshingSetup& prepared, const SurfaceNodes& nodes, Mesh& mesh);
 
-/// Gives a sound mesh the elements of the problem's order. Elements that are not proven to be positive make
-/// the mesh unsound. Returns whether vertices of the straight mesh moved. Throws InputError if triangles are
+/// Gives a sound mesh elements of the problem's order. Elements that are not proven to be positive make the
+/// mesh unsound. Returns whether vertices of the straight mesh moved. Throws InputError if triangles are
 /// left.
 bool curve_mesh(const MeshingSetup& prepared, const SurfaceNodes& nodes, Mesh& mesh, Soundness& soundness,
                 std::vector<Warning>& warnings, CurvingSummary& summary);

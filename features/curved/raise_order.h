@@ -12,12 +12,12 @@ namespace delquad {
 
 /// Gives a mesh of straight quads elements of a higher order, 2 to 4. Nodes on lines lie on their curve, at
 /// equal lengths of it. Nodes on other sides and inside lie on the face, next to their places in the straight
-/// element. A side opposite to a curved one, nearer to it than its length, is bent along with it, the less
-/// the farther it is. So quads of thin layers on a curved wall stay sound. Elements may be inverted all the
-/// same, see untangle_curved().
+/// element. A side opposite to a curved side, nearer to it than its length, bends with it, less with growing
+/// distance. So quads of thin layers on a curved wall stay sound. Elements may still be inverted, see
+/// untangle_curved(). Own method.
 void raise_order(Mesh& mesh, int order, const ModelGeometry& geometry);
 
-/// Puts the nodes inside of a quad where its sides have them [Coons 1967], on the face.
+/// Puts the inner nodes of a quad on the face, by Coons' blending of its sides [coons1967].
 void place_inside(Mesh& mesh, std::size_t quad, const ModelGeometry& geometry);
 
 }  // namespace delquad

@@ -5,15 +5,15 @@
 
 namespace delquad {
 
-/// Steps of agree_counts(), and what align_opposite_nodes() takes of them: some ten seconds.
+/// Largest number of steps of agree_counts() and align_opposite_nodes() together: about ten seconds.
 constexpr long long kMostAgreementSteps = 200'000'000;
 
-/// How far numbers of edges agree.
+/// Settings of the agreement between numbers of edges.
 struct CurveAgreement {
-  double price = 0;  ///< of agree_on_counts(); 0: numbers follow the size alone
+  double price = 0;  ///< of an irregular vertex, see agree_on_counts(); 0: numbers follow the size alone
   long long most_steps = kMostAgreementSteps;
   bool round_holes = false;  ///< see widen_round_holes()
-  double shortest = 0;       ///< edges on curves, in sizes as asked, are longer if possible
+  double shortest = 0;       ///< least length of edges on curves, in requested sizes, if possible
   bool thin_rows = false;    ///< see CurveOptions::thin_rows
 };
 

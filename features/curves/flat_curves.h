@@ -17,8 +17,8 @@ struct FlatCurves {
   SurfaceCurves curves;  ///< chain i is piece i: its points are the nodes of the piece
 };
 
-/// Makes the curves. `lines`: the edges of the pieces. True curves give the angles at corners. There is a
-/// patch for each face that has a region, in their order.
+/// Returns the curves of a planar model. `lines` has the edges of the pieces. True curves give the angles at
+/// corners. Each face with a region has a patch, in the order of faces.
 FlatCurves flat_curves(const Mesh& lines, const Arrangement& arrangement, const FaceRegions& regions,
                        const BoundaryNames& names, const std::vector<CurvePiece>& pieces);
 

@@ -12,15 +12,18 @@
 
 namespace delquad {
 
-/// Meshes the curves of a flattened model once each and gives every patch its boundary. All patches are even
-/// wherever that is possible at all. Where a boundary polygon would cross itself in the parameter plane, the
-/// curves of that patch are refined. Warnings name the curves shorter than the size and the patches left odd.
-/// `asked` is the size that these refer to (null: `size` itself, which may be less beside such curves).
-/// Curves of `divisions` get these edges, and the second sides of `periodic` the images of the nodes of the
-/// first: faces that are images have no patches, see `boundary.periodic_faces`. Patches that become grids, as
-/// `mapped` asks, get numbers that fit. `is_layered`: the curves that get layers, at which no corner is cut
-/// off; empty: none. Throws FaceError when no refinement gives a valid boundary, naming
-/// the face, and InputError where divisions leave a patch with an odd number of edges.
+/// Divides the curves of a flattened model, each once, and returns the domain with the boundary of each
+/// patch. All patches are even if that is possible. If a boundary polygon crosses itself in the parameter
+/// plane, the curves of that patch are refined. Warnings name curves shorter than the size, and odd patches.
+///
+/// They refer to the size `asked`; null: to `size`, which may be less beside short curves. Curves of
+/// `divisions` get these edges. The second sides of `periodic` get the images of the nodes of the first.
+/// Faces that are images have no patches, see `boundary.periodic_faces`. Patches that become grids, by
+/// `mapped`, get numbers that fit. `is_layered` marks curves with layers, at which no corner is cut off;
+/// empty: none.
+///
+/// Throws FaceError, with the face, if no refinement gives a valid boundary. Throws InputError if divisions
+/// leave a patch with an odd number of edges.
 SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                                   const MatchingSolver& solver, const SizeField* asked = nullptr,
                                   const std::vector<CurveDivision>& divisions = {},

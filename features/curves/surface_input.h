@@ -14,27 +14,26 @@
 namespace delquad {
 
 /// Returns the surface model of a problem with a TriangleModel, CadModel or ExampleModel, with its compounds.
-/// Throws InputError for models that cannot be read, and for options that have no effect on them. So it does
-/// for compounds of faces that do not exist or do not hang together. `kept`: where features of triangles
-/// stay, and the small parts of any model. `cad`: the contents of a file of CAD, without compounds, are left
-/// there, and are not read again.
+/// Features of triangles and small parts stay near `kept`. The contents of a CAD file, without compounds, are
+/// left in `cad` and not read again. Throws InputError for models that cannot be read, and for options
+/// without effect on them. Also throws for compounds of faces that do not exist or are not connected.
 SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureBall>& kept,
                           std::shared_ptr<const SurfaceModel>& cad);
 SurfaceModel make_surface(const MeshProblem& problem);
 
-/// Returns the length below which parts are left out: `ignore_below`, or the criteria's least length, of the
-/// least size at these points; 0: none. Throws InputError where that is not known.
+/// Returns the length below which parts are left out; 0: none. It is `ignore_below`, or the least length of
+/// the criteria, by the least size at these points. Throws InputError if that is not known.
 double length_of_small(const MeshProblem& problem, std::span<const Vec3> points);
 
-/// Throws InputError for names that are to stay, and that none has.
+/// Returns the names of parts that must stay. Throws InputError for a name that no part has.
 KeptNames names_that_stay(const MeshProblem& problem, const std::vector<Entity>& curves,
                           const std::vector<Entity>& regions);
 
-/// Joins curves that are shorter than a part of the size (`curves.join_below`, or `least` if that is more)
-/// with curves that they continue, see merge_short_curves(). No node is needed where these meet, and so many
-/// short edges would make as many rows of quads end. Sizes that vary count where they are least. Curves with
-/// names stay, and those that the problem names by their numbers. All stay where sides are periodic or
-/// corners of grids are told.
+/// Returns the model with short curves joined to curves that they continue, see merge_short_curves(). Short
+/// is a length below `curves.join_below` sizes, or below `least` if that is more. Variable sizes count where
+/// they are least. Otherwise many short edges would end as many rows of quads. Curves stay that have names or
+/// whose numbers the problem names. All curves stay if sides are periodic or corners of grids are given. Own
+/// method.
 SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model,
                                double least = 0);
 

@@ -12,23 +12,23 @@
 
 namespace delquad {
 
-/// Makes model.loose part of the model's triangulation, which is split along them.
+/// Makes model.loose part of the triangulation of the model, which is split along the lines.
 ///
-/// Points go to the nearest place of the surface. Between two of them a line runs where the plane through
-/// both and the mean of their normals cuts the surface. It takes the shortest way, decided by which side of
-/// that plane each vertex lies on. It becomes embedded curves, one in each face that it runs through, which
-/// share nodes with all that they cross. Each single point on no curve gets a nameless curve, so that any
-/// mesh has it as a node. The curve reaches about one size to either side, away from curves and points that
-/// are near (as dangling_ends() in the plane).
+/// Points go to the nearest place of the surface. Between two points a line follows the section with the
+/// plane through both and the mean of their normals, by the shortest way. The side of that plane on which
+/// each vertex lies decides it. The line becomes embedded curves, one in each face, which share nodes with
+/// all curves that they cross. Each single point on no curve gets a nameless curve, so that any mesh has it
+/// as a node. The curve reaches about one size to either side, away from near curves and points (see
+/// dangling_ends()).
 ///
-/// Throws InputError for requested lines that are further than a thousandth of the model's diagonal from the
-/// surface, leave it or run along another curve. So it does for requested lines of length zero, or with
-/// points nearer to each other than a thousandth of the size. The last reason is a point with no room for a
-/// curve. The model's warnings name lines of its file that are left out.
+/// Throws InputError, with the line, for requested lines that are farther than 0.001 model diagonals from the
+/// surface, leave it or follow another curve. Also throws for requested lines of length zero, points nearer
+/// to each other than 0.001 sizes, and points without room for a curve. Warnings of the model name lines of
+/// its file that are left out. Own method.
 void imprint(SurfaceModel& model, const PointSize& size);
 
-/// Imprints the loose lines and points of a model, and returns the size with what is asked of it by names,
-/// theirs among them. Throws InputError as imprint() does, and for a name that nothing has.
+/// Imprints the loose lines and points of a model, and returns the size with all sizes by name, also of
+/// these. Throws InputError as imprint(), and for a name that no part has.
 std::shared_ptr<const SizeField> imprint_named(const std::vector<NamedSize>& named,
                                                std::shared_ptr<const SizeField> size, SurfaceModel& model,
                                                std::vector<Warning>& warnings);

@@ -12,26 +12,25 @@
 
 namespace delquad {
 
-/// A planar mesh as a domain, and what its patches hold.
+/// A planar mesh as a domain, with the elements of its patches.
 struct GivenDomain {
   PlanarDomain domain;
   std::vector<QuadPatch> elements;  ///< of each patch, counterclockwise
   std::vector<Warning> warnings;
 };
 
-/// Makes the domain. `given` is in a plane of constant z. Lines, edges of one element and edges between
-/// regions bound the patches, so that they stay; so do two edges at a named point inside. Throws InputError,
-/// naming places, for what is not conforming: edges in more than two elements, hanging nodes, elements with a
-/// corner twice, outlines that cross.
+/// Returns the domain of a mesh in a plane of constant z. Lines, edges of one element and edges between
+/// regions bound the patches, so they stay. Two edges at each named point inside stay, too. Throws
+/// InputError, with places, for meshes that are not conforming. These have edges in more than two elements,
+/// hanging nodes, elements with a corner twice, or outlines that cross.
 GivenDomain make_given_domain(const GivenMesh& given);
 
-/// Returns edge lengths of squares with the areas of the elements (triangles are half a square), meaned over
-/// two rings around each point.
+/// Returns the side of a square with the area of the elements, averaged over two rings around each point; a
+/// triangle is half a square.
 std::vector<double> sizes_of_elements(const Mesh& mesh, const std::string& source);
 
-/// Returns the mesh from which a pipeline begins: the elements in this form, with halved quads if the form is
-/// triangles. Throws InputError that names places: `triangles` need positive areas, and the form `quads`
-/// needs quads.
+/// Returns the mesh from which a pipeline begins: the elements in this form. For triangles quads are halved.
+/// Throws InputError, with places, for triangles without a positive area, and for quads if there are none.
 PatchMesh start_from(const QuadPatch& elements, PatchForm form);
 
 }  // namespace delquad

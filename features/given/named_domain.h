@@ -10,15 +10,15 @@
 
 namespace delquad {
 
-/// Returns the domain that the lines of a mesh bound, its regions named as the file names surfaces. Names
-/// come from the elements along a face's boundary, or else from the surface that the file lists with just
-/// these curves. Else, for a single region, by the only surface group that has a name. A face with such a
-/// surface is no hole. Named points without lines become nodes (see dangling_ends()) where there is a size,
-/// else they are left out.
+/// Returns the domain that the lines of a mesh bound, with regions named as the surfaces of the file. A
+/// region takes names from the elements along its boundary, or else from the declared surface with exactly
+/// these curves. Otherwise a single region takes the name of the only named group. A face with such a surface
+/// is no hole. Named points without lines become nodes (see dangling_ends()) if there is a `size`; null: they
+/// are left out. Throws InputError as build_domain() and dangling_ends(), beginning with `source`.
 PlanarDomain make_named_domain(const Mesh& mesh, const DeclaredSurfaces& surfaces, const std::string& source,
                                const PointSize* size = nullptr);
 
-/// Returns whether it has named points without lines.
+/// Returns whether a mesh has named points without lines.
 bool has_single_points(const Mesh& mesh);
 
 }  // namespace delquad

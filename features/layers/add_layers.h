@@ -17,12 +17,12 @@
 
 namespace delquad {
 
-/// The size of finished layers.
+/// Extent of finished layers.
 struct LayerCount {
   int columns = 0;         ///< edges of curves with quads on them
-  int quads = 0;           ///< all
+  int quads = 0;           ///< number of quads in all layers
   int fans = 0;            ///< quads at corners of fans, in the first layer
-  double least_scale = 1;  ///< of heights; below 1 where there is no room for them
+  double least_scale = 1;  ///< least factor of heights; below 1 if there is no room for them
 };
 
 template <>
@@ -35,37 +35,39 @@ struct Counters<LayerCount> {
 
 struct LayerReport {
   LayerCount count;
-  std::string least_at;  ///< where heights are scaled the most
-  /// Most length of an edge of a front by the height of its last layer, where that is as it was asked for.
+  std::string least_at;  ///< place where heights are scaled the most
+  /// Largest ratio of the length of a front edge to the height of its last layer, if that height is the
+  /// requested one.
   double largest_jump = 1;
-  std::string jump_on;  ///< the curve where that is so
+  std::string jump_on;  ///< curve with this ratio
   /// The curve where heights are scaled the most.
   std::string least_on;
-  std::vector<int> patches;      ///< those that changed
+  std::vector<int> patches;      ///< changed patches
   std::vector<WallNodes> walls;  ///< of a surface
 };
 
-/// Adds quads to domain.boundary, along the curves that the layers name. It takes the covered parts from the
-/// patches, so that the edges of the last layers become their boundary. The patches as they were are in
-/// domain.outlines. Nodes of curves on which layers end are placed anew, in all patches that have them and on
-/// periodic curves. If there are such, patches get even numbers of edges. Mirror images of patches get the
-/// layers of their masters. Throws InputError for layers that cannot be, and for more than `max_quads`.
+/// Adds quads to domain.boundary along the curves of the layers. It takes their area from the patches, so
+/// that the edges of the last layers become patch boundaries. domain.outlines gets the former patches. Nodes
+/// of curves on which layers end are placed again, in all patches and on periodic curves; patches then get
+/// even numbers of edges. Mirror images of patches get the layers of their masters. Throws InputError, with
+/// curve and place, for impossible layers and for more than `max_quads`. Own method.
 LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, double max_quads);
 
 /// Puts the layers of a problem into its domain, and makes the background mesh of the rest in the plane.
-/// Warnings tell where layers had to be lower, and where the rest of the mesh is far coarser than they are.
-/// Returns the edges that are much shorter than the size, beside which it is to become less.
+/// Warnings tell where layers had to be lower, and where the rest of the mesh is far coarser. Returns the
+/// edges that are much shorter than the size, beside which sizes must shrink.
 std::vector<LocalSize> put_layers(const MeshProblem& problem, PlanarDomain& domain, MeshingSetup& p);
 
-/// Puts the layers of a problem into the patches of a surface. Returns the same. The nodes of curves that
-/// have layers, or on which these end, stay.
+/// Does the same for the patches of a surface. The nodes of curves that have layers, or on which layers end,
+/// stay.
 std::vector<LocalSize> put_layers(const MeshProblem& problem, const SurfaceModel& model,
                                   SurfaceDomain& domain, MeshingSetup& p);
 
-/// Returns which curves of a fine triangulation have layers. Throws InputError for names that no curve has.
+/// Returns for each curve of a fine triangulation whether it has layers. Throws InputError for names that no
+/// curve has.
 std::vector<char> layered_curves(const Mesh& fine, std::span<const LayerSpec> specs);
 
-/// Returns which quads of a mesh are of layers: in each region the first ones.
+/// Returns for each quad whether it belongs to layers: these are the first quads of each region.
 std::vector<char> quads_in_layers(const MeshingSetup& prepared, const Mesh& mesh);
 
 }  // namespace delquad

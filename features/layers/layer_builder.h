@@ -13,14 +13,15 @@ namespace delquad {
 
 /// A patch with its layers.
 struct LayeredPatch {
-  PatchBoundary outline;  ///< as it was, walls with their new nodes
-  PatchBoundary rest;     ///< what is left of it
-  /// Nodes in the place of each wall; both by all of its nodes, in the order of the patch.
+  PatchBoundary outline;  ///< as before, with the new nodes of walls
+  PatchBoundary rest;     ///< boundary of the remaining area
+  /// Old and new nodes of each wall, in the order of the patch.
   std::vector<std::pair<std::vector<int>, std::vector<int>>> walls;
-  std::pair<std::size_t, std::size_t> quads;  ///< of the domain: the first, and the one after the last
+  std::pair<std::size_t, std::size_t>
+      quads;  ///< indices of the domain: the first quad, and the one after the last
 };
 
-/// Puts the nodes and quads of a patch's layers into its domain.
+/// Puts the nodes and quads of a patch's layers into its domain, and returns the patch.
 LayeredPatch build_layers(PlanarDomain& domain, const PatchLayers& layers, LayerWalls& walls);
 
 }  // namespace delquad

@@ -14,29 +14,29 @@ namespace delquad {
 
 /// Nodes above a point of a chain, one for each layer.
 struct LayerColumn {
-  int at;            ///< the point's place in its chain
+  int at;            ///< index of the point in its chain
   int point;         ///< of the patch
   Vec2 direction;    ///< from a node at height h to the point: h * stretch * direction; not of unit length
-  int wall = -1;     ///< the wall that the nodes lie on, instead of along the direction
+  int wall = -1;     ///< wall that the nodes lie on, instead of along the direction
   int end = 0;       ///< of the wall
-  double slant = 1;  ///< length along the wall by height
+  double slant = 1;  ///< length along the wall over height
 };
 
-/// A node of a chain's columns; layer 0: the point that they stand on.
+/// A node of a chain's columns; layer 0 is the point below.
 struct ColumnNode {
   int column, layer;
 };
 
-/// How a chain runs through one of its points.
+/// Shape of a chain at one of its points.
 struct ChainCorner {
   enum Kind { kSmooth, kMitre, kFan, kOnWall, kFanToWall, kOpenEnd };
   Kind kind = kSmooth;
-  double angle = 0;  ///< inside of the boundary
-  Vec2 in, out;      ///< unit tangents of the edges before and after; at an end both are of its edge
-  int quads = 0;     ///< of a fan, in the first layer
+  double angle = 0;  ///< inside of the boundary, radians
+  Vec2 in, out;      ///< unit tangents of the edges before and after; at an end both belong to its edge
+  int quads = 0;     ///< number of quads of a fan in the first layer
 };
 
-/// The columns of all chains of a patch, for given scales of their heights.
+/// The columns of all chains of a patch, for given scales of their heights. c is a chain, k a point of it.
 class LayerColumns {
  public:
   LayerColumns(const PlanarDomain& domain, int patch, const LayerChains& found,
@@ -46,11 +46,12 @@ class LayerColumns {
   const LayerChains& found() const { return found_; }
   const LayerChain& chain(int c) const { return found_.chains[c]; }
   const ChainCorner& corner(int c, int k) const { return corners_[c][k]; }
-  /// Layers on the edge from a point, and at a point: the more of those at its edges.
+  /// Returns the number of layers on the edge from a point, and at a point: the larger of its two edges.
   int layers_on(int c, int k) const { return n_of(chain(c).spec[k]); }
   int layers_at(int c, int k) const;
   /// Returns the number of layers between two neighboring columns.
   int layers_between(int c, int a, int b) const;
+  /// Returns the place of a point, and its node.
   Vec2 foot(int c, int k) const { return patch_.points[chain(c).points[k]]; }
   int foot_node(int c, int k) const { return patch_.point_node[chain(c).points[k]]; }
   /// Returns the distance of two points in space.
@@ -59,22 +60,22 @@ class LayerColumns {
   }
   /// Returns the length in the patch's plane over the length in space, inwards from a point.
   double stretch(int c, int k) const { return stretches_[c][k]; }
-  /// Lengths of the edges at a point, in space; at an end both are of its edge.
+  /// Returns the lengths in space of the edges at a point; at an end both belong to its edge.
   std::array<double, 2> edges_at(int c, int k) const;
 
-  /// Factors of the heights at each point of each chain.
+  /// Factors of the heights at each point of each chain, from 0 to 1.
   std::vector<std::vector<double>> scales;
   /// Returns the height of a node above a point.
   double height(int c, int k, int layer) const;
   double thickness(int c, int k) const { return height(c, k, layers_at(c, k)); }
 
-  /// Returns the walls of other patches' layers, to know them by their places in found().walls.
+  /// Returns a wall of found(), on which layers of other patches may end.
   LayerWall& wall(int w) { return found_.walls[w]; }
-  /// Returns the length along the wall by height, at an end of an open chain.
+  /// Returns the length along the wall over height, at an end of an open chain.
   double slant(int c, int end) const { return slants_[c][end]; }
-  /// Gives an end the mean heights of its own layer and these, and this slant.
+  /// Gives an end the mean of the heights of its own layer and the `others`, and this slant.
   void join_end(int c, int end, std::vector<int> others, double slant);
-  /// To be called once the scales have changed.
+  /// Places the columns again; call it after scales have changed.
   void place();
   const std::vector<LayerColumn>& columns(int c) const { return columns_[c]; }
   Vec2 point(int c, const LayerColumn& column, double height) const;
@@ -135,10 +136,11 @@ class LayerColumns {
   std::vector<std::vector<LayerColumn>> columns_;
 };
 
-/// Scales heights down until no quad is inverted and no edge of a front is much shorter than the edge of the
-/// curve below. Fronts then also keep a distance from each other and from the boundary: at most half their
-/// thickness, or an edge. Scales change smoothly along a chain. Throws InputError where nothing helps.
-/// `again`: they were fitted before, and some ends are lower now, which may be all right.
+/// Scales heights down until no quad is inverted and no front edge is much shorter than the edge of the curve
+/// below. Fronts then also keep a distance from each other and from the boundary: at most half their
+/// thickness, or an edge. Scales change smoothly along a chain. `again` tells that they were fitted before
+/// and some ends are lower now, which may suffice. Throws InputError, with curve and place, if no scale
+/// helps. Own method.
 void fit_layers(const PlanarDomain& domain, int patch, std::span<const LayerSpec> specs, LayerColumns& layers,
                 bool again = false);
 

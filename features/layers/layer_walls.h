@@ -14,47 +14,48 @@
 
 namespace delquad {
 
-/// The layers of one patch, and its walls that layers of others end on.
+/// The layers of one patch, and its walls on which layers of others end.
 struct PatchLayers {
   int patch;
   LayerColumns columns;
 };
 
-/// Returns the layers of all patches that have some, or walls at which other layers end, in the patches'
-/// order; none of mirror images. Throws InputError as find_layer_chains(), and where layers end on a curve
+/// Returns the layers of all patches that have some, or walls at which other layers end, in the order of
+/// patches. Mirror images have none. Throws InputError as find_layer_chains(), and if layers end on a curve
 /// that has layers on its other side.
 std::vector<PatchLayers> find_patch_layers(const PlanarDomain& domain, std::span<const LayerSpec> specs,
                                            const CurveLayers& layers, const BoundaryGraph& graph,
                                            const std::vector<std::vector<double>>& heights);
 
-/// The nodes on a wall as they were, and the new ones with their places: see WallTrack::place().
+/// The old nodes on a wall, and the new ones with their places, see WallTrack.
 struct WallNodes {
   std::vector<int> old;
   std::map<int, double> places;
 };
 
-/// Adds a node that stays where it is; returns its number.
+/// Adds a node that no stage moves, and returns its number.
 int add_node(PlanarDomain& domain, Vec2 at);
 int add_node(PlanarDomain& domain, const Vec3& at);
 
-/// The walls of all patches, each once, however many patches have it.
+/// The walls of all patches; each is stored once, and several patches may have it.
 class LayerWalls {
  public:
-  /// Tells walls apart, and makes the ends of layers alike that meet on one, or on periodic ones. Throws
-  /// InputError where these differ in number, or a periodic wall has none.
+  /// Finds equal walls, and makes ends of layers alike that meet on one wall, or on periodic walls. Throws
+  /// InputError if their numbers differ, or if a periodic wall has none.
   LayerWalls(PlanarDomain& domain, std::vector<PatchLayers>& patches, std::span<const LayerSpec> specs);
 
-  /// Gives ends that are alike the least of their scales. Returns the patches of which some became less.
+  /// Gives ends that are alike the least of their scales. Returns the patches with a smaller scale.
   std::vector<std::size_t> lower_shared_scales();
-  /// Numbers of edges, and even ones around each patch. To be called once the layers are fitted. Throws
-  /// InputError where that cannot be.
+  /// Chooses numbers of edges, even around each patch. Call it after the layers are fitted. Throws InputError
+  /// if that is impossible.
   void count_edges();
 
-  /// Returns the nodes of a wall, as its patch sees it: from an end up to the height of the layers there, and
-  /// between these. Made when they are asked for first.
+  /// Returns the nodes of a wall in the order of its patch: from an end up to the height of the layers there.
+  /// The first call makes them.
   std::vector<int> side(const LayerWall& wall, int end);
+  /// Returns the nodes between both ends.
   std::vector<int> between(const LayerWall& wall);
-  /// Where a node of side() or between() is, as the patch of the wall sees it.
+  /// Returns the place of a node of side() or between(), as the patch of the wall sees it.
   double place(const LayerWall& wall, int node) const;
   /// Returns the nodes of each wall on a surface.
   std::vector<WallNodes> nodes() const;
@@ -62,24 +63,25 @@ class LayerWalls {
   void pair_nodes();
 
  private:
-  /// An end of a chain.
+  /// An end of a chain of layers.
   struct ChainEnd {
     std::size_t patch;  ///< index into patches_
     int chain, end;
   };
   struct Wall {
-    std::size_t patch;                                 ///< the first that has it
-    int index;                                         ///< of the wall there
-    std::vector<std::pair<std::size_t, int>> seen_by;  ///< all that have it, and as which wall of theirs
-    std::array<std::vector<ChainEnd>, 2> ends = {};    ///< of layers, at its first and last point
+    std::size_t patch;  ///< the first that has it
+    int index;          ///< index of the wall there
+    std::vector<std::pair<std::size_t, int>>
+        seen_by;  ///< all patches that have it, with the index of the wall there
+    std::array<std::vector<ChainEnd>, 2> ends = {};  ///< of layers, at its first and last point
     std::array<int, 2> group = {-1, -1};
-    int master = -1;   ///< whose image it is; -1: none
-    int pairing = -1;  ///< of the mesh, by which it is that
+    int master = -1;   ///< wall whose image it is; -1: none
+    int pairing = -1;  ///< index of the periodic pair of the mesh
     bool runs_as_master = true;
     bool is_paired = false;                         ///< it is an image, or has one
-    std::array<std::vector<double>, 2> along = {};  ///< of the nodes at the ends: how far they are from these
-    double from = 0, to = 0;                        ///< places of what is between
-    int n = 1;                                      ///< edges there
+    std::array<std::vector<double>, 2> along = {};  ///< lengths from each end to its nodes
+    double from = 0, to = 0;                        ///< places between which nodes are free
+    int n = 1;                                      ///< number of edges there
     std::array<std::vector<int>, 2> sides = {};
     std::vector<int> nodes = {};
     bool has_nodes = false;

@@ -13,7 +13,7 @@ struct PatchPlace {
   Vec3 x;
 };
 
-/// The way between the parameter planes of patches and space. Planar domains need none.
+/// Maps between the parameter planes of patches and space. Planar domains need none.
 class PatchPlaces {
  public:
   virtual ~PatchPlaces() = default;
@@ -21,16 +21,16 @@ class PatchPlaces {
   virtual double stretch(int patch, Vec2 u, Vec2 along) const = 0;
   /// Returns the place at a distance in space from another one, in a direction of the plane.
   virtual PatchPlace next(int patch, const PatchPlace& from, Vec2 along, double length) const = 0;
-  /// Returns where a point near the patch is in its plane, by the triangle at `near`.
+  /// Returns the place in the plane of a point near the patch, by the triangle at `near`.
   virtual Vec2 in_plane(int patch, const Vec3& x, Vec2 near) const = 0;
-  /// Returns the place on a curve between two neighboring nodes, at a part of the way. Cuts, which may be
-  /// jagged, are straight in the plane of the patch: through `straight`.
+  /// Returns the place on a curve between two neighboring nodes, at a share `part` of the way. Cuts, which
+  /// may be jagged, are straight in the plane of the patch, through `straight`.
   virtual Vec3 between(int a, int b, double part, int patch, Vec2 straight) const = 0;
-  /// Whether the faces on both sides are one.
+  /// Returns whether a curve is a cut, with the same face on both sides.
   virtual bool is_cut(int curve) const = 0;
-  /// Whether a curve begins or ends at a node.
+  /// Returns whether a curve begins or ends at a node.
   virtual bool is_end(int node) const = 0;
-  /// Whether the nodes of the curve from a to b were asked for.
+  /// Returns whether the nodes of the curve from a to b are given.
   virtual bool is_divided(int a, int b) const = 0;
 };
 

@@ -11,33 +11,33 @@
 
 namespace delquad {
 
-/// A side of triangles on a curve.
+/// A side of triangles that lies on a curve.
 struct CurveSegment {
   int piece;  ///< index into PlanarDomain::pieces
   std::array<int, 2> nodes;
-  std::array<double, 2> t;  ///< of the piece's shape
+  std::array<double, 2> t;  ///< parameters of both nodes on the shape of the piece
 };
 
-/// Where a length along a bend was shortened most.
+/// The length along a bend that was shortened most, in lengths of the metric.
 struct ShortenedLength {
   Vec2 at;
-  double from = 0, to = 0;  ///< 0: nowhere
+  double from = 0, to = 0;  ///< before and after; 0: none was shortened
 };
 
-/// A triangulation of a planar domain that is fine where its metric changes, and Delaunay in it.
+/// A triangulation of a planar domain, fine where its metric changes, and Delaunay in the metric.
 struct MetricMesh {
   Mesh fine;                           ///< triangles of all regions, which share their points
   std::vector<Tensor2> metric;         ///< at each point, within its limits
   std::vector<CurveSegment> segments;  ///< of all curves
   double complexity = 0;
-  double scale = 1;  ///< of the tensors that were given, for the complexity
+  double scale = 1;  ///< factor of the given tensors, for the complexity
   ShortenedLength shortened;
-  bool is_isotropic = false;  ///< whether these have no directions, within their limits
+  bool is_isotropic = false;  ///< within their limits, the tensors have no directions
 };
 
-/// `spec`: with a largest length. `domain`: with its curves as coarse as they may be; its nodes come first,
-/// in their order. Throws InputError for what is no metric, with the place and the tensor, and for more quads
-/// than are allowed.
+/// Returns the triangulation of a domain in its metric. `spec` has a largest length. `domain` has curves that
+/// are as coarse as possible; its nodes come first, in their order. Throws InputError, with the place and the
+/// tensor, for tensors that are no metric, and for more quads than `max_elements`. Own method.
 MetricMesh resolve_metric(const PlanarDomain& domain, const MetricFunction& metric, const MetricSpec& spec,
                           long long max_elements);
 

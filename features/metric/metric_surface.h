@@ -8,27 +8,25 @@
 #include "geometry/patches/meshing_setup.h"
 #include "metrics/anisotropic_measures.h"
 
-// This header has metrics of surfaces, which the preparation uses. A surface with a metric is measured by it
-// where it is laid flat: charts by the lengths of their sides, curves by theirs. All else happens in the flat
-// patches, whose size is the metric's own.
+// This header has metrics of surfaces. The preparation uses it. Lengths of sides in the metric flatten charts
+// and divide curves. All else happens in the flat patches, whose size is the size of the metric.
 
 namespace delquad {
 
-/// Returns the metric of a model; sizes are smaller at the spots. `model`: the model as it was read.
+/// Returns the metric of a model as it was read; lengths are smaller at the spots.
 WantedMetric wanted_metric(const MeshProblem& problem, const SurfaceModel& model,
                            const std::vector<SizeBall>& spots);
 
 /// Runs flatten() by lengths in a metric.
 Flattening flatten_by_metric(SurfaceModel& model, const SurfaceMetric& metric);
 
-/// Returns how much the field of a patch is drawn to the metric's axes.
+/// Returns the pull of the field of a patch to the axes of the metric.
 CrossPull pull_at(const SurfaceSetup& surface, int patch, Vec2 u, int& hint);
 
-/// Returns by which factor lengths in a plane are larger than the metric's own: where it is told to be finer,
-/// or not.
+/// Returns the factor between lengths of the plane and of the metric: below 1 if the mesh must be finer.
 double scale_of(const MeshingSetup& prepared);
 
-/// Returns the metric that meshes are measured by; null: none.
+/// Returns the metric by which meshes are measured; null: none.
 MetricAt metric_of(const MeshingSetup& prepared);
 
 }  // namespace delquad

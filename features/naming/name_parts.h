@@ -10,10 +10,9 @@
 
 namespace delquad {
 
-/// Gives faces and curves the names that are asked for, beside those that they have, in the order of the
-/// list: a part that is named first can be found by its name later. Throws InputError for a part that nothing
-/// fits, and for numbers that no face or curve has. So it does where two are as near to a place as each
-/// other.
+/// Gives faces and curves further names, in the order of the list, so that an entry may use names of earlier
+/// ones. Throws InputError for an entry that no part fits, for unknown numbers, and for two parts equally
+/// near to a place.
 void name_parts(const std::vector<NamedPart>& parts, SurfaceModel& model);
 
 }  // namespace delquad

@@ -9,16 +9,17 @@
 
 namespace delquad {
 
-/// Returns the problem, whose files are read, with a size that is `factor` times as large everywhere.
-/// Distances stay, so that growth and gradation change with the size; curvature gets kLeastPerTurn elements
-/// at least.
+/// Returns the problem with sizes that are `factor` (above 0) times as large everywhere; its files have been
+/// read. Distances stay, so growth and gradation change with the size. Curvature keeps at least kLeastPerTurn
+/// elements.
 MeshProblem with_scaled_sizes(MeshProblem problem, double factor);
 
-/// Returns the problem, whose files are read, with what `refine` asks for: sizes, numbers of edges, and
-/// layers of the same thickness. Throws InputError where it cannot be.
+/// Returns the problem with the sizes, numbers of edges and layers that `refine` asks for; its files have
+/// been read. The thickness of layers stays. Throws InputError if `refine` is not finite and above 0, beside
+/// a number of quads, and as require_free_sizes().
 MeshProblem refined(MeshProblem problem);
 
-/// Throws InputError where lines are given, which say how long edges are; `asked` names what was asked for.
+/// Throws InputError for given lines, whose lengths are the sizes; `asked` names the request.
 void require_free_sizes(const MeshProblem& problem, const std::string& asked);
 
 }  // namespace delquad

@@ -10,24 +10,25 @@
 
 namespace delquad {
 
-/// Small changes of a domain by a seed, on which a mesh should not depend. How much it does tells which
-/// differences between pipelines mean something.
+/// Small changes of a domain by a seed. The change of the mesh shows which differences between pipelines mean
+/// something.
 
-/// Returns the size times 1 +- 3 %, smoothly, over distances of about a tenth of `diagonal`: curves that are
-/// meshed by it get their nodes elsewhere.
+/// Returns the size times 1 +- 3 %, smooth over distances of about a tenth of `diagonal` (a length), so that
+/// curves get nodes at other places. Own method.
 std::shared_ptr<const SizeField> jittered(std::shared_ptr<const SizeField> size, long long seed,
                                           double diagonal);
 
 /// A turn of the plane about the origin.
 struct Rotation {
   double c = 1, s = 0;
-  static Rotation by_seed(long long seed);  ///< any angle, radians
+  static Rotation by_seed(long long seed);  ///< by any angle
   Vec2 operator()(Vec2 p) const { return {c * p.x - s * p.y, s * p.x + c * p.y}; }
   Vec2 back(Vec2 p) const { return {c * p.x + s * p.y, c * p.y - s * p.x}; }
 };
 
+/// Turns the domain with its curves.
 void rotate(const Rotation& rotation, PlanarDomain& domain);
-/// Fields that turn with the domain.
+/// Returns the field, turned with the domain.
 std::shared_ptr<const SizeField> rotated(std::shared_ptr<const SizeField> size, const Rotation& rotation);
 std::shared_ptr<const CrossField> rotated(std::shared_ptr<const CrossField> cross, const Rotation& rotation);
 

@@ -10,15 +10,15 @@
 
 namespace delquad {
 
-/// Returns for each curve of the model the requested elements per full turn; 0: none. The request is by its
-/// name, by the name of a region that it bounds in the domain, or overall. Throws InputError for a name that
-/// no curve and no region has.
+/// Returns for each curve of the model the requested elements per full turn; 0: none. Requests go by the name
+/// of the curve, by the name of a region that it bounds, or overall. Throws InputError for a name that no
+/// curve and no region has.
 std::vector<double> requested_turns(const PlanarModel& model, const PlanarDomain& domain,
                                     const SizeSpec& spec);
 
-/// Curves of the plane whose elements turn by more than curvature allows, in short parts, each with the size
-/// that it asks for. Broken lines turn at their corners only, and ask for nothing; so do bends of formulas
-/// within less than a thousandth of the curve's parameters.
+/// Returns short parts of planar curves whose elements turn by more than curvature allows, each with its
+/// size. Polylines turn only at their corners and get none; so do bends of formulas within less than 0.001 of
+/// the parameters. Own method.
 std::vector<LocalSize> curvature_spots(const PlanarModel& model, const PlanarDomain& domain,
                                        const SizeSpec& spec, const SizeField& base);
 

@@ -7,21 +7,23 @@
 
 namespace delquad {
 
-/// How curves get their edges.
+/// Options of the edges on curves, the group "curves".
 struct CurveOptions {
-  /// Worth of an irregular vertex less, in quads times eta, see agree_on_counts(); 0: the size alone counts,
-  /// and narrow faces are no grids.
+  /// Price of an irregular vertex, in quads times eta, 0 to 100, see agree_on_counts(). With 0 only the size
+  /// counts, and narrow faces are no grids.
   double agreement = 3;
   /// Small round holes get the edges of the square around them, see widen_round_holes().
   bool round_holes = false;
-  /// Curves shorter than so many sizes become one with those that they continue, see join_short_curves().
+  /// Curves shorter than this number of sizes, 0 to 100, join the curve that they continue, see
+  /// join_short_curves().
   double join_below = 0.25;
-  /// In the plane, regions thinner than the size get whole rows of quads. Else sizes become smaller where
-  /// these regions end. On surfaces, numbers of edges agree first around narrow faces that can be grids, and
-  /// narrow places keep one row.
+  /// In the plane, regions thinner than the size get whole rows of quads; otherwise sizes shrink where these
+  /// regions end. On surfaces, numbers of edges agree first around narrow faces that can be grids, and narrow
+  /// places keep one row.
   bool thin_rows = false;
-  double aspect = 3;  ///< of quads in such rows, beyond which sizes become smaller
-  /// Rows of quads for which sizes make room between curves that face each other, see gap_spots(); 0: none.
+  double aspect = 3;  ///< of quads in such rows, 1 to 100, above which sizes shrink
+  /// Rows of quads for which sizes make room between curves that face each other, 0 to 1000, see gap_spots();
+  /// 0: none.
   int gap_rows = 0;
   /// Curves with a name stay, however small, see ignore_small().
   bool keep_named = false;

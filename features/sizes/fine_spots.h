@@ -12,28 +12,27 @@
 
 namespace delquad {
 
-/// Where nothing else is said, sizes grow by so much per unit length.
+/// Default growth of sizes per unit length.
 inline constexpr double kSpotGradation = 0.3;
 
-/// Around a segment or a triangle, up to `reach`, sizes are at most `size`; from there on they grow.
+/// A segment or triangle around which sizes are at most `size` up to the distance `reach`, and grow beyond.
 struct LocalSize {
   Vec3 a, b;
   double size, reach;
   double growth = kSpotGradation;
-  std::optional<Vec3> c = {};  ///< of a triangle
+  std::optional<Vec3> c = {};  ///< third corner of a triangle
 };
 
-/// Returns the field, and less around the spots.
+/// Returns the smaller of the field and the sizes of the spots.
 std::shared_ptr<const SizeField> finer_near(std::shared_ptr<const SizeField> base,
                                             std::vector<LocalSize> spots);
 
-/// Returns the field, and near the spots their sizes, larger ones too. Where spots disagree the smaller ones
-/// count.
+/// Returns the field, and near the spots their sizes, also if these are larger. The smallest spot wins.
 std::shared_ptr<const SizeField> as_near(std::shared_ptr<const SizeField> base,
                                          const std::vector<LocalSize>& spots);
 
-/// Returns the edges that are much shorter than the size, because the curves between two nodes are. Each is a
-/// spot of its own length, times `aspect`. Only of domains with junctions.
+/// Returns edges shorter than 0.6 sizes, because the curves between two nodes are. Each is a spot of its own
+/// length times `aspect`. Domains without junctions have none. Own method.
 std::vector<LocalSize> short_edges(const PlanarDomain& domain, const SizeField& size, double aspect = 1);
 
 }  // namespace delquad

@@ -16,25 +16,26 @@
 
 namespace delquad {
 
-/// The named parts of a model, as segments (points have length zero) and triangles. Nameless parts are called
-/// by their number, as in files: curve_7, region_3.
+/// The named parts of a model, as segments (points have length zero) and triangles. Nameless parts have their
+/// number as name, as in files: curve_7, region_3.
 class NamedParts {
  public:
-  /// Lines, triangles and named points of a mesh.
+  /// Takes lines, triangles and named points of a mesh.
   explicit NamedParts(const Mesh& mesh);
-  /// Curves and points of a model, and the regions of a domain that was made from it.
+  /// Takes curves and points of a model, and the regions of its domain.
   NamedParts(const PlanarModel& model, const PlanarDomain& domain);
-  /// Lines and named points of a domain, and its regions.
+  /// Takes lines, named points and regions of a domain.
   explicit NamedParts(const PlanarDomain& domain);
 
-  /// Lines and points that are yet to be imprinted, straight.
+  /// Takes straight lines and points before they are imprinted.
   explicit NamedParts(const std::vector<LooseLine>& loose);
 
-  /// Adds the lines of a mesh from this curve and this named point on.
+  /// Adds lines and named points of a mesh, from these indices of curves and points on.
   void add_lines(const Mesh& mesh, std::size_t first_curve = 0, std::size_t first_point = 0);
-  /// Returns the sizes that are requested by names. Throws InputError for an unknown name.
+  /// Returns the sizes that are requested by names. Throws InputError, with similar names, for an unknown
+  /// name.
   std::vector<LocalSize> spots(const std::vector<NamedSize>& wanted) const;
-  /// Returns the spots without those names that nothing has.
+  /// Does the same and leaves out unknown names.
   std::vector<LocalSize> known_spots(const std::vector<NamedSize>& wanted) const;
 
  private:

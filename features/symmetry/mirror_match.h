@@ -12,35 +12,36 @@
 
 namespace delquad {
 
-/// A symmetric model's places have their images on it to this part of the diagonal of the model. On a
-/// triangulation, the distance of its triangles from the surface is added. On faces that are narrow, and on
-/// their curves, it is this part of the width.
+/// Largest distance of images from a symmetric model, in its diagonals. On a triangulation, the distance of
+/// its triangles from the surface is added. On narrow faces and their curves it is kSymmetricOfWidth of the
+/// width.
 inline constexpr double kSymmetric = 1e-4, kSymmetricOfWidth = 0.05;
 
 /// Images of the parts of a model at one plane.
 struct MirrorMatch {
   std::string failure;       ///< why the model is not symmetric; empty: it is
-  std::vector<int> face;     ///< of each face, its image
-  std::vector<char> turned;  ///< of each face: its image looks to the other side
-  /// For each curve the curves that its image lies on, ascending. Curves that need no image have none:
-  /// dangling curves, and nameless seams, which have the same face on both sides.
+  std::vector<int> face;     ///< image of each face
+  std::vector<char> turned;  ///< by face: its image has the opposite orientation
+  /// For each curve the curves that its image lies on, ascending. Curves that need no image have none. These
+  /// are dangling curves, and nameless seams with the same face on both sides.
   std::vector<std::vector<int>> curves;
-  std::vector<char> is_loose_seam;  ///< of each curve: such a seam, without an image
-  bool by_embedded = false;         ///< all but embedded curves and single points is symmetric
+  std::vector<char> is_loose_seam;  ///< by curve: such a seam, without an image
+  bool by_embedded = false;         ///< only embedded curves and single points are not symmetric
 };
 
-/// Compares a model with its images.
+/// Compares a model with its mirror images.
 class MirrorMatcher {
  public:
   explicit MirrorMatcher(const SurfaceModel& model);
   ~MirrorMatcher();
 
+  /// Returns the images of faces and curves at a plane, or the reason why there are none.
   MirrorMatch match(const SymmetryPlanes& planes, int plane) const;
-  /// Returns whether a few places have images, ten times as far off as they may be in the end.
+  /// Returns whether a few places have images within ten times the final tolerance.
   bool can_match(const SymmetryPlanes& planes, int plane) const;
-  /// Returns the plane that fits the model best, near one that nearly does.
+  /// Returns the plane near a given one that fits the model best.
   SymmetryPlane adjusted(const SymmetryPlane& plane) const;
-  /// Returns the mean distance of images from the model, over some places.
+  /// Returns the mean distance of images from the model, over some places; a length.
   double misfit(const SymmetryPlane& plane) const;
 
  private:
@@ -50,12 +51,12 @@ class MirrorMatcher {
 
 struct FoundPlanes {
   std::vector<SymmetryPlane> planes;  ///< perpendicular to each other
-  std::string
-      near_miss;  ///< a plane that would be one more, and the embedded item without an image; or empty
+  std::string near_miss;  ///< a plane that only an embedded item without an image prevents; or empty
 };
 
 /// Returns the planes at which a model is symmetric, or none. They go through the middle of the model or the
-/// centroid of its surface. If several are equally good, planes perpendicular to x, y and z come first.
+/// centroid of its surface. If several are equally good, planes perpendicular to x, y and z come first. Own
+/// method.
 FoundPlanes find_symmetry_planes(const SurfaceModel& model, const MirrorMatcher& matcher);
 
 }  // namespace delquad

@@ -22,58 +22,59 @@ namespace delquad {
 /// One or two planes of symmetry of a planar model.
 class Symmetry : public SymmetryPlanes {
  public:
-  /// Planes that are perpendicular to each other; they are seen in the plane.
+  /// Planes must be perpendicular to each other, seen in the plane. `tolerance` is a length.
   Symmetry(std::vector<SymmetryPlane> planes, double tolerance);
 
-  /// Returns the bits of the planes that x lies behind by more than the tolerance.
+  /// Returns the bits of the planes behind which x lies by more than the tolerance.
   int folds_of(Vec2 x) const { return SymmetryPlanes::folds_of({x.x, x.y, 0}, tolerance_); }
   /// Returns x mirrored at all planes whose bits are set.
   Vec2 reflect(int folds, Vec2 x) const;
   bool is_on(int plane, Vec2 x) const { return std::abs(height(plane, {x.x, x.y, 0})) <= tolerance_; }
   Vec2 put_on(int plane, Vec2 x) const;
   double tolerance() const { return tolerance_; }
-  /// Returns where the plane crosses the box.
+  /// Returns the line in which the plane crosses the box.
   std::array<Vec2, 2> axis(int plane, const Box<Vec2>& box) const;
 
  private:
   double tolerance_;
 };
 
-/// Returns the planes of a problem; with SymmetrySpec::automatic those that are found, which go through the
-/// centroid of the curves, or none. Throws InputError for planes that are given and not perpendicular, or
-/// about which the model is not symmetric.
+/// Returns the planes of a problem. With SymmetrySpec::automatic these are found planes through the centroid
+/// of the curves, or none. Throws InputError for given planes that are not perpendicular, or at which the
+/// model is not symmetric.
 std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySpec& spec);
 
 /// Returns a warning if no plane is found for the model, but its loops have one. The warning names the parts
 /// in the regions without an image. It is empty if the loops have no plane.
 std::string why_not_symmetric(const PlanarModel& model);
 
-/// Returns the model with the planes' axes as curves after its own, and with points, after its own, where its
-/// nodes have their images.
+/// Returns the model with the axes of the planes as last curves, and with last points where its nodes have
+/// their images.
 PlanarModel with_axes(const PlanarModel& model, const Symmetry& symmetry);
 
-/// Takes out the parts of axes, the model's curves from `first_axis` on, that lie outside of everything.
-/// `lines`: lines of the pieces.
+/// Removes the parts of axes, the curves from `first_axis` on, that lie outside of all regions. `lines` has
+/// the lines of the pieces.
 void drop_axes_outside(const Mesh& lines, int first_axis, ModelChain& chain, std::vector<CurvePiece>& pieces);
 
-/// Axes are no curves of the model; where one lies on them, that counts.
+/// Removes axes from the curves of the domain; a curve that lies on an axis stays.
 void drop_axes(int first_axis, PlanarDomain& domain);
 
-/// Pieces behind a plane get the images of those before it. Throws InputError for pieces without one.
+/// Gives pieces behind a plane the images of the pieces before it, and returns the pairs. Throws InputError,
+/// beginning with `where`, for pieces without one.
 std::vector<ChainPair> pair_symmetric(const PlanarModel& model, const Symmetry& symmetry,
                                       const std::string& where, ModelChain& chain,
                                       std::vector<CurvePiece>& pieces);
 
-/// Returns for each patch that is a mirror image its original and its reflection. Throws InputError for
-/// patches behind a plane that are no images.
+/// Returns for each patch that is a mirror image its original and its reflection. Throws InputError,
+/// beginning with `where`, for patches behind a plane that are no images.
 std::vector<PatchImage> patch_images(const std::vector<PatchBoundary>& patches, const Symmetry& symmetry,
                                      const std::string& where);
 
-/// Returns the mirror image of a patch's mesh. `boundary`: the boundary of the image, whose points stay.
+/// Returns the mirror image of a patch's mesh. Points of `boundary`, the boundary of the image, stay.
 PatchMesh image_of(const PatchMesh& master, const PatchBoundary& boundary, const PatchImage& image);
 
-/// Moves ends of edges at single points on images, as they moved on the master's boundary. `points`: of the
-/// nodes of all boundaries.
+/// Moves ends of edges at single points of images, as they moved on the boundary of the master. `points` has
+/// the nodes of all boundaries.
 void move_image_nodes(const MeshingSetup& prepared, const PatchImage& image, std::vector<Vec3>& points);
 
 }  // namespace delquad

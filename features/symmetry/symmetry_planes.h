@@ -12,8 +12,8 @@
 
 namespace delquad {
 
-/// One to three planes in space, perpendicular to each other. The fundamental part of a symmetric model lies
-/// on their positive sides.
+/// One to three perpendicular planes in space. The fundamental part of a symmetric model lies on their
+/// positive sides. Masks have one bit for each plane.
 class SymmetryPlanes {
  public:
   explicit SymmetryPlanes(const std::vector<SymmetryPlane>& planes);
@@ -28,9 +28,9 @@ class SymmetryPlanes {
   Vec3 reflect(int plane, const Vec3& x) const;
   /// Reflects at all planes whose bits are set.
   Vec3 reflect_all(int mask, Vec3 x) const;
-  /// Returns the bits of the planes that x lies behind by more than `tolerance`.
+  /// Returns the bits of the planes behind which x lies by more than `tolerance`.
   int folds_of(const Vec3& x, double tolerance = 0) const;
-  /// Returns the image of x on the positive side of all.
+  /// Returns the image of x on the positive sides of all planes.
   Vec3 fold(const Vec3& x) const { return reflect_all(folds_of(x), x); }
 
  private:
@@ -40,12 +40,12 @@ class SymmetryPlanes {
   std::vector<Plane> planes_;
 };
 
-/// Returns the planes that are given. Throws InputError, beginning with `where`, for more than three and for
-/// those that are not perpendicular.
+/// Returns given planes. Throws InputError, beginning with `where`, for more than three and for planes that
+/// are not perpendicular.
 SymmetryPlanes given_planes(const std::vector<SymmetryPlane>& planes, const std::string& where);
 
-/// Returns at each place the least of the sizes there and at its mirror images. Images whose size is the same
-/// to rounding change nothing.
+/// Returns at each place the least size of the place and its mirror images. Sizes that are equal to rounding
+/// stay.
 std::shared_ptr<const SizeField> least_of_images(std::shared_ptr<const SizeField> size,
                                                  const SymmetryPlanes& planes);
 
@@ -53,11 +53,10 @@ std::shared_ptr<const SizeField> least_of_images(std::shared_ptr<const SizeField
 std::shared_ptr<const SizeField> folded_size(std::shared_ptr<const SizeField> size,
                                              const SymmetryPlanes& planes);
 
-/// Completes half a model of triangles with its mirror image, which runs the other way round so that both
-/// agree in orientation. Ends of open edges within the tolerance are moved onto the plane and belong to both
-/// halves; lines there go. Both images of a line are on its curve. Throws InputError, beginning with
-/// `source`, if points lie on both sides of the plane beyond the tolerance. So it does if no open edge lies
-/// in the plane or a triangle does.
+/// Returns half a model of triangles with its mirror image, whose orientation agrees with it. Ends of open
+/// edges within the tolerance are moved onto the plane and belong to both halves; lines there vanish. Both
+/// images of a line are on its curve. Throws InputError, beginning with `source`, if points lie on both sides
+/// of the plane beyond the tolerance. Also throws if no open edge lies in the plane, or if a triangle does.
 Mesh add_mirror_image(Mesh half, const MirrorPlane& plane, const std::string& source);
 
 }  // namespace delquad

@@ -7,8 +7,9 @@
 
 namespace delquad {
 
-/// Takes sharp corners out of patches that stages mesh, where nodes face each other, as far as they are
-/// narrower than half an edge. Their quads go to domain.boundary, see cap_corners(), and their nodes stay.
+/// Cuts sharp corners off patches where nodes face each other, as far as they are narrower than half an edge.
+/// Their quads go to domain.boundary, see cap_corners(), and their nodes stay. Grids and mirror images keep
+/// their corners. Own method.
 void cut_wedges(PlanarDomain& domain);
 
 }  // namespace delquad

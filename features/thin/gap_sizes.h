@@ -11,9 +11,9 @@
 
 namespace delquad {
 
-/// Returns the edges of curves that face others across a region nearer than `rows` times the size. Beside
-/// each, the size fits a gap which holds so many rows, though it is no less than a twentieth of the size
-/// before. Near a corner between the curves there is no gap.
+/// Returns the edges of curves that face others across a region within `rows` times the size. Beside each,
+/// the size lets that many rows fit into the gap, but is at least a twentieth of the size before. Near a
+/// corner between the curves there is no gap. Own method.
 std::vector<LocalSize> gap_spots(const PlanarDomain& domain, const SizeField& size, double rows);
 
 }  // namespace delquad

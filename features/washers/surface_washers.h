@@ -19,31 +19,32 @@
 
 namespace delquad {
 
-/// A chart, and of each side of its loops the curve that it is of.
+/// A chart with the curve of each side of its loops.
 struct OutlinedChart : Chart {
   std::vector<std::vector<int>> curve_of = {};
 };
+/// Returns the charts of all faces of a triangulation.
 std::vector<OutlinedChart> outlined_charts(const Mesh& mesh);
 
-/// Rings around holes in faces of a surface. Curves at equal distance from the holes, along the surface, part
-/// faces of their own from the faces around. Both sides have as many edges and so many rows. The other end of
-/// a bore gets the edges of the first, and the face between becomes a grid where that pays. Fillets: numbers
-/// of edges of the curves that run across them, rows of the fillets that are rings.
+/// Rings around holes in faces of a surface. Curves at equal distance from the holes, along the surface,
+/// divide rings from the faces around. Both sides have equal numbers of edges and the requested rows. The
+/// other end of a bore gets the edges of the first, and the face between becomes a grid if that pays. Curves
+/// across fillets get numbers of edges, and fillets that are rings get rows. Own method.
 class SurfaceWashers {
  public:
-  /// `divisions`, `mapped`: of the model. They get what holes and fillets are to have; curves that are
-  /// divided stay as they are.
+  /// `divisions` and `mapped` belong to the model, and get the demands of holes and fillets. Divided curves
+  /// stay.
   SurfaceWashers(const MeshProblem& problem, SurfaceModel& model, std::vector<CurveDivision>& divisions,
                  MappedSpec& mapped)
       : problem_(problem), model_(model), divisions_(divisions), mapped_(mapped) {}
 
-  /// Adds the rings to the lines that are to be imprinted. Warnings, of the model, tell of holes that get
-  /// other rows than asked for, or none.
+  /// Adds the rings to the lines to be imprinted. Warnings of the model tell of holes with other rows than
+  /// requested, or none.
   void plan(const PointSize& size);
-  /// Parts the faces, and divides the fillets.
+  /// Divides the faces along the rings, and the curves of fillets.
   void cut();
-  /// Takes the divisions that were added out again that are of curves of a face, which cannot be meshed with
-  /// them. Returns whether there were some.
+  /// Removes added divisions of curves of a face that cannot be meshed with them. Returns whether there were
+  /// any.
   bool give_way(const FaceError& error);
   bool can_give_way() const { return n_added_ > 0; }
 
@@ -54,7 +55,7 @@ class SurfaceWashers {
     HoleRows rows;
     std::string where, at;
   };
-  /// Curves of ends of tubes, or of opposite sides of strips.
+  /// Curves at both ends of a tube, or on opposite sides of a strip.
   struct FacingSides {
     int face;
     std::array<std::vector<int>, 2> sides;
@@ -63,7 +64,7 @@ class SurfaceWashers {
   void find_divided();
   void divide(int curve, int edges, const std::string& where);
   bool are_rims(const std::vector<int>& side) const;
-  /// Gives the edges of rims to what faces them along bores, from there on, too.
+  /// Gives the edges of rims to the curves that face them along bores, and from there on.
   void spread(const std::vector<FacingSides>& facing, double size, const std::string& where);
   void divide_fillets();
 
@@ -71,10 +72,10 @@ class SurfaceWashers {
   SurfaceModel& model_;
   std::vector<CurveDivision>& divisions_;
   MappedSpec& mapped_;
-  std::map<int, int> edges_;  ///< of curves that are divided
-  std::set<int> rims_;        ///< faces among them that belong to holes with rows, and to other ends of these
+  std::map<int, int> edges_;  ///< by divided curve
+  std::set<int> rims_;        ///< divided curves around holes with rows, and at other ends of bores
   std::vector<Ring> rings_;
-  std::ptrdiff_t n_added_ = 0;  ///< divisions, the last ones
+  std::ptrdiff_t n_added_ = 0;  ///< number of added divisions, the last ones
 };
 
 }  // namespace delquad
