@@ -12,7 +12,7 @@
 #include "geometry/mesh/half_edges.h"
 #include "io/entity_names.h"
 
-// This header has meshes as writers see them: blocks of elements, sides and named groups. Readers and
+// This header has views of meshes for writers: blocks of elements, sides and named groups. Readers and
 // writers use it.
 
 namespace delquad {
@@ -26,7 +26,7 @@ struct CellBlock {
   CellShape shape;
   int dim;
   std::size_t n_nodes;  ///< of each element
-  std::size_t first;  ///< how many elements of this dimension other blocks have before: triangles come first
+  std::size_t first;    ///< number of elements of this dimension in earlier blocks; triangles come first
   const std::vector<int>* entity_of;
   const std::vector<Entity>* entities;  ///< curves, regions or volumes
   std::function<std::vector<int>(std::size_t)> nodes;
@@ -35,9 +35,9 @@ struct CellBlock {
   const Entity& entity(std::size_t i) const { return (*entities)[(*entity_of)[i]]; }
 };
 
-/// Returns lines, triangles, quads and hexahedra, but no empty blocks. `places` orders the nodes of quads,
-/// see nodes_of_quad(). By default it is Gmsh's order, without the middle one if that is a corner, as
-/// write_serendipity() has it.
+/// Returns blocks of lines, triangles, quads and hexahedra, without empty ones. `places` orders the nodes of
+/// quads, see nodes_of_quad(). By default it is the order of Gmsh, without the middle node if that is a
+/// corner, as in write_serendipity().
 std::vector<CellBlock> cell_blocks(const Mesh& mesh, std::vector<int> places = {});
 /// Returns 3 with hexahedra, else 2.
 int dimension_of(const Mesh& mesh);
@@ -45,18 +45,20 @@ int dimension_of(const Mesh& mesh);
 std::size_t n_cells(const Mesh& mesh, int dim);
 /// Returns whether the nodes in the middle of quads of order 2 are left out.
 bool has_eight_nodes(const Mesh& mesh);
-/// Places of the corners and of the nodes on sides of quads of order 1 or 2, for formats with no others.
+/// Returns the places of the corners and of the nodes on sides of quads of order 1 or 2, for formats without
+/// inner nodes.
 std::vector<int> places_on_sides(int order);
 /// Returns for each point whether it is the node in the middle of a quad of order 2.
 std::vector<char> are_in_middles(const Mesh& mesh);
 
-/// How a format calls elements of a shape with so many nodes.
+/// The code of a format for elements of a shape with this number of nodes.
 template <class Code>
 struct CellCode {
   CellShape shape;
   std::size_t n_nodes;
   Code code;
 };
+/// Returns the code of a block, which must be listed.
 template <class Code, std::size_t N>
 const Code& code_of(const CellBlock& cells, const CellCode<Code> (&codes)[N]) {
   return std::ranges::find_if(
@@ -70,9 +72,10 @@ const Code& code_of(const CellBlock& cells, const CellCode<Code> (&codes)[N]) {
 struct CellSide {
   int element, side;
 };
+/// Returns the element and side of a half-edge.
 CellSide cell_side(const Mesh& mesh, const HalfEdge& edge);
 
-/// The sides of triangles and quads, or of hexahedra if there are any.
+/// The sides of triangles and quads; if there are hexahedra, their sides.
 class CellSides {
  public:
   explicit CellSides(const Mesh& mesh);
@@ -96,26 +99,27 @@ void write_points_and_faces(TextWriter& out, const Mesh& mesh);
 
 std::vector<Entity> entities_of(const std::vector<NamedPoint>& points);
 
-/// Points, lines or elements of one name, for formats in which everything has one.
+/// Points, lines or elements of one name, for formats that need one for everything.
 struct MeshGroup {
   int dim;                  ///< 0: points, 1: lines, 2: triangles and quads, 3: hexahedra
   int number;               ///< from 1 on, in each dimension
   std::string name, label;  ///< the label is the name as the format can hold it
-  /// Points; indices into Mesh::lines; elements, triangles first.
+  /// Indices of points, of lines, or of elements, triangles first.
   std::vector<int> items;
 };
 
-/// Returns all named points, the lines on the boundary and the named ones inside (of hexahedra all), all
-/// elements. Groups of the highest dimension come first. Entities have the names of group_names().
+/// Returns groups of all named points, of lines on the boundary and named lines inside (all lines beside
+/// hexahedra), and of all elements. Groups of the highest dimension come first. Entities have the names of
+/// group_names().
 std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& rules);
 /// Returns the nodes of a group, ascending, each once.
 std::vector<int> nodes_of_group(const Mesh& mesh, const MeshGroup& group);
-/// Returns the groups' numbers of all items of a dimension; 0: in none.
+/// Returns the number of the group of each item of a dimension; 0: none.
 std::vector<int> group_numbers(const Mesh& mesh, const std::vector<MeshGroup>& groups, int dim);
-/// Returns the elements of a group that a block has, by their indices in it.
+/// Returns the indices in a block of the elements of a group.
 std::vector<std::size_t> items_in_block(const MeshGroup& group, const CellBlock& cells);
 
-/// Returns "curve "Ein|aus" is Ein_aus", one for each group whose label is not its name.
+/// Returns "curve "Ein|aus" is Ein_aus" for each group whose label differs from its name.
 std::vector<std::string> renamed_groups(const std::vector<MeshGroup>& groups);
 
 }  // namespace delquad

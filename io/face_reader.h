@@ -19,16 +19,16 @@
 
 namespace delquad {
 
-/// Throws InputError for the first stray point of a mesh, unless they are kept. `place`: where the file has a
-/// point.
+/// Throws InputError for the first stray point of a mesh, unless strays are kept. `place` returns the place
+/// of a point in the file.
 void check_strays(const Mesh& mesh, Strays strays, const std::function<std::string(int)>& place);
 
-/// Adds a line, triangle or quad by its nodes: its corners first, then the nodes that `places` of its order
-/// has beside them. Returns the problem if its order differs from the order of the mesh; empty: it was added.
+/// Adds a line, triangle or quad by its nodes: its corners, then the nodes at further `places` of its order.
+/// Returns the problem if its order differs from the order of the mesh; empty: it was added.
 std::string add_element(Mesh& mesh, int corners, std::span<const int> nodes, int entity,
                         std::vector<int> (*places)(int order) = gmsh_places);
 
-/// The named points of a mesh that is read.
+/// Adds named points while a mesh is read.
 class NamedPoints {
  public:
   void add(Mesh& mesh, int point, const std::string& name);
@@ -37,18 +37,18 @@ class NamedPoints {
   std::map<int, std::size_t> index_;
 };
 
-/// The common part of readers of text files with points and faces.
+/// Common part of readers of text files with points and faces.
 class FaceReader {
  protected:
   FaceReader(const std::filesystem::path& path, const char* kind, Strays strays);
-  /// Reads one more coordinate of the point on this line.
+  /// Returns the next coordinate of the point on this line. Throws InputError with the line.
   double coordinate();
-  /// Adds a point that was read just now.
+  /// Adds the point that was read last.
   void add_point(const Vec3& p);
-  /// Adds a face of these vertices to the mesh, as a quad or triangles. Throws InputError with the line for
-  /// one that cannot be split.
+  /// Adds a face with these vertices as a quad or triangles. Throws InputError, with the line, for faces that
+  /// cannot be split.
   void add_face(const std::vector<int>& corners, int region);
-  /// Returns the mesh without points that nothing uses. Notes how many faces were split, if any.
+  /// Returns the mesh without unused points, and notes the number of split faces.
   Mesh finished(ReadNotes* notes);
 
   TextScanner in_;
@@ -57,17 +57,16 @@ class FaceReader {
 
  private:
   std::vector<size_t> places_;                  ///< of the points in the file
-  long long n_polygons_ = 0, n_triangles_ = 0;  ///< that were split, and what they became
-  long long n_odd_ = 0;                         ///< of them, those that cross themselves or have no area
+  long long n_polygons_ = 0, n_triangles_ = 0;  ///< split polygons, and their triangles
+  long long n_odd_ = 0;                         ///< split polygons that cross themselves or have no area
 };
 
-/// Regions of faces by their color, as scans and prints have their parts.
+/// Regions of faces by color, which marks parts in scans and prints.
 class FaceColours {
  public:
-  static constexpr std::size_t kMost = 64;  ///< more than these paint a picture and divide nothing
+  static constexpr std::size_t kMost = 64;  ///< more colors are a picture and divide nothing
 
-  /// Returns the index of the region of faces with this color ("rrggbb"; empty: none) in a part that goes by
-  /// `name`.
+  /// Returns the index of the region for a color ("rrggbb"; empty: none) in a part called `name`.
   int region(const std::string& name, const std::string& colour) {
     const auto [at, is_new] = index_.try_emplace({name, colour}, static_cast<int>(regions_.size()));
     if (is_new) {
@@ -79,7 +78,7 @@ class FaceColours {
     return at->second;
   }
 
-  /// Gives the mesh its regions; where there are too many colors, only the regions of parts, and a note.
+  /// Gives the mesh its regions; for too many colors only the regions of parts, and a note.
   void finish(Mesh& mesh, ReadNotes* notes) const;
 
  private:
@@ -87,7 +86,7 @@ class FaceColours {
   std::vector<Entity> regions_;
 };
 
-/// Returns "rrggbb" of parts of 255.
+/// Returns "rrggbb" for values from 0 to 255.
 std::string colour_text(const std::array<int, 3>& rgb);
 
 }  // namespace delquad

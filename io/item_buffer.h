@@ -13,8 +13,8 @@
 
 namespace delquad {
 
-/// Which of many triangles is nearest at each sample of a raster. Triangles are given by x, y in samples and
-/// depth z, larger is nearer.
+/// Finds the nearest of many triangles at each sample of a raster. Triangles have x, y in samples and a depth
+/// z; larger is nearer.
 class ItemBuffer {
  public:
   static constexpr double kNothing = -std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ class ItemBuffer {
   /// Returns for each sample the item; -1: none.
   const std::vector<int>& items() const { return item_; }
 
-  /// Returns the least depth of the samples around a point: what is behind it is hidden.
+  /// Returns the least depth of the 3 x 3 samples around a point; things behind it are hidden.
   double depth_around(double x, double y) const {
     double least = std::numeric_limits<double>::infinity();
     const int cx = static_cast<int>(std::lround(x)), cy = static_cast<int>(std::lround(y));

@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-// This header writes files by libraries of others, in processes of their own. Their formats use it.
+// This header writes files by libraries of other projects, in separate processes. Their formats use it.
 
 namespace delquad {
 
-/// The number that a library gives to an open file, which is closed at the end.
+/// The number of an open file of a library; the destructor closes it.
 template <class Id, auto close>
 struct OpenFile {
   Id id = -1;
@@ -26,20 +26,19 @@ struct OpenFile {
   auto close_now() { return close(std::exchange(id, -1)); }
 };
 
-/// Copies all of a file. Throws InputError where it cannot be read; what the stream does not take is left to
-/// its state.
+/// Copies a whole file. Throws InputError if it cannot be read; errors of the stream stay in its state.
 void copy_into(std::ostream& out, const std::filesystem::path& file);
 
-/// Returns a writer for formats whose library writes files by their name. `write` fills a temporary one in a
-/// process of its own, which is then copied to the stream.
+/// Returns a writer for formats whose library writes files by name. `write` fills a temporary file in a
+/// separate process, which is then copied to the stream.
 std::function<void(std::ostream&)> by_library(
     const std::filesystem::path& path, std::function<void(const std::filesystem::path& temporary)> write);
 /// Writes a file by a library, whole or not at all, see write_file_atomically().
 void write_by_library(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 
-/// Throws InputError if `done` is false. It names the file, the library, the failed step, and the system's
-/// reason where it is one of disks.
+/// Throws InputError if `done` is false. It names the file, the library and the failed step, and the reason
+/// of the system for errors of disks.
 void require_written(bool done, const std::filesystem::path& path, const std::string& library,
                      const char* what);
 

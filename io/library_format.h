@@ -10,8 +10,8 @@
 
 namespace delquad {
 
-/// A mesh format that a library of another project reads or writes. Its code lies in a library of its own,
-/// libdelquad-<name>, which is loaded with the first file of this format.
+/// A mesh format that a library of another project reads or writes. Its code is in libdelquad-<name>, which
+/// the first file of this format loads.
 struct LibraryFormat {
   Mesh (*read)(const std::filesystem::path&, ReadNotes*, Strays) = nullptr;  ///< null: it is not read
   void (*write)(const std::filesystem::path&, const Mesh&) = nullptr;

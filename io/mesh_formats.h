@@ -15,18 +15,18 @@
 
 namespace delquad {
 
-/// Whether a format has quads of eight nodes: kAlways ones of order 2 have no others.
+/// Whether a format has quads of eight nodes; kAlways: quads of order 2 have no other form.
 enum class EightNodes { kNever, kOnRequest, kAlways };
 
-/// Whose names a format holds, and whether pairs.
+/// Bits for the kinds of names that a format holds, and for pairs.
 enum NameKinds : unsigned {
   kRegionNames = 1,
   kInnerNames = 2,
   kBoundaryNames = 4,
   kPointNames = 8,
   kAllNames = 15,
-  kFurtherNames = 16,  ///< all names of regions and curves that have several, not the one of group_names()
-  kPeriodicPairs = 32  ///< which nodes are images of others
+  kFurtherNames = 16,  ///< all names of regions and curves, not only group_names()
+  kPeriodicPairs = 32  ///< nodes that are images of others
 };
 
 /// A kind of mesh file. Its code is in its files in io/formats/ and in a line of mesh_formats.cpp.
@@ -35,22 +35,22 @@ struct MeshFormat {
   std::string description;
   Mesh (*read)(const std::filesystem::path&, ReadNotes*, Strays) = nullptr;  ///< null: it is not read
   void (*write)(const std::filesystem::path&, const Mesh&, const MshOptions&) = nullptr;
-  int most_order = 1;  ///< of elements that are written
-  std::string package =
-      {};  ///< of Debian, whose library this program was built without; empty: it has all it needs
+  int most_order = 1;        ///< of elements that are written
+  std::string package = {};  ///< Debian package of the missing library; empty: nothing is missing
   bool has_hexahedra = false;
   bool has_shells = false;  ///< triangles and quads are shells, even in a plane
   EightNodes eight_nodes = EightNodes::kNever;
   bool has_binary = false;
-  bool has_depths = false;      ///< z of a planar mesh may be heights of the ground
-  bool has_open_sides = false;  ///< water comes and goes through sides whose names say so
-  /// As renamed_in_file(). Either, where the file itself does not tell: labels of mesh_groups(), or a
-  /// function.
+  bool has_depths = false;      ///< z of a planar mesh may be the height of the ground
+  bool has_open_sides = false;  ///< sides may be open to water, by their names
+  /// Labels of mesh_groups(), or a function, for renamed_in_file(); both null if the file itself lists new
+  /// names.
   const UniqueLabels::Rules* labels = nullptr;
   std::vector<std::string> (*renamed)(const Mesh&) = nullptr;
-  unsigned names = kAllNames;                  ///< NameKinds
+  unsigned names = kAllNames;                  ///< bits of NameKinds
   std::vector<std::string> of_triangles = {};  ///< extensions of files that have no quads
-  /// Reads and writes files that are kept, see read_given_mesh() and rewrite_mesh(); null: they are not.
+  /// Reads and rewrites files whose other contents stay, see read_given_mesh() and rewrite_mesh(); null: none
+  /// stay.
   Mesh (*read_given)(const std::filesystem::path&, ReadNotes*) = nullptr;
   void (*rewrite)(const std::filesystem::path& source, const std::filesystem::path&, const Mesh&,
                   double weld) = nullptr;
@@ -61,12 +61,12 @@ struct MeshFormat {
   std::map<std::string, int> (*others)(const std::filesystem::path&) = nullptr;
 };
 
-/// Readers that note nothing.
+/// Adapts readers without notes.
 template <Mesh (*read)(const std::filesystem::path&)>
 Mesh read_by(const std::filesystem::path& path, ReadNotes*, Strays) {
   return read(path);
 }
-/// Writers without options.
+/// Adapts writers without options.
 template <void (*write)(const std::filesystem::path&, const Mesh&)>
 void write_by(const std::filesystem::path& path, const Mesh& mesh, const MshOptions&) {
   write(path, mesh);
@@ -76,31 +76,32 @@ void write_by(const std::filesystem::path& path, const Mesh& mesh, const MshOpti
 const std::vector<std::string>& inp_hexahedra();
 /// The value for shells, even in a plane.
 inline constexpr const char* kShell = "S4";
-/// Adds that shells of the source stay shells in .inp.
+/// Returns the options for a mesh from this source: its shells stay shells in .inp.
 MshOptions options_for_source(const std::filesystem::path& source, MshOptions options);
 
-/// Returns whether a format can be written by this program, or by one with its library.
+/// Returns whether this program, or one with the missing library, can write a format.
 bool can_write(const MeshFormat& format);
 
 /// Returns the formats in the order of the documentation.
 const std::vector<MeshFormat>& mesh_formats();
 
-/// Reads a mesh to improve it: with the regions and points that rewrite_mesh() needs, if it keeps such files.
+/// Reads a mesh to improve, with the regions and points that rewrite_mesh() needs. Throws InputError as
+/// read_mesh().
 Mesh read_given_mesh(const std::filesystem::path& path, ReadNotes* notes = nullptr);
-/// Returns whether what else `source` holds stays in `path`: both are decks of Abaqus or CalculiX, or both of
-/// Nastran.
+/// Returns whether the other contents of `source` stay in `path`: both are decks of Abaqus or CalculiX, or
+/// both of Nastran.
 bool keeps_file(const std::filesystem::path& source, const std::filesystem::path& path);
-/// Writes the source again with a mesh that read_given_mesh() read from it, or stages made of that. All else
-/// stays: types, numbers, sets, sections, loads. `weld`: the part of the diagonal within which
-/// weld_open_edges() joined points of it. Throws InputError if a line names something that is gone.
+/// Writes the source again, with a mesh from read_given_mesh() or stages after it. Everything else stays:
+/// types, numbers, sets, sections, loads. `weld` is the share of the diagonal within which weld_open_edges()
+/// joined points. Throws InputError if a line names a removed item.
 void rewrite_mesh(const std::filesystem::path& source, const std::filesystem::path& path, const Mesh& mesh,
                   double weld);
-/// Adds the sections of a deck to one of another program that write_mesh() made of its mesh, if both formats
-/// have sections. Returns what gets lost of the source, ignored_keywords() included.
+/// Adds the sections of a deck to the deck of another program that write_mesh() wrote, if both formats have
+/// sections. Returns lost contents of the source, one line each, including ignored_keywords().
 std::vector<std::string> carry_sections(const std::filesystem::path& source,
                                         const std::filesystem::path& path, const Mesh& mesh);
-/// Keywords of a file that are no part of a mesh, and how many: "*CLOAD (2), *MATERIAL (1)". Leaves out those
-/// that were carried.
+/// Returns the keywords of a file that are no part of a mesh, with counts: "*CLOAD (2), *MATERIAL (1)".
+/// `carried` ones are left out.
 std::string ignored_keywords(const std::filesystem::path& path,
                              const std::map<std::string, int>& carried = {});
 
@@ -111,8 +112,8 @@ Mesh straightened(Mesh mesh);
 /// Returns the parts of a mesh that a file of that name cannot hold, one line each: names, and a higher
 /// order.
 std::vector<std::string> unsupported_in_file(const std::filesystem::path& path, const Mesh& mesh);
-/// Returns one line, with the remedy, for depths and for an open side if programs need them and the mesh has
-/// none. `gets_depths`: depths come later.
+/// Returns one line, with the remedy, for missing depths and for a missing open side, if programs need them.
+/// `gets_depths` tells that depths come later.
 std::vector<std::string> missing_in_file(const std::filesystem::path& path, const Mesh& mesh,
                                          bool gets_depths = false);
 

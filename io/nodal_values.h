@@ -19,16 +19,17 @@ struct FieldForm {
   bool of_points = false;               ///< not of elements
 };
 
-/// Returns the index of the field `name`, the last one of several; of the only name that there is where
-/// `name` is empty. Throws InputError where there is none, or where it has another form.
+/// Returns the index of the field `name`, or of the only field if `name` is empty; the last of several
+/// counts. Throws InputError, beginning with `file`, for a missing field or another form.
 std::size_t choose_field(const std::vector<MeshField>& fields, const std::string& name,
                          const std::string& file, const FieldForm& form);
 
-/// Which fields of a file are read, by what it says of them before their values.
+/// Selects the fields to read, by their headers in the file.
 using FieldChoice = std::function<std::vector<std::size_t>(const std::vector<MeshField>&)>;
+/// Reads the selected fields of a VTU file. Throws InputError with the file.
 MeshWithFields read_vtu_fields(const std::filesystem::path& path, const FieldChoice& choice);
 
-/// Throws InputError where a mesh has more points than its file, which tells nothing of them.
+/// Throws InputError if a mesh has more points than its file.
 void require_own_points(const Mesh& mesh, std::size_t n_points, const std::filesystem::path& path);
 
 }  // namespace delquad

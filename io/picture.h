@@ -12,10 +12,10 @@
 
 namespace delquad {
 
-/// Draws a mesh as SVG, written whole or not at all, with a title and a legend. Quads are colored by eta,
-/// triangles by region if there are no quads. Curves, free edges and irregular vertices are drawn, by
-/// valence. In space it is a shaded view, in parallel projection, z upright. It is seen from the corner of a
-/// cube around it that shows most of it.
+/// Draws a mesh as SVG, with a title and a legend, completely or not at all. Quads are colored by eta;
+/// without quads triangles are colored by region. Curves, free edges and irregular vertices are drawn. A mesh
+/// in space is shaded, in parallel projection with z up, from the corner of a surrounding cube that shows
+/// most of it. Throws InputError if the file cannot be written.
 void draw_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::string& title);
 
 struct IrregularVertex {
@@ -30,8 +30,8 @@ struct IrregularVertices {
   std::vector<std::array<int, 2>> pairs;  ///< of a mesh of quads, see pair_irregular()
 };
 
-/// Vertices inside the mesh (not on its free edges) whose valence is not `regular`, and vertices of pairs.
-/// element_size: by element, triangles first.
+/// Returns vertices inside the mesh (not on its free edges) whose valence is not `regular`, and vertices of
+/// pairs. `element_size` has a size for each element, triangles first.
 IrregularVertices irregular_vertices(const Mesh& mesh, int regular, const std::vector<double>& element_size);
 
 }  // namespace delquad

@@ -19,7 +19,7 @@ struct PixelPoint {
   int x, y;
 };
 
-/// Data of an SVG path, in relative coordinates: many shapes in few bytes.
+/// Data of an SVG path with many shapes, in relative coordinates, which take few bytes.
 class Path {
  public:
   void move_to(PixelPoint s);
@@ -39,10 +39,10 @@ class Path {
   char last_ = 0;
 };
 
-/// Returns #rrggbb of t in [0, 1]: dark violet, green, yellow, perceptually even (viridis).
+/// Returns #rrggbb for t in [0, 1]: dark violet, green, yellow, perceptually even (viridis).
 std::string colour(double t);
 
-/// Returns the color of an irregular vertex or singularity of index +1 (valence one too small), -1 (one too
+/// Returns the color of an irregular vertex or singularity by index: +1 (valence one too small), -1 (one too
 /// large), others.
 std::string_view mark_colour(int index);
 
@@ -65,20 +65,21 @@ class Picture {
   PixelPoint spot(double x, double y) const;
   PixelPoint spot(Vec2 p) const { return spot(p.x, p.y); }
   PixelPoint spot(const Vec3& p) const { return spot(p.x, p.y); }
-  /// Pixels a unit of length.
+  /// Returns the pixels per unit of length.
   double scale() const { return scale_; }
 
-  /// Widths in pixels; "none" draws no fill or no stroke.
+  /// Adds a path. The width is in pixels; "none" draws no fill or no stroke.
   void add(const Path& path, std::string_view fill, std::string_view stroke, double stroke_width);
   void add_marks(const std::vector<Mark>& marks);
-  /// Marks, and lines that join pairs of them.
+  /// Adds marks, and lines that join pairs of them.
   void add_marks(const std::vector<Mark>& marks, const std::vector<std::array<Vec2, 2>>& pairs);
 
-  /// Adds a color bar: labels at positions in [0, 1].
+  /// Adds a color bar with labels at positions in [0, 1].
   void add_colour_bar(std::string_view title, const std::vector<std::pair<double, std::string>>& labels);
-  /// Labels of marks by index, below the bar, and of lines between pairs where there are any.
+  /// Adds labels of marks by index below the bar, and of lines between pairs if there are any.
   void add_mark_legend(const std::vector<std::pair<int, std::string>>& labels);
 
+  /// Writes the file completely or not at all. Throws InputError with the path.
   void write(const std::filesystem::path& path) const;
 
  private:

@@ -15,14 +15,14 @@
 
 namespace delquad {
 
-/// Returns the whole file, unpacked when it is compressed by gzip. Throws InputError.
+/// Returns the whole file, unpacked if gzip compressed it. Throws InputError with the path.
 std::string read_whole_file(const std::filesystem::path& path);
 
-/// A file cut into tokens at white space, or into bytes. Every error is an InputError "file:line: message"
-/// with the line of the last token. Once bytes were read, it is "file: byte N: message".
+/// A file as tokens between white space, or as bytes. Every error is an InputError "file:line: message" with
+/// the line of the last token; after bytes were read, "file: byte N: message".
 class TextScanner {
  public:
-  /// Reads the whole file, as read_whole_file(). Without its byte order mark; UTF-16 becomes UTF-8.
+  /// Reads the whole file as read_whole_file(), without a byte order mark; UTF-16 becomes UTF-8.
   explicit TextScanner(const std::filesystem::path& path);
 
   /// Returns whether only white space is left.
@@ -31,39 +31,40 @@ class TextScanner {
   bool at_end_of_line();
   /// Returns whether the next token begins with c.
   bool next_is(char c) { return !at_end() && text_[at_] == c; }
-  /// Goes to what follows lines that begin with '#' or "//".
+  /// Skips lines that begin with '#' or "//".
   void skip_comments();
-  /// Lines that end with a backslash go on with the next one from now on.
+  /// From now on, lines that end with a backslash continue on the next one.
   void join_continued_lines();
   /// Returns the next token; `what` names it in errors.
   std::string_view token(std::string_view what);
+  /// Returns an integer from `low` to `high`.
   long long integer(std::string_view what, long long low, long long high);
-  /// Returns a number of things that follow, each of a byte at least.
+  /// Returns a count of following items, each of at least one byte.
   long long count(std::string_view what);
   /// Returns a finite number.
   double real(std::string_view what, Strays strays = Strays::kRefused);
-  /// Returns the same of a number that was read as bytes.
+  /// Checks a number that was read as bytes in the same way.
   double finite(double value, Strays strays) const;
-  /// Returns a token as it can be shown in a message: short, printable, in quotes.
+  /// Returns a token for messages: short, printable, in quotes.
   static std::string printable(std::string_view token);
-  /// Returns the next bytes, as they are; `what` names them in errors.
+  /// Returns the next bytes; `what` names them in errors.
   std::string_view bytes(size_t count, std::string_view what);
-  /// Goes behind the next occurrence of a text; false, and no step, when there is none.
+  /// Moves behind the next occurrence of a text. Returns false, and does not move, if there is none.
   bool skip_past(std::string_view text);
   /// Returns the rest of the line.
   std::string_view rest_of_line();
 
-  /// Goes to the beginning of the next line; false, and no step, in the last one.
+  /// Moves to the beginning of the next line. Returns false, and does not move, in the last one.
   bool next_line();
 
   int line() const { return line_; }
-  /// Returns the line, or the byte; the other one returns "file:line" or "file: byte N" of it.
+  /// Returns the line, or the byte once bytes were read; place() shows it as "file:line" or "file: byte N".
   size_t position() const { return in_bytes_ ? at_ : static_cast<size_t>(line_); }
   std::string place(size_t position) const;
   /// Returns the whole file.
   std::string_view text() const { return text_; }
   size_t bytes_left() const { return text_.size() - at_; }
-  /// Errors with the place, or the line, and a message that is made as by fmt::format().
+  /// Throws InputError with the place, or with this line, and a message formatted by fmt.
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) const {
     refuse("{}: {}", place(position()), fmt::format(text, std::forward<Args>(args)...));
@@ -81,12 +82,11 @@ class TextScanner {
   bool in_bytes_ = false;  ///< lines mean nothing
 };
 
-/// Returns the kind of contents that the beginning of a file shows, such as "a STEP file"; empty: unknown.
+/// Returns the kind of contents by the beginning of a file, such as "a STEP file"; empty: unknown.
 std::string content_kind(std::string_view text);
 inline constexpr const char* kMfemFile = "an MFEM file";
 
-/// Throws InputError when the file shows to be something else than `expected`, which is a name of a format as
-/// content_kind() uses it.
+/// Throws InputError if content_kind() of the file is known and not `expected`.
 void refuse_other_kinds(const TextScanner& in, std::string_view expected);
 
 }  // namespace delquad

@@ -37,7 +37,7 @@ class TextWriter {
     const char* end = std::to_chars(digits, digits + sizeof digits, number).ptr;
     return *this << std::string_view(digits, static_cast<size_t>(end - digits));
   }
-  /// Writes the rest. To be called at the end: the destructor writes nothing, so that no error is lost in it.
+  /// Writes the rest. Call it at the end: the destructor writes nothing, so that no error is lost.
   void flush() {
     out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
     buffer_.clear();

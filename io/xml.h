@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// Returns the text as it stands in an XML file, in attributes too; control characters become blanks.
+/// Returns the text with the escapes of XML, also for attributes; control characters become blanks.
 inline std::string xml_escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {

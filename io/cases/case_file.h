@@ -13,12 +13,13 @@
 namespace delquad {
 
 /// Reads the keys of a case that the table has: model, data, mesh, curve, loop, pattern, surface, size,
-/// cross, insertion, smoothing, recombination, compare. Other keys of the case stay as they are. Paths count
-/// from the table's file.
+/// cross, insertion, smoothing, recombination, compare. Other keys of the case stay. Paths are relative to
+/// the folder of the table's file. Throws InputError with file and line.
 void read_case_keys(const TomlTable& table, Case& target);
 
-/// Returns a model file by itself: the keys of a case, at the top level; or a mesh of lines (.msh).
-/// `defaults`: what the file does not say. Throws InputError for other extensions and for experiment files.
+/// Returns the case of a model file: keys of a case at the top level, or a mesh of lines (.msh). `defaults`
+/// has the values of absent keys. Throws InputError for other extensions, for experiment files, and with file
+/// and line for wrong keys.
 Case read_model_case(const std::filesystem::path& file, const Case& defaults = {});
 
 /// Reads "all" or "tangent". Throws InputError, beginning with `where`, for anything else.

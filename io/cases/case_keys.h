@@ -14,8 +14,8 @@
 
 namespace delquad {
 
-/// Returns the keys of a model, which are the keys of a case without its name. Throws std::logic_error where
-/// options from outside have the name of another key.
+/// Returns the keys of a model: the keys of a case without its name. Throws std::logic_error if added options
+/// have the name of another key.
 TomlKeys case_keys();
 /// Returns the keys of criteria, and of the limits of a part.
 TomlKeys criteria_keys();
@@ -41,13 +41,14 @@ inline const std::string kSpacePoint =
     R"({"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 3})";
 inline const std::string kVector =
     R"({"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3})";
-/// A list of so many points.
+/// Returns the JSON Schema of a list of `least` to `most` points.
 std::string points(const std::string& point, double least, std::optional<double> most = {});
+/// Returns the JSON Schema of one of these texts.
 std::string one_of(const std::vector<std::string>& texts);
 }  // namespace toml_types
 
-/// Returns the options of all stages as a table in Markdown: name, what it may be, default, what it is. Ends
-/// with a newline.
+/// Returns the options of all stages as a table in Markdown, with a newline at the end: name, allowed values,
+/// default, meaning.
 std::string option_table_text();
 
 }  // namespace delquad

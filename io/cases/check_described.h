@@ -20,13 +20,14 @@ struct ValueName {
   std::string text() const;  ///< "file:line: 'key' of 'owner'"
 };
 
-/// These throw InputError for values beyond the limits. `none`: the value that stands for none.
+/// These throw InputError, beginning with the name, for values beyond the limits. `none` is the value that
+/// stands for none.
 void check_number(double value, const Rule& rule, const ValueName& name, std::optional<double> none);
 void check_text(const std::string& text, const Rule& rule, const ValueName& name);
 void check_vector(const Vec3& vector, const Rule& rule, const ValueName& name);
 void check_unique(const std::vector<std::string>& texts, const ValueName& name);
 [[noreturn]] void refuse_empty(const ValueName& name);
-/// `least`: how many values a list has at least.
+/// `least` is the least number of values.
 void check_length(std::size_t length, double least, const ValueName& name);
 
 /// These throw InputError for fields that contradict each other.
@@ -59,7 +60,8 @@ inline constexpr bool kIsOptional<std::optional<T>> = true;
 template <Described T>
 void check_described(const T& value, std::string where, std::string path = {});
 
-/// Throws InputError for a value beyond the limits. Where `absent` is no null, such a value stands for none.
+/// Throws InputError for a value beyond the limits. If `absent` is not null, its value stands for none and is
+/// allowed.
 template <class T>
 void check_value(const T& value, const Rule& rule, const ValueName& name, const T* absent = nullptr) {
   if constexpr (Described<T>) {
@@ -82,9 +84,8 @@ void check_value(const T& value, const Rule& rule, const ValueName& name, const 
   }
 }
 
-/// Throws InputError for values of the struct, and of the structs in it, beyond the limits of their
-/// descriptions. It also refuses fields that contradict each other. `where`, `path`: of structs that know no
-/// place.
+/// Throws InputError for values of the struct, and of structs in it, beyond the limits of their descriptions,
+/// and for fields that contradict each other. `where` and `path` name structs that know no place.
 template <Described T>
 void check_described(const T& value, std::string where, std::string path) {
   std::string owner;

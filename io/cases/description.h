@@ -13,43 +13,43 @@
 
 namespace delquad {
 
-/// How the value of a field stands in files.
+/// Form of the value of a field in files.
 enum class Form {
-  kPlain,    ///< as its type says: a number, a text, true or false, a list, a table
-  kFormula,  ///< a text, or a number in its place
+  kPlain,    ///< by its type: a number, a text, true or false, a list, a table
+  kFormula,  ///< a text, or a number instead
   kTexts,    ///< a list of texts, or one text alone
   kGroup,    ///< the same, or a text, each the name of a physical group
   kVector,   ///< three numbers
   kDegrees,  ///< degrees; the struct and records have radians
-  kBytes,    ///< bytes, which records have by their digest
+  kBytes,    ///< bytes, which records have as their digest
   kLeast,    ///< the first number of a pair; the next field has the second
   kMost,     ///< the second number of the pair
-  kOwn,      ///< code of its own reads it
-  kNone,     ///< only programs set it
+  kOwn,      ///< read by own code
+  kNone,     ///< set by programs only
 };
 
 /// The rules for the value of a field.
 struct Rule {
   Form form = Form::kPlain;
-  /// Limits of numbers, and of lengths of vectors; `least` of lists of texts and points: how many there are
-  /// at least.
+  /// Limits of numbers, and of lengths of vectors. For lists of texts and points, `least` is their least
+  /// number.
   std::optional<double> least = {}, above = {}, most = {};
-  bool required = false;        ///< its table is refused without it
-  bool unique = false;          ///< a list of texts, each of which stands there once
-  const char* words = nullptr;  ///< "a|b": texts that it may be; of enumerations and flags one for each value
-  const char* type = nullptr;   ///< of kOwn and texts: JSON Schema of the value, unless it is a table
+  bool required = false;          ///< its table is refused without it
+  bool unique = false;            ///< a list of different texts
+  const char* words = nullptr;    ///< "a|b": allowed texts; for enumerations and flags one for each value
+  const char* type = nullptr;     ///< for kOwn and texts: JSON Schema of the value, unless it is a table
   const char* option = nullptr;   ///< option of the program that sets it
-  const char* keyword = nullptr;  ///< keyword of Python that sets it, where that is not the key
+  const char* keyword = nullptr;  ///< keyword of Python that sets it, if that is not the key
   const char* no_result =
-      nullptr;  ///< the reason why it determines no result: then it is in no digest and record
+      nullptr;  ///< why it determines no result; null: it does, and is in digests and records
 };
 
-/// Returns each of the texts of Rule::words.
+/// Returns the texts of Rule::words.
 std::vector<std::string> words_of(const char* words);
 
 struct FieldInfo {
-  const char* key;   ///< in files and records; empty: the fields of the member stand in its place
-  const char* help;  ///< what it is, for people
+  const char* key;   ///< in files and records; empty: the fields of the member replace it
+  const char* help;  ///< meaning, for people
   Rule rule;
 };
 
@@ -58,6 +58,7 @@ struct Field : FieldInfo {
   Member Struct::*member;
 };
 
+/// Returns the description of a field.
 template <class Struct, class Member>
 constexpr Field<Struct, Member> field(const char* key, Member Struct::*member, const char* help = "",
                                       Rule rule = {}) {
@@ -76,7 +77,7 @@ constexpr Field<Struct, Member> ignored(Member Struct::*member, const char* reas
   return field("ignored", member, "", {.form = Form::kNone, .no_result = reason});
 }
 
-/// Returns the place in a file that a struct was read from.
+/// Returns a field for the place in a file from which a struct was read.
 template <class Struct, class Member>
 constexpr Field<Struct, Member> place(Member Struct::*member) {
   return ignored(member, "it names a place in messages");
@@ -95,7 +96,7 @@ struct AnyValue {
   operator T() const;
 };
 
-/// The number of members of a struct: with so many values, and no more, it can be made.
+/// Returns the number of members of an aggregate: the largest number of values that can initialize it.
 template <class T, class... Values>
 consteval std::size_t count_members() {
   if constexpr (requires { T{Values{}..., AnyValue{}}; })
@@ -104,7 +105,7 @@ consteval std::size_t count_members() {
     return sizeof...(Values);
 }
 
-/// Calls visit(FieldInfo, member, the same member of the others...) for each field, in the order of the
+/// Calls visit(FieldInfo, member, same member of the others...) for each field, in the order of the
 /// description.
 template <class Visit, class T, class... Same>
 void visit_fields(Visit&& visit, T& object, Same&... others) {

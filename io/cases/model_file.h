@@ -10,14 +10,14 @@
 
 namespace delquad {
 
-/// Reads `curve`, `loop`, `pattern` and `embed` of a table (docs/models.md explains them). Throws
-/// InputError with file and line.
+/// Reads `curve`, `loop`, `pattern` and `embed` of a table (docs/models.md explains them). Throws InputError
+/// with file and line.
 PlanarModel read_planar_model(const TomlTable& table);
 /// Returns whether the table has any of these keys.
 bool has_planar_model(const TomlTable& table);
 
-/// Reads `embed` of a table whose model is a surface: polylines and points in space. Throws InputError as the
-/// other.
+/// Reads `embed` of a table whose model is a surface: polylines and points in space. Throws InputError with
+/// file and line.
 std::vector<EmbeddedLine> read_embedded_lines(const TomlTable& table);
 
 }  // namespace delquad

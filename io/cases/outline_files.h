@@ -12,38 +12,39 @@
 
 namespace delquad {
 
-/// Reads a GeoJSON file [RFC 7946]. Each ring of a polygon is a curve of data, inner ones are holes. Without
-/// polygons the lines that join at their ends are outlines (join_outlines()); else lines and points stand in
-/// the regions. A feature has its name from its properties "name", "NAME" or "id". Its region has this name,
-/// and its rings have "_outline", "_hole_1" and so on behind it.
+/// Reads a GeoJSON file [RFC 7946]. Each ring of a polygon is a curve of data, and inner rings are holes.
+/// Without polygons the lines that join at their ends are outlines (join_outlines()); other lines and points
+/// lie in the regions. The name of a feature is its property "name", "NAME" or "id". Its region has this
+/// name, and its rings have "_outline", "_hole_1" and so on behind it.
 ///
-/// The property "barrier" or "crack" (true) makes the mesh come apart along a line. "boundary" ("open" or
-/// "land") and "weir" (true, or the height of the crest) put "_open", "_weir" or "_weir_2.5" behind names of
-/// curves. Notes tell of other values, and of properties whose names are nearly these.
+/// The property "barrier" or "crack" (true) opens the mesh along a line. "boundary" ("open" or "land") and
+/// "weir" (true, or the height of the crest) put "_open", "_weir" or "_weir_2.5" behind names of curves.
+/// Notes name other values, and properties with similar names.
 ///
-/// Throws InputError, with the feature and ring, for what is no such file, and for longitudes and latitudes.
-/// Such are all coordinates within 180 and 90, unless the file has a "crs" of another name.
+/// Throws InputError, with feature and ring, for other files, and for longitudes and latitudes. These are
+/// coordinates within 180 and 90, unless the file has a "crs" of another name.
 PlanarModel read_geojson(const std::filesystem::path& path);
 
-/// The parts of "FILE", "FILE:LAYER", "FILE@CRS" and "FILE:LAYER@CRS", where FILE ends as files of outlines
-/// do.
+/// The parts of "FILE", "FILE:LAYER", "FILE@CRS" and "FILE:LAYER@CRS", where FILE has an extension of
+/// outlines.
 struct OutlineFile {
   std::filesystem::path path;
-  std::string layer;    ///< empty: the only one
-  std::string project;  ///< coordinate system, as PROJ reads it, or "utm"; empty: as it is
+  std::string layer;    ///< empty: the only layer
+  std::string project;  ///< coordinate system in the syntax of PROJ, or "utm"; empty: not projected
 };
 /// Returns the file and its layer; nothing for other texts.
 std::optional<OutlineFile> outline_file_of(const std::filesystem::path& text);
-/// Returns these endings.
+/// Returns these extensions, for messages.
 std::string outline_files();
 
-/// Returns what read_geojson() makes of GeoJSON and of all that GDAL reads, or read_dxf() of a drawing, and
-/// its coordinate system (see read_raster()). Throws InputError in builds without GDAL for all but GeoJSON as
-/// it is.
+/// Returns the model of a GeoJSON file, of any file that GDAL reads, or of a drawing (read_dxf()). `crs` gets
+/// its coordinate system (see read_raster()). Throws InputError if GDAL is needed and not installed, and as
+/// both readers.
 Model read_outlines(const OutlineFile& file, std::string& crs);
 
-/// Returns points, one a line: x and y, with comments behind '#'. The first line may be the name of an
-/// airfoil. Two counts may follow, of points on the upper side and the lower, both from the nose.
+/// Returns points from lines "x y", with comments behind '#'. The first line may be the name of an airfoil.
+/// Two counts may follow, of points on the upper and on the lower side, both from the nose. Throws InputError
+/// with file and line.
 std::vector<Vec2> read_points(const std::filesystem::path& path);
 
 }  // namespace delquad

@@ -28,16 +28,17 @@ struct NamedFile {
   const char* key;
   SizeFile file;
 };
+/// Returns the file of a size or metric, if its text names one.
 std::optional<NamedFile> file_of(const SizeSpec& size);
 std::optional<NamedFile> file_of(const MetricSpec& metric);
 
-/// Writes structs as their descriptions say, without fields that determine no result. Files count by content.
+/// Writes structs by their descriptions, without fields that determine no result. Files count by content.
 class Recorder {
  public:
-  /// Keys of functions, fields and meshes in memory: what is made with them cannot be repeated from a record.
+  /// Keys of functions, fields and meshes in memory, which no record can hold.
   std::vector<std::string> in_memory;
 
-  /// `whole`: also fields that determine no result, and texts as they are spelled.
+  /// `whole` includes fields that determine no result, and keeps the spelling of texts.
   explicit Recorder(bool whole = false) : whole_(whole) {}
 
   template <Described T>
@@ -128,29 +129,29 @@ class Recorder {
   RecordJson write_other(const Options& options, const Rule&);
 
   static RecordJson number(double value);
-  /// Returns the kind and digest of a file, and the part of it that its name asks for ("FILE:LAYER@CRS");
-  /// null: there is none.
+  /// Returns the kind and digest of a file, and the part that its name asks for ("FILE:LAYER@CRS"); null:
+  /// there is no file.
   static RecordJson content(const std::filesystem::path& file);
-  /// Tells that there is a value which no record holds.
+  /// Notes a value that no record can hold, if there is one.
   RecordJson write_in_memory(bool is_there);
 
   std::string path_;
   bool whole_;
 };
 
-/// Returns a struct as its description says.
+/// Returns the record of a struct.
 template <Described T>
 RecordJson record_of(const T& value) {
   return Recorder().object(value);
 }
 
-/// Returns whether two structs have the same result.
+/// Returns whether two structs determine the same result.
 template <Described T>
 bool are_same(const T& a, const T& b) {
   return record_of(a) == record_of(b);
 }
 
-/// Keys of the fields that are not as they are in T().
+/// Returns the keys of fields that differ from T().
 template <Described T>
 std::vector<std::string> given_keys(const T& value) {
   const RecordJson given = record_of(value), absent = record_of(T());

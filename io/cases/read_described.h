@@ -25,10 +25,10 @@
 
 namespace delquad {
 
-/// Returns the JSON Schema of a number within the limits of the rule; `type`: "number", "integer" or a list
+/// Returns the JSON Schema of a number within the limits of the rule. `type` is "number", "integer" or a list
 /// of types.
 std::string limited_type(const std::string& type, const Rule& rule);
-/// The same of a list of such values.
+/// Returns the same for a list of such values.
 std::string list_type(const std::string& item, const Rule& rule);
 
 /// Returns the keys of a table that the struct is read from.
@@ -37,7 +37,7 @@ TomlKeys keys_of();
 
 namespace described {
 
-/// Fills in what the value may be. Types that no file has are left out.
+/// Fills in the type of the value; types that no file has are left out.
 template <class T>
 void add_type(const T*, const Rule& rule, TomlKey& key) {
   using namespace toml_types;
@@ -125,7 +125,7 @@ void read_described(const TomlTable& table, T& value);
 
 namespace described {
 
-/// Returns the number of the text among Rule::words.
+/// Returns the index of the text in Rule::words. Throws InputError, with file and line, for another text.
 std::size_t read_word(const TomlTable& table, const std::string& key, const Rule& rule);
 
 template <class T>

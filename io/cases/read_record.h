@@ -21,11 +21,11 @@
 
 namespace delquad {
 
-/// Reads structs from records. Fields that determine no result stay as they are, as Recorder leaves them out.
-/// Throws InputError for values that stood in memory, and what JSON throws for other values than expected.
+/// Reads structs from records. Fields that determine no result stay, because Recorder leaves them out. Throws
+/// InputError for values that were in memory, and exceptions of nlohmann::json for unexpected values.
 class RecordReader {
  public:
-  /// Returns the file with this digest. `name`: as the record has it; empty: the file of the model.
+  /// Returns the file with this digest. `name` comes from the record; empty: the file of the model.
   using FindFile =
       std::function<std::filesystem::path(const std::filesystem::path& name, const std::string& digest)>;
   explicit RecordReader(FindFile find = {}, bool whole = false) : find_(std::move(find)), whole_(whole) {}
@@ -108,7 +108,7 @@ class RecordReader {
 
   static void require_absent(const RecordJson& json);
   static double number(const RecordJson& json);
-  /// Returns the number of the text among Rule::words.
+  /// Returns the index of the text in Rule::words.
   static std::size_t word_in(const RecordJson& json, const Rule& rule);
 
   FindFile find_;

@@ -28,7 +28,7 @@ struct ExpressionShape {
   std::string x, y;
   double from, to;
 };
-/// One of them is there.
+/// A curve by one of its members.
 struct CurveShape {
   std::optional<std::array<Vec2, 2>> segment;
   std::vector<Vec3> polyline, spline;  ///< in the plane but for lines embedded in surfaces
@@ -46,7 +46,7 @@ struct EmbeddedShape {
   std::optional<Vec3> point;  ///< in place of a curve
   CurveShape shape;
 };
-/// One of the first three, or a loop's curves.
+/// A loop by one of the first three members, or by curves.
 struct ClosedShape {
   std::optional<std::array<Vec2, 2>> rectangle;
   std::vector<Vec2> polygon;

@@ -15,7 +15,7 @@
 
 namespace delquad::msh {
 
-/// A node as an MSH file has it, before tags become indices.
+/// A node of an MSH file, before tags become indices.
 struct Node {
   long long tag;
   Vec3 at;
@@ -29,7 +29,7 @@ struct Element {
   int physical;                    ///< physical tag (2.2 only), 0: none
   std::array<long long, 4> nodes;  ///< tags of corners
   int line;                        ///< of the file
-  int n_further = 0;               ///< nodes of a curved element besides
+  int n_further = 0;               ///< further nodes of a curved element
   std::size_t first_further = 0;   ///< index into Contents::further_nodes
   int dim() const { return n_nodes == 2 ? 1 : 2; }
 };
@@ -47,8 +47,8 @@ struct View {
   std::string name;
   bool is_of_nodes;
   int n_components;
-  std::vector<std::pair<long long, double>> values;  ///< by tag; of several components the first
-  std::vector<double> further;                       ///< the others of each
+  std::vector<std::pair<long long, double>> values;  ///< by tag; the first component
+  std::vector<double> further;                       ///< other components of each value
 };
 
 using DimTag = std::pair<int, int>;
@@ -64,29 +64,29 @@ struct Contents {
   std::map<DimTag, std::vector<std::string>> more_names;  ///< of entities, besides their groups
   std::string unit;                                       ///< of lengths
   std::vector<View> views;
-  bool has_periodic = false;  ///< a $Periodic section, which is not read
+  bool has_periodic = false;  ///< it has a section $Periodic, which is not read
 };
 
-/// The tags of what a mesh was made of.
+/// Tags of the points and elements of a mesh.
 struct MeshTags {
   std::vector<long long> points, triangles, quads;
 };
 
-/// Reads the sections. [Gmsh reference manual, "MSH file format" and "Legacy formats"]
-/// Views are skipped unless they are asked for.
+/// Returns the sections of a file [Gmsh reference manual, "MSH file format" and "Legacy formats"]; views only
+/// on request. Throws InputError with file and line, or byte.
 Contents read_contents(TextScanner& scanner, bool with_views = false);
 
-/// Fills entity_physicals from the elements' own physical tags, as 2.2 keeps them. An element in several
-/// groups is listed once for each and becomes one. Elements of one entity in different groups become entities
-/// of their own.
+/// Fills entity_physicals from the physical tags of elements, as in 2.2. An element in several groups is
+/// repeated there and becomes one. Elements of one entity in different groups become separate entities.
 void settle_physicals(Contents& contents);
 
-/// Returns the groups of an entity by name, of which one without a name goes by its number, and its further
+/// Returns the names of the groups of an entity, or the number of a group without a name, and its further
 /// names.
 std::vector<std::string> names_of(const Contents& contents, DimTag entity);
 
-/// Tags become indices: nodes in the order of their tags, without those that no element uses. Elements must
-/// be of one order. `tags.points`: without the middles that quads of 8 nodes get.
+/// Returns the mesh with indices: nodes in the order of their tags, without unused ones. `tags.points` lacks
+/// the middles of quads of 8 nodes. Throws InputError for elements of several orders, unknown tags and an
+/// empty file.
 Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags = nullptr);
 
 }  // namespace delquad::msh

@@ -14,8 +14,8 @@
 
 namespace delquad {
 
-/// The common part of the readers of SMS and SCHISM: planar nodes and elements by number, in any order.
-/// Depths are left out.
+/// Reads planar nodes and elements by number, in any order; depths are left out. All functions throw
+/// InputError with file and line.
 class NumberedMesh {
  public:
   void read_node(TextScanner& in) {
@@ -33,6 +33,7 @@ class NumberedMesh {
   }
   /// Sets the material of the element that was read last.
   void set_material(long long material) { elements_.back().material = material; }
+  /// Returns the mesh without unused points.
   Mesh finished(const TextScanner& in, NumberedEntities entities = {}) {
     for (const Element& element : elements_) {
       std::vector<int> corners;

@@ -9,14 +9,12 @@
 
 namespace delquad {
 
-// Readers with a file of their own beside the file of the writer.
-
-/// Reads Medit text: references are tags of curves and regions, names are those that write_medit() leaves in
-/// comments. A file that shows to be one of MFEM is read as such.
+/// Reads Medit text: references are tags of curves and regions, and comments of write_medit() give names. A
+/// file of MFEM is read as such. Throws InputError with file and line.
 Mesh read_medit(const std::filesystem::path& path);
-/// Reads MFEM meshes v1.0 of dimension 2. Attributes are tags, and names are the names that write_mfem()
-/// leaves in comments. Curved meshes are of quads, with nodes of H1 or of closed L2 elements up to
-/// kMostOrder. Nodes that elements have in common must lie at one place.
+/// Reads MFEM meshes v1.0 of dimension 2. Attributes are tags, and comments of write_mfem() give names.
+/// Curved meshes consist of quads, with nodes of H1 or closed L2 elements up to kMostOrder. Throws
+/// InputError, with file and line, also if shared nodes differ in place.
 Mesh read_mfem(const std::filesystem::path& path);
 
 }  // namespace delquad
