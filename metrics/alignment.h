@@ -19,7 +19,8 @@ using CrossInSpace =
     std::function<std::optional<std::array<Vec3, 2>>(const Vec3& x, double reach, int& hint)>;
 
 /// Returns the mean angle, in degrees, between inner edges of quads and the nearest direction of the field at
-/// their middles. It is 0 for perfect alignment, 22.5 for random edges, and NaN without such edges.
+/// their middles. It is 0 for perfect alignment, 22.5 for random edges, and NaN without such edges. `sides`
+/// is sorted_half_edges() of the mesh. Own measure.
 double mean_misalignment(const Mesh& mesh, std::span<const HalfEdge> sides, const CrossInSpace& cross_at);
 
 }  // namespace delquad

@@ -21,8 +21,9 @@ using MetricAt = std::function<TangentMetric(int region, const Vec3& x, int& hin
 
 /// Returns the measures of a mesh in its metric.
 const std::vector<Metric>& anisotropic_measures();
-/// Returns eta of each quad in the mean metric of its corners.
+/// Returns eta of each quad, 0 to 1, in the mean metric [arsigny2006] of its corners.
 std::vector<double> anisotropic_etas(const Mesh& mesh, const MetricAt& metric);
+/// Returns the values of these measures by key. `sides` is sorted_half_edges() of the mesh.
 std::map<std::string, double> measure_anisotropic(const Mesh& mesh, std::span<const HalfEdge> sides,
                                                   const MetricAt& metric);
 

@@ -14,7 +14,8 @@ namespace delquad {
 /// returns towards the mean, up to the edge.
 struct FlowLinks {
   int links = 0;
-  /// |cos| of the angle between link and edge, 0 at a right angle; links without length do not count.
+  /// |cos| of the angle between link and edge, 0 to 1, and 0 at a right angle; links without length do not
+  /// count.
   double cos_max = 0, cos_mean = 0;
   int oblique = 0;     ///< links above 0.5, at which Delft3D FM stops
   int orthogonal = 0;  ///< links below 0.01, as its users want them
@@ -24,6 +25,7 @@ struct FlowLinks {
   double least_ratio = 0;
   Place shortest;
 };
+/// Returns the links of a planar mesh of triangles and quads.
 FlowLinks measure_flow_links(const Mesh& mesh);
 
 }  // namespace delquad

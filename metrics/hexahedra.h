@@ -18,7 +18,8 @@ inline HexCorners corners_of(const std::vector<Vec3>& points, const std::array<i
   return at;
 }
 
-/// Returns the least of eight corners: the determinant of unit vectors along the edges there.
+/// Returns the least value of eight corners, in [-1, 1]: the determinant of unit vectors along the edges
+/// there.
 double scaled_jacobian(const HexCorners& at);
 
 /// Returns the volume of the trilinear hexahedron, positive if its corners are in order.
@@ -29,7 +30,7 @@ double signed_volume(const HexCorners& at);
 inline constexpr double kLeastHexJacobian = 1e-9;
 
 /// Returns whether the Jacobian of the trilinear map is positive in the whole hexahedron, by Bernstein
-/// coefficients of it and its parts. Returns false if that stays open.
+/// coefficients of it and its parts, as in [johnen2013]. Returns false if that stays open.
 bool is_positive(const HexCorners& at);
 
 }  // namespace delquad

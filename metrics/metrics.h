@@ -14,11 +14,12 @@
 
 namespace delquad {
 
-/// Measures a mesh by the built-in measures; `sides` is its sorted_half_edges(). Quads with `in_layers` are
-/// flat on purpose, and left out of measures by size. Empty: none.
+/// Returns the built-in measures of a mesh; `sides` is its sorted_half_edges(). `size` and `given` are as in
+/// evaluate_metrics(). Quads with `in_layers` are flat on purpose, and left out of measures by size; empty:
+/// none.
 MeshMetrics measure_builtin(const Mesh& mesh, const SizeField* size, const SizeField* given,
                             std::span<const HalfEdge> sides, const std::vector<char>& in_layers = {});
-/// Adds the added measures.
+/// Adds the added measures; an exception of one becomes a reason in MeshMetrics::failures.
 void measure_added_metrics(const MetricInput& input, MeshMetrics& metrics);
 
 /// Returns only the measures of shapes of elements and of valences.

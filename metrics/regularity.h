@@ -25,17 +25,8 @@ struct PairedVertices {
   int unpaired = 0;  ///< in patches: necessary vertices, and vertices that no path reaches
 };
 
-/// Finds the necessary irregular vertices of a mesh of quads, and pairs the others, nearest first.
-///
-/// The charge of a vertex is its number of missing quads. It is 4 - quads inside a patch, and ideal_quads() -
-/// quads on its boundary. Patches are as in OpenQuads. Every mesh of a patch has the same sum of charges, 4
-/// chi - sum over its boundary (2 - ideal). It is the number of necessary irregular vertices. On inner
-/// curves, 4 - the sum of the ideals is necessary. All other charges cancel in pairs.
-///
-/// Paths run along edges and pass no irregular vertex. Among paths with equally many edges the shortest
-/// counts. A pair at the grid offset (x, y) has the Burgers vector (|x + y|, |x - y|). It is the difference
-/// of columns and rows on a loop around it. Among pairs with equally many edges the shortest comes first. A
-/// vertex with two missing or extra quads is in two pairs. Numbering of the mesh does not matter.
+/// Finds the necessary irregular vertices of a mesh of quads, and pairs the others, nearest first. Own
+/// method.
 PairedVertices pair_irregular(const Mesh& mesh, std::span<const HalfEdge> sides);
 
 }  // namespace delquad

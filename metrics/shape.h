@@ -21,7 +21,8 @@ struct ElementShape {
   double scaled_jacobian = 1;   ///< least signed sine of the corners; 0 if an edge has no length
 };
 
-/// Returns the shape of the element with `corners`, counterclockwise as seen from the tip of `normal`.
+/// Returns the shape of the element with `corners`, counterclockwise as seen from the tip of `normal`, of any
+/// length.
 template <size_t N>
 ElementShape<N> element_shape(const std::array<Vec3, N>& corners, const Vec3& normal) {
   ElementShape<N> shape;
@@ -38,7 +39,7 @@ ElementShape<N> element_shape(const std::array<Vec3, N>& corners, const Vec3& no
   return shape;
 }
 
-/// Returns eta, equation (4). NaN counts as the worst angle.
+/// Returns eta, 0 to 1 [paper, equation (4)]; the angles are in radians. NaN counts as the worst angle.
 inline double eta_of(const std::array<double, 4>& angle) {
   double eta = 1;
   for (const double a : angle) {

@@ -21,6 +21,7 @@ CriterionKind criterion_kind(const std::string& key);
 
 inline constexpr std::size_t kMostLimits = 64;
 
+/// Throws InputError, with all known names, for an unknown one.
 StepLength step_length_named(const std::string& name);
 inline constexpr const char* kStepLengths[] = {"ls-dyna", "radioss", "abaqus"};  ///< in the order of
                                                                                  ///< StepLength
@@ -34,12 +35,12 @@ std::string text_of(const CriterionLimit& limit);
 /// Returns the factor by which a value exceeds a limit; above 1 if it does.
 double times_beyond(CriterionKind kind, double value, double limit);
 /// Returns a function for quads with a size. It adds up the excesses over all limits without a name, as
-/// logarithms; 0: the quad keeps them with a margin of 2 %.
+/// logarithms; 0: the quad keeps them with a margin of 2 %. Own method.
 std::function<double(const std::array<Vec3, 4>& corners, double size)> excess_of(const Criteria& criteria);
 /// Returns the least length of all elements; null: none.
 const CriterionLimit* least_length(const Criteria& criteria);
-/// Returns the limits that stages keep: the usual ones, or these of the criteria that are stricter. Lengths
-/// count in sizes at `points`, where the size is largest.
+/// Returns the limits that stages keep: the usual ones, or stricter ones of the criteria. Lengths are
+/// converted to sizes at the largest size of `points`.
 QuadLimits limits_of(const Criteria& criteria, const SizeField& size, std::span<const Vec3> points);
 
 /// Returns the requested size, before it was reduced.

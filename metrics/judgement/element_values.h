@@ -59,7 +59,7 @@ double least_height(const std::array<Vec3, N>& p) {
 }
 
 /// Returns least over largest Jacobian of the bilinear quad at 2 x 2 Gauss points, seen along its area
-/// vector. It is negative if the quad is inverted at one.
+/// vector; at most 1. It is negative if the quad is inverted at one, and 0 if no Jacobian is positive.
 inline double gauss_ratio(const std::array<Vec3, 4>& p) {
   const Vec3 normal = area_vector(p);
   double least = std::numeric_limits<double>::infinity(), most = 0;
@@ -75,14 +75,14 @@ inline double gauss_ratio(const std::array<Vec3, 4>& p) {
   return most > 0 ? least / most : 0;
 }
 
-/// Returns 90 degrees minus the angle between the lines through middles of opposite sides.
+/// Returns 90 degrees minus the angle between the lines through middles of opposite sides; 0 to 90.
 inline double quad_skew(const std::array<Vec3, 4>& p) {
   const Vec3 a = p[1] + p[2] - p[0] - p[3], b = p[2] + p[3] - p[0] - p[1];
   return std::atan2(std::abs(dot(a, b)), norm(cross(a, b))) * 180 / std::numbers::pi;
 }
 
-/// Returns the largest part of half the quad's area that a triangle at a corner, cut off by a diagonal,
-/// lacks.
+/// Returns the largest share of half the quad's area, 0 to 1, that a triangle at a corner, cut off by a
+/// diagonal, lacks.
 inline double quad_taper(const std::array<Vec3, 4>& p) {
   const double half = norm(area_vector(p)) / 4;
   double least = half;
@@ -109,8 +109,8 @@ double step_length(const std::array<Vec3, N>& p, StepLength by) {
   }
 }
 
-/// Returns the value of an element of this shape; `speed` is the speed of sound. Criteria of quads alone give
-/// triangles the value of perfect quads.
+/// Returns the value of an element of this shape: lengths and times in units of the model, angles in degrees.
+/// `speed` is the speed of sound, above 0. Criteria for quads only give triangles the value of perfect quads.
 template <size_t N>
 double criterion_value(CriterionKind kind, const std::array<Vec3, N>& p, const ElementShape<N>& shape,
                        StepLength by, double speed) {

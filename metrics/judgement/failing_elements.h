@@ -66,19 +66,21 @@ struct LimitTally {
 /// Elements beyond limits and their causes. It makes every judgement of single elements.
 class FailingElements {
  public:
-  /// Both must outlive it. There are at most kMostLimits limits. Triangles count `with_triangles`.
+  /// Judges all elements. Both arguments must outlive it. There are at most kMostLimits limits. Triangles
+  /// count `with_triangles`.
   FailingElements(const JudgedMesh& mesh, const Criteria& asked, bool with_triangles);
 
   /// Finds the causes.
   void explain();
-  /// Describes the elements with a cause, after explain(), with a remedy: "12 where curves are finer than the
-  /// size, ...". `named` tells curves, `advised` the remedy for a surface. Empty: there are none.
+  /// Returns a description of the elements with a cause, with a remedy, after explain(): "12 where curves are
+  /// finer than the size, ...". `named` tells curves, `advised` the remedy for a surface. Empty: there are
+  /// none.
   std::string text_of(FailingCause cause, bool named, bool advised = true) const;
   /// Returns the change that may cure elements with a cause, after explain(); its count is 0 if none is
   /// known.
   Cure cure_of(FailingCause cause) const;
-  /// Describes limit k: "3 elements have an angle below 20 degrees, the least 9.5: at ..."; empty: it is
-  /// kept.
+  /// Returns a description of limit k: "3 elements have an angle below 20 degrees, the least 9.5: at ...";
+  /// empty: it is kept.
   std::string text_of(std::size_t limit) const;
   Place place_of(int element) const;
   /// Returns whether sides and aspect of a quad are requested.

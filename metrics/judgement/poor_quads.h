@@ -18,7 +18,7 @@ inline constexpr double kPoorAspect = 20, kPoorEdge = kShortSide;
 
 /// Limits for every element.
 struct LimitOptions {
-  double min_angle = 0;   ///< degrees
+  double min_angle = 0;   ///< degrees, 0 to 90; 0: no limit
   double max_aspect = 0;  ///< longest over shortest side; 0: no limit
 };
 OptionGroup limit_group();
@@ -28,11 +28,11 @@ struct BadQuads {
   int in_corners = 0, elsewhere = 0;
 };
 
-/// Counts the bad quads of a mesh. One warning tells the number of poor quads, the worst of them, causes and
-/// remedies. Another one tells quads that single precision cannot hold. `soundness` gets elements beyond
-/// requested limits (Soundness::beyond), and causes of inverted or flat elements. Sides and aspects in layers
-/// and requested grids do not count. In meshes by a metric, only requested limits and single precision count.
-/// `label` names case and pipeline.
+/// Returns the number of bad quads of a mesh. One warning tells the number of poor quads, the worst of them,
+/// causes and remedies. Another one tells quads that single precision cannot hold. `soundness` gets elements
+/// beyond requested limits (Soundness::beyond), and causes of inverted or flat elements. Sides and aspects in
+/// layers and requested grids do not count. In meshes by a metric, only requested limits and single precision
+/// count. `label` names case and pipeline.
 BadQuads judge_quads(const MeshingSetup& prepared, const std::string& label, const Mesh& mesh,
                      const MeshMetrics& metrics, std::vector<Warning>& warnings, Soundness& soundness);
 
@@ -40,7 +40,7 @@ BadQuads judge_quads(const MeshingSetup& prepared, const std::string& label, con
 /// beyond strict criteria. `is_others` tells that another program made the mesh, from the same model.
 void judge_by_criteria(const MeshingSetup& prepared, bool is_others, MeshResult& result);
 
-/// Returns the part of quads beyond the problem's criteria; 0 without criteria.
+/// Returns the share of quads, 0 to 1, beyond the problem's criteria; 0 without criteria.
 double failing_part(const MeshingSetup& prepared, const Mesh& mesh);
 
 }  // namespace delquad

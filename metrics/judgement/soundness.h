@@ -21,11 +21,13 @@ std::string show_place(const Mesh& mesh, const Place& place);
 std::string describe(const Mesh& mesh, const Places& places, const std::string& one,
                      const std::string& several);
 
-/// Checks the first two conditions of Soundness, for single elements. Planar domains are seen from above.
+/// Returns the result of the first two conditions of Soundness, for single elements. Planar domains are seen
+/// from above.
 Soundness check_elements(const MeshingSetup& prepared, const Mesh& mesh);
 
-/// Checks all conditions of Soundness, for a mesh with curves and regions of its case. On surfaces `report`
-/// leaves out missing faces; it is null if a point is not finite. `sides` is sorted_half_edges() of the mesh.
+/// Returns the result of all conditions of Soundness, for a mesh with curves and regions of its case. On
+/// surfaces `report` leaves out missing faces; it is null if a point is not finite. `sides` is
+/// sorted_half_edges() of the mesh.
 Soundness check_soundness(const MeshingSetup& prepared, const Mesh& mesh, const SurfaceReport* report,
                           std::span<const HalfEdge> sides);
 

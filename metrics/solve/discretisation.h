@@ -101,8 +101,8 @@ double largest_eigenvalue(
     Eigen::Index n, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
     const std::function<void(Eigen::VectorXd&)>& project = [](Eigen::VectorXd&) {});
 
-/// Solves by Cholesky's factorization; the first unknown of each floating set is 0. Throws InputError for an
-/// improper matrix.
+/// Returns the solution by Cholesky's factorization; the first unknown of each floating set is 0. Throws
+/// InputError for an improper matrix.
 Eigen::VectorXd solve_directly(const LinearSystem& system);
 
 /// Returns the iterations of conjugate gradients to kCgTolerance. Throws InputError if they do not converge.

@@ -35,9 +35,9 @@ using Solution = std::function<ScalarSolution(const Vec3&)>;
 /// Gauss points for solutions with layers that elements need not resolve.
 inline constexpr int kGaussPointsInLayers = 5;
 
-/// Solves Poisson's equation on a mesh of the plane or of a surface (Laplace-Beltrami), with bilinear quads
-/// and linear triangles. Nodes on free edges have the values of `exact`. Parts without free edges are solved
-/// up to a constant, and u_h gets the mean of u.
+/// Returns the errors of Poisson's equation on a mesh of the plane or of a surface (Laplace-Beltrami), with
+/// bilinear quads and linear triangles. Nodes on free edges have the values of `exact`. Parts without free
+/// edges are solved up to a constant, and u_h gets the mean of u.
 ///
 /// The right side is the weak one, the integral of grad u . grad v. So u_h is the Ritz projection of u, with
 /// the error of approximation [brenner2008, section 5.4]. The matrix takes 2 x 2 Gauss points, the right side
@@ -45,7 +45,7 @@ inline constexpr int kGaussPointsInLayers = 5;
 ///
 /// Throws InputError for inverted or degenerate elements, and for no unknowns.
 SolverErrors solve_poisson(const Mesh& mesh, const Solution& exact, int gauss_points = 2);
-/// Returns only u_h at the points of the mesh.
+/// Returns u_h at the points of the mesh. Throws InputError as solve_poisson().
 std::vector<double> poisson_solution(const Mesh& mesh, const Solution& exact, int gauss_points);
 /// Solves for a solution made from the domain. In the plane it is a sine of the squared distance from the
 /// centroid, so it turns, moves and grows with the domain. In space it is a product of sines of coordinates,

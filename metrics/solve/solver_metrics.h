@@ -22,8 +22,8 @@ struct SolverOutcome {
   std::map<std::string, double> values;  ///< by key; NaN if not defined
   std::string undefined;                 ///< reason for missing values; empty: none is missing
 };
-/// Measures by a solver. `exact` is the solution of Poisson's equation; empty: made from the domain. Throws
-/// InputError for an unknown solver.
+/// Returns the measures of a solver. `exact` is the solution of Poisson's equation; empty: made from the
+/// domain. Throws InputError for an unknown solver.
 SolverOutcome measure_by_solver(const Mesh& mesh, const std::string& solver, const Solution& exact = {});
 
 }  // namespace delquad

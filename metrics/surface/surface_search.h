@@ -25,7 +25,7 @@ class NearestElement {
     tree_ = BoxTree<Vec3>(boxes_);
   }
 
-  /// Returns the distance to the nearest element; infinite if none is within `reach`.
+  /// Returns the distance to the nearest element; infinite if none is within `reach`. Both are lengths.
   double distance(const Vec3& x, double reach) const {
     double best2 = reach * reach;
     bool found = false;

@@ -54,10 +54,11 @@ struct Comparison {
   }
 };
 
-/// Compares records, with cells paired by case, variant and seed. A measure has changed if its means differ
-/// by more than `tolerance` times the larger magnitude. A value that is no longer defined is worse. Over six
-/// domains or more, changes are tested like pairs of pipelines, as one family. Throws InputError for an
-/// unknown metric, or one for which neither direction is better. "seconds" counts as a metric without proofs.
+/// Returns the comparison of records, with cells paired by case, variant and seed. A measure has changed if
+/// its means differ by more than `tolerance`, at least 0, times the larger magnitude. A value that is no
+/// longer defined is worse. Over six domains or more, changes are tested like pairs of pipelines, as one
+/// family. Throws InputError for an unknown metric, or one for which neither direction is better. "seconds"
+/// counts as a metric without proofs.
 Comparison compare_records(const std::vector<CellRecord>& before, const std::vector<CellRecord>& after,
                            const std::vector<std::string>& metrics, double tolerance);
 

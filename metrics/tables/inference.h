@@ -16,7 +16,7 @@
 
 namespace delquad {
 
-/// Fewer domains prove nothing at 5 % by Wilcoxon's test.
+/// Fewer domains prove nothing at 5 % by Wilcoxon's test [wilcoxon1945].
 inline constexpr std::size_t kFewestDomains = 6;
 
 /// Comparison of two pipelines, or of two values of an axis, in a measure, over common domains.

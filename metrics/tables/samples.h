@@ -59,7 +59,7 @@ struct PairedDomains {
   std::vector<double> finite() const;
   bool has_failures() const { return failed[0] + failed[1] > 0; }
 };
-/// Pairs records that were not skipped. With `of_quads`, a mesh without quads counts as none.
+/// Returns the pairs of records that were not skipped. With `of_quads`, a mesh without quads counts as none.
 PairedDomains pair_by_domain(std::span<const CellRecord* const> a, std::span<const CellRecord* const> b,
                              const Metric& metric, const std::string& along = "", bool of_quads = true);
 /// Returns the mean of each domain that has values.

@@ -12,6 +12,7 @@
 
 namespace delquad {
 
+/// Returns the mean; samples must not be empty.
 double mean(std::span<const double> samples);
 /// Returns half the width of the 95 % confidence interval of the mean, by Student's t; NaN for fewer than two
 /// samples.
@@ -26,9 +27,9 @@ struct RankTest {
   double least_p = 1;  ///< least p that so many samples can give
   double lean = 0;     ///< above 0: the first is larger
 };
-/// Tests differences, first minus second, by Wilcoxon's two-sided signed-rank test. Zeros are left out, and
-/// ties share their mean rank; differences may be infinite. It is exact up to 60 differences, and by the
-/// normal distribution beyond. Returns p = 1 without differences.
+/// Returns Wilcoxon's two-sided signed-rank test of differences, first minus second [wilcoxon1945]. Zeros are
+/// left out, and ties share their mean rank; differences may be infinite. It is exact up to 60 differences,
+/// and by the normal distribution beyond. Returns p = 1 without differences.
 RankTest wilcoxon(std::span<const double> differences);
 /// Returns p-values adjusted by Holm's step-down method [holm1979]. A hypothesis may be rejected at a level
 /// if its adjusted p-value is at most that level. Then any false rejection has at most that probability, for

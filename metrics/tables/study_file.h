@@ -32,6 +32,7 @@ struct StepTime {
   const char *key, *title;
   const char* step;  ///< name in records; empty: all of these together
 };
+/// Returns the columns of times, in order.
 const std::vector<StepTime>& step_times_of_tables();
 
 /// A claim that is fixed before the run: [[hypotheses]].

@@ -12,13 +12,8 @@
 
 namespace delquad {
 
-/// Compares pipelines over all domains: a row for each, in each measure in which pairs are compared. A study
-/// of one pipeline has rows for the values of its compared axes.
-///
-/// A row has the mean of the domains' means with its interval_of_mean(), and counts of failed, won and lost
-/// domains. It wins a domain if it is better there than every row that it has a pair with. It loses if it is
-/// worse than every one. Last, it names the rows than which it is proven better. Returns no rows for fewer
-/// than two domains.
+/// Returns the comparison of pipelines over all domains: a row for each, in each measure in which pairs are
+/// compared. A study of one pipeline has rows for the values of its compared axes.
 Table summarise(const StudyFile& study, const std::vector<CellRecord>& records, const Inference& inference);
 
 }  // namespace delquad

@@ -45,14 +45,15 @@ struct StudyResults {
   std::vector<CellRecord> records;  ///< by place
   std::size_t left_out = 0;         ///< records of cells that the experiment no longer has
 };
-/// Throws InputError as read_records(), and for a folder without study.json.
+/// Reads study.json and the records. Throws InputError as read_records(), and for a folder without
+/// study.json.
 StudyResults read_results(const std::filesystem::path& folder);
 
-/// Makes the tables of an experiment from records and study.json alone. Cells that differ only in the seed
+/// Returns the tables of an experiment from records and study.json only. Cells that differ only in the seed
 /// make one row, with means and half-widths of their 95 % confidence intervals. Only proven differences count
 /// as better, see docs/statistics.md.
 Outcome make_tables(const StudyResults& results);
-/// Throws InputError as read_results().
+/// Does the same for a folder. Throws InputError as read_results().
 Outcome make_tables(const std::filesystem::path& folder);
 /// Writes tables with rows and the files, and returns the errors. The first table has every format, others
 /// Markdown and CSV; tables.tex has them for print. Removes files of earlier runs that this one does not
