@@ -15,11 +15,11 @@ namespace delquad {
 inline constexpr int kDone = 0, kInternalError = 1, kRegression = 1, kBadInput = 2, kTrianglesLeft = 3,
                      kFacesLeftOut = 4, kUnsound = 5;
 
-/// A command of the program, and what runs where it was given; returns the exit code.
+/// A command of the program and its function, which returns the exit code.
 struct Command {
   CLI::App* app;
   std::function<int()> run;
-  std::function<bool()> only_prints = [] { return false; };  ///< prints even where the program is to be quiet
+  std::function<bool()> only_prints = [] { return false; };  ///< prints even if the program is quiet
   bool has_time_limit = false;
 };
 using Commands = std::vector<Command>;
@@ -36,7 +36,7 @@ std::pair<CLI::App*, Arguments&> add_command(CLI::App& app, Commands& commands, 
   return {commands.back().app, *given};
 }
 
-// Each adds a command, or several, with its options. They are explained in this order.
+// Each adds a command, or several, with its options, in the order of the help.
 void add_run(CLI::App& app, Commands& commands);
 void add_batch(CLI::App& app, Commands& commands);
 /// Adds tables, rerun, verify, merge and report.

@@ -21,39 +21,40 @@ struct KeyArguments {
     std::vector<std::string> values;
   };
   std::vector<Given> given;
-  bool keep_going = false;  ///< leave out what cannot be read or meshed
+  bool keep_going = false;  ///< leave out parts that cannot be read or meshed
 };
-/// Options for the faces of surfaces, and `--keep-going`.
+/// Adds options for the faces of surfaces, and `--keep-going`.
 void add_surface(CLI::App& command, KeyArguments& arguments);
-/// Sets the keys in place of what the model says. Throws InputError that names the option.
+/// Sets the keys, which override the model. Throws InputError that names the option.
 void set_keys(const KeyArguments& arguments, Case& c);
 
 struct MeshArguments : KeyArguments {
-  bool improve = false;  ///< the model is a mesh that words begin from
+  bool improve = false;  ///< the model is a mesh from which pipelines begin
   std::filesystem::path model, output, json;
-  std::filesystem::path fields;  ///< to write; empty: none
-  std::string depth;             ///< raster of depths that the mesh gets; empty: none
+  std::filesystem::path fields;  ///< file of wanted fields; empty: none
+  std::string depth;             ///< raster of depths for the mesh; empty: none
   std::string metric;            ///< empty: as the model says
   bool serendipity = false;      ///< quads of order 2 have 8 nodes
-  bool keep_numbers = false;     ///< of nodes, as stages made them
+  bool keep_numbers = false;     ///< keep the numbers of nodes from the stages
   std::string quality = kDefaultQuality;
-  std::optional<std::string> pipeline;  ///< else the word of that quality
+  std::optional<std::string> pipeline;  ///< absent: the pipeline of that quality
   long long max_elements = 50'000'000;
   int threads = thread_count();
-  bool view = false;  ///< show the mesh, too
+  bool view = false;  ///< show the mesh afterwards
   bool allow_triangles = false;
   bool allow_unsound = false;
   bool strict = false, failing_sets = false;
   MshOptions msh{false, MshCurves::kNamed};
 };
-/// Refuses `--triangles` for a deck whose elements are kept.
+/// Throws InputError for `--triangles` with a deck whose elements are kept.
 void check_triangles(const std::filesystem::path& source, const std::filesystem::path& output,
                      const MshOptions& msh);
 /// Adds `--binary`, `--triangles` and `--curves`.
 void add_msh(CLI::App& command, MshOptions& msh);
+/// Add the commands `mesh` and `improve` with their options, and return them.
 CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments);
 CLI::App* add_improve_options(CLI::App& app, MeshArguments& arguments);
-/// Sets all that the command line says, in place of the model's settings.
+/// Sets all options of the command line, which override the model. Throws InputError that names the option.
 void set_problem(const MeshArguments& arguments, Case& c);
 
 }  // namespace delquad

@@ -20,12 +20,12 @@ inline constexpr const char* kUnsoundHelp =
 inline constexpr const char* kAllowHelp = "exit with 0 although triangles are left among the quads";
 inline constexpr int kMostThreads = 1024;
 
-/// A whole number from 1, which may be written as 1e6.
+/// Accepts a whole number from 1, which may be written as 1e6.
 extern const CLI::Validator kCount;
-/// A finite number above 0.
+/// Accepts a finite number above 0.
 extern const CLI::Validator kLength;
 
-/// Keeps an empty text apart from none.
+/// Adds `--size`; an empty text differs from none.
 CLI::Option* add_size(CLI::App& command, std::optional<std::string>& size, const char* help);
 void add_data(CLI::App& command, std::filesystem::path& data);
 /// Adds `--criteria` and `--strict`.
@@ -37,8 +37,8 @@ void add_max_elements(CLI::App& command, long long& most,
 /// Throws InputError for a file that cannot be written, before any work.
 void check_output(const std::filesystem::path& path);
 
-/// Throws InputError when two of the files, each with what it is for the program, are the same one, by
-/// whatever names and links. Empty paths are left out; devices may serve twice.
+/// Throws InputError if two files, each with its role, are the same one under any names and links. Empty
+/// paths are left out; devices may be repeated.
 void check_distinct(const std::vector<std::pair<std::string, std::filesystem::path>>& files);
 
 }  // namespace delquad

@@ -13,12 +13,12 @@ namespace delquad {
 
 // All to stdout.
 
-/// Prints a measure on a line of its own; "-" where it is not defined.
+/// Prints a measure on a line; "-" if it is not defined.
 void print_metric(const Metric& metric, const MeshMetrics& metrics);
 /// Prints every measure except the measures of solvers.
 void print_metrics(const MeshMetrics& metrics);
 
-/// Prints the measures that tell most, in four lines: shapes, sizes, irregular vertices, and their charges.
+/// Prints the main measures, in four lines: shapes, sizes, irregular vertices, and their charges.
 void print_summary(const MeshMetrics& metrics);
 /// Prints every measure with -v, otherwise the summary.
 void print_measures(const MeshMetrics& metrics);
@@ -29,15 +29,15 @@ std::string show_counts(const Mesh& mesh);
 /// Prints the names of the parts of a mesh in one line, and nothing if no part has a name.
 void print_names(const Mesh& mesh);
 
-/// Prints how a mesh does by criteria, and why.
+/// Prints the results of criteria and the causes of failures.
 void print_criteria(const CriteriaReport& report, const Mesh& mesh);
 
-/// Prints how long each step took, the times of all threads added up.
+/// Prints the time of each step in seconds, added up over threads.
 void print_seconds(const StepTimes& times);
 
-/// Prints how the mesh fits its surface, in one line.
+/// Prints distances and topology of a mesh and its surface, in one line.
 void print_surface_summary(const SurfaceReport& report);
-/// Prints the same at length, with how good the maps of the surface are and how it was cut.
+/// Prints the whole comparison, with the quality of the surface's maps and its cuts.
 void print_surface_report(const Prepared& prepared, const SurfaceReport& report);
 
 /// Prints the tables of an experiment that have rows.

@@ -10,10 +10,11 @@
 
 namespace delquad {
 
-/// Returns where the page of a mesh goes: to `page`, or beside the mesh where that is empty.
+/// Returns the file of the page of a mesh: `page`, or beside the mesh if that is empty.
 std::filesystem::path page_of(const std::filesystem::path& mesh, const std::filesystem::path& page = {});
 
-/// Writes the page of a mesh, prints its name and opens it in a browser where there is a display.
+/// Writes the page of a mesh, prints its name, and opens it in a browser if there is a display. Throws
+/// InputError as write_view().
 void view(const std::filesystem::path& page, const Mesh& mesh, const std::string& title,
           const ViewNotes& notes);
 

@@ -12,8 +12,8 @@
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
 
-// This header converts numpy arrays from and to lists of points and elements. `what` names an argument in
-// messages. All readers throw InputError for other shapes and types.
+// This header converts numpy arrays from and to lists of points and elements. The Python module uses it.
+// `what` names an argument in messages. All readers throw InputError for other shapes and types.
 
 namespace delquad::python {
 

@@ -18,8 +18,8 @@
 
 namespace delquad::python {
 
-/// Python's thread while it waits for work in another thread. It runs callbacks and notices Ctrl-C, which
-/// Python reports only to its main thread. The GIL is released otherwise.
+/// Python's thread, waiting for work in another thread. It runs callbacks and notices Ctrl-C, which Python
+/// reports only to its main thread. The GIL is released otherwise.
 class CallingThread {
  public:
   /// Runs `work` and waits for it. Call it with the GIL. Exceptions of callbacks and signals take precedence
@@ -54,7 +54,7 @@ struct ModelHandle {
   MeshProblem problem;
 };
 
-/// Reads any model file of the command line.
+/// Reads any model file of the command line. Throws InputError with file and line.
 ModelHandle read_model(const std::string& path);
 
 /// Registers models and their parts.
@@ -81,7 +81,8 @@ struct Result : Mesh {
 
 std::shared_ptr<Result> as_result(MeshResult result);
 
-/// Meshes a problem, with the GIL released.
+/// Meshes a problem, with the GIL released. `threads` and `time_limit` (seconds) are as in Context. Throws as
+/// delquad::mesh().
 std::shared_ptr<Result> mesh(MeshProblem problem, const Callbacks& callbacks, const std::string& word,
                              int threads, double time_limit);
 
