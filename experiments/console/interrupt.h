@@ -11,16 +11,16 @@
 
 namespace delquad {
 
-/// Exit codes after Ctrl-C (SIGINT) and after SIGTERM: 128 and the signal's number, as shells have it.
+/// Exit codes after Ctrl-C (SIGINT) and after SIGTERM: 128 plus the number of the signal, as in shells.
 inline constexpr int kInterrupted = 130, kTerminated = 143;
-/// Exit code when time is up.
+/// Exit code after the time limit.
 inline constexpr int kTimeIsUp = 1;
 
-/// Lets SIGINT and SIGTERM end the program at once with kInterrupted and kTerminated. While an Uninterrupted
-/// lives, they do so as soon as the last of them dies. Files that are being written are removed.
+/// Lets SIGINT and SIGTERM end the program at once with kInterrupted and kTerminated, or as soon as no
+/// Uninterrupted lives. Files that are being written are removed.
 void exit_on_interrupt();
 
-/// While files are written that belong together.
+/// Delays signals while it lives, for files that belong together.
 class Uninterrupted {
  public:
   Uninterrupted();
@@ -32,9 +32,9 @@ class Uninterrupted {
 /// Adds up the seconds of stages, each until the next one begins.
 class StageTimes {
  public:
-  /// `at`: seconds on any clock, ascending.
+  /// `at` has seconds on any clock, ascending.
   void begin(const std::string& stage, double at);
-  /// Returns "; boundary took longest: 4.2 s"; empty if the stage of the moment did.
+  /// Returns "; boundary took longest: 4.2 s"; empty if that is the current stage.
   std::string longest(double at);
 
  private:
@@ -43,12 +43,12 @@ class StageTimes {
   double since_ = 0;
 };
 
-/// Ends the program with kTimeIsUp when it lives for so long, whatever its threads are at then. One message
-/// tells the activity (see activity.h) and the stage that took longest. Files that are being written are
-/// removed. Once the first file stands at its place, the rest is done instead: it takes no time.
+/// Ends the program with kTimeIsUp after its time, whatever threads are doing. One message tells the activity
+/// (see activity.h) and the stage that took longest. Files that are being written are removed. Once the first
+/// file has its place, the others follow instead, which takes no time.
 class TimeLimit {
  public:
-  /// Seconds, > 0.
+  /// `seconds` must be above 0.
   explicit TimeLimit(double seconds);
   ~TimeLimit();
   TimeLimit(const TimeLimit&) = delete;
@@ -60,7 +60,7 @@ class TimeLimit {
 };
 
 /// Returns the current activities of this program, for its bar, its time limit and signal handlers. The run
-/// that main() makes reports them, and runs inside of that run.
+/// of main() reports them, and runs inside of it.
 Activities& program_activities();
 
 }  // namespace delquad

@@ -15,54 +15,53 @@
 
 namespace delquad {
 
-/// How much the program tells besides its results: errors only, or warnings of a kind in one line each, or
-/// all of them.
+/// Amount of messages besides results: errors only, warnings of a kind in one line each, or all warnings.
 enum class Verbosity { kQuiet, kNormal, kAll };
 void set_verbosity(Verbosity verbosity);
 Verbosity verbosity();
 
-/// Returns the warnings as lines to print, as many as verbosity() says.
+/// Returns the lines to print for warnings at the current verbosity.
 std::vector<std::string> lines_of(const std::vector<Warning>& warnings);
 
-/// Where an experiment stands among those that one command runs.
+/// Place of an experiment among the experiments of a command.
 struct PlaceInQueue {
   std::string name = {};
   std::size_t index = 0, count = 1;         ///< index < count
-  std::optional<double> seconds = {};       ///< that it may take; nothing: not known
-  std::optional<double> seconds_after = 0;  ///< that those after it may take
+  std::optional<double> seconds = {};       ///< expected time; nothing: not known
+  std::optional<double> seconds_after = 0;  ///< expected time of later experiments
 };
 
-/// A bar on the last line of a terminal, with the name of the work and its faces. It is silent without a
-/// terminal, and when quiet.
+/// A progress bar on the last line of a terminal, with the name of the work and its faces. It is silent
+/// without a terminal, and if quiet.
 class Progress {
  public:
-  /// `steps`: how many times step() will be called; 0: no bar.
+  /// `steps` is the number of calls of step(); 0: no bar.
   explicit Progress(int steps = 0);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows the step that begins now.
+  /// Shows the next step.
   void step(const std::string& label);
-  /// Steps that will not be taken.
+  /// Skips steps.
   void skip(int steps);
   /// Prints a line to stderr, above the bar.
   void message(const std::string& text);
-  /// Does the same for each line of the warnings.
+  /// Prints the lines of warnings in the same way.
   void warn(const std::vector<Warning>& warnings);
-  /// Takes the bar away.
+  /// Removes the bar.
   void finish();
 
  private:
   void draw() const;
   void clear() const;
-  /// Draws now and then, as faces come and go.
+  /// Redraws regularly, as faces come and go.
   void keep_drawing();
 
   bool shown_;
   int steps_, done_ = 0;
   std::string label_;
-  std::mutex mutex_;  ///< of what is drawn
+  std::mutex mutex_;  ///< guards the drawing
   std::condition_variable over_;
   bool is_over_ = false;
   std::thread drawer_;

@@ -13,23 +13,23 @@
 
 namespace delquad {
 
-/// A mesh as `unpackMesh` of page/packed_mesh.js takes it apart.
+/// A mesh for `unpackMesh` of page/packed_mesh.js.
 ///
 /// packed_text() makes the text, from numbers of 32 bits. The first are x, y and z of the points as float,
-/// less the `origin`. Whole numbers follow: vertices of triangles and quads, and eta of quads in 128ths (128:
-/// it fails). Then come the ends of lines, irregular vertices (number and valence), and pairs of them. With
+/// less the `origin`. Integers follow: vertices of triangles and quads, and eta of quads in 128ths (128: it
+/// fails). Then come the ends of lines, irregular vertices (number and valence), and pairs of them. With
 /// entities the last are the regions of triangles and quads and the curves of lines, by index. A curved quad
-/// is a polygon: `order` nodes for each side. A curved line has as many pieces.
+/// is a polygon: `order` nodes for each side. A curved line has `order` pieces.
 struct PackedMesh {
-  Json info;  ///< how many there are of each
+  Json info;  ///< numbers of each item
   std::string text;
 };
 
-/// Packs a mesh. `failing`: quads that get a color of their own.
+/// Returns a packed mesh; quads in `failing` get another color.
 PackedMesh pack_mesh(const Mesh& mesh, const std::vector<std::size_t>& failing = {},
                      bool with_entities = false);
 
-/// Returns base64 of the zlib-compressed bytes, as `inflate` of page/packed_mesh.js takes it apart.
+/// Returns base64 of the zlib-compressed bytes, for `inflate` of page/packed_mesh.js.
 std::string packed_text(std::string_view bytes);
 
 }  // namespace delquad

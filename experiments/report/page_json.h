@@ -19,15 +19,14 @@ namespace delquad {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns a table as the page shows it, with its files; empty ones are null.
+/// Returns a table for the page, with its files; null for an empty one.
 Json table_json(const Table& table);
 
 /// y = factor * x^exponent.
 struct PowerLaw {
   double factor, exponent;
 };
-/// Returns the law that fits positive pairs best, by least squares of the logarithms; nothing where all x are
-/// alike.
+/// Returns the best law for positive pairs, by least squares of the logarithms; nothing if all x are equal.
 std::optional<PowerLaw> fit_power_law(const std::vector<double>& x, const std::vector<double>& y);
 
 /// Returns for each pipeline and case: elements and seconds of the case's variants, and the power law that
@@ -43,12 +42,12 @@ extern const std::string_view kPageStyle, kPageScript, kThreeScript;
 extern const std::string_view kPageBody, kReportScript;
 extern const std::string_view kViewStyle, kViewBody, kViewScript;
 
-/// Returns the seed; empty where there is none.
+/// Returns the seed; empty: none.
 std::string seed_of(const CellRecord& record);
 
-/// Returns for each pipeline of a sheet with several seeds: how many of its cells are done, and means by
-/// column key. With them comes half the width of their 95 % confidence intervals. Empty where no pipeline has
-/// two.
+/// Returns, for each pipeline of a sheet with several seeds, the number of done cells, and means by column
+/// key. With them comes half the width of their 95 % confidence intervals. Empty if no pipeline has two
+/// seeds.
 Json means_json(std::span<const CellRecord* const> cells, const std::vector<TableColumn>& columns);
 
 /// Returns the values of finished cells in each column, for charts of their spread. `sheets` have `cases`,
@@ -56,10 +55,10 @@ Json means_json(std::span<const CellRecord* const> cells, const std::vector<Tabl
 /// key.
 Json samples_json(const std::vector<CellRecord>& records, const std::vector<TableColumn>& columns);
 
-/// Returns a number with five digits, more than a chart shows; null of NaN.
+/// Returns a number with five digits, more than a chart shows; null for NaN.
 Json brief_number(double value);
 
-/// A bad quad and what is around it, seen from its front.
+/// A bad quad and its surroundings, seen from its front.
 struct Closeup {
   double eta;
   double size;  ///< mean edge
@@ -70,8 +69,8 @@ struct Closeup {
   std::vector<double> etas;                ///< of the elements; triangles have 1
 };
 
-/// Returns the `count` worst quads of which no two have a vertex in common, worst first. With them come the
-/// elements that are at most three steps from element to element away.
+/// Returns the `count` worst quads without common vertices, worst first. With them come the elements at most
+/// three steps from element to element away.
 std::vector<Closeup> worst_quads(const Mesh& mesh, std::size_t count);
 Json closeups_json(const Mesh& mesh, std::size_t count);
 
@@ -80,7 +79,7 @@ using Json = nlohmann::ordered_json;
 /// Returns the data of a page on one cell, from its record, and from its mesh if there is one.
 Json cell_json(const Json& record, const std::optional<Mesh>& mesh);
 
-/// Returns the facts of a variant of a case, by the record of one of its cells: pairs of texts.
+/// Returns facts of a variant of a case, by the record of one of its cells: pairs of texts.
 Json facts_json(const Json& record);
 
 }  // namespace delquad

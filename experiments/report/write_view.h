@@ -15,13 +15,12 @@ namespace delquad {
 /// Further data on a mesh.
 struct ViewNotes {
   std::vector<std::string> warnings = {};
-  std::vector<std::size_t> failing = {};  ///< quads beyond criteria, which have a color of their own
+  std::vector<std::size_t> failing = {};  ///< quads beyond criteria, which get another color
 };
 
-/// Writes one HTML file that shows a mesh: shape, sizes, names that are switched on and off, worst quads. If
-/// a mesh has more than 1.7 million quads, the page shows some elements, and says so. The file is written
-/// whole or not at all. Throws InputError for a mesh without triangles, quads and lines, and for a file that
-/// cannot be written.
+/// Writes one HTML file of a mesh: shape, sizes, names to switch on and off, worst quads. Above 1.7 million
+/// quads, the page shows some elements, and says so. The file is written completely or not at all. Throws
+/// InputError for a mesh without triangles, quads and lines, and for a file that cannot be written.
 void write_view(const std::filesystem::path& file, const Mesh& mesh, const std::string& title,
                 const ViewNotes& notes = {});
 

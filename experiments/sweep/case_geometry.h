@@ -8,10 +8,10 @@
 
 namespace delquad {
 
-/// Tells the geometry of a case from others. CAD files have a digest of their bytes, without the header of
-/// STEP. Outlines and meshes have moments. These stay the same wherever the shape lies, however it is turned,
-/// mirrored, scaled or divided into edges and flat elements. With them comes how far chords may have changed
-/// them. A file that cannot be read has neither.
+/// Returns the identity of the geometry of a case. CAD files have a digest of their bytes, without the header
+/// of STEP. Outlines and meshes have moments, which do not depend on place, turn, mirror image, scale, and
+/// division into edges and flat elements. With them comes the possible error of chords. An unreadable file
+/// has neither.
 CaseGeometry geometry_of(const Case& c);
 
 }  // namespace delquad

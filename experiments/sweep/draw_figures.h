@@ -10,8 +10,8 @@
 namespace delquad {
 
 /// Draws the figures of folders of results from their tables, as SVG and PDF in DIR/figures, by
-/// experiments/figures.py with matplotlib. Removes figures of earlier runs that there are no longer. Returns
-/// why none is drawn; empty: all are. Throws InputError when the script fails otherwise.
+/// experiments/figures.py with matplotlib. Old figures of these folders are removed. Returns why none is
+/// drawn; empty: all are. Throws InputError if the script fails otherwise.
 std::string draw_figures(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace delquad

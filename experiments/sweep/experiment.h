@@ -20,33 +20,32 @@ namespace delquad {
 /// An option that an experiment varies.
 struct Axis {
   std::string key;                  ///< dotted: "insertion.h_max"
-  std::string title;                ///< its last part, or as much as tells it from the others
+  std::string title;                ///< last part of the key, or as much as distinguishes it
   std::vector<std::string> values;  ///< as texts
 };
 
-/// A file of experiments/: cases, the pipelines to run on each, and what was published.
+/// A file of experiments/: cases, their pipelines, and published values.
 ///
-/// Each case comes in as many variants as the [matrix] has combinations (one without a matrix). Variants are
-/// read when they are asked for: a sweep may have many.
+/// Each case has as many variants as the [matrix] has combinations (one without a matrix). Variants are read
+/// on demand, since there may be many.
 class Experiment : public TablePlan, public ExperimentKeys {
  public:
   std::filesystem::path file;
-  std::vector<Word> words;      ///< and peers, as words without stages
-  std::string calibrate_where;  ///< file and line that ask for a calibration; empty: nothing does
+  std::vector<Word> words;      ///< pipelines; peers are words without stages
+  std::string calibrate_where;  ///< file and line of the request for a calibration; empty: none
   std::vector<Axis> axes;
   long long max_elements = MeshProblem{}.max_elements;  ///< of every case
 
-  /// Throws InputError with file and line where a calibration is asked for that is none of any peer. To be
-  /// called when all peers are there.
+  /// Throws InputError, with file and line, for a calibration of an unknown peer. Call it after all peers are
+  /// known.
   void check_calibration() const;
-  /// Throws InputError with file and line for a hypothesis about a pipeline that is not run. So it does for a
-  /// hypothesis about two pipelines that have no domain with quads in common. To be called when all pipelines
-  /// are known.
+  /// Throws InputError, with file and line, for a hypothesis about a pipeline that is not run. Also throws
+  /// for two pipelines without a common domain with quads. Call it after all pipelines are known.
   void check_hypotheses() const;
-  /// Pipelines by their texts: words, and names of peers. Throws InputError for none, and for one given
-  /// twice.
+  /// Returns pipelines by their texts: words, and names of peers. Throws InputError for none, and for
+  /// repeated ones.
   std::vector<Word> find_pipelines(const std::vector<std::string>& texts) const;
-  /// Reads the [[peer]] tables of a file of their own; returns their names, which `words` does not have yet.
+  /// Reads the [[peer]] tables of a separate file; returns their names, which `words` does not have yet.
   /// Throws InputError with file and line.
   std::vector<std::string> add_peer_file(const std::filesystem::path& path);
   /// Returns the peer; null for a word of stages.
@@ -55,15 +54,15 @@ class Experiment : public TablePlan, public ExperimentKeys {
   std::size_t n_cases() const { return cases_.size(); }
   std::size_t n_variants() const;  ///< of each case
   std::size_t n_cells() const { return n_cases() * n_variants() * words.size(); }
-  /// Returns the experiment's file and all that it names beside it: models, published rows, files of peers
-  /// and measures. Without those that cases call data and those that are not there.
+  /// Returns the file of the experiment and the files that it names beside it: models, published rows, files
+  /// of peers and measures. Data of cases and missing files are left out.
   std::vector<std::filesystem::path> files() const;
-  /// Throws InputError with file and line.
+  /// Returns the case of a variant; both indices count from 0. Throws InputError with file and line.
   Case read_variant(std::size_t index_of_case, std::size_t variant = 0) const;
 
-  /// Reads an experiment. `data`: the folder of the models that cases call data. `with_pipelines`: finds the
-  /// pipelines of the file; otherwise `words` stays empty. Throws InputError with file and line for anything
-  /// that is not as docs/experiments.md says.
+  /// Reads an experiment. `data` is the folder of models that cases call data. `with_pipelines` finds the
+  /// pipelines of the file; otherwise `words` stays empty. Throws InputError, with file and line, for
+  /// anything against docs/experiments.md.
   static Experiment read(const std::filesystem::path& file, const std::filesystem::path& data = kDataFolder,
                          bool with_pipelines = true);
 
@@ -82,22 +81,22 @@ class Experiment : public TablePlan, public ExperimentKeys {
   Word find_pipeline(const std::string& text) const;
   void check_comparisons(const TomlTable& table, const Case& c) const;
 
-  /// Returns the digest of all that determines the results, except the order of cases and hypotheses.
-  /// `study`: with problems and geometries.
+  /// Returns the digest of everything that determines results, except the order of cases and hypotheses.
+  /// `study` has problems and geometries.
   std::string plan(const StudyFile& study) const;
 
   std::optional<TomlTable> table_;               ///< the file
-  Case defaults_;                                ///< what it says for every case
-  WordStart word_start_ = WordStart::kBoundary;  ///< a given mesh, where one of the cases has one
+  Case defaults_;                                ///< its values for every case
+  WordStart word_start_ = WordStart::kBoundary;  ///< a given mesh if one of the cases has one
   std::vector<TomlTable> cases_;
   std::vector<TomlTable> variants_;  ///< named sets of keys, the first axis; empty: none
   std::optional<TomlTable> matrix_;
   std::vector<std::string> leaves_;           ///< of the matrix, in axes after the axis of variants
-  std::vector<TomlTable> hypothesis_tables_;  ///< that hypotheses were read from
+  std::vector<TomlTable> hypothesis_tables_;  ///< sources of hypotheses
 };
 
-/// Returns an axis by its title. Throws InputError with file and line of the key for one that does not vary,
-/// and the seed.
+/// Returns an axis by its title. Throws InputError, with file and line of the key, for an axis that does not
+/// vary, and for the seed.
 const Axis& find_axis(const std::vector<Axis>& axes, const std::string& title, const TomlTable& table,
                       const char* key);
 

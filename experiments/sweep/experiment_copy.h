@@ -11,12 +11,11 @@
 
 namespace delquad {
 
-/// Copies the files that an experiment was run from into the folder of its results, below experiment/<digest
-/// of them all>/. These are its own file and the files that it names beside it, in the same places to each
-/// other. Beside that folder <digest>.json lists them with their digests, also the files that are too large
-/// to be copied. An experiment that has changed gets another copy, so that every record leads to its files.
-/// Returns the copy of the experiment's file, as seen from `folder`. Throws InputError if something cannot be
-/// written.
+/// Copies the files of an experiment into the folder of its results, below experiment/<digest of all>/. These
+/// are its own file and the files that it names beside it, with the same relative paths. The file
+/// <digest>.json beside that folder lists them with their digests, also files too large to copy. A changed
+/// experiment gets another copy, so every record leads to its files. Returns the copy of the experiment's
+/// file, relative to `folder`. Throws InputError if something cannot be written.
 std::filesystem::path keep_experiment(const Experiment& experiment, const std::filesystem::path& folder);
 
 /// Returns the errors in the copies in a folder of results, a line each.

@@ -23,12 +23,12 @@ struct PeerFile {
 struct ExperimentKeys {
   std::vector<std::string> pipelines = {"F", "D", "FB", "DB"};
   std::vector<Peer> peers;
-  std::vector<std::filesystem::path> peer_files;  ///< that further peers were read from
+  std::vector<std::filesystem::path> peer_files;  ///< sources of further peers
   bool calibrate = false;                         ///< peers are compared at our number of quads
-  std::string calibrate_to;                       ///< the word whose number that is; empty: there is none
+  std::string calibrate_to;                       ///< the pipeline with that number; empty: none
   std::vector<MetricCommand> metrics;
-  std::vector<std::string> solvers;  ///< that measure every mesh, by name
-  double minutes = 0;                ///< of a run with two jobs; 0: not known
+  std::vector<std::string> solvers;  ///< solvers that measure every mesh, by name
+  double minutes = 0;                ///< minutes of a run with two jobs; 0: not known
   std::filesystem::path reference;   ///< file of the published rows; empty: none
 };
 
@@ -87,7 +87,8 @@ inline constexpr auto kFields<ExperimentKeys> = std::tuple(
     field("reference", &ExperimentKeys::reference, "file of published rows",
           {.no_result = "published rows stand beside results"}));
 
-/// These check what descriptions cannot say, and complete what was read.
+/// These check what descriptions cannot express, and complete the structs. Throw InputError with file and
+/// line.
 void finish_reading(const TomlTable& table, Peer& peer);
 void finish_reading(const TomlTable& table, MetricCommand& metric);
 

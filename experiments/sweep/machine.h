@@ -18,7 +18,7 @@ struct Machine : SystemNames {
 };
 const Machine& this_machine();
 
-/// When, and how busy the machine was then.
+/// Time, and load of the machine then.
 struct MachineState {
   std::string time;            ///< UTC, as in ISO 8601: 2026-01-31T23:59:59Z
   std::optional<double> load;  ///< average number of processes that ran or waited to, over the last minute
@@ -27,7 +27,7 @@ MachineState machine_state();
 
 /// Returns the program's own version ("delquad"), "commit", "build" and "compiler".
 std::vector<std::pair<std::string, std::string>> own_versions();
-/// Returns these, and the versions of the libraries by name. It starts the helper program that reads CAD.
+/// Returns these, and the versions of libraries by name. It starts the helper program that reads CAD.
 std::vector<std::pair<std::string, std::string>> versions();
 
 }  // namespace delquad

@@ -8,13 +8,14 @@
 
 namespace delquad {
 
-/// Puts results of one experiment, made in several folders, together in a new one, with its tables. Such
-/// folders are shards from different machines, or have other values and cases. The result has the cases,
-/// values and pipelines of all. A cell that several folders have must have the same model and mesh. A cell
-/// that was done counts more than one that failed, and no damaged cell is taken. The folders stay as they
-/// are. Throws InputError if a folder has no results, is of another experiment, or varies other keys. Throws
-/// it, too, naming the cell, if a cell differs between two folders or is damaged in all of them. The last
-/// reason is that `output` is there already or lies inside one of the folders.
+/// Merges results of one experiment from several folders into a new one, with its tables. Such folders are
+/// shards from different machines, or have other values and cases. The result has the cases, values and
+/// pipelines of all. A cell in several folders must have the same model and mesh. A finished cell wins over a
+/// failed one, and no damaged cell is taken. The folders stay.
+///
+/// Throws InputError if a folder has no results, is of another experiment, or varies other keys. Also throws,
+/// with the cell, if a cell differs between two folders or is damaged in all of them. The output must not
+/// exist, or lie inside one of the folders.
 void merge_results(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& output);
 
 }  // namespace delquad

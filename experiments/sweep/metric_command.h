@@ -14,39 +14,39 @@
 
 namespace delquad {
 
-/// A measure that another program takes of each mesh of an experiment.
+/// A measure by another program of each mesh of an experiment.
 struct MetricCommand {
   Metric metric = {"", "", "", Better::kNeither, std::numeric_limits<double>::quiet_NaN(), ""};
-  /// Program and arguments; {mesh}, {folder}, {case}, {pipeline}, {size} and {seed} stand for these. Words
-  /// that name files beside the experiment stand for them, wherever it is run; so does the program if it has
-  /// a slash.
+  /// Program and arguments with placeholders: {mesh}, {folder}, {case}, {pipeline}, {size} and {seed}. Words
+  /// that name files beside the experiment stand for them in any working folder, as does a program with a
+  /// slash.
   std::vector<std::string> command;
-  std::vector<std::string> files = {};  ///< beside the experiment, which determine the value, too
-  int timeout = 0;                      ///< seconds; 0: no limit but the cell's
+  std::vector<std::string> files = {};  ///< files beside the experiment that determine the value, too
+  int timeout = 0;                      ///< seconds; 0: only the limit of the cell
   std::filesystem::path folder = {};    ///< of the experiment
 };
 
-/// Returns the placeholders in the arguments of a metric's command.
+/// Returns all placeholders of commands of measures.
 const std::vector<std::string>& metric_placeholders();
 
 /// The output of the command for one mesh.
 struct MetricOutcome {
-  /// By key: the key of the metric, or "metric.name" if the metric gave several. NaN: it is not defined.
+  /// Values by key: the key of the metric, or "metric.name" for several values. NaN: not defined.
   std::map<std::string, double> values = {};
-  std::string failure = {};  ///< why there are none; empty: there are
+  std::string failure = {};  ///< why there are no values; empty: there are
 };
 
-/// Runs the command in `folder`, which holds mesh.msh, and gets what it printed on stdout and stderr, as
-/// metric-NAME.out and metric-NAME.err.
+/// Runs the command in `folder`, which holds mesh.msh, and returns its values or its failure. The folder gets
+/// stdout and stderr as metric-NAME.out and metric-NAME.err.
 MetricOutcome run_metric(const MetricCommand& metric, const Case& c, const std::string& pipeline,
                          const std::filesystem::path& folder);
 
-/// Returns the values in a text: a number, or a JSON object of numbers, as the whole or as its last line. A
-/// value that is null or NaN is not defined.
+/// Returns the values in a text: a number, or a JSON object of numbers, as the whole or as its last line.
+/// Null and NaN are not defined.
 MetricOutcome parse_metric_output(const std::string& key, const std::string& text);
 
-/// Returns the files that determine the value, with their digests. Throws InputError for one of `files` that
-/// cannot be read.
+/// Returns the files that determine the value, with their digests. Throws InputError if one of `files` cannot
+/// be read.
 std::map<std::string, std::string> metric_files(const MetricCommand& metric);
 
 }  // namespace delquad

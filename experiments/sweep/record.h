@@ -18,14 +18,14 @@ namespace delquad {
 struct CellIdentity {
   std::string key;  ///< digest of everything that determines the result
   std::string model_digest, program_digest;
-  std::string experiment = {};                         ///< its copy, as seen from the folder of the results
-  MachineState start = {};                             ///< when work on it began
-  std::map<std::string, FileMark> files = {};          ///< of the cell, but for the record
+  std::string experiment = {};                         ///< its copy, relative to the folder of the results
+  MachineState start = {};                             ///< at the beginning of the work
+  std::map<std::string, FileMark> files = {};          ///< files of the cell, except the record
   const Peer* peer = nullptr;                          ///< in place of a pipeline
-  std::string peer_version = {};                       ///< empty: it does not tell
-  std::string no_peer_version = {};                    ///< why it does not
-  std::map<std::string, std::string> peer_files = {};  ///< that its command names, with their digests
-  std::string peer_file = {};  ///< that it was read from, as seen from the folder of the experiment's file
+  std::string peer_version = {};                       ///< empty: not known
+  std::string no_peer_version = {};                    ///< why it is not known
+  std::map<std::string, std::string> peer_files = {};  ///< files that its command names, with their digests
+  std::string peer_file = {};  ///< file of the peer, relative to the folder of the experiment's file
   /// Measures by command, and the digests of the files that determine each.
   struct IdentifiedMetric {
     const MetricCommand* metric;
@@ -35,19 +35,19 @@ struct CellIdentity {
   std::vector<std::string> solvers = {};  ///< that measure the mesh
 };
 
-/// Returns the JSON record of a pipeline on a case: every option, what the stages did, times, metrics,
-/// versions. Ends with a newline; is sealed() in experiments. `cell`: null outside of these.
+/// Returns the JSON record of a pipeline on a case, with a newline at the end: every option, work of stages,
+/// times, measures, versions. In experiments it is sealed(); `cell` is null outside of these.
 std::string run_record(const Case& c, const Word& word, const MeshResult& result,
                        const CellIdentity* cell = nullptr);
-/// Returns the record of a cell that was not run, "failed" or "skipped" by its status, and the kind of the
+/// Returns the record of a cell that was not run: its status "failed" or "skipped", and the kind of the
 /// reason. Kinds are as in ProcessFailure, or "data not found".
 std::string failure_record(const Case& c, const Word& word, const std::string& status,
                            const std::string& kind, const std::string& reason,
                            const CellIdentity* cell = nullptr);
-/// Returns the metrics of a mesh from a file; `criteria`: null where it was not judged.
+/// Returns the record of the measures of a mesh file; `criteria` is null if it was not judged.
 std::string metrics_record(const std::string& mesh_file, const Mesh& mesh, const std::string& size,
                            const MeshMetrics& metrics, const CriteriaReport* criteria = nullptr);
-/// Returns the inputs that determine the mesh of a peer's cell besides the case, in one line of JSON.
+/// Returns the inputs besides the case that determine the mesh of a peer, in one line of JSON.
 std::string peer_record(const CellIdentity& cell);
 /// Returns the inputs that determine a cell's measures by command and by solvers, in one line of JSON.
 std::string metrics_by_command_record(const CellIdentity& cell);

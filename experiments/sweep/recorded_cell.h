@@ -10,20 +10,19 @@
 
 namespace delquad {
 
-/// Reads a record. Throws InputError for what is none, and for a record of another version.
+/// Reads a record. Throws InputError for another file or version.
 nlohmann::ordered_json read_record_file(const std::filesystem::path& file);
 
 /// A cell as its record has it.
 struct RecordedCell {
   Case c;
-  Experiment experiment;  ///< its pipeline alone, with what meshes and measures it
+  Experiment experiment;  ///< with its pipeline only, and with its peers and measures
   bool is_of_experiment;  ///< else 'delquad mesh --json' wrote the record
 };
 
-/// Reads the cell from its record alone. Files of models and sizes are found by name and digest: at their
-/// place, in the copies of the folder of results, or anywhere below `data`. Peers and measures run the
-/// programs in the copies. Throws InputError for a file that is not there, and for a problem with functions
-/// or meshes in memory.
+/// Returns the cell of a record. Files of models and sizes are found by name and digest: at their place, in
+/// the copies of the folder of results, or anywhere below `data`. Peers and measures run the programs in the
+/// copies. Throws InputError for a missing file, and for functions or meshes in memory.
 RecordedCell recorded_cell(const nlohmann::ordered_json& record, const std::filesystem::path& file,
                            const std::filesystem::path& data = {});
 

@@ -6,33 +6,32 @@
 
 #include "io/cases/toml_reader.h"
 
-/// This header has keys that several tables of an experiment have. Experiments and their schema use it.
+// This header has keys that several tables of an experiment have. Experiments and their schema use it.
 
 namespace delquad {
 
-/// Returns the keys of an experiment file, and the keys of its tables that models lack.
+/// Returns the keys of an experiment file, and keys of its cases that models lack.
 TomlKeys experiment_keys();
 TomlKeys experiment_case_keys();
 /// Returns the keys of a [[variant]].
 TomlKeys variant_keys();
 
-/// Returns the JSON Schema (draft 2020-12) of experiment files, made from the keys that they are read
-/// against. Ends with a newline.
+/// Returns the JSON Schema (draft 2020-12) of experiment files, made from their keys, with a newline at the
+/// end.
 std::string experiment_schema();
 
-/// Checks the placeholders in the arguments of `command`. Throws InputError with file and line for a
-/// placeholder that is not in `known`, and if all of one of the groups of `needed` are missing. Arguments
-/// that are text of a program may have braces of their own.
+/// Throws InputError, with file and line, for a placeholder in `command` that is not in `known`, and if all
+/// of one of the groups of `needed` are missing. Other braces are allowed in arguments that are text of a
+/// program.
 void check_placeholders(const TomlTable& table, const std::vector<std::string>& command,
                         const std::vector<std::string>& known,
                         const std::vector<std::vector<std::string>>& needed);
 
-/// Returns whether a word of the command holds `placeholder`, such as "{mesh}".
+/// Returns whether a word of the command contains `placeholder`, such as "{mesh}".
 bool has_placeholder(const std::vector<std::string>& command, const std::string& placeholder);
 
-/// Names of cases and peers become folders, on file systems that may not tell capitals from small letters.
-/// Throws InputError with file and line for a name that cannot, the name of a file of results, and a name in
-/// `others`.
+/// Throws InputError, with file and line, for a name that cannot be a folder, the name of a file of results,
+/// and a name in `others`. Some file systems do not distinguish capitals.
 void check_folder_name(const TomlTable& table, const std::string& name,
                        const std::vector<std::string>& others);
 

@@ -18,8 +18,8 @@
 
 namespace delquad {
 
-/// How many cells of a sweep are done, counted by every process that works on it. A bar on the last line of a
-/// terminal shows them, with the time left for the sweep and for the experiments after it.
+/// Numbers of finished cells of a sweep, counted by all of its processes. A bar on the last line of a
+/// terminal shows them, with the time left for the sweep and for later experiments.
 class SweepProgress {
  public:
   SweepProgress(std::size_t cells, PlaceInQueue place);
@@ -27,7 +27,7 @@ class SweepProgress {
   SweepProgress(const SweepProgress&) = delete;
   SweepProgress& operator=(const SweepProgress&) = delete;
 
-  void found(std::size_t cells);  ///< done in an earlier run
+  void found(std::size_t cells);  ///< adds cells of an earlier run
   void done() { ++counts_->done; }
   void failed() {
     ++counts_->done;
@@ -37,7 +37,7 @@ class SweepProgress {
     failed();
     ++counts_->interrupted;
   }
-  /// Cells that somebody else ended, and that have no record.
+  /// Returns the number of cells that somebody else ended, which have no record.
   std::size_t n_interrupted() const { return counts_->interrupted; }
   void draw();
 
@@ -47,27 +47,27 @@ class SweepProgress {
   struct Counts {
     std::atomic<std::size_t> done = 0, failed = 0, interrupted = 0;
   };
-  Counts* counts_;  ///< memory that all processes share
+  Counts* counts_;  ///< in memory that all processes share
   std::size_t cells_, found_ = 0;
   PlaceInQueue place_;
   bool shown_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Prints a line on standard error, in one piece: several processes may speak at once.
+/// Prints a line on standard error in one piece, since several processes may print.
 void print_line(const std::string& text);
 
 struct Cell {
   const Word* word;
   CellIdentity identity;
   std::filesystem::path folder;
-  ReferenceCell reference = {};  ///< that a peer is calibrated to
+  ReferenceCell reference = {};  ///< cell to which a peer is calibrated
   bool may_fail = false;
 };
 
 bool is_done(const Cell& cell);
 
-/// A variant of a case with the cells that are to be made from it. Each process that works on it has its own.
+/// A variant of a case with its cells to run. Each process has its own.
 struct VariantWork {
   Case c;
   std::vector<Cell> cells;
@@ -79,12 +79,12 @@ struct VariantWork {
 
   /// Prepares the variant before the first stage.
   void prepare();
-  /// Finishes a cell after the last stage: its files are measured and in place.
+  /// Finishes a cell after the last stage: measures the mesh and writes its files.
   void finish(const Cell& cell);
-  /// Records a cell whose process did not get to its end.
+  /// Records a cell whose process did not finish.
   void fail(const Cell& cell, const ProcessFailure& why) const;
-  /// Leaves a record of why there is no mesh, and what a peer read and printed; nothing where the cell was
-  /// interrupted: it is to be made yet.
+  /// Writes a record with the reason for a missing mesh, and the input and output of a peer. An interrupted
+  /// cell, which is still to do, gets nothing.
   void give_up(const Cell& cell, const std::string& status, const ProcessFailure& why) const;
 };
 

@@ -10,7 +10,7 @@
 namespace delquad {
 
 /// Writes the mesh with the wanted fields at its points: "size", and "cross_1" and "cross_2". These vectors
-/// lie along the cross, and are as long as edges are wanted there. MSH or VTU, see write_fields().
+/// lie along the cross, with the wanted length. The format is MSH or VTU; throws as write_fields().
 void write_wanted(const std::filesystem::path& path, const Mesh& mesh, const Prepared& prepared);
 
 }  // namespace delquad
