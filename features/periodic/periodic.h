@@ -9,8 +9,9 @@
 #include "geometry/planar/curve_pieces.h"
 #include "geometry/surface/flatten.h"
 
-/// This header has periodic sides, which have the same nodes. The preparation calls its functions in this
-/// order.
+// This header has periodic sides, which have the same nodes. The preparation calls its functions in this
+// order.
+
 namespace delquad {
 
 /// A face that gets the moved mesh of another face.
