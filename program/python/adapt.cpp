@@ -98,7 +98,7 @@ py::tuple adapted(const Mesh& mesh, const std::vector<std::pair<std::string, py:
 }  // namespace
 
 void define_adapt(py::module_& m) {
-  py::class_<AdaptSpec>(m, "AdaptSpec", "What the next mesh is to be.")
+  py::class_<AdaptSpec>(m, "AdaptSpec", "Goals of the next mesh.")
       .def(py::init([](double quads, double error, double norm, double min, double max, double aspect,
                        double gradation, bool isotropic, const std::string& quality) {
         return AdaptSpec{quads, error, norm, {min, max, aspect}, gradation, isotropic, {}, quality};

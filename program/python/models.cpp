@@ -120,41 +120,45 @@ void define_curves(py::module_& m) {
             const Vec2 p = curve.shape->point(t);
             return std::pair(p.x, p.y);
           },
-          arg("t"), "The point at t in [0, 1].");
+          arg("t"), "Returns (x, y) at t in [0, 1].");
   m.def(
       "segment",
       [](const py::object& a, const py::object& b, const std::string& name) {
         return ModelCurve{
             make_segment(read_vec2(a, "the segment's start"), read_vec2(b, "the segment's end")), name, ""};
       },
-      arg("a"), arg("b"), arg("name") = "");
+      arg("a"), arg("b"), arg("name") = "", "Returns the straight line from a to b.");
   m.def(
       "polyline",
       [](const py::object& points, const std::string& name) {
         return ModelCurve{make_polyline(read_plane_points(points, "polyline")), name, ""};
       },
-      arg("points"), arg("name") = "", "Every point gets a node.");
+      arg("points"), arg("name") = "",
+      "Returns a polyline through points of shape (n, 2), n >= 2. Every point gets a node.");
   m.def(
       "spline",
       [](const py::object& points, const std::string& name, double corner) {
         return ModelCurve{make_spline(read_plane_points(points, "spline"), corner), name, ""};
       },
       arg("points"), arg("name") = "", arg("corner") = std::numbers::pi / 3,
-      "The cubic spline through the points, with corners where chords turn by more than an angle (radians).");
+      "Returns the cubic spline through points of shape (n, 2), with corners where chords turn by more than "
+      "`corner` (radians). It is closed if the last point equals the first.");
   m.def(
       "arc",
       [](const py::object& centre, double radius, double angle0, double angle1, const std::string& name) {
         return ModelCurve{make_arc(read_vec2(centre, "the arc's centre"), radius, angle0, angle1), name, ""};
       },
-      arg("centre"), arg("radius"), arg("angle0"), arg("angle1"), arg("name") = "", "Angles in radians.");
+      arg("centre"), arg("radius"), arg("angle0"), arg("angle1"), arg("name") = "",
+      "Returns an arc of at most one turn, counterclockwise if angle1 > angle0; angles are in radians.");
   m.def(
       "circle",
       [](const py::object& centre, double radius, const std::string& name) {
         return ModelCurve{make_circle(read_vec2(centre, "the circle's centre"), radius), name, ""};
       },
-      arg("centre"), arg("radius"), arg("name") = "");
+      arg("centre"), arg("radius"), arg("name") = "", "Returns a circle, which begins at angle 0.");
   m.def("curve", &sampled_curve, arg("function"), arg("t0"), arg("t1"), arg("name") = "",
-        "function(t) of an array of parameters returns points of shape (n, 2).");
+        "Returns a curve for t from t0 to t1. function(t) of an array of parameters returns points of shape "
+        "(n, 2).");
   m.def(
       "crack",
       [](ModelCurve curve) {
@@ -162,14 +166,14 @@ void define_curves(py::module_& m) {
         return curve;
       },
       arg("curve"),
-      "The same curve, along which the mesh comes apart: its nodes are doubled, but for tips inside.");
+      "Returns the same curve as a crack, at which the mesh opens: nodes are doubled, except at inner tips.");
   py::class_<ModelPoint>(m, "ModelPoint", "A point that becomes a node, see point().");
   m.def(
       "point",
       [](const py::object& at, const std::string& name) {
         return ModelPoint{read_vec2(at, "the point"), name, ""};
       },
-      arg("at"), arg("name") = "");
+      arg("at"), arg("name") = "", "Returns a point that becomes a node, for planar().");
   py::class_<Loop>(m, "Loop", "A closed chain of curves, see loop().");
   m.def(
       "loop",
@@ -177,7 +181,8 @@ void define_curves(py::module_& m) {
         return Loop{std::move(curves), region};
       },
       arg("curves"), arg("region") = "",
-      "With a name for the region inside; loops inside others, without one, are holes.");
+      "Returns a loop of curves in any order, with a name for the region inside. Loops inside others without "
+      "a name are holes.");
 }
 
 }  // namespace
@@ -189,15 +194,19 @@ ModelHandle read_model(const std::string& path) {
 
 void define_models(py::module_& m) {
   using py::arg;
-  py::class_<ModelHandle>(m, "Model", "What is to be meshed.")
+  py::class_<ModelHandle>(m, "Model", "A model, from planar(), cad() and similar functions.")
       .def_property_readonly("name", [](const ModelHandle& model) { return model.problem.name; })
       .def("__repr__",
            [](const ModelHandle& model) { return "<delquad.Model '" + model.problem.name + "'>"; });
   define_curves(m);
   m.def("polygons", &make_polygons, arg("polygons"));
   m.def("planar", &make_planar, arg("loops"), arg("embed"));
-  m.def("lines", &make_lines, arg("points"), arg("lines"), arg("line_curve") = py::none());
-  m.def("triangles", &make_triangles, arg("points"), arg("triangles"), arg("triangle_region") = py::none());
+  m.def("lines", &make_lines, arg("points"), arg("lines"), arg("line_curve") = py::none(),
+        "Returns a planar domain that lines bound: (n, 2) indices of points, each of which becomes an edge. "
+        "line_curve: a number for each line.");
+  m.def("triangles", &make_triangles, arg("points"), arg("triangles"), arg("triangle_region") = py::none(),
+        "Returns a surface of triangles: (n, 3) indices of points of shape (m, 3). triangle_region: a number "
+        "for each triangle.");
   m.def("from_mesh", &from_mesh, arg("mesh"));
   m.def(
       "given_mesh", [](const Mesh& mesh) { return handle_of(GivenMesh{mesh}, "mesh"); }, arg("mesh"));
@@ -211,7 +220,7 @@ void define_models(py::module_& m) {
         write_example(name, CadFormat::kStep, out);
         return py::bytes(out.str());
       },
-      arg("name"), "The content of an example's STEP file.");
+      arg("name"), "Returns the bytes of the STEP file of an example.");
   m.def("examples", [] {
     py::dict all;
     for (const Example& example : example_models()) all[py::str(example.name)] = example.description;

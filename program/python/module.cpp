@@ -178,7 +178,7 @@ void define_hexahedra(py::module_& m) {
             const std::vector<double>& values = self.cast<const Hexahedra&>().measures.jacobian;
             return view<double>(values.data(), {static_cast<py::ssize_t>(values.size())}, self);
           },
-          "the least of each hexahedron, 1 for boxes")
+          "least value of each hexahedron, in [-1, 1]; 1 for boxes")
       .def(
           "_write_file",
           [](const Hexahedra& self, const std::string& path, bool binary, const std::string& element) {
@@ -264,7 +264,7 @@ std::vector<std::array<std::string, 3>> keywords() {
 
 void define_criteria(py::module_& m) {
   m.def("keywords", &keywords);
-  py::class_<Criteria>(m, "Criteria", "Limits that elements are judged by.")
+  py::class_<Criteria>(m, "Criteria", "Limits by which elements are judged.")
       .def(py::init([](const KeyLines& lines) {
         Case c;
         set_keys(lines, c);
@@ -274,7 +274,7 @@ void define_criteria(py::module_& m) {
 }
 
 void define_result(py::module_& m) {
-  py::class_<Result, Mesh, std::shared_ptr<Result>>(m, "Result", "A mesh, and what is known of it.")
+  py::class_<Result, Mesh, std::shared_ptr<Result>>(m, "Result", "A mesh and its report.")
       .def_property_readonly("metrics", [](const Result& r) { return r.rest.metrics.values; })
       .def_property_readonly(
           "valences", [](const Result& r) { return r.rest.metrics.valences; },
@@ -282,7 +282,7 @@ void define_result(py::module_& m) {
       .def_property_readonly("summaries", [](const Result& r) { return dict_of(r.rest.log.summaries); })
       .def_property_readonly(
           "seconds", [](const Result& r) { return dict_of(r.rest.log.times); },
-          "by step, on the clock; of patches side by side, added up")
+          "wall-clock time by step, added up over parallel patches")
       .def_property_readonly("wall_seconds", [](const Result& r) { return r.rest.seconds; })
       .def_property_readonly("expected_quads", [](const Result& r) { return r.expected_quads; })
       .def_property_readonly("warnings",
@@ -299,8 +299,7 @@ void define_result(py::module_& m) {
               failures.emplace_back(failure.face, failure.reason);
             return failures;
           },
-          "(index into regions, reason) of faces that were left out; -1: of parts of a file that cannot be "
-          "read")
+          "(index into regions, reason) of faces that were left out; index -1 for unreadable parts of a file")
       .def_property_readonly(
           "failed_metrics", [](const Result& r) { return r.rest.metrics.failures; },
           "why a measure of add_metric() is nan, by key")
@@ -312,16 +311,16 @@ void define_result(py::module_& m) {
             for (const std::string& beyond : r.rest.soundness.beyond) reasons.push_back(beyond);
             return reasons;
           },
-          "why it is not sound")
+          "reasons; empty if it is sound")
       .def_property_readonly(
           "beyond_limits", [](const Result& r) { return r.rest.soundness.beyond; },
-          "which elements are beyond min_angle, max_aspect and strict criteria")
+          "elements beyond min_angle, max_aspect and strict criteria, in words")
       .def_property_readonly(
           "criteria",
           [](const Result& r) -> py::object {
             return r.rest.criteria ? dict_of(*r.rest.criteria) : py::none();
           },
-          "how it does by the criteria, see judge(); None: there were none")
+          "result of the criteria, see judge(); None without criteria")
       .def("_complaint", [](const Result& r) { return r.rest.soundness.complaint(); });
 }
 
@@ -365,7 +364,7 @@ struct Problem : ModelHandle {
 };
 
 void define_problem(py::module_& m) {
-  py::class_<Problem> c(m, "Problem", "A model with all that is asked of its mesh.");
+  py::class_<Problem> c(m, "Problem", "A model with all options of its mesh.");
   c.def(py::init<const ModelHandle&>());
   c.def("clear", &Problem::clear)
       .def("set_function", &Problem::set_function)
@@ -398,7 +397,7 @@ void define_problem(py::module_& m) {
 }  // namespace
 
 PYBIND11_MODULE(_core, m) {
-  m.doc() = "The part of delquad that is written in C++; see the package delquad.";
+  m.doc() = "The C++ part of delquad; see the package delquad.";
   // Later registrations are tried first.
   py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
   const auto& cancelled = py::register_exception<Cancelled>(m, "Cancelled", PyExc_RuntimeError);

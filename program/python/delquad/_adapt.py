@@ -48,19 +48,20 @@ def adapt(
     threads=0,
     time_limit=0.0,
 ):
-    """Returns the mesh on which solutions have the least error, and their errors: (Result, {name: {"now", "gradient", "expected"}}).
+    """Returns the mesh with the least error of solutions, and their errors: (Result, {name: {"now", "gradient", "expected"}}).
 
     mesh: the planar mesh of the solutions, of triangles and quads; a Mesh or the path of a file.
     fields: values at its points, of shape (n,) or (n, k) with components, or {name: such values}.
-    quads, error: the wanted number of quads, or the wanted error of interpolation: one of both.
+    quads, error: the wanted number of quads, or the wanted error of interpolation: one of both, above 0.
     norm: p of the Lp norm of this error, from 1 to float("inf").
     model: as for mesh(); None: the domain of the mesh. Its size does not count.
     weight: the weight of errors at each point, at least 0, such as an adjoint solution.
-    isotropic: square quads. min_size, max_size, aspect, gradation: limits of lengths, of their ratio and of their growth; 0: none.
+    isotropic: square quads. min_size, max_size: limits of lengths; 0: none.
+    aspect, gradation: limits of the ratio of lengths, at least 1, and of their growth per unit length, above 1; 0: none.
     quality, threads, time_limit: as for mesh().
 
-    "now" is the estimated error of interpolation in the norm, and "gradient" the error of the gradient in L2. The error "expected" is
-    the first one on the new mesh. Raises the same as mesh().
+    "now" is the estimated error of interpolation in the norm, and "gradient" the error of the gradient in L2. "expected" is the
+    error of interpolation on the new mesh. Raises InputError for values that are not finite, or constant, and as mesh().
     """
     spec = _core.AdaptSpec(quads or 0, error or 0, norm, min_size, max_size, aspect, gradation, isotropic, quality)
     return _core.adapt(
@@ -70,7 +71,7 @@ def adapt(
 
 def recover_hessian(mesh, values):
     """Returns second derivatives xx, xy and yy of values at the points, of shape (n, 3). They come from the polynomial that fits best
-    around each point. Between regions the side with the larger ones counts."""
+    around each point [zhang2005]. Between regions the side with the larger ones counts."""
     return _core.recover(_as_mesh(mesh), values)[1]
 
 
@@ -80,10 +81,10 @@ def recover_gradient(mesh, values):
 
 
 def estimate_error(mesh, values, norm=2.0):
-    """Estimates the errors of a solution: {"interpolation", "interpolation_of_elements", "gradient", "gradient_of_elements"}.
+    """Returns the estimated errors of a solution: {"interpolation", "interpolation_of_elements", "gradient", "gradient_of_elements"}.
 
     The error of interpolation is in the Lp norm, 1 <= norm <= inf, by recovered Hessians. The error of the gradient is in L2, by
-    recovered gradients. Elements are triangles, then quads.
+    recovered gradients [zienkiewicz1992]. Elements are triangles, then quads.
     """
     whole, each, gradient, each_gradient = _core.estimate(_as_mesh(mesh), values, norm)
     return {
@@ -98,5 +99,6 @@ def transfer(mesh, values, to, how="interpolated", of_elements=False):
     """Returns values on another mesh, `to`: at its points, or with `of_elements` on triangles and then quads.
 
     how: "interpolated", "conservative" (keeps the integral), or "bounded" (conservative and within the extremes nearby).
+    Raises InputError for values that are not finite or not one per point (element).
     """
     return _core.transfer(_as_mesh(mesh), values, _as_mesh(to), how, of_elements)

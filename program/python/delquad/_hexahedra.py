@@ -12,11 +12,11 @@ def extrude(
     """Sweeps a mesh of quads, or the file of one, and returns hexahedra. One of these sets the path:
 
     along: a vector from the first layer of nodes to the last.
-    around: a point of an axis and its direction; angle: in degrees, 360 closes the ring.
+    around: a point of an axis and its direction; angle: from -360 to 360 degrees, not 0; a full turn closes the ring.
     curve: points of a line of shape (n, 3), along which the section moves and turns.
     normals: a thickness along the normals, negative against them; both_sides: half of it to each side.
 
-    layers: their number; 0, with curve only, for one on each segment. growth: height of a layer over the previous height.
+    layers: their number; 0, with curve only, for one on each segment. growth: height of a layer over the previous height, above 0.
     threads: 0 for the number of cores. time_limit: in seconds; 0 for none.
 
     Regions become volumes. Curves on the boundary and named inner curves become faces, named points curves. The start and
@@ -34,7 +34,10 @@ def extrude(
 
 
 def _write(self, path, binary=False, element=""):
-    """Writes .msh, .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv, completely or not at all. element: for .inp, C3D8, C3D8I, C3D20, ..."""
+    """Writes .msh, .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv, completely or not at all.
+
+    element: for .inp, C3D8, C3D8I, C3D20 and others. Raises InputError for another extension.
+    """
     self._write_file(os.fspath(path), binary, element)
 
 

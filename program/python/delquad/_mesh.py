@@ -23,7 +23,7 @@ class UnsoundError(RuntimeError):
 
 
 def polygons(polygons):
-    """A planar domain bounded by polygons, each of shape (n, 2), without its first corner repeated.
+    """Returns a planar domain bounded by polygons, each of shape (n, 2), n >= 3, without its first corner repeated.
 
     Polygons inside others are holes. Every corner gets a node.
     """
@@ -31,7 +31,7 @@ def polygons(polygons):
 
 
 def planar(loops, embed=()):
-    """A planar domain bounded by curves: loops are lists of curves, or loop()s with a name for their region.
+    """Returns a planar domain bounded by curves: loops are lists of curves, or loop()s with a name for their region.
 
     Loops may lie side by side; regions share nodes where their curves overlap. embed: curves and point()s inside
     the regions. They become chains of edges and nodes of the mesh, and the mesh opens at crack()s.
@@ -123,13 +123,13 @@ def _lines(keyword, value):
 
 
 def judge(mesh, criteria, size=None):
-    """Judges the elements of any Mesh by criteria as for mesh(). size: the wanted size, a number; None: the mean edge.
+    """Judges the elements of any Mesh by criteria as for mesh(). size: the wanted edge length; None: the mean edge.
 
     Returns a dict with the numbers of "elements" and of "failing" ones. "limits" has, for each limit, its "failing"
     elements (triangles first), the "worst" value, its place "at", and the "cause". "causes" has the numbers of failing
     quads, and "why" explains them. "cures" has changes of a "key" to a "value" that may cure "count" elements
     with a "cause". "critical_step" and, by program, "estimated_step" are times with a material, else lengths.
-    "step_of_squares" is the step of squares of the least size.
+    "step_of_squares" is the step of squares of the least size. Raises InputError for criteria that do not fit the mesh.
     """
     return _core.judge(mesh, _core.Criteria(_lines("criteria", criteria)), None if size is None else float(size))
 
@@ -141,7 +141,7 @@ def _embed(problem, embed):
 
 
 def _bar(stage, part):
-    """Prints a line that the next one replaces."""
+    """Prints a line of progress, which the next one replaces."""
     end = "\n" if part >= 1 else ""
     print(f"\r{100 * part:3.0f} %  {stage:30}", end=end, flush=True)
 

@@ -15,7 +15,7 @@ _added = {}
 
 
 def _describe(function):
-    """Returns bytes that identify a function: its file and the data that it holds, without globals and environment."""
+    """Returns bytes that identify a function: its file and its data, without globals and environment."""
     inner = inspect.unwrap(function)
     inner = getattr(inner, "func", inner)
     code = getattr(inner, "__code__", None) or getattr(type(inner).__call__, "__code__", None)
@@ -45,7 +45,8 @@ def add_metric(key, function, *, title="", unit="", better="neither", worst=None
     size: the size that was followed, of shape (n,) at the points of the mesh, or None.
     problem: the name of the problem or, in experiments, of the case; word: the pipeline.
     surface: the triangulation of a surface, or None.
-    better: "higher", "lower" or "neither"; worst: its value for the worst mesh.
+    better: "higher", "lower" or "neither"; worst: its value for the worst mesh; digits: after the decimal point, in tables.
+    Raises ValueError for a key that is taken.
     """
     _add(_core.add_metric, key, function, title, unit, better, worst, source, digits)
 
