@@ -17,14 +17,14 @@
 
 // This header composes sizes from their ingredients. The preparation and curves use it.
 //
-// | ingredient | planar models of curves | surfaces |
+// | ingredient                        | planar models of curves        | surfaces                       |
 // |-----------------------------------|--------------------------------|--------------------------------|
-// | base, sources, the largest size | base_size() | base_size() |
-// | sizes by name | in turn with the curves, twice | imprint_named() |
-// | the least of mirror images | least_of_images() | cut_at_planes() |
-// | gradation | along the background mesh | last, along the surface |
-// | curvature | none | surface_size() |
-// | given edges, short curves, spots | last | surface_size() |
+// | base, sources, the largest size   | base_size()                    | base_size()                    |
+// | sizes by name                     | in turn with the curves, twice | imprint_named()                |
+// | the least of mirror images        | least_of_images()              | cut_at_planes()                |
+// | gradation                         | along the background mesh      | last, along the surface        |
+// | curvature                         | none                           | surface_size()                 |
+// | given edges, short curves, spots  | last                           | surface_size()                 |
 //
 // Given lines and meshes have only base, names and gradation.
 

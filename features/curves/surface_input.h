@@ -29,11 +29,11 @@ double length_of_small(const MeshProblem& problem, std::span<const Vec3> points)
 KeptNames names_that_stay(const MeshProblem& problem, const std::vector<Entity>& curves,
                           const std::vector<Entity>& regions);
 
-/// Returns the model with short curves joined to curves that they continue, see merge_short_curves(). Short
-/// is a length below `curves.join_below` sizes, or below `least` if that is more. Variable sizes count where
-/// they are least. Otherwise many short edges would end as many rows of quads. Curves stay that have names or
-/// whose numbers the problem names. All curves stay if sides are periodic or corners of grids are given. Own
-/// method.
+/// Returns the model with short curves joined to curves that they continue, see merge_short_curves().
+/// Otherwise many short edges would end as many rows of quads. Short is a length below `curves.join_below`
+/// sizes, or below `least` if that is more; variable sizes count where they are least. Curves stay that have
+/// names or whose numbers the problem names. All curves stay if sides are periodic or corners of grids are
+/// given. Own method.
 SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model,
                                double least = 0);
 

@@ -21,7 +21,7 @@ namespace delquad {
 
 /// A part of the outline of a face between two nodes that any mesh has, with the face on its left.
 struct OutlinePart {
-  int curve;     ///< curve whose number of edges is chosen
+  int curve;     ///< piece of a curve, whose number of edges is chosen
   int node;      ///< node at its beginning
   Vec3 at;       ///< place of that node
   double angle;  ///< inside of the face at that node; radians

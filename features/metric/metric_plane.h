@@ -57,7 +57,8 @@ struct MetricPlane {
 
 /// Returns the problem in the flat plane of its metric, in which the metric is a size. A metric without
 /// directions becomes a size. Throws InputError for a metric that cannot be followed, see resolve_metric(),
-/// and for a domain that cannot be flattened in one piece. Own method; maps are conformal [sawhney2017].
+/// and for a domain that cannot be flattened in one piece. Own method; maps are conformal [sawhney2017;
+/// mullen2008].
 MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings);
 
 /// Throws InputError for numbers out of range, and for settings that do not go with a metric.
