@@ -32,7 +32,7 @@ struct CellIdentity {
     std::map<std::string, std::string> files;
   };
   std::vector<IdentifiedMetric> metrics = {};
-  std::vector<std::string> solvers = {};  ///< that measure the mesh
+  std::vector<std::string> solvers = {};  ///< solvers that measure the mesh
 };
 
 /// Returns the JSON record of a pipeline on a case, with a newline at the end: every option, work of stages,

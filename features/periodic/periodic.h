@@ -78,8 +78,8 @@ void follow_masters(const PlanarModel& model, const std::vector<ChainPair>& imag
 /// Adds the pairs of nodes by curve; `nodes` has the nodes of each chain.
 void add_pairs_of_chains(const std::vector<CurveChain>& nodes, const std::vector<ChainPair>& pairs,
                          std::vector<PeriodicNodes>& all);
-/// Adds the pairs of nodes by curve and by face, without nodes inside of faces. Images of faces get the
-/// sharp corners of their masters. `of_sides`: see ChainPairs.
+/// Adds the pairs of nodes by curve and by face, without nodes inside of faces. Images of faces get the sharp
+/// corners of their masters. `of_sides` is as in ChainPairs.
 void add_pairs(const SurfaceCurves& curves, const PeriodicSides& periodic,
                const std::vector<std::vector<ChainPair>>& of_sides, SurfaceDomain& domain);
 

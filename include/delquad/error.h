@@ -24,7 +24,7 @@ class InputError : public Error {
 /// A face of a surface cannot be meshed, but other faces perhaps can.
 class FaceError : public InputError {
  public:
-  /// `face`: index of the region; the message names it by its tag.
+  /// `face` is the index of the region; the message names it by its tag.
   FaceError(int face, const std::string& message) : InputError(message), face_(face) {}
   int face() const { return face_; }
 
