@@ -44,6 +44,7 @@ void PrimalDualSearch<Value, Cost>::meet(int v, int w) {
   settle();
 }
 
+/// Adds the container of w as odd and its mate as even to the tree of v.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::grow(int v, int w) {
   const int d = s_.nodes[w].container, tree = s_.nodes[s_.nodes[v].container].tree;
@@ -121,6 +122,7 @@ void PrimalDualSearch<Value, Cost>::dissolve(int tree) {
   }
 }
 
+/// Looks again at containers whose events were dropped while they were odd.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::notice_missed() {
   for (const int c : missed_) {
@@ -144,6 +146,7 @@ void PrimalDualSearch<Value, Cost>::settle() {
   }
 }
 
+/// Dissolves the trees that stopped.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::release_all() {
   for (const auto& [tree, birth] : stopped_) {
@@ -153,6 +156,7 @@ void PrimalDualSearch<Value, Cost>::release_all() {
   settle();
 }
 
+/// Replaces the range's roots by a node of each container that is still free.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::leave_free_ones() {
   std::vector<int>& roots = range_->roots;
@@ -174,8 +178,6 @@ void PrimalDualSearch<Value, Cost>::find_witness() {
     if (s_.nodes[s_.nodes[v].container].rate < 0) range_->witness.push_back(v);
   }
 }
-
-/// The part of the search that makes and opens blossoms.
 
 /// Contracts the odd cycle of a tight edge between v and w, both even and in one tree.
 template <class Value, class Cost>
@@ -408,6 +410,7 @@ SearchOutcome PrimalDualLevels<Value, Cost>::run(bool park, int modulus) {
   }
 }
 
+/// Returns whether a node has a neighbor outside its range of this length.
 template <class Value, class Cost>
 bool PrimalDualLevels<Value, Cost>::has_arc_out(int v, long long range) const {
   const auto* const arcs = s_.arcs_of(s_.nodes[v]);
@@ -427,6 +430,7 @@ void PrimalDualLevels<Value, Cost>::note_border() {
                                   });
 }
 
+/// Returns the limit of a node's total, so that no slack to other ranges becomes negative.
 template <class Value, class Cost>
 Value PrimalDualLevels<Value, Cost>::cap(int v, long long range) const {
   Value least = limit_;
