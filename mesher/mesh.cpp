@@ -119,7 +119,7 @@ Word pipeline_of_quality(const Quality& quality, MeshProblem& problem) {
   return parse_word(quality.word);
 }
 
-/// Adds the warnings and times of the preparation before those of the stages.
+/// Puts the warnings and times of the preparation before the ones that the result has.
 void add_preparation(MeshResult& result) {
   const Preparation& made = *result.prepared;
   StageLog log{made.times};

@@ -34,7 +34,8 @@ struct CanonicalEdge {
   Vec2 middle;
   Frame frame;
   double alpha = 0, beta = 0;
-  /// P and Q must be distinct.
+  /// P and Q must be distinct. The frame is `axes`, turned by quarters until the edge is within 45 degrees of
+  /// its first axis.
   CanonicalEdge(Vec2 p, Vec2 q, const Frame& axes);
   Vec2 to_local(Vec2 x) const { return frame.to_local(x - middle); }
   Vec2 to_global(Vec2 x) const { return middle + frame.to_global(x); }

@@ -33,10 +33,12 @@ struct PatchAtCurves {
 /// Patches that share curves.
 struct CurveNetwork {
   std::vector<PatchAtCurves> patches;
-  std::vector<std::vector<double>> nodes;  ///< parameters of the nodes of each curve, ascending
+  std::vector<std::vector<double>>
+      nodes;  ///< parameters of the nodes of each curve, ascending, ends included
   /// The two distinct patches at each curve; negative: its nodes stay.
   std::vector<std::array<int, 2>> sides;
-  std::function<Vec2(int patch, int curve, double place)> at;  ///< point of a curve in the plane of the patch
+  std::function<Vec2(int patch, int curve, double place)>
+      at;  ///< point of a curve at a parameter, in the plane of the patch
 };
 
 struct AcrossCurvesSummary {
@@ -58,7 +60,8 @@ struct Counters<AcrossCurvesSummary> {
                  counter("patches", &S::patches), counter("seconds", &S::seconds));
 };
 
-/// Runs make_regular() across curves, which keep their shape.
+/// Runs make_regular() across curves, which keep their shape (own method). Returns counts; changed patches
+/// are marked.
 ///
 /// A curve cuts a cavity into a polygon on each side, and both share a stretch of the curve. The stretch may
 /// gain or lose two or four edges. If all polygons then have patterns with fewer irregular vertices in total

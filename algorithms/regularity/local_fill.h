@@ -22,7 +22,7 @@ namespace delquad::across {
 /// Rings of quads around changed polygons and curves that are relocated.
 inline constexpr int kMovedRings = 2;
 
-/// A cavity filled on its own mesh, with the elements around all moving vertices.
+/// A cavity filled on its own mesh, in the plane of its patch, with the elements around all moving vertices.
 class LocalFill {
  public:
   /// Throws std::invalid_argument if two vertices would share a second edge.
@@ -136,7 +136,7 @@ class LocalFill {
   QuadPatch local_;
 };
 
-/// Moves a fill into its patch; boundary points keep their order.
+/// Moves a fill into its patch when finish() is called; boundary points keep their order.
 class FillTaking {
  public:
   FillTaking(PatchWork& work, const Cavity& cavity, const LocalFill& fill, const Rim& rim)
