@@ -10,7 +10,7 @@
 
 #include "delquad/mesh.h"
 
-/// This header formats texts of messages and reads files. All modules use it.
+// This header formats texts of messages and reads files. All modules use it.
 namespace delquad {
 
 /// Returns "(x, y)" or "(x, y, z)" with six digits, or more to show hundredths.

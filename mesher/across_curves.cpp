@@ -280,7 +280,7 @@ void run_joint_layouts(const MeshingSetup& prepared, PipelineState& state) {
       if (!on_curve.empty()) continue;
       for (const double s : spaced(old, edges[chain])) on_curve.push_back({s, n++});
       on_curve.front().node = old.front().node,
-      on_curve.back().node = old.back().node;  // shared with other curves
+      on_curve.back().node = old.back().node;  // shared nodes
     }
     PatchBoundary boundary =
         place_boundary(domain.patches[p].map, domain.patches[p].outline, domain.chains, nodes);

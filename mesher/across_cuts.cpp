@@ -190,8 +190,7 @@ void run_across_cuts(FinishContext& on) {
   const std::vector<char> regions = regions_across_cuts(prepared);
   const auto irregular = [&] { return static_cast<long long>(on.result.metrics.values.at("n_irregular")); };
   const long long before = irregular();
-  long long faces =
-      on.result.failures.empty() ? std::ranges::count(regions, 1) : 0;  // faces on which stages ran
+  long long faces = on.result.failures.empty() ? std::ranges::count(regions, 1) : 0;  // with stages
   bool is_taken = false;
   if (faces > 0) try {
       MeshingSetup again =

@@ -53,10 +53,9 @@ struct FinishContext {
 
 /// A step of a mesh beside the stages of its pipeline.
 struct FinishStep {
-  const char* name;  ///< in records
-  const char* time;  ///< in records of times
-  bool RepairOptions::*
-      option;  ///< false switches off this step alone; null: it runs for elements of higher order
+  const char* name;             ///< in records
+  const char* time;             ///< in records of times
+  bool RepairOptions::*option;  ///< false switches off this step alone; null: higher orders switch it on
   FinishAt at;
   bool (*applies)(const FinishContext& to);
   void (*run)(FinishContext& on);  ///< null: see FinishAt::kProblem

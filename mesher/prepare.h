@@ -22,12 +22,10 @@ struct RetryHints {
   /// Whether sharp edges of triangulations (TriangulatedOptions::kept_features) and small details
   /// (NarrowOptions::kept) stay in the spots.
   bool keep_features = false;
-  double ignore_below =
-      0;                 ///< a length: narrower details of surfaces go, names stay; 0: as the problem has it
-  double size_part = 1;  ///< factor > 0 of all sizes
+  double ignore_below = 0;   ///< least width of details of surfaces; names stay; 0: as the problem has it
+  double size_part = 1;      ///< factor > 0 of all sizes
   double feature_angle = 0;  ///< of triangulations, degrees; 0: as the problem has it
-  std::shared_ptr<const SurfaceModel> cad =
-      {};  ///< SurfaceSetup::cad of an earlier preparation; null: CAD is read
+  std::shared_ptr<const SurfaceModel> cad = {};  ///< SurfaceSetup::cad of an earlier setup; null: CAD is read
 };
 
 /// Returns hints that change nothing, with the CAD model that was read.

@@ -68,8 +68,7 @@ struct GabrielBesideSlits : CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt> {
     const Cdt::Vertex_handle apex = f->vertex(i), a = f->vertex(Cdt::cw(i)), b = f->vertex(Cdt::ccw(i));
     if (cdt.is_infinite(apex) || Gabriel::operator()(cdt, a, b, apex->point())) return true;
     const auto side = b->point() - a->point(), to = apex->point() - a->point();
-    const double height =
-        std::abs(side.x() * to.y() - side.y() * to.x());  // height times the length of the side
+    const double height = std::abs(side.x() * to.y() - side.y() * to.x());  // height times side
     return !f->is_in_domain() && height <= kSlit * side.squared_length();
   }
 };

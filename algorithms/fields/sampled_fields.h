@@ -35,9 +35,8 @@ struct SampleRules {
 
 /// Domain in which a function is sampled.
 struct SampleDomain {
-  Box<Vec3> box;  ///< around the model; may be flat
-  const Mesh* surface =
-      nullptr;  ///< surface on and beside which samples lie; null: they lie in the whole box
+  Box<Vec3> box;                  ///< around the model; may be flat
+  const Mesh* surface = nullptr;  ///< samples lie on and beside it; null: in the whole box
 };
 
 /// A function sampled on cells that are halved along all axes until it is linear along each axis of a cell

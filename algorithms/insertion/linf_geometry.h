@@ -8,12 +8,12 @@
 #include "delquad/extend.h"
 #include "delquad/mesh.h"
 
-/// This header has plane geometry in the L-infinity norm of a rotated frame [remacle2013, section 4]. Stages
-/// D and P use it.
-///
-/// It differs from the paper. The printed circumradius is the radius of the smallest enclosing square; here
-/// it is half the extent. Clamps act on the distance rho from the ends of the edge instead of the parameter
-/// t.
+// This header has plane geometry in the L-infinity norm of a rotated frame [remacle2013, section 4]. Stages
+// D and P use it.
+//
+// It differs from the paper. The printed circumradius is the radius of the smallest enclosing square; here
+// it is half the extent. Clamps act on the distance rho from the ends of the edge instead of the parameter
+// t.
 namespace delquad {
 
 /// Returns max(|x|, |y|) of a vector in frame coordinates.

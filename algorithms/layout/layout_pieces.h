@@ -8,7 +8,7 @@
 #include "algorithms/layout/field_lines.h"
 #include "algorithms/layout/patch_layout.h"
 
-/// This header makes the pieces of a layout and their costs, in quads times eta. The layout search uses it.
+// This header makes the pieces of a layout and their costs, in quads times eta. The layout search uses it.
 
 namespace delquad {
 

@@ -33,12 +33,10 @@ struct PatchAtCurves {
 /// Patches that share curves.
 struct CurveNetwork {
   std::vector<PatchAtCurves> patches;
-  std::vector<std::vector<double>>
-      nodes;  ///< parameters of the nodes of each curve, ascending, ends included
+  std::vector<std::vector<double>> nodes;  ///< parameters of each curve's nodes, ascending
   /// The two distinct patches at each curve; negative: its nodes stay.
   std::vector<std::array<int, 2>> sides;
-  std::function<Vec2(int patch, int curve, double place)>
-      at;  ///< point of a curve at a parameter, in the plane of the patch
+  std::function<Vec2(int patch, int curve, double place)> at;  ///< point of a curve in the plane of the patch
 };
 
 struct AcrossCurvesSummary {

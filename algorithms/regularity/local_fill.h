@@ -14,8 +14,8 @@
 #include "algorithms/regularity/fill_trial.h"
 #include "algorithms/regularity/patch_work.h"
 
-/// This header fills cavities on a copy beside their patch, and puts fills in place. Stage Q across curves
-/// uses it.
+// This header fills cavities on a copy beside their patch, and puts fills in place. Stage Q across curves
+// uses it.
 
 namespace delquad::across {
 

@@ -20,7 +20,7 @@
 #include "algorithms/regularity/polygon_sides.h"
 #include "smoothing/relocation/quad_relocation.h"
 
-/// This header has the state of patches and curves during make_regular_across_curves(). Its visits use it.
+// This header has the state of patches and curves during make_regular_across_curves(). Its visits use it.
 
 namespace delquad::across {
 

@@ -12,11 +12,10 @@
 namespace delquad {
 
 struct RegularityOptions {
-  double tolerance =
-      3;  ///< allowed loss, >= 0, for each removed irregular vertex in the last round; 0 in the first
-  int quads = 200;            ///< most quads of a cavity
-  int rounds = 3;             ///< rounds in which the tolerance grows
-  double weight = 1;          ///< factor for the tolerances of all stages
+  double tolerance = 3;  ///< loss >= 0 for each removed irregular vertex in the last round; 0 in the first
+  int quads = 200;       ///< most quads of a cavity
+  int rounds = 3;        ///< rounds in which the tolerance grows
+  double weight = 1;     ///< factor for the tolerances of all stages
   bool across_curves = true;  ///< for surfaces, see make_regular_across_curves()
   double joined = 4;          ///< factor for the tolerance of compounds and triangulations
 };

@@ -15,8 +15,8 @@
 #include "base/parallel_collect.h"
 #include "base/sort_unique.h"
 
-/// This header has the part of the search that grows, ends and stops trees, and its levels. The primal-dual
-/// solver uses it.
+// This header has the part of the search that grows, ends and stops trees, and its levels. The primal-dual
+// solver uses it.
 
 namespace delquad {
 

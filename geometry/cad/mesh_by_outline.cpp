@@ -242,8 +242,7 @@ class OutlineMesher {
   TopTools_IndexedMapOfShape waiting_, coarse_;
   TopTools_IndexedMapOfShape snapped_;  ///< faces whose outlines end at tolerances of vertices
   std::map<int, std::string> reasons_;  ///< reasons of waiting faces that cannot be meshed
-  std::map<int, Vec3>
-      crossing_at_;  ///< place, without placement, where the boundary of a face crosses itself
+  std::map<int, Vec3> crossing_at_;     ///< place where the boundary of an unplaced face crosses itself
 };
 
 }  // namespace

@@ -33,8 +33,7 @@ struct WeldedFaces {
   std::vector<int> corners;
   std::vector<EmbeddedCurve> embedded;  ///< curves inside of faces, by curve
   std::vector<PointInside> inside;      ///< added points, not yet on the surface: see split_duplicate_sides()
-  std::vector<int>
-      bad_faces;  ///< faces whose triangles miss the boundary by more than `gap`, or are no surface
+  std::vector<int> bad_faces;           ///< triangles miss the boundary by more than `gap`, or are no surface
 };
 
 /// Returns the faces with one node for each point of an edge, a vertex or a degenerate edge (own method).

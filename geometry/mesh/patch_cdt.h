@@ -16,8 +16,8 @@
 #include "delquad/error.h"
 #include "delquad/mesh.h"
 
-/// This header puts patches into CGAL's constrained Delaunay triangulations `Cdt`, whose vertices and faces
-/// are numbered. Triangulations and background meshes use it.
+// This header puts patches into CGAL's constrained Delaunay triangulations `Cdt`, whose vertices and faces
+// are numbered. Triangulations and background meshes use it.
 namespace delquad::patch_cdt {
 
 struct VertexNumber {

@@ -69,9 +69,8 @@ struct PlanarDomain {
   std::vector<DomainPiece> pieces = {};  ///< pieces of the curves; empty if the lines were given
   /// With layers or wedges: the patches that include them. `patches` are the rest, which stages mesh.
   std::vector<PatchBoundary> outlines = {};
-  std::vector<std::string> notes = {};  ///< for warnings
-  const PatchPlaces* in_space =
-      nullptr;  ///< places of patches of a surface; null: the patches lie in the plane of the domain
+  std::vector<std::string> notes = {};    ///< for warnings
+  const PatchPlaces* in_space = nullptr;  ///< of a surface's patches; null: they lie in the domain's plane
 };
 
 /// Returns the domain that lines of any order and orientation enclose: regions side by side, and by nesting

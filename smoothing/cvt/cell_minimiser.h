@@ -73,9 +73,8 @@ enum class MinimiserTermination {
 
 struct MinimiserOptions {
   int iterations = 25;               ///< limit of iterations
-  double function_tolerance = 1e-5;  ///< >= 0; converged if a step lowers F by less than this times F
-  double gradient_tolerance =
-      0;  ///< >= 0; converged if no derivative by a seed, in newton_scale(), is larger
+  double function_tolerance = 1e-5;  ///< converged if a step lowers F by less than this times F; >= 0
+  double gradient_tolerance = 0;     ///< converged if no derivative by a seed, in newton_scale(), is larger
 };
 
 /// An evaluation of the energy.
