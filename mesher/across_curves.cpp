@@ -279,8 +279,7 @@ void run_joint_layouts(const MeshingSetup& prepared, PipelineState& state) {
       auto& on_curve = nodes.on_curve[chain];
       if (!on_curve.empty()) continue;
       for (const double s : spaced(old, edges[chain])) on_curve.push_back({s, n++});
-      on_curve.front().node = old.front().node,
-      on_curve.back().node = old.back().node;  // shared nodes
+      on_curve.front().node = old.front().node, on_curve.back().node = old.back().node;  // shared
     }
     PatchBoundary boundary =
         place_boundary(domain.patches[p].map, domain.patches[p].outline, domain.chains, nodes);

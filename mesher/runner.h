@@ -50,6 +50,7 @@ bool has_duplicate_quads(const QuadPatch& mesh, const std::vector<int>& point_no
 /// Runs one stage on all patches. Throws InputError if a patch fails and problem.keep_going is not set, and
 /// Error if a stage from outside leaves no valid mesh.
 void run_stage(const Stage& stage, const MeshingSetup& prepared, PipelineState& state);
+/// Adds the times of steps to the log.
 void add_times(const StepTimes& times, StageLog& log);
 struct FinishContext;
 /// Runs the finish steps on patches, and returns the patches as one mesh.

@@ -12,9 +12,10 @@
 namespace delquad {
 
 /// Products of a triangle's sides (each opposite to its vertex) over twice its area. This is twice the
-/// stiffness matrix of the continuous linear element, and half the matrix of the Crouzeix-Raviart element. It
-/// is positive semi-definite also for slivers.
+/// stiffness matrix of the continuous linear element, and half of the matrix of the Crouzeix-Raviart element.
+/// It is positive semi-definite also for slivers.
 using LocalStiffness = std::array<std::array<double, 3>, 3>;
+/// Returns the products of triangle t.
 LocalStiffness local_stiffness(const TriPatch& tri, int t);
 
 /// Extends values harmonically by finite elements linear on each triangle. dofs[t][k] numbers the unknown of

@@ -27,7 +27,7 @@ struct LayoutPatch {
   const CrossField* cross = nullptr;  ///< null: it takes no part, and its curves stay
   const ParametricSize* size = nullptr;
   std::vector<CurveRun> runs = {};  ///< runs of the boundary's edges, in order
-  bool changed = false;
+  bool changed = false;             ///< whether the mesh was replaced
 };
 
 /// A curve with its number of edges and their least number; it may change if the curve is free.

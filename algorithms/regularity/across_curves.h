@@ -27,7 +27,7 @@ struct PatchAtCurves {
   QuadPatch mesh;
   const ParametricSize* size = nullptr;  ///< null: it takes no part
   std::vector<CurveEdge> edges;          ///< edge from each boundary point to the next of its loop
-  bool changed = false;
+  bool changed = false;                  ///< whether the mesh was changed
 };
 
 /// Patches that share curves.

@@ -56,6 +56,7 @@ class Cavity {
   std::span<const int> rim() const { return rim_; }
   std::span<const int> turns() const { return turns_; }
   int corners() const { return corners_; }
+  /// Returns whether all quads at a vertex are in the cavity, and it is not on the boundary of the mesh.
   bool is_inside(int vertex) const {
     return !mesh_.on_boundary(vertex) && quads_at(vertex) == mesh_.valence(vertex);
   }

@@ -36,7 +36,7 @@ class FillTrial {
     double least_sine = 1;
     int failing = 0, thin = 0;
     double crowding = 0;
-    int n = 0;
+    int n = 0;  ///< number of elements
   };
 
   /// Both must outlive this object.
@@ -47,6 +47,7 @@ class FillTrial {
   /// Collects the elements around the region, for quality().
   void collect_elements();
   void measure_before();
+  /// Returns the quality of the collected elements.
   Quality quality() const;
   /// Relocates each vertex of the region once.
   void sweep();

@@ -49,11 +49,11 @@ class LocalFill {
 
   std::optional<QuadTopology> mesh;
   std::optional<QuadRelocation> relocation;
-  std::vector<int> global;  ///< vertex of the patch for each vertex here; negative: new
-  std::vector<int> corner;  ///< vertex here for each vertex of the rim
-  std::vector<int> region;
-  FillTrial::Quality before;  ///< quality before the fill
-  int first_fill = 0, n_fill = 0;
+  std::vector<int> global;         ///< vertex of the patch for each vertex here; negative: new
+  std::vector<int> corner;         ///< vertex here for each vertex of the rim
+  std::vector<int> region;         ///< moving vertices
+  FillTrial::Quality before;       ///< quality before the fill
+  int first_fill = 0, n_fill = 0;  ///< first quad of the fill, and its number of quads
 
  private:
   void find_moving() {

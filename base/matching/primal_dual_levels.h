@@ -419,6 +419,7 @@ bool PrimalDualLevels<Value, Cost>::has_arc_out(int v, long long range) const {
                      [&](const auto& arc) { return arc.to < begin || arc.to >= begin + range; });
 }
 
+/// Lists the nodes with neighbors outside their smallest range.
 template <class Value, class Cost>
 void PrimalDualLevels<Value, Cost>::note_border() {
   border_ = parallel_collect<int>(s_.nodes.size(),
@@ -448,6 +449,7 @@ Value PrimalDualLevels<Value, Cost>::cap(int v, long long range) const {
   return mine + least;
 }
 
+/// Returns the ranges of this length that have free nodes.
 template <class Value, class Cost>
 std::vector<SearchRange<Value>> PrimalDualLevels<Value, Cost>::ranges_with_roots(long long length) const {
   std::vector<SearchRange<Value>> ranges;
@@ -462,6 +464,7 @@ std::vector<SearchRange<Value>> PrimalDualLevels<Value, Cost>::ranges_with_roots
   return ranges;
 }
 
+/// Gives each range its border; `border` has the storage.
 template <class Value, class Cost>
 void PrimalDualLevels<Value, Cost>::give_borders(long long length, std::vector<SearchRange<Value>>& ranges,
                                                  std::vector<Border>& border) const {
@@ -475,6 +478,7 @@ void PrimalDualLevels<Value, Cost>::give_borders(long long length, std::vector<S
   }
 }
 
+/// Searches a range, with an idle search if there is one.
 template <class Value, class Cost>
 void PrimalDualLevels<Value, Cost>::search(SearchRange<Value>& range, bool park, int modulus) {
   std::unique_ptr<Search> search;
@@ -491,6 +495,7 @@ void PrimalDualLevels<Value, Cost>::search(SearchRange<Value>& range, bool park,
   idle_.push_back(std::move(search));
 }
 
+/// Combines the results of all ranges, in order.
 template <class Value, class Cost>
 SearchOutcome PrimalDualLevels<Value, Cost>::collect(std::vector<SearchRange<Value>>& ranges) {
   s_.free_nodes.clear();

@@ -27,7 +27,7 @@ struct EdgePassage {
 /// The boundary of a face as chords in its parameter plane.
 struct FaceOutline {
   std::vector<EdgePassage> passages;
-  std::vector<Vec2> uv;
+  std::vector<Vec2> uv;      ///< parameters of the points
   std::vector<Vec3> points;  ///< places on the face without its placement
 };
 

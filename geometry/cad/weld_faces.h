@@ -30,7 +30,7 @@ struct PointInside {
 struct WeldedFaces {
   Mesh mesh;  ///< regions are the faces, without names
   std::vector<CurveMesh> curves;
-  std::vector<int> corners;
+  std::vector<int> corners;             ///< points that must be nodes
   std::vector<EmbeddedCurve> embedded;  ///< curves inside of faces, by curve
   std::vector<PointInside> inside;      ///< added points, not yet on the surface: see split_duplicate_sides()
   std::vector<int> bad_faces;           ///< triangles miss the boundary by more than `gap`, or are no surface

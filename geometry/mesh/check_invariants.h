@@ -19,6 +19,7 @@ std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<ch
 std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<char>& branching,
                                           std::span<const HalfEdge> sides);
 
+/// Returns whether all coordinates are finite.
 bool has_finite_points(const Mesh& mesh);
 
 }  // namespace delquad

@@ -12,7 +12,7 @@ namespace delquad {
 
 /// Names that must stay.
 struct KeptNames {
-  bool all = false;
+  bool all = false;  ///< whether all names stay
   std::vector<std::string> names = {};
 
   /// Returns the names of an entity that must stay.

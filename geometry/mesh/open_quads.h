@@ -31,6 +31,7 @@ class OpenQuads {
   int target(int h) const { return node_[next(h)]; }
   /// Returns a half-edge that leaves the node; on the patch's boundary the first one counterclockwise.
   int out(int node) const { return out_[node]; }
+  /// Returns whether a node is not on the boundary of its patch.
   bool inside(int node) const { return twin_[out_[node]] >= 0; }
   /// Returns the number of quads at the node.
   int quads_at(int node) const { return quads_at_[node]; }

@@ -31,6 +31,7 @@ class QuadTopology {
   /// live elements likewise.
   QuadPatch to_patch() const;
 
+  /// Return the numbers of slots, dead ones included.
   int vertex_slots() const { return static_cast<int>(points_.size()); }
   int element_slots() const { return static_cast<int>(corner_.size() / 4); }
   bool vertex_alive(int v) const { return out_[v] >= 0; }
@@ -107,6 +108,7 @@ class QuadTopology {
   /// one before `to`'s leave the vertex for a new one, the last slot, at the same place.
   void split(int from, int to);
 
+  /// Returns whether v is inside, with two elements that make one.
   bool can_remove_doublet(int v) const;
   /// Removes an interior vertex between two elements, which become one.
   void remove_doublet(int v);
@@ -132,6 +134,7 @@ class QuadTopology {
     std::size_t ints, moves, vertices, elements;
   };
   Mark mark() const { return {int_log_.size(), move_log_.size(), points_.size(), corner_.size() / 4}; }
+  /// Undoes all edits since a mark. None may be final since then.
   void rollback(const Mark& mark);
   /// Makes all edits so far final; earlier marks are no longer valid.
   void commit() { int_log_.clear(), move_log_.clear(); }

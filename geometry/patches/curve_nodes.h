@@ -28,8 +28,8 @@ std::vector<CurveChain> curve_chains(const SurfaceModel& model);
 
 /// Wanted and necessary numbers of edges of a curve.
 struct CurveDemand {
-  double integral = 0;  ///< integral of ds/delta along it: the wanted number
-  int minimum = 1;
+  double integral = 0;       ///< integral of ds/delta along it: the wanted number
+  int minimum = 1;           ///< least number of edges
   std::vector<int> patches;  ///< patches at the curve; a seam has its patch twice
   int exact = 0;             ///< given number of edges; 0: free
   int most = kAnyNumber;     ///< most edges that are no shorter than QuadLimits allow

@@ -42,8 +42,7 @@ struct PatchSetup {
 /// The curves and regions of a given mesh in space, which stages divide.
 struct GivenEntities {
   std::vector<Entity> curves, regions;
-  std::vector<int> curve_of,
-      region_of;  ///< by entity of MeshingSetup::boundary; -1: none
+  std::vector<int> curve_of, region_of;  ///< by entity of the setup's boundary; -1: none
 };
 
 /// A symmetric surface, of which one part is meshed, with its cuts.

@@ -39,6 +39,7 @@ std::vector<std::vector<int>> chain_lines(SurfaceModel& model, const std::vector
 /// last is the first.
 std::vector<std::vector<int>> points_of_curves(const Mesh& mesh);
 
+/// Returns the length of the lines of each curve.
 std::vector<double> lengths_of_curves(const Mesh& mesh);
 
 /// Returns an entity for each piece. The first piece of a `given` entity keeps its tag, others get new tags;

@@ -26,6 +26,7 @@ struct CutPath {
   double length = 0;
 };
 
+/// Returns the place of a point in space.
 Vec3 position(const Chart& chart, const EdgePoint& point);
 
 /// Returns the path with its length. Nothing if it is only a side of the boundary, or visits a vertex or an

@@ -199,8 +199,7 @@ class Reporter {
       --shell.euler_characteristic;
       if (edge.size() < 2) shell.closed = false;
     });
-    std::vector<int> last_shell(mesh_.points.size(),
-                                -1);  // so that shells count points once
+    std::vector<int> last_shell(mesh_.points.size(), -1);  // so that shells count points once
     std::vector<std::vector<int>> triangles(report_.shells.size());
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
       triangles[shell_of[mesh_.triangle_region[t]]].push_back(static_cast<int>(t));

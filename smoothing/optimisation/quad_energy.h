@@ -69,6 +69,7 @@ struct QuadEnergyMesh {
 template <class Vec>
 class QuadEnergy {
  public:
+  /// Lists of the mesh must have one entry for each vertex, or for each quad.
   QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& weights);
 
   int variables() const { return 2 * static_cast<int>(moving_.size()); }

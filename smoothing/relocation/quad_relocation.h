@@ -112,6 +112,7 @@ class QuadRelocation {
   Lengths look_from(Vec2 at) const;
   template <class Number, bool kDerivatives>
   Value add_up(Derivatives* derivatives) const;
+  /// Returns whether a step leaves the region of the vertex.
   bool strays(Vec2 from, Vec2 to) const;
   bool is_narrow(int element) const;
   double crowding(int element, int moved, Vec2 to, double delta_there) const;

@@ -14,8 +14,9 @@
 
 namespace delquad {
 
-/// The vertices of all patches of a surface as one mesh. Nodes inside curves slide along them, ends of curves
-/// stay, and vertices inside a patch move in its parameter plane. Vertices of leftover triangles stay.
+/// The vertices of all patches of a surface as one mesh in space. Nodes inside curves slide along them, ends
+/// of curves stay, and vertices inside a patch move in its parameter plane. Vertices of leftover triangles
+/// stay.
 ///
 /// The nodes of curves come first, then the vertices inside each patch. All arguments must outlive this
 /// object.
