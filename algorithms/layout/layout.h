@@ -58,7 +58,7 @@ std::optional<QuadPatch> lay_out(const PatchBoundary& boundary, const CrossField
                                  const ParametricSize& size, const LayoutOptions& options = {},
                                  LayoutSummary* summary = nullptr);
 
-/// Whether the choice of pieces keeps the edges of lines and boundary, or pieces set them later.
+/// Choice of pieces: by the edges of lines and boundary, or with edges that are chosen later.
 enum class LayoutEdges { kCounted, kFree };
 
 /// Finds the pieces of a layout, see lay_out(). Returns nothing if there is none. With free edges, a piece

@@ -52,7 +52,8 @@ class LocalRemeshing {
   /// committed; touched() has the vertices around it.
   bool improve(int quad, double least_relief);
   std::span<const int> touched() const { return region_; }
-  /// For the last improvement: quads of its ring, else its move, which may be none (`at` negative).
+  /// Return, for the last improvement, the number of quads of its ring, or else its move, which may be none
+  /// (`at` negative).
   int ring_quads() const { return ring_quads_; }
   const TreatmentMove& move() const { return move_; }
 
