@@ -25,7 +25,7 @@ struct ActiveFace {
 /// Current stage of a run, and faces of its threads. Any thread may read it.
 class Activities {
  public:
-  /// `most_faces` limits the simultaneous faces; others are not recorded.
+  /// `most_faces`, at least 1, limits the faces at work at once; other faces are not recorded.
   explicit Activities(int most_faces);
   ~Activities();
   Activities(const Activities&) = delete;
@@ -33,10 +33,10 @@ class Activities {
 
   /// Returns the faces, longest at work first.
   std::vector<ActiveFace> faces() const;
-  /// Returns the stage and its faces, longest first: "treatment of face 12 (4.2 s), face 3 (0.1 s)".
+  /// Returns the stage and up to four faces, longest first: "treatment of face 12 (4.2 s), face 3 (0.1 s)".
   std::string text() const;
-  /// Writes the same text, as far as it fits, with a final zero. Signal handlers may call it. Returns its
-  /// length.
+  /// Writes the same text into `size` > 0 bytes, as far as it fits, with a final zero. Returns its length
+  /// without the zero. Signal handlers may call it.
   std::size_t describe(char* text, std::size_t size) const noexcept;
   /// Returns only the faces, for a line that names the stage: "face 12, face 3"; empty: none.
   std::string faces_text() const;
@@ -80,7 +80,7 @@ class StageScope {
   const char* before_ = nullptr;
 };
 
-/// Scope of a face that this thread works on.
+/// Scope of a face or region, with its tag in the mesh, that this thread works on.
 class FaceScope {
  public:
   /// `kind`, such as "region", must outlive the activities of the run.
@@ -94,7 +94,7 @@ class FaceScope {
   int tag_, entry_ = -1, before_ = -1;
 };
 
-/// Scope of a face that another process works on for this thread's run.
+/// Scope of a face that another process works on for this thread's run. `stage` must outlive the activities.
 class RemoteFaceScope {
  public:
   RemoteFaceScope(int tag, const char* stage);

@@ -13,8 +13,10 @@
 
 namespace delquad {
 
+/// Returns the coordinate along an axis, from 0.
 inline double coordinate(const Vec2& p, int axis) { return axis == 0 ? p.x : p.y; }
 inline double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+/// Returns the lower, or upper, coordinates of both points.
 inline Vec2 lower(const Vec2& a, const Vec2& b) { return {std::min(a.x, b.x), std::min(a.y, b.y)}; }
 inline Vec2 upper(const Vec2& a, const Vec2& b) { return {std::max(a.x, b.x), std::max(a.y, b.y)}; }
 inline Vec3 lower(const Vec3& a, const Vec3& b) {
@@ -30,7 +32,7 @@ struct Box {
   static constexpr int kAxes = sizeof(V) / sizeof(double);
   V low, high;
 
-  /// Returns the smallest box around at least one point.
+  /// Returns the smallest box around the points, of which there is at least one.
   static Box around(std::initializer_list<V> points) { return around(std::span(points)); }
   static Box around(std::span<const V> points) {
     assert(!points.empty());
@@ -41,7 +43,7 @@ struct Box {
   /// Extends the box to a point.
   void add(const V& p) { low = lower(low, p), high = upper(high, p); }
   V size() const { return high - low; }
-  /// Returns the box, larger by this length on all sides.
+  /// Returns the box, larger by this length >= 0 on all sides.
   Box grown(double by) const {
     V more;
     if constexpr (kAxes == 2)
@@ -57,7 +59,7 @@ struct Box {
         return false;
     return true;
   }
-  /// Returns the square of the distance to x; 0 inside.
+  /// Returns the square of the distance from x to the box; 0 inside.
   double distance2(const V& x) const {
     double sum = 0;
     for (int k = 0; k < kAxes; ++k) {

@@ -15,7 +15,7 @@
 
 namespace delquad {
 
-/// Binary tree of boxes over numbered items with bounding boxes.
+/// Binary tree of boxes over numbered items with bounding boxes, halved at the median along the longest axis.
 template <class V>
 class BoxTree {
  public:
@@ -26,11 +26,13 @@ class BoxTree {
   };
 
   BoxTree() = default;
+  /// `boxes[i]` bounds item i.
   explicit BoxTree(const std::vector<Box<V>>& boxes) : items_(boxes.size()) {
     std::iota(items_.begin(), items_.end(), 0);
     if (!items_.empty()) build(boxes, 0, static_cast<int>(items_.size()));
   }
 
+  /// Returns the nodes, the root first; empty without items.
   std::span<const Node> nodes() const { return nodes_; }
   std::span<const int> items(const Node& node) const {
     return std::span(items_).subspan(node.begin, node.end - node.begin);
@@ -61,7 +63,8 @@ class BoxTree {
     }
   }
 
-  /// Searches by the distance to x; `limit2` is the square of the largest distance.
+  /// Calls visit(item) for the items of leaves within a distance of x, near leaves first. `limit2` is the
+  /// square of this distance.
   template <class Visit>
   void nearest(const V& x, const double& limit2, Visit visit) const {
     search(

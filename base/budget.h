@@ -12,6 +12,7 @@ namespace delquad {
 /// is spent.
 class Budget {
  public:
+  /// Begins with this number of steps, >= 0; left() is negative once they are overspent.
   explicit Budget(long long steps) : left_(steps) {}
   void spend(long long steps = 1) noexcept { left_.fetch_sub(steps, std::memory_order_relaxed); }
   long long left() const noexcept { return left_.load(std::memory_order_relaxed); }

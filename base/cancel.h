@@ -9,7 +9,7 @@ namespace delquad {
 /// some nanoseconds; work above about a millisecond must call it regularly. Single calls of other libraries
 /// cannot be interrupted (LEMON's matching, a factorization, a projection by the CAD kernel).
 void check_cancelled();
-/// Returns the answer instead, for callbacks of libraries that pass no exceptions.
+/// Returns whether check_cancelled() would throw, for callbacks of libraries that pass no exceptions.
 bool is_cancelled() noexcept;
 
 }  // namespace delquad

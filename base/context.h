@@ -29,8 +29,9 @@ struct RunSettings {
 
 class Run;
 
-/// Scope in which this thread works by these settings. An inner scope is cancelled with the outer one, and
-/// shares its time limit. Scopes on different threads are independent.
+/// Scope in which this thread works by these settings; scopes of a thread end in the reverse order. An inner
+/// scope is cancelled with the outer one, and shares its time limit. Scopes on different threads are
+/// independent.
 class RunScope {
  public:
   /// Throws std::invalid_argument if a number is negative or not finite.

@@ -21,6 +21,7 @@ struct CounterField {
   Over over;
 };
 
+/// Returns the field of a member; `over` tells how records combine the values of patches.
 template <class Summary, class Value>
 constexpr CounterField<Summary, Value> counter(const char* key, Value Summary::*member,
                                                Over over = Over::kSum) {
@@ -85,7 +86,8 @@ void add_counters(Summary& total, const Summary& more) {
   });
 }
 
-/// Returns the fields of a summary for Summaries::add(Counters<Summary>::step, ...).
+/// Returns the fields of a summary for Summaries::add(Counters<Summary>::step, ...); means have its weight,
+/// or 1.
 template <class Summary>
 std::vector<SummaryField> fields_of(const Summary& summary) {
   double weight = 1;

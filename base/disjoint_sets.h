@@ -21,6 +21,7 @@ class DisjointSets {
     parent_.push_back(static_cast<int>(parent_.size()));
     return parent_.back();
   }
+  /// Returns the root of the set of a number in [0, size()).
   int root(int i) {
     assert(i >= 0 && i < static_cast<int>(parent_.size()));
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];

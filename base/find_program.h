@@ -16,8 +16,8 @@ struct HelperProgram {
 };
 
 /// Finds the program: named by the variable, or `chosen` by `chooser` unless empty. Otherwise it is beside
-/// the running program or this library, or where it was installed. Throws InputError, with the places, if it
-/// is not there.
+/// the running program or this library, or where it was installed. Throws InputError if a named program
+/// cannot be run, or no place has it.
 std::filesystem::path find_program(const HelperProgram& program, const std::filesystem::path& chosen = {},
                                    const std::string& chooser = {});
 

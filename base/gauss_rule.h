@@ -7,6 +7,7 @@
 
 namespace delquad {
 
+/// A place in [0, 1] and its weight; the weights of a rule sum up to 1.
 struct GaussPoint {
   double at, weight;
 };

@@ -7,8 +7,8 @@
 
 namespace delquad {
 
-/// Returns the position of cell (x, y) along a Hilbert curve through 2^16 x 2^16 cells. It has no branches,
-/// as they would be mispredicted half of the time.
+/// Returns the position of cell (x, y), both below 2^16, along a Hilbert curve through 2^16 x 2^16 cells. The
+/// formula is own: it has no branches, as they would be mispredicted half of the time.
 inline std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
   std::uint32_t place = 0;
   for (int bit = 15; bit >= 0; --bit) {

@@ -14,7 +14,8 @@ struct LengthUnit {
   const char* long_name;  ///< name in STEP files, in capitals
 };
 
-/// Throws InputError, with all known names, for an unknown name.
+/// Returns the unit of a name: um, mm, cm, m, km, in or ft. Throws InputError, with these names, for another
+/// one.
 const LengthUnit& length_unit(const std::string& name);
 
 }  // namespace delquad

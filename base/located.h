@@ -12,13 +12,13 @@
 
 namespace delquad {
 
-/// Throws an error with a message as by fmt::format().
+/// Throws `E`, InputError by default, with a message as by fmt::format().
 template <class E = InputError, class... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> text, Args&&... args) {
   throw E(fmt::format(text, std::forward<Args>(args)...));
 }
 
-/// Runs `f`; puts `where` before the message of an InputError, unless it is there already.
+/// Returns f(). Puts `where` before the message of an InputError, unless it begins with it already.
 template <class F>
 auto located(const std::string& where, F&& f) {
   try {

@@ -18,7 +18,7 @@ class Marks {
     ++pass_;
     met_.resize(n, 0);
   }
-  /// Returns whether i is met for the first time in this pass.
+  /// Returns whether i in [0, n) is met for the first time in this pass, and marks it.
   bool meet(int i) {
     assert(i >= 0 && i < static_cast<int>(met_.size()));
     return std::exchange(met_[i], pass_) != pass_;

@@ -9,14 +9,15 @@
 
 namespace delquad {
 
-/// Returns the name in `known` nearest to `given` (Damerau-Levenshtein distance), if it may be a slip.
+/// Returns the name in `known` nearest to `given`: names of other programs first ("face_3" for "region_3"),
+/// then by restricted Damerau-Levenshtein distance. The distance is at most half of the name, or 1.
 std::optional<std::string> nearest_name(const std::string& given, const std::vector<std::string>& known);
 
 /// Returns an addition to a message: "; did you mean 'size'?"; empty: no name is near.
 std::string suggestion(const std::string& given, const std::vector<std::string>& known);
 
-/// Returns the same for names in a model. If none is near, it lists them, or the first ones alphabetically:
-/// "; there are 'inlet', 'wall'".
+/// Returns suggestion(), or, if no name is near, the first twelve names alphabetically: "; there are 'inlet',
+/// 'wall'".
 std::string suggestion_or_all(const std::string& given, std::vector<std::string> known);
 
 }  // namespace delquad

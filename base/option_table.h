@@ -37,7 +37,7 @@ class OptionTable {
     });
   }
 
-  /// Adds a key for a member with several values, each with its name in files.
+  /// Adds a key for a member with several values, each with its name in files; the default is among them.
   template <class At, class Member>
   OptionTable& choice(OptionKey key, At at, const std::vector<std::pair<std::string, Member>>& choices) {
     Struct defaults;
@@ -53,6 +53,8 @@ class OptionTable {
 
   const OptionGroup& group() const { return group_; }
 
+  /// Returns the struct with the options of this group, which are checked against group() before; others keep
+  /// their defaults.
   Struct read(const Options& options) const {
     Struct result;
     for (std::size_t i = 0; i < readers_.size(); ++i)

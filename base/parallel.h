@@ -26,11 +26,12 @@ void finish_threads();
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& work,
                   const std::function<double(std::size_t)>& cost = {});
 
-/// Calls work(begin, end) for ranges of fixed length (the last may be shorter) that cover [0, n).
+/// Calls work(begin, end) by parallel_for() for ranges of 1024 items (the last may be shorter) that cover [0,
+/// n).
 void parallel_ranges(std::size_t n, const std::function<void(std::size_t begin, std::size_t end)>& work);
 
-/// Returns the clock, and processor time of this thread and of others in its parallel_for() calls, nested
-/// ones included. Only differences are meaningful. Stopwatch uses it.
+/// Returns seconds: of the clock, and of the processor for this thread and others in its parallel_for()
+/// calls, nested ones included. Only differences are meaningful. Stopwatch uses it.
 TimeSpent time_spent();
 
 }  // namespace delquad

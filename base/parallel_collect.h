@@ -12,9 +12,8 @@
 
 namespace delquad {
 
-/// Calls `make(begin, end, items)` in parallel for ranges of fixed length (the last may be shorter) that
-/// cover [0, n). It appends the items of its range. Returns all items in the order of ranges, for any number
-/// of threads.
+/// Calls `make(begin, end, items)` by parallel_for() for ranges of 8192 (the last may be shorter) that cover
+/// [0, n); it appends the items of its range. Returns all items in the order of ranges.
 template <class Item, class Make>
 std::vector<Item> parallel_collect(std::size_t n, const Make& make) {
   constexpr std::size_t kLength = 8192;

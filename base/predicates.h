@@ -12,7 +12,8 @@ namespace delquad {
 
 namespace exact {
 
-/// Decides exactly, for the few calls that the filters below cannot decide.
+/// Decide exactly, by CGAL, the few calls that the filters below cannot decide; results as for the functions
+/// below.
 int orient2d(Vec2 a, Vec2 b, Vec2 c);
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 
@@ -37,7 +38,7 @@ inline int orient2d(Vec2 a, Vec2 b, Vec2 c) {
   return exact::orient2d(a, b, c);
 }
 
-/// Returns in_circle(), or 0 if rounding leaves the sign open. It is always fast.
+/// Returns in_circle(), or 0 if rounding leaves the sign open, by the bounds of [shewchuk1997].
 inline int in_circle_filtered(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const Vec2 ad = a - d, bd = b - d, cd = c - d;
   const double bc1 = bd.x * cd.y, bc2 = cd.x * bd.y;

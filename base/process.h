@@ -9,21 +9,24 @@
 
 namespace delquad {
 
+/// Returns the number by which the system knows this process.
 int process_number();
 
-/// Both ends of a pipe, which started programs do not inherit. Throws std::system_error.
+/// Both ends of a pipe, which started programs do not inherit and the caller closes. Throws std::system_error
+/// if the system has no more.
 struct Pipe {
   int read_end = -1, write_end = -1;
   Pipe();
 };
 
-/// Sends this new process a signal when its parent, the process of this number, ends or has ended.
+/// Lets the system send this new process a signal when its parent ends. Exits with code 1 if the parent, the
+/// process of this number, has ended already.
 void end_with_parent(int parent, int signal_number);
 /// Waits for the end of a child. Returns its status as by waitpid(); -1: no such child.
 int wait_for_end(int child);
 
-/// Calls `work` in a child process, which prints nothing. Returns its result; nothing if the child died.
-/// Throws std::system_error if no child can start.
+/// Calls `work` in a forked process, which prints nothing. Returns its result; nothing if the process died.
+/// Throws std::system_error if none can start. finish_threads() must come before.
 std::optional<std::string> call_in_child(const std::function<std::string()>& work);
 
 /// Starts a program that prints nothing and outlives this process. A missing program is no error.

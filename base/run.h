@@ -16,6 +16,7 @@ namespace delquad {
 /// State of a run, only for context.cpp, parallel.cpp and activity.cpp.
 class Run {
  public:
+  /// `around`: the outer run, which must outlive this one; null: none. Throws as RunScope.
   explicit Run(RunSettings settings, Run* around);
 
   enum class State { kGoing, kCancelled, kTimeIsUp };

@@ -18,18 +18,19 @@ double nearest_part(const Vec& x, const Vec& a, const Vec& b) {
   const double length2 = dot(d, d);
   return length2 > 0 ? std::clamp(dot(x - a, d) / length2, 0.0, 1.0) : 0;
 }
-/// Returns that point.
+/// Returns this point.
 template <class Vec>
 Vec nearest_on_segment(const Vec& x, const Vec& a, const Vec& b) {
   return a + nearest_part(x, a, b) * (b - a);
 }
+/// Returns the distance from x to segment a, b.
 template <class Vec>
 double distance_to_segment(const Vec& x, const Vec& a, const Vec& b) {
   return norm(x - nearest_on_segment(x, a, b));
 }
 
-/// Returns the vector from a corner along its bisector, this part of its shorter side long. The inside is on
-/// the left of the path from `back` over the corner to `ahead`.
+/// Returns the vector from a corner along its bisector, as long as this part, > 0, of its shorter side. The
+/// inside is on the left of the path from `back` over the corner to `ahead`.
 inline Vec2 into_corner(Vec2 back, Vec2 corner, Vec2 ahead, double part) {
   const Vec2 out = ahead - corner, in = back - corner;
   const double from = std::atan2(out.y, out.x);

@@ -7,7 +7,8 @@
 
 namespace delquad {
 
-/// Time since its creation, of this thread and of others that worked for it.
+/// Seconds since its creation, of this thread and of others that worked for it. The thread that made it reads
+/// it.
 class Stopwatch {
  public:
   TimeSpent time() const { return time_spent() - spent_; }

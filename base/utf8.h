@@ -15,7 +15,7 @@ bool is_utf8(std::string_view text);
 /// Returns the text if it is UTF-8; otherwise its bytes as ISO 8859-1, so that none is lost.
 std::string as_utf8(std::string_view text);
 
-/// Converts text of two-byte units to UTF-8; invalid characters become U+FFFD.
+/// Returns UTF-16 text as UTF-8; invalid characters become U+FFFD, and an odd last byte is dropped.
 std::string from_utf16(std::string_view bytes, bool is_big_endian);
 
 }  // namespace delquad

@@ -10,8 +10,8 @@
 
 namespace delquad {
 
-/// Returns a line for each kind, in the order of first warnings: the only text, or the number of warnings and
-/// the worst text.
+/// Returns a line for each kind, in the order of first warnings. It has the only text, or the number of
+/// warnings and the text of highest severity.
 std::vector<std::string> summaries(const std::vector<Warning>& warnings);
 
 /// Returns the text of each warning.

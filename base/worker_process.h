@@ -16,7 +16,7 @@ struct ProgramEnd {
   std::string printed;  ///< standard output and standard error
 };
 /// Runs a program of PATH without input, apart from this process as a WorkerProcess, for at most `seconds` of
-/// processor time. Throws InputError if it cannot start, and Cancelled.
+/// processor time. Throws InputError if it cannot start, and Cancelled or TimeIsUp.
 ProgramEnd run_to_end(const std::vector<std::string>& words, unsigned seconds);
 
 /// A process of a program that reads files by a library, which may crash or hang on damaged files. It has no
@@ -30,8 +30,8 @@ class WorkerProcess {
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-  /// Sends the request and calls `on_reply` with each reply and its kind, until the last one or the end of
-  /// the process. Throws Cancelled.
+  /// Sends the request and calls `on_reply` with each reply's kind and text, until the last reply or the end
+  /// of the process. Throws Cancelled or TimeIsUp.
   void ask(const std::string& request, const std::function<void(char, const std::string&)>& on_reply);
 
  private:
@@ -55,9 +55,10 @@ inline bool is_last(char kind) { return kind < 'a'; }
 [[noreturn]] void run_worker(int socket, int parent, const std::function<void(const std::string&)>& answer,
                              const std::function<std::string()>& why_not);
 constexpr char kMessage = 'M';
-/// Limits the worker to this many more seconds of processor time.
+/// Limits this process to so many seconds of processor time in all, and lets it write no core dump.
 void limit_to(unsigned seconds);
-/// Sends a whole reply from the worker, on any thread; without a listener the worker ends.
+/// Sends a whole reply from the worker, on any thread. The worker ends after the last reply, or without a
+/// listener.
 void send_reply(int socket, char kind, const std::string& text);
 
 }  // namespace delquad

@@ -23,8 +23,8 @@ std::size_t points_on_boundary(const PatchMesh& patch) {
   return patch.form == PatchForm::kQuads ? static_cast<std::size_t>(patch.quads.n_boundary) : 0;
 }
 
-/// Returns the patches whose quads and boundary may change. These are no images, grids and quads that stay.
-/// They have no caps, and their boundary has just the nodes of its curves.
+/// Returns the patches whose quads and boundary may change. Images, grids and quads that stay are excluded.
+/// The patches have no caps, and their boundary has just the nodes of its curves.
 std::vector<char> patches_that_may_change(const MeshingSetup& prepared, const PipelineState& state) {
   std::vector<char> may(prepared.patches.size(), 1);
   for (std::size_t i = 0; i < may.size(); ++i) {
@@ -45,7 +45,7 @@ std::vector<char> patches_that_may_change(const MeshingSetup& prepared, const Pi
   return may;
 }
 
-/// Places of curves in the planes of patches.
+/// Finds places of curves in the planes of patches.
 class CurvesInPatches {
  public:
   explicit CurvesInPatches(const SurfaceDomain& domain) : domain_(domain), sides_(domain.patches.size()) {
@@ -144,7 +144,7 @@ SurfaceNodes other_nodes(const SurfaceSetup& surface, const CurveNetwork& networ
   return nodes;
 }
 
-/// The problem with these nodes.
+/// Returns the problem with these nodes on curves.
 std::shared_ptr<const MeshingSetup> with_nodes(const MeshingSetup& prepared, const SurfaceNodes& nodes,
                                                const std::vector<int>& number, const CurveNetwork& network) {
   auto surface = std::make_shared<SurfaceSetup>(*prepared.surface);
@@ -185,7 +185,7 @@ std::shared_ptr<const MeshingSetup> with_nodes(const MeshingSetup& prepared, con
 
 namespace {
 
-/// Whether curves keep their nodes, as in images, given meshes and elements of higher order.
+/// Returns whether curves keep their nodes, as for symmetry, periodic sides, given meshes and higher orders.
 bool keeps_curves(const MeshingSetup& prepared) {
   const SurfaceSetup& surface = *prepared.surface;
   return surface.mirrored || surface.full_model || surface.metric || surface.given ||
@@ -193,7 +193,7 @@ bool keeps_curves(const MeshingSetup& prepared) {
          !prepared.boundary.periodic_faces.empty();
 }
 
-/// The network's nodes and the meshes that changed become the state's.
+/// Moves the network's nodes and changed meshes to the state.
 void take_over(const MeshingSetup& prepared, CurveNetwork network, PipelineState& state) {
   std::vector<int> number;
   SurfaceNodes nodes = other_nodes(*prepared.surface, network, state.nodes, number);
@@ -211,10 +211,10 @@ void take_over(const MeshingSetup& prepared, CurveNetwork network, PipelineState
   }
 }
 
-/// None or fewer where a cap took them away.
+/// Returns the number of edges of a curve; a cap may have removed all its nodes, or some.
 int edges_of(const std::vector<CurveNode>& nodes) { return static_cast<int>(nodes.size()) - 1; }
 
-/// The nodes of a curve as they are, or so many edges, spaced as these.
+/// Returns the places of the nodes of a curve, or of so many edges spaced like them.
 std::vector<double> spaced(const std::vector<CurveNode>& nodes, int edges) {
   std::vector<double> places;
   if (edges == edges_of(nodes)) {
@@ -248,8 +248,7 @@ void run_across_curves(const MeshingSetup& prepared, PipelineState& state) {
 }
 
 void run_joint_layouts(const MeshingSetup& prepared, PipelineState& state) {
-  // Where meshes are not sound, fewer irregular vertices are not what is missing, and there may be many
-  // rounds.
+  // An unsound mesh does not lack regularity, and may be made many times.
   if (keeps_curves(prepared) || prepared.surface->is_retry) return;
   const SurfaceDomain& domain = prepared.surface->domain;
   const Stopwatch watch;
@@ -280,7 +279,7 @@ void run_joint_layouts(const MeshingSetup& prepared, PipelineState& state) {
       auto& on_curve = nodes.on_curve[chain];
       if (!on_curve.empty()) continue;
       for (const double s : spaced(old, edges[chain])) on_curve.push_back({s, n++});
-      on_curve.front().node = old.front().node, on_curve.back().node = old.back().node;  // of others, too
+      on_curve.front().node = old.front().node, on_curve.back().node = old.back().node;  // shared
     }
     PatchBoundary boundary =
         place_boundary(domain.patches[p].map, domain.patches[p].outline, domain.chains, nodes);

@@ -21,20 +21,20 @@ namespace delquad {
 namespace {
 
 constexpr double kNoFeatures = 180;
-/// With other cuts an irregular vertex less may cost so many times as much as before: few are left then, and
-/// far apart. The next one where one spoils too much.
+/// Factors for the price of an irregular vertex with other cuts, since few are left and far apart. The second
+/// factor is tried if the first one spoils too much.
 constexpr std::array kPriceFactors = {8.0, 4.0};
 constexpr double kHighestPrice = 100;
-/// A worst eta below this is worth a third run.
+/// A worst eta below this makes a third run worthwhile.
 constexpr double kGoodEta = 0.6;
 
 using NodePlaces = std::set<std::array<double, 3>>;
 using Stages = std::vector<const Stage*>;
 
-/// The faces of a model: the true ones, or the facets that were given.
+/// Projects to the faces of a model: the true faces, or the given facets.
 class FacesOfModel final : public SurfaceProjector {
  public:
-  /// `face_of`: of each face that is projected onto, the one of the model.
+  /// `face_of` has the model's face for each face to project to.
   FacesOfModel(const SurfaceModel& model, std::vector<int> face_of)
       : true_faces_(model.projector), face_of_(std::move(face_of)) {
     if (!true_faces_) facets_.emplace(model.fine);
@@ -42,7 +42,7 @@ class FacesOfModel final : public SurfaceProjector {
   Vec3 to_face(int face, const Vec3& x) const override {
     return true_faces_ ? true_faces_->to_face(face_of_[face], x) : facets_->place(face_of_[face], x);
   }
-  /// Nodes there stay.
+  /// Returns x, since nodes on curves stay.
   Vec3 to_curve(int, const Vec3& x) const override { return x; }
 
  private:
@@ -51,13 +51,13 @@ class FacesOfModel final : public SurfaceProjector {
   std::vector<int> face_of_;
 };
 
-/// A mesh that has no lines on cuts, and where nodes could move along cuts only.
+/// A mesh without lines on cuts, and its nodes that could only move along cuts.
 struct UncutMesh {
   Mesh mesh;
   NodePlaces on_cuts;
 };
 
-/// `is_cut`: by curve.
+/// Removes the lines of curves that are cuts.
 UncutMesh without_cuts(Mesh mesh, const std::vector<char>& is_cut) {
   NodePlaces on_cuts;
   keep_lines(mesh, [&](std::size_t l) {
@@ -109,7 +109,8 @@ MeshingSetup with_other_cuts(const MeshingSetup& prepared, const std::vector<cha
   return again;
 }
 
-/// `is_given`: what there was before the stages is to be kept where it would become worse.
+/// Runs the stages on the problem with other cuts. If the mesh `is_given`, stages keep it where it would
+/// become worse.
 UncutMesh run_stages(MeshingSetup& again, const Stages& stages, const Options& options, bool is_given) {
   again.settings.options = options;
   again.settings.options.set("repair.keep_given", is_given);
@@ -130,8 +131,8 @@ Stages moving_stages(const Stages& stages) {
   return found;
 }
 
-/// Whether the result is taken. For a given mesh it must be better as a whole, else it must have fewer
-/// irregular vertices.
+/// Returns whether the result is taken. For a given mesh it must be better as a whole, else it must have
+/// fewer irregular vertices.
 bool should_take(const MeshingSetup& prepared, const MeshResult& after, const MeshResult& before) {
   if (!after.soundness.sound() || !before.soundness.sound()) return after.soundness.sound();
   if (prepared.surface->given) return is_better(prepared, after, before);
@@ -146,7 +147,7 @@ Options with_higher_price(const Options& options, double factor) {
   return more;
 }
 
-/// `again`: what was made before, with other cuts.
+/// Meshes `again`, the problem with other cuts.
 MeshResult mesh_across_cuts(const FinishContext& f, MeshingSetup& again, const Options& options,
                             const std::vector<char>& regions) {
   const MeshingSetup& prepared = f.prepared;
@@ -160,7 +161,7 @@ MeshResult mesh_across_cuts(const FinishContext& f, MeshingSetup& again, const O
   if (prepared.surface->given || moving.empty() || !is_more_regular(prepared, after, f.result) ||
       keeps_worst_eta(kGoodEta, after, f.result))
     return after;
-  // Nodes on these cuts could not go anywhere.
+  // Nodes on these cuts could only move along them.
   MeshingSetup third = with_other_cuts(prepared, regions, made);
   made = run_stages(third, moving, options, is_given);
   after.mesh = std::move(made.mesh);
@@ -168,7 +169,7 @@ MeshResult mesh_across_cuts(const FinishContext& f, MeshingSetup& again, const O
   return after;
 }
 
-/// Whether what is made is better, and taken.
+/// Takes the mesh with other cuts if it is better. Returns whether it is.
 bool take_across_cuts(FinishContext& on, MeshingSetup& again, const Options& options,
                       const std::vector<char>& regions) {
   MeshResult after = mesh_across_cuts(on, again, options, regions);
@@ -189,7 +190,7 @@ void run_across_cuts(FinishContext& on) {
   const std::vector<char> regions = regions_across_cuts(prepared);
   const auto irregular = [&] { return static_cast<long long>(on.result.metrics.values.at("n_irregular")); };
   const long long before = irregular();
-  long long faces = on.result.failures.empty() ? std::ranges::count(regions, 1) : 0;  // on which stages ran
+  long long faces = on.result.failures.empty() ? std::ranges::count(regions, 1) : 0;  // with stages
   bool is_taken = false;
   if (faces > 0) try {
       MeshingSetup again =
@@ -200,7 +201,7 @@ void run_across_cuts(FinishContext& on) {
           is_taken =
               take_across_cuts(on, again, with_higher_price(prepared.settings.options, factor), regions);
     } catch (const InputError&) {
-      faces = 0;  // what there was stays
+      faces = 0;  // the former mesh stays
     }
   on.result.log.summaries.add("across_cuts", {{"faces", faces},
                                               {"taken", static_cast<long long>(is_taken)},
@@ -210,14 +211,14 @@ void run_across_cuts(FinishContext& on) {
 
 namespace {
 
-/// Differences that count, as a part of the value.
+/// Least difference that counts, as a part of the value.
 constexpr double kChange = 1e-9;
-/// Edges are near enough to their size with this tau, in percent.
+/// Tau, in percent, at which edges are near enough to their size.
 constexpr double kGoodTau = 91;
 
 double value(const MeshResult& run, const char* key) { return run.metrics.values.at(key); }
 
-/// Not below both what is good and what there was.
+/// Returns whether a measure is at least `good`, or as large as before.
 bool is_kept(const char* key, double good, const MeshResult& after, const MeshResult& before) {
   constexpr double kRounding = 1e-9;
   return value(after, key) > std::min(good, value(before, key)) - kRounding;

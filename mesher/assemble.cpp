@@ -22,7 +22,7 @@
 namespace delquad {
 namespace {
 
-/// Mesh node of each point of a patch; nodes are made for the points inside.
+/// Returns the mesh node of each point of a patch, and adds nodes for the points inside.
 std::vector<int> add_points(const std::vector<Vec3>& inside, const PatchSetup& patch, Mesh& mesh) {
   std::vector<int> node = patch.boundary.point_node;
   for (const Vec3& x : inside) {
@@ -43,7 +43,7 @@ void add_elements(const std::vector<std::array<int, N>>& elements, const std::ve
   }
 }
 
-/// Adds the quads around tips of cones, where meshes are still of triangles each as two.
+/// Adds the quads of caps; before recombination each is two triangles.
 void add_caps(const SurfaceDomain& domain, const std::vector<PatchMesh>& patches,
               const std::vector<char>& left_out, Mesh& mesh) {
   for (const auto& [patch, cap] : domain.caps) {
@@ -110,7 +110,7 @@ Mesh assemble(const MeshingSetup& prepared, const std::vector<Vec3>& nodes,
 void measure(const MeshingSetup& prepared, const std::vector<char>& left_out, MeshResult& result) {
   const StageScope measuring("report");
   TimeSpent metrics_time, report_time, soundness_time;
-  // A place that is not finite is nowhere near a surface.
+  // A point that is not finite has no distance to a surface.
   const bool has_report = prepared.surface && has_finite_points(result.mesh);
   const Stopwatch sorting;
   const std::vector<HalfEdge> sides = sorted_half_edges(result.mesh);

@@ -36,7 +36,7 @@ void check_given(const Mesh& mesh, const std::string& source) {
 
 void check(const LineModel& model, const std::string&) { check_given(model.mesh, model.source); }
 
-/// A TriangleModel or a GivenMesh.
+/// Checks a TriangleModel or a GivenMesh.
 void check(const auto& model, const std::string&) {
   check_given(model.mesh, model.source);
   if (model.mesh.triangles.empty() && model.mesh.quads.empty())
@@ -72,7 +72,7 @@ void check(const CrossSpec& cross, bool has_metric) {
     throw InputError(cross.where + ": a field or a function of crosses is given, and another kind asked for");
 }
 
-/// Refuses what is for models whose curves are meshed.
+/// Refuses requests that need a model whose curves are meshed.
 void check_curves_are_meshed(const MeshProblem& problem) {
   if (is_symmetric(problem))
     throw InputError(problem.symmetry.where +
@@ -96,8 +96,8 @@ void check_lines_are_free(const MeshProblem& problem, const std::string& source)
                     problem.periodic[0].where, problem.periodic[0].to, problem.periodic[0].from, source));
 }
 
-/// Refuses the options that were given, and says which. `angle_may_be`: not feature angles. They are for
-/// what is `wanted`, and the model `is` something else.
+/// Refuses options of surfaces, and names them; a feature angle only unless `angle_may_be`. The options need
+/// the `wanted` kind of model, and the model `is` another.
 void refuse_surface_options(const MeshProblem& problem, bool angle_may_be, const char* is,
                             const char* wanted) {
   const SurfaceSpec& s = problem.surface;
@@ -112,7 +112,8 @@ void refuse_surface_options(const MeshProblem& problem, bool angle_may_be, const
                                  fmt::join(given, ", "), given.size() == 1 ? "is" : "are", wanted));
 }
 
-/// Refuses what would change a mesh in space before words begin, and what is for surfaces in the plane.
+/// Refuses requests that would change a mesh in space before its stages, and requests for surfaces in the
+/// plane.
 void check_no_surface(const MeshProblem& problem, bool in_space) {
   refuse_surface_options(
       problem, in_space,
@@ -138,7 +139,7 @@ void check_small_outlines(const MeshProblem& problem) {
   if (problem.metric.plane) refuse("a metric (" + problem.metric.where + ")");
 }
 
-/// Mirror images have the nodes of the other side, and not the nodes of periodic curves.
+/// Refuses symmetry beside periodic sides: mirrored nodes would not match the nodes of periodic curves.
 void check_symmetry_alone(const MeshProblem& problem) {
   if (is_symmetric(problem) && !problem.periodic.empty())
     throw InputError(fmt::format("{}: symmetry does not go with periodic sides ({}): expected one of the two",
@@ -155,7 +156,7 @@ void check_overlaps(const std::vector<Spec>& specs, const char* what) {
                                      s.least, s.most, other->least, other->most, other->where));
 }
 
-/// Washers and rows across fillets are not mirrored, and have no images on other sides.
+/// Refuses washers and rows across fillets that the model, symmetry or periodic sides do not allow.
 void check_washers(const MeshProblem& problem) {
   check_overlaps(problem.washers, "diameters");
   check_overlaps(problem.fillet_rows, "radii");
@@ -175,7 +176,7 @@ void check_washers(const MeshProblem& problem) {
                      "periodic sides");
 }
 
-/// Refuses what does not go with the kind of model.
+/// Refuses requests that do not go with the kind of model.
 void check_kind(const MeshProblem& problem) {
   const auto* lines = std::get_if<LineModel>(&problem.model);
   const auto* given = std::get_if<GivenMesh>(&problem.model);

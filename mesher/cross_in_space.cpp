@@ -28,7 +28,7 @@ CrossInSpace in_plane(const MeshingSetup& prepared) {
   };
 }
 
-/// All maps of a surface, and where their triangles lie in space.
+/// All maps of a surface, and the places of their triangles in space.
 struct Maps {
   std::vector<std::array<std::size_t, 2>> origins;  ///< of each triangle the patch and its number there
   std::unique_ptr<const NearestTriangle> nearest;
@@ -61,7 +61,7 @@ CrossInSpace on_surface(const MeshingSetup& prepared) {
     const double angle = prepared.patches[patch]
                              .cross->at(b[0] * at[v[0]] + b[1] * at[v[1]] + b[2] * at[v[2]], anywhere)
                              .angle();
-    // In the terms of two sides of the triangle, which are those in space.
+    // Coordinates by two sides of the triangle, which are the same in space.
     const Vec2 p = at[v[1]] - at[v[0]], q = at[v[2]] - at[v[0]];
     const double area = cross(p, q);
     const auto& points = surface.model.fine.points;

@@ -8,8 +8,8 @@
 
 namespace delquad {
 
-/// Returns the fields of all patches; null where the problem has a metric in place of sizes. `prepared` has
-/// to outlive it.
+/// Returns the fields of all patches; null if the problem has a metric in place of sizes. `prepared` must
+/// outlive them.
 CrossInSpace cross_in_space(const MeshingSetup& prepared);
 
 }  // namespace delquad

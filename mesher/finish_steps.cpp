@@ -30,7 +30,8 @@ std::string text_of_worst(const MeshResult& run) {
       value("edge_min"), run.soundness.sound() ? "" : ", not sound");
 }
 
-/// Whether the first begins from what is given, and each from what the one before leaves.
+/// Returns whether the first stage begins from the given mesh, and each other from the result of the one
+/// before.
 bool continues_quads(const std::vector<const Stage*>& stages, const Stage* first) {
   const auto follows = [](const Stage* before, const Stage* after) { return before->to != after->from; };
   return stages[0]->from == first->from && stages.back()->to == PatchForm::kQuads &&
@@ -49,7 +50,8 @@ MeshResult mesh_of_stages(const FinishContext& f, const std::vector<const Stage*
   return std::move(on.result);
 }
 
-/// Quads of the result are sound that were not before.
+/// Warns of measures that became worse while given quads became sound; if too much was lost, the mesh is not
+/// accepted.
 void warn_of_price(FinishContext& on, const MeshResult& before) {
   const std::string price = text_of_price(on.prepared, on.result, before);
   if (costs_too_much(on.result, before) && !repair_options(on.prepared.settings.options).at_any_price)
@@ -63,14 +65,14 @@ void warn_of_price(FinishContext& on, const MeshResult& before) {
 }
 
 /// Replaces the mesh that the stages made of given quads if it is worse than these, see is_worse(). If
-/// criteria were given and fewer quads fail by them, it stays. Takes the mesh of fewer stages if it is not
+/// criteria are given and fewer quads fail, the new mesh stays. Takes the mesh of fewer stages if it is not
 /// worse, else the given mesh. A warning says so.
 void keep_better(FinishContext& on) {
   MeshResult& result = on.result;
   MeshResult given;
   given.mesh = assemble(on.prepared, on.prepared.boundary.points, on.state.given, on.left_out);
   measure(on.prepared, on.left_out, given);
-  const std::optional<GivenWorst>& worst = on.prepared.given_worst;  // none of triangles
+  const std::optional<GivenWorst>& worst = on.prepared.given_worst;  // nothing if the mesh has triangles only
   const MeshResult before = worst ? as_it_was(given, *worst) : given;
   const bool aims = !on.prepared.settings.criteria.empty() && on.prepared.surface;
   const double failing = aims ? failing_part(on.prepared, given.mesh) : 0;
@@ -86,7 +88,7 @@ void keep_better(FinishContext& on) {
                     "takes the worse mesh [would-be-worse]",
                     on.label, what, was, worse));
   };
-  // The least harm of a repair of a mesh that was not sound.
+  // The repair of an unsound mesh with the least harm.
   std::optional<MeshResult> best;
   double least =
       result.soundness.sound() ? degradation_of(result, before).sum() : std::numeric_limits<double>::max();
@@ -99,7 +101,7 @@ void keep_better(FinishContext& on) {
     best = std::move(run);
     return false;
   };
-  // As many stages as can be, the last ones sooner.
+  // Keeps as many stages as possible, and drops the last ones first.
   const std::vector<const Stage*>& stages = on.state.stages;
   const unsigned all = (1U << stages.size()) - 1;
   for (int n = static_cast<int>(stages.size()) - 1; n > 0; --n)
@@ -128,18 +130,18 @@ bool is_surface(const FinishContext& f) { return f.prepared.surface != nullptr; 
 bool is_curved(const FinishContext& f) { return f.prepared.settings.order > 1; }
 bool should_curve(const FinishContext& f) { return is_curved(f) && f.result.soundness.sound(); }
 bool starts_from_given(const FinishContext& f) { return !f.state.given.empty(); }
-/// Before a treatment quads are bad in the plane, too.
+/// Returns whether quads are treated; before a treatment they are bad in the plane, too.
 bool is_treated(const FinishContext& f) {
   return is_surface(f) && !f.prepared.surface->metric &&
          recombination_options(f.prepared.settings.options).treatment == Treatment::kPaper;
 }
-/// If a sheet was given. Straight limits say nothing of curved elements, and words that end with a matching
-/// are the paper's.
+/// Returns whether criteria were given that apply. Limits for straight elements say nothing of curved ones,
+/// and pipelines that end with a matching are those in the paper.
 bool has_criteria(const FinishContext& f) {
   return is_treated(f) && !f.prepared.settings.criteria.empty() && !is_curved(f) && !f.state.of_quads.empty();
 }
-/// A mesh that is not sound is made anew, see refine_unsound(): until then this takes time for nothing.
-/// Layers stay.
+/// Returns whether other cuts may be tried: not on an unsound mesh, which refine_unsound() makes again, and
+/// not with layers, which stay.
 bool may_try_other_cuts(const FinishContext& f) {
   return !(f.prepared.surface && f.prepared.surface->metric) && !f.prepared.layers &&
          cuts_obstruct(f.prepared, f.state.of_quads) &&
@@ -153,7 +155,7 @@ void part(FinishContext& on) {
   add_summary(on.result.log, separated);
 }
 
-/// By patch.
+/// Returns for each patch whether lifting leaves it out.
 std::vector<char> unlifted_patches(const FinishContext& f) {
   std::vector<char> left_out;
   for (const PatchSetup& patch : f.prepared.patches)

@@ -28,7 +28,7 @@
 namespace delquad {
 namespace {
 
-/// Runs as the context says, and tells of steps as they begin.
+/// Runs by the settings of the context, and reports steps as they begin.
 class Steps {
  public:
   Steps(const Context& context, std::size_t steps)
@@ -107,7 +107,7 @@ MeshResult mesh_now(Prepared prepared, const Word& word, Steps& steps) {
   throw UnsoundError(why, std::make_shared<const MeshResult>(std::move(result)));
 }
 
-/// A mesh that is given is improved.
+/// Returns the pipeline of a quality; a given mesh is improved.
 Word pipeline_of_quality(const Quality& quality, MeshProblem& problem) {
   if (word_start(problem.model) == WordStart::kGivenMesh) {
     problem = read_files(std::move(problem));
@@ -119,7 +119,7 @@ Word pipeline_of_quality(const Quality& quality, MeshProblem& problem) {
   return parse_word(quality.word);
 }
 
-/// The preparation comes first.
+/// Puts the warnings and times of the preparation before the ones that the result has.
 void add_preparation(MeshResult& result) {
   const Preparation& made = *result.prepared;
   StageLog log{made.times};
@@ -200,7 +200,7 @@ MeshResult mesh(MeshProblem problem, const std::string& text, const Context& con
 }
 
 const std::vector<Quality>& quality_registry() {
-  // Annealing for longer leaves as many irregular vertices once there is Q.
+  // Longer annealing does not leave fewer irregular vertices if Q follows.
   const auto best =
       Options().set("curves.round_holes", true).set("recombination.settled", 0.05).set("cleanup.rounds", 10);
   static const std::vector<Quality> registry = {

@@ -19,13 +19,14 @@
 namespace delquad {
 namespace {
 
-/// Edges of planar curves, in diagonals of the model, which is seen by so many chords a curve.
+/// Length of edges on planar curves, over the model's diagonal, and chords of each curve to find the
+/// diagonal.
 constexpr double kPlanarEdge = 1.0 / 2000;
 constexpr int kChordsOfCurve = 200;
-/// Where a planar curve turns by more, its point counts as a corner.
+/// Turn, in radians, above which a point of a planar curve counts as a corner.
 constexpr double kTurn = 30 * std::numbers::pi / 180;
 
-/// The regions of a domain, triangulated between the points of their boundary.
+/// Returns the regions of a domain, triangulated between the points of their boundary.
 SurfaceModel as_model(const PlanarDomain& domain, const std::string& source) {
   SurfaceModel model;
   model.source = source;

@@ -14,10 +14,9 @@
 namespace delquad {
 namespace {
 
-/// How near the number of quads is to come, as a part of it, by how many meshes.
+/// Tolerance for the number of quads, and limit of meshes.
 constexpr CalibrationLimits kLimits = {.tolerance = 0.03, .most_runs = 3};
-/// The number that is expected comes as near as this part before anything is meshed, or as often as this is
-/// tried.
+/// Tolerance for the expected number before a mesh is made, and limit of guesses.
 constexpr double kNearGuess = 0.01;
 constexpr int kMostGuesses = 3;
 
@@ -49,7 +48,7 @@ MeshingSetup prepare_for_quads(MeshProblem& problem) {
     if (std::abs(share - 1) <= kNearGuess) break;
     MeshProblem other = with_scaled_sizes(problem, std::sqrt(share));
     MeshingSetup next = prepare_problem(other, no_hints(made));
-    // Less than half of the way: curves alone need more, however large the size.
+    // The number falls by less than half of the way if curves alone need more quads, however large the size.
     const bool follows = share < 1 || next.size.expected_quads < made.size.expected_quads / std::sqrt(share);
     const StepTimes& lost = follows ? made.times : next.times;
     before.insert(before.end(), lost.begin(), lost.end());

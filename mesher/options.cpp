@@ -133,7 +133,7 @@ std::string expected_of(const OptionKey& key) {
   if (const std::vector<OptionValue> allowed = allowed_values(key); !allowed.empty()) return listed(allowed);
   std::string text = type_of(key.value);
   if (!number_in(key.value)) return text;
-  // The most that an int holds says nothing to people.
+  // The largest int is no limit that helps a reader.
   const bool bounded = key.most && *key.most < std::numeric_limits<int>::max();
   if (key.least && bounded) return fmt::format("{} from {} to {}", text, *key.least, *key.most);
   if (key.least) text += fmt::format(", at least {}", *key.least);

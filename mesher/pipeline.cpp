@@ -38,7 +38,7 @@
 namespace delquad {
 namespace {
 
-/// Adds the faces of the patches that have a reason to be left out; marks all that are.
+/// Adds the faces of patches with a reason to be left out. Returns for each region whether it is left out.
 std::vector<char> collect_failures(const MeshingSetup& prepared, const std::vector<std::string>& reasons,
                                    MeshResult& result) {
   result.failures = prepared.failures;
@@ -61,7 +61,7 @@ std::vector<char> collect_failures(const MeshingSetup& prepared, const std::vect
   return left_out;
 }
 
-/// Refuses what images of meshes have no nodes for.
+/// Refuses elements of higher order with features that have no nodes for them.
 void check_order(const MeshingSetup& p) {
   if (p.settings.order == 1 || !p.surface) return;
   const char* other = p.surface->given                     ? "a mesh that is given"
@@ -73,7 +73,7 @@ void check_order(const MeshingSetup& p) {
                                  p.settings.where, p.settings.order, other));
 }
 
-/// The steps of the kind of model.
+/// Returns the steps for the kind of model.
 std::unique_ptr<ModelSteps> steps_of(const MeshProblem& problem, const RetryHints& hints) {
   if (const auto* given = std::get_if<GivenMesh>(&problem.model)) {
     if (is_in_space(given->mesh)) return given_surface_steps(problem, *given);
@@ -84,7 +84,7 @@ std::unique_ptr<ModelSteps> steps_of(const MeshProblem& problem, const RetryHint
   return is_planar ? planar_steps(problem, hints) : surface_steps(problem, hints);
 }
 
-/// As it is asked for, of a planar model, before its curves make it smaller.
+/// Returns the requested size of a planar model, before its curves make it smaller.
 PointSize size_of(const MeshProblem& problem) {
   std::vector<Warning> of_size;
   return as_function(planar_base_size(problem.size, std::get<PlanarModel>(problem.model), of_size));
@@ -93,7 +93,8 @@ PointSize size_of(const MeshProblem& problem) {
 /// Tolerance for outlines of data, in sizes.
 constexpr double kSimplify = 0.1;
 
-/// Whether what is done to outlines of data, or is asked for, is to be done to this model.
+/// Returns whether a change of outlines applies to this model: its outlines are data, or the change was
+/// requested.
 bool is_requested(const MeshProblem& problem, const std::optional<double>& asked) {
   const auto* model = std::get_if<PlanarModel>(&problem.model);
   if (model == nullptr || problem.metric.plane) return false;
@@ -125,7 +126,7 @@ MeshProblem simplified(MeshProblem problem, std::vector<Warning>& model_warnings
   return problem;
 }
 
-/// The problem of a planar model without what is small in its outlines.
+/// Returns the problem of a planar model without small details of its outlines.
 MeshProblem without_small_outlines(MeshProblem problem, std::vector<Warning>& model_warnings) {
   PlanarModel& model = std::get<PlanarModel>(problem.model);
   std::vector<Vec3> ends;
@@ -234,7 +235,7 @@ Mesh finish_patches(FinishContext& on) {
 
 namespace {
 
-/// Brings what was made in the flat plane of a metric to the domain's own.
+/// Maps nodes and mesh from the flat plane of a metric to the plane of the domain.
 void to_plane(const MeshingSetup& prepared, SurfaceNodes& nodes, Mesh& mesh) {
   Mesh curves = prepared.boundary;
   curves.points = std::move(nodes.points);
@@ -242,7 +243,7 @@ void to_plane(const MeshingSetup& prepared, SurfaceNodes& nodes, Mesh& mesh) {
   nodes.points = std::move(curves.points);
 }
 
-/// Tells how far nodes lie from a model as it was read, where what is small in it went.
+/// Reports how far nodes lie from the model as it was read, if small details were removed.
 void report_farthest_node(const MeshingSetup& prepared, MeshResult& result) {
   if (!prepared.surface || !prepared.surface->model.before || !has_finite_points(result.mesh)) return;
   const Mesh& fine = *prepared.surface->model.before;

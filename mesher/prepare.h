@@ -16,27 +16,28 @@
 
 namespace delquad {
 
-/// Changes to a problem without which its mesh would not be sound.
+/// Changes to a problem whose mesh was not sound.
 struct RetryHints {
   std::vector<SizeBall> spots = {};
-  /// In the spots: of triangulations, see TriangulatedOptions::kept_features, and what is small, see
-  /// NarrowOptions::kept.
+  /// Whether sharp edges of triangulations (TriangulatedOptions::kept_features) and small details
+  /// (NarrowOptions::kept) stay in the spots.
   bool keep_features = false;
-  double ignore_below = 0;                       ///< of surfaces, names stay; 0: as the problem has it
-  double size_part = 1;                          ///< all sizes become this part of what they are
-  double feature_angle = 0;                      ///< of triangulations, degrees; 0: as the problem has it
-  std::shared_ptr<const SurfaceModel> cad = {};  ///< SurfaceSetup::cad of before; null: it is read
+  double ignore_below = 0;   ///< least width of details of surfaces; names stay; 0: as the problem has it
+  double size_part = 1;      ///< factor > 0 of all sizes
+  double feature_angle = 0;  ///< of triangulations, degrees; 0: as the problem has it
+  std::shared_ptr<const SurfaceModel> cad = {};  ///< SurfaceSetup::cad of an earlier setup; null: CAD is read
 };
 
-/// Returns no hints; CAD need not be read again.
+/// Returns hints that change nothing, with the CAD model that was read.
 RetryHints no_hints(const MeshingSetup& prepared);
 
 /// Prepares the boundary, background mesh and fields of a problem whose files are read. Throws InputError for
 /// models and fields that cannot be meshed. If the size needs more than problem.max_elements, it throws with
-/// the estimate before the work begins. `hints`: of surfaces and of planar models of curves.
+/// the estimate before the work begins. `hints` apply to surfaces and planar models of curves.
 MeshingSetup prepare_problem(const MeshProblem& problem, const RetryHints& hints = {});
 
-/// A model on its way to patches: planar curves, lines and meshes; surfaces; meshes in space that were given.
+/// Steps from a kind of model to patches. The kinds are planar curves, lines and meshes, surfaces, and given
+/// meshes in space.
 class ModelSteps {
  public:
   virtual ~ModelSteps() = default;
@@ -45,42 +46,43 @@ class ModelSteps {
   virtual bool is_surface() const = 0;
   /// Makes the maps of a surface's faces into the plane.
   virtual void flatten(MeshingSetup&) {}
-  /// Curves, and the patches' boundaries.
+  /// Places nodes on curves, and makes the boundaries of patches.
   virtual void mesh_curves(MeshingSetup& p) = 0;
-  /// Patches, with their crosses and sizes.
+  /// Makes the patches with their crosses and sizes.
   virtual void make_patches(MeshingSetup& p) = 0;
 };
 
+/// Return the steps of a kind of model. The arguments must outlive them.
 std::unique_ptr<ModelSteps> planar_steps(const MeshProblem& problem, const RetryHints& hints);
 std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const RetryHints& hints);
 std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem, const GivenMesh& given);
 
-/// Returns how far numbers of edges agree; with few steps for a problem that is meshed anew.
+/// Returns the settings by which numbers of edges agree, with fewer steps for a problem that is meshed again.
 CurveAgreement agreement_of(const MeshProblem& problem, const RetryHints& hints);
 
-/// Runs all steps in turn.
+/// Runs all steps in turn, with their times, and returns the prepared problem. Throws as prepare_problem().
 MeshingSetup run_model_steps(const MeshProblem& problem, ModelSteps& model);
 
-/// Throws InputError, saying what is wrong and where, for a problem that makes no sense, whatever its model
-/// holds. Such problems have meshes that cannot be read (see require_readable()), models with nothing in
-/// them, numbers out of range, or contradictions.
+/// Throws InputError, with problem and place, for a problem that cannot be meshed whatever its files hold.
+/// These are unreadable meshes (require_readable()), empty models, numbers out of range and contradictions.
 void check_problem(const MeshProblem& problem);
 
 /// Prepares a given mesh, whose nodes on curves stay. Patches end at these curves and at cuts along sides of
-/// elements, and contain the elements. `given`: its curves and regions. The number of elements is not
-/// limited.
+/// elements, and contain the elements. `given` has its curves and regions. The number of elements is not
+/// limited. Throws InputError if no face can be meshed.
 MeshingSetup prepare_given_surface(const MeshProblem& problem, GivenSurface surface, const Mesh& given,
                                    std::shared_ptr<const SizeField> size);
 
-/// Returns the problem, whose files are read, by sizes at which as many quads are expected; these are its own
-/// then. Where it has none, the size is the same everywhere. Throws InputError for numbers that cannot be.
+/// Prepares a problem, whose files are read, with its sizes scaled until problem.quads are expected, to 1 %.
+/// The problem keeps these sizes. If it has none, the size is uniform. Throws InputError unless problem.quads
+/// is from 1 to max_elements.
 MeshingSetup prepare_for_quads(MeshProblem& problem);
 
-/// Meshes a problem, whose files are read.
+/// Prepares and meshes a problem, whose files are read.
 using Remesh = std::function<std::pair<Prepared, MeshResult>(MeshProblem problem)>;
-/// Meshes anew by other sizes, twice at most, until there are as many quads as are asked for to 3 %. Both
-/// become the result of the nearest mesh, sound ones first, with the time of all; a warning tells where that
-/// is not near enough.
+/// Meshes again with scaled sizes, twice at most, until the number of quads is within 3 % of problem.quads.
+/// Both arguments become the nearest mesh, sound ones first, with the time of all; a warning tells a larger
+/// difference.
 void match_quad_count(const Remesh& remesh, Prepared& prepared, MeshResult& result);
 
 }  // namespace delquad

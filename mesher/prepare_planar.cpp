@@ -32,8 +32,8 @@
 namespace delquad {
 namespace {
 
-/// Central differences for the direction of grad delta, in diagonals of the domain. The step is far above
-/// rounding of the coordinates, and far below any feature that a mesh could show.
+/// Step of central differences for the direction of grad delta, over the diagonal of the domain. It is far
+/// above rounding of the coordinates, and far below any feature that a mesh could show.
 constexpr double kGradientStep = 1e-6;
 
 PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, MeshingSetup& p) {
@@ -63,7 +63,7 @@ PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, M
   return domain;
 }
 
-/// `given`: receives what the patches hold.
+/// Returns the domain of a given mesh. `given` receives the elements of each patch.
 PlanarDomain prepare_given(const MeshProblem& problem, const GivenMesh& model, MeshingSetup& p,
                            std::vector<QuadPatch>& given) {
   p.warnings.insert(p.warnings.end(), model.notes.begin(), model.notes.end());
@@ -84,7 +84,7 @@ PlanarDomain prepare_given(const MeshProblem& problem, const GivenMesh& model, M
   return std::move(domain.domain);
 }
 
-/// Says so when the indices of a cross field do not add up to the Euler characteristic.
+/// Warns if the indices of a cross field do not add up to the Euler characteristic.
 void check_index_sum(const MeshProblem& problem, MeshingSetup& p) {
   const auto [sum, expected] = *p.crosses.index_sum_and_expected;
   if (sum == expected) return;
@@ -94,14 +94,14 @@ void check_index_sum(const MeshProblem& problem, MeshingSetup& p) {
                   problem.name, sum, expected));
 }
 
-/// The field of crosses that the problem has; null: none.
+/// Returns the cross field that the problem gives; null: none.
 std::shared_ptr<const CrossField> given_cross(const CrossSpec& spec, const Mesh& boundary, MeshingSetup& p) {
   if (!spec.function) return spec.field;
   return sample_cross(spec.function, {Box<Vec3>::around(boundary.points)}, *p.size.field,
                       spec.where + ": the cross function", p.warnings);
 }
 
-/// The field of the whole domain.
+/// Returns the cross field of the whole domain.
 std::shared_ptr<const CrossField> make_cross(const MeshProblem& problem,
                                              const std::shared_ptr<const CrossField>& given,
                                              MeshingSetup& p) {
@@ -117,7 +117,7 @@ std::shared_ptr<const CrossField> make_cross(const MeshProblem& problem,
   return field;
 }
 
-/// Turns domain, elements and size by the problem's seed.
+/// Rotates domain, elements and size by an angle from the problem's seed.
 void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatch>& given, MeshingSetup& p) {
   const Rotation rotation = Rotation::by_seed(problem.seed);
   rotate(rotation, domain);
@@ -217,7 +217,7 @@ class PlanarSteps final : public ModelSteps {
   }
 
  private:
-  /// Where nodes face each other, single edges across may be impossible.
+  /// Adds seeds between nodes that face each other, where a single edge may be impossible.
   void seed_narrow(const CurveAgreement& agreement) {
     if (agreement.price == 0 || agreement.thin_rows) return;
     for (std::size_t p = 0; p < domain_.patches.size(); ++p)
@@ -228,7 +228,7 @@ class PlanarSteps final : public ModelSteps {
   const MeshProblem& problem_;
   const RetryHints& hints_;
   PlanarDomain domain_;
-  std::vector<QuadPatch> given_;  ///< what the patches hold of a mesh
+  std::vector<QuadPatch> given_;  ///< elements of a given mesh, by patch
   std::shared_ptr<const CrossField> given_cross_;
 };
 

@@ -44,7 +44,7 @@
 namespace delquad {
 namespace {
 
-/// Faces that cannot be meshed: the end, or left out where the problem says so.
+/// Faces that cannot be meshed. They end the run, or are left out if problem.keep_going is set.
 class Failures {
  public:
   explicit Failures(const MeshProblem& problem) : where_(problem.where), keep_going_(problem.keep_going) {}
@@ -79,7 +79,7 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
   }
 }
 
-/// Meshes the curves; faces for which that is impossible go, those with washers once these gave way.
+/// Meshes the curves. Faces for which that is impossible are left out; faces with washers first lose these.
 SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                              const SizeField* asked, const MeshProblem& problem,
                              const std::vector<CurveDivision>& divisions, SurfaceWashers& washers,
@@ -107,9 +107,9 @@ void check_surface_cross(const CrossSpec& cross) {
                      ": a surface takes its crosses from its curves: expected 'boundary' or 'size-aware'");
 }
 
-/// Sizes beside short curves are at least so many times the least length of the criteria.
+/// Least size beside short curves, over the least length of the criteria.
 constexpr double kLeastSize = 1.5;
-/// Maps of given elements are taken when they distort less: these may be large, and every cut holds nodes.
+/// FlattenOptions::max_sigma for given elements, which may be large; every cut holds nodes.
 constexpr double kMaxSigmaOfGiven = 1.6;
 
 void prepare_patches(const std::shared_ptr<SurfaceSetup>& surface, MeshingSetup& p) {
@@ -295,7 +295,7 @@ class SurfaceSteps final : public ModelSteps {
   std::shared_ptr<const SurfaceModel> cad_;  ///< SurfaceSetup::cad
   std::shared_ptr<const SizeField> asked_;
   double shortest_ = 0;            ///< least length of the criteria, in sizes; 0: none
-  std::optional<CutSurface> cut_;  ///< of a symmetric one, whose part is `model_`
+  std::optional<CutSurface> cut_;  ///< of a symmetric surface, of which `model_` is a part
   std::vector<CurveDivision> divisions_ = problem_.divisions;  ///< of the part
   MappedSpec mapped_ = problem_.mapped;
   SurfaceWashers washers_{problem_, model_, divisions_, mapped_};
@@ -391,8 +391,8 @@ class GivenSurfaceSteps final : public ModelSteps {
   }
 
   const MeshProblem& problem_;
-  const Mesh& mesh_;                   ///< as it was given
-  const GivenMesh* source_ = nullptr;  ///< null: it was read
+  const Mesh& mesh_;                   ///< the given mesh
+  const GivenMesh* source_ = nullptr;  ///< null: the mesh was read
   Failures failures_{problem_};
   GivenSurface given_;
   WantedSize wanted_;
@@ -405,7 +405,7 @@ class GivenSurfaceSteps final : public ModelSteps {
 }  // namespace
 
 CurveAgreement agreement_of(const MeshProblem& problem, const RetryHints& hints) {
-  // A mesh that was not sound does not lack regularity, and there may be many rounds.
+  // An unsound mesh does not lack regularity, and may be made many times.
   constexpr long long kRetrySteps = kMostAgreementSteps / 10;
   const CurveOptions curves = curve_options(problem.options);
   const CriterionLimit* least = least_length(problem.criteria);

@@ -22,30 +22,30 @@ namespace delquad {
 namespace {
 
 constexpr const char* kRefining = "refine_unsound";  // in records
-/// How often a problem is meshed anew; in a row without fewer places that are not sound.
+/// Most rounds of meshing, and most rounds in a row without fewer unsound places.
 constexpr int kMostRounds = 8, kMostIdle = 2;
-/// From this round on, sharp edges in the spots become features. They do so from the first round on where
-/// small parts were ignored, and no longer are there.
+/// First round in which sharp edges in the spots become features. If small parts were ignored, they do so
+/// from the first round on.
 constexpr int kFirstWithFeatures = 4;
-/// The size becomes this part of what it was, so many of these sizes around.
+/// Factor of the size at an unsound place, and radius around it in the new sizes.
 constexpr double kPart = 0.5, kReach = 3;
-/// Budget of work on all meshes: by the quads, up to some 30 seconds, or a multiple of the quads of a large
-/// mesh. A third as much more is for other tries, if one of these is likely not to need more. The next mesh
-/// may exceed what is left by as much.
+/// Budget of work_on() for all meshes: by the quads, up to some 30 seconds, or a multiple of a large mesh.
+/// Other tries may take a third more, if one of them is likely to suffice. The last mesh may exceed the rest
+/// by as much.
 constexpr long long kLeastWork = 40'000, kWorkPerQuad = 40, kUsualWork = 150'000, kMostTimes = 4;
-/// A quad takes as long as these: places that lifting tries (LiftingSummary::cost), steps of curves, looks of
-/// stages, triangles of maps.
+/// Work that takes as long as a quad: tried places of lifting (LiftingSummary::cost), steps of curves, looks
+/// of stages, triangles of maps.
 constexpr long long kCostPerQuad = 300, kStepsPerQuad = 7500, kLooksPerQuad = 300, kTrianglesPerQuad = 10;
-/// Larger ones would ask for little else than the whole model.
+/// Limit of spots; more of them would cover the whole model.
 constexpr std::size_t kMostSpots = 1000;
 
 /// Parts narrower than this part of the size have no room for an edge, and are left out at last.
 constexpr double kSmall = 0.1;
 
-/// Places within so many sizes of a face that is an image count where its mesh comes from, too.
+/// Distance, in sizes, within which a place near an image counts for its master, too.
 constexpr double kBeside = 3;
 
-/// Where meshes of faces are made whose images are at these places.
+/// Returns the places in master faces whose images are at these places.
 std::vector<Vec3> places_of_masters(const MeshingSetup& prepared, const std::vector<Place>& places) {
   std::vector<Vec3> found;
   for (const PeriodicFaces& pair : prepared.boundary.periodic_faces) {
@@ -62,7 +62,7 @@ std::vector<Vec3> places_of_masters(const MeshingSetup& prepared, const std::vec
   return found;
 }
 
-/// Adds a ball around each place where the mesh is not sound, but for those inside of another new one.
+/// Adds a ball around each unsound place, except places inside of another new ball.
 void add_spots(const MeshingSetup& prepared, const Soundness& soundness, std::vector<SizeBall>& spots) {
   const std::size_t first_new = spots.size();
   int hint = -1;
@@ -73,7 +73,7 @@ void add_spots(const MeshingSetup& prepared, const Soundness& soundness, std::ve
     if (is_known || spots.size() == kMostSpots) return;
     const double size = kPart * prepared.size.field->at(at, hint);
     if (prepared.surface && prepared.surface->mirrored) {
-      // All images, too, so that what is kept for a part is kept for the whole.
+      // Adds all images, so that details kept for a part are kept for the whole.
       const SymmetryPlanes& planes = prepared.surface->mirrored->planes;
       const Vec3 x = planes.fold(at);
       for (int mask = 0; mask < 1 << planes.count(); ++mask)
@@ -95,7 +95,7 @@ Warning warning_of(const MeshingSetup& prepared, const std::vector<SizeBall>& sp
       show_point(prepared.metric_plane ? prepared.metric_plane->to_plane(least.at) : least.at));
 }
 
-/// Where it is not sound, the first hundred for each reason.
+/// Returns the number of unsound places, of which a hundred are listed for each reason.
 std::size_t unsound_places(const MeshResult& result) { return result.soundness.places.size(); }
 
 Warning warning_of_end(const MeshResult& result, const MeshingSetup& prepared, long long rounds,
@@ -108,7 +108,7 @@ Warning warning_of_end(const MeshResult& result, const MeshingSetup& prepared, l
 
 void make_finer(const PrepareWithHints& prepare_with_hints, const Word& word, Budget& work,
                 MeshingSetup& prepared, MeshResult& result) {
-  // Lines that were given are kept.
+  // Given lines keep their nodes.
   const bool can_be_finer =
       (prepared.surface && !prepared.surface->given) || !prepared.plane.curve_places.empty();
   if (result.soundness.sound() || !can_be_finer || !repair_options(prepared.settings.options).refine_unsound)
@@ -117,9 +117,9 @@ void make_finer(const PrepareWithHints& prepare_with_hints, const Word& word, Bu
   RetryHints hints = no_hints(prepared);
   add_spots(prepared, result.soundness, hints.spots);
   if (hints.spots.empty()) return;
-  StageLog lost;  // the times of all meshes but the best
+  StageLog lost;  // times of all meshes except the best
   double seconds = result.seconds;
-  long long rounds = 0, idle = 0;  // in all, and since the best
+  long long rounds = 0, idle = 0;  // rounds in all, and since the best mesh
   long long last = work_on(prepared, result);
   const char* why = "that no longer helped";
   try {
@@ -153,7 +153,7 @@ void make_finer(const PrepareWithHints& prepare_with_hints, const Word& word, Bu
       if (hints.spots.size() == spots.size()) break;
     }
   } catch (const InputError&) {
-    // Too many elements, or a boundary that cannot be: what there was stays.
+    // Too many elements or an impossible boundary: the former mesh stays.
   }
   result.seconds = seconds;
   add_times(lost.times, result.log);
@@ -163,7 +163,7 @@ void make_finer(const PrepareWithHints& prepare_with_hints, const Word& word, Bu
   if (!result.soundness.sound()) result.warnings.push_back(warning_of_end(result, prepared, rounds, why));
 }
 
-/// Meshes without what is small beside the size, where that makes the mesh sound.
+/// Meshes without details that are small beside the size, and takes the mesh if it is sound.
 void leave_out_small(const PrepareWithHints& prepare_with_hints, const Word& word, Budget& work,
                      MeshingSetup& prepared, MeshResult& result) {
   const RepairOptions options = repair_options(prepared.settings.options);
@@ -196,29 +196,29 @@ void leave_out_small(const PrepareWithHints& prepare_with_hints, const Word& wor
     add_times(other.times, result.log);
     add_times(run.log.times, result.log);
   } catch (const InputError&) {
-    // Nothing is left, or it cannot be meshed: what there was stays.
+    // Nothing is left, or it cannot be meshed: the former mesh stays.
   }
 }
 
-/// A last try, which may be sound by chance: other sizes, as a part of all sizes, or the stages alone that
-/// make quads. A triangulation has other curves by another feature angle (0: as asked).
+/// A last try, which may be sound by chance. It scales all sizes, runs only the stages that make quads, or
+/// gives a triangulation another feature angle (0: as in the problem).
 struct Fallback {
   double size_part;
   bool makes_quads_only;
   double feature_angle = 0;
 };
-constexpr std::size_t kMostByChance = 20;  // places that are not sound
+constexpr std::size_t kMostByChance = 20;  // most unsound places for such a try
 constexpr std::array kFallbacks = {Fallback{0.8, false}, Fallback{1, true}, Fallback{0.5, false},
                                    Fallback{1, false, 60}, Fallback{1, false, 25}};
 
-/// "by the stages DB alone".
+/// Returns the change for a warning, such as "by the stages DB alone".
 std::string fallback_text(const Fallback& last, const Word& first) {
   if (last.makes_quads_only) return fmt::format("by the stages {} alone", first.text);
   if (last.feature_angle > 0) return fmt::format("with a feature angle of {:g} degrees", last.feature_angle);
   return fmt::format("with all sizes times {:g}", last.size_part);
 }
 
-/// The stages of a word up to its first quads.
+/// Returns the stages of a pipeline up to its first quads.
 Word pipeline_until_quads(const Word& word) {
   Word first{"", {}, PatchForm::kQuads};
   for (const Stage* stage : word.stages) {
@@ -229,7 +229,7 @@ Word pipeline_until_quads(const Word& word) {
   return first;
 }
 
-/// Takes the first of the last tries that makes the mesh sound.
+/// Takes the first of the last tries whose mesh is sound.
 void take_fallback(const PrepareWithHints& prepare_with_hints, const Word& word, Budget& work,
                    MeshingSetup& prepared, MeshResult& result) {
   if (!repair_options(prepared.settings.options).refine_unsound || !prepared.surface ||
@@ -267,12 +267,12 @@ void take_fallback(const PrepareWithHints& prepare_with_hints, const Word& word,
       result = std::move(run);
       return;
     } catch (const InputError&) {
-      // Too many elements, a boundary that cannot be, or a feature angle that was asked for.
+      // Too many elements, an impossible boundary, or a feature angle that the problem sets.
     }
   }
 }
 
-/// Meshes without the faces where the mesh is not sound, while that leaves some.
+/// Meshes without the faces where the mesh is unsound, as long as others remain.
 void leave_out_unsound(const Word& word, MeshingSetup& prepared, MeshResult& result) {
   if (!prepared.settings.keep_going || !prepared.surface || prepared.surface->mirrored ||
       prepared.surface->given)
@@ -306,7 +306,7 @@ void stay_within_patches(MeshingSetup& prepared) {
   prepared.settings.options.set("regularity.across_curves", false);
 }
 
-/// Meshes without cavities over curves where these were filled: what they gain is not worth an unsound mesh.
+/// Meshes without cavities over curves if some were filled, since their gain is not worth an unsound mesh.
 void undo_across_curves(const Word& word, Budget& work, MeshingSetup& prepared, MeshResult& result) {
   const Summaries& summaries = result.log.summaries;
   if (!repair_options(prepared.settings.options).refine_unsound || !summaries.has("across_curves") ||

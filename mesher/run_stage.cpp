@@ -27,8 +27,8 @@ bool are_below(const std::vector<std::array<int, N>>& elements, std::size_t n, i
   });
 }
 
-/// Stages from outside may leave anything: what the next ones rely on, as far as they would crash.
-/// Nodes on curves slide where all patches are at hand (`may_slide`).
+/// Throws Error if a stage from outside left a mesh that would crash the next stages. If `may_slide`, nodes
+/// on curves may have moved.
 void check_stage_result(const Stage& stage, const PatchBoundary& boundary, const PatchMesh& mesh,
                         bool may_slide) {
   const auto refuse = [&](const char* what) {
@@ -64,7 +64,8 @@ PatchMesh initial_mesh(const Stage& stage, const MeshingSetup& prepared, const P
                     prepared.settings.where, stage.letter));
   const auto has_quads = [](const PatchSetup& other) { return !other.given.quads.empty(); };
   PatchMesh start;
-  // In space regions may be small, and cuts may part triangles from quads: they stay.
+  // Triangles of a mesh in space stay, since regions may be small, and cuts may separate triangles from
+  // quads.
   if (prepared.surface && stage.from == PatchForm::kQuads &&
       std::ranges::any_of(prepared.patches, has_quads)) {
     start.form = PatchForm::kQuads;
@@ -87,7 +88,7 @@ void note_given_quads(const Stage& stage, const MeshingSetup& prepared, std::vec
       given.push_back({PatchForm::kQuads, {}, patch.given, patch.given_inside});
 }
 
-/// Takes a patch through one stage. Returns why its face has to be left out, naming it; empty: it has not.
+/// Runs one stage on a patch. Returns why its face must be left out, with its name; empty: it need not.
 std::string run_on_patch(const Stage& stage, const MeshingSetup& prepared, std::size_t i, PatchMesh& mesh,
                          StageLog& log) {
   const PatchSetup& patch = prepared.patches[i];
@@ -126,7 +127,7 @@ std::string run_on_patch(const Stage& stage, const MeshingSetup& prepared, std::
   }
 }
 
-/// Area over the square of a mean boundary edge.
+/// Returns the area over the square of the mean boundary edge, the cost of a patch.
 double rough_quads(const PatchBoundary& boundary) {
   double double_area = 0, length = 0;
   for (const auto& [i, j] : boundary.edges) {
@@ -160,7 +161,7 @@ void add_logs(const MeshingSetup& prepared, const std::vector<StageLog>& logs, P
   }
 }
 
-/// By region.
+/// Returns for each region whether it is left out.
 std::vector<char> regions_left_out(const MeshingSetup& prepared, const std::vector<std::string>& reasons) {
   std::vector<char> left_out(prepared.boundary.regions.size(), 0);
   for (std::size_t i = 0; i < reasons.size(); ++i)
@@ -217,7 +218,7 @@ void run_on_patches(const Stage& stage, const MeshingSetup& prepared, PipelineSt
           if (patches[i].form != stage.to) patches[i] = initial_mesh(stage, prepared, prepared.patches[i]);
           return;
         }
-        // Quads of automatic grids are quads like others once they exist.
+        // The quads of automatic grids may be edited.
         if (const auto& grid = prepared.patches[i].grid;
             grid && (prepared.patches[i].grid_stays || stage.from != PatchForm::kQuads)) {
           if (patches[i].form != stage.to) patches[i] = grid_as(stage.to, *grid);
@@ -240,7 +241,7 @@ void run_on_all(const Stage& stage, const MeshingSetup& prepared, PipelineState&
   state.log.add(finishing.result.log);
   if (stage.finish) {
     std::vector<char> held = unedited_patches(prepared, state);
-    // When points of quads move, points of most grids do, too.
+    // Stages that move points of quads also move points of grids that need not stay.
     for (std::size_t i = 0; stage.from == PatchForm::kQuads && i < held.size(); ++i)
       if (const PatchSetup& patch = prepared.patches[i]; patch.grid && !patch.grid_stays && !patch.image)
         held[i] = 0;

@@ -45,7 +45,7 @@ bool has_duplicate_quads(const QuadPatch& mesh, const std::vector<int>& point_no
 
 namespace {
 
-/// Calls work(summary) and adds that summary and the time to the log.
+/// Calls work(summary), and adds the summary and the seconds to the log.
 template <class Summary, class Work>
 void log_step(StageLog& log, const char* step, const Work& work) {
   const Stopwatch watch;
@@ -55,7 +55,7 @@ void log_step(StageLog& log, const char* step, const Work& work) {
   log.add_time(step, watch.time());
 }
 
-/// `mesh`: mesh_frontal, mesh_delquad or mesh_packing.
+/// Inserts points by `mesh`: mesh_frontal, mesh_delquad or mesh_packing.
 void insert_points(decltype(mesh_frontal)& mesh, const PointPlacement& placement, const StageInput& in,
                    PatchMesh& patch, StageLog& log) {
   FrontalOptions options = insertion_options(in.options);
@@ -77,14 +77,14 @@ void smooth_triangles(const StageInput& in, PatchMesh& patch, StageLog& log) {
   });
 }
 
-/// Notes edits of whole patches that were taken back, because they left two quads around a tube: treatments,
-/// of which relocation is left, and clean-ups.
+/// Counts patches whose treatment (except relocation) or clean-up was undone, since it left two quads around
+/// a tube.
 void note_discarded(bool treatment, bool cleanup, StageLog& log) {
   log.summaries.add("discarded", {{"treatments", static_cast<long long>(treatment)},
                                   {"cleanups", static_cast<long long>(cleanup)}});
 }
 
-/// `merge` returns the quads of a patch.
+/// Replaces the triangles of a patch by the quads that `merge` returns.
 template <class Merge>
 void merge_by(PatchMesh& patch, StageLog& log, const Merge& merge) {
   log_step<RecombineSummary>(log, "matching", [&](RecombineSummary& summary) {
@@ -172,7 +172,7 @@ void fill_cavities(const StageInput& in, PatchMesh& patch, StageLog& log) {
   reduce_irregular(make_regular, regularity_options(in.options), "regularity", in, patch, log);
 }
 
-/// Patches without a layout, and patches whose layout closes too tightly, are meshed by D and B.
+/// Meshes a patch by a layout; by D and B if it has none, or if the layout closes too tightly.
 void lay_out_or_insert(const StageInput& in, PatchMesh& patch, StageLog& log) {
   log_step<LayoutSummary>(log, "layout", [&](LayoutSummary& summary) {
     auto mesh = lay_out(in.boundary, in.cross, in.size, layout_options(in.options), &summary);
@@ -200,11 +200,11 @@ void untangle_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
   });
 }
 
-/// `z`: of planar meshes.
+/// Returns a point of space; `z` is the height of planar meshes.
 Vec3 as_place(const Vec2& p, double z) { return {p.x, p.y, z}; }
 Vec3 as_place(const Vec3& p, double) { return p; }
 
-/// Moves vertices back if their quads are worse now than the worst given quad, by halves of the way at first.
+/// Moves vertices back, first by half of the way, if their quads are worse than the worst given quad.
 /// Vertices of quads that were unsound before stay where they are, as do vertices near quads that are still
 /// unsound.
 template <class Vec>
@@ -235,7 +235,7 @@ void forbid_degradation(const MeshingSetup& prepared, const std::vector<Vec>& be
         for (const int v : quad) stays[v] = 1;
   }
   stay_at_unsound(before);
-  std::vector<double> part(points.size(), 1);  // of the way that each vertex went
+  std::vector<double> part(points.size(), 1);  // part of its way that each vertex keeps
   std::vector<Vec2> ways;
   for (std::size_t v = 0; v < points.size(); ++v)
     ways.push_back(tracks.position(static_cast<int>(v)) - positions[v]);
@@ -254,7 +254,7 @@ void forbid_degradation(const MeshingSetup& prepared, const std::vector<Vec>& be
   }
 }
 
-/// Optimizes, but vertices of quads that would be worse than those that were given go back.
+/// Optimizes vertices; on a given mesh forbid_degradation() follows.
 template <class Vec>
 OptimisationSummary optimise(const AllPatches& in, std::vector<Vec>& points,
                              const std::vector<std::array<int, 4>>& quads, VertexTracks<Vec>& tracks) {
@@ -287,7 +287,7 @@ OptimisationSummary optimise_surface(const AllPatches& in) {
   return summary;
 }
 
-/// Each patch in its flat plane, where the metric is a scalar; its boundary stays.
+/// Optimizes each patch in its flat plane, where the metric is a scalar; its boundary stays.
 std::vector<OptimisationSummary> optimise_by_metric(const AllPatches& in) {
   std::vector<OptimisationSummary> summaries(in.patches.size());
   parallel_for(in.patches.size(), [&](std::size_t i) {
@@ -324,7 +324,7 @@ OptimisationSummary optimise_plane(const AllPatches& in) {
   return summary;
 }
 
-/// Once each patch was untangled in its plane, all of them move together, nodes along their curves.
+/// Untangles each patch in its plane. Then all vertices move together, and nodes along their curves.
 void optimise_quads(const AllPatches& in, StageLog& log) {
   const Stopwatch watch;
   if (in.prepared.surface && in.prepared.surface->metric) {
@@ -337,7 +337,7 @@ void optimise_quads(const AllPatches& in, StageLog& log) {
   log.add_time("optimisation", watch.time());
 }
 
-/// Pointers to its entries stay good when more are added.
+/// Returns all stages; pointers to them stay valid if more are added.
 std::deque<Stage>& stages() {
   static std::deque<Stage> all = {
       insertion_stage('F', "L2 insertion", [](const Options&) { return make_l2_frontal(); }),
@@ -388,7 +388,7 @@ std::string known_stages() {
   return known;
 }
 
-/// Words are written in capitals: where those make a word, that it may be meant.
+/// Returns a suggestion in capitals if they make a pipeline; else an empty text.
 std::string capitals_suggestion(const std::string& text) {
   std::string capitals = text;
   for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));

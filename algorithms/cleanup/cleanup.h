@@ -12,8 +12,8 @@
 namespace delquad {
 
 struct CleanupOptions {
-  int rounds = 60;         ///< rounds of annealing; 0: greedy only
-  double tolerance = 0.1;  ///< largest loss of quality by an edit in the first round; 0 in the last
+  int rounds = 60;         ///< rounds of annealing, >= 0; 0: greedy only
+  double tolerance = 0.1;  ///< largest loss of quality by an edit in the first round, >= 0; 0 in the last
   long long seed = 1;      ///< of the random edits
 };
 
@@ -54,7 +54,8 @@ struct Counters<CleanupSummary> {
 /// Counts the vertices whose valence is not ideal, see ValenceEnergy.
 int count_irregular(const QuadPatch& mesh);
 
-/// Lowers the number of irregular vertices of a quad mesh.
+/// Lowers the number of irregular vertices of a quad mesh in the parameter plane. The choice of edits and the
+/// annealing are own.
 ///
 /// Edits are diamond collapses, edge rotations, vertex splits, doublet removals and openings. An opening
 /// gives a boundary vertex one more quad and takes none from its neighbor. The greedy phase keeps an edit if

@@ -9,7 +9,8 @@
 
 namespace delquad {
 
-/// Runs an editing stage: one process for each block. Counts the irregular vertices before and after.
+/// Returns the mesh after an editing stage, with one process for each block. The summary, unless null, counts
+/// irregular vertices before and after. Throws as the process does.
 template <class Process, class Summary, class StageOptions>
 QuadPatch edit_in_blocks(const QuadPatch& mesh, const ParametricSize& size, const StageOptions& options,
                          Summary* summary) {

@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// Returns the sizes and the crosses that add_size() and add_cross() added.
+/// Return the sizes, or crosses, that add_size() and add_cross() added.
 AddedParts<std::function<void(const Options&, SizeSpec&)>>& added_sizes();
 AddedParts<std::function<void(const Options&, CrossSpec&)>>& added_crosses();
 

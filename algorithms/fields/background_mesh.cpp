@@ -43,12 +43,12 @@ using Criteria = CGAL::Delaunay_mesh_criteria_2<Cdt>;
 
 // Both sides of a slit are some 1e-6 of its edges apart, and refinement leaves some of these shorter.
 constexpr double kSlit = 3e-5;
-// Steps: far more than faces are dropped, or edges listed, one after the other.
+// Limit of steps without a new point: far more than usual.
 constexpr int kMostInVain = 10000;
 
-/// CGAL's test of an edge by the circle around it, which looks at the vertices on both sides. Vertices across
-/// a slit do not count. If slits turn or cross, vertices on one side are in the circles of the other side's
-/// edges. Both sides would be split in turn, down to the slit's width.
+/// CGAL's test of an edge by the circle around it and the vertices on both sides, but without vertices across
+/// a slit. If slits turn or cross, vertices on one side are in the circles of the other side's edges. Both
+/// sides would be split in turn, down to the slit's width.
 struct GabrielBesideSlits : CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt> {
   using Gabriel = CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt>;
   using Gabriel::operator();
@@ -68,12 +68,12 @@ struct GabrielBesideSlits : CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt> {
     const Cdt::Vertex_handle apex = f->vertex(i), a = f->vertex(Cdt::cw(i)), b = f->vertex(Cdt::ccw(i));
     if (cdt.is_infinite(apex) || Gabriel::operator()(cdt, a, b, apex->point())) return true;
     const auto side = b->point() - a->point(), to = apex->point() - a->point();
-    const double height = std::abs(side.x() * to.y() - side.y() * to.x());  // times the side
+    const double height = std::abs(side.x() * to.y() - side.y() * to.x());  // height times side
     return !f->is_in_domain() && height <= kSlit * side.squared_length();
   }
 };
 
-/// CGAL::Delaunay_mesher_2 of a marked domain, with a test of one's own.
+/// CGAL::Delaunay_mesher_2 of a marked domain, with another test of edges.
 template <class Test>
 class Refiner {
  public:
@@ -86,7 +86,7 @@ class Refiner {
     edges_.scan_triangulation();
     faces_.scan_triangulation();
   }
-  /// False where nothing is left to do.
+  /// Inserts one point. Returns false if nothing is left to do.
   bool step() { return faces_.try_to_insert_one_point(visitor_); }
 
  private:
@@ -140,14 +140,15 @@ TriPatch extract(Cdt& cdt, const PatchBoundary& patch) {
   return tri;
 }
 
-/// Whether the patch is on both sides of an edge, or passes a node twice.
+/// Returns whether the patch is on both sides of an edge, or its boundary passes a node twice.
 bool has_slits(const PatchBoundary& patch) {
   std::vector<int> nodes = patch.point_node;
   std::ranges::sort(nodes);
   return std::ranges::adjacent_find(nodes) != nodes.end();
 }
 
-/// None where so many steps add nothing: slivers inside may keep the weaker test from its end.
+/// Returns the refined patch; nothing if so many steps add no point, since slivers may keep the weaker test
+/// from its end.
 template <class Test>
 std::optional<TriPatch> refined(const PatchBoundary& patch,
                                 int most_in_vain = std::numeric_limits<int>::max()) {
@@ -167,19 +168,20 @@ std::optional<TriPatch> refined(const PatchBoundary& patch,
   return extract(cdt, patch);
 }
 
-/// A triangulation of the patch with few small angles, as coarse as its boundary edges allow, which may be
-/// split. The boundary's points first, in their order. Throws InputError where the boundary crosses itself.
+/// Returns a triangulation of the patch with few small angles, as coarse as its boundary edges allow, which
+/// may be split. Points of the boundary come first, in their order. Throws InputError if the boundary crosses
+/// itself.
 TriPatch refine_patch(const PatchBoundary& patch) {
   if (has_slits(patch))
     if (auto tri = refined<GabrielBesideSlits>(patch, kMostInVain)) return *std::move(tri);
   return *refined<CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt>>(patch);
 }
 
-// A walk this long costs more than asking the tree. Its end also breaks cycles, which are possible where the
-// triangulation is not Delaunay: next to boundary edges.
+// Limit of steps of a walk, since a longer one costs more than the tree. It also breaks cycles, which are
+// possible beside boundary edges, where the triangulation is not Delaunay.
 constexpr int kLongestWalk = 100;
 
-/// Gives each vertex on the boundary the edge it lies on.
+/// Returns the boundary edge on which each vertex lies.
 std::vector<BackgroundMesh::BoundaryPoint> trace_boundary(const PatchBoundary& patch, const TriPatch& tri) {
   std::vector<int> next(tri.points.size(), -1);
   for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
@@ -225,7 +227,7 @@ class TriangleTree {
     tree_ = BoxTree<Vec2>(boxes);
   }
 
-  /// First of the triangles that contain u, sides included (exact); -1: none.
+  /// Returns the first of the triangles that contain u, sides included (exact); -1: none.
   int containing(const TriPatch& tri, Vec2 u) const {
     int found = -1;
     tree_.nearest(u, 0.0, [&](int t) {
@@ -234,7 +236,7 @@ class TriangleTree {
     return found;
   }
 
-  /// The nearest triangle, the first of several, and its point.
+  /// Returns the nearest triangle, the first of several, and its point.
   std::pair<int, Vec2> nearest(const TriPatch& tri, Vec2 u) const {
     std::pair<int, Vec2> best{-1, u};
     double best2 = std::numeric_limits<double>::infinity();
@@ -294,14 +296,14 @@ void BackgroundMesh::set_up_search() {
   reach_ = box.grown(norm(box.size()));
 }
 
-/// NaNs become the lower ends.
+/// Returns the nearest point of the reach; NaN becomes its lower end.
 Vec2 BackgroundMesh::within_reach(Vec2 u) const {
   const auto clamped = [](double x, double low, double high) { return !(x > low) ? low : std::min(x, high); };
   return {clamped(u.x, reach_.low.x, reach_.high.x), clamped(u.y, reach_.low.y, reach_.high.y)};
 }
 
-/// The first triangle that contains u, or -1 where the walk cannot tell: u outside or on the boundary, a
-/// vertex, hidden.
+/// Returns the first triangle that contains u, or -1 if the walk cannot tell: u is outside, on the boundary,
+/// at a vertex, or hidden.
 int BackgroundMesh::walk(Vec2 u, int hint) const {
   int from = -1, t = hint;
   for (int step = 0; t >= 0 && step < kLongestWalk; ++step) {

@@ -18,13 +18,13 @@ constexpr double kMass = 0.5 / 3;
 constexpr int kMostIterations = 500;
 
 using Complex = CrossDiffusion::Complex;
-/// A matrix of real and imaginary parts in turn. Products of complex numbers would be checked for overflow
-/// one by one.
+/// Matrix of real and imaginary parts in turn, since products of complex numbers are checked for overflow one
+/// by one.
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Vector = Eigen::VectorXd;
 
-/// By conjugate gradients from `start`, or directly where these do not converge. Triangles with angles near
-/// 180 degrees, as in bad triangulations, can take them as many steps as there are unknowns.
+/// Solves by conjugate gradients from `start`, or directly if these do not converge. With angles near 180
+/// degrees they may need as many steps as there are unknowns.
 Vector solve_symmetric(const RowMatrix& matrix, const Vector& right, const Vector& start, double tolerance) {
   Eigen::ConjugateGradient<RowMatrix, Eigen::Lower | Eigen::Upper> iterative(matrix);
   iterative.setTolerance(tolerance);

@@ -17,9 +17,9 @@ namespace delquad {
 struct PatchUnknowns {
   const TriPatch* tri;
   Sides sides;
-  std::vector<int> unknown;       ///< of each side; sides that are shared have one unknown
-  std::vector<double> direction;  ///< 4 theta that the unknown is counted from, on this side
-  /// For each triangle, the turn of 4 theta from the centroid to the middles of its sides.
+  std::vector<int> unknown;       ///< unknown of each side; joined sides have one
+  std::vector<double> direction;  ///< 4 theta, radians, from which the unknown of a side is counted
+  /// For each triangle, the turn of 4 theta (radians) from the centroid to the middles of its sides.
   const std::vector<std::array<double, 3>>* turns;
 
   /// Returns by how much 4 theta of the k-th side of triangle t, counted from its direction, exceeds the
@@ -27,29 +27,32 @@ struct PatchUnknowns {
   double phase(int t, int k) const { return (*turns)[t][k] - direction[sides.of_triangle[t][k]]; }
 };
 
-/// Diffusion (mass/tau + stiffness) of crosses that turn as grids of a size do, where some are given. Time is
-/// counted in elements (pairs of triangles), wherever they are. The stiffness of each triangle is taken
-/// between values carried to its centroid, so that it is positive semi-definite whatever its angles.
+/// Implicit diffusion (mass/tau + stiffness) of crosses in the connection of SizeAwareCrossField (own
+/// method); some are given. Time is counted in elements (pairs of triangles) of any size. The stiffness of
+/// each triangle is taken between values carried to its centroid, so that it is positive semi-definite
+/// whatever its angles.
 class CrossDiffusion {
  public:
   using Complex = std::complex<double>;
-  /// Role of an unknown: it is given (kGiven), else drawn to its direction with this strength, >= 0. A
-  /// triangle's stiffness is about 1.
+  /// Alignment of an unknown that is given. Other alignments, >= 0, are strengths that draw it to its
+  /// direction; the stiffness of a triangle is about 1.
   static constexpr double kGiven = -1;
 
-  /// Begins with `z`: the unknowns, of unit length, which must stay; `alignment`: of each.
+  /// Begins with the unknowns `z`, of unit length, which must outlive this object; `alignment` has one for
+  /// each.
   CrossDiffusion(const std::vector<PatchUnknowns>& patches, const std::vector<double>& alignment,
                  std::vector<Complex>& z);
-  /// Makes one step of diffusion over `tau` elements, up to a relative residual, then back to unit length.
+  /// Makes one step of diffusion over `tau` > 0 elements, to a relative residual of `tolerance`. Then scales
+  /// all unknowns to unit length.
   void step(double tau, double tolerance);
 
  private:
   void add_triangle(const PatchUnknowns& patch, int t, std::vector<Eigen::Triplet<double>>& entries);
 
   std::vector<Complex>& z_;
-  std::vector<int> row_;   ///< of each unknown; -1: it is given
+  std::vector<int> row_;   ///< row of each unknown; -1: it is given
   Eigen::VectorXd mass_;   ///< real and imaginary parts in turn, as everywhere here
-  Eigen::VectorXd fixed_;  ///< what given values and directions contribute
+  Eigen::VectorXd fixed_;  ///< right side from given values and directions
   Eigen::SparseMatrix<double, Eigen::RowMajor> stiffness_;
 };
 

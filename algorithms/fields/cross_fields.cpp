@@ -32,7 +32,7 @@ class FunctionCross final : public CrossField {
   std::string name_;
 };
 
-/// Where the gradient vanishes, the crosses lie along the axes.
+/// Cross field along the gradient of the size, or along the axes where the gradient vanishes.
 class GradientCross final : public CrossField {
  public:
   GradientCross(std::shared_ptr<const SizeField> size, double step) : size_(std::move(size)), step_(step) {}
@@ -63,7 +63,7 @@ std::unique_ptr<CrossField> make_gradient_cross(std::shared_ptr<const SizeField>
 struct HarmonicCrossField::Data {
   std::shared_ptr<const BackgroundMesh> background;
   std::vector<std::array<Cross, 3>>
-      crosses;  ///< of each triangle, at the middle of the side opposite to each vertex
+      crosses;  ///< crosses of each triangle at the middle of the side opposite to each vertex
 };
 
 HarmonicCrossField::HarmonicCrossField(std::shared_ptr<const BackgroundMesh> background)

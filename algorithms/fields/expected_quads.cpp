@@ -11,9 +11,9 @@ namespace delquad {
 
 namespace {
 
-// Estimates are differences between rules: too small where delta jumps.
+// Safety factor, since differences between rules are too small where delta jumps.
 constexpr double kSafety = 0.25;
-// Bounds the work where delta has no finite integral or varies everywhere.
+// Limit of evaluations, if delta has no finite integral or varies everywhere.
 constexpr int kMostEvaluations = 2'000'000;
 
 /// Symmetric rule of degree 4, six points [Dunavant 1985]: (b, b, 1 - 2 b) and the weight of its three
@@ -28,7 +28,7 @@ class Quadrature {
  public:
   explicit Quadrature(const SizeField& size) : size_(size) {}
 
-  /// Cuts the triangle up until its sides are short.
+  /// Adds a triangle, quartered until its sides are at most `longest`.
   void add(const Corners& corners, double longest) {
     check_cancelled();
     if (longest_side(corners) > longest && !exhausted()) {
@@ -38,7 +38,7 @@ class Quadrature {
     }
   }
 
-  /// Cuts the parts with the largest errors until all together are small enough.
+  /// Quarters the parts with the largest errors until their sum is small enough. Returns the integral.
   double refine(double relative_error) {
     while (std::isfinite(total_) && error_ > relative_error * total_ && !exhausted()) {
       check_cancelled();
@@ -76,7 +76,7 @@ class Quadrature {
     error_ += part.error;
   }
 
-  /// The error is the difference from the rule that has the first orbit alone.
+  /// Returns the integral over a triangle, with the difference from the first orbit's rule as error.
   Part integrate(const Corners& c) {
     const double area = std::abs(cross(c[1] - c[0], c[2] - c[0])) / 2;
     double mean[2] = {0, 0};

@@ -15,19 +15,22 @@ namespace delquad {
 // --- size fields
 // -------------------------------------------------------------------------------------------------
 
-/// Returns the smallest of the base (may be null when there is a source) and all sources.
+/// Returns the smallest of the base (may be null if there is a source) and all sources. Throws InputError for
+/// sizes, radii or points out of range, or without any size.
 std::unique_ptr<SizeField> make_source_size(std::shared_ptr<const SizeField> base,
                                             std::vector<SizeSource> sources);
 
-/// Returns the base, but nowhere more than `most`.
+/// Returns the base, but nowhere more than the length `most`. Throws InputError unless `most` is finite and
+/// positive.
 std::unique_ptr<SizeField> make_capped_size(std::shared_ptr<const SizeField> base, double most);
 
-/// Returns the boundary's own edge lengths, extended smoothly into the domain over the background mesh.
+/// Returns the mean edge lengths at boundary nodes, with logarithms extended harmonically over the background
+/// mesh. Throws InputError for a node without a length.
 std::unique_ptr<SizeField> make_boundary_size(std::shared_ptr<const BackgroundMesh> background,
                                               const Mesh& boundary);
 
-/// Returns the base made no steeper than |grad delta| <= slope: delta(x) = min over y of base(y) + slope |x -
-/// y|. The sample points y are dense enough to see the base, and x itself is one.
+/// Returns the base with |grad delta| <= slope: delta(x) = min over y of base(y) + slope |x - y|. The sample
+/// points y, at most a million, resolve the base to a factor of 1.1. Throws InputError unless slope > 0.
 std::unique_ptr<SizeField> limit_gradation(std::shared_ptr<const SizeField> base,
                                            std::shared_ptr<const BackgroundMesh> background, double slope);
 
@@ -40,17 +43,17 @@ struct Singularity {
   int index;
 };
 
-/// The turning of a cross field known at the middles of a background mesh's sides.
+/// Topology of a cross field that is known at the middles of a background mesh's sides.
 struct FieldTopology {
-  /// Inside the domain; neighboring opposite pairs, which are noise, left out.
+  /// Singularities inside of the domain, without neighboring opposite pairs, which are noise.
   std::vector<Singularity> singularities;
-  /// Sum of all indices, interior and at the boundary's corners, in quarters; equals 4 chi of the domain.
+  /// Sum of all indices, inside and at corners of the boundary, in quarters; 4 chi if the field is aligned.
   int index_sum = 0;
   /// Euler characteristic of the domain (triangles - edges + vertices of the background mesh).
   int euler_characteristic = 0;
 };
 
-/// A cross field that has been solved for over a background mesh.
+/// A cross field computed on a background mesh.
 class SolvedCrossField : public CrossField {
  public:
   const std::vector<Singularity>& singularities() const { return topology_.singularities; }
@@ -61,10 +64,11 @@ class SolvedCrossField : public CrossField {
   FieldTopology topology_;
 };
 
-/// Cross field of the paper [section 3, equation (3)]: cos 4 theta and sin 4 theta harmonic,
+/// Cross field of [remacle2013, section 3, equation (3)]: cos 4 theta and sin 4 theta harmonic,
 /// boundary-aligned. The unknowns are on edges (Crouzeix-Raviart), so that corners of any angle carry none.
 class HarmonicCrossField final : public SolvedCrossField {
  public:
+  /// Throws Error if rounding makes the matrix singular.
   explicit HarmonicCrossField(std::shared_ptr<const BackgroundMesh> background);
   ~HarmonicCrossField() override;
   /// Returns the cross, zero at singularities and small far from the boundary: only its angle means anything.
@@ -75,24 +79,24 @@ class HarmonicCrossField final : public SolvedCrossField {
   std::unique_ptr<Data> data_;
 };
 
-/// Makes a field with theta = direction of grad delta, by central differences over `step` (a length; e.g.
-/// 1e-6 of the domain's diagonal).
+/// Returns a field with theta = direction of grad delta, by central differences. `step` is a length such as
+/// 1e-6 of the domain's diagonal. Throws InputError unless it is positive.
 std::unique_ptr<CrossField> make_gradient_cross(std::shared_ptr<const SizeField> size, double step);
 
 /// Returns the integral of dA/delta^2 over a triangulation: the expected number of quads. `relative_error` is
-/// what the adaptive quadrature aims at. The domain is seen at `coarsest` of its diagonal at least; what is
-/// smaller and appears in no sample is missed.
+/// the aim of the adaptive quadrature [own, with rules of Dunavant 1985]. Samples are at most `coarsest` of
+/// the diagonal apart, so smaller features may be missed.
 double expected_quads(const TriPatch& triangulation, const SizeField& size, double relative_error = 0.01,
                       double coarsest = 1.0 / 64);
 
 /// Returns the least size that curvature may ask for if the size is else `base`: `min`, or a part of the base
 /// if `min` is 0.
 double least_by_curvature(double base, double min);
-/// Returns the base, or less where it takes that to make `per_turn` elements of a full turn with the
-/// curvature k (1/length); 0: as the base.
+/// Returns the size for `per_turn` elements on a full turn of curvature k (1/length): 2 pi / (k per_turn),
+/// between least_by_curvature() and the base. It is the base if k or `per_turn` is not positive.
 double size_by_curvature(double base, double k, double per_turn, double min);
 
-/// Returns whether curvature is asked for overall or by name.
+/// Returns whether the size follows curvature overall or on named parts.
 bool follows_curvature(const SizeSpec& size);
 
 }  // namespace delquad

@@ -12,11 +12,11 @@
 namespace delquad {
 namespace {
 
-// Twice the least area that a triangle counts with, relative to its longest side squared. Slivers below it
-// have no reliable area in floating point. The matrix stays positive definite whatever the areas.
+// Twice the least area of a triangle, over its longest side squared. Slivers below it have no reliable area
+// in floating point. The matrix stays positive definite whatever the areas.
 constexpr double kLeastArea = 1e-12;
-// Where points coincide, values hang together by nothing, or by less than rounding. Then each triangle is
-// taken to be this part of an equilateral one.
+// Parts of an equilateral triangle that are mixed into each triangle, one after the other, if coinciding
+// points make the matrix singular.
 constexpr std::array<double, 5> kEquilateralParts = {0, 1e-12, 1e-9, 1e-6, 1e-3};
 
 LocalStiffness stiffness(const TriPatch& tri, int t, double equilateral_part) {
@@ -44,7 +44,7 @@ LocalStiffness stiffness(const TriPatch& tri, int t, double equilateral_part) {
   return matrix;
 }
 
-/// The factors of the matrix between free dofs; its product with the fixed values goes to `right`.
+/// Factors of the matrix between free unknowns; `right` is the right side from fixed values.
 class Factors {
  public:
   Factors(const TriPatch& tri, const std::vector<std::array<int, 3>>& dofs, const std::vector<int>& row,
@@ -70,7 +70,7 @@ class Factors {
     factors_.compute(matrix);
   }
 
-  /// Nothing where rounding left no positive definite matrix.
+  /// Returns the solution; nothing if rounding made the matrix singular.
   std::optional<Eigen::MatrixXd> solution() const {
     if (factors_.info() != Eigen::Success) return std::nullopt;
     Eigen::MatrixXd x = factors_.solve(right_);

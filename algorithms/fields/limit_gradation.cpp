@@ -21,8 +21,7 @@ namespace delquad {
 
 namespace {
 
-/// Sizes known at points, each growing with the distance from its point at the same slope: their lower
-/// envelope.
+/// Lower envelope of sizes at points that grow with the distance at the same slope.
 class SizeEnvelope {
  public:
   struct Sample {
@@ -31,23 +30,23 @@ class SizeEnvelope {
   };
   SizeEnvelope(std::vector<Sample> samples, double slope);
 
-  /// The smaller of delta and the envelope at x.
+  /// Returns the smaller of delta and the envelope at x.
   double limit(Vec2 x, double delta) const;
 
  private:
   void build();
-  /// Whether a smaller sample gives as little there: it is no part of the envelope.
+  /// Returns whether another sample makes the envelope as small there, so that s is no part of it.
   bool is_explained(const Sample& s) const;
   double bound(const BoxTree<Vec2>::Node& node, Vec2 x) const;
 
   double slope_;
   std::vector<Sample> samples_;
   BoxTree<Vec2> tree_;
-  std::vector<double> least_;  ///< of the samples in each node of the tree
+  std::vector<double> least_;  ///< least size of the samples in each node of the tree
 };
 
-/// Sizes that grow at the slope of the envelope lie on it up to rounding. Every search would look at samples
-/// there in vain.
+/// Relative difference that counts as a tie, since sizes that grow at the slope lie on the envelope up to
+/// rounding.
 constexpr double kTie = 1e-9;
 
 bool by_place(const SizeEnvelope::Sample& a, const SizeEnvelope::Sample& b) {
@@ -104,13 +103,12 @@ double SizeEnvelope::limit(Vec2 x, double delta) const {
   return delta;
 }
 
-// The domain is seen at this fraction of its diagonal at least.
+// Largest distance of samples, over the diagonal of the domain.
 constexpr double kCoarsestGrid = 1.0 / 64;
-// Triangles are cut up where the base varies by more than this factor within one, down to half the size
-// itself.
+// Largest factor by which the base may vary in a triangle, unless its sides are half as long as the size.
 constexpr double kMostVariation = 1.1;
 constexpr double kFinest = 0.5;
-// Bounds the work; the widest triangles are cut first.
+// Limit of samples, and samples of a triangle; the widest triangles are cut first.
 constexpr std::size_t kMostGridSamples = 1'000'000, kPerTriangle = 6;
 
 class LimitedSize final : public SizeField {
@@ -126,7 +124,8 @@ class LimitedSize final : public SizeField {
   SizeEnvelope envelope_;
 };
 
-/// The base at corners and middles of triangles cut up as above. Points on shared sides come more than once.
+/// Returns the base at corners and middles of triangles that are quartered by these limits. Points on shared
+/// sides occur more than once.
 std::vector<SizeEnvelope::Sample> sample(const SizeField& base, const TriPatch& tri) {
   const double longest = kCoarsestGrid * diagonal(tri.points);
   std::vector<SizeEnvelope::Sample> samples;

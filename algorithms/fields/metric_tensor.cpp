@@ -11,13 +11,13 @@
 namespace delquad {
 namespace {
 
-/// Eigenvalues, the larger first, and the direction of that.
+/// Eigenvalues, the larger one first, and its direction.
 struct Spectrum {
   double most, least;
   Vec2 direction;
 };
 
-/// The smaller one by the determinant, so that it keeps its digits.
+/// Returns the spectrum; the smaller eigenvalue is from the determinant, so that it keeps its digits.
 Spectrum spectrum(const Tensor2& m) {
   const double mean = (m.xx + m.yy) / 2, half = (m.xx - m.yy) / 2, radius = std::hypot(half, m.xy);
   const double most = mean + radius, det = m.xx * m.yy - m.xy * m.xy;
@@ -36,7 +36,7 @@ Tensor2 map_spectrum(const Tensor2& m, F&& f) {
   return tensor_by(f(s.most), f(s.least), s.direction);
 }
 
-/// Below this part of each other two lengths count as equal: the mean of both is right to rounding then.
+/// Relative difference below which two lengths count as equal; their mean is then exact to rounding.
 constexpr double kEqualLengths = 1e-5;
 
 }  // namespace
@@ -67,7 +67,7 @@ double metric_length(Vec2 d, const Tensor2& a, const Tensor2& b) {
 }
 
 double difference(const Tensor2& a, const Tensor2& b) {
-  // Half the logarithms of the eigenvalues of a^-1 b, whose product and sum are these.
+  // Half the logarithms of the eigenvalues of a^-1 b, from their product and sum.
   const double det = determinant(b) / determinant(a);
   const double half = (a.yy * b.xx - 2 * a.xy * b.xy + a.xx * b.yy) / determinant(a) / 2;
   const double root = std::sqrt(std::max(0.0, half * half - det)), most = half + root;
@@ -75,8 +75,8 @@ double difference(const Tensor2& a, const Tensor2& b) {
 }
 
 Tensor2 intersection(const Tensor2& a, const Tensor2& b) {
-  // In the coordinates y = sqrt(a) x the first is the identity and the second has the same axes as their
-  // common ones.
+  // In the coordinates y = sqrt(a) x the first is the identity, and the axes of the second are the common
+  // ones.
   const Tensor2 root = map_spectrum(a, [](double v) { return std::sqrt(v); });
   const Tensor2 back = map_spectrum(a, [](double v) { return 1 / std::sqrt(v); });
   const auto congruent = [](const Tensor2& s, const Tensor2& m) {
@@ -118,7 +118,7 @@ Tensor2 lp_metric(const Tensor2& hessian, double p) {
   const double least = std::max(kLeast * std::max(along, across), kTiny);
   along = std::max(along, least);
   across = std::max(across, least);
-  // Where one curvature changes its sign the determinant says too little.
+  // The determinant is too small where one curvature changes its sign.
   constexpr double kLeastInFactor = 1e-3;
   const double most = std::max(along, across);
   const double factor = std::pow(std::max(along * across, kLeastInFactor * most * most), -1 / (2 * p + 2));
@@ -161,7 +161,7 @@ Tensor2 TangentMetric::seen(const TangentMetric& other) const {
 double metric_square(const Vec3& d, const TangentMetric& at) {
   const Vec2 x = at.in_plane(d);
   const double flat = dot(x, x), by = at.m.xx * x.x * x.x + 2 * at.m.xy * x.x * x.y + at.m.yy * x.y * x.y;
-  // A direction without a part in the plane has the mean of all.
+  // A direction across the plane takes the mean over all directions.
   constexpr double kUpright = 1e-12;
   if (!(flat > kUpright * dot(d, d))) return dot(d, d) * (at.m.xx + at.m.yy) / 2;
   return std::max(0.0, by) * dot(d, d) / flat;

@@ -20,14 +20,14 @@ namespace delquad {
 
 namespace {
 
-/// Triangles, and quads as two.
+/// Returns the triangles of a mesh, and each quad as two.
 std::vector<std::array<int, 3>> triangles_of(const Mesh& mesh) {
   std::vector<std::array<int, 3>> triangles = mesh.triangles;
   for (const auto& [a, b, c, d] : mesh.quads) triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
   return triangles;
 }
 
-/// Where a point is in the mesh that has the data.
+/// Finds points in the mesh with the data.
 class Nodes {
  public:
   explicit Nodes(const Mesh& mesh) : triangles_(mesh.points, triangles_of(mesh)) {}
@@ -77,7 +77,8 @@ class NodalCross final : public CrossField {
   std::vector<Cross> crosses_;
 };
 
-/// `what`: "size", "cross", "metric".
+/// Throws InputError unless the mesh has elements, and a value for each point. `what` is "size", "cross" or
+/// "metric".
 void check_nodal(const Mesh& mesh, std::size_t n_values, const std::string& what) {
   const std::string where = "the mesh of the nodal " + what;
   require_readable(mesh, where);

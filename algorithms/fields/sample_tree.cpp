@@ -19,29 +19,30 @@ namespace delquad {
 
 namespace {
 
-/// Rounding does not matter: cells are beside more than they meet.
+/// Kernel with rounding, which does not matter since cells are grown by kBeside.
 using TreeKernel = CGAL::Simple_cartesian<double>;
 
-/// Cells are halved this often in any case, in the plane and in space. Samples lie an edge of half of such a
-/// cell apart, 1 / 128 and 1 / 64 of the box. A feature that is narrower and far from others is not seen.
+/// Least number of halvings of all cells, in the plane and in space. Samples are then half an edge apart, 1 /
+/// 128 and 1 / 64 of the box. Narrower features far from others are missed.
 constexpr int kLeastLevelsInPlane = 6, kLeastLevelsInSpace = 5;
-/// No cell is smaller than this part, as a power of two, of the box.
+/// Most halvings of a cell.
 constexpr int kMostLevels = 19;
-/// The rim of where a function is good is known to this part, as a power of two, of the box.
+/// Most halvings of a cell with samples that are not good.
 constexpr int kMostLevelsAtRim = 11;
-/// Bounds time and memory where a function varies everywhere.
+/// Limit of samples for functions that vary everywhere.
 constexpr std::size_t kMostSamples = 4'000'000;
-/// The box is larger than the model by these parts of its extent. Points near the model lie inside, and the
-/// corners of cells do not fall in step with the periods of formulas.
+/// Margins of the box, over the extent of the model. So points near the model lie inside, and corners of
+/// cells do not coincide with the periods of formulas.
 constexpr double kLowMargin = 0.0173, kHighMargin = 0.0311;
-/// Axes along which the box has less than this part of its longest extent have none.
+/// Extent of a flat axis, over the longest extent.
 constexpr double kFlat = 1e-9;
-/// A cell is beside the surface when it meets the surface, grown by this part of its edges on all sides.
+/// Part of its edges by which a cell is grown to test whether it is beside the surface.
 constexpr double kBeside = 0.25;
 
 void set_coordinate(Vec3& x, int axis, double value) { (axis == 0 ? x.x : axis == 1 ? x.y : x.z) = value; }
 
-/// The weight of corner c of a cell at a place given by halves of edges, the digits of a number to base 3.
+/// Returns the weight of corner c of a cell at a place; its digits to base 3 are its coordinates in half
+/// edges.
 double weight(int place, int c, int axes) {
   double w = 1;
   for (int k = 0; k < axes; ++k, place /= 3) {
@@ -84,7 +85,7 @@ class SampleTree::Builder {
     for (int c = 0; c < 1 << axes_; ++c) tree_.cells_[0].corner[c] = sample(corner_of({}, c, kUnits));
     const int least = axes_ < 3 ? kLeastLevelsInPlane : kLeastLevelsInSpace;
     for (int level = 0; !open.empty() && axes_ > 0; ++level) {
-      std::vector<int> places;  // n_places_ of each cell
+      std::vector<int> places;  // samples of each cell, n_places_ at a time
       for (const Open& cell : open)
         for (int place = 0; place < n_places_; ++place)
           places.push_back(sample(place_of(cell, place, level)));
@@ -106,7 +107,7 @@ class SampleTree::Builder {
   }
 
  private:
-  /// Edges of the box in units, of which half an edge of the smallest cell has one.
+  /// Edges of the box, in half edges of the smallest cell.
   static constexpr int kUnits = 1 << (kMostLevels + 1);
   using Place = std::array<int, 3>;
 
@@ -114,7 +115,7 @@ class SampleTree::Builder {
   struct Open {
     int cell = 0;
     Place low{};
-    std::vector<int> triangles;  ///< that it is beside
+    std::vector<int> triangles;  ///< triangles of the surface that it is beside
   };
 
   static int edge(int level) { return kUnits >> level; }
@@ -139,7 +140,7 @@ class SampleTree::Builder {
     return x;
   }
 
-  /// The sample at a place, which is made where there is none.
+  /// Returns the sample at a place, and adds one if there is none.
   int sample(const Place& place) {
     std::uint64_t key = 0;
     for (int k = 0; k < axes_; ++k) key = key << 21 | static_cast<std::uint64_t>(place[k]);
@@ -148,7 +149,7 @@ class SampleTree::Builder {
     return found->second;
   }
 
-  /// Asks for the values of new samples.
+  /// Evaluates the function at new samples.
   void evaluate() {
     const std::size_t first = tree_.good_.size(), n = tree_.points_.size(), width = tree_.width_;
     if (first == n) return;
@@ -177,7 +178,7 @@ class SampleTree::Builder {
     return n_good < std::ssize(samples) || is_missed(samples);
   }
 
-  /// Whether interpolation between the corners misses a sample.
+  /// Returns whether interpolation between the corners misses a sample by more than its tolerance.
   bool is_missed(std::span<const int> samples) const {
     for (int place = 0; place < n_places_; ++place) {
       const double* wanted = value(samples[place]);
@@ -207,7 +208,7 @@ class SampleTree::Builder {
     }
   }
 
-  /// Keeps the parent's triangles that the cell is beside; false: none.
+  /// Keeps the parent's triangles that the cell is beside. Returns false if there are none.
   bool is_beside(const Open& parent, Open& cell, int level) const {
     const Vec3 a = point(cell.low), b = point(corner_of(cell.low, (1 << axes_) - 1, edge(level)));
     const Vec3 grow = kBeside * (b - a);
@@ -230,10 +231,10 @@ class SampleTree::Builder {
   const Mesh* surface_;
   const SampleRules& rules_;
   int axes_, n_places_;
-  /// Weights of a cell's corners at its 3^axes_ places, and the places of the corners themselves.
+  /// Weights of a cell's corners at its 3^axes_ places, and the places of the corners.
   std::array<std::array<double, kMostCorners>, 27> weight_{};
   std::array<int, kMostCorners> corner_place_{};
-  std::vector<Box<Vec3>> boxes_;  ///< of the surface's triangles
+  std::vector<Box<Vec3>> boxes_;  ///< boxes of the surface's triangles
   std::pmr::monotonic_buffer_resource memory_;
   std::pmr::unordered_map<std::uint64_t, int> index_{&memory_};  ///< samples by their place
 };

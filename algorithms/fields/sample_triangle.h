@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// A triangle by its corners, cut up to look at a field closely.
+/// The corners of a triangle, counterclockwise.
 using Corners = std::array<Vec2, 3>;
 
 inline Corners corners_of(const TriPatch& tri, const std::array<int, 3>& v) {
@@ -30,7 +30,7 @@ inline Vec2 slope(const Corners& c, const std::array<double, 3>& values) {
          ((values[1] - values[0]) * perp(c[0] - c[2]) + (values[2] - values[0]) * perp(c[1] - c[0]));
 }
 
-/// Middles of the sides, each opposite to the corner of its index.
+/// Returns the middles of the sides, each opposite to the corner of its index.
 inline Corners middles(const Corners& c) {
   return {0.5 * (c[1] + c[2]), 0.5 * (c[2] + c[0]), 0.5 * (c[0] + c[1])};
 }

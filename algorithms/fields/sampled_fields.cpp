@@ -29,7 +29,7 @@ class SampledSize final : public SizeField {
   std::string name_;
 };
 
-/// Infinite where there is no size: outside of the domain.
+/// Returns the size; infinity where there is none, outside of the domain.
 double size_or_any(const SizeField& size, const Vec3& at) {
   try {
     int hint = -1;

@@ -21,42 +21,43 @@ namespace delquad {
 
 /// Rules for the samples of a function.
 struct SampleRules {
-  /// Numbers that the function gives for a point.
+  /// Count of numbers that the function gives for a point, >= 1.
   int width = 1;
   /// Writes `width` numbers for each point, one point after the other.
   std::function<void(std::span<const Vec3> points, std::span<double> values)> function;
-  /// Whether a point's numbers can be used.
+  /// Returns whether a point's numbers can be used.
   std::function<bool(const double* value)> is_good;
-  /// By how much each of a point's numbers may be missed.
+  /// Returns the largest error of each number of a point.
   std::function<double(const double* value)> tolerance;
-  /// Edges of cells that are short enough there, whatever the tolerance says.
+  /// Returns the length of edges of cells that are not halved, whatever the tolerance.
   std::function<double(const Vec3& at, const double* value)> short_edge;
 };
 
-/// Where a function is sampled.
+/// Domain in which a function is sampled.
 struct SampleDomain {
   Box<Vec3> box;                  ///< around the model; may be flat
-  const Mesh* surface = nullptr;  ///< its triangles, on and beside which samples lie; null: in all of the box
+  const Mesh* surface = nullptr;  ///< samples lie on and beside it; null: in the whole box
 };
 
-/// A function sampled on cells that are halved along all axes until it is linear along each axis of a cell.
-/// Cells without extent along an axis, such as cells in the plane, have none there.
+/// A function sampled on cells that are halved along all axes until it is linear along each axis of a cell
+/// (own method). Axes along which the box is flat do not count.
 class SampleTree {
  public:
-  /// The function is called in this thread, for all points of one generation of cells at once.
+  /// Calls the function in this thread, for all points of one generation of cells at once.
   SampleTree(const SampleDomain& domain, const SampleRules& rules);
 
-  /// Writes what is interpolated at x, or at the point of the box nearest to it. Samples that are not good
-  /// do not count. Null: written; else a sample that is not good, in the box, where all around x are not.
+  /// A sample that is not good.
   struct Sample {
     Vec3 at;
     double value;  ///< the first of its numbers
   };
+  /// Writes `width` numbers, interpolated from the good samples at x, or at the point of the box nearest to
+  /// it. Returns nothing then; or, if no sample around x is good, one of these.
   std::optional<Sample> interpolate(const Vec3& x, std::span<double> value) const;
 
   std::span<const Vec3> points() const { return points_; }
   std::span<const double> values() const { return values_; }
-  /// Returns whether there were more samples to take than are allowed.
+  /// Returns whether the limit of four million samples was reached.
   bool is_cut_short() const { return cut_short_; }
 
  private:
@@ -83,23 +84,21 @@ class SampleTree {
   bool cut_short_ = false;
 };
 
-/// How far an interpolated size is off, as a part of the size: far below the spread of edge lengths in any
-/// mesh.
+/// Error of an interpolated size, as a part of the size: far below the spread of edge lengths in any mesh.
 inline constexpr double kSampledSizeError = 0.005;
-/// How far cos 4 theta and sin 4 theta are off: a third of a degree.
+/// Error of interpolated cos 4 theta and sin 4 theta: a third of a degree.
 inline constexpr double kSampledCrossError = 0.02;
-/// Samples of a function lie no closer than this part of the size there: a mesh would not show more.
+/// Least distance of samples, as a part of the size there: a mesh would not show more.
 inline constexpr double kClosestSamples = 0.25;
 
-/// Makes a field of a function. It is called here, on points in and beside the domain, and linear along the
-/// axes between them. It may be further off than kSampledSizeError where values change within kClosestSamples
-/// of the size, and where there would be too many samples. `warnings` tells of the latter. Throws InputError
-/// if none of its values is a size. A bad value next to the domain does not count while others are nearer.
-/// Messages call the function by `name`.
+/// Returns a field that interpolates a function, which is called here only, on points in and beside the
+/// domain. The error may exceed kSampledSizeError where values change within kClosestSamples of the size. It
+/// may also do so at the limit of samples, with a warning. Throws InputError if none of its values is a size;
+/// the field throws it at points with bad values only around. Messages call the function by `name`.
 std::shared_ptr<const SizeField> sample_size(const SizeFunction& function, const SampleDomain& domain,
                                              const std::string& name, std::vector<Warning>& warnings);
 
-/// Returns the same of an angle, on the plane of a flat domain. `size` says how close samples lie.
+/// Returns the same for an angle (radians) in the plane of a flat domain. `size` tells how close samples lie.
 std::shared_ptr<const CrossField> sample_cross(const CrossFunction& function, const SampleDomain& domain,
                                                const SizeField& size, const std::string& name,
                                                std::vector<Warning>& warnings);

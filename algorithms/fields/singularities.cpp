@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Turn of the phase from one side to another: `expected` and a rest in (-pi, pi), or half a turn. The
-/// opposite one is the other way round.
+/// Returns the turn of the phase (radians) from one side to another: `expected` plus a rest from -pi to pi.
+/// The turn from the second to the first is opposite.
 double phase_step(const std::vector<double>& phase, int from, int to, double expected) {
   if (from > to) return -phase_step(phase, to, from, -expected);
   const double step = phase[to] - phase[from];
@@ -24,7 +24,7 @@ double phase_step(const std::vector<double>& phase, int from, int to, double exp
 
 int turns(double angle) { return static_cast<int>(std::lround(angle / (2 * kPi))); }
 
-/// Angle by which the boundary turns at each vertex; 0 inside.
+/// Returns the angle (radians) by which the boundary turns at each vertex; 0 inside.
 std::vector<double> boundary_turns(const BackgroundMesh& background) {
   const TriPatch& tri = background.triangles();
   const auto& boundary = background.boundary_points();
@@ -40,7 +40,7 @@ std::vector<double> boundary_turns(const BackgroundMesh& background) {
   return turn;
 }
 
-/// Where the field, linear between the sides' middles, vanishes in a triangle around which it winds.
+/// Returns the place in a triangle where the field, linear between the middles of sides, vanishes.
 Vec2 zero_point(const Vec2 (&middle)[3], const Cross (&z)[3]) {
   const Vec2 a = {z[0].c, z[0].s}, b = {z[1].c, z[1].s}, c = {z[2].c, z[2].s};
   const double weight[] = {std::abs(cross(b, c)), std::abs(cross(c, a)), std::abs(cross(a, b))};
@@ -56,7 +56,7 @@ void cancel(int& a, int& b) {
   b += n;
 }
 
-/// Takes opposite indices of touching cells away: triangle and vertex, two triangles, two vertices.
+/// Removes opposite indices of touching cells: a triangle and a vertex, two triangles, or two vertices.
 void cancel_pairs(const TriPatch& tri, const std::vector<char>& is_inside, std::vector<int>& of_triangle,
                   std::vector<int>& of_vertex) {
   for (std::size_t t = 0; t < tri.triangles.size(); ++t) {

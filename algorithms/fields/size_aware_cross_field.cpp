@@ -18,7 +18,7 @@ namespace delquad {
 
 namespace {
 
-/// How a cross turns along a grid whose edges have the length delta.
+/// Turning of crosses along a grid with edges of length delta.
 ///
 /// A frame follows a grid of squares of side delta exactly when it is parallel in the metric
 /// |du|^2/delta^2: grad theta = J grad log delta, J turning by a quarter counterclockwise. Here log delta is
@@ -28,11 +28,12 @@ class SizeConnection {
   SizeConnection(const TriPatch& tri, const ParametricSize& size);
 
   double log_size(int vertex) const { return log_size_[vertex]; }
-  /// grad log delta in a triangle.
+  /// Returns grad log delta in a triangle.
   Vec2 gradient(int t) const { return gradient_[t]; }
-  /// By how much theta of a parallel cross turns along d, inside triangle t (radians).
+  /// Returns the turn of theta (radians) of a parallel cross along d, inside triangle t.
   double turn(int t, Vec2 d) const { return cross(gradient_[t], d); }
-  /// Turn of 4 theta from the triangle's centroid to the middles of its sides (opposite to each vertex).
+  /// Returns the turn of 4 theta (radians) from each centroid to the middles of the sides, opposite to each
+  /// vertex.
   const std::vector<std::array<double, 3>>& phase_turns() const { return phase_turns_; }
 
  private:
@@ -78,7 +79,7 @@ double twice_area(const TriPatch& tri, const std::array<int, 3>& v) {
   return cross(tri.points[v[1]] - tri.points[v[0]], tri.points[v[2]] - tri.points[v[0]]);
 }
 
-/// The start field in the middles of all sides, of unit length; tangents on the boundary.
+/// Returns the start field in the middles of all sides, of unit length; tangents on the boundary.
 std::vector<Complex> sample_sides(const BackgroundMesh& background, const Sides& sides,
                                   const CrossField& field) {
   const TriPatch& tri = background.triangles();
@@ -99,14 +100,14 @@ std::vector<Complex> sample_sides(const BackgroundMesh& background, const Sides&
   return z;
 }
 
-/// 1/delta, the mean over a triangle.
+/// Returns the mean of 1/delta over a triangle.
 double mean_per_length(const SizeConnection& connection, const std::array<int, 3>& v) {
   double sum = 0;
   for (const int i : v) sum += std::exp(-connection.log_size(i)) / 3;
   return sum;
 }
 
-/// Rows of quads that have to end because delta varies, where the crosses do not turn.
+/// Returns the number of rows of quads that must end because delta varies, if crosses do not turn.
 double dislocations_of_size(const TriPatch& tri, const SizeConnection& connection) {
   double sum = 0;
   for (std::size_t t = 0; t < tri.triangles.size(); ++t) {
@@ -117,7 +118,7 @@ double dislocations_of_size(const TriPatch& tri, const SizeConnection& connectio
   return sum;
 }
 
-/// The unknowns of several patches, and those at seams joined.
+/// Unknowns of several patches, joined at seams.
 class Unknowns {
  public:
   Unknowns(const std::vector<FieldPatch>& patches, const std::vector<SizeConnection>& connections) {
@@ -139,7 +140,7 @@ class Unknowns {
     }
   }
 
-  /// Both sides get the unknown of the first, on the second's own nothing depends any more.
+  /// Gives both sides the unknown of the first; the second one's own is no longer used.
   void join(const FieldSeam& seam) {
     int shared = -1;
     for (const FieldSeam::Side& side : seam.sides) {
@@ -156,7 +157,7 @@ class Unknowns {
     alignment[shared] = seam.alignment;
   }
 
-  /// Counts inner sides from what they are drawn to.
+  /// Counts unknowns of inner sides from the direction that draws them.
   void pull(const CrossPullAt& pull_at, const SizeConnection& connection, PatchUnknowns& own) {
     const TriPatch& tri = *own.tri;
     int hint = -1;
@@ -177,7 +178,7 @@ class Unknowns {
     }
   }
 
-  /// In the parameter plane of a patch, side by side.
+  /// Returns the crosses of a patch in its parameter plane, by side.
   std::vector<Cross> crosses(std::size_t patch) const {
     const PatchUnknowns& own = of_patch[patch];
     std::vector<Cross> crosses;
@@ -195,7 +196,7 @@ class Unknowns {
   std::vector<Complex> z;
 };
 
-/// Where the ends of seams are, each once.
+/// Returns the joined vertices at the ends of seams, each once.
 std::vector<JoinedVertices> joined_vertices(const std::vector<FieldPatch>& patches,
                                             const std::vector<FieldSeam>& seams) {
   using Vertex = std::array<int, 2>;
@@ -256,8 +257,8 @@ std::vector<FieldTopology> find_topologies(const std::vector<FieldPatch>& patche
 
 struct SizeAwareCrossField::Data {
   std::shared_ptr<const BackgroundMesh> background;
-  std::shared_ptr<const CrossField> start;  ///< null where the field is the iteration's
-  std::vector<Vec2> gradient;               ///< of log delta in each triangle
+  std::shared_ptr<const CrossField> start;  ///< null if the field is the result of the iteration
+  std::vector<Vec2> gradient;               ///< gradient of log delta in each triangle
   /// The crosses of each triangle, carried from the middle of the side opposite to each vertex to the
   /// centroid.
   std::vector<std::array<Complex, 3>> crosses;
@@ -323,8 +324,8 @@ Cross SizeAwareCrossField::at(Vec2 u, int& hint) const {
 
 namespace {
 
-/// Slope of the angle by which a field turns more than a parallel one in triangle t, in its frame there
-/// (radians per length).
+/// Returns by how much a field turns more than a parallel one in a triangle (radians per length), as a vector
+/// in the field's frame.
 Vec2 excess_turn(const Corners& middle, const std::array<double, 3>& turns, const CrossField& field,
                  int& hint) {
   std::array<double, 3> angle;

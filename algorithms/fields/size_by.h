@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// Returns the size that a function says, of a place and a hint as SizeField::at() has them.
+/// Returns a size field by a function of place and hint, as SizeField::at() has them.
 template <class F>
 std::shared_ptr<const SizeField> size_by(F size) {
   struct SizeBy final : SizeField {

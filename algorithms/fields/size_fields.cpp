@@ -141,7 +141,7 @@ bool follows_curvature(const SizeSpec& size) {
 
 namespace {
 
-/// log delta, linear on the background's triangles.
+/// Size field with log delta linear on the background's triangles.
 class BoundarySize final : public SizeField {
  public:
   BoundarySize(std::shared_ptr<const BackgroundMesh> background, std::vector<double> log_delta)
@@ -158,7 +158,7 @@ class BoundarySize final : public SizeField {
   std::vector<double> log_delta_;
 };
 
-/// Mean length of the lines at each point; NaN where there are none.
+/// Returns the mean length of the lines at each point; NaN without lines.
 std::vector<double> mean_lengths(const Mesh& boundary) {
   std::vector<double> sum(boundary.points.size(), 0);
   std::vector<int> count(boundary.points.size(), 0);

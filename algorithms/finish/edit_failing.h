@@ -10,9 +10,9 @@
 
 namespace delquad {
 
-/// Edits the quads of a patch around quads that fail in space. Edits are rotations, collapses, openings and
-/// splits; the best one must leave fewer failing quads after relocation at a small loss of eta. Boundary
-/// nodes stay. Returns the number of edits.
+/// Edits the quads of a patch (by index) around quads that fail in space (own method). Edits are rotations,
+/// collapses, openings and splits; the best one must leave fewer failing quads after relocation at a small
+/// loss of eta. Boundary nodes stay. Returns the number of edits.
 int edit_failing(const AllPatches& in, std::size_t patch, const SpaceLimits& limits);
 
 }  // namespace delquad

@@ -46,8 +46,8 @@ class Badness {
  public:
   explicit Badness(const Mesh& fine) : fine_(fine) {}
 
-  /// `around` is the sum of the unit normals of the quads at the corners. A quad that agrees with them counts
-  /// as well oriented, since the exact test is slow.
+  /// Returns the badness of a quad. `around` is the sum of the unit normals of the quads at its corners. A
+  /// quad that agrees with it is well oriented; the exact test is slow.
   int operator()(const std::array<Vec3, 4>& corners, const Vec3& around, int face) const {
     constexpr double kAgrees = 0.5;  // a cosine
     const Vec3 area = area_vector(corners);

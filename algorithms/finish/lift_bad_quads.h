@@ -17,8 +17,7 @@ struct LiftingSummary {
   int rings = 0;       ///< rings of quads inside quads that stayed inverted or folded
   int repaired = 0;    ///< edits of quads around bad ones
   long long cost = 0;  ///< tried places of vertices; a place on CAD counts ten times
-  int stopped = 0;     ///< tag of the face with the worst quad if the limit of cost ended the work; 0: it did
-                       ///< not
+  int stopped = 0;     ///< tag of the face with the worst quad if the limit of cost ended the work; else 0
 };
 
 template <>
@@ -43,11 +42,11 @@ struct Counters<FailingRepairSummary> {
   static constexpr auto all = std::tuple{counter("moved", &S::moved), counter("edited", &S::edited)};
 };
 
-/// Repairs quads that are worse in space than in the plane of their patch. First it lifts quads that are poor
-/// in space (lift_worst_on_surface()). Then each inverted, folded or turned quad gets a ring of quads inside.
-/// The ring is lifted and kept if fewer quads are bad. Last it tries to merge quads and to rotate or open
-/// edges around bad or flat quads, one at a time, and keeps improvements. It stores the places in space of
-/// all patches of quads.
+/// Repairs quads that are worse in space than in the plane of their patch (own method). First it lifts quads
+/// that are poor in space (lift_worst_on_surface()). Then each inverted, folded or turned quad gets a ring of
+/// quads inside. The ring is lifted and kept if fewer quads are bad. Last it tries to merge quads and to
+/// rotate or open edges around bad or flat quads, one at a time, and keeps improvements. It stores the places
+/// in space of all patches of quads.
 LiftingSummary lift_bad_quads(const AllPatches& in);
 
 /// Repairs quads of a sound mesh that fail: by moves (repair_failing_on_surface()), edits

@@ -28,7 +28,8 @@ struct Counters<SeparationSummary> {
                  counter("corners", &S::corners), counter("corners_left", &S::corners_left));
 };
 
-/// Removes edges and quads that two patches of a surface share besides their common curves.
+/// Removes edges and quads that two patches of a surface share besides their common curves (own method).
+/// Returns the counts of its edits.
 ///
 /// If nodes are few, as on a small round curve, both patches may have a chord (an inner edge) between the
 /// same two boundary nodes. A chord may also lie beside an edge of a curve. Such chords are one edge in

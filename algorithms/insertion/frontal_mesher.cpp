@@ -56,8 +56,8 @@ class FrontalMesher {
     for (int t = 0; t < static_cast<int>(states_.size()); ++t) classify_new(t);
   }
 
-  /// The run ends: points keep a part of delta' from vertices around, so sizes above 0 allow finitely many. A
-  /// side that refused all points is tried again only if its triangle changes.
+  /// Meshes layer by layer. The run ends: points keep a part of delta' from vertices around, so sizes above 0
+  /// allow finitely many. A side that refused all points is tried again only if its triangle changes.
   FrontalSummary run() {
     do {
       while (start_layer()) {
@@ -276,7 +276,7 @@ class FrontalMesher {
   FrontalSummary summary_;
 };
 
-/// Outside of its range the front never ends, or no point can be inserted.
+/// Returns the options; outside of their ranges the front never ends, or no point can be inserted.
 const OptionTable<FrontalOptions>& insertion_table() {
   static const auto all = OptionTable<FrontalOptions>("insertion", "options of F, D and P")
                               .add({.name = "h_max",

@@ -19,9 +19,9 @@ inline constexpr double kBoundaryHeight = 0.5;
 
 /// Options of insertion (F, D, P).
 struct FrontalOptions {
-  /// Largest size of resolved triangles over their ideal size. 0: default of the strategy.
+  /// Largest size of resolved triangles over their ideal size, > 0; 0: default of the strategy.
   double h_max = 0;
-  /// Least distance of a point from vertices, in delta' and the norm of the strategy.
+  /// Least distance of a point from vertices, > 0, in delta' and the norm of the strategy.
   double rejection = 0.7;
   /// Limit of inserted points; the summary tells whether it stopped the mesher.
   long long max_points = 200'000'000;
@@ -62,35 +62,38 @@ struct Counters<FrontalSummary> {
                  counter("h_max", &S::h_max, Over::kMost), counter("seconds", &S::seconds));
 };
 
-/// Meshes a patch by frontal Delaunay insertion [paper, section 5]: layer by layer, largest active triangle
-/// first. `placement` chooses the points. They are connected by the constrained Delaunay kernel of the L2
-/// norm, as in the paper.
+/// Returns the triangulation of a patch by frontal Delaunay insertion [remacle2013, section 5]: layer by
+/// layer, largest active triangle first. `placement` chooses the points. They are connected by the
+/// constrained Delaunay kernel of the L2 norm, as in the paper. Throws InputError for boundaries that
+/// constrained_delaunay() refuses, and sizes that are not positive.
 TriPatch mesh_frontal(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options = {},
                       FrontalSummary* summary = nullptr);
 
-/// Does the same from a constrained Delaunay triangulation, which may have points inside.
+/// Does the same from a counterclockwise constrained Delaunay triangulation, which may have points inside.
 TriPatch fill_frontal(const TriPatch& initial, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options = {},
                       FrontalSummary* summary = nullptr);
 
-/// Returns whether a boundary strays from the cross. Then grids by cross and size lie beside more than half
-/// of its length, and their rows are neither parallel nor normal to it.
+/// Returns whether a boundary is oblique to the cross (own rule). Then grids by cross and size lie beside
+/// more than half of its length, at more than 7 degrees to it.
 bool is_misaligned(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size);
 
 /// Stage P: packs vertices along the cross, then fills the rest with the frontal mesher and `filler`.
 ///
-/// A queue starts with the points of the boundary, or with the innermost point if the boundary is astray.
-/// Each vertex proposes its four neighbors in a grid: one step of length delta' along each direction of the
-/// cross, by the midpoint rule. A proposal is refused outside the domain and by the tests of mesh_frontal().
-/// No front or triangle matters, so legs and diagonals of half squares cannot be confused.
+/// A queue starts with the points of the boundary, or with the innermost point if is_misaligned(). Each
+/// vertex proposes its four neighbors in a grid: one step of length delta' along each direction of the cross,
+/// by the midpoint rule. A proposal is refused outside the domain and by the tests of mesh_frontal(). No
+/// front or triangle matters, so legs and diagonals of half squares cannot be confused.
 ///
-/// The method follows the packing of parallelograms in Gmsh (algorithm 9).
+/// The method follows the packing of parallelograms [baudouin2014] in Gmsh (algorithm 9). Throws as
+/// mesh_frontal().
 TriPatch mesh_packing(const PatchBoundary& boundary, const PointPlacement& filler, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options = {},
                       FrontalSummary* summary = nullptr);
 
-/// Stage D: mesh_frontal(), or mesh_packing() if the boundary is astray, which would misguide the front.
+/// Stage D: mesh_frontal(), or mesh_packing() if is_misaligned(), since such a boundary would misguide the
+/// front.
 TriPatch mesh_delquad(const PatchBoundary& boundary, const PointPlacement& placement, const CrossField& cross,
                       const ParametricSize& size, const FrontalOptions& options = {},
                       FrontalSummary* summary = nullptr);

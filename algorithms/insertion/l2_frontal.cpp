@@ -14,8 +14,8 @@ namespace {
 class L2Frontal final : public PointPlacement {
  public:
   std::string name() const override { return "L2 frontal"; }
-  /// At this value a large uniform mesh has 2/sqrt 3 times as many vertices as by D [paper, section 1]. The
-  /// value 1.22 of the reference implementation gives 7 % more.
+  /// Returns the value at which a large uniform mesh has 2/sqrt 3 times as many vertices as by D
+  /// [remacle2013, section 1]. The value 1.22 of the reference implementation gives 7 % more.
   double default_h_max() const override { return 1.4; }
 
   double triangle_size(const std::array<Vec2, 3>& t, Cross, double delta) const override {

@@ -46,7 +46,7 @@ class Adaptation {
     int a, b;
   };
 
-  /// `near` is a copy, since it may lie in the list that grows here.
+  /// Samples the fields at vertex i. `near` is a copy, since it may lie in the list that grows here.
   void sample(int i, VertexFields near) {
     if (static_cast<std::size_t>(i) >= fields_.size()) fields_.resize(i + 1);
     fields_[i] = sample_fields(cross_, size_, mesh_.point(i), near);
@@ -76,7 +76,7 @@ class Adaptation {
     return largest(frame_of(std::array{a, b}).of(mesh_.point(b) - mesh_.point(a)));
   }
 
-  /// Returns 0 if the triangle is flat or inverted.
+  /// Returns 2 A / l^2 of a triangle in the frame; 0 if it is flat or inverted.
   double measure(const Frame& frame, int a, int b, int c) const {
     const Vec2 p = mesh_.point(a), q = mesh_.point(b), r = mesh_.point(c);
     if (orient2d(p, q, r) <= 0) return 0;

@@ -12,7 +12,7 @@
 namespace delquad {
 
 struct AdaptationOptions {
-  int max_sweeps = 20;                 ///< stops early if a sweep makes less than one edit in 1000 triangles
+  int max_sweeps = 20;                 ///< limit of sweeps, >= 0; one with too few edits is the last
   long long max_points = 200'000'000;  ///< limit above which no edge is split
 };
 

@@ -18,7 +18,7 @@ struct LinfDelaunayComparison {
 };
 
 /// Compares both triangulations [remacle2013, Figure 15] by CGAL's Delaunay_triangulation_2 and
-/// Segment_Delaunay_graph_Linf_2. The points must be distinct.
+/// Segment_Delaunay_graph_Linf_2. The points must be distinct, and not all on a line.
 LinfDelaunayComparison compare_linf_delaunay(const std::vector<Vec2>& points);
 
 }  // namespace delquad

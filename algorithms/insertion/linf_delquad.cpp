@@ -10,7 +10,7 @@ namespace delquad {
 namespace {
 
 /// Largest slope |beta| / alpha of edges that count as aligned with the cross. Their new point lies straight
-/// above an end. The bisector of an aligned edge is a region (Figure 9 of the paper). On nearly aligned edges
+/// above an end. The bisector of an aligned edge is a region [remacle2013, Figure 9]. On nearly aligned edges
 /// it would lean by |rho - e| if sizes change.
 constexpr double kAlignedSlope = 0.25;
 /// Shortest leg over the edge, if sizes shrink faster than the front can follow.

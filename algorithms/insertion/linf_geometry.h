@@ -8,12 +8,12 @@
 #include "delquad/extend.h"
 #include "delquad/mesh.h"
 
-/// This header has plane geometry in the L-infinity norm of a rotated frame [remacle2013, section 4]. Stages
-/// D and P use it.
-///
-/// It differs from the paper. The printed circumradius is the radius of the smallest enclosing square; here
-/// it is half the extent. Clamps act on the distance rho from the ends of the edge instead of the parameter
-/// t.
+// This header has plane geometry in the L-infinity norm of a rotated frame [remacle2013, section 4]. Stages
+// D and P use it.
+//
+// It differs from the paper. The printed circumradius is the radius of the smallest enclosing square; here
+// it is half the extent. Clamps act on the distance rho from the ends of the edge instead of the parameter
+// t.
 namespace delquad {
 
 /// Returns max(|x|, |y|) of a vector in frame coordinates.
@@ -34,7 +34,8 @@ struct CanonicalEdge {
   Vec2 middle;
   Frame frame;
   double alpha = 0, beta = 0;
-  /// P and Q must be distinct.
+  /// P and Q must be distinct. The frame is `axes`, turned by quarters until the edge is within 45 degrees of
+  /// its first axis.
   CanonicalEdge(Vec2 p, Vec2 q, const Frame& axes);
   Vec2 to_local(Vec2 x) const { return frame.to_local(x - middle); }
   Vec2 to_global(Vec2 x) const { return middle + frame.to_global(x); }

@@ -11,7 +11,8 @@
 
 namespace delquad {
 
-/// Fields at a vertex, sampled once. The hints tell its place in the background meshes of the fields.
+/// Fields at a vertex in the parameter plane, sampled once. The hints tell its place in the background meshes
+/// of the fields.
 struct VertexFields {
   Cross cross;  ///< of unit length; (1, 0) if the field vanishes
   double delta = 0;

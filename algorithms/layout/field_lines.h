@@ -13,23 +13,23 @@
 
 namespace delquad {
 
-/// A place on one of several rims.
+/// A place on one of several rims: indices of the rim and of its vertex.
 struct RimPlace {
   int rim, at;
   friend bool operator==(const RimPlace&, const RimPlace&) = default;
 };
 
-/// A line along the cross field between two vertices of rims.
+/// A line along the cross field between two vertices of rims, in the parameter plane.
 struct FieldLine {
   RimPlace from, to;
   int along;  ///< quads at its start between the line and the next edge of the rim
   int back;   ///< quads at its end between the line and the previous edge of the rim
   std::vector<Vec2> path;
   std::vector<double> edges;  ///< length in wanted edges, up to each point of the path
-  double misfit;              ///< sum of squared deviations of its ends from place and direction of the field
+  double misfit;  ///< cost >= 0: sum of squared deviations of its ends from place and direction of the field
 };
 
-/// Lines of a cross field in a piece of a patch.
+/// Tracer of lines of a cross field in a piece of a patch (own method).
 class FieldLines {
  public:
   /// All arguments but `rims` must outlive this object.
@@ -39,7 +39,7 @@ class FieldLines {
   /// Adds the lines from a place: one between each two adjacent quads there, to either end of the edge that
   /// it meets.
   void trace(RimPlace from, std::vector<FieldLine>& lines);
-  /// Returns whether a row of edges between two places meets no rim.
+  /// Returns whether a row of vertices between two places meets no rim on its way.
   bool is_free(RimPlace from, RimPlace to, std::span<const Vec2> row) const;
 
  private:

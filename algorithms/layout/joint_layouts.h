@@ -27,10 +27,10 @@ struct LayoutPatch {
   const CrossField* cross = nullptr;  ///< null: it takes no part, and its curves stay
   const ParametricSize* size = nullptr;
   std::vector<CurveRun> runs = {};  ///< runs of the boundary's edges, in order
-  bool changed = false;
+  bool changed = false;             ///< whether the mesh was replaced
 };
 
-/// A curve whose number of edges may change.
+/// A curve with its number of edges and their least number; it may change if the curve is free.
 struct LayoutCurve {
   int edges, least;
   bool is_free;
@@ -67,7 +67,8 @@ struct Counters<JointLayoutSummary> {
                                          counter("seconds", &S::seconds));
 };
 
-/// Lays out all patches, with one choice of edges on all curves and lines.
+/// Lays out all patches, with one choice of edges on all curves and lines (own method). Returns counts;
+/// changed patches are marked.
 ///
 /// Pieces of layouts are polygons of three to five sides. A grid closes if opposite sides have equal numbers
 /// of edges, and a star if its arms find their feet. These conditions are sums of numbers of edges.

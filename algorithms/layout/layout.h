@@ -16,7 +16,7 @@
 namespace delquad {
 
 struct LayoutOptions {
-  double tolerance = 4;  ///< allowed loss, in quads times eta, for each removed irregular vertex
+  double tolerance = 4;  ///< allowed loss, >= 0, in quads times eta, for each removed irregular vertex
   int pieces = 2000;     ///< limit of examined pieces of a patch
 };
 
@@ -45,11 +45,12 @@ struct Counters<LayoutSummary> {
       counter("irregular", &S::irregular), counter("looks", &S::looks), counter("seconds", &S::seconds));
 };
 
-/// Meshes a patch by a layout. Cuts follow lines of the cross field: first between holes, then from concave
-/// corners, then where needed. Each piece becomes a polygon of two to five corners that a Pattern fills. A
-/// cut ends at vertices of the boundary or other cuts. Its length sets its number of edges, plus or minus one
-/// if a rim is odd. The chosen cuts leave the fewest irregular vertices and the best quads. Pieces without a
-/// worthwhile pattern are meshed by D, B and Q. Relocation comes last.
+/// Meshes a patch by a layout (own method; Pattern as in [reberol2021]). Cuts follow lines of the cross
+/// field: first between holes, then from concave corners, then where needed. Each piece becomes a polygon of
+/// two to five corners that a Pattern fills. A cut ends at vertices of the boundary or other cuts. Its length
+/// sets its number of edges, plus or minus one if a rim is odd. The chosen cuts leave the fewest irregular
+/// vertices and the best quads. Pieces without a worthwhile pattern are meshed by D, B and Q. Relocation
+/// comes last.
 ///
 /// Boundary points keep their places and order. Returns nothing if no layout without flat or inverted quads
 /// was found. The same input gives the same mesh.
@@ -57,7 +58,7 @@ std::optional<QuadPatch> lay_out(const PatchBoundary& boundary, const CrossField
                                  const ParametricSize& size, const LayoutOptions& options = {},
                                  LayoutSummary* summary = nullptr);
 
-/// Whether the choice of pieces keeps the edges of lines and boundary, or pieces set them later.
+/// Choice of pieces: by the edges of lines and boundary, or with edges that are chosen later.
 enum class LayoutEdges { kCounted, kFree };
 
 /// Finds the pieces of a layout, see lay_out(). Returns nothing if there is none. With free edges, a piece
@@ -66,7 +67,7 @@ enum class LayoutEdges { kCounted, kFree };
 std::optional<PatchLayout> find_layout(const PatchBoundary& boundary, const CrossField& cross,
                                        const ParametricSize& size, LayoutEdges edges,
                                        const LayoutOptions& options, LayoutSummary& summary);
-/// Returns the quads of a layout; nothing if some are flat or inverted.
+/// Returns the quads of a layout; nothing if some are flat or inverted, or pieces do not fit together.
 std::optional<QuadPatch> fill_layout(const PatchLayout& layout, const PatchBoundary& boundary,
                                      const CrossField& cross, const ParametricSize& size,
                                      const LayoutOptions& options, LayoutSummary& summary);
@@ -78,14 +79,15 @@ struct PatchScore {
   std::size_t quads = 0;
 
   static PatchScore of(const QuadPatch& mesh, const ParametricSize& size);
-  /// Returns the loss by `now` of the sum of eta - 1.5 * (size deviation), scaled to the same number of
-  /// quads. More failing quads (ElementQuality) add to it.
+  /// Returns the loss from this to `now` of the sum of eta - 1.5 * (size deviation), scaled to the same
+  /// number of quads. More failing quads (ElementQuality) add to it.
   double loss(const PatchScore& now) const;
-  /// Returns whether `now` has no quad below both this eta and the old worst, and no more crowded sides.
+  /// Returns whether `now` has no quad below both this eta, in [0, 1], and the old worst, and no more
+  /// crowding.
   bool keeps_worst(const PatchScore& now, double eta) const;
 };
 
-/// Returns a layout with fewer irregular vertices than the mesh. For each of them its loss
+/// Returns the quads of a layout with fewer irregular vertices than the mesh. For each of them its loss
 /// (PatchScore::loss()) stays below the tolerance. No quad is worse than both kCleanupFloorEta and the old
 /// worst. It examines few pieces. Returns nothing without such a layout.
 std::optional<QuadPatch> more_regular(const QuadPatch& mesh, const PatchBoundary& boundary,

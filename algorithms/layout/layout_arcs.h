@@ -8,12 +8,11 @@
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
 
-// This header has layouts as arcs and pieces. Stages use it.
+// This header has layouts as arcs and pieces. The joint choice of edges uses it.
 
 namespace delquad {
 
-/// A layout as arcs and pieces. An arc is a row of edges between places where lines meet. The joint choice of
-/// edges uses it.
+/// A layout as arcs and pieces. An arc is a row of edges between places where lines meet.
 class LayoutArcs {
  public:
   struct Arc {
@@ -34,7 +33,8 @@ class LayoutArcs {
   const std::vector<Arc>& arcs() const { return arcs_; }
   const std::vector<std::vector<Step>>& pieces() const { return pieces_; }
   const std::vector<std::vector<int>>& of_runs() const { return of_runs_; }  ///< arcs of each run, in order
-  /// Returns the same pieces with these numbers of edges on the arcs, on a boundary that matches them.
+  /// Returns the same pieces with these numbers of edges, at least 1, on the arcs. The boundary must have the
+  /// same numbers on its runs.
   PatchLayout with(std::span<const int> edges, const PatchBoundary& boundary,
                    const ParametricSize& size) const;
 

@@ -17,7 +17,7 @@ struct RimVertex {
 /// The piece lies on the left of its rim. A cut that opens the piece has both sides on the rim.
 using Rim = std::vector<RimVertex>;
 
-/// Vertices of all rims.
+/// Vertices of all rims in the parameter plane, with delta' at each.
 struct LayoutVertices {
   std::vector<Vec2> places;
   std::vector<double> delta;

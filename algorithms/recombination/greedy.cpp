@@ -72,7 +72,8 @@ class Pairing {
     mate_[u] = t;
   }
 
-  /// `search` is the number of a search; each visits a triangle at most once.
+  /// Finds a mate for t by changes of at most `quads` quads. `search` is the number of a search; each visits
+  /// a triangle at most once.
   bool find_mate(int t, int quads, int search) {
     searched_[t] = search;
     for (const int u : pairs_at_[t]) {

@@ -15,8 +15,8 @@ namespace delquad {
 /// Gives the interior sides of a dual graph other costs.
 using AddedCost = std::function<void(const TriPatch& tri, DualGraph& dual)>;
 
-/// Returns the cost that add_merge_cost() added under a name, for a patch; null for "eta". It throws an Error
-/// that names the cost for values outside [0, 3].
+/// Returns the cost that add_merge_cost() added under a known name, for a patch; null for "eta". Throws Error
+/// if its factory returns none. The cost throws Error for values outside [0, 3].
 AddedCost added_cost(const std::string& name, const StageInput& in);
 
 }  // namespace delquad

@@ -42,7 +42,7 @@ struct Counters<RecombineSummary> {
 };
 
 /// Merges the triangles of a patch in pairs by a perfect matching of minimum cost on the dual graph
-/// (Blossom-Quad, Remacle et al. 2011). The cost is 1 - eta, or `cost` unless it is null; reflex quads cost
+/// (Blossom-Quad [remacle2012blossom]). The cost is 1 - eta, or `cost` unless it is null; reflex quads cost
 /// more than convex ones.
 ///
 /// An even boundary gives quads only. An odd one leaves one triangle in each odd component, whose absence
@@ -50,17 +50,18 @@ struct Counters<RecombineSummary> {
 /// the worst quad, and from cut spanning sides. The number of quads is half the triangles, plus one for each
 /// duplication and each cut spanning side.
 ///
-/// The paper takes a perfect matching from the theorem on cubic graphs without bridges. But a triangle on the
-/// boundary has degree four, and the graph may have no such matching (18 points on a circle suffice). Then
-/// every spanning side (an interior side between two boundary points) is cut in two, and a perfect matching
-/// exists. The proof is by Tutte. No triangle has two boundary sides, so the extra edges link the triangles
-/// of each boundary loop to a cycle. Let S be a set of s1 triangles with a boundary side and s3 without. Its
-/// removal leaves at least s1 + s3 + 2 odd components and cuts the cycles into r runs. A component without
-/// boundary sides has at least three edges to S. The others have four a run: two along the cycle, and two
-/// because other paths between boundary points have two edges. There are at most r of them. S has 4 s1 + 3 s3
-/// edge ends, and 2 (s1 - r) lead along a cycle to S itself. So 3 (s1 + s3 + 2 - r) + 4 r <= 2 s1 + 3 s3 + 2
-/// r, that is s1 + 6 <= r. But each run ends at another triangle of S, hence r <= s1. With an odd number of
-/// triangles the bound allows one more odd component, which gives the leftover.
+/// The source derives a perfect matching from the theorem on cubic graphs without bridges. But a triangle on
+/// the boundary has degree four, and the graph may have no such matching (18 points on a circle suffice).
+/// Then every spanning side (an interior side between two boundary points) is cut in two, and a perfect
+/// matching exists. The proof is own, by [tutte1947]. No triangle has two boundary sides, so the extra edges
+/// link the triangles of each boundary loop to a cycle. Let S be a set of s1 triangles with a boundary side
+/// and s3 without. Its removal leaves at least s1 + s3 + 2 odd components and cuts the cycles into r runs. A
+/// component without boundary sides has at least three edges to S. The others have four a run: two along the
+/// cycle, and two because other paths between boundary points have two edges. There are at most r of them. S
+/// has 4 s1 + 3 s3 edge ends, and 2 (s1 - r) lead along a cycle to S itself. So 3 (s1 + s3 + 2 - r) + 4 r <=
+/// 2 s1 + 3 s3 + 2 r, that is s1 + 6 <= r. But each run ends at another triangle of S, hence r <= s1. With an
+/// odd number of triangles the bound allows one more odd component, which gives the leftover. Throws
+/// std::logic_error if `solver` finds no perfect matching even so.
 QuadPatch recombine(const TriPatch& tri, const MatchingSolver& solver, RecombineSummary* summary = nullptr,
                     long long extra_edge_cost = kExtraEdgeCost, const AddedCost& cost = nullptr);
 
@@ -70,15 +71,15 @@ int split_spanning_sides(TriPatch& tri);
 
 /// Options of greedy merging.
 struct GreedyOptions {
-  double least_eta = 0.1;     ///< least eta of a merged quad, above 0
+  double least_eta = 0.1;     ///< least eta of a merged quad, above 0, up to 1
   bool longest_side = false;  ///< merge only across a side that is the longest of both triangles
-  /// Limit of quads that change so that a leftover triangle gets a partner. It takes a triangle of a quad,
-  /// and the other triangle finds a new one.
+  /// Limit, >= 0, of quads that change so that a leftover triangle gets a partner. It takes a triangle of a
+  /// quad, and the other triangle finds a new one.
   int exchanges = 3;
 };
 
-/// Merges pairs of triangles by the eta of the quads, best first; exchanges follow [borouchaki1998].
-/// Triangles without a partner stay. Points do not change.
+/// Merges pairs of triangles by the eta of the quads, best first [borouchaki1998]; exchanges follow (own
+/// guess). Triangles without a partner stay. Points do not change.
 QuadPatch recombine_greedily(const TriPatch& tri, const GreedyOptions& options = {},
                              RecombineSummary* summary = nullptr);
 
@@ -99,9 +100,9 @@ struct BoundaryRepairSummary {
 /// all three by (b, p, q, m) and (b, m, r, s). Duplication of the boundary point b is always possible. A new
 /// interior point b' replaces b in all elements between, and the ends become (b, p, q, b') and (b, b', r, s).
 /// Duplication is chosen if its worst quad is clearly better. Each b' is placed where its worst element is
-/// best [Remacle et al. 2011, section 4].
+/// best [remacle2012blossom, section 4].
 ///
-/// The paper swaps whenever possible, and leaves the place of b' open.
+/// The source swaps whenever possible, and leaves the place of b' open.
 BoundaryRepairSummary repair_fans(QuadPatch& mesh, const std::vector<FanEnds>& pairs);
 
 }  // namespace delquad

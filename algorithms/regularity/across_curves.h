@@ -27,13 +27,13 @@ struct PatchAtCurves {
   QuadPatch mesh;
   const ParametricSize* size = nullptr;  ///< null: it takes no part
   std::vector<CurveEdge> edges;          ///< edge from each boundary point to the next of its loop
-  bool changed = false;
+  bool changed = false;                  ///< whether the mesh was changed
 };
 
 /// Patches that share curves.
 struct CurveNetwork {
   std::vector<PatchAtCurves> patches;
-  std::vector<std::vector<double>> nodes;  ///< parameters of the nodes of each curve, ascending
+  std::vector<std::vector<double>> nodes;  ///< parameters of each curve's nodes, ascending
   /// The two distinct patches at each curve; negative: its nodes stay.
   std::vector<std::array<int, 2>> sides;
   std::function<Vec2(int patch, int curve, double place)> at;  ///< point of a curve in the plane of the patch
@@ -58,7 +58,8 @@ struct Counters<AcrossCurvesSummary> {
                  counter("patches", &S::patches), counter("seconds", &S::seconds));
 };
 
-/// Runs make_regular() across curves, which keep their shape.
+/// Runs make_regular() across curves, which keep their shape (own method). Returns counts; changed patches
+/// are marked.
 ///
 /// A curve cuts a cavity into a polygon on each side, and both share a stretch of the curve. The stretch may
 /// gain or lose two or four edges. If all polygons then have patterns with fewer irregular vertices in total

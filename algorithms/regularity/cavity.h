@@ -31,11 +31,11 @@ class Cavity {
   /// Both must outlive this object.
   Cavity(const QuadTopology& mesh, const ValenceEnergy& energy) : mesh_(mesh), energy_(energy) {}
 
-  /// Empties the cavity, and limits it to `most` quads.
+  /// Empties the cavity, and limits it to `most` > 0 quads.
   void begin(int most);
 
-  /// Returns false, here and below, if the set would have a triangle, a held vertex or too many quads. It
-  /// cannot become a cavity then.
+  /// Adds an element. Returns false, here and below, if the set would have a triangle, a held vertex or too
+  /// many quads. It cannot become a cavity then.
   bool add(int element);
 
   bool add_around(int vertex) {
@@ -51,10 +51,12 @@ class Cavity {
   std::span<const int> elements() const { return elements_; }
   /// Returns all vertices, rim included.
   std::span<const int> vertices() const { return vertices_; }
-  /// For a closed cavity: half-edges of the rim counterclockwise, and 2 - (wanted quads) at their origins.
+  /// Return, for a closed cavity, the half-edges of the rim counterclockwise, and 2 - (wanted quads) at their
+  /// origins.
   std::span<const int> rim() const { return rim_; }
   std::span<const int> turns() const { return turns_; }
   int corners() const { return corners_; }
+  /// Returns whether all quads at a vertex are in the cavity, and it is not on the boundary of the mesh.
   bool is_inside(int vertex) const {
     return !mesh_.on_boundary(vertex) && quads_at(vertex) == mesh_.valence(vertex);
   }
@@ -92,13 +94,13 @@ class Cavity {
   int corners_ = 0;  ///< sum of the turns
 };
 
-/// Number of near irregular vertices that make cavities with one, and searched vertices for each quad that a
+/// Most near irregular vertices that make cavities with one, and most searched vertices for each quad that a
 /// cavity may have. With 5, a quarter more cavities on the plate of 16 holes bring nothing.
 inline constexpr std::size_t kNear = 4, kMostMet = 3;
 /// Limit of rings of quads that a cavity adds until it has a pattern.
 inline constexpr int kMostRings = 2;
 
-/// Search that grows cavities of a mesh.
+/// Search that grows cavities of a mesh (own, after the cavities of [reberol2021]).
 class CavitySearch {
  public:
   /// Both must outlive this object.

@@ -119,7 +119,7 @@ bool settle(std::span<FillTrial> trials, double allowed, int more_failing, doubl
     if (sweep > 2 && is_stuck) break;
     last_loss = loss;
   }
-  // A corner gets no better where more may be lost.
+  // A larger allowed loss would not make a corner better.
   if (loss <= allowed) loss = std::numeric_limits<double>::infinity();
   return false;
 }

@@ -14,16 +14,18 @@
 
 namespace delquad {
 
-/// Limits of a round: loss for each removed irregular vertex, and quads of its cavities.
+/// Return the limits of a round, from 0: loss, and quads of cavities, for each removed irregular vertex.
 double tolerance_of(const RegularityOptions& options, int round);
 double quads_per_gain_of(const RegularityOptions& options, int round);
-/// Returns the rank of a cavity; lower ones are tried first. `left` counts irregular vertices of its pattern.
+/// Returns the rank of a cavity of so many quads; lower ones are tried first. `left` counts irregular
+/// vertices of its pattern, `gain` > 0 removed ones.
 double promise_of(double quads, int left, int gain);
 /// Limit of tried cavities of a vertex in a round; a third one brings nothing.
 inline constexpr int kMostTrials = 2;
 
-/// Sets the limits of relocation in stage Q. Relocates all active vertices at the end, and returns the moves.
+/// Sets the limits of relocation in stage Q.
 void limit_relocation(QuadRelocation& relocation);
+/// Relocates all active vertices at the end. Returns the number of moves.
 long long relax_at_last(QuadRelocation& relocation);
 
 /// Moving vertices and quality of the elements around them when a cavity is filled.
@@ -34,17 +36,20 @@ class FillTrial {
     double least_sine = 1;
     int failing = 0, thin = 0;
     double crowding = 0;
-    int n = 0;
+    int n = 0;  ///< number of elements
   };
 
   /// Both must outlive this object.
   FillTrial(const QuadTopology& mesh, QuadRelocation& relocation) : mesh_(mesh), relocation_(relocation) {}
 
-  /// Collects vertices of the rim and of quads around it; vertices inside differ before and after.
+  /// Sets the region to vertices of the rim and of quads around it; vertices inside differ before and after.
   void collect_region(const Cavity& cavity);
+  /// Collects the elements around the region, for quality().
   void collect_elements();
   void measure_before();
+  /// Returns the quality of the collected elements.
   Quality quality() const;
+  /// Relocates each vertex of the region once.
   void sweep();
 
   std::vector<int> region;  ///< moving vertices
@@ -57,8 +62,9 @@ class FillTrial {
   Marks elements_met_, vertices_met_;
 };
 
-/// Relocates cavities that are filled together. Returns whether the loss of their mean falls to `allowed`,
-/// with at most `more_failing` more failing quads. `tried` grows unless that holds from the start.
+/// Relocates cavities that are filled together. Returns whether the loss of mean quality falls to `allowed`,
+/// with at most `more_failing` more failing quads. `loss` gets the loss; infinity if corners fail at an
+/// allowed loss. `tried` grows unless the start suffices.
 bool settle(std::span<FillTrial> trials, double allowed, int more_failing, double& loss, long long& tried);
 
 }  // namespace delquad

@@ -14,15 +14,15 @@
 #include "algorithms/regularity/fill_trial.h"
 #include "algorithms/regularity/patch_work.h"
 
-/// This header fills cavities on a copy beside their patch, and puts fills in place. Stage Q across curves
-/// uses it.
+// This header fills cavities on a copy beside their patch, and puts fills in place. Stage Q across curves
+// uses it.
 
 namespace delquad::across {
 
 /// Rings of quads around changed polygons and curves that are relocated.
 inline constexpr int kMovedRings = 2;
 
-/// A cavity filled on its own mesh, with the elements around all moving vertices.
+/// A cavity filled on its own mesh, in the plane of its patch, with the elements around all moving vertices.
 class LocalFill {
  public:
   /// Throws std::invalid_argument if two vertices would share a second edge.
@@ -49,11 +49,11 @@ class LocalFill {
 
   std::optional<QuadTopology> mesh;
   std::optional<QuadRelocation> relocation;
-  std::vector<int> global;  ///< vertex of the patch for each vertex here; negative: new
-  std::vector<int> corner;  ///< vertex here for each vertex of the rim
-  std::vector<int> region;
-  FillTrial::Quality before;  ///< quality before the fill
-  int first_fill = 0, n_fill = 0;
+  std::vector<int> global;         ///< vertex of the patch for each vertex here; negative: new
+  std::vector<int> corner;         ///< vertex here for each vertex of the rim
+  std::vector<int> region;         ///< moving vertices
+  FillTrial::Quality before;       ///< quality before the fill
+  int first_fill = 0, n_fill = 0;  ///< first quad of the fill, and its number of quads
 
  private:
   void find_moving() {
@@ -136,7 +136,7 @@ class LocalFill {
   QuadPatch local_;
 };
 
-/// Moves a fill into its patch; boundary points keep their order.
+/// Moves a fill into its patch when finish() is called; boundary points keep their order.
 class FillTaking {
  public:
   FillTaking(PatchWork& work, const Cavity& cavity, const LocalFill& fill, const Rim& rim)

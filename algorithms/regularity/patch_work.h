@@ -20,18 +20,19 @@
 #include "algorithms/regularity/polygon_sides.h"
 #include "smoothing/relocation/quad_relocation.h"
 
-/// This header has the state of patches and curves during make_regular_across_curves(). Its visits use it.
+// This header has the state of patches and curves during make_regular_across_curves(). Its visits use it.
 
 namespace delquad::across {
 
-/// A stretch of a curve between two nodes that gets `by` more edges. Nodes between `from` and `to` move to
-/// make space.
+/// A stretch of a curve between nodes `low` and `high` that gets `by` more edges, or fewer if negative. Nodes
+/// between `from` and `to` move to make space.
 struct Change {
   int curve, low, high, by;
   int from = 0, to = 0;
-  int side = 0;                                 ///< its side of a simple polygon
+  int side = 0;  ///< its side of a simple polygon
+  /// Returns the final number of edges between `from` and `to`.
   int edges() const { return to - from + by; }  ///< final edges between `from` and `to`
-  /// Returns the index of a fixed node among the nodes from `from` on.
+  /// Returns the new index, counted from `from`, of a node that stays.
   int index(int k) const { return k - from + (k < high ? 0 : by); }
   bool moves(int k) const { return (from < k && k <= low) || (high <= k && k < to); }
 };
@@ -96,6 +97,7 @@ class PatchWork {
     const auto [first, n] = first_.at(curve);
     return patch.edges[first].forward ? first + k : first + n - 1 - k;
   }
+  /// Returns the boundary point at the curve's k-th node in this patch.
   int node_point(int curve, int k) const {
     const auto [first, n] = first_.at(curve);
     if (patch.edges[first].forward) return k < n ? first + k : mesh.target(mesh.out(first + n - 1));

@@ -19,8 +19,9 @@ struct Outline {
   std::vector<int> turn;  ///< 2 - (quads inside, at the vertex): 1 at a corner, 0 on a side, -1 if concave
 };
 
-/// A mesh of a polygon with few irregular vertices. Rim vertices get the quads that they want, and inner
-/// vertices have four, except a few with three or five. Without concave vertices, N corners give:
+/// A mesh of a polygon with few irregular vertices, after the patterns of [reberol2021]; corner grids and
+/// cuts are own. Rim vertices get the quads that they want, and inner vertices have four, except a few with
+/// three or five. Without concave vertices, N corners give:
 ///
 /// | N = 4, opposite sides alike: none, a grid | N = 3: one of three | N = 5: one of five |
 /// | N = 4 otherwise: one of three, one of five | N = 2: two of three | N > 5: N - 4 of five |
@@ -46,8 +47,8 @@ struct Pattern {
 /// Returns the number of irregular vertices of a pattern.
 int irregular_vertices(const Pattern& pattern);
 
-/// Returns the pattern with the fewest irregular vertices, at most `most`, and then the least strain. `most`
-/// has no other effect. Only cuts with the least own strain are tried.
+/// Returns the pattern with the fewest irregular vertices, at most `most`, and then the least strain; nothing
+/// if there is none. `most` has no other effect. Only cuts with the least own strain are tried.
 std::optional<Pattern> best_pattern(const Outline& outline, int most);
 
 struct PatternMesh {
@@ -55,14 +56,15 @@ struct PatternMesh {
   std::vector<std::array<int, 4>> quads;  ///< counterclockwise
 };
 
-/// Meshes a pattern. Lines from irregular vertices to the rim are straight; blocks between lines are Coons
-/// patches.
+/// Returns the mesh of a pattern of this outline. Lines from irregular vertices to the rim are straight;
+/// blocks between lines are Coons patches [coons1967].
 PatternMesh mesh_pattern(const Outline& outline, const Pattern& pattern);
 
 /// Returns the strain of a row of edges between two places: (edges) * log^2(length / wanted length).
 double strain_of(Vec2 a, Vec2 b, int edges, double delta);
 
-/// Returns the pattern without cuts of least strain, for an outline without concave vertices.
+/// Returns the pattern without cuts of least strain, for an outline without concave vertices and its sides;
+/// nothing if there is none.
 std::optional<Pattern> best_convex(const Outline& outline, const PolygonSides& sides);
 
 }  // namespace delquad

@@ -28,10 +28,11 @@ std::optional<std::array<int, 5>> star_feet(std::span<const int> sides);
 /// on the previous side. The new side comes first, then the rest of side `at`, and so on.
 std::array<int, 5> sides_without_corner(std::span<const int> sides, int at, int along, int back);
 
-/// Range of grids in a corner of a polygon of two or four sides that leave a star.
+/// Range of grids in a corner of a polygon that may leave a star; empty if a least number exceeds a most.
 struct CornerGrids {
   int least_along = 1, least_back = 1, most_along = 0, most_back = 0;
 };
+/// Returns the range at the corner before side `at`, for two or four sides.
 CornerGrids corner_grids(std::span<const int> sides, int at);
 
 /// Calls `f(at, along, back, remaining sides, feet of their star)` for all such grids of a polygon of two or

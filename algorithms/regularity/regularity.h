@@ -12,7 +12,7 @@
 namespace delquad {
 
 struct RegularityOptions {
-  double tolerance = 3;  ///< allowed loss for each removed irregular vertex in the last round; 0 in the first
+  double tolerance = 3;  ///< loss >= 0 for each removed irregular vertex in the last round; 0 in the first
   int quads = 200;       ///< most quads of a cavity
   int rounds = 3;        ///< rounds in which the tolerance grows
   double weight = 1;     ///< factor for the tolerances of all stages
@@ -48,7 +48,7 @@ struct Counters<RegularitySummary> {
 };
 
 /// Removes irregular vertices that clean_up() leaves: pairs of valences 3 and 5 that no edit of a few quads
-/// removes.
+/// removes. The idea of cavities is from [reberol2021], their growth and patterns are own.
 ///
 /// Cavities grow around every irregular vertex, and from there to the nearest others. They add quads at
 /// concave places of the rim until each rim vertex wants one quad inside (a corner) or two. The rim is then a

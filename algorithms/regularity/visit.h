@@ -20,7 +20,7 @@ struct Filled {
   std::unique_ptr<LocalFill> fill;
 };
 
-/// Results of a visit of a vertex. They are valid as long as the examined patches do not change.
+/// Results of a visit of a vertex, valid as long as the patches in `looked_at` do not change.
 struct Visited {
   std::vector<int> looked_at;
   std::vector<std::uint64_t> lost;  ///< tried candidates

@@ -25,9 +25,9 @@ class ShapePenalty {
   ShapePenalty(const QuadTopology& mesh, const QuadRelocation& relocation)
       : mesh_(mesh), relocation_(relocation) {}
 
-  /// Returns the penalty of elements around the vertices; dead vertices are skipped. It sums up (lack of sine
-  /// / wanted sine)^3 over corners, so one flat corner outweighs several poor ones. An element of eta 0 adds
-  /// more than any number of others.
+  /// Returns the penalty >= 0 of elements around the vertices; dead vertices are skipped. It sums up (lack of
+  /// sine / wanted sine)^3 over corners, so one flat corner outweighs several poor ones. An element of eta 0
+  /// adds more than any number of others.
   double around(std::span<const int> vertices);
   /// Returns the number of examined elements.
   long long looks() const { return looks_; }
@@ -39,20 +39,21 @@ class ShapePenalty {
   long long looks_ = 0;
 };
 
-/// The last resort for a bad quad. It tries every edit of the quad and its neighbors, up to a ring of new
-/// quads around the neighborhood. Each edit is followed by untangling of a few rings, and the best one is
-/// kept. The work of all attempts together is linear in the size of the mesh, which a mesh of only bad quads
-/// exhausts.
+/// The last resort for a bad quad (own method). It tries every edit of the quad and its neighbors, up to a
+/// ring of new quads around the neighborhood. Each edit is followed by untangling of a few rings, and the
+/// best one is kept. The work of all attempts together is linear in the size of the mesh, which a mesh of
+/// only bad quads exhausts.
 class LocalRemeshing {
  public:
   /// All must outlive this object.
   LocalRemeshing(QuadTopology& mesh, QuadRelocation& relocation, ShapePenalty& penalty);
 
-  /// Returns whether the penalty around the quad fell by at least `least_relief`. The edit is not committed;
-  /// touched() has the vertices around it.
+  /// Returns whether the penalty around the quad fell by at least `least_relief` > 0. The edit is not
+  /// committed; touched() has the vertices around it.
   bool improve(int quad, double least_relief);
   std::span<const int> touched() const { return region_; }
-  /// For the last improvement: quads of its ring, else its move, which may be none (`at` negative).
+  /// Return, for the last improvement, the number of quads of its ring, or else its move, which may be none
+  /// (`at` negative).
   int ring_quads() const { return ring_quads_; }
   const TreatmentMove& move() const { return move_; }
 

@@ -81,7 +81,8 @@ class TreatmentProcess {
     return drain();
   }
 
-  /// The loop ends: it passes elements once, new ones included, and new ones need a fall of energy.
+  /// Returns the number of changes. The loop ends: it passes elements once, new ones included, and new ones
+  /// need a fall of energy.
   int paired_moves() {
     int changes = 0;
     pending_.resize(mesh_.element_slots(), 1);
@@ -149,7 +150,8 @@ class TreatmentProcess {
     for_each_opening(mesh_, element, push);
   }
 
-  /// The loop ends: each kept move lowers the valence energy and queues only moves around it.
+  /// Tries queued moves. The loop ends: each kept move lowers the valence energy and queues only moves around
+  /// it.
   int drain() {
     int changes = 0;
     while (const auto move = queue_.pop())

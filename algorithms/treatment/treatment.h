@@ -16,7 +16,7 @@ namespace delquad {
 struct TreatmentOptions {
   int max_rounds = 20;    ///< most rounds of topology and relocation; a round without changes of topology is
                           ///< the last
-  double settled = 0.02;  ///< in the end, vertices rest below moves of this part of an edge
+  double settled = 0.02;  ///< in the end, vertices rest below moves of this part of an edge, > 0
 };
 
 struct TreatmentSummary {
@@ -45,10 +45,10 @@ struct Counters<TreatmentSummary> {
       counter("seconds", &S::seconds));
 };
 
-/// Applies the treatment that the paper's tables include [Remacle et al. 2012, section 7; its Blossom-Quad]:
+/// Applies the treatment that the tables of [remacle2013, section 7] include, as in [remacle2012blossom]:
 /// doublets, diamonds, swaps of poor pairs, relocation.
 ///
-/// Differences from the paper:
+/// Differences from these sources:
 /// - Edits are chosen by the decrease of the sum of (valence - ideal)^2, largest first. Boundary vertices
 ///   have their own ideal. Two edits may be tried together if the first alone gains nothing.
 /// - An edit is kept only if, after local relocation, the elements around are not poorer (eta below 0.3).

@@ -33,11 +33,11 @@ struct TreatmentMove {
   friend auto operator<=>(const TreatmentMove&, const TreatmentMove&) = default;
 };
 
-/// Returns the limit of examined elements, by relocation and measures of quality, for moves on a patch of n
+/// Returns the limit of elements that relocation and measures of quality examine, for moves on a patch of n
 /// elements. Some hundred for each are usual. At a vertex of n elements the work grows with the cube of n.
 constexpr long long most_looks(int n) { return 100'000 + 10'000LL * n; }
 
-/// Vertices that a move touches.
+/// Vertices that a move touches, at most six.
 struct TouchedVertices {
   std::array<int, 6> v;
   int n = 0;
@@ -53,6 +53,7 @@ class ValenceEnergy {
  public:
   explicit ValenceEnergy(const QuadTopology& mesh);
 
+  /// Returns the term of v with this valence, 0 if it is regular.
   int of(int v, int valence) const {
     if (mesh_.on_boundary(v)) return misfit(valence, ideal_[v]);
     return static_cast<std::size_t>(valence) < inside_.size() ? inside_[valence] : misfit(valence, kInside);
@@ -60,7 +61,7 @@ class ValenceEnergy {
   int of(int v) const { return of(v, mesh_.valence(v)); }
   /// Returns the ideal valence.
   int ideal(int v) const { return mesh_.on_boundary(v) ? ideal_[v].valence : kInside.valence; }
-  /// Returns the decrease of the sum by a move. It is not defined for insets.
+  /// Returns the decrease of the sum by a legal move that is no inset.
   int gain(const TreatmentMove& move) const;
 
  private:
@@ -86,9 +87,11 @@ class ValenceEnergy {
 /// fills.
 bool ring_divides_sharp_corner(const QuadTopology& mesh, std::span<const int> quads);
 
+/// Returns whether a move keeps the mesh conforming and disturbs no held vertex.
 bool is_legal(const QuadTopology& mesh, const TreatmentMove& move);
+/// Applies a legal move; new vertices lie at or near old ones.
 void apply(QuadTopology& mesh, const TreatmentMove& move);
-/// Applies a move; new vertices can then be relocated, and are added to `touched`.
+/// Does the same, and adds new vertices to the relocation and to `touched`.
 void apply(QuadTopology& mesh, QuadRelocation& relocation, const TreatmentMove& move,
            std::vector<int>& touched);
 /// Returns the vertices whose valence or elements the move changes, without removed and new ones.

@@ -38,9 +38,10 @@ struct ClosureSum {
 
 /// Lowers the sum of all costs by two kinds of changes. A change by one follows a closed chain of curves and
 /// patches, so each patch keeps its parity (the outside is one more patch). A change by two follows an open
-/// chain. A search from a curve finds the cheapest ones [as in bidirected flow], and several in a row may
-/// bring a sum to zero. The result is a local minimum, or unfinished if all `steps` are spent: one for each
-/// examined curve. A search examines at most `most_looks` patches. The same input gives the same numbers.
+/// chain. A search from a curve finds the cheapest ones, as in bidirected flow [heistermann2023], and several
+/// in a row may bring a sum to zero. The search is own. The result is a local minimum, or unfinished if all
+/// `steps` are spent: one for each examined curve. A search examines at most `most_looks` patches. `counts`
+/// has the numbers by curve, each at least 1, and is changed.
 void agree_counts(const std::vector<AgreeingCurve>& curves, int n_patches,
                   const std::vector<ClosureSum>& sums, Budget& steps, std::vector<int>& counts,
                   int most_looks = 2000);
@@ -61,7 +62,7 @@ struct TJoin {
 };
 
 /// Returns the cheapest set of edges in which exactly the terminals have odd degree [edmonds1973]. Shortest
-/// paths between terminals are matched at minimum cost. `terminals` are distinct nodes.
+/// paths between terminals are matched at minimum cost, to about nine digits. `terminals` are distinct nodes.
 TJoin minimum_t_join(const WeightedGraph& graph, const std::vector<int>& terminals,
                      const MatchingSolver& solver);
 
@@ -90,8 +91,9 @@ struct UnbalancedFace {
 
 /// Changes numbers of edges until all faces meet their conditions. Changes by one follow the cheapest chains
 /// of faces; each costs |log(n / ideal)|. Then curves of mapped faces change by one, with the cheapest chains
-/// that compensate, as long as the sum of log^2(n / ideal) falls. [It is a network of bidirected flow; the
-/// sum is usually the least, but not always.] Returns the faces without a solution.
+/// that compensate, as long as the sum of log^2(n / ideal) falls. It is a network of bidirected flow
+/// [heistermann2023] with an own search; the sum is usually the least, but not always. Returns the faces
+/// without a solution.
 std::vector<UnbalancedFace> balance_counts(std::vector<CountedCurve>& curves,
                                            const std::vector<CountedFace>& faces);
 

@@ -58,7 +58,7 @@ class LemonSolver final : public MatchingSolver {
  public:
   std::string name() const override { return "lemon"; }
 
-  /// LEMON cannot be interrupted: cancellation waits for its end.
+  /// Solves by LEMON, which cannot be interrupted: cancellation waits for its end.
   MatchingResult solve(const MatchingGraph& graph) const override {
     check_cancelled();
     const std::size_t needed = kStackPerNode * static_cast<std::size_t>(graph.n_nodes);

@@ -15,8 +15,8 @@
 #include "base/parallel_collect.h"
 #include "base/sort_unique.h"
 
-/// This header has the part of the search that grows, ends and stops trees, and its levels. The primal-dual
-/// solver uses it.
+// This header has the part of the search that grows, ends and stops trees, and its levels. The primal-dual
+// solver uses it.
 
 namespace delquad {
 
@@ -44,6 +44,7 @@ void PrimalDualSearch<Value, Cost>::meet(int v, int w) {
   settle();
 }
 
+/// Adds the container of w as odd and its mate as even to the tree of v.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::grow(int v, int w) {
   const int d = s_.nodes[w].container, tree = s_.nodes[s_.nodes[v].container].tree;
@@ -121,6 +122,7 @@ void PrimalDualSearch<Value, Cost>::dissolve(int tree) {
   }
 }
 
+/// Looks again at containers whose events were dropped while they were odd.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::notice_missed() {
   for (const int c : missed_) {
@@ -144,6 +146,7 @@ void PrimalDualSearch<Value, Cost>::settle() {
   }
 }
 
+/// Dissolves the trees that stopped.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::release_all() {
   for (const auto& [tree, birth] : stopped_) {
@@ -153,6 +156,7 @@ void PrimalDualSearch<Value, Cost>::release_all() {
   settle();
 }
 
+/// Replaces the range's roots by a node of each container that is still free.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::leave_free_ones() {
   std::vector<int>& roots = range_->roots;
@@ -174,8 +178,6 @@ void PrimalDualSearch<Value, Cost>::find_witness() {
     if (s_.nodes[s_.nodes[v].container].rate < 0) range_->witness.push_back(v);
   }
 }
-
-/// The part of the search that makes and opens blossoms.
 
 /// Contracts the odd cycle of a tight edge between v and w, both even and in one tree.
 template <class Value, class Cost>
@@ -408,6 +410,7 @@ SearchOutcome PrimalDualLevels<Value, Cost>::run(bool park, int modulus) {
   }
 }
 
+/// Returns whether a node has a neighbor outside its range of this length.
 template <class Value, class Cost>
 bool PrimalDualLevels<Value, Cost>::has_arc_out(int v, long long range) const {
   const auto* const arcs = s_.arcs_of(s_.nodes[v]);
@@ -416,6 +419,7 @@ bool PrimalDualLevels<Value, Cost>::has_arc_out(int v, long long range) const {
                      [&](const auto& arc) { return arc.to < begin || arc.to >= begin + range; });
 }
 
+/// Lists the nodes with neighbors outside their smallest range.
 template <class Value, class Cost>
 void PrimalDualLevels<Value, Cost>::note_border() {
   border_ = parallel_collect<int>(s_.nodes.size(),
@@ -427,6 +431,7 @@ void PrimalDualLevels<Value, Cost>::note_border() {
                                   });
 }
 
+/// Returns the limit of a node's total, so that no slack to other ranges becomes negative.
 template <class Value, class Cost>
 Value PrimalDualLevels<Value, Cost>::cap(int v, long long range) const {
   Value least = limit_;
@@ -444,6 +449,7 @@ Value PrimalDualLevels<Value, Cost>::cap(int v, long long range) const {
   return mine + least;
 }
 
+/// Returns the ranges of this length that have free nodes.
 template <class Value, class Cost>
 std::vector<SearchRange<Value>> PrimalDualLevels<Value, Cost>::ranges_with_roots(long long length) const {
   std::vector<SearchRange<Value>> ranges;
@@ -458,6 +464,7 @@ std::vector<SearchRange<Value>> PrimalDualLevels<Value, Cost>::ranges_with_roots
   return ranges;
 }
 
+/// Gives each range its border; `border` has the storage.
 template <class Value, class Cost>
 void PrimalDualLevels<Value, Cost>::give_borders(long long length, std::vector<SearchRange<Value>>& ranges,
                                                  std::vector<Border>& border) const {
@@ -471,6 +478,7 @@ void PrimalDualLevels<Value, Cost>::give_borders(long long length, std::vector<S
   }
 }
 
+/// Searches a range, with an idle search if there is one.
 template <class Value, class Cost>
 void PrimalDualLevels<Value, Cost>::search(SearchRange<Value>& range, bool park, int modulus) {
   std::unique_ptr<Search> search;
@@ -487,6 +495,7 @@ void PrimalDualLevels<Value, Cost>::search(SearchRange<Value>& range, bool park,
   idle_.push_back(std::move(search));
 }
 
+/// Combines the results of all ranges, in order.
 template <class Value, class Cost>
 SearchOutcome PrimalDualLevels<Value, Cost>::collect(std::vector<SearchRange<Value>>& ranges) {
   s_.free_nodes.clear();

@@ -16,8 +16,8 @@
 
 namespace delquad {
 
-/// Queue of events by time, and by insertion for equal times. Times are >= 0 and never before the last popped
-/// event, so an event moves at most once for each bit of its time.
+/// Queue of events by time, and by insertion for equal times: a radix heap. Times are >= 0 and never before
+/// the last popped event, so an event moves at most once for each bit of its time.
 template <class Time>
 class RadixQueue {
  public:
@@ -180,7 +180,8 @@ struct BorderNode {
 template <class Value>
 struct SearchRange {
   int begin = 0, end = 0;
-  /// A node in each container to start from, ascending; after the search, in each free one.
+  /// A node in each container to start from, ascending. The search replaces them by a node in each free
+  /// container.
   std::vector<int> roots = {};
   std::span<const BorderNode<Value>> border = {};  ///< ascending
   SearchOutcome outcome = SearchOutcome::kDone;
@@ -341,6 +342,7 @@ Value PrimalDualSearch<Value, Cost>::room(int v) const {
   return at->cap - total(v);
 }
 
+/// Stops the tree of a node at the border whose total has reached its limit.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::reach_border(int v) {
   const Node& node = s_.nodes[s_.nodes[v].container];
@@ -350,6 +352,7 @@ void PrimalDualSearch<Value, Cost>::reach_border(int v) {
   stop(node.tree);
 }
 
+/// Starts a tree at a root, unless its container was matched meanwhile.
 template <class Value, class Cost>
 void PrimalDualSearch<Value, Cost>::start(int v) {
   --waiting_;

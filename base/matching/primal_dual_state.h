@@ -149,6 +149,7 @@ struct PrimalDualState {
 
   bool matched(int container) const { return nodes[nodes[container].base].mate >= 0; }
 
+  /// Matches two nodes, and their containers by them.
   void match(int a, int b) {
     nodes[nodes[a].container].base = a;
     nodes[nodes[b].container].base = b;
@@ -177,9 +178,10 @@ struct PrimalDualState {
     each_in_list(blossoms[b].first, blossoms[b].last, f);
   }
 
-  /// Returns the total, which is valid while no search runs.
+  /// Returns the total of a node, which is valid while no search runs.
   Value total(int v) const { return nodes[v].value + nodes[nodes[v].container].offset; }
 
+  /// Returns whether all nodes of a container are in a range; hubs are in the range of all nodes only.
   bool inside(int container, int begin, int end) const {
     const int b = nodes[container].blossom;
     if (b >= 0) return blossoms[b].lowest >= begin && blossoms[b].highest < end;

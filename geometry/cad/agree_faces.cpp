@@ -30,7 +30,7 @@ void turn(Mesh& mesh, const std::vector<char>& turned) {
     if (turned[mesh.triangle_region[t]]) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
 }
 
-/// The triangles of each face.
+/// Returns the triangles of each face.
 std::vector<std::vector<int>> triangles_by_face(const Mesh& mesh) {
   std::vector<std::vector<int>> of(mesh.regions.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -38,7 +38,7 @@ std::vector<std::vector<int>> triangles_by_face(const Mesh& mesh) {
   return of;
 }
 
-/// Some triangles of a mesh, with the points that they use.
+/// Returns some triangles of a mesh, with their points.
 Mesh part_of(const Mesh& mesh, const std::vector<int>& triangles) {
   Mesh part;
   std::vector<int> used;
@@ -52,7 +52,7 @@ Mesh part_of(const Mesh& mesh, const std::vector<int>& triangles) {
   return part;
 }
 
-/// Six times the volume that closed triangles enclose; nothing when they are not closed.
+/// Returns six times the volume that triangles enclose; nothing if they are not closed.
 double volume(const Mesh& part) {
   if (part.triangles.empty()) return 0;
   bool closed = true;
@@ -61,7 +61,7 @@ double volume(const Mesh& part) {
     closed = closed && edge.size() == 2 && edge[0].forward != edge[1].forward;
   });
   if (!closed) return 0;
-  // Any origin serves; one on the model cancels least.
+  // Any origin works; one on the model loses the fewest digits.
   const Vec3 origin = part.points.front();
   double sum = 0;
   for (const auto& [a, b, c] : part.triangles)

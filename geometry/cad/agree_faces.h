@@ -10,15 +10,15 @@
 namespace delquad::cad {
 
 struct Agreement {
-  int n_turned = 0;        ///< faces turned over
+  int n_turned = 0;        ///< number of reversed faces
   bool orientable = true;  ///< false: no choice makes all neighbors agree
 };
 
-/// Turns as few faces over as it takes for neighbors (across edges of exactly two triangles) to agree.
+/// Reverses the fewest faces so that neighbors (across edges of exactly two triangles) agree.
 Agreement agree_faces(Mesh& mesh);
 
-/// Turns each group of faces (indices of regions) over that is closed and encloses a negative volume; returns
-/// how many.
+/// Reverses each group of faces (indices of regions) that is closed and encloses a negative volume. Returns
+/// the number of groups.
 int turn_outwards(Mesh& mesh, const std::vector<std::vector<int>>& groups);
 
 }  // namespace delquad::cad

@@ -27,7 +27,7 @@ void put(std::string& bytes, const T& value) {
   }
 }
 
-/// Takes it from the front. Throws InputError where there are too few bytes.
+/// Takes such a value from the front of the bytes. Throws InputError if there are too few.
 template <class T>
 void get(std::string_view& bytes, T& value) {
   std::size_t n = sizeof value;

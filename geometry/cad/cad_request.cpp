@@ -7,10 +7,10 @@ namespace delquad::cad {
 
 namespace {
 
-/// To be changed with what is sent either way.
+/// Version of requests and replies; change it with their content.
 constexpr int kProtocol = 7;
 
-/// Calls visit(member) for all that is sent.
+/// Calls visit(member) for all members of a request.
 template <class Request, class Visit>
 void visit_request(Request& r, const Visit& visit) {
   visit(r.source), visit(r.threads), visit(r.seconds);

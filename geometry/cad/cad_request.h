@@ -11,8 +11,8 @@
 
 namespace delquad::cad {
 
-/// Returns the program that works on CAD files: what DELQUAD_CAD_WORKER names, else what set_cad_worker() was
-/// given, else see find_program().
+/// Returns the program that reads CAD files: from the variable DELQUAD_CAD_WORKER, else from
+/// set_cad_worker(), else as find_program(), which may throw.
 std::filesystem::path find_worker();
 
 /// The task of a worker: to read, heal and triangulate a shape.
@@ -22,14 +22,15 @@ struct CadRequest {
   std::string text;  ///< path, contents of a file, or a shape as in shape_file.h
   CadOptions options;
   int threads = 1;
-  unsigned seconds = 0;  ///< of processor time, then the worker ends
+  unsigned seconds = 0;  ///< limit of processor time, after which the worker ends
 };
 
-/// Stages of a worker, as it tells them (activity.h).
+/// Stages that a worker reports (activity.h).
 inline constexpr const char *kHealing = "healing", *kTriangulation = "triangulation";
 
-/// Turns a request into bytes, and back. Throws InputError for the bytes of a program of another version.
+/// Returns a request as bytes.
 std::string to_bytes(const CadRequest& request);
+/// Returns the request of such bytes. Throws InputError for bytes of another version of the program.
 CadRequest request_from(const std::string& bytes);
 
 /// The kinds of a worker's replies: the shape, a message, the name of a stage, or the number of a face that

@@ -22,17 +22,17 @@
 
 namespace delquad::cad {
 
-/// Returns a shape as all its instances know it, wherever they are placed.
+/// Returns a shape without its placement, which all its instances share.
 inline TopoDS_Shape unplaced(const TopoDS_Shape& shape) { return shape.Located(TopLoc_Location()); }
 
 inline Vec3 vec_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
-/// Returns whether an edge bounds the face that has it: others stand in it, or belong to it by name only.
+/// Returns whether an edge bounds its face; other edges lie inside, or belong to the face by name only.
 inline bool is_boundary(const TopoDS_Shape& edge) {
   return edge.Orientation() == TopAbs_FORWARD || edge.Orientation() == TopAbs_REVERSED;
 }
 
-/// Names of faces and edges; all instances of one, wherever they are placed, share them.
+/// Names of faces and edges, which all placed instances of a part share.
 class PartNames {
  public:
   void add(const TopoDS_Shape& part, const std::string& name) {
@@ -56,12 +56,12 @@ class PartNames {
 struct CadShape {
   TopoDS_Shape shape;
   PartNames names = {};
-  double diagonal = 0;    ///< of the bounding box
-  std::string unit = {};  ///< of lengths; empty: unknown
+  double diagonal = 0;    ///< diagonal of the bounding box
+  std::string unit = {};  ///< unit of lengths; empty: unknown
   std::vector<Warning> warnings = {};
-  std::vector<std::string> missing = {};  ///< parts of the file that cannot be read, and are left out
+  std::vector<std::string> missing = {};  ///< parts of the file that cannot be read and are left out
   std::vector<LooseLine> loose = {};      ///< edges and vertices of the file that bound no face
-  std::vector<std::string> why_not = {};  ///< of each face, why it has no triangulation; mostly empty texts
+  std::vector<std::string> why_not = {};  ///< reason why each face has no triangulation; usually empty
 };
 
 inline TopoDS_Compound empty_compound() {

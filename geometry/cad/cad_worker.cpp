@@ -43,12 +43,12 @@ namespace delquad::cad {
 
 namespace {
 
-/// Fraction of the diagonal: how far edges that bound no face may be from their chords.
+/// Largest distance of edges that bound no face from their chords, over the diagonal.
 constexpr double kLooseDeflection = 1e-5;
 
 double diagonal_of(const TopoDS_Shape& shape) {
   Bnd_Box box;
-  // The geometry's own box: an old triangulation may lie.
+  // The box of the geometry, since an old triangulation may be wrong.
   BRepBndLib::Add(shape, box, /*useTriangulation=*/false);
   if (box.IsVoid() || box.IsOpen())
     throw InputError("the model has no extent or an infinite one: expected finite faces");
@@ -59,7 +59,7 @@ double diagonal_of(const TopoDS_Shape& shape) {
   return diagonal;
 }
 
-/// A face needs a surface, and a boundary unless its surface ends by itself.
+/// Throws InputError unless each face has a surface, and a boundary or a finite surface.
 void check_faces(const CadShape& cad, const TopTools_IndexedMapOfShape& faces) {
   if (faces.IsEmpty()) throw InputError("the model holds no face [no-face]");
   for (int f = 1; f <= faces.Extent(); ++f) {
@@ -76,7 +76,7 @@ void check_faces(const CadShape& cad, const TopTools_IndexedMapOfShape& faces) {
   }
 }
 
-/// Every edge must have a curve in space; those that have one on a surface only get it computed.
+/// Computes missing curves in space from curves on surfaces. Throws InputError for an edge without either.
 void complete_edges(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& edges) {
   BRepLib::BuildCurves3d(shape);
   for (int e = 1; e <= edges.Extent(); ++e) {
@@ -94,7 +94,7 @@ void heal(CadShape& cad, const CadOptions& options) {
   unwind_faces(cad);
 }
 
-/// The faces (numbers) for which the kernel's mesher failed.
+/// Returns the faces (numbers) for which the kernel's mesher failed.
 std::vector<int> without_triangles(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double gap) {
   std::vector<std::string> why_not;
   std::vector<FaceMesh> meshes = face_meshes(cad, faces, why_not);
@@ -105,8 +105,8 @@ std::vector<int> without_triangles(const CadShape& cad, const TopTools_IndexedMa
   return numbers;
 }
 
-/// From the outlines: the faces (numbers) that are wanted; adds those meshed so, and those too coarse.
-/// Returns those that cannot be.
+/// Triangulates wanted faces (numbers) from their outlines. Adds these and too coarse faces to the maps.
+/// Returns the faces that failed.
 std::vector<int> triangulate_by_outline(CadShape& cad, const std::vector<int>& wanted,
                                         const CadOptions& options, TopTools_IndexedMapOfShape& meshed,
                                         TopTools_IndexedMapOfShape& coarse) {
@@ -124,7 +124,7 @@ std::vector<int> triangulate_by_outline(CadShape& cad, const std::vector<int>& w
   return failed;
 }
 
-/// By the kernel; what it cannot, from the outlines.
+/// Triangulates faces by the kernel, and from their outlines if it fails.
 void triangulate_faces(CadShape& cad, const CadOptions& options) {
   const double deflection = options.deflection * cad.diagonal;
   TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
@@ -168,7 +168,7 @@ CadShape prepare(CadShape cad, const CadOptions& options) {
   return cad;
 }
 
-/// The kernel's own threads, as many as were asked for.
+/// Sets the number of the kernel's own threads.
 void set_kernel_threads() {
   OSD_Parallel::SetUseOcctThreads(true);
   OSD_ThreadPool::DefaultPool()->Init(thread_count());
@@ -186,7 +186,7 @@ CadShape read(const CadRequest& request) {
   return read_shape(request.text, request.options);
 }
 
-/// Returns the reason why the reading ended without a shape, for people.
+/// Returns the message of the current exception.
 std::string why_not() {
   try {
     throw;
@@ -218,7 +218,8 @@ void answer(const CadRequest& request, int socket) {
 
 }  // namespace
 
-/// By the name of the library's file, "libTKernel.so.7.6.3": it need not be the one that was compiled for.
+/// Takes the version from the file name "libTKernel.so.7.6.3", since the loaded library may differ from the
+/// headers.
 std::string kernel_version() {
   std::error_code unknown;
   const std::string file = std::filesystem::canonical(file_of(&Standard::Purge), unknown).filename().string();

@@ -7,12 +7,11 @@
 
 namespace delquad::cad {
 
-/// Returns the version of the OpenCASCADE that is at work here, such as "7.6.3".
+/// Returns the version of the loaded OpenCASCADE, such as "7.6.3".
 std::string kernel_version();
 
-/// Runs a worker process, which answers the one request that comes through the socket. On damaged files the
-/// kernel crashes, follows broken references or runs in circles: nobody but this process suffers. It ends
-/// when its parent, the process of this number, does.
+/// Runs a worker process, which answers one request from the socket. A damaged file may crash or block the
+/// kernel, and thus only this process. It ends with its parent, the process of this number.
 [[noreturn]] void run_worker(int socket, int parent);
 
 }  // namespace delquad::cad

@@ -18,11 +18,11 @@ namespace delquad::cad {
 
 namespace {
 
-/// An edge that is a single point has chords in the parameter plane only, a closed one must enclose
-/// something.
+/// Number of chords of a degenerate edge, in the parameter plane only. Number of points of a closed edge,
+/// which must enclose an area.
 constexpr int kDegenerateChords = 12, kClosedPoints = 5;
 
-/// Returns the parameters of a triangulation that the edge takes part in; empty: there is none.
+/// Returns the parameters of the edge in an existing triangulation; empty: none.
 std::vector<double> known_parameters(const TopoDS_Edge& edge) {
   Handle(Poly_PolygonOnTriangulation) polygon;
   Handle(Poly_Triangulation) triangulation;

@@ -22,7 +22,7 @@ namespace delquad::cad {
 
 namespace {
 
-/// An end of a passage. The face's boundary arrives at it or leaves it.
+/// An end of a passage, at which the face's boundary arrives or leaves.
 struct End {
   int point;
   bool arrives;
@@ -69,7 +69,7 @@ class OutlineBuilder {
 
   gp_Pnt on_surface(Vec2 uv) const { return surface_->Value(uv.x, uv.y); }
 
-  /// Remembers where a degenerate edge leads through its vertex; false at a pole, which is one point.
+  /// Stores the path of a degenerate edge through its vertex. Returns false at a pole, which is one point.
   bool collapse(const TopoDS_Edge& edge, const Geom2d_Curve& flat, double first, double last) {
     constexpr int kSamples = 16;
     std::vector<Vec2> passed;
@@ -84,7 +84,7 @@ class OutlineBuilder {
     return true;
   }
 
-  /// The curve in parameters may run over another range than that in space.
+  /// Returns the parameter in space, since the curve in parameters may have another range.
   static double parameter_on(double t, double first, double last, const std::vector<double>& parameters) {
     const double a = parameters.front(), b = parameters.back();
     return b > a ? first + (t - a) * ((last - first) / (b - a)) : t;
@@ -120,8 +120,7 @@ class OutlineBuilder {
     throw InputError(fmt::format("its boundary is open at ({:g}, {:g}, {:g})", p.X(), p.Y(), p.Z()));
   }
 
-  /// The parameters whose place is nearest to a vertex, of those given and those that a degenerate edge
-  /// passes.
+  /// Returns the parameters with the place nearest to a vertex, of `uv` and of degenerate edges there.
   Vec2 nearest(int vertex, std::vector<Vec2> uv) const {
     if (const auto passed = passed_.find(vertex); passed != passed_.end() && ends_.at(vertex).size() == 2)
       uv.insert(uv.end(), passed->second.begin(), passed->second.end());
@@ -129,7 +128,7 @@ class OutlineBuilder {
     return *std::ranges::min_element(uv, {}, [&](Vec2 x) { return on_surface(x).SquareDistance(at); });
   }
 
-  /// Points with the same parameters are one: where wires touch, and both sides of a slit.
+  /// Joins points with the same parameters: where wires touch, and on both sides of a slit.
   void join_equal_points() {
     std::map<std::pair<double, double>, int> at;
     for (int i = 0; i < std::ssize(outline_.uv); ++i) {
@@ -160,9 +159,9 @@ class OutlineBuilder {
   FaceOutline outline_;
   TopTools_IndexedMapOfShape vertices_;
   std::map<int, std::vector<End>> ends_;     ///< by vertex
-  std::map<int, std::vector<Vec2>> passed_;  ///< by vertex, by collapsed edges
+  std::map<int, std::vector<Vec2>> passed_;  ///< parameters that collapsed edges pass, by vertex
   std::map<int, bool> joined_;               ///< points
-  DisjointSets same_;                        ///< points that are one
+  DisjointSets same_;                        ///< joined points
 };
 
 struct Chord {
@@ -178,7 +177,7 @@ bool boxes_meet(const Chord& c, const Chord& d) {
   return meet(c.p.x, c.q.x, d.p.x, d.q.x) && meet(c.p.y, c.q.y, d.p.y, d.q.y);
 }
 
-/// True when two chords meet elsewhere than at an end of both.
+/// Returns whether two chords meet except at common ends.
 bool cross(const Chord& c, const Chord& d) {
   if (!boxes_meet(c, d)) return false;
   const bool same_ends = std::minmax(c.a, c.b) == std::minmax(d.a, d.b);
@@ -186,7 +185,7 @@ bool cross(const Chord& c, const Chord& d) {
   const int c1 = orient2d(c.p, c.q, d.p), c2 = orient2d(c.p, c.q, d.q), d1 = orient2d(d.p, d.q, c.p),
             d2 = orient2d(d.p, d.q, c.q);
   if (c.a == d.a || c.a == d.b || c.b == d.a || c.b == d.b) {
-    // They have one end in common: they overlap when they run the same way from there.
+    // With one common end, they overlap if they have the same direction there.
     if (c1 != 0 || c2 != 0) return false;
     const Vec2 common = c.a == d.a || c.a == d.b ? c.p : c.q;
     const Vec2 u = common == c.p ? c.q - c.p : c.p - c.q, v = common == d.p ? d.q - d.p : d.p - d.q;

@@ -11,7 +11,7 @@ namespace delquad {
 
 namespace {
 
-/// The worker that the surrounding program has chosen, once for all its threads.
+/// The worker that the program has chosen for all its threads.
 struct Chosen {
   std::mutex mutex;
   std::filesystem::path program;

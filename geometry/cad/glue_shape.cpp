@@ -24,13 +24,13 @@ namespace delquad::cad {
 
 namespace {
 
-/// " (BOPAlgo_AlertTooFewArguments)": the first of the kernel's complaints.
+/// Returns the kernel's first complaint, such as " (BOPAlgo_AlertTooFewArguments)".
 std::string why(const BOPAlgo_Builder& builder) {
   const Message_ListOfAlert& failures = builder.GetReport()->GetAlerts(Message_Fail);
   return failures.IsEmpty() ? "" : fmt::format(" ({})", failures.First()->GetMessageKey());
 }
 
-/// Returns the image of a face or an edge, in a compound: itself, its parts, or nothing.
+/// Returns the image of a face or an edge as a compound: itself, its parts, or nothing.
 TopoDS_Compound image_of(BOPAlgo_Builder& builder, const TopoDS_Shape& part) {
   TopoDS_Compound image = empty_compound();
   const TopTools_ListOfShape& modified = builder.Modified(part);
@@ -40,7 +40,7 @@ TopoDS_Compound image_of(BOPAlgo_Builder& builder, const TopoDS_Shape& part) {
 }
 
 /// Returns the parts to glue: solids, closed shells, and the faces of open shells, which may touch each
-/// other, too.
+/// other.
 TopTools_ListOfShape glued_parts(const TopoDS_Shape& shape) {
   TopTools_ListOfShape all;
   for (const TopoDS_Shape& body : bodies_of(shape)) {
@@ -65,8 +65,8 @@ TopTools_ListOfShape images_of_bodies(BOPAlgo_Builder& builder, const TopTools_L
   return all;
 }
 
-/// How many faces, edges or vertices several bodies have, as they were or as they are; edges that are points
-/// do not count.
+/// Returns the number of faces, edges or vertices that several bodies share, before and after; degenerate
+/// edges do not count.
 int count_common(const TopTools_ListOfShape& before, const TopTools_ListOfShape& after,
                  TopAbs_ShapeEnum kind) {
   TopTools_IndexedMapOfShape common;
@@ -84,7 +84,7 @@ int count_common(const TopTools_ListOfShape& before, const TopTools_ListOfShape&
   return common.Extent();
 }
 
-/// How many do not hang together by edges.
+/// Returns the number of parts that no edges connect.
 int count_parts(const TopoDS_Shape& shape) {
   TopTools_IndexedDataMapOfShapeListOfShape faces_of;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
@@ -97,7 +97,7 @@ int count_parts(const TopoDS_Shape& shape) {
   return n;
 }
 
-/// "face 3 (lid) into 2" for the faces that were cut.
+/// Returns texts such as "face 3 (lid) into 2" for the faces that were cut.
 std::vector<std::string> cut_faces(BOPAlgo_Builder& builder, const CadShape& cad) {
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   std::vector<std::string> cut;

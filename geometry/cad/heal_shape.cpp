@@ -47,8 +47,7 @@ int count_free_edges(const TopoDS_Shape& shape) {
   return n;
 }
 
-/// How often each face (by number in `faces`) runs along an edge, of each edge once all that coincide are
-/// one.
+/// Returns for each edge, after coinciding ones are joined, how often each face (number in `faces`) has it.
 std::vector<std::map<int, int>> faces_at_edges(const TopoDS_Shape& shape,
                                                const TopTools_IndexedMapOfShape& faces, double tolerance) {
   BRepBuilderAPI_Sewing sewing(tolerance, /*option1=*/true, /*option2=*/true, /*option3=*/true,
@@ -88,13 +87,13 @@ std::vector<int> first_of_doubles(const std::vector<std::map<int, int>>& faces_a
   return first;
 }
 
-/// Adds the closed bodies among the faces that are in none yet, by face, numbered by one of their faces.
-/// Faces belong together where two meet. Where more do, they belong together `in_order`, two and two as they
-/// come: files have the faces of a body one after the other. Faces on each other enclose nothing.
+/// Finds closed bodies among faces without body, and gives each face the number of one face of its body. Two
+/// faces at an edge belong together. If more faces meet there, consecutive pairs belong together if
+/// `in_order`, as in files that list one body after the other. Faces on each other enclose nothing.
 void find_closed(const std::vector<std::map<int, int>>& faces_at_edges, const std::vector<int>& first,
                  bool in_order, std::vector<int>& body) {
   DisjointSets joined(body.size());
-  std::vector<std::vector<int>> free(faces_at_edges.size());  // faces at the edge that are in no body
+  std::vector<std::vector<int>> free(faces_at_edges.size());  // faces at each edge without body
   for (std::size_t e = 0; e < free.size(); ++e) {
     for (const auto& [f, n] : faces_at_edges[e])
       if (body[f] == 0 && n == 1) free[e].push_back(f);
@@ -113,9 +112,8 @@ void find_closed(const std::vector<std::map<int, int>>& faces_at_edges, const st
     if (const int p = joined.root(static_cast<int>(f)); body[f] == 0 && !is_open[p]) body[f] = p;
 }
 
-/// Where edges of more than two faces coincide, the closed bodies are sewn by themselves: those that touch
-/// stay apart. Takes out, and returns, faces of no closed body that lie on others: sewn, they would enclose
-/// nothing.
+/// Sews closed bodies one by one if edges of more than two faces coincide, so that bodies that touch stay
+/// apart. Removes and returns faces of no closed body that lie on others, as they would enclose nothing.
 TopTools_ListOfShape sew_bodies(CadShape& cad, double tolerance) {
   TopTools_IndexedMapOfShape faces;
   const BRep_Builder builder;
@@ -185,7 +183,7 @@ void fix(CadShape& cad) {
                          " [healed-shape]");
 }
 
-/// Sewing drops faces that it takes for too small.
+/// Returns whether sewing kept all faces; it drops very small ones.
 bool keeps_faces(const TopoDS_Shape& sewn, const TopoDS_Shape& before) {
   return !sewn.IsNull() && parts(sewn, TopAbs_FACE).Extent() == parts(before, TopAbs_FACE).Extent();
 }
@@ -210,8 +208,8 @@ bool sew_branches(CadShape& cad, double tolerance) {
   return true;
 }
 
-/// Sews free edges in pairs, then the open rest once more, all edges that coincide together: edges of three
-/// faces and more. Parts that are closed stay apart from others.
+/// Sews free edges in pairs. Then sews the open rest again, so that edges of three faces and more are joined;
+/// closed parts stay apart.
 void sew(CadShape& cad, double tolerance) {
   const int before = count_free_edges(cad.shape);
   if (before == 0) return;
@@ -245,9 +243,9 @@ bool has_neighbour(const TopoDS_Shape& face, const TopTools_IndexedDataMapOfShap
   return false;
 }
 
-/// How far apart the edges of a face lie (a length) if each lies everywhere on others.
+/// Returns the distance between the edges of a face (a length) if each lies on others everywhere.
 std::optional<double> strip_width(const TopoDS_Face& face) {
-  constexpr int kSamples = 8;  // of an edge
+  constexpr int kSamples = 8;  // samples of an edge
   const TopTools_IndexedMapOfShape edges = parts(face, TopAbs_EDGE);
   double width = 0;
   for (int e = 1; e <= edges.Extent(); ++e) {
@@ -291,7 +289,7 @@ void replace_shape(CadShape& cad, const TopoDS_Shape& shape,
 }
 
 void heal_shape(CadShape& cad, double tolerance) {
-  // A file may carry an old triangulation, coarser than asked or of another shape.
+  // A file may have an old triangulation, too coarse or of another shape.
   BRepTools::Clean(cad.shape);
   fix(cad);
   const PartNames names = cad.names;

@@ -14,51 +14,48 @@
 
 namespace delquad::cad {
 
-/// Puts `shape` in the place of the CAD's; `image` tells what has become of a face or an edge, which hands
-/// its names on.
+/// Replaces the shape. `image` returns what a face or an edge became; its names move there.
 void replace_shape(CadShape& cad, const TopoDS_Shape& shape,
                    const std::function<TopoDS_Shape(const TopoDS_Shape&)>& image);
 
-/// Repairs what the kernel finds invalid, and sews free edges that coincide within `tolerance` (a length), of
-/// however many faces. Edges of faces that lie on each other are not sewn, and valid shapes stay as they are.
-/// The warnings say what was done and what remains wrong.
+/// Repairs invalid parts by the kernel, and sews free edges that coincide within `tolerance` (a length), of
+/// two faces or more. Edges of faces that lie on each other are not sewn, and valid shapes stay. Warnings
+/// tell all changes and remaining defects.
 void heal_shape(CadShape& cad, double tolerance);
 
-/// Takes out, among some faces (numbers), each face whose edges lie on each other within their and their
-/// ends' tolerances. Sews these edges, and says so in a warning. False: there is none, or that leaves free
-/// edges.
+/// Removes each of some faces (numbers) whose edges lie on each other within their tolerances and the
+/// tolerances of their ends. Sews these edges, with a warning. Returns false if there is none, or free edges
+/// would be left.
 bool drop_strips(CadShape& cad, const std::vector<int>& faces);
 
-/// Turns faces back that the kernel's reader of STEP turned over, because they have a pole inside. It moves
-/// their edges by a period in (u, v) until they fit. The face then is the other part of the sphere and more,
-/// going around more than once. Such faces are turned back, where that makes them fit into a period; a
-/// warning tells how many.
+/// Reverses faces with a pole inside that the kernel's reader of STEP reversed. The reader moved their edges
+/// by a period in (u, v) until they fit. Such a face covers the other part of the sphere, and goes around
+/// more than once. It is reversed again if it then fits into a period; a warning tells the number.
 void unwind_faces(CadShape& cad);
 
-/// Returns the edges that bound no face, both inside of faces and beside all, as polylines, and the vertices
-/// that no edge has. Polylines are no further than `deflection` (a length) from their edges. Edges without a
-/// curve and infinite ones are left to others.
+/// Returns the edges that bound no face as polylines, and the vertices without edges. Polylines are within
+/// `deflection` (a length) of their edges. Edges without a curve and infinite edges are left out.
 std::vector<LooseLine> loose_edges(const CadShape& cad, double deflection);
 
-/// Takes edges and vertices inside of one face alone out of it: the kernel fails to triangulate some faces
-/// with them.
+/// Removes edges and vertices inside of a single face, with which the kernel may fail to triangulate the
+/// face.
 void drop_inner_edges(CadShape& cad);
 
-/// Makes bodies that touch or cut each other share faces, edges and vertices there, by the kernel's general
-/// fuse. Bodies are solids, closed shells, and all other faces one by one. Edges that end inside of a face
-/// stand in it. Parts nearer than `tolerance` (a length) touch. Names go with the faces; common faces get the
-/// names of both. Warnings tell how many faces are common, and which were cut into parts. Throws InputError
-/// if the kernel cannot do it or a body gets lost.
+/// Makes bodies that touch or cut each other share faces, edges and vertices, by the kernel's general fuse.
+/// Bodies are solids, closed shells, and all other faces one by one. Edges that end inside of a face are
+/// embedded in it. Parts nearer than `tolerance` (a length) touch. Faces keep their names; common faces get
+/// the names of both. Warnings tell the number of common faces, and faces that were cut. Throws InputError if
+/// the kernel fails or a body is lost.
 void glue_shape(CadShape& cad, double tolerance);
 
-/// Returns the solids, then the shells outside of them, then the faces outside of these.
+/// Returns the solids, then the shells of no solid, then the faces of no shell.
 TopTools_ListOfShape bodies_of(const TopoDS_Shape& shape);
 
-/// Reads, heals and triangulates a shape in a worker process: on damaged files the kernel follows broken
-/// references or runs in circles. Throws InputError and Cancelled.
+/// Returns a shape that a worker process read, healed and triangulated, since damaged files may crash or
+/// block the kernel. Throws InputError as read_cad(), and Cancelled.
 CadShape prepare_shape(const CadModel& model, const CadOptions& options);
 
-/// Returns the same for a shape as it was made.
+/// Returns the same for a shape in memory.
 CadShape prepare_shape(const CadShape& shape, const CadOptions& options);
 
 }  // namespace delquad::cad

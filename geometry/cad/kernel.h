@@ -8,22 +8,21 @@
 #include "geometry/cad/example_models.h"
 #include "geometry/surface/surface_model.h"
 
-// This header loads the library that needs OpenCASCADE. Callers outside of this module do not see it.
+// This header loads the library that needs OpenCASCADE. Only this module uses it.
 
 namespace delquad::cad {
 
-/// The library with the functions of this module that need OpenCASCADE. It is loaded when the first of them
-/// is called.
+/// File name of the library with the functions that need OpenCASCADE. The first call of one of them loads it.
 inline constexpr const char* kKernelLibrary = "libdelquad-kernel.so";
 
-/// Its functions: read_cad(), read_example() and write_example().
+/// Functions of the library: read_cad(), read_example() and write_example().
 struct Kernel {
   SurfaceModel (*read_cad)(const CadModel&, const CadOptions&);
   SurfaceModel (*read_example)(const std::string&, const CadOptions&);
   void (*write_example)(const std::string&, CadFormat, std::ostream&);
 };
 
-/// The implementations of the three, in this library. They do not check the name of an example.
+/// Implement these functions in the library. The name of an example must exist.
 SurfaceModel read_by_kernel(const CadModel& model, const CadOptions& options);
 SurfaceModel read_example_by_kernel(const std::string& name, const CadOptions& options);
 void write_example_by_kernel(const std::string& name, CadFormat format, std::ostream& out);

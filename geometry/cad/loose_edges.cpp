@@ -21,10 +21,11 @@ namespace delquad::cad {
 
 namespace {
 
-/// Radians between neighboring chords.
+/// Largest angle between neighboring chords, radians.
 constexpr double kTurnOfChords = 0.1;
 
-/// Edges that bound faces, or stand in several, others inside of faces being INTERNAL; and ends of edges.
+/// Returns the edges that bound faces or lie in several, and the ends of edges; edges inside of faces are
+/// INTERNAL.
 TopTools_MapOfShape joining_edges(const TopoDS_Shape& shape) {
   TopTools_MapOfShape joining;
   TopTools_DataMapOfShapeInteger inside_of;
@@ -55,7 +56,7 @@ bool is_finite_curve(const TopoDS_Edge& edge) {
          !Precision::IsInfinite(last);
 }
 
-/// The edges of a wire that bound its face or join it to others; null: none.
+/// Returns the edges of a wire that bound its face or join it to others; null: none.
 TopoDS_Shape joining_part(const TopoDS_Shape& wire, const TopTools_MapOfShape& joining) {
   bool has_others = false, is_empty = true;
   TopoDS_Shape part = wire.EmptyCopied();
@@ -74,7 +75,7 @@ TopoDS_Shape joining_part(const TopoDS_Shape& wire, const TopTools_MapOfShape& j
   return has_others ? part.Oriented(side) : wire;
 }
 
-/// The face without the edges inside of it alone.
+/// Returns the face without the edges that lie in no other face.
 TopoDS_Shape without_inner_edges(const TopoDS_Shape& face, const TopTools_MapOfShape& joining) {
   const TopoDS_Shape outwards = face.Oriented(TopAbs_FORWARD);
   TopoDS_Shape other = outwards.EmptyCopied();

@@ -59,10 +59,10 @@ class JointFinder {
 
   LooseJoints find() {
     std::vector<Pair> pairs = near_pairs();
-    // Faces that may touch come first: one such place is enough.
+    // Faces that may touch come first, as one such place is enough.
     std::ranges::stable_partition(
         pairs, [&](const Pair& pair) { return come_near(pair[0], pair[1], options_.tolerance); });
-    std::map<std::array<int, 4>, std::vector<Pair>> pairs_of;  // by parts, in one part by faces
+    std::map<std::array<int, 4>, std::vector<Pair>> pairs_of;  // by parts; in one part by faces
     for (const auto& [f, g] : pairs) {
       const auto [p, q] = in_order(faces_[f].part, faces_[g].part);
       pairs_of[p == q ? std::array{p, q, f, g} : std::array{p, q, 0, 0}].push_back({f, g});
@@ -106,7 +106,7 @@ class JointFinder {
     return norm(cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)));
   }
 
-  /// Curves of the mesh, and their ends. Seams are none.
+  /// Collects the edges of a face that are curves of the mesh, and their ends; seams are none.
   void find_edges(int f) {
     for (TopExp_Explorer at(shapes_(f + 1), TopAbs_EDGE); at.More(); at.Next()) {
       const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
@@ -141,7 +141,7 @@ class JointFinder {
   static bool share(const TopTools_IndexedMapOfShape& some, const TopTools_IndexedMapOfShape& others) {
     return std::any_of(some.cbegin(), some.cend(), [&](const TopoDS_Shape& s) { return others.Contains(s); });
   }
-  /// Whether all edges of one face are edges of the other.
+  /// Returns whether all edges of one face are edges of the other.
   bool have_one_rim(int f, int g) const {
     const TopTools_IndexedMapOfShape &first = faces_[f].edges, &second = faces_[g].edges;
     const auto includes = [](const TopTools_IndexedMapOfShape& all, const TopTools_IndexedMapOfShape& some) {
@@ -150,7 +150,7 @@ class JointFinder {
     return !first.IsEmpty() && !second.IsEmpty() && (includes(first, second) || includes(second, first));
   }
 
-  /// Pairs of faces, in order, whose triangles come near and that no shell has both, or that have one rim.
+  /// Returns the pairs of faces, in order, with near triangles and no common shell, or with one rim.
   std::vector<Pair> near_pairs() {
     std::vector<Box<Vec3>> boxes;
     for (const Face& face : faces_) boxes.push_back(face.box.grown(options_.reach / 2 + options_.deflection));
@@ -167,7 +167,7 @@ class JointFinder {
     return pairs;
   }
 
-  /// Whether the faces may come as near as `reach`.
+  /// Returns whether the faces may come as near as `reach`.
   bool come_near(int f, int g, double reach) {
     if (!faces_[g].tree) faces_[g].tree.emplace(faces_[g].boxes);
     return std::ranges::any_of(faces_[f].boxes, [&](const Box<Vec3>& own) {
@@ -180,7 +180,7 @@ class JointFinder {
     });
   }
 
-  /// The distance of a place from a face.
+  /// Returns the distance of a place from a face.
   double distance(const Vec3& x, int face) const {
     BRepExtrema_DistShapeShape nearest(BRepBuilderAPI_MakeVertex(gp_Pnt(x.x, x.y, x.z)).Vertex(),
                                        shapes_(face + 1));
@@ -192,14 +192,15 @@ class JointFinder {
     const BRepExtrema_DistShapeShape nearest(shapes_(f + 1), shapes_(g + 1));
     if (!nearest.IsDone() || nearest.NbSolution() == 0 || nearest.Value() > options_.reach)
       return std::nullopt;
-    // A part may be narrow, as a bent sheet is: only what could be joined is told.
+    // In one part, as in a bent sheet, near faces count only at free edges, which could be joined.
     if (nearest.Value() > options_.tolerance && faces_[f].part == faces_[g].part && !is_free(nearest, 1) &&
         !is_free(nearest, 2))
       return std::nullopt;
     return LooseJoint{{f, g}, vec_of(nearest.PointOnShape1(1)), nearest.Value()};
   }
 
-  /// Faces that share a vertex lie on each other with their middles, or touch with the middle of an edge.
+  /// Returns the joint of faces that share a vertex: they lie on each other at their middles, or touch at the
+  /// middle of an edge.
   std::optional<LooseJoint> joint_of_neighbors(int f, int g) const {
     for (const auto& [a, b] : {Pair{f, g}, Pair{g, f}}) {
       std::vector<Vec3> places;
@@ -238,7 +239,7 @@ class JointFinder {
   TopTools_IndexedMapOfShape free_vertices_;
 };
 
-/// Whether a face goes on all around a vertex of its own.
+/// Returns whether a vertex of a face lies inside of the face.
 bool is_inside(const TopoDS_Face& face, const TopoDS_Shape& vertex,
                const TopTools_IndexedDataMapOfShapeListOfShape& faces_of) {
   for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
@@ -259,7 +260,7 @@ std::vector<LooseJoint> joints_at_points(const TopTools_IndexedMapOfShape& faces
   for (int f = 1; f <= faces.Extent(); ++f)
     for (const TopAbs_ShapeEnum kind : {TopAbs_EDGE, TopAbs_VERTEX})
       TopExp::MapShapesAndAncestors(faces(f), kind, TopAbs_FACE, faces_of);
-  // Faces that hang together may meet in a point, as a pocket may touch the floor: that is meshed.
+  // Connected faces may meet in a point, as a pocket may touch the floor; meshes allow it.
   DisjointSets hanging(faces.Extent());
   for (int e = 1; e <= faces_of.Extent(); ++e)
     if (faces_of.FindKey(e).ShapeType() == TopAbs_EDGE)

@@ -37,7 +37,7 @@ using Transient = Handle(Standard_Transient);
 
 /// Types of IGES entities that are faces by themselves.
 constexpr std::array kIgesFaces = {143, 144, 510};
-/// Shells and solids of them.
+/// Types of shells and solids of faces.
 constexpr std::array kIgesBodies = {186, 514};
 
 int iges_type(const Transient& entity) {
@@ -58,12 +58,12 @@ bool is_surface_or_body(const Transient& entity) {
          (!iges.IsNull() && IGESToBRep::IsTopoSurface(iges));
 }
 
-/// Whether no shape depends on the entity: text, colors and leaders of a drawing.
+/// Returns whether no shape depends on the entity: text, colors and leaders of a drawing.
 bool is_drawn(const Transient& entity) {
   return std::string_view(entity->DynamicType()->Name()).starts_with("StepVisual_");
 }
 
-/// Complaints about what no shape depends on: names, and what a curve claims to be.
+/// Returns whether no shape depends on the subject of a complaint: names, and the declared form of a curve.
 bool is_harmless(const std::string& complaint) {
   constexpr std::array kFields = {"name)",      "description)",    "form)",
                                   "knot_spec)", "self_intersect)", "closed_"};
@@ -160,7 +160,7 @@ class LossFinder {
   XSControl_Reader& reader_;
   Handle(Interface_InterfaceModel) model_;
   Handle(Transfer_TransientProcess) process_;
-  bool is_damaged_ = false;  ///< something that is not a name could not be read
+  bool is_damaged_ = false;  ///< whether something other than a name could not be read
   std::set<int> listed_;     ///< numbers of entities
   LostShapes lost_;
 };

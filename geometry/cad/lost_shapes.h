@@ -9,20 +9,19 @@
 
 namespace delquad::cad {
 
-/// Parts of a file that did not become shapes, each with its place and the reason.
+/// Parts of a file that did not become shapes, each with place and reason.
 struct LostShapes {
-  std::vector<std::string> damaged;   ///< the model without them is not what was written
+  std::vector<std::string> damaged;   ///< parts without which the model is incomplete
   std::vector<std::string> unused;    ///< faces that no shape of the file has
-  std::vector<std::string> doubtful;  ///< became shapes, but not without errors
+  std::vector<std::string> doubtful;  ///< parts that became shapes with errors
 };
 
-/// Returns the losses of a STEP or IGES reader whose roots are transferred. These are parts of faces that
-/// cannot be read ("#17 (Direction): ..."; in IGES numbers of the directory, "D23"), and parts that gave no
-/// face.
+/// Returns the losses of a STEP or IGES reader whose roots are transferred. They are unreadable parts of
+/// faces ("#17 (Direction): ..."; in IGES "D23", a number of the directory), and parts without a face.
 LostShapes lost_shapes(XSControl_Reader& reader);
 
-/// Returns the parts of a loaded file that faces need and that cannot be read, each with its number and the
-/// reason. Shells of which faces are missing are not among them.
+/// Returns the unreadable parts of a loaded file that faces need, each with number and reason, without shells
+/// that lack faces.
 std::vector<std::string> unreadable_parts(XSControl_Reader& reader);
 
 /// Returns the errors in a BREP file's text ("line 12: '3..5' is no number"), of which `n_faces` faces were

@@ -29,17 +29,17 @@ namespace delquad::cad {
 
 namespace {
 
-/// Inside one face. A ball has some 1000; more are seconds of work, here and in maps.
+/// Limit of points inside a face. A ball has some 1000; more take seconds, here and in maps.
 constexpr int kMostPoints = 20'000;
-/// Each halves the chords that cross.
+/// Limit of rounds, each of which halves the chords that cross.
 constexpr int kMostRounds = 12;
 /// Limit of chords of an edge; finer chords would not help.
 constexpr int kMostChords = 2000;
 
-/// A face that is not placed and looks forward.
+/// Returns a face without placement, with forward orientation.
 TopoDS_Face plain(const TopoDS_Shape& face) { return TopoDS::Face(unplaced(face).Oriented(TopAbs_FORWARD)); }
 
-/// Every chord must have the face on its left and, but for slits, nothing on its right.
+/// Throws InputError unless every chord has the face on its left and, except slits, nothing on its right.
 void check_sides(const PatchBoundary& boundary, const TriPatch& flat) {
   std::vector<std::array<int, 2>> sides, chords = boundary.edges;
   for (const auto& [a, b, c] : flat.triangles) sides.insert(sides.end(), {{a, b}, {b, c}, {c, a}});
@@ -53,7 +53,7 @@ void check_sides(const PatchBoundary& boundary, const TriPatch& flat) {
   }
 }
 
-/// A face narrower than points that the kernel takes for one is none.
+/// Throws InputError for a face narrower than the kernel's tolerance for points.
 void check_width(const FaceOutline& outline, const RefinedFace& mesh) {
   double area = 0, perimeter = 0;
   for (const auto& v : mesh.flat.triangles) area += norm(area_vector(mesh.points, v)) / 2;
@@ -63,7 +63,7 @@ void check_width(const FaceOutline& outline, const RefinedFace& mesh) {
   if (!(2 * area > Precision::Confusion() * perimeter)) throw InputError("its boundary encloses nothing");
 }
 
-/// Writes a triangulation into a face, and which of its nodes are on which edge.
+/// Stores a triangulation in a face, with the nodes on each edge.
 void store(const TopoDS_Face& face, const FaceOutline& outline, const RefinedFace& mesh, Vec2 scale,
            double deflection, EdgeChords& chords) {
   const int n_points = static_cast<int>(mesh.points.size()), n = static_cast<int>(mesh.flat.triangles.size());
@@ -99,7 +99,7 @@ void store(const TopoDS_Face& face, const FaceOutline& outline, const RefinedFac
       builder.UpdateEdge(edge, polygons[&passage], triangulation);
       continue;
     }
-    // A seam: the other passage has the other side; a face on one side of it has no other.
+    // At a seam the other passage has the other side; other edges have one passage.
     const auto other = std::ranges::find_if(outline.passages, [&](const EdgePassage& p) {
       return &p != &passage && p.edge.IsSame(passage.edge) &&
              p.edge.Orientation() != passage.edge.Orientation();
@@ -115,7 +115,8 @@ class OutlineMesher {
   OutlineMesher(const CadShape& cad, double deflection, double angle)
       : bounds_{deflection, angle, kMostPoints}, chords_(cad.shape, deflection, angle) {}
 
-  /// Adds a face. Keeps the chords that its edges have now: it may be their only face with a triangulation.
+  /// Adds a face. Keeps the current chords of its edges, since it may be their only face with a
+  /// triangulation.
   void want(const TopoDS_Shape& face) {
     const TopoDS_Face own = plain(face);
     if (waiting_.Contains(own)) return;
@@ -144,7 +145,7 @@ class OutlineMesher {
   }
 
  private:
-  /// Calls make() for a face; what it throws is the reason why there is no mesh.
+  /// Calls make() for a face; the message of an exception is the reason why it has no mesh.
   template <class Make>
   void attempt(const TopoDS_Face& face, Make make) {
     try {
@@ -163,8 +164,8 @@ class OutlineMesher {
 
   FaceOutline outline(const TopoDS_Face& face) { return outline_of(face, chords_, snapped_.Contains(face)); }
 
-  /// Where halving was of no use: what lies within the tolerances of a vertex becomes the vertex. False: all
-  /// is well.
+  /// Replaces parts within the tolerance of a vertex by the vertex if halving failed. Returns false if no
+  /// chords cross.
   bool snap_crossing() {
     for (int f = 1; f <= waiting_.Extent(); ++f) {
       const TopoDS_Face face = TopoDS::Face(waiting_(f));
@@ -184,7 +185,8 @@ class OutlineMesher {
     return !snapped_.IsEmpty();
   }
 
-  /// Halves chords that cross in waiting faces; the faces of their edges wait then, too. False: none crosses.
+  /// Halves chords that cross in waiting faces; the faces of their edges then wait, too. Returns false if
+  /// none cross.
   bool separate_chords() {
     bool any = false;
     for (int f = 1; f <= waiting_.Extent(); ++f) {
@@ -193,7 +195,7 @@ class OutlineMesher {
         const FaceOutline own = outline(face);
         const Vec2 scale = parameter_scale(*BRep_Tool::Surface(face), own.uv);
         std::vector<OutlineChord> crossing = crossing_chords(own, scale);
-        // Backwards: numbers of chords still to be halved stay. Both sides of a seam are one edge.
+        // Halves from the last chord back, so that other numbers stay. Both sides of a seam are one edge.
         std::ranges::sort(crossing, [&](const OutlineChord& c, const OutlineChord& d) { return c.k > d.k; });
         for (const OutlineChord& chord : crossing) any = halve(own.passages[chord.passage], chord.k) || any;
       });
@@ -223,7 +225,7 @@ class OutlineMesher {
       const TriPatch start = constrained_delaunay(boundary);
       check_sides(boundary, start);
       FaceBounds bounds = bounds_;
-      // Vertices may be that far off the surface: points beside them would fold it.
+      // Vertices may be so far off the surface that points beside them would fold it.
       if (snapped_.Contains(face))
         for (TopExp_Explorer vertex(face, TopAbs_VERTEX); vertex.More(); vertex.Next())
           bounds.deflection =
@@ -238,16 +240,16 @@ class OutlineMesher {
   FaceBounds bounds_;
   EdgeChords chords_;
   TopTools_IndexedMapOfShape waiting_, coarse_;
-  TopTools_IndexedMapOfShape snapped_;  ///< whose outlines end at vertices' tolerances
-  std::map<int, std::string> reasons_;  ///< of those waiting that cannot be meshed
-  std::map<int, Vec3> crossing_at_;  ///< of those whose boundary crosses itself, a place of the unplaced face
+  TopTools_IndexedMapOfShape snapped_;  ///< faces whose outlines end at tolerances of vertices
+  std::map<int, std::string> reasons_;  ///< reasons of waiting faces that cannot be meshed
+  std::map<int, Vec3> crossing_at_;     ///< place where the boundary of an unplaced face crosses itself
 };
 
 }  // namespace
 
 OutlineMeshes mesh_by_outline(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
                               const std::vector<int>& wanted, double deflection, double angle) {
-  // Present triangulations are of no use, and must not tell how edges are cut.
+  // Old triangulations are unusable, and must not determine chords.
   for (const int f : wanted) BRepTools::Clean(faces(f));
   OutlineMesher mesher(cad, deflection, angle);
   for (const int f : wanted) mesher.want(faces(f));

@@ -20,10 +20,10 @@ namespace delquad::cad {
 
 namespace {
 
-/// Processor time granted, at least ten times the time that files of 24 models need.
+/// Limit of processor time, at least ten times the time for files of 24 models.
 constexpr unsigned kSeconds = 15, kSecondsPerMegabyte = 60;
 
-/// The activity of a worker, as told to the run of this thread.
+/// Reports the activity of a worker to the run of this thread.
 class WorkersActivity {
  public:
   void on_reply(Reply reply, const std::string& text) {
@@ -37,7 +37,7 @@ class WorkersActivity {
     if (reply == Reply::kFaceEnds)
       if (const auto at = std::ranges::find(faces_, text, &Face::first); at != faces_.end()) faces_.erase(at);
   }
-  /// ": at the triangulation of face 7, face 9", or nothing where there is no face.
+  /// Returns ": at the triangulation of face 7, face 9"; empty without a face.
   std::string text() const {
     std::string text;
     for (const auto& [face, face_scope] : faces_)
@@ -49,10 +49,10 @@ class WorkersActivity {
  private:
   using Face = std::pair<std::string, std::unique_ptr<RemoteFaceScope>>;
   std::optional<StageScope> stage_;
-  std::vector<Face> faces_;  ///< in order of their beginnings
+  std::vector<Face> faces_;  ///< faces in the order in which they began
 };
 
-/// The last reply of a worker of its own. Throws InputError when there is none.
+/// Returns the last reply of a new worker. Throws InputError if there is none.
 std::pair<Reply, std::string> ask_worker(const CadRequest& request) {
   std::optional<std::pair<Reply, std::string>> last;
   WorkersActivity activity;

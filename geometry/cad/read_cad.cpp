@@ -31,15 +31,15 @@ namespace cad {
 
 namespace {
 
-/// Last step of a projection, as a fraction of the diagonal. It is a thousandth of the accuracy promised.
-/// Newton's method converges linearly on surfaces with a singular parametrization.
+/// Last step of a projection, over the diagonal: a thousandth of the promised accuracy. Newton's method
+/// converges linearly on surfaces with a singular parametrization.
 constexpr double kProjection = 1e-12;
-/// Faces nearer than this part of the diagonal lie on each other; as far apart as edges that are sewn.
+/// Distance, over the diagonal, within which faces lie on each other, as for sewn edges.
 constexpr double kTouching = 1e-6;
-/// Up to this part of it they may come near: a tenth of edges of which twenty make a diagonal.
+/// Distance, over the diagonal, within which faces are near: a tenth of an edge of 1/20 of the diagonal.
 constexpr double kNear = 1.0 / 200;
 
-/// Faces of each body or shell.
+/// Returns the faces of each body or shell.
 std::vector<std::vector<int>> faces_of(const TopTools_ListOfShape& some,
                                        const TopTools_IndexedMapOfShape& faces) {
   std::vector<std::vector<int>> all;
@@ -59,7 +59,7 @@ TopTools_ListOfShape shells_of_solids(const TopoDS_Shape& shape) {
   return shells;
 }
 
-/// Whether the faces of a group, and no others, have a name in common that is more than a color.
+/// Returns whether the faces of a group, and no others, share a name other than a color.
 bool has_own_name(const Mesh& mesh, const std::vector<int>& group) {
   const auto has = [&](int face, const std::string& name) {
     return std::ranges::find(mesh.regions[face].names, name) != mesh.regions[face].names.end();
@@ -73,7 +73,7 @@ bool has_own_name(const Mesh& mesh, const std::vector<int>& group) {
 }
 
 /// If there are several solids, names the nameless ones "solid 1", ... by their order in the file. Faces that
-/// solids share have the names of both. `groups`: the faces of each body; solids come first.
+/// solids share have the names of both. `groups` has the faces of each body; solids come first.
 void name_solids(const TopTools_ListOfShape& bodies, const std::vector<std::vector<int>>& groups,
                  Mesh& mesh) {
   const auto n_solids = std::count_if(bodies.begin(), bodies.end(), [](const TopoDS_Shape& body) {
@@ -89,14 +89,14 @@ void name_solids(const TopTools_ListOfShape& bodies, const std::vector<std::vect
   }
 }
 
-/// Places that messages name.
+/// Limit of places in messages.
 constexpr std::size_t kMostPlaces = 20;
 
 std::string title_of(const Mesh& mesh, int face) {
   return face_title(mesh.regions[face].tag, mesh.regions[face].names);
 }
 
-/// "face 2 touches face 1 (lid) at (1, 0, 2); face 4 is 0.1 from face 3 at ...", of so many.
+/// Returns "face 2 touches face 1 (lid) at (1, 0, 2); face 4 is 0.1 from face 3 at ...", up to kMostPlaces.
 std::string list_joints(const Mesh& mesh, const std::vector<LooseJoint>& joints) {
   std::vector<std::string> all;
   for (const auto& [faces, at, distance] : joints)
@@ -106,7 +106,7 @@ std::string list_joints(const Mesh& mesh, const std::vector<LooseJoint>& joints)
   return first_of(all, kMostPlaces, "; ");
 }
 
-/// Warns of what nearly touches: its mesh would come apart there.
+/// Warns of parts that nearly touch, whose meshes would not be joined.
 void warn_of_near(SurfaceModel& model, std::vector<LooseJoint> contacts, double diagonal,
                   const std::function<double(const Vec3&)>& size) {
   constexpr double kPartOfSize = 0.1, kPartOfDiagonal = 1.0 / 50;
@@ -131,7 +131,7 @@ void warn_of_near(SurfaceModel& model, std::vector<LooseJoint> contacts, double 
       (std::floor(widest / diagonal / digit) + 1) * digit));
 }
 
-/// Bodies that only coincide get meshes of their own there: told, or refused where they should be glued.
+/// Warns of bodies that touch without common nodes, or throws InputError if they should be glued.
 void check_joints(SurfaceModel& model, const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
                   const CadOptions& options) {
   const auto [joints, near] =
@@ -149,7 +149,7 @@ void check_joints(SurfaceModel& model, const CadShape& cad, const TopTools_Index
                   counted(std::ssize(joints), "place"), list));
 }
 
-/// Refuses common points that no node can join, as fragmented shapes have them.
+/// Throws InputError for common points that no node can join, as in fragmented shapes.
 void refuse_joints_at_points(const Mesh& mesh, const TopTools_IndexedMapOfShape& faces) {
   const std::vector<LooseJoint> joints = joints_at_points(faces);
   if (!joints.empty())
@@ -159,7 +159,7 @@ void refuse_joints_at_points(const Mesh& mesh, const TopTools_IndexedMapOfShape&
         counted(std::ssize(joints), "place"), list_joints(mesh, joints)));
 }
 
-/// A curve that stands in a face has a point inside, so that a patch can be opened between its ends.
+/// Splits embedded curves of one line, so that a patch can be opened between their ends.
 void split_single_lines(SurfaceModel& model) {
   SurfaceEditor editor(model);
   const std::vector<int> curve_of = model.fine.line_curve;
@@ -189,7 +189,7 @@ void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
   }
 }
 
-/// Names the faces that cannot be used, those with the same reason together.
+/// Throws InputError with the faces that cannot be used, grouped by reason.
 [[noreturn]] void refuse(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
                          const std::vector<std::string>& why_not) {
   std::vector<std::pair<std::string, std::string>> lists;

@@ -15,7 +15,7 @@ namespace delquad::cad {
 namespace {
 
 struct SurfacePoint {
-  Vec3 point, normal;  ///< normal of length 1, or 0 where there is none
+  Vec3 point, normal;  ///< unit normal, or 0 if there is none
 };
 
 SurfacePoint evaluate(const Geom_Surface& surface, Vec2 uv) {
@@ -47,7 +47,7 @@ class FaceRefiner {
     std::vector<int> waiting;
     for (int t = 0; t < std::ssize(kernel_.triangles()); ++t) waiting.push_back(t);
     bool is_complete = true;
-    // The first that came first: the points spread evenly should they not be enough.
+    // In order of arrival, so that points spread evenly if their number is limited.
     for (std::size_t i = 0; i < waiting.size(); ++i) {
       check_cancelled();
       const Refinement refinement = worst_of(waiting[i]);
@@ -74,13 +74,13 @@ class FaceRefiner {
 
   Vec2 parameters(Vec2 x) const { return {x.x / scale_.x, x.y / scale_.y}; }
 
-  /// How far the surface lies from the point of the chords with the same parameters, across the surface.
+  /// Returns the distance, across the surface, from a point of a chord to the surface at the same parameters.
   double deviation(Vec2 x, const Vec3& chord) const {
     const SurfacePoint on = evaluate(surface_, parameters(x));
     return std::abs(dot(on.normal, on.point - chord));
   }
 
-  /// A side inside that turns or deviates too much, the longest; else the middle of the triangle if that
+  /// Returns the longest inner side that turns or deviates too much; else the middle of the triangle if it
   /// does.
   Refinement worst_of(int t) const {
     const DelaunayKernel::Triangle& triangle = kernel_.triangles()[t];
@@ -116,7 +116,7 @@ class FaceRefiner {
   double cosine_;
   DelaunayKernel kernel_;
   int n_boundary_;
-  std::vector<Vec3> points_, normals_;  ///< of the kernel's points
+  std::vector<Vec3> points_, normals_;  ///< places and normals of the points
 };
 
 }  // namespace
@@ -128,7 +128,7 @@ RefinedFace refine_face(const Geom_Surface& surface, const TriPatch& start, std:
 
 Vec2 parameter_scale(const Geom_Surface& surface, const std::vector<Vec2>& uv) {
   const auto [low, high] = Box<Vec2>::around(std::span(uv));
-  // Samples in their box: an even grid sees what the outline of a band around a pole does not.
+  // Samples an even grid in the box, since the outline of a band around a pole tells too little.
   constexpr int kSamples = 8;
   double u_speed = 0, v_speed = 0;
   for (int i = 0; i < kSamples; ++i) {

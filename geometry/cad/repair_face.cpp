@@ -15,11 +15,11 @@ using Loop = std::vector<int>;
 
 double area(const Vec3& a, const Vec3& b, const Vec3& c) { return norm(cross(b - a, c - a)) / 2; }
 
-/// The sides that lack a triangle, as chains from node to node: next[a] lists the ends of those from a.
+/// Returns the sides that lack a triangle, as chains: next[a] lists their ends from node a.
 std::map<int, std::vector<int>> missing_sides(const std::vector<std::array<int, 2>>& boundary,
                                               const std::vector<Triangle>& triangles) {
-  // How many more triangles run from the lower to the higher end than the other way round, less the
-  // boundary's.
+  // Counts triangles that run from the lower to the higher end, minus opposite ones, minus the boundary's
+  // sides.
   std::vector<std::pair<std::array<int, 2>, int>> counts;
   const auto count = [&](int a, int b, int n) {
     counts.push_back({{std::min(a, b), std::max(a, b)}, a < b ? n : -n});
@@ -49,7 +49,7 @@ std::vector<Loop> simple_loops(std::map<int, std::vector<int>> next) {
   while (!next.empty()) {
     if (path.empty()) path.push_back(next.begin()->first);
     const auto from = next.find(path.back());
-    if (from == next.end()) break;  // cannot be: as many sides end at a node as begin there
+    if (from == next.end()) break;  // impossible, since as many sides end at a node as begin there
     const int to = from->second.back();
     from->second.pop_back();
     if (from->second.empty()) next.erase(from);
@@ -65,7 +65,7 @@ std::vector<Loop> simple_loops(std::map<int, std::vector<int>> next) {
   return loops;
 }
 
-/// The triangulation of a loop that has the least area.
+/// Returns the triangulation of a loop with the least area.
 std::vector<Triangle> fill(const std::vector<Vec3>& points, const Loop& loop) {
   const int n = static_cast<int>(loop.size());
   std::vector<std::vector<std::pair<double, int>>> best(n, std::vector<std::pair<double, int>>(n, {0, -1}));

@@ -11,14 +11,14 @@ namespace delquad::cad {
 
 namespace {
 
-/// Calls visit(member) for all that is no shape.
+/// Calls visit(member) for all members except the shape.
 template <class Shape, class Visit>
 void visit_values(Shape& cad, const Visit& visit) {
   visit(cad.diagonal), visit(cad.unit), visit(cad.missing), visit(cad.why_not);
   for (auto& line : cad.loose) visit(line.names), visit(line.where), visit(line.points);
 }
 
-/// Faces, then edges, whose names are told in this order.
+/// Returns faces, then edges, in the order of their names in the bytes.
 std::vector<TopoDS_Shape> named_parts(const TopoDS_Shape& shape) {
   std::vector<TopoDS_Shape> all;
   for (const TopAbs_ShapeEnum kind : {TopAbs_FACE, TopAbs_EDGE}) {

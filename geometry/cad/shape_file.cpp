@@ -55,7 +55,7 @@ namespace delquad::cad {
 
 namespace {
 
-/// A name that is long (a property), or short (the label).
+/// Returns the long name (a property), or the short one (the label).
 std::string name_of(const IGESData_IGESEntity& entity) {
   if (!entity.HasName()) return "";
   const Handle(TCollection_HAsciiString) name = entity.NameValue();
@@ -64,7 +64,7 @@ std::string name_of(const IGESData_IGESEntity& entity) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
-/// One of the eight that have numbers, or any other in percent of red, green and blue; empty: none is said.
+/// Returns one of the eight numbered colors, or a color by percentages of red, green and blue; empty: none.
 std::string colour_of(const IGESData_IGESEntity& entity) {
   static constexpr std::array<const char*, 9> kNumbered = {"",       "000000", "ff0000", "00ff00", "0000ff",
                                                            "ffff00", "ff00ff", "00ffff", "ffffff"};
@@ -78,8 +78,8 @@ std::string colour_of(const IGESData_IGESEntity& entity) {
   return fmt::format("{:02x}{:02x}{:02x}", byte(red), byte(green), byte(blue));
 }
 
-/// Names and colors of the faces that `reader` has transferred, from all entities that hold them. `warnings`
-/// receives the encoding that bytes beyond ASCII were taken for.
+/// Returns names and colors of the transferred faces, from all entities that hold them. `warnings` gets the
+/// assumed encoding of bytes beyond ASCII.
 PartNames iges_names(const IGESControl_Reader& reader, std::vector<Warning>& warnings) {
   PartNames names;
   const Handle(Transfer_TransientProcess) transfer = reader.WS()->TransferReader()->TransientProcess();
@@ -107,7 +107,7 @@ PartNames iges_names(const IGESControl_Reader& reader, std::vector<Warning>& war
 /// Keeps the kernel's first complaint in place of printing it.
 class FirstComplaint : public Message_Printer {
  public:
-  /// " (...)", or nothing when there was none.
+  /// Returns " (...)"; empty if there was no complaint.
   std::string why() const { return text_.empty() ? "" : " (" + as_utf8(text_) + ")"; }
 
  protected:
@@ -122,7 +122,7 @@ class FirstComplaint : public Message_Printer {
   mutable std::string text_;
 };
 
-/// Takes the kernel's messages from here on.
+/// Collects the kernel's messages from now on.
 Handle(FirstComplaint) collect_messages() {
   const Handle(FirstComplaint) complaint = new FirstComplaint;
   Message::DefaultMessenger()->ChangePrinters().Clear();
@@ -130,7 +130,7 @@ Handle(FirstComplaint) collect_messages() {
   return complaint;
 }
 
-/// Enough of it to tell its kind.
+/// Number of bytes that tell the kind of a file.
 constexpr std::size_t kBeginning = 4096;
 
 std::string beginning(const std::filesystem::path& path) {
@@ -148,27 +148,28 @@ std::string beginning(const std::filesystem::path& path) {
 /// Limit of items that messages list.
 constexpr std::size_t kMostNamed = 5;
 
-/// "2 parts of the STEP file cannot be read: ...".
+/// Returns "2 parts of the STEP file cannot be read: ...".
 std::string unread(const std::string& kind, const std::vector<std::string>& lost,
                    const std::string& why = "") {
   return fmt::format("{} of the {} file cannot be read: {}{}", counted(std::ssize(lost), "part"), kind,
                      first_of(lost, kMostNamed), why);
 }
 
-/// Throws InputError unless the rest is wanted, and there is one; then the shape's list has the lost parts.
+/// Throws InputError unless `keep_going` is set and a rest exists; then the shape lists the lost parts.
 void lose(const std::string& text, bool keep_going, bool is_rest, CadShape& cad) {
   if (!is_rest) throw InputError(text + ": no face is left");
   if (!keep_going) throw InputError(text + ": expected a whole model (--keep-going meshes the rest)");
   cad.missing.push_back(text);
 }
 
-/// " (Unresolved Reference, Ent.Id.#15 Param.n0 2 (Id.#16))": the parser's first complaint, or nothing.
+/// Returns the parser's first complaint, " (Unresolved Reference, Ent.Id.#15 Param.n0 2 (Id.#16))"; empty:
+/// none.
 std::string first_failure(const XSControl_Reader& reader) {
   const Handle(Interface_Check) check = reader.WS()->Model()->GlobalCheck();
   return check->HasFailed() ? fmt::format(" ({})", check->CFail(1)) : "";
 }
 
-/// Names of the units of lengths, in capitals.
+/// Returns the names of the units of lengths, in capitals.
 std::vector<std::string> units_of_file(STEPControl_Reader& reader) {
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.FileUnits(lengths, angles, solid_angles);
@@ -199,7 +200,7 @@ void warn_of_unit(const std::vector<std::string>& in_file, const LengthUnit& wan
                     fmt::join(in_file, " and "), wanted.name));
 }
 
-/// Reads STEP and IGES alike.
+/// Returns the shape of a STEP or IGES file.
 template <class Reader>
 CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& options,
                   const std::function<IFSelect_ReturnStatus(Reader&)>& load) {
@@ -258,7 +259,7 @@ CadShape read_iges(const std::string& path, const CadOptions& options) {
   return cad;
 }
 
-/// The kernel reads IGES from files only.
+/// Reads IGES by a temporary file, since the kernel reads it from files only.
 CadShape read_iges_bytes(const std::string& bytes, const CadOptions& options) {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "model.igs").string();
@@ -273,7 +274,7 @@ CadShape read_brep(const std::string& bytes, const CadOptions& options) {
     throw InputError(
         "BREP files do not say their unit: lengths stay as they are, and no unit can be asked for");
   const Handle(FirstComplaint) complaint = collect_messages();
-  // The kernel reads on and on behind the end of a truncated file unless the stream stops it.
+  // The stream must stop the kernel at the end of a truncated file, or it reads forever.
   std::istringstream in(bytes);
   in.exceptions(std::ios::failbit | std::ios::badbit);
   CadShape cad;
@@ -293,7 +294,8 @@ CadShape read_brep(const std::string& bytes, const CadOptions& options) {
 
 enum class Kind { kStep, kIges, kBrep };
 
-/// The first line of an IGES file is the first of its section S: it says so at the end of its 80 characters.
+/// Returns whether a text begins like an IGES file: its first line ends with the mark of section S at
+/// character 80.
 bool begins_iges(const std::string& text) {
   constexpr std::size_t kSection = 72;
   const std::size_t end = text.find_first_of("\r\n");

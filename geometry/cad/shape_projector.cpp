@@ -33,17 +33,17 @@ namespace delquad::cad {
 
 namespace {
 
-/// Newton converges in 3 to 5 steps; more are needed only at kinks and poles.
+/// Limit of Newton's steps: usually 3 to 5, more only at kinks and poles.
 constexpr int kMostSteps = 50;
 constexpr int kMostHalvings = 30;
-/// Steps shorter than this many tolerances are taken as they are: rounding hides what the distance gains.
+/// Length of steps, in tolerances, that are accepted without a test, since rounding hides their gain.
 constexpr double kRoundingFactor = 1e4;
 
-/// The parameters that a variable may take.
+/// Range of a parameter.
 struct ParameterRange {
   double low, high;
   double clamp(double t) const { return std::clamp(t, low, high); }
-  /// True when a step would leave at once.
+  /// Returns whether a step would leave the range at once.
   bool stops(double t, double step) const { return (t <= low && step < 0) || (t >= high && step > 0); }
 };
 
@@ -61,8 +61,8 @@ struct Step {
   double u = 0, v = 0;
 };
 
-/// The step from S(u, v) towards the nearest point. It is Newton's where the distance is convex, else the
-/// step of the tangent plane; a variable that may not move stays.
+/// Returns the step from S(u, v) towards the nearest point: Newton's if the distance is convex, else by the
+/// tangent plane. A parameter at the end of its range stays.
 Step newton_step(const gp_Vec& r, const gp_Vec& du, const gp_Vec& dv, const gp_Vec& duu, const gp_Vec& dvv,
                  const gp_Vec& duv, double u, double v, const SurfaceRange& range) {
   const double gu = r.Dot(du), gv = r.Dot(dv);
@@ -76,7 +76,7 @@ Step newton_step(const gp_Vec& r, const gp_Vec& du, const gp_Vec& dv, const gp_V
     const double det = a * c - b * b;
     return Step{(b * gv - c * gu) / det, (b * gu - a * gv) / det};
   };
-  // Relative to the product: a smaller determinant is rounding (a pole, parallel tangents).
+  // Determinant over the product below which it is rounding (a pole, parallel tangents).
   constexpr double kSingular = 1e-14;
   const auto is_definite = [](double a, double b, double c) {
     return a > 0 && c > 0 && a * c - b * b > kSingular * a * c;
@@ -94,8 +94,8 @@ Step newton_step(const gp_Vec& r, const gp_Vec& du, const gp_Vec& dv, const gp_V
   return step;
 }
 
-/// The point of a surface near S(u, v), a first guess, whose distance to x is smallest, by damped Newton
-/// steps. Stops when a step moves it by less than `tolerance`, a length.
+/// Returns the point of a surface nearest to x, by damped Newton steps from the guess S(u, v). Stops if a
+/// step is shorter than `tolerance`, a length.
 gp_Pnt nearest_point(const Geom_Surface& surface, const gp_Pnt& x, double u, double v, double tolerance) {
   const SurfaceRange range(surface);
   u = range.u.clamp(u);
@@ -107,7 +107,7 @@ gp_Pnt nearest_point(const Geom_Surface& surface, const gp_Pnt& x, double u, dou
     const gp_Vec r(x, p);
     const Step step = newton_step(r, du, dv, duu, dvv, duv, u, v, range);
     const double moved = (step.u * du + step.v * dv).Magnitude();
-    // The error left is the error of the next step: its square.
+    // The remaining error is about the square of the last step.
     const bool last = moved < tolerance;
     double fraction = 1;
     gp_Pnt q;
@@ -123,7 +123,7 @@ gp_Pnt nearest_point(const Geom_Surface& surface, const gp_Pnt& x, double u, dou
   return p;
 }
 
-/// The same on the stretch [first, last] of a curve.
+/// Returns the same on the part [first, last] of a curve.
 gp_Pnt nearest_point(const Geom_Curve& curve, double first, double last, const gp_Pnt& x, double t,
                      double tolerance) {
   const ParameterRange range{first, last};
@@ -162,19 +162,19 @@ std::optional<Elementary> as_elementary(const Handle(Geom_Surface) & surface) {
 
 gp_Pnt pnt_of(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-/// Not known where the tangents du and dv are parallel or vanish.
+/// Returns the curvatures; unknown if the tangents du and dv are parallel or vanish.
 PrincipalCurvatures curvatures_of(const Geom_Surface& surface, double u, double v) {
   gp_Pnt p;
   gp_Vec du, dv, duu, dvv, duv;
   surface.D2(u, v, p, du, dv, duu, dvv, duv);
   const double e = du.Dot(du), f = du.Dot(dv), g = dv.Dot(dv), area2 = e * g - f * f;
-  constexpr double kSingular = 1e-12;  // of the squared sine between the tangents
+  constexpr double kSingular = 1e-12;  // least squared sine between the tangents
   if (!(area2 > kSingular * e * g)) return {};
   const gp_Vec normal = du.Crossed(dv) / std::sqrt(area2);
   const double l = normal.Dot(duu), m = normal.Dot(duv), n = normal.Dot(dvv);
   const double mean = (e * n - 2 * f * m + g * l) / (2 * area2), gauss = (l * n - m * m) / area2;
   const double most = std::copysign(std::abs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss)), mean);
-  // The direction a du + b dv solves (l - most e) a + (m - most f) b = 0, and the same of m and n.
+  // The direction a du + b dv solves (l - most e) a + (m - most f) b = 0, and likewise for m and n.
   const double left = l - most * e, mixed = m - most * f, right = n - most * g;
   gp_Vec along = std::abs(left) * g > std::abs(right) * e ? left * dv - mixed * du : mixed * dv - right * du;
   if (along.Magnitude() == 0) along = du;
@@ -182,7 +182,7 @@ PrincipalCurvatures curvatures_of(const Geom_Surface& surface, double u, double 
   return {most, 2 * mean - most, {along.X(), along.Y(), along.Z()}};
 }
 
-/// How near to the ends of a closed curve both sides are tried, as a fraction of its parameters.
+/// Part of the parameters at the ends of a closed curve where both sides are tried.
 constexpr double kNearEnd = 0.1;
 
 class FaceProjector {
@@ -200,7 +200,7 @@ class FaceProjector {
     const Vec2 uv = parameters(x);
     try {
       return curvatures_of(*surface_, uv.x, uv.y);
-    } catch (const Standard_Failure&) {  // no second derivatives there
+    } catch (const Standard_Failure&) {  // no second derivatives at this point
       return {};
     }
   }
@@ -214,7 +214,8 @@ class FaceProjector {
   }
 
  private:
-  /// Exact where the nearest point has a closed form, else by the nearest fine triangle.
+  /// Returns parameters of the nearest point: exact if it has a closed form, else by the nearest fine
+  /// triangle.
   Vec2 parameters(const Vec3& x) const {
     Vec2 uv{0, 0};
     if (elementary_) {
@@ -230,7 +231,7 @@ class FaceProjector {
 
   Handle(Geom_Surface) surface_;
   std::optional<Elementary> elementary_;
-  std::vector<Vec2> uv_;  ///< of the triangles' points
+  std::vector<Vec2> uv_;  ///< parameters of the triangles' points
   std::optional<NearestTriangle> triangles_;
 };
 
@@ -255,7 +256,7 @@ class CurveProjector {
     const gp_Pnt target = pnt_of(x);
     const auto from = [&](double t) { return nearest_point(*curve_, first_, last_, target, t, tolerance); };
     const gp_Pnt p = from(best);
-    // The nearest point may lie across the point where a closed curve begins and ends.
+    // The nearest point may lie beyond the ends of a closed curve.
     if (!is_closed_ || std::min(best - first_, last_ - best) > kNearEnd * (last_ - first_)) return vec_of(p);
     const gp_Pnt q = from(best - first_ < last_ - best ? last_ : first_);
     return vec_of(q.SquareDistance(target) < p.SquareDistance(target) ? q : p);

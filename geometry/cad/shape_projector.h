@@ -12,9 +12,10 @@
 
 namespace delquad::cad {
 
-/// Returns the nearest points of the true surfaces and curves. There are closed forms on planes, cylinders,
-/// cones, spheres and tori; elsewhere Newton's method starts from the nearest fine triangle or line. A face's
-/// surface is taken near the face, not cut off at its boundary. `tolerance` is a length.
+/// Returns a projector to the nearest points of the true surfaces and curves. It has closed forms on planes,
+/// cylinders, cones, spheres and tori; elsewhere Newton's method starts from the nearest fine triangle or
+/// line. The surface near a face counts, also beyond its boundary. `tolerance` > 0 is a length, of the last
+/// step.
 std::shared_ptr<const SurfaceProjector> make_projector(std::vector<FaceMesh> faces,
                                                        const std::vector<CurveMesh>& curves,
                                                        double tolerance);

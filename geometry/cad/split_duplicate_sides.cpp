@@ -13,7 +13,7 @@ namespace {
 
 using Side = std::array<int, 2>;
 
-/// The inner sides of faces on whose nodes another face has a side, by face.
+/// Returns the inner sides of faces, by face, on whose nodes another face has a side.
 std::vector<std::pair<int, Side>> duplicate_sides(const Mesh& mesh,
                                                   const std::vector<std::vector<Side>>& boundary) {
   std::vector<std::pair<int, Side>> twins;

@@ -28,7 +28,7 @@ namespace delquad::cad {
 
 namespace {
 
-/// Whether a writer puts this text in place of a missing name.
+/// Returns whether writers put this text in place of a missing name.
 bool is_placeholder(const std::string& name) {
   return name.find_first_not_of(' ') == std::string::npos || name == "NONE" ||
          name.starts_with("Open CASCADE STEP translator");

@@ -11,9 +11,9 @@
 namespace delquad::cad {
 
 /// Returns names and colors of the faces that `reader` has transferred, in the order of the file, and the
-/// names of its edges. Faces get the names of their shells, solids and products, too. `is_ascii`: the file
-/// has no other bytes, which the kernel would have taken for ISO 8859-1. `warnings` receives the encoding
-/// that other bytes were taken for.
+/// names of its edges. Faces get the names of their shells, solids and products, too. `is_ascii` tells that
+/// the file has no other bytes, which the kernel would read as ISO 8859-1. `warnings` gets the assumed
+/// encoding of other bytes.
 PartNames step_names(const STEPControl_Reader& reader, bool is_ascii, std::vector<Warning>& warnings);
 
 }  // namespace delquad::cad

@@ -28,7 +28,7 @@ namespace delquad::cad {
 
 namespace {
 
-/// The kernel's own algorithm for a face; it tells the face to the run.
+/// The kernel's own algorithm for a face, which also reports the face to the run.
 class WatchedAlgo : public IMeshTools_MeshAlgo {
  public:
   WatchedAlgo(Handle(IMeshTools_MeshAlgo) own, const TopTools_IndexedMapOfShape& faces, Run* run)
@@ -60,10 +60,10 @@ class WatchedAlgos : public IMeshTools_MeshAlgoFactory {
  private:
   BRepMesh_MeshAlgoFactory kernel_;
   const TopTools_IndexedMapOfShape& faces_;
-  Run* run_ = current_run();  ///< the kernel's own threads, which ask for algorithms, know of none
+  Run* run_ = current_run();  ///< stored, since the kernel's own threads have no run
 };
 
-/// Area of a face that counts as none, as a fraction of the square of the diagonal.
+/// Area of a face that counts as none, over the square of the diagonal.
 constexpr double kNoArea = 1e-14;
 
 FaceMesh take_triangulation(const TopoDS_Face& face) {

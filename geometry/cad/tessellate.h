@@ -27,15 +27,15 @@ struct FaceMesh {
 /// Returns "face 12 (lid)", by its number and first name.
 std::string face_title(int number, const std::vector<std::string>& names);
 
-/// Triangulates the faces of a shape and tells each one to the run (activity.h). The kernel keeps the
-/// triangulation in the shape. Neighbors have the same nodes along their edges. `deflection` is a length,
-/// `angle` in radians.
+/// Triangulates the faces of a shape by the kernel, and reports each one to the run (activity.h). The
+/// triangulation is stored in the shape. Neighbors have the same nodes along their edges. `deflection` > 0 is
+/// a length, `angle` > 0 in radians.
 void triangulate(const CadShape& cad, const TopTools_IndexedMapOfShape& faces, double deflection,
                  double angle);
 
-/// Returns the triangulations of the faces, in the map's order. `why_not` receives for each face the reason
-/// why its triangulation cannot be used: it is missing or has no area. Else the text is empty. Faces with a
-/// reason have no triangles.
+/// Returns the triangulations of the faces, in the map's order. `why_not` gets for each face the reason why
+/// its triangulation cannot be used, missing or without area, or an empty text. Faces with a reason have no
+/// triangles.
 std::vector<FaceMesh> face_meshes(const CadShape& cad, const TopTools_IndexedMapOfShape& faces,
                                   std::vector<std::string>& why_not);
 

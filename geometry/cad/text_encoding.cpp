@@ -22,8 +22,8 @@ enum class TextEncoding { kUtf8, kGbk, kShiftJis, kLatin1 };
 unsigned byte_at(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
 bool is_within(unsigned byte, unsigned low, unsigned high) { return low <= byte && byte <= high; }
 
-/// Whether all bytes above 0x7F begin or end pairs that `is_pair`, none beside a small letter; those that
-/// `is_single` stand for themselves.
+/// Returns whether all bytes above 0x7F belong to pairs for which `is_pair` holds, none beside a small
+/// letter, or satisfy `is_single`.
 template <class IsPair, class IsSingle>
 bool is_in_pairs(std::string_view text, IsPair is_pair, IsSingle is_single) {
   bool in_word = false;  // behind a small letter
@@ -91,7 +91,7 @@ std::string to_utf8(const std::string& bytes, TextEncoding encoding) {
   return as_utf8(TCollection_AsciiString(text).ToCString());
 }
 
-/// The bytes that stand for themselves; the text itself where one cannot.
+/// Returns the bytes of characters below 256; the text itself if there is any other.
 std::string bytes_of(const std::string& utf8) {
   std::string bytes;
   for (std::size_t i = 0; i < utf8.size(); ++i) {

@@ -19,7 +19,7 @@ namespace delquad::cad {
 
 namespace {
 
-/// Does the face's boundary extend over more than a period?
+/// Returns whether the face's boundary extends over more than a period.
 bool winds(const TopoDS_Face& face) {
   constexpr double kOnce = 1.01;
   const BRepAdaptor_Surface surface(face, /*R=*/false);
@@ -29,8 +29,8 @@ bool winds(const TopoDS_Face& face) {
          (surface.IsVPeriodic() && v1 - v0 > kOnce * surface.VPeriod());
 }
 
-/// The face turned over, its edges running as before, moved by periods so that each begins where another
-/// ends.
+/// Returns the reversed face, with the same edges, moved by periods so that each begins at the end of
+/// another.
 TopoDS_Face turned(const TopoDS_Face& face) {
   TopoDS_Face other = TopoDS::Face(face.EmptyCopied().Oriented(TopAbs_FORWARD));
   for (TopoDS_Iterator wire(face.Oriented(TopAbs_FORWARD)); wire.More(); wire.Next()) {

@@ -47,15 +47,15 @@ class Welder {
   }
 
  private:
-  /// How faces see an edge.
+  /// An edge as its faces have it.
   struct EdgeUse {
-    std::vector<int> nodes;          ///< in ascending order of the parameter
-    std::vector<double> parameters;  ///< of the nodes
+    std::vector<int> nodes;          ///< nodes by ascending parameter
+    std::vector<double> parameters;  ///< parameters of the nodes
     int first_face = -1;
-    int n_passages = 0;    ///< of first_face's boundary along it
-    bool is_seam = false;  ///< of first_face, which lies on both sides of it
+    int n_passages = 0;    ///< passages of first_face's boundary along it
+    bool is_seam = false;  ///< whether first_face lies on both sides of it
     bool is_shared = false;
-    std::vector<int> inside_of;  ///< faces, ascending
+    std::vector<int> inside_of;  ///< faces with the edge inside, ascending
   };
 
   int new_node(const Vec3& p) {
@@ -71,7 +71,7 @@ class Welder {
     return vertex_nodes_[v - 1];
   }
 
-  /// The nodes of an edge as one face has them become the nodes of the edge.
+  /// Joins the nodes of an edge in one face to the nodes of the edge.
   void add_edge(int f, const TopoDS_Edge& edge, std::vector<int>& node_of) {
     const Handle(Poly_PolygonOnTriangulation) polygon = polygon_of(edge, faces_[f].face);
     if (polygon.IsNull() || polygon->NbNodes() < 2) return;
@@ -132,8 +132,7 @@ class Welder {
       if (node_of[i] < 0) node_of[i] = new_node(mesh.points[i]);
   }
 
-  /// The triangles of a face between nodes, those welded to a side or a point dropped, whole up to its
-  /// boundary.
+  /// Returns the triangles of a face between nodes, without degenerate ones, repaired up to its boundary.
   std::vector<std::array<int, 3>> whole_face(int f) {
     std::vector<std::array<int, 3>> triangles;
     for (const auto& [a, b, c] : faces_[f].triangles) {
@@ -160,7 +159,7 @@ class Welder {
     }
   }
 
-  /// From nodes to points: those that triangles use, in the order of their nodes.
+  /// Numbers the points of nodes that triangles use, in the order of nodes.
   void number_points(Mesh& mesh) {
     number_.assign(points_.size(), -1);
     for (const auto& triangle : mesh.triangles)
@@ -174,7 +173,7 @@ class Welder {
       for (int& node : triangle) node = number_[node];
   }
 
-  /// With the edges inside of faces.
+  /// Returns the boundaries by points, with the edges inside of faces.
   std::vector<std::vector<std::array<int, 2>>> numbered_boundaries() {
     std::vector<std::vector<std::array<int, 2>>> sides(boundary_.size());
     for (const EdgeUse& use : uses_)
@@ -204,8 +203,8 @@ class Welder {
     }
     if (chain.size() < 2) return;
     Mesh& mesh = welded.mesh;
-    // Edges that lie on each other in one face have it on neither side. Where edges of several faces do, such
-    // as the common side of two holes, the first has the lines.
+    // Coinciding edges of one face bound nothing. If edges of several faces coincide, as at the common side
+    // of two holes, the first has the lines.
     const auto bounds_something = [&](std::size_t k) {
       const auto [a, b] = std::minmax(chain[k], chain[k + 1]);
       return std::ranges::binary_search(sides_, std::array{a, b}) && on_curves_.insert({a, b}).second;
@@ -240,18 +239,17 @@ class Welder {
   const std::vector<FaceMesh>& faces_;
   const TopTools_IndexedMapOfShape& edges_;
   double gap_;
-  std::vector<EdgeUse> uses_;  ///< of each edge
-  std::vector<std::vector<std::array<int, 2>>>
-      boundary_;  ///< sides (nodes) of each face, its triangles on them
+  std::vector<EdgeUse> uses_;                              ///< use of each edge
+  std::vector<std::vector<std::array<int, 2>>> boundary_;  ///< sides (nodes) on the boundary of each face
   TopTools_IndexedMapOfShape vertices_;
   std::vector<int> vertex_nodes_;
-  std::vector<Vec3> points_;  ///< of each node
+  std::vector<Vec3> points_;  ///< place of each node
   DisjointSets sets_;
-  std::vector<std::vector<int>> node_of_;  ///< of each point of each face
+  std::vector<std::vector<int>> node_of_;  ///< node of each point of each face
   std::vector<int> bad_faces_;
-  std::vector<std::array<int, 2>> sides_;   ///< of triangles between points, sorted
+  std::vector<std::array<int, 2>> sides_;   ///< sides of triangles between points, sorted
   std::vector<int> number_;                 ///< point of the mesh of each node; -1: none
-  std::set<std::array<int, 2>> on_curves_;  ///< the sides that are lines of curves
+  std::set<std::array<int, 2>> on_curves_;  ///< sides that are lines of curves
 };
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 #include "geometry/cad/cad_worker.h"
 
-/// Started by the library, with its own process number and a socket as standard input; people can ask it for
-/// the version of OpenCASCADE.
+/// Runs a worker for the library, with the library's process number and a socket as standard input. A user
+/// can ask for the version of OpenCASCADE.
 int main(int argc, char** argv) {
   constexpr int kInput = 0;
   if (argc != 2) return EXIT_FAILURE;

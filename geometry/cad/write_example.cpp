@@ -52,7 +52,7 @@ CadShape make_example(const std::string& name) {
   throw std::logic_error("no example " + name);
 }
 
-/// An example whose faces have its own name first, as the name of a product in a STEP file.
+/// Returns an example whose faces have its name first, like the name of a product in a STEP file.
 CadShape make_product(const std::string& name) {
   const CadShape example = make_example(name);
   CadShape product{example.shape};
@@ -71,8 +71,8 @@ Handle(TCollection_HAsciiString) text(const std::string& value) {
   return new TCollection_HAsciiString(value.c_str());
 }
 
-/// Names file and product after the model, counts its bodies from 1 and leaves the date out: else the bytes
-/// would differ each time.
+/// Names file and product after the model, counts its bodies from 1 and leaves out the date, so that bytes
+/// are reproducible.
 void write_titles(const std::string& name, const Handle(StepData_StepModel) & model) {
   APIHeaderSection_MakeHeader header(model);
   header.SetName(text(name));
@@ -89,7 +89,7 @@ void write_titles(const std::string& name, const Handle(StepData_StepModel) & mo
   }
 }
 
-/// While it lives, the kernel prints nothing.
+/// Silences the kernel during its lifetime.
 class SilentKernel {
  public:
   SilentKernel() { std::swap(printers_, Message::DefaultMessenger()->ChangePrinters()); }
@@ -105,7 +105,7 @@ void name_faces(const CadShape& cad, const STEPControl_Writer& writer) {
   const auto process = writer.WS()->TransferWriter()->FinderProcess();
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE);
   for (int f = 1; f <= faces.Extent(); ++f) {
-    TopLoc_Location place;  // a face that was moved may be written where it came from
+    TopLoc_Location place;  // a moved face may be written at its former place
     const Handle(StepRepr_RepresentationItem) item = STEPConstruct::FindEntity(process, faces(f), place);
     if (item.IsNull()) throw std::logic_error("a face was not written");
     for (const std::string& name : cad.names.of(faces(f))) item->SetName(text(name));
@@ -113,7 +113,7 @@ void name_faces(const CadShape& cad, const STEPControl_Writer& writer) {
 }
 
 void write_step(const std::string& name, const CadShape& cad, std::ostream& out) {
-  const SilentKernel silent;  // it would print statistics
+  const SilentKernel silent;  // avoids printed statistics
   STEPControl_Writer writer;
   if (writer.Transfer(cad.shape, STEPControl_AsIs) != IFSelect_RetDone)
     throw std::logic_error("the example " + name + " cannot be written");

@@ -21,7 +21,8 @@ void check_entities(const std::vector<Entity>& entities, const char* kind, Repor
   }
 }
 
-/// Indices of one kind of element and of the entities that they lie on. True when the vertices are in range.
+/// Checks the indices of vertices and entities of one kind of element. Returns whether the vertices are in
+/// range.
 template <size_t N>
 bool check_indices(const std::vector<std::array<int, N>>& elements, const std::vector<int>& entity_of,
                    size_t n_points, size_t n_entities, const char* kind, Report& wrong) {
@@ -76,7 +77,7 @@ void check_edges(const Mesh& mesh, const std::vector<char>& branching, std::span
   }
   std::sort(lines.begin(), lines.end(), [](const Line& s, const Line& t) { return s.ends < t.ends; });
   auto line = lines.begin();
-  // Goes on to the lines behind the edge; true when one on it may branch.
+  // Advances to the lines behind the edge. Returns whether a line on it may branch.
   const auto pass = [&](const std::array<int, 2>& edge) {
     for (; line != lines.end() && line->ends < edge; ++line) {
       wrong.push_back(fmt::format("line {}, {}: not an edge of any element", line->ends[0], line->ends[1]));
@@ -112,7 +113,7 @@ void check_all_used(const Mesh& mesh, Report& wrong) {
   }
 }
 
-/// All that does not need the indices to be in range; returns whether they are.
+/// Checks all that needs no index in range. Returns whether all indices are in range.
 bool check_elements(const Mesh& mesh, Report& wrong) {
   check_entities(mesh.curves, "curve", wrong);
   check_entities(mesh.regions, "region", wrong);

@@ -12,13 +12,14 @@
 
 namespace delquad {
 
-/// Runs check_invariants() on meshes of branching surfaces: on edges of the marked curves (by index) any
-/// number of elements may meet.
+/// Returns check_invariants() of a mesh with branches: any number of elements may meet on edges of the marked
+/// curves (by index).
 std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<char>& branching);
-/// Returns the same of a mesh whose indices are in range, with its sorted_half_edges().
+/// Returns the same for a mesh whose indices are in range, with its sorted_half_edges().
 std::vector<std::string> check_invariants(const Mesh& mesh, const std::vector<char>& branching,
                                           std::span<const HalfEdge> sides);
 
+/// Returns whether all coordinates are finite.
 bool has_finite_points(const Mesh& mesh);
 
 }  // namespace delquad

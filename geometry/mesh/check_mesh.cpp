@@ -29,7 +29,7 @@ void check_elements(const std::vector<std::array<int, N>>& elements, const std::
                                    entity, entity_of[i], n_entities));
 }
 
-/// The further nodes of curved elements, `each` of them.
+/// Checks the further nodes of curved elements, `each` for every element.
 void check_further(const std::vector<int>& nodes, std::size_t n_elements, int each, std::size_t n_points,
                    const char* kind, const std::string& where) {
   if (nodes.size() != n_elements * static_cast<std::size_t>(each))

@@ -9,9 +9,8 @@
 
 namespace delquad {
 
-/// Throws InputError, which begins with `where`, for defects that no function on meshes can handle. These are
-/// indices out of range, lists of different lengths, and coordinates that are not finite. For other defects
-/// see check_invariants().
+/// Throws InputError, which begins with `where`, for indices out of range, lists of different lengths, and
+/// coordinates that are not finite. For other defects see check_invariants().
 void require_readable(const Mesh& mesh, const std::string& where);
 
 /// Throws InputError, which begins with `where`, for elements of a higher order.

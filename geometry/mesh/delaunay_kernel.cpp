@@ -25,7 +25,7 @@ int DelaunayKernel::side_of(int triangle, int neighbour) const {
 
 int DelaunayKernel::locate(Vec2 x, int start) const {
   int t = start, entered = -1;
-  // A walk over a constrained triangulation may in principle turn in a circle: no walk visits more than all
+  // A walk over a constrained triangulation may run in a circle, so its steps are limited by the number of
   // triangles.
   for (size_t steps = 0; steps <= triangles_.size(); ++steps) {
     const Triangle& tri = triangles_[t];

@@ -11,7 +11,7 @@
 
 namespace delquad {
 
-/// Gives named points and pairs of periodic nodes new numbers; they go if their points are gone (-1).
+/// Gives named points and pairs of periodic nodes the numbers in `renamed`, and drops them if a number is -1.
 inline void renumber_nodes(Mesh& mesh, const std::vector<int>& renamed) {
   std::erase_if(mesh.named_points, [&](const NamedPoint& named) { return renamed[named.point] < 0; });
   for (NamedPoint& named : mesh.named_points) named.point = renamed[named.point];
@@ -27,8 +27,8 @@ inline void renumber_nodes(Mesh& mesh, const std::vector<int>& renamed) {
   renumber(mesh.periodic_faces);
 }
 
-/// Takes out the points that no element uses, and their names; the others keep their order. Returns the new
-/// number of each; -1: it went.
+/// Removes the points that no element uses, and their names; the others keep their order. Returns the new
+/// number of each point; -1: removed.
 inline std::vector<int> drop_unused_points(Mesh& mesh) {
   std::vector<int> index(mesh.points.size(), -1);
   const auto each_vertex = [&](auto&& visit) {

@@ -15,10 +15,10 @@ namespace delquad {
 
 namespace {
 
-/// Rings of elements around cuts that a later pass takes up, and how far in there is work to do.
+/// Rings of elements around cuts that the next pass cuts again, and rings with work to do.
 constexpr int kBandRings = 7, kNearRings = 3;
 
-/// Maps the plane to the curve's cells; `turned`: so that its cuts cross the cuts of the other curve.
+/// Maps the plane to cells of the curve. If `turned`, its cuts cross the cuts of the other curve.
 class CurveFrame {
  public:
   CurveFrame(std::span<const Vec2> points, bool turned) : turned_(turned) {
@@ -48,7 +48,7 @@ bool any_of(const Elements& elements, std::size_t element, const std::vector<cha
   return std::ranges::any_of(elements.corners(element), [&](int v) { return vertices[v] != 0; });
 }
 
-/// With the vertices of `rings` rings of elements around.
+/// Adds the vertices of `rings` rings of elements around.
 std::vector<char> grown(const Elements& elements, std::vector<char> vertices, int rings) {
   std::vector<char> met(elements.size(), 0), is_new(elements.size());
   for (int ring = 0; ring < rings; ++ring) {
@@ -64,7 +64,7 @@ std::vector<char> grown(const Elements& elements, std::vector<char> vertices, in
   return vertices;
 }
 
-/// The elements at these vertices (empty: all), along the curve.
+/// Returns the elements at these vertices (empty: all), along the curve.
 std::vector<int> ordered(const Elements& elements, std::span<const Vec2> places,
                          const std::vector<char>& around) {
   const CurveFrame frame(places, !around.empty());
@@ -84,7 +84,7 @@ std::vector<int> ordered(const Elements& elements, std::span<const Vec2> places,
 
 using Blocks = std::vector<std::vector<int>>;
 
-/// Into parts of the same length, about kBlockElements each.
+/// Cuts into parts of the same length, about kBlockElements each.
 Blocks cut(const std::vector<int>& order) {
   const std::size_t n = std::max<std::size_t>(order.size() / ElementBlocks::kBlockElements, 1);
   Blocks blocks;
@@ -94,7 +94,7 @@ Blocks cut(const std::vector<int>& order) {
   return blocks;
 }
 
-/// Without cuts: what hangs together is in one block.
+/// Makes one block of each connected piece.
 Blocks whole_pieces(const Elements& elements, const std::vector<int>& order, std::size_t n_vertices) {
   DisjointSets pieces(n_vertices);
   for (const int e : order)

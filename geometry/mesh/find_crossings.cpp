@@ -16,7 +16,7 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-/// Where the edges of one triangle go through another.
+/// Returns the place where an edge of one triangle goes through another.
 std::optional<Vec3> edge_through(const Corners& edges, const Corners& triangle) {
   const auto& [a, b, c] = triangle;
   std::array<int, 3> side;
@@ -35,7 +35,7 @@ std::optional<Vec3> edge_through(const Corners& edges, const Corners& triangle) 
   return std::nullopt;
 }
 
-/// Whether triangles lie in one plane, and their insides overlap there by more than a length.
+/// Returns whether triangles lie in one plane within `contact`, and overlap there.
 bool lie_on_each_other(const Corners& a, const Corners& b, double contact) {
   for (const auto& [own, other] : {std::pair(&a, &b), {&b, &a}}) {
     const Vec3 normal = cross((*own)[1] - (*own)[0], (*own)[2] - (*own)[0]);
@@ -51,7 +51,7 @@ bool lie_on_each_other(const Corners& a, const Corners& b, double contact) {
   return true;
 }
 
-/// `most`: after so many a range of triangles is left.
+/// Returns the crossings; the search in a range of triangles ends after `most`.
 std::vector<Crossing> crossings_of(const std::vector<Vec3>& points,
                                    const std::vector<std::array<int, 3>>& triangles,
                                    const MayCross& may_cross, double contact, std::size_t most) {

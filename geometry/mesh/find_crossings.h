@@ -12,24 +12,23 @@
 
 namespace delquad {
 
-/// An edge of the first triangle goes through the second one, or both lie on each other.
+/// Two triangles that cross: an edge of one goes through the other, or both lie on each other.
 struct Crossing {
   int first, second;
   Vec3 at;
   bool is_flat = false;  ///< they lie on each other
 };
 
-/// Triangles that need not be told apart.
+/// Returns whether two triangles may cross.
 using MayCross = std::function<bool(int, int)>;
 
-/// Returns the triangles with an edge that goes through another triangle, both ends beside its plane, decided
-/// exactly. If there are several others it names the first. Triangles may touch, and lie on each other; with
-/// a positive `contact`, pairs whose insides overlap in one plane, within that length, are told, too. Pairs
-/// that `may_cross` are left out; several threads call it.
+/// Returns each triangle with an edge that goes through another triangle, with both ends off its plane
+/// (exact), and the first such triangle. Triangles that touch do not cross. With a length `contact` > 0,
+/// triangles that overlap in one plane within it cross, too. Several threads call `may_cross`.
 std::vector<Crossing> find_crossings(const std::vector<Vec3>& points,
                                      const std::vector<std::array<int, 3>>& triangles,
                                      const MayCross& may_cross, double contact = 0);
-/// Returns the first of them.
+/// Returns the first crossing; nothing if there is none.
 std::optional<Crossing> find_crossing(
     const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>& triangles,
     const MayCross& may_cross = [](int, int) { return false; });

@@ -68,7 +68,7 @@ inline std::vector<HalfEdge> sorted_half_edges(const Mesh& mesh) {
   return sides;
 }
 
-/// Returns the sides of the edge between two points; none where no element has it.
+/// Returns the sides of the edge between two points; empty if no element has it.
 inline std::span<const HalfEdge> sides_of_edge(std::span<const HalfEdge> sides, int a, int b) {
   const auto key = std::pair(std::min(a, b), std::max(a, b));
   const auto first = std::lower_bound(sides.begin(), sides.end(), key, [](const HalfEdge& s, const auto& k) {

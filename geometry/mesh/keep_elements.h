@@ -13,9 +13,8 @@
 
 namespace delquad {
 
-/// Keeps the elements of one kind of which keep(index) holds, with the entities that they are of, in their
-/// order. Returns how many went. keep() is asked in this order, and may change the element that it is asked
-/// about.
+/// Keeps the elements of one kind for which keep(index) returns true, with their entities, in their order.
+/// Returns the number of removed ones. Calls of keep() are in this order, and may change the element.
 template <class Elements, class Keep>
 std::size_t keep_elements(Elements& elements, std::vector<int>& entity_of, Keep keep) {
   assert(elements.size() == entity_of.size());
@@ -39,7 +38,8 @@ std::size_t keep_triangles(Mesh& mesh, Keep keep) {
   return keep_elements(mesh.triangles, mesh.triangle_region, keep);
 }
 
-/// Takes out the lines that are no sides of elements; returns how many went. `sides`: sorted_half_edges().
+/// Removes the lines that are no sides of elements. Returns their number. `sides` has the
+/// sorted_half_edges().
 inline std::size_t drop_stray_lines(Mesh& mesh, std::span<const HalfEdge> sides) {
   return keep_lines(
       mesh, [&](std::size_t l) { return !sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).empty(); });

@@ -6,7 +6,7 @@
 namespace delquad {
 namespace {
 
-/// Cosines and sines of quarter turns are whole numbers.
+/// Returns x, rounded if it is nearly whole, as cosines and sines of quarter turns are.
 double without_rounding(double x) {
   constexpr double kRounding = 1e-15;
   return std::abs(x - std::round(x)) < kRounding ? std::round(x) : x;

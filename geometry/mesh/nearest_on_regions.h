@@ -10,11 +10,11 @@
 
 namespace delquad {
 
-/// The triangles of each region of a mesh.
+/// Finds nearest points on the triangles of each region of a mesh.
 class NearestOnRegions {
  public:
   explicit NearestOnRegions(const Mesh& mesh);
-  /// Returns the point of a region nearest to x; x itself where it has no triangles.
+  /// Returns the point of a region (index) nearest to x; x if the region has no triangles.
   Vec3 place(int region, const Vec3& x) const;
 
  private:

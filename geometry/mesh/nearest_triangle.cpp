@@ -33,16 +33,15 @@ std::array<double, 3> nearest_weights(const Vec3& a, const Vec3& b, const Vec3& 
 
 namespace {
 
-/// A triangle has a part for so many times that its longest side is longer than its height, but not more than
-/// the most.
+/// Longest side over height of a part, and limit of parts of a triangle.
 constexpr double kAspectOfPart = 8;
 constexpr double kMostParts = 64;
 
-/// Beyond what rounding may cut off, in longest sides.
+/// Margin for rounding, in longest sides.
 constexpr double kRounding = 1e-12;
 
-/// Boxes around the parts into which a triangle is cut across its longest side, all of one width. Line
-/// elements as triangles with two equal corners have one.
+/// Returns boxes around the parts of a triangle, which is cut evenly across its longest side. A triangle with
+/// two equal corners, as for a line, has one.
 std::vector<Box<Vec3>> boxes_of(std::array<Vec3, 3> x) {
   const auto length2 = [&](int k) { return dot(x[(k + 1) % 3] - x[k], x[(k + 1) % 3] - x[k]); };
   const int longest = length2(0) >= std::max(length2(1), length2(2)) ? 0 : length2(1) >= length2(2) ? 1 : 2;
@@ -93,7 +92,7 @@ std::pair<std::array<double, 3>, double> NearestTriangle::nearest_in(int t, cons
 
 NearestTriangle::Found NearestTriangle::find_from(int guess, const Vec3& x) const {
   if (guess < 0 || guess >= static_cast<int>(triangles_.size())) return find(x);
-  // The square of a square root is off by a rounding: not less than what it came from.
+  // Factor for rounding, so that the square of a square root is no less than its argument.
   constexpr double kAtLeast = 1 + 1e-12;
   const Found found = find(x, kAtLeast * std::sqrt(nearest_in(guess, x).second));
   return found.triangle >= 0 ? found : find(x);

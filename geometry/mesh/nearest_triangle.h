@@ -21,22 +21,22 @@ class NearestTriangle {
 
   struct Found {
     int triangle = -1;                ///< the first of several; -1: none within the reach
-    std::array<double, 3> weights{};  ///< of its vertices in the nearest point; sum 1
+    std::array<double, 3> weights{};  ///< weights >= 0 of its vertices in the nearest point; sum 1
     double distance = std::numeric_limits<double>::infinity();
   };
-  /// Triangles further than `reach` from x are not looked at.
+  /// Returns the triangle nearest to x, if it is within `reach`, a length.
   Found find(const Vec3& x, double reach = std::numeric_limits<double>::infinity()) const;
-  /// Returns the same without bound, faster where x is in or near triangle `guess` (-1: no guess).
+  /// Returns the same without bound, faster if x is in or near triangle `guess` (-1: no guess).
   Found find_from(int guess, const Vec3& x) const;
   const std::array<int, 3>& triangle(int t) const { return triangles_[t]; }
 
  private:
-  /// Weights in the triangle's point nearest to x, and the square of the distance.
+  /// Returns nearest_weights() in a triangle, and the square of the distance.
   std::pair<std::array<double, 3>, double> nearest_in(int t, const Vec3& x) const;
 
   std::vector<Vec3> points_;
   std::vector<std::array<int, 3>> triangles_;
-  /// A triangle's part with its box. Slivers have several: one box around all would hold much else.
+  /// A part of a triangle with its box. Slivers have several parts, whose boxes hold fewer other triangles.
   struct Part {
     int triangle;
     Box<Vec3> box;
@@ -46,7 +46,7 @@ class NearestTriangle {
   BoxTree<Vec3> tree_;
 };
 
-/// Weights of the vertices in the point of the triangle that is nearest to x.
+/// Returns the weights >= 0, with sum 1, of the vertices in the point of triangle a, b, c nearest to x.
 std::array<double, 3> nearest_weights(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x);
 
 }  // namespace delquad

@@ -18,23 +18,24 @@ namespace delquad {
 /// next.
 class OpenQuads {
  public:
-  /// `sides`: the mesh's sorted_half_edges().
+  /// `sides` has the sorted_half_edges() of the mesh.
   OpenQuads(const Mesh& mesh, std::span<const HalfEdge> sides);
 
   int size() const { return static_cast<int>(out_.size()); }
   static int quad(int h) { return h >> 2; }
   static int next(int h) { return (h & 3) == 3 ? h - 3 : h + 1; }
   static int prev(int h) { return (h & 3) == 0 ? h + 3 : h - 1; }
-  /// Returns the half-edge on the other side; -1: the patch ends there.
+  /// Returns the half-edge on the other side; -1: at the boundary of the patch.
   int twin(int h) const { return twin_[h]; }
   int origin(int h) const { return node_[h]; }
   int target(int h) const { return node_[next(h)]; }
   /// Returns a half-edge that leaves the node; on the patch's boundary the first one counterclockwise.
   int out(int node) const { return out_[node]; }
+  /// Returns whether a node is not on the boundary of its patch.
   bool inside(int node) const { return twin_[out_[node]] >= 0; }
-  /// Returns how many quads are at the node.
+  /// Returns the number of quads at the node.
   int quads_at(int node) const { return quads_at_[node]; }
-  /// Returns the patch that a quad is of, from 0.
+  /// Returns the index of a quad's patch.
   int patch(int quad) const { return patch_[quad]; }
   int n_patches() const { return n_patches_; }
 

@@ -7,11 +7,10 @@
 
 namespace delquad {
 
-/// Returns whether some triangle or quad does not lie in the plane of constant z of the first.
+/// Returns whether triangles, or quads, have points of different z.
 bool holds_surface(const Mesh& mesh);
 
-/// Returns the boundary of a mesh as lines alone: its own lines, or the sides of one element only when it has
-/// none.
+/// Returns a mesh of lines alone: the lines of the mesh or, if it has none, the sides of single elements.
 Mesh outline(const Mesh& mesh);
 
 }  // namespace delquad

@@ -16,20 +16,20 @@
 #include "delquad/error.h"
 #include "delquad/mesh.h"
 
-/// This header has patches in CGAL's constrained Delaunay triangulations `Cdt`, whose vertices and faces are
-/// numbered. For the files that make them alone.
+// This header puts patches into CGAL's constrained Delaunay triangulations `Cdt`, whose vertices and faces
+// are numbered. Triangulations and background meshes use it.
 namespace delquad::patch_cdt {
 
 struct VertexNumber {
-  int value = -1;  ///< -1: of no point that was given
+  int value = -1;  ///< index of a given point; -1: none
 };
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexNumber, Kernel>;
 using FaceBase = CGAL::Triangulation_face_base_with_info_2<int, Kernel>;
 constexpr int kOutside = -1;
 
-/// Inserts points, points of the boundary first, and the boundary's edges; returns the vertices of the
-/// points. Throws InputError where points coincide, and where edges cross or pass through points.
+/// Inserts points, points of the boundary first, and the boundary's edges. Returns the vertices of the
+/// points. Throws InputError if points coincide, or edges cross or pass through points.
 template <class Cdt>
 std::vector<typename Cdt::Vertex_handle> insert(Cdt& cdt, const PatchBoundary& boundary,
                                                 const std::vector<Vec2>& points) {
@@ -56,9 +56,9 @@ std::vector<typename Cdt::Vertex_handle> insert(Cdt& cdt, const PatchBoundary& b
   return vertex;
 }
 
-/// Numbers the faces inside the patch, flooding from the left sides of its boundary edges; returns these. All
-/// others are kOutside. Throws InputError for edges, but for slits, that have the inside on their right, too.
-/// So it does for an inside without end: of loops turned inside out.
+/// Numbers the faces inside the patch by flooding from the left of its boundary edges, and returns them.
+/// Other faces get kOutside. Throws InputError if the inside is unbounded, or lies also on the right of an
+/// edge that is no slit.
 template <class Cdt>
 std::vector<typename Cdt::Face_handle> number_inside(Cdt& cdt, const PatchBoundary& boundary,
                                                      const std::vector<typename Cdt::Vertex_handle>& vertex) {

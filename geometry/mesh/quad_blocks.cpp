@@ -12,7 +12,7 @@ namespace {
 /// Makes the mesh of one block.
 class BlockCutter {
  public:
-  /// `place`: of the whole's vertices in the block that owns them; -1 at first.
+  /// `place` has the index of each vertex of the whole in the block that owns it; -1 at first.
   BlockCutter(const QuadPatch& whole, const ElementBlocks& blocks, std::size_t block, std::vector<int>& place)
       : whole_(whole),
         all_{whole.quads, whole.triangles},
@@ -66,7 +66,7 @@ class BlockCutter {
     result_.first_held = static_cast<int>(result_.mesh.points.size());
   }
 
-  /// A point for each fan: corners that follow each other across a side belong to one.
+  /// Adds a held point for each fan of corners that follow each other across sides.
   void add_held() {
     copy_.assign(4 * elements_.size(), -1);
     std::ranges::sort(held_, {}, [](const HeldCorner& c) { return std::pair(c.vertex, c.corner); });
@@ -105,7 +105,7 @@ class BlockCutter {
   int block_;
   std::vector<int>& place_;
   std::vector<HeldCorner> held_;
-  std::vector<int> copy_;  ///< by 4 * place of the element + corner: the point, where the vertex is held
+  std::vector<int> copy_;  ///< point of each held corner, by 4 * place of the element + corner
   QuadBlock result_;
 };
 

@@ -14,31 +14,31 @@
 
 namespace delquad {
 
-/// Some elements of a quad mesh as a mesh of their own, which one thread works on. Its boundary has points of
-/// the whole mesh's boundary, then held points. Other blocks have elements at a held point, and the block has
-/// one for each fan of its own elements. Both stay. No edit may make an edge between a held one and a point
-/// that was there before: the mesh may have that edge elsewhere.
+/// Some elements of a quad mesh as an own mesh, which one thread edits. Its boundary has points of the whole
+/// mesh's boundary, then held points; both stay. Other blocks have elements at a held point, and each fan of
+/// own elements has its own. No edit may join a held point and an old point, since the whole mesh may have
+/// this edge elsewhere.
 struct QuadBlock {
   QuadPatch mesh;
   int first_held = 0;           ///< boundary points from here on are held; mesh.n_boundary: none
-  std::vector<char> near;       ///< by point: 1 where there is work to do; empty: everywhere
-  std::vector<int> whole = {};  ///< the point of the whole mesh, by boundary point
+  std::vector<char> near;       ///< by point: 1 if there is work to do; empty: everywhere
+  std::vector<int> whole = {};  ///< point of the whole mesh for each boundary point
 
-  /// Returns whether a point is near a cut. Points that are made later are near.
+  /// Returns whether there is work to do at a point, as at all new points.
   bool is_near(int v) const { return static_cast<std::size_t>(v) >= near.size() || near[v] != 0; }
 };
 
-/// A quad mesh that is worked on block by block, see ElementBlocks.
+/// A quad mesh that is edited block by block, see ElementBlocks.
 class QuadBlocks {
  public:
   explicit QuadBlocks(QuadPatch mesh) : mesh_(std::move(mesh)) {}
 
-  /// Returns the blocks of the next pass, disjoint; none when all places have been in one. A mesh with
-  /// corners that are no points is one block, for others to refuse.
+  /// Returns the disjoint blocks of the next pass; none if all places have been in one. A mesh with corners
+  /// that are no points is one block, which QuadTopology refuses.
   std::vector<QuadBlock> next();
   /// Takes the blocks of this pass back, with the same boundary points.
   void put_back(std::vector<QuadBlock> blocks);
-  /// Returns the mesh: its boundary's points in their order.
+  /// Returns the mesh, with the boundary's points in their order.
   QuadPatch take() { return std::move(mesh_); }
 
  private:
@@ -49,8 +49,8 @@ class QuadBlocks {
   bool begun_ = false, refused_ = false;
 };
 
-/// Replaces each block's mesh by what work(block, summary) returns, pass after pass, and adds up what the
-/// calls say. They run in parallel.
+/// Returns the mesh after each block's mesh was replaced by the result of work(block, summary), pass after
+/// pass. Calls run in parallel; `total` gets the sum of their summaries.
 template <class Summary, class Work>
 QuadPatch work_in_blocks(QuadPatch mesh, Summary& total, const Work& work) {
   QuadBlocks whole(std::move(mesh));

@@ -14,14 +14,14 @@
 
 namespace delquad {
 
-/// A side shorter than this counts as this long: no division by 0.
+/// Length that shorter sides count as, to avoid a division by 0.
 inline constexpr double kTinyLength = 1e-300;
 
-/// Returns the normal of a quad from its diagonals; of no use in the plane.
+/// Returns the normal of a quad, of any length, from its diagonals; zero in the plane.
 inline Vec2 quad_normal(Vec2, Vec2) { return {}; }
 inline Vec3 quad_normal(const Vec3& first, const Vec3& second) { return cross(first, second); }
 
-/// A corner between unit vectors, the side that comes in and the one that goes out.
+/// A corner between the unit vectors of its incoming and its outgoing side.
 template <class Vec>
 struct QuadCorner;
 
@@ -30,7 +30,7 @@ struct QuadCorner<Vec2> {
   QuadCorner(Vec2 in, Vec2 out, Vec2 /*normal*/) : sine(cross(in, out)) {}
   /// Returns a vector turned by 90 degrees in the corner's plane.
   Vec2 quarter_turn(Vec2 v) const { return perp(v); }
-  double sine;  ///< negative where the corner turns against the normal
+  double sine;  ///< sine of its angle, negative if it turns against the normal
 };
 
 template <>
@@ -43,7 +43,8 @@ struct QuadCorner<Vec3> {
   double sine;
 };
 
-/// Returns eta of a quad whose worst corner is so far from a right angle [equation (4)]; radians.
+/// Returns eta of a quad whose worst corner differs by so many radians from a right angle [remacle2013,
+/// equation (4)].
 inline double eta_of_deviation(double radians) { return 1 - radians * 2 / std::numbers::pi; }
 
 /// Returns eta of a quad by the sine of its worst corner. It is 1 for 90 degrees, 0 for 0 and for 180, and
@@ -51,35 +52,35 @@ inline double eta_of_deviation(double radians) { return 1 - radians * 2 / std::n
 inline double eta_of_sine(double sine) {
   return 2 / std::numbers::pi * std::asin(std::clamp(sine, -1.0, 1.0));
 }
+/// Returns the sine of the worst corner for this eta, from -1 to 1.
 inline double sine_of_eta(double eta) { return std::sin(eta * std::numbers::pi / 2); }
 
-/// A corner of a smaller angle (radians) takes one quad only. If two shared it evenly, each would have an eta
-/// below 0.1, half of the angle over 90 degrees.
+/// A corner of a smaller angle (radians) takes one quad only (own rule). If two shared it evenly, each would
+/// have an eta below 0.1, half of the angle over 90 degrees.
 inline constexpr double kLeastSharedAngle = 18 * std::numbers::pi / 180;
 
-/// Returns how many quads best share an angle of the boundary that is so many right angles wide.
+/// Returns the number >= 1 of quads that best share an angle of so many right angles.
 inline int ideal_quads(double right_angles) {
   return std::max(1, static_cast<int>(std::lround(right_angles)));
 }
 
-/// Inner sides shorter than this part of delta, or of the element's longest side, are too short: their ends
-/// nearly coincide, which no angle tells. Stages keep sides a quarter longer, for they know delta at vertices
-/// only.
+/// Least length of inner sides over delta, or over the element's longest side; ends of shorter sides nearly
+/// coincide. Stages keep sides a quarter longer, since they know delta at vertices only.
 inline constexpr double kShortSide = 0.1, kKeptSide = 1.25 * kShortSide;
 
-/// Returns whether a quad is beyond limits. `shortest`, `longest`: sides over the wanted size; `sine`: the
-/// least.
+/// Returns whether a quad is beyond limits. `shortest` and `longest` are sides over the wanted size, `sine`
+/// the least of its corners.
 inline bool is_beyond(const QuadLimits& limits, double shortest, double longest, double aspect, double sine) {
   return shortest < limits.shortest || longest > limits.longest || aspect > limits.aspect ||
          (sine < std::numbers::pi / 2 * limits.eta && sine < sine_of_eta(limits.eta));
 }
 
-/// Sines of an element's corners, negative where reflex or inverted; a triangle's fourth is 1.
+/// Returns the sines of an element's corners, negative if reflex or inverted. The fourth of a triangle is 1.
 std::array<double, 4> corner_sines(const QuadTopology& mesh, int element);
-/// Returns the least of them.
+/// Returns the least of these sines.
 double least_sine(const QuadTopology& mesh, int element);
 
-/// Sines of a quad's corners.
+/// Returns the sines of a quad's corners, in space against quad_normal().
 template <class Vec>
 std::array<double, 4> corner_sines(const std::array<Vec, 4>& at) {
   const Vec normal = quad_normal(at[2] - at[0], at[3] - at[1]);

@@ -29,7 +29,7 @@ QuadTopology::QuadTopology(const QuadPatch& mesh, int first_held)
 }
 
 void QuadTopology::build_twins() {
-  // Half-edges by origin, so that the twin is found among the few that leave the target.
+  // Lists half-edges by origin, to find a twin among the few that leave the target.
   std::vector<int> first(points_.size() + 1, 0), leaving(corner_.size());
   for (const int v : corner_)
     if (v >= 0) ++first[v + 1];
@@ -104,7 +104,7 @@ bool QuadTopology::can_rotate(int h, bool counterclockwise) const {
 
 void QuadTopology::open(int h, bool counterclockwise) {
   assert(can_open(h));
-  // By place in the hexagon; 6 and 7 are the new vertices, next to 1 and 4 or to 2 and 5.
+  // Indices are places in the hexagon; 6 and 7 are the new vertices, next to 1 and 4 or to 2 and 5.
   using Quads = std::array<std::array<int, 4>, 4>;
   constexpr Quads kCounterclockwise{{{0, 1, 6, 7}, {1, 2, 3, 6}, {3, 4, 7, 6}, {4, 5, 0, 7}}};
   constexpr Quads kClockwise{{{2, 3, 7, 6}, {3, 4, 5, 7}, {5, 0, 6, 7}, {2, 6, 0, 1}}};
@@ -115,7 +115,7 @@ void QuadTopology::open(int h, bool counterclockwise) {
   std::array<int, 6> outside;
   for (int k = 0, g = next(h), f = next(other); k < 3; ++k, g = next(g), f = next(f))
     outside[k] = twin_[g], outside[k + 3] = twin_[f];
-  // Each of the two in the middle of its three neighbors.
+  // Each new vertex is in the middle of its three neighbors.
   const Vec2 at_p = points_[x[p]] + points_[x[counterclockwise ? 3 : 0]];
   const Vec2 at_q = points_[x[q]] + points_[x[counterclockwise ? 0 : 3]];
   x[6] = add_vertex(0.125 * (3 * at_p + at_q));
@@ -232,7 +232,7 @@ bool QuadTopology::can_remove_doublet(int v) const {
   const int h = out_[v], g = around(h);
   const int e = element(h), f = element(g);
   if (!is_quad(e) && !is_quad(f)) return false;
-  // The far corners must differ, else nothing is left of the two.
+  // The far corners must differ, else the quad would have no area.
   return !is_quad(e) || !is_quad(f) || target(next(h)) != target(next(g));
 }
 
@@ -251,7 +251,7 @@ void QuadTopology::remove_doublet(int v) {
   set_element(element(start[0]), corners, twins);
 }
 
-/// The quads' half-edges whose twins belong to none of them.
+/// Returns the half-edges of the quads whose twins belong to other elements or none.
 std::vector<int> QuadTopology::outline(std::span<const int> quads) const {
   std::vector<int> sides;
   for (const int e : quads)
@@ -306,7 +306,7 @@ void QuadTopology::pillow(std::span<const int> quads) {
   }
 }
 
-/// Whether one of these has two edges to one vertex.
+/// Returns whether one of these vertices has two edges to one vertex.
 bool QuadTopology::has_double_edge(std::span<const int> vertices) const {
   std::vector<int> ends;
   return std::ranges::any_of(vertices, [&](int v) {

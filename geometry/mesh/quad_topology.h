@@ -13,24 +13,25 @@
 
 namespace delquad {
 
-/// A quad mesh of one patch that is edited locally, each edit revocable.
+/// A quad mesh of one patch in its parameter plane, with local edits that can be undone.
 ///
 /// Half-edge h = 4 * element + corner runs counterclockwise from its corner to the next; twin(h) lies across,
-/// -1 on the boundary. Elements and vertices that an edit removes stay behind as dead slots until to_patch()
-/// leaves them out. Leftover triangles are elements too; only remove_doublet() touches them.
+/// -1 on the boundary. Removed elements and vertices stay as dead slots, which to_patch() leaves out. An edit
+/// needs its can_ function to hold. Leftover triangles are elements too; only remove_doublet() touches them.
 class QuadTopology {
  public:
-  /// Throws std::invalid_argument, naming the vertices, where two elements run along an edge in the same
-  /// direction. So it does where a boundary edge ends in an interior point, or a vertex index is out of
+  /// Throws std::invalid_argument, with the vertices, if two elements run along an edge in the same
+  /// direction. It also throws if a boundary edge ends in an interior point, or a vertex index is out of
   /// range.
   explicit QuadTopology(const QuadPatch& mesh) : QuadTopology(mesh, mesh.n_boundary) {}
-  /// The boundary's points from `first_held` on are held, see QuadBlock.
+  /// Does the same; the boundary's points from `first_held` on are held, see QuadBlock.
   QuadTopology(const QuadPatch& mesh, int first_held);
 
   /// Returns the mesh: boundary points first, then live interior ones, each in the order of their creation;
   /// live elements likewise.
   QuadPatch to_patch() const;
 
+  /// Return the numbers of slots, dead ones included.
   int vertex_slots() const { return static_cast<int>(points_.size()); }
   int element_slots() const { return static_cast<int>(corner_.size() / 4); }
   bool vertex_alive(int v) const { return out_[v] >= 0; }
@@ -38,7 +39,7 @@ class QuadTopology {
   /// Returns whether the element is a quad; false for triangles and for dead slots.
   bool is_quad(int element) const { return corner_[4 * element + 3] >= 0; }
   bool on_boundary(int v) const { return v < n_boundary_; }
-  /// Returns whether the vertex is on the boundary, and other meshes have elements there.
+  /// Returns whether the vertex is held: on the boundary, with elements of other blocks.
   bool held(int v) const { return v < n_boundary_ && v >= first_held_; }
   bool any_held() const { return first_held_ < n_boundary_; }
   /// Returns whether v or one of its neighbors is held.
@@ -49,7 +50,7 @@ class QuadTopology {
   }
 
   static int element(int h) { return h >> 2; }
-  /// Returns a corner of an element; -1 for the fourth of a triangle.
+  /// Returns the vertex at a corner (0 to 3) of an element; -1 for the fourth of a triangle.
   int corner(int element, int k) const { return corner_[4 * element + k]; }
   int origin(int h) const { return corner_[h]; }
   int target(int h) const { return corner_[next(h)]; }
@@ -64,9 +65,10 @@ class QuadTopology {
   /// Returns the half-edge after h counterclockwise around its origin; -1 past the last element of a boundary
   /// vertex.
   int around(int h) const { return twin_[prev(h)]; }
-  /// Returns how many elements meet at v.
+  /// Returns the number of elements at v.
   int valence(int v) const { return valence_[v]; }
   Vec2 point(int v) const { return points_[v]; }
+  /// Returns whether an edge joins two vertices.
   bool adjacent(int a, int b) const;
 
   /// Calls f(h) for the half-edges that leave v, counterclockwise, one in each element.
@@ -82,16 +84,16 @@ class QuadTopology {
   /// Returns the hexagon of the two quads at an interior edge, counterclockwise: h's target first, its origin
   /// fourth.
   std::array<int, 6> hexagon(int h) const;
-  /// Returns whether both elements are quads and the rotated edge would be a new one.
+  /// Returns whether both elements at h are quads and the rotated edge would be new.
   bool can_rotate(int h, bool counterclockwise) const;
-  /// Turns edge h within its hexagon: its ends go to the next corners (counterclockwise or clockwise).
-  /// Half-edges of both quads get other places; returns the new edge's half-edge in h's element.
+  /// Rotates edge h within its hexagon: its ends go to the next corners (counterclockwise or clockwise).
+  /// Returns the half-edge of the new edge in h's element; other half-edges of both quads change.
   int rotate(int h, bool counterclockwise);
 
-  /// Returns whether both elements at h are quads and no two of their corners are the same.
+  /// Returns whether both elements at h are quads with six different corners.
   bool can_open(int h) const;
-  /// Turns edge h as rotate() does and opens it to two more quads. The next corners get an edge each to a new
-  /// vertex, h's ends keep theirs, one to each of the two. These are the last slots.
+  /// Rotates edge h as rotate() does, and opens it to two more quads. Each next corner gets an edge to a new
+  /// vertex; each end of h is joined to one of these. The new vertices are the last slots.
   void open(int h, bool counterclockwise);
 
   /// Returns whether the opposite corner of h's quad can be merged into h's origin.
@@ -106,6 +108,7 @@ class QuadTopology {
   /// one before `to`'s leave the vertex for a new one, the last slot, at the same place.
   void split(int from, int to);
 
+  /// Returns whether v is inside, with two elements that make one.
   bool can_remove_doublet(int v) const;
   /// Removes an interior vertex between two elements, which become one.
   void remove_doublet(int v);
@@ -116,22 +119,24 @@ class QuadTopology {
   /// vertices, one for each on the outline, are the last slots. A single quad becomes five.
   void pillow(std::span<const int> quads);
 
-  /// Puts other quads in place of some. `rim`: the half-edges of their outline, one loop, in its order
-  /// counterclockwise. In `fill` vertex i is the origin of rim[i], those after them are new ones, the last
-  /// slots, at `inside`. Vertices within the outline go. False, and nothing is done, where that would give
-  /// two vertices a second edge in common.
+  /// Replaces quads by other ones. `rim` has the half-edges of their outline, one loop, counterclockwise. In
+  /// `fill` vertex i is the origin of rim[i]; the next ones are new vertices, the last slots, at `inside`.
+  /// Vertices within the outline are removed. Returns false, without a change, if two vertices would get a
+  /// second edge.
   bool refill(std::span<const int> quads, std::span<const int> rim, std::span<const Vec2> inside,
               std::span<const std::array<int, 4>> fill);
 
+  /// Moves a vertex to a finite place.
   void move(int v, Vec2 to);
 
-  /// A state to come back to.
+  /// A state to which rollback() returns.
   struct Mark {
     std::size_t ints, moves, vertices, elements;
   };
   Mark mark() const { return {int_log_.size(), move_log_.size(), points_.size(), corner_.size() / 4}; }
+  /// Undoes all edits since a mark. None may be final since then.
   void rollback(const Mark& mark);
-  /// Forgets how to go back.
+  /// Makes all edits so far final; earlier marks are no longer valid.
   void commit() { int_log_.clear(), move_log_.clear(); }
 
  private:
@@ -167,8 +172,8 @@ class QuadTopology {
   std::vector<MoveChange> move_log_;
 };
 
-/// Calls f(element) for the elements around these vertices, each once; dead vertices are skipped. The marks
-/// are of elements, in a pass of the caller's.
+/// Calls f(element) for the elements around these vertices, each once; dead vertices are skipped. `met` marks
+/// elements in a pass of the caller.
 template <class Vertices, class F>
 void for_each_element_around(const QuadTopology& mesh, const Vertices& vertices, Marks& met, F&& f) {
   for (const int v : vertices)

@@ -24,7 +24,7 @@ void for_each_node_list(const Mesh& mesh, Visit visit) {
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) visit(nodes_of_quad(mesh, q));
 }
 
-/// In order.
+/// Returns the pairs of nodes of common elements, sorted.
 std::vector<std::pair<int, int>> neighbours(const Mesh& mesh) {
   std::vector<std::vector<int>> others(mesh.points.size());
   for_each_node_list(mesh, [&](const auto& nodes) {

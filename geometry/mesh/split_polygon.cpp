@@ -12,7 +12,8 @@ namespace delquad {
 
 namespace {
 
-/// The polygon without its largest normal component, counterclockwise: coordinates stay exact.
+/// Returns the polygon without the coordinate of its largest normal component, counterclockwise. Coordinates
+/// stay exact.
 std::vector<Vec2> flattened(const std::vector<Vec3>& corners) {
   Vec3 normal{0, 0, 0};
   for (size_t k = 0; k < corners.size(); ++k) {
@@ -32,8 +33,7 @@ std::vector<Vec2> flattened(const std::vector<Vec3>& corners) {
   return flat;
 }
 
-/// Cuts ears off a polygon. Ends after one for each corner but two: every turn takes a corner away or gives
-/// up.
+/// Cuts ears off a polygon. It ends, since every step removes a corner or fails.
 class EarCutter {
  public:
   explicit EarCutter(std::vector<Vec2> corners) : at_(std::move(corners)) {
@@ -58,7 +58,8 @@ class EarCutter {
  private:
   static constexpr double kUnknown = -1, kNoEar = 0;
 
-  /// Place in the ring; what other corners hid before is looked for only where no ear is left. -1: none.
+  /// Returns the place of the best ear in the ring; -1: none. Ears that other corners hid are tested again
+  /// only if no ear is left.
   int best_ear() {
     int best = best_known();
     if (best >= 0) return best;
@@ -81,7 +82,7 @@ class EarCutter {
     return best;
   }
 
-  /// Area over squared length of the sides, greater than 0, of the triangle that cutting the corner makes.
+  /// Returns area over squared sides, > 0, of the triangle at a corner; otherwise it is no ear.
   double ear_quality(int k) const {
     const int n = static_cast<int>(ring_.size());
     const Vec2 a = at_[ring_[(k + n - 1) % n]], b = at_[ring_[k]], c = at_[ring_[(k + 1) % n]];
@@ -98,7 +99,7 @@ class EarCutter {
 
   std::vector<Vec2> at_;
   std::vector<int> ring_;
-  std::vector<double> quality_;  ///< of each corner as an ear
+  std::vector<double> quality_;  ///< quality of each corner as an ear
 };
 
 }  // namespace

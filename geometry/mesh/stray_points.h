@@ -10,21 +10,20 @@
 
 namespace delquad {
 
-/// How many times as far out as the others a point must be.
+/// Factor between distances of stray points and of the others.
 inline constexpr double kStray = 1e4;
 
 struct StrayPoint {
   int point;     ///< index
-  double times;  ///< as far out as the others
+  double times;  ///< its distance over the distance of the farthest other point
 };
 
-/// Returns the points of elements that can hardly be meant, ascending. They are less than a quarter of all.
-/// Between them and the others there is nothing for a factor of kStray in distance from the middle (the
-/// medians). Parts of different sizes lie within that, or have others between; a number with a wrong exponent
-/// does not. All points must be finite.
+/// Returns the points of elements that are too far out to be intended, ascending (own rule). They are less
+/// than a quarter of all. No point lies between them and the others for a factor of kStray in distance from
+/// the medians. All points must be finite.
 std::vector<StrayPoint> stray_points(const Mesh& mesh);
 
-/// Returns "the point (0, 0, 1e+30) is 1e+30 times as far out as the others: is a number damaged?"
+/// Returns "the point (0, 0, 1e+30) is 1e+30 times as far out as the others: is a number damaged?".
 std::string describe(const StrayPoint& stray, const Mesh& mesh);
 
 }  // namespace delquad

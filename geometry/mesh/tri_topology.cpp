@@ -111,7 +111,7 @@ void TriTopology::star(int i, std::vector<TriCorner>& corners) const {
 TriCorner TriTopology::find_inner_edge(int a, int b) const {
   if (!vertex_alive(a) || !vertex_alive(b)) return {-1, 0};
   if (on_boundary(a) && !on_boundary(b)) std::swap(a, b);
-  // Around a from its known triangle; both ways where it lies on the boundary, with the edge on either side.
+  // Walks around a from its known triangle, and both ways if a lies on the boundary.
   const int sides = on_boundary(a) ? 2 : 1;
   for (int way = 1; way <= sides; ++way) {
     int t = triangle_of_[a];

@@ -9,7 +9,7 @@
 
 namespace delquad {
 
-/// Returns the side of triangle t that faces triangle u, -1 when they share none.
+/// Returns the side (0 to 2) of triangle t that faces triangle u; -1 if they share none.
 int facing_side(const TriPatch& tri, int t, int u);
 
 /// Finds the neighbors of all triangles, by their corners.
@@ -30,12 +30,12 @@ struct TriCorner {
   int t, k;
 };
 
-/// A triangulation that is edited locally. Slots of triangles and vertices that have been removed stay, dead.
+/// A triangulation with local edits. Removed triangles and vertices stay as dead slots.
 class TriTopology {
  public:
   explicit TriTopology(TriPatch tri);
 
-  /// Returns the mesh without its dead slots.
+  /// Returns the mesh without its dead slots; points keep their order.
   TriPatch to_patch() const;
 
   int triangle_slots() const { return static_cast<int>(tri_.triangles.size()); }
@@ -49,21 +49,21 @@ class TriTopology {
   int vertex(int t, int k) const { return tri_.triangles[t][k % 3]; }
   /// Returns the triangle across side k; -1: boundary.
   int across(int t, int k) const { return tri_.neighbours[t][k]; }
-  /// Returns the corner of u opposite of its side to t.
+  /// Returns the corner of u opposite of its side to t, a neighbor.
   int facing(int u, int t) const { return facing_side(tri_, u, t); }
 
-  /// Collects the corners at an inner vertex, counterclockwise.
+  /// Sets `corners` to the corners at a live inner vertex, counterclockwise.
   void star(int i, std::vector<TriCorner>& corners) const;
-  /// Returns the corner opposite of an edge in a triangle that has it and a neighbor there; t < 0: there is
-  /// none.
+  /// Returns the corner opposite of an inner edge, in one of its triangles; t < 0 if a and b have no inner
+  /// edge.
   TriCorner find_inner_edge(int a, int b) const;
   /// Returns whether an edge joins two vertices; boundary edges count.
   bool adjacent(int a, int b) const;
 
-  /// Edits the mesh as swap_side() and split_side() do; the latter returns the new vertex.
+  /// Edit the mesh as swap_side() and split_side() do. split() returns the new vertex.
   void swap(int t, int k);
   int split(int t, int k, Vec2 at);
-  /// Takes inner vertex `from` out by moving it onto its neighbor `to`; `star` belongs to `from`.
+  /// Removes inner vertex `from` by merging it into its neighbor `to`; `star` has the corners at `from`.
   void collapse(int from, int to, const std::vector<TriCorner>& star);
 
  private:

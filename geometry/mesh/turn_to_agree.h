@@ -10,7 +10,7 @@
 
 namespace delquad {
 
-/// Two that agree as they are, or else where one of them is turned over.
+/// Two neighbors (indices); unless they agree, exactly one of them must be reversed.
 struct Neighbours {
   int a, b;
   bool agree;
@@ -18,12 +18,12 @@ struct Neighbours {
 };
 
 struct Turned {
-  std::vector<char> is_turned;           ///< over, so that neighbors agree
-  std::vector<std::vector<int>> pieces;  ///< of neighbors, by their first, which is not turned over
-  int clash = -1;                        ///< neighbors that cannot agree, as on a Moebius strip; -1: none
+  std::vector<char> is_turned;           ///< which are reversed, so that neighbors agree
+  std::vector<std::vector<int>> pieces;  ///< connected pieces; the first of each is not reversed
+  int clash = -1;  ///< index of neighbors that cannot agree, as on a Moebius strip; -1: none
 };
 
-/// Returns which of `n` elements or faces are to be turned over.
+/// Returns which of `n` elements or faces must be reversed.
 Turned turn_to_agree(std::size_t n, std::span<const Neighbours> neighbours);
 
 }  // namespace delquad

@@ -88,7 +88,7 @@ void rename_points(Mesh& mesh, const PointNames& names) {
 
 namespace {
 
-/// How many points go by another name: "2 points at open edges", and where the first one is.
+/// Returns the number of replaced points, "2 points at open edges", and the place of the first one.
 std::array<std::string, 2> renamed_in(const Mesh& mesh, const PointNames& names) {
   int count = 0;
   Vec3 first;

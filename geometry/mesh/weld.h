@@ -10,27 +10,26 @@
 
 namespace delquad {
 
-/// Points of `mesh` by the names they should go by: name[name[i]] is name[i].
+/// For each point, the point that replaces it, or itself: names[names[i]] is names[i].
 using PointNames = std::vector<int>;
 
-/// Returns names by which each point goes by the first with the same coordinates.
+/// Returns for each point the first point with the same coordinates.
 PointNames names_of_equal_points(const Mesh& mesh);
-/// Ends of open edges, which one triangle or quad only uses, go by the nearest point within `tolerance` (a
-/// length). It is an earlier end that keeps its own name, or a point inside that no side joins to them. All
-/// other points keep their names.
+/// Returns replacements for ends of open edges (of a single triangle or quad): the nearest point within
+/// `tolerance` (a length). This is an earlier end that stays, or a point inside that no side joins to them.
+/// All other points stay.
 PointNames names_at_open_edges(const Mesh& mesh, double tolerance);
 
-/// Elements, named points and periodic nodes name their points anew. Elements may end with a repeated vertex
-/// or on each other, and points unused. The mesh has order 1.
+/// Replaces points in elements, named points and periodic nodes. Elements may then repeat a vertex or
+/// coincide, and points may be unused. The mesh must have order 1.
 void rename_points(Mesh& mesh, const PointNames& names);
 
-/// Joins the ends of open edges that are within `tolerance` (a length) of other points, so that a web joins a
-/// plate. Keeps one of two lines that meet. Returns "welded 2 points at open edges ..." with the first place;
-/// empty: there were none.
+/// Joins the ends of open edges to points within `tolerance` (a length), so that a web joins a plate. Keeps
+/// one of two lines that meet. Returns "welded 2 points at open edges ..." with the first place; empty: none.
 std::string weld_open_edges(Mesh& mesh, double tolerance);
 
-/// Says how many ends of open edges coincide with others within 1e-6 of the diagonal, and where the first one
-/// is: at cracks, and where a mesh is torn. Empty: there are none.
+/// Returns a text with the number of ends of open edges within 1e-6 of the diagonal from others, as at
+/// cracks, and the first place. Empty: none.
 std::string describe_unjoined(const Mesh& mesh);
 
 }  // namespace delquad

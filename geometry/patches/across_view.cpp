@@ -14,10 +14,10 @@ namespace delquad {
 
 namespace {
 
-/// The other side must face this one: cosine of the angle between them. If they are far from parallel and the
-/// way between them along the boundary is at most so many widths, there is only a corner.
+/// Least cosine of the angle between sides that face each other. Sides that are not parallel by kParallel
+/// make only a corner if the path between them along the boundary is at most so many widths.
 constexpr double kFacing = 0.3, kParallel = 0.97, kCornerPath = 8;
-/// Triangles that a look goes through: more lie in a row only where they are needles.
+/// Limit of triangles on a look; only needles may be more.
 constexpr size_t kMostTriangles = 1000;
 
 Vec2 flat_point(const FlatPatch& map, int v) { return map.flat.points[v]; }
@@ -33,7 +33,7 @@ AcrossView::AcrossView(const Mesh& fine, const std::vector<CurveChain>& chains,
 
 void AcrossView::add_patch(int patch) {
   const FlatPatch& map = maps_[patch];
-  std::map<std::pair<int, int>, std::pair<int, int>> owner;  // triangle and its side, by the side's ends
+  std::map<std::pair<int, int>, std::pair<int, int>> owner;  // triangle and its side, by the ends of the side
   for (size_t t = 0; t < map.flat.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       if (map.flat.neighbours[t][k] >= 0) continue;
@@ -125,7 +125,7 @@ bool AcrossView::faces(const Side& side, double t, Vec2 direction, const Side& o
   const FlatPatch& map = maps_[side.patch];
   const Vec2 e = flat_point(map, other.curve->to) - flat_point(map, other.curve->from);
   const double cosine = cross(direction, e) / norm(e);
-  if (!(cosine >= kFacing)) return false;  // it has none if the side has no length
+  if (!(cosine >= kFacing)) return false;  // NaN if the side has no length
   if (side.loop != other.loop || cosine > kParallel) return true;
   const double path = std::abs(side.path + t * side.length - other.path - along * other.length);
   return std::min(path, loop_length_[side.patch][side.loop] - path) > kCornerPath * distance;

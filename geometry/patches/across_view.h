@@ -12,10 +12,10 @@
 
 namespace delquad {
 
-/// Patches count as narrow up to this multiple of the size.
+/// Largest width of a narrow patch, in sizes.
 inline constexpr double kReach = 1.4;
 
-/// The side that lies across a patch from a place on its boundary.
+/// The place across a patch from a place on its boundary.
 struct Opposite {
   int patch;
   int chain;  ///< curve, and place on it as in CurveNode
@@ -23,16 +23,15 @@ struct Opposite {
   double distance;  ///< in space, straight across
 };
 
-/// Looks across patches from their boundaries, straight over the triangles of their maps.
+/// Looks across patches from their boundaries, straight over the triangles of their maps (own method).
 class AcrossView {
  public:
-  /// All outlive this object.
+  /// All arguments must outlive this object.
   AcrossView(const Mesh& fine, const std::vector<CurveChain>& chains, const std::vector<FlatPatch>& maps,
              const std::vector<PatchOutline>& outlines);
 
-  /// Returns the sides seen within `reach` from a place on a curve, in each patch that it bounds there, where
-  /// the two sides face each other. Corners of the boundary do not count, however the two sides near them
-  /// meet, unless they are cusps.
+  /// Returns the places within `reach`, a length in space, across each patch beside a place on a curve
+  /// (chain, s), if both sides face each other. Corners of the boundary do not count unless they are cusps.
   std::vector<Opposite> look(int chain, double s, double reach) const;
 
  private:
@@ -40,7 +39,7 @@ class AcrossView {
     const CurveSide* curve;
     int patch, loop;
     int triangle, k;
-    double path, length;  ///< along the loop before it; its own
+    double path, length;  ///< length of the loop before it, and its own length
   };
 
   void add_patch(int patch);
@@ -52,16 +51,16 @@ class AcrossView {
   const std::vector<FlatPatch>& maps_;
   const std::vector<PatchOutline>& outlines_;
   std::vector<Side> sides_;
-  std::vector<std::vector<std::array<int, 3>>> side_at_;   ///< of each map's triangles; -1 inside
-  std::vector<std::vector<std::array<int, 2>>> sides_on_;  ///< of each curve's lines; -1: none
-  std::vector<std::vector<double>> stretch_;      ///< of each map's triangles: parameter length over length
-  std::vector<std::vector<double>> loop_length_;  ///< of each map's loops
+  std::vector<std::vector<std::array<int, 3>>> side_at_;   ///< by map, triangle and side; -1: inside
+  std::vector<std::vector<std::array<int, 2>>> sides_on_;  ///< sides on each curve's lines; -1: none
+  std::vector<std::vector<double>> stretch_;      ///< parameter length over length, of each map's triangles
+  std::vector<std::vector<double>> loop_length_;  ///< length of each map's loops
 };
 
-/// Moves nodes along their curves so that nodes on both sides of a narrow place lie opposite each other, as
-/// far as their numbers allow. Elsewhere edges stay of equal integrals, and between the two they change
-/// gradually. Ends of curves stay. `group` is group_facing_curves(). Each look from a node takes of the
-/// `steps`; once these are spent, nodes stay where they are.
+/// Returns places of nodes that lie opposite each other on both sides of narrow places, as far as their
+/// numbers allow (own method). Elsewhere edges have equal integrals, with gradual changes between. Ends of
+/// curves stay. `group` is from group_facing_curves(). Each look from a node costs `steps`; once these are
+/// spent, nodes stay.
 CurvePlaces align_opposite_nodes(const Mesh& fine, const std::vector<CurveChain>& chains,
                                  const AcrossView& across, const std::vector<SizeIntegral>& integrals,
                                  const std::vector<int>& counts, const std::vector<int>& group,

@@ -13,13 +13,13 @@
 namespace delquad {
 namespace {
 
-/// Edges of a loop by the direction in which they run in the grid, in right angles from its first.
+/// Edges of a loop by their direction in the grid, in right angles from the first one.
 struct Loop {
-  std::array<std::map<int, int>, 2> along;  ///< by axis: chains, and how often, with the sign
+  std::array<std::map<int, int>, 2> along;  ///< signed number of passages of each chain, by axis
   int turns = 0;
 };
 
-/// Right angles by which a boundary turns to the left at a corner of this angle (radians).
+/// Returns the right angles by which a boundary turns to the left at a corner of this angle (radians).
 int turn_at(double angle) {
   return 2 - std::max(1, static_cast<int>(std::lround(angle / (std::numbers::pi / 2))));
 }
@@ -36,7 +36,7 @@ ClosureSum sum_of(int patch, const std::map<int, int>& terms) {
   return sum;
 }
 
-/// `terms` and as many right angles turned `other`, by axis.
+/// Returns `terms` plus `other`, which is turned by so many right angles, by axis.
 std::array<std::map<int, int>, 2> joined(std::array<std::map<int, int>, 2> terms, const Loop& other,
                                          int turned) {
   for (const int axis : {0, 1})
@@ -100,19 +100,18 @@ std::vector<ClosureSum> closure_sums(const SurfaceCurves& curves, const CurveDem
 
 namespace {
 
-/// Sides that differ more, as a part of them, do not get equal: where their lengths do, rows end all the
-/// same.
+/// Largest relative difference of sides that agree. If lengths differ more, rows end in any case.
 constexpr double kWidestGap = 0.25;
-/// Rings up to this width (in sizes) agree if they differ by no more, one with twice the edges of the other.
-/// Either all of them do at once or none: fewer rows that end are no better, and sizes beside worse.
+/// Width of narrow rings, in sizes, and relative difference up to which their loops agree: one may have twice
+/// the edges of the other. All rows of a ring agree or none, since ending fewer rows is no better.
 constexpr double kNarrowRing = 2.5, kWidestGapOfRing = 0.7;
-/// Irregular vertices for each edge by which sides differ, more where they are less than two quads apart, and
-/// others where they stay different. A free edge is too much on a curve that makes rows end in a patch
-/// without sums, in which so many rows follow it. All are measured on CAD models.
+/// Irregular vertices for each edge by which sides differ, more if they are less than two quads apart, and
+/// for sides that stay different. Next, irregular vertices for an edge that ends rows in a patch without
+/// sums, and the number of rows that follow it. All are measured on CAD models.
 constexpr double kIrregularPerRow = 0.5, kMoreInNarrow = 0.9, kIrregularPerFarRow = 0.3,
                  kIrregularPerFreeEdge = 0.6, kRowsThatFollow = 2;
 
-/// Whether a sum is of all curves around a patch between two loops.
+/// Returns whether a sum has all curves around a patch between two loops.
 bool is_of_ring(const SurfaceCurves& curves, const ClosureSum& sum) {
   std::size_t pieces = 0;
   for (const auto& loop : curves.outlines[sum.patch])

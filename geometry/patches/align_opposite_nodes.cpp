@@ -12,14 +12,15 @@ namespace delquad {
 namespace {
 
 constexpr int kSweeps = 60;
-/// Two nodes are meant to be opposite when what lies across each is nearer to the other than this, in edges.
+/// Largest distance, in edges, between a node and the place across from its partner, also for counted
+/// partners.
 constexpr double kPairing = 0.75, kCountedPairing = 2;
-/// Pull across, against the pull of the neighbors on the curve: (size / width)^2, within these.
+/// Limits of the pull across, (size / width)^2, against the pull of neighbors on the curve.
 constexpr double kLeastPull = 0.3, kMostPull = 200;
-/// No edge gets shorter than this part of what it was.
+/// Least length of an edge over its initial length.
 constexpr double kShortest = 0.4;
 constexpr double kDone = 1e-3;
-/// To look across a patch from a node takes as long as so many steps of agree_counts().
+/// Cost of a look across a patch, in steps of agree_counts().
 constexpr long long kStepsPerLook = 10;
 
 class Facing {
@@ -57,7 +58,7 @@ class Facing {
 
   double total(size_t c) const { return static_cast<double>(places_[c].size() - 1); }
 
-  /// The place on the curve, as in CurveNode.
+  /// Returns the place on the curve, as in CurveNode.
   double to_s(size_t c, double place) const { return integrals_[c].s_at(place / total(c)); }
 
   double size_at(size_t c, double s, int& hint) const {
@@ -93,7 +94,7 @@ class Facing {
     }
   }
 
-  /// Curves from which nothing is near are left alone.
+  /// Leaves out curves without near opposite places.
   void keep_narrow() {
     std::vector<char> live(places_.size(), 0);
     for (size_t c = 0; c < places_.size(); ++c)
@@ -110,8 +111,8 @@ class Facing {
     return p[after] - place < place - p[after - 1] ? after : after - 1;
   }
 
-  /// The node that is meant to be opposite to node i of a curve. On the two sides of a strip nodes are
-  /// counted off, from the ends that face each other.
+  /// Returns the node that shall be opposite to node i of a curve. On both sides of a strip, nodes are
+  /// counted from the ends that face each other.
   std::optional<size_t> partner(size_t c, size_t i, const Seen& o) const {
     const auto& p = places_[o.chain];
     if (group_[c] == group_[o.chain] && places_[c].size() == p.size() && !chains_[c].closed()) {
@@ -125,7 +126,7 @@ class Facing {
     return j;
   }
 
-  /// One step of all nodes; the longest.
+  /// Moves all nodes by a step. Returns the longest step.
   double relax() {
     std::vector<std::vector<double>> pull(places_.size()), sum(places_.size());
     for (size_t c = 0; c < places_.size(); ++c)
@@ -135,7 +136,7 @@ class Facing {
         for (const Seen& o : sees_[c][i]) {
           const auto j = partner(c, i, o);
           if (!j) continue;
-          // The other node is pulled to what lies across from this one.
+          // The other node is pulled to the place across from this one.
           pull[o.chain][*j] += o.pull;
           sum[o.chain][*j] += o.pull * o.place;
         }

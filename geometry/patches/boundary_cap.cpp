@@ -43,7 +43,7 @@ std::vector<BoundaryLoop> take_loops(const PatchBoundary& boundary) {
   return loops;
 }
 
-/// Puts other points in the place of the tip and of those fewer than k beside it.
+/// Replaces the tip and the points fewer than k steps beside it by others.
 void cut_off_tip(BoundaryLoop& loop, std::size_t tip, std::size_t k, std::span<const LoopPoint> fresh) {
   BoundaryLoop rest;
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -56,7 +56,7 @@ void cut_off_tip(BoundaryLoop& loop, std::size_t tip, std::size_t k, std::span<c
   loop = std::move(rest);
 }
 
-/// Caps what make(loops, loop, point) caps, which changes the loop.
+/// Returns the caps of make(loops, loop, point), which changes the loop, for all points.
 template <class Make>
 std::vector<BoundaryCap> cap_loops(PatchBoundary& boundary, Make make) {
   std::vector<BoundaryCap> caps;
@@ -71,9 +71,9 @@ std::vector<BoundaryCap> cap_loops(PatchBoundary& boundary, Make make) {
   return caps;
 }
 
-/// Corners below this angle take two quads at most; a cap ends where this many edges go around the cone.
+/// Angle below which corners take at most two quads, and edges around the cone at which a cap ends.
 constexpr double kTwoQuads = 200 * std::numbers::pi / 180, kAround = 5.5;
-/// The largest angle of a cap's quads opposite to the tip.
+/// Largest angle of a cap's quads opposite to the tip.
 constexpr double kFarAngle = 120 * std::numbers::pi / 180;
 
 /// The points of a loop on both sides of one of them.
@@ -94,7 +94,7 @@ class Cap : LoopTip {
 
   std::optional<BoundaryCap> make() {
     const size_t n = loop_.size();
-    size_t most = 0;  // nodes that both sides have
+    size_t most = 0;  // number of common nodes of both sides
     while (2 * (most + 1) + 1 < n && after(most + 1).node == before(most + 1).node) ++most;
     if (most < 2 || angle() >= kTwoQuads) return std::nullopt;
     size_t k = 1;
@@ -108,7 +108,7 @@ class Cap : LoopTip {
   }
 
  private:
-  /// Inside the patch; radians.
+  /// Returns the angle inside the patch, radians.
   double angle() const {
     const Vec2 out = after(1).point - loop_[tip_].point, in = before(1).point - loop_[tip_].point;
     const double a = std::atan2(cross(out, in), dot(out, in));
@@ -148,7 +148,7 @@ std::vector<BoundaryCap> cap_tips(PatchBoundary& boundary, const std::function<i
 
 namespace {
 
-/// The least sine in a quad of a row, as at an eta of 0.4.
+/// Least sine in a quad of a row, for an eta of 0.4.
 constexpr double kLeastSine = 0.588;
 /// tan 30 degrees: the quad in the corner has three angles of about 120 degrees.
 constexpr double kBeyond = 0.57735;
@@ -187,10 +187,10 @@ class CornerCap : LoopTip {
     return angle_between(place(after(1)) - at, place(before(1)) - at) < kLeastSharedAngle;
   }
 
-  /// The place halfway between the next two opposite nodes; none where the cap ends.
+  /// Returns the place halfway between the next two opposite nodes; nothing if the cap ends.
   std::optional<Vec3> middle(const std::vector<Vec3>& found) const {
     const size_t i = found.size() + 1;
-    // The rest is for a corner at the other end.
+    // The rest remains for a corner at the other end.
     if (nodes_.ends_with_curve ? 4 * i >= loop_.size() : 2 * i + 4 > loop_.size()) return std::nullopt;
     // Both nodes are inside their curves.
     if (nodes_.ends_with_curve &&
@@ -213,14 +213,14 @@ class CornerCap : LoopTip {
     return is_good({at, a, x, b}, 1) ? std::optional(x) : std::nullopt;
   }
 
-  /// Whether the corners from the given one on are.
+  /// Returns whether the quad's corners from `first` on have enough sine.
   bool is_good(const std::array<Vec3, 4>& quad, int first) const {
     if (!(dot(quad_normal(quad[2] - quad[0], quad[3] - quad[1]), normal_) > 0)) return false;
     const auto sines = corner_sines<Vec3>(quad);
     return *std::min_element(sines.begin() + first, sines.end()) > kLeastSine;
   }
 
-  /// Whether other points of the boundary are within what k rows cut off. Even-odd rule.
+  /// Returns whether other points of the boundary lie in the part that k rows cut off, by the even-odd rule.
   bool holds_others(size_t k) const {
     std::vector<Vec2> outline{loop_[tip_].point};
     for (size_t i = 1; i <= k; ++i) outline.push_back(after(i).point);

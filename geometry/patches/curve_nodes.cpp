@@ -36,7 +36,7 @@ std::vector<CurveChain> curve_chains(const SurfaceModel& model) {
     };
     const auto first = std::find_if(points.begin(), points.end(), is_corner);
     if (points.front() == points.back() && first != points.end() && first != points.begin()) {
-      points.pop_back();  // a closed curve begins at a corner where it has one
+      points.pop_back();  // a closed curve begins at a corner, if it has one
       std::rotate(points.begin(), first, points.end());
       points.push_back(points.front());
     }
@@ -66,8 +66,7 @@ std::vector<CurveDemand> joined_demands(std::vector<CurveDemand> demands,
 
 namespace {
 
-/// A piece of a fine line over which the integral is taken at once is at most this part of the size there. A
-/// line may have so many pieces at most, whatever that gives.
+/// Largest piece of a fine line in the integral, over the size there, and limit of pieces of a line.
 constexpr double kPiece = 0.25;
 constexpr int kMostPieces = 4096;
 

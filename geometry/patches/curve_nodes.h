@@ -22,38 +22,38 @@ struct CurveChain {
   bool closed() const { return points.front() == points.back(); }
 };
 
-/// Returns the pieces of all curves, in the curves' order. Throws InputError where the lines of a curve do
-/// not form one chain.
+/// Returns the pieces of all curves, in the curves' order. Throws InputError if the lines of a curve do not
+/// form one chain.
 std::vector<CurveChain> curve_chains(const SurfaceModel& model);
 
-/// How many edges a curve wants and must have.
+/// Wanted and necessary numbers of edges of a curve.
 struct CurveDemand {
-  double integral = 0;  ///< of ds/delta along it
-  int minimum = 1;
-  std::vector<int> patches;  ///< that it bounds; a seam names its patch twice
-  int exact = 0;             ///< where their number is given; 0: it is free
-  int most = kAnyNumber;     ///< with more, edges are shorter than the limits, see QuadLimits
+  double integral = 0;       ///< integral of ds/delta along it: the wanted number
+  int minimum = 1;           ///< least number of edges
+  std::vector<int> patches;  ///< patches at the curve; a seam has its patch twice
+  int exact = 0;             ///< given number of edges; 0: free
+  int most = kAnyNumber;     ///< most edges that are no shorter than QuadLimits allow
 };
 
-/// Returns the most edges that are at least `shortest` long on a curve of this length, at least 1; both in
-/// sizes, 0: any.
+/// Returns the largest number >= 1 of edges at least `shortest` long on a curve of this length, both in
+/// sizes. If `shortest` is 0, any number is allowed.
 inline int most_edges(double length, double shortest) {
   return shortest > 0 ? std::max(1, static_cast<int>(std::min(length / shortest, 1e9))) : kAnyNumber;
 }
 
-/// A piece of a curve that gets the images of the nodes of another.
+/// A piece of a curve whose nodes are images of the nodes of another.
 struct ChainPair {
   int chain, master;
-  bool forward;  ///< both run the same way
+  bool forward;  ///< whether both have the same direction
   Motion motion;
 };
 
-/// Returns how the curves are to be meshed so that each pair has as many edges: what bounds the one bounds
-/// the other.
+/// Returns demands by which both curves of a pair get the same number of edges: the master counts for the
+/// patches of both.
 std::vector<CurveDemand> joined_demands(std::vector<CurveDemand> demands,
                                         const std::vector<ChainPair>& pairs);
 
-/// A node on a curve: at `s` in [0, number of lines], the fine line's index plus the fraction along it.
+/// A node on a curve, at `s` in [0, number of lines]: the index of the fine line plus the fraction along it.
 struct CurveNode {
   double s;
   int node;  ///< in SurfaceNodes::points
@@ -61,7 +61,7 @@ struct CurveNode {
 
 struct SurfaceNodes {
   std::vector<Vec3> points;
-  std::vector<std::vector<CurveNode>> on_curve;  ///< of each curve, ascending in s, both ends included
+  std::vector<std::vector<CurveNode>> on_curve;  ///< nodes of each curve, ascending in s, both ends included
 };
 
 /// Integral of ds/delta along a curve, tabulated from its beginning to its end.
@@ -72,7 +72,7 @@ struct SizeIntegral {
   };
   std::vector<Entry> entries;
   double total() const { return entries.back().integral; }
-  /// Returns the place where the integral reaches this part of the total, and the other way round.
+  /// Convert a part, 0 to 1, of the total integral to a place and back.
   double s_at(double part) const { return interpolated(part * total(), &Entry::integral, &Entry::s); }
   double part_at(double s) const { return interpolated(s, &Entry::s, &Entry::integral) / total(); }
 
@@ -80,21 +80,22 @@ struct SizeIntegral {
   double interpolated(double at, double Entry::*from, double Entry::*to) const;
 };
 
-/// The size at x = (1 - t) a + t b of two fine points that are neighbors on a curve.
+/// Returns the size at x = (1 - t) a + t b, for neighboring fine points a and b of a curve.
 using SizeOnLine = std::function<double(int a, int b, double t, const Vec3& x, int& hint)>;
 
-/// Integrates by two-point Gauss on pieces of the fine lines that are short against the size. `limits` (if
-/// any): what the size may be at most at each point of the chain, linear between them.
+/// Returns the integral by two-point Gauss rules on pieces of fine lines up to a fourth of the size. `limits`
+/// (if any) has the largest size at each point of the chain, linear between them.
 SizeIntegral size_integral(const Mesh& fine, const CurveChain& chain, const SizeOnLine& size,
                            std::span<const double> limits = {});
 
-/// Places along each curve, ascending, both ends included, in edges from its beginning: the k-th is k where
-/// all edges are of equal integral.
+/// Places of nodes along each curve, ascending, both ends included, in edges of equal integral from its
+/// beginning.
 using CurvePlaces = std::vector<std::vector<double>>;
+/// Returns the places 0, 1, 2 ... for these numbers of edges.
 CurvePlaces equal_places(const std::vector<int>& counts);
 
-/// Places nodes and projects them to the curves, or to the faces that cuts run through. `cut_face`: for each
-/// curve, -1 where it is no cut. Ends of curves that meet share their node.
+/// Returns nodes at these places, projected to the curves, or to the faces of cuts. `cut_face` has the face
+/// of each curve that is a cut; else -1. Common ends of curves share their node.
 SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain>& chains,
                          const std::vector<int>& cut_face, const std::vector<SizeIntegral>& integrals,
                          const CurvePlaces& places);
@@ -102,7 +103,7 @@ SurfaceNodes place_nodes(const SurfaceModel& model, const std::vector<CurveChain
 /// Returns the point of the fine lines at `s`, as in CurveNode.
 Vec3 fine_point_at(const Mesh& fine, const CurveChain& chain, double s);
 
-/// Returns the place in space of a node there.
+/// Returns the place in space of a node at `s`, projected as by place_nodes().
 Vec3 place_on_curve(const SurfaceModel& model, const CurveChain& chain, const std::vector<int>& cut_face,
                     double s);
 

@@ -13,12 +13,12 @@ namespace delquad {
 
 namespace {
 
-/// Splitting a curve of one or two edges distorts it most: the T-join avoids these where it can.
+/// Factor for the cost of curves of one or two edges, whose sizes change most.
 constexpr double kFewEdgesPenalty = 4;
-/// Cost of edges that would be shorter than the limits.
+/// Cost if edges become shorter than the limits.
 constexpr double kTooShortPenalty = 10;
 
-/// Numbers mod 2, by the places of the ones.
+/// Vector of numbers mod 2, by the places of its ones.
 using Parities = std::set<int>;
 
 void add(Parities& to, const Parities& other) {
@@ -26,7 +26,7 @@ void add(Parities& to, const Parities& other) {
     if (const auto [at, added] = to.insert(i); !added) to.erase(at);
 }
 
-/// The patches that get another parity if a curve that bounds these changes by one.
+/// Returns the patches whose parity changes if a curve at these patches changes by one.
 std::vector<int> with_other_parity(std::vector<int> patches) {
   if (patches.size() == 2 && patches[0] != patches[1]) return patches;
   Parities odd;
@@ -34,17 +34,17 @@ std::vector<int> with_other_parity(std::vector<int> patches) {
   return {odd.begin(), odd.end()};
 }
 
-/// Parts of the graph that hang together, by node.
+/// Returns the component of each node.
 std::vector<int> components(const WeightedGraph& graph) {
   DisjointSets parts(graph.n_nodes);
   for (const auto& e : graph.edges) parts.join_to(e.b, e.a);
   return parts.roots();
 }
 
-/// A curve at which more than two patches meet is no edge of a graph. A change of it by one changes the
-/// parity of several parts of the graph. Returns the curves (indices into `costs`) to change so that each
-/// part has an even number of odd patches, where that can be. They are a sum of columns mod 2, by
-/// elimination, in which cheap columns come first.
+/// Returns the curves of more than two patches (indices into `costs`) to change. Then each component of the
+/// graph has an even number of odd patches, if possible. Such a curve is no edge of the graph; it changes the
+/// parity of several components, its column. The sum of columns mod 2 is found by elimination, cheap columns
+/// first.
 std::vector<int> columns_for(const std::vector<Parities>& columns, const std::vector<double>& costs,
                              Parities wanted) {
   struct Row {
@@ -69,7 +69,7 @@ std::vector<int> columns_for(const std::vector<Parities>& columns, const std::ve
   }
   Row sum{std::move(wanted), {}};
   Parities chosen;
-  while (!sum.column.empty()) {  // what no column has stays odd
+  while (!sum.column.empty()) {  // a component in no column stays odd
     const auto at = basis.find(*sum.column.begin());
     if (at == basis.end()) {
       sum.column.erase(sum.column.begin());
@@ -81,13 +81,13 @@ std::vector<int> columns_for(const std::vector<Parities>& columns, const std::ve
   return {chosen.begin(), chosen.end()};
 }
 
-/// Changes curves at which more than two patches meet, so that the others can do the rest.
+/// Changes curves of more than two patches, so that the T-join can do the rest.
 void even_branches(const std::vector<CurveDemand>& curves, const std::vector<int>& branching,
                    const WeightedGraph& graph, ChangeCost cost, std::vector<int>& counts,
                    std::vector<int>& total) {
   if (branching.empty()) return;
   const std::vector<int> part = components(graph);
-  const int free_part = part.back();  // the outside's
+  const int free_part = part.back();  // component of the outside
   const auto parity = [&](const std::vector<int>& patches) {
     Parities odd;
     for (const int p : patches)

@@ -13,43 +13,42 @@
 
 namespace delquad {
 
-/// Returns n + 1 or n - 1, whichever is nearer to the integral in ratio and allowed.
+/// Returns n + 1 or n - 1: the allowed one nearer to the integral in ratio.
 int changed_by_one(int n, const CurveDemand& curve);
 
-/// The cost of changing n so.
+/// Returns the cost of changed_by_one().
 using ChangeCost = double (*)(int n, const CurveDemand& curve);
-/// Returns |log((n +- 1) / n)|, more for curves of one or two edges, which splitting distorts most.
+/// Returns |log((n +- 1) / n)|, times 4 for curves of one or two edges, whose sizes change most (own rule).
 double cost_of_change(int n, const CurveDemand& curve);
 
-/// Rounds every curve's integral to a number of edges so that each patch is bounded by an even number of
-/// them. The curves to change by one are a minimum-weight T-join over patches and curves, weighted by `cost`.
-/// Odd patches are its terminals; curves of the outline lead to an outside whose parity is free. Curves at
-/// which more than two patches meet are changed before, where the others cannot do it alone. `odd_patches`
-/// receives the patches for which there is none.
+/// Returns a number of edges near each curve's integral, such that each patch has an even boundary. The
+/// curves to change by one are a minimum-weight T-join over patches and curves [edmonds1973], weighted by
+/// `cost`. Odd patches are its terminals; curves of the outline lead to an outside of free parity. Curves of
+/// more than two patches change first if the others are not enough. `odd_patches` gets the patches that stay
+/// odd.
 std::vector<int> even_counts(const std::vector<CurveDemand>& curves, int n_patches,
                              const MatchingSolver& solver, std::vector<int>& odd_patches,
                              ChangeCost cost = cost_of_change);
 
-/// The cost, against eta, of edges whose length differs from the size. It is half of the weight in
-/// QuadRelocation: two quads share an edge.
+/// Cost of a size deviation of an edge, in eta: half of the weight in ElementQuality, since two quads share
+/// an edge.
 inline constexpr double kDeviationCost = 1.5 / 2;
 
-/// Returns the sums that are zero around patches which quads without irregular vertices can fill. They use
-/// the turns at corners: a right angle for each quad less than two. With these turns, the boundary of a disk
-/// comes back to its beginning in the grid, along both axes. So does a hole with four concave corners, and
-/// both loops of a ring lead equally far. Patches whose corners make irregular vertices necessary have no
-/// sums: these find their places so that rows need not end.
+/// Returns the sums that are zero if quads without irregular vertices can fill a patch (own conditions). A
+/// corner turns by a right angle for each quad less than two. With these turns, the boundary of a disk must
+/// come back to its beginning in the grid, along both axes. So must a hole with four concave corners, and
+/// both loops of a ring must be equally long. Patches whose corners need irregular vertices have no sums,
+/// since these vertices can avoid ends of rows.
 std::vector<ClosureSum> closure_sums(const SurfaceCurves& curves, const CurveDemands& wanted);
 
-/// Asks for more edges around small round holes in faces that need four irregular vertices beside each. It
-/// asks for as many as around a square that encloses the hole, so that these vertices stand at its corners.
-/// It does so where there is room, and where that is worth more than the sizes of the quads behind. `price`:
-/// as for agree_on_counts().
+/// Raises demands around small round holes, which need four irregular vertices beside each (own method). A
+/// hole gets as many edges as the square around it, so that these vertices are at its corners. This needs
+/// enough room, and a gain above the cost of sizes behind. `price` is as for agree_on_counts().
 void widen_round_holes(const Mesh& fine, const SurfaceCurves& curves, const AcrossView& across, double price,
                        CurveDemands& wanted);
 
-/// Lets numbers of edges agree, so that fewer rows of quads have to end, see agree_counts(). `price`: what an
-/// irregular vertex less is worth, in quads times eta. Chains of `kept` keep their numbers.
+/// Changes numbers of edges so that fewer rows of quads must end, see agree_counts(). `price` >= 0 is the
+/// worth of a removed irregular vertex, in quads times eta. Chains in `kept` keep their numbers.
 void agree_on_counts(const SurfaceCurves& curves, const CurveDemands& wanted, double price,
                      const std::set<int>& kept, Budget& steps, std::vector<int>& counts);
 

@@ -8,7 +8,7 @@ namespace delquad {
 
 namespace {
 
-/// At each point of a map, the sum of the angles that its triangles have in space.
+/// Returns at each point of a map the sum of the angles of its triangles in space (radians).
 std::vector<double> angles_at(const Mesh& fine, const FlatPatch& map) {
   std::vector<double> angles(map.flat.points.size(), 0);
   for (const auto& v : map.flat.triangles)

@@ -30,22 +30,22 @@ struct PatchSetup {
   std::shared_ptr<const CrossField> cross;
   std::shared_ptr<const ParametricSize> size;
   std::function<Vec3(Vec2, int& hint)> lift;
-  /// For a mirror image, how: it has the master's mesh, mirrored.
+  /// The motion of an image, which gets the master's mesh.
   std::optional<PatchImage> image = {};
-  std::optional<QuadPatch> grid = {};  ///< of a mapped face: the quads that it begins with
-  bool grid_stays = false;             ///< which no stage changes: it was asked for
-  QuadPatch given = {};  ///< elements that a word may begin from; none, unless the model is a GivenMesh
-  std::vector<Vec3> given_inside = {};  ///< on a surface: the places of its points inside
-  bool given_stays = false;             ///< no stage changes them
+  std::optional<QuadPatch> grid = {};  ///< quads of a mapped face
+  bool grid_stays = false;             ///< whether no stage changes the grid, as it was requested
+  QuadPatch given = {};  ///< elements from which a pipeline may begin; none unless the model is a GivenMesh
+  std::vector<Vec3> given_inside = {};  ///< places in space of its points inside, on a surface
+  bool given_stays = false;             ///< whether no stage changes the given elements
 };
 
-/// The curves and regions of a given mesh in space, which its words divide for their work.
+/// The curves and regions of a given mesh in space, which stages divide.
 struct GivenEntities {
   std::vector<Entity> curves, regions;
-  std::vector<int> curve_of, region_of;  ///< of each of MeshingSetup::boundary; -1: no line of the mesh
+  std::vector<int> curve_of, region_of;  ///< by entity of the setup's boundary; -1: none
 };
 
-/// A surface of which one part is meshed, with its cuts.
+/// A symmetric surface, of which one part is meshed, with its cuts.
 struct WholeSurface {
   SurfaceModel model;
   std::vector<SurfaceCut> cuts;
@@ -57,12 +57,12 @@ struct SurfaceSetup {
   SurfaceDomain domain;
   std::vector<SurfaceCut> cuts;
   std::shared_ptr<const SurfaceSize> size;
-  std::shared_ptr<const SurfaceMetric> metric;      ///< in place of a size; null: none
-  std::shared_ptr<const MirroredSurface> mirrored;  ///< of symmetric ones, of which `model` is a part
-  std::shared_ptr<const WholeSurface> full_model;   ///< that; null: `model` is the whole
-  std::optional<GivenEntities> given;               ///< of a GivenMesh
-  bool is_retry = false;                            ///< with smaller sizes, as its mesh was not sound
-  std::shared_ptr<const SurfaceModel> cad;          ///< as it was read; null of other models
+  std::shared_ptr<const SurfaceMetric> metric;      ///< metric in place of a size; null: none
+  std::shared_ptr<const MirroredSurface> mirrored;  ///< whole of which `model` is a part; null: none
+  std::shared_ptr<const WholeSurface> full_model;   ///< model of the whole; null: `model` itself
+  std::optional<GivenEntities> given;               ///< entities of a GivenMesh
+  bool is_retry = false;                            ///< whether sizes are smaller after an unsound mesh
+  std::shared_ptr<const SurfaceModel> cad;          ///< CAD model as it was read; null: not CAD
 
   const SurfaceModel& whole() const { return full_model ? full_model->model : model; }
   const std::vector<SurfaceCut>& all_cuts() const { return full_model ? full_model->cuts : cuts; }
@@ -73,22 +73,22 @@ std::vector<const FlatPatch*> maps_of(const SurfaceSetup& surface);
 
 /// The model and curves that the patches of a planar domain were made from.
 struct PlaneSetup {
-  bool ignores_small = false;  ///< what is small in its outlines was left out
-  /// For each curve, the curves of the model that lie there; empty where the lines are kept.
+  bool ignores_small = false;  ///< whether small details of outlines were removed
+  /// For each curve, the model's curves on it; empty if the lines are kept.
   std::vector<std::vector<std::shared_ptr<const Curve>>> curve_shapes;
-  std::vector<CurvePlace> curve_places;              ///< of the curves' nodes; empty where the lines are kept
-  std::vector<DomainPiece> pieces;                   ///< of its curves; empty in the plane of a metric, too
-  std::vector<PatchBoundary> outlines;               ///< see PlanarDomain
-  std::shared_ptr<const BackgroundMesh> background;  ///< of all patches; null on surfaces
+  std::vector<CurvePlace> curve_places;  ///< places of the curves' nodes; empty if the lines are kept
+  std::vector<DomainPiece> pieces;       ///< pieces of its curves; empty also in the plane of a metric
+  std::vector<PatchBoundary> outlines;   ///< see PlanarDomain
+  std::shared_ptr<const BackgroundMesh> background;  ///< background mesh of all patches; null on surfaces
 };
 
-/// The worst values of a given mesh of quads: a mesh made of it must not be worse.
+/// The worst values of a given mesh of quads, which stages may not exceed.
 struct GivenWorst {
-  double eta = 1;     ///< least of all quads, 0 where some are inverted
-  double side = 0;    ///< shortest of all edges, in sizes
-  double aspect = 1;  ///< largest of the quads that are sound (is_sound_quad()): of others it means nothing
-  double sound_eta = 1;  ///< least of these
-  bool is_sound = true;  ///< whether all quads are
+  double eta = 1;        ///< least eta of all quads; 0 if some are inverted
+  double side = 0;       ///< shortest edge, in sizes
+  double aspect = 1;     ///< largest aspect of the sound quads (is_sound_quad())
+  double sound_eta = 1;  ///< least eta of the sound quads
+  bool is_sound = true;  ///< whether all quads are sound
 };
 
 /// The settings of a problem beside its model and fields; the members are as in MeshProblem.
@@ -99,10 +99,10 @@ struct ProblemSettings {
   bool keep_going = false;
   int order = 1;
   Criteria criteria = {};
-  QuadLimits limits = {};  ///< by the criteria
+  QuadLimits limits = {};  ///< limits by the criteria
 };
 
-/// The state that every pipeline on a case starts from.
+/// The prepared problem, from which every pipeline starts.
 struct MeshingSetup : Preparation {
   ProblemSettings settings;
   std::vector<PatchSetup> patches;
@@ -110,18 +110,18 @@ struct MeshingSetup : Preparation {
   std::shared_ptr<const SurfaceSetup> surface;  ///< null on planar domains
   std::shared_ptr<const LayerReport> layers;    ///< null: none
   std::shared_ptr<const MetricPlane>
-      metric_plane;                       ///< in which all of this lies; null: it is the domain's own
-  std::optional<GivenWorst> given_worst;  ///< of a GivenMesh with quads
+      metric_plane;  ///< plane of a metric with all of this; null: the plane of the domain
+  std::optional<GivenWorst> given_worst;  ///< worst values of a GivenMesh with quads
 
   /// Returns whether the model is a GivenMesh in space.
   bool is_given_surface() const { return surface && surface->given; }
-  /// Corners of a surface that forbid a quad an eta of kBadEta.
+  /// Returns the corners of a surface at which no quad can have an eta of kBadEta.
   std::vector<SharpCorner> sharp_corners() const {
     return surface ? surface->domain.sharp_corners : std::vector<SharpCorner>();
   }
 };
 
-/// Tells that this thread works on a patch.
+/// Returns the scope in which this thread works on a patch.
 inline FaceScope patch_scope(const MeshingSetup& prepared, std::size_t patch) {
   return FaceScope(prepared.boundary.regions[static_cast<std::size_t>(prepared.patches[patch].region)].tag,
                    prepared.surface ? "face" : "region");

@@ -16,21 +16,21 @@ namespace delquad {
 
 namespace {
 
-/// Distance between the places from which one looks, as a part of the size.
+/// Distance between places of looks, over the size.
 constexpr double kSpacing = 0.25;
-constexpr int kMostPlaces = 400;  // on a fine line
-/// Two curves make a strip when each faces the other along this part of its length, and their lengths differ
-/// by this factor at most.
+constexpr int kMostPlaces = 400;  // limit on a fine line
+/// Least part of their lengths along which both curves of a strip face each other, and largest ratio of their
+/// lengths.
 constexpr double kStripPart = 0.7, kStripRatio = 1.6;
 
-/// A place from which the boundary on the other side is near.
+/// A place with a near boundary on the other side.
 struct Gap {
   int patch;
   int chain, facing;  ///< curves on this side and on the other
-  double length;      ///< of the piece of boundary that it stands for
+  double length;      ///< length of the piece of boundary that it represents
 };
 
-/// Looks across from places along all curves.
+/// Returns the gaps across from places along all curves.
 std::vector<Gap> collect_gaps(const Mesh& fine, const std::vector<CurveChain>& chains,
                               const AcrossView& across, const SizeOnLine& size) {
   std::vector<Gap> gaps;
@@ -65,7 +65,7 @@ double length_of(const Mesh& fine, const CurveChain& chain) {
 std::vector<int> group_facing_curves(const Mesh& fine, const std::vector<CurveChain>& chains,
                                      const AcrossView& across, const SizeOnLine& size) {
   const std::vector<Gap> gaps = collect_gaps(fine, chains, across, size);
-  std::map<std::array<int, 3>, double> along;  // patch, curve, curve that it faces
+  std::map<std::array<int, 3>, double> along;  // patch, curve, and facing curve
   for (const Gap& g : gaps) along[{g.patch, g.chain, g.facing}] += g.length;
   DisjointSets groups(chains.size());
   for (const auto& [key, length] : along) {
@@ -83,8 +83,8 @@ std::vector<int> group_facing_curves(const Mesh& fine, const std::vector<CurveCh
 
 namespace {
 
-/// Nodes are opposite each other when they are at most this far apart, in edges. The line between them must
-/// be steep to the boundary on one side of it (sine).
+/// Largest distance of opposite nodes, in edges, and least sine between their line and the boundary on one
+/// side.
 constexpr double kWidest = 1.1, kAcross = 0.6;
 
 double sine(Vec2 a, Vec2 b) { return std::abs(cross(a, b)) / (norm(a) * norm(b)); }
@@ -121,7 +121,7 @@ class NarrowSeeds {
 
   Vec2 at(int v) const { return boundary_.points[v]; }
 
-  /// Edges of the Delaunay triangulation between opposite nodes of the same loop, the shortest first.
+  /// Returns the edges of the Delaunay triangulation between opposite nodes of one loop, the shortest first.
   std::vector<Rung> rungs() const {
     const TriPatch tri = constrained_delaunay(boundary_);
     std::vector<Rung> found;
@@ -135,7 +135,7 @@ class NarrowSeeds {
     return found;
   }
 
-  /// The mean length of the edges at both nodes.
+  /// Returns the mean length of the edges at both nodes.
   double edge_at(int a, int b) const {
     double sum = 0;
     for (const int v : {a, b})
@@ -159,11 +159,12 @@ class NarrowSeeds {
     return cross(on, back) > 0 && std::atan2(cross(on, back), dot(on, back)) < kOneQuadAngle;
   }
 
-  /// Whether the boundary on the left of the line from b to a, and that line, are an odd number of edges.
+  /// Returns whether the boundary on the left of the line from b to a, and this line, have an odd number of
+  /// edges.
   bool cuts_off_odd(int a, int b) const {
     const int n = static_cast<int>(loops_[loop_[a]].size());
     int edges = 1 + (place_[b] - place_[a] + n) % n;
-    std::vector<Vec2> outline;  // where there are loops that may be within
+    std::vector<Vec2> outline;  // set if other loops may lie inside
     for (const auto& loop : loops_) {
       if (loop_[loop[0]] == loop_[a] || loop.size() % 2 == 0) continue;
       for (int v = outline.empty() ? a : b; v != b; v = next_[v]) outline.push_back(at(v));
@@ -173,7 +174,7 @@ class NarrowSeeds {
     return edges % 2 == 1;
   }
 
-  /// Even-odd rule.
+  /// Returns whether x is inside, by the even-odd rule.
   static bool contains(const std::vector<Vec2>& polygon, Vec2 x) {
     bool inside = false;
     for (size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
@@ -186,7 +187,7 @@ class NarrowSeeds {
   PatchBoundary& boundary_;
   const double least_;
   std::vector<int> next_, previous_, loop_;
-  std::vector<int> place_;  ///< in its loop
+  std::vector<int> place_;  ///< place in its loop
   std::vector<std::vector<int>> loops_;
 };
 

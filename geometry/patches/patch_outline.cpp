@@ -59,7 +59,7 @@ PatchBoundary place_boundary(const FlatPatch& map, const PatchOutline& outline,
         boundary.edge_curve.push_back(chains[side.chain].curve);
         if (edge_chain != nullptr) edge_chain->push_back(side.chain);
       };
-      // A node at either end of the side belongs to the side that begins there.
+      // A node at an end of sides belongs to the side that begins there.
       const auto before = [](const CurveNode& n, double s) { return n.s < s; };
       const auto after = [](double s, const CurveNode& n) { return s < n.s; };
       if (side.forward) {

@@ -13,13 +13,13 @@
 
 namespace delquad {
 
-/// Where a side of a patch's map lies on a curve.
+/// A side of a patch's map on a line of a curve.
 struct CurveSide {
   int from, to;     ///< vertices of the map
-  int chain, line;  ///< line: the chain's k-th
-  bool forward;     ///< runs with the curve
+  int chain, line;  ///< chain, and line as its k-th
+  bool forward;     ///< whether its direction is the curve's
 
-  /// Returns whether it is the first that a loop meets of its curve.
+  /// Returns whether it is the first side of its curve in a loop.
   bool begins(const CurveChain& c) const {
     return forward ? line == 0 : line + 2 == static_cast<int>(c.points.size());
   }
@@ -32,7 +32,8 @@ using PatchOutline = std::vector<std::vector<CurveSide>>;
 class LineIndex {
  public:
   explicit LineIndex(const std::vector<CurveChain>& chains);
-  /// Throws std::logic_error, naming the face, where a side of the map's boundary lies on no curve.
+  /// Returns the outline of a map. Throws std::logic_error, with the face, if a side of its boundary lies on
+  /// no curve.
   PatchOutline outline(const FlatPatch& map, const std::vector<CurveChain>& chains,
                        const std::string& face) const;
 
@@ -44,14 +45,14 @@ class LineIndex {
   std::unordered_map<long long, Line> lines_;  // only looked up, never iterated
 };
 
-/// Returns the boundary polygon in the parameter plane that the nodes make. `edge_chain` (if any) receives
-/// the curve chain of each edge.
+/// Returns the boundary polygon of the nodes in the parameter plane. `edge_chain`, unless null, gets the
+/// chain of each edge.
 PatchBoundary place_boundary(const FlatPatch& map, const PatchOutline& outline,
                              const std::vector<CurveChain>& chains, const SurfaceNodes& nodes,
                              std::vector<int>* edge_chain = nullptr);
 
-/// Does the boundary enclose an area? Only the triangulation can tell: it also finds points that coincide and
-/// loops that are turned inside out.
+/// Returns whether the boundary can be triangulated: no points coincide, and its loops enclose an area on
+/// their left.
 bool meshable(const PatchBoundary& boundary);
 
 }  // namespace delquad

@@ -11,9 +11,9 @@ namespace delquad {
 
 namespace {
 
-/// Shifts count from this part of a side at the node on.
+/// Least shift that counts, over a side at the node.
 constexpr double kSmall = 0.05;
-/// Each carries shifts one side further.
+/// Number of sweeps, each of which carries shifts one side further.
 constexpr int kInsideSweeps = 10;
 
 class Shifts {

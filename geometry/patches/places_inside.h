@@ -15,13 +15,13 @@
 
 namespace delquad {
 
-/// Returns the places in space of the points inside a patch. `points` begins with points of its boundary,
-/// whose nodes are at `nodes` (all of the surface). `sides` are sides of the patch's elements, each once at
-/// least.
+/// Returns the places in space of the points inside a patch. `points` begins with points of its boundary;
+/// `nodes` has the places of all nodes of the surface. `sides` has each side of the patch's elements, once or
+/// twice.
 ///
-/// A node lies on its true curve, off the fine triangulation. Where this is much against the sides at it, as
-/// in a face that is hardly wider, the points inside would end up beyond it. They are shifted along, by the
-/// mean of the shifts around, the nearest points counting most.
+/// A node lies on its true curve, off the fine triangulation. If this distance is large against its sides, as
+/// in a very narrow face, points inside might lie beyond it. So they are shifted, too, by a mean of the
+/// shifts around, where near points count most (own method).
 std::vector<Vec3> places_inside(const SurfacePatch& patch, const SurfaceModel& model,
                                 std::span<const Vec2> points, const std::vector<std::array<int, 2>>& sides,
                                 const std::vector<Vec3>& nodes);

@@ -10,15 +10,15 @@
 namespace delquad {
 namespace {
 
-/// Lengths of holes, in sizes: smaller ones have no row of their own, larger ones more rows to adapt in.
+/// Range of lengths of holes, in sizes. Smaller holes have no own row, larger ones have more rows to adapt.
 constexpr double kShortestHole = 5, kLongestHole = 16;
-/// A hole is round whose length is more than this times its extent, and that nowhere turns by more (radians).
+/// Least length of a round hole over its extent, and its largest turn at a point (radians).
 constexpr double kRound = 3, kSmooth = 0.5;
-/// How far the next wall has to be, in sizes.
+/// Least distance of the next wall, in sizes.
 constexpr double kRoom = 1.5;
-/// Irregular vertices beyond the four, for each edge that is missing, measured on CAD.
+/// Irregular vertices beyond the four for each missing edge, measured on CAD.
 constexpr double kIrregularPerEdge = 1;
-/// As many edges as there are around a square that encloses the hole, where its length gives pi for four.
+/// Edges of the square around a hole over edges by its length: 4 to pi.
 constexpr double kSquare = 4 / std::numbers::pi;
 
 class RoundHoles {
@@ -67,9 +67,9 @@ class RoundHoles {
     return area < 0 && length > kRound * extent;
   }
 
-  /// Whether irregular vertices that fall away beside the hole are worth more than the sizes of the quads
-  /// behind it. Half of these are the other end's. The rows there lead to one curve: where they meet several,
-  /// more of them would have to end.
+  /// Returns whether removed irregular vertices beside the hole are worth more than changed sizes behind it,
+  /// half of which count at the other end. The rows there must lead to one curve, since more of them would
+  /// end at several.
   bool pays(int p, const std::vector<int>& around) const {
     double length = 0, quads = 0;
     std::set<int> behind;
@@ -103,7 +103,7 @@ class RoundHoles {
   const AcrossView& across_;
   double price_;
   CurveDemands& wanted_;
-  std::set<std::pair<int, int>> faces_one_;  ///< chains that have one other opposite, in which patch
+  std::set<std::pair<int, int>> faces_one_;  ///< chains with one opposite chain, and the patch
 };
 
 }  // namespace

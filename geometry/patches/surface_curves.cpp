@@ -23,13 +23,13 @@ namespace delquad {
 
 namespace {
 
-/// Edges around a tube; growth of sizes away from the cut; the least size at a tip, as a part of the size.
+/// Edges around a tube, growth of sizes away from the cut, and least size at a tip, over the size.
 constexpr double kAroundTube = 4, kGrowth = 0.2, kTipPart = 1.0 / 8;
-/// Below this angle around a tip (radians) the surface is a cone there, as for sharp_tips().
+/// Angle around a tip (radians) below which the surface is a cone, as for sharp_tips().
 constexpr double kPointed = 2 * std::numbers::pi - 0.5;
 constexpr double kNone = std::numeric_limits<double>::max();
 
-/// The two sides of one line of a cut.
+/// Both sides of a line of a cut.
 struct Seam {
   const CurveSide *forward = nullptr, *backward = nullptr;
 };
@@ -41,7 +41,7 @@ class TubePatch {
     if (!map.sides.empty()) stretch_ = stretch_of(map, fine);
   }
 
-  /// The lines of one curve that both have the patch on either side.
+  /// Adds the lines of a curve with the patch on both sides.
   void add_cut(const std::vector<Seam>& lines) {
     bool has_tip = false, is_pointed = false;
     double widest = 0, tip_size = kNone;
@@ -62,13 +62,13 @@ class TubePatch {
         found.emplace_back(w, width);
       }
     }
-    // Without a way around but at the tip the cut closes no tube: a slit does not even make a cone.
+    // If paths around exist only at the tip, the cut closes no tube; a slit makes no cone either.
     if (widest == 0 && !is_pointed) return;
     const double least = widest == 0 ? tip_size : has_tip ? std::min(tip_size, widest) : 0;
     for (const auto& [v, width] : found) limit_[v] = std::min(limit_[v], std::max(width, least));
   }
 
-  /// Spread from the cuts over the patch; empty where it is nowhere below the size.
+  /// Returns the sizes, spread from the cuts over the patch; empty if none is below the size.
   std::vector<double> sizes() {
     int hint = -1;
     bool asks = false;
@@ -76,7 +76,7 @@ class TubePatch {
       asks = limit_[v] < kNone && limit_[v] < size_.at(space(static_cast<int>(v)), hint);
     if (!asks) return {};
     Mesh surface;
-    // The map is in the metric, in the mean.
+    // With a metric, lengths of the map are mean lengths in the metric.
     for (int v = 0; v < std::ssize(limit_); ++v)
       surface.points.push_back(map_.sides.empty() ? space(v) : Vec3{flat(v).x, flat(v).y, 0});
     surface.triangles = map_.flat.triangles;
@@ -88,7 +88,7 @@ class TubePatch {
   Vec2 flat(int v) const { return map_.flat.points[v]; }
   Vec3 space(int v) const { return fine_.points[map_.fine_node[v]]; }
 
-  /// In space (radians).
+  /// Returns the angle around v in space (radians).
   double angle_around(int v) const {
     double sum = 0;
     for (const auto& t : map_.flat.triangles)
@@ -99,12 +99,12 @@ class TubePatch {
     return sum;
   }
 
-  /// Does the straight way from v, an end of the side, to w lead into the patch?
+  /// Returns whether the straight line from v, an end of the side, to w leads into the patch.
   bool faces(const CurveSide& side, int v, int w) const {
     return v == w || dot(perp(flat(side.to) - flat(side.from)), flat(w) - flat(v)) > 0;
   }
 
-  /// Does the boundary leave the straight way free?
+  /// Returns whether the boundary does not cross the straight line.
   bool is_free(int v, int w) const {
     const Vec2 a = flat(v), b = flat(w);
     for (const auto& loop : map_.loops)
@@ -118,7 +118,7 @@ class TubePatch {
     return true;
   }
 
-  /// Parameter length over length in space.
+  /// Returns parameter length over length in space.
   double stretch(const Seam& s) const {
     const auto in_plane = [&](const CurveSide& side) { return norm(flat(side.to) - flat(side.from)); };
     if (!map_.sides.empty()) return (stretch_[s.forward->from] + stretch_[s.forward->to]) / 2;
@@ -129,21 +129,21 @@ class TubePatch {
   const Mesh& fine_;
   const FlatPatch& map_;
   const SizeField& size_;
-  std::vector<double> stretch_;  ///< at vertices; empty: see stretch()
+  std::vector<double> stretch_;  ///< stretch at vertices; empty: see stretch()
   std::vector<double> limit_;
 };
 
-/// The largest size at each vertex of each map for which quads do not meet themselves around a tube. It is a
-/// fourth of the way from one side of a cut to the other. Empty for patches that bound no curve from both
-/// sides, or where this asks for nothing. Towards the tip of a cone the way shrinks to nothing, which the
-/// size does not follow below a part of `size`: see cap_tips().
+/// Returns the largest size at each vertex of each map at which no quad meets itself around a tube. It is a
+/// fourth of the path from one side of a cut to the other. Empty for patches without a cut or a limit.
+/// Towards the tip of a cone the path shrinks to 0, but the size stays above kTipPart of `size`: see
+/// cap_tips().
 std::vector<std::vector<double>> tube_sizes(const Mesh& fine, const std::vector<CurveChain>& chains,
                                             const std::vector<FlatPatch>& maps,
                                             const std::vector<PatchOutline>& outlines,
                                             const SizeField& size) {
   std::vector<std::vector<double>> sizes(maps.size());
   for (size_t p = 0; p < maps.size(); ++p) {
-    std::map<int, std::vector<Seam>> sides_of;  // by curve
+    std::map<int, std::vector<Seam>> sides_of;  // sides of cuts by curve
     for (const auto& loop : outlines[p])
       for (const CurveSide& side : loop) {
         auto& lines = sides_of[side.chain];
@@ -152,7 +152,7 @@ std::vector<std::vector<double>> tube_sizes(const Mesh& fine, const std::vector<
       }
     TubePatch patch(fine, maps[p], size);
     for (auto& [chain, lines] : sides_of) {
-      // A cut that ends at this one may leave another patch beside a part of it.
+      // A cut that ends at this one may leave another patch beside some of its lines.
       std::erase_if(lines, [](const Seam& s) { return s.forward == nullptr || s.backward == nullptr; });
       if (!lines.empty()) patch.add_cut(lines);
     }
@@ -161,12 +161,12 @@ std::vector<std::vector<double>> tube_sizes(const Mesh& fine, const std::vector<
   return sizes;
 }
 
-/// A cut to the tip of a cone has a node besides its ends.
+/// Least edges of a cut to the tip of a cone, which has a node besides its ends.
 constexpr int kFewestTipEdges = 2;
-/// Curves shorter than this part of the size are warned of.
+/// Length of a curve, over the size, below which a warning names it.
 constexpr double kShort = 0.5;
 
-/// The size that tubes allow at each point of each curve; empty for curves that bound none.
+/// Returns the largest size by tubes at each point of each curve; empty for curves without limit.
 std::vector<std::vector<double>> limits_on_curves(const SurfaceCurves& curves) {
   std::vector<std::vector<double>> limits(curves.chains.size());
   for (size_t p = 0; p < curves.maps.size(); ++p) {
@@ -184,7 +184,7 @@ std::vector<std::vector<double>> limits_on_curves(const SurfaceCurves& curves) {
   return limits;
 }
 
-/// Limits by a metric become limits of lengths in space.
+/// Converts limits by a metric to limits of lengths in space.
 void limits_in_space(const Mesh& fine, const CurveChain& chain, const SurfaceSize& size,
                      std::vector<double>& limits) {
   int hint = -1;
@@ -196,7 +196,7 @@ void limits_in_space(const Mesh& fine, const CurveChain& chain, const SurfaceSiz
   }
 }
 
-/// The angle by which a chain turns at each of its points, its ends as the points beside them by half.
+/// Returns the turn (radians) of a chain at each point; ends have half of the turn of the next point.
 std::vector<double> turns_along(const Mesh& fine, const CurveChain& chain) {
   const std::size_t last = chain.points.size() - 1;
   std::vector<double> turns(last + 1, 0);
@@ -206,8 +206,8 @@ std::vector<double> turns_along(const Mesh& fine, const CurveChain& chain) {
   return turns;
 }
 
-/// Chains that turn by more than an edge may have so many edges, and more where they turn most. Kinks, which
-/// turn by more between two fine lines, do not count.
+/// Raises the demand of a chain by its turn over `edge_turn` (radians), with smaller sizes where it turns
+/// most. Kinks, larger turns between two fine lines, do not count.
 void demand_turns(const Mesh& fine, const CurveChain& chain, double edge_turn, std::vector<double>& limits,
                   CurveDemand& demand) {
   if (!(edge_turn > 0) || chain.points.size() < 3) return;
@@ -225,7 +225,7 @@ void demand_turns(const Mesh& fine, const CurveChain& chain, double edge_turn, s
     if (turns[i] > 0) limits[i] = std::min(limits[i], edge_turn / turns[i] * (length(i - 1) + length(i)) / 2);
 }
 
-/// The quad in a sharp corner has its fourth vertex inside: beyond its edges there must be others.
+/// Demands further edges beside the edges of sharp corners, whose quad has its fourth vertex inside.
 void demand_edges_at_corners(const SurfaceCurves& curves, std::vector<CurveDemand>& demands) {
   std::vector<std::map<int, int>> sharp_ends(curves.chains.size());  // of each curve, by patch
   for (const FaceCorner& corner : curves.corners)
@@ -240,8 +240,8 @@ void demand_edges_at_corners(const SurfaceCurves& curves, std::vector<CurveDeman
       demands[c].minimum = std::max(demands[c].minimum, 1 + ends);
 }
 
-/// Among curves between the same two ends, one at most may be a single edge; closed ones need a loop of
-/// quads.
+/// Demands edges so that at most one curve between two ends is a single edge, and closed curves have a loop
+/// of quads.
 void demand_edges_of_loops(const std::vector<CurveChain>& chains, const std::vector<SizeIntegral>& integrals,
                            std::vector<CurveDemand>& demands) {
   std::map<std::pair<int, int>, size_t> single;
@@ -261,7 +261,7 @@ void demand_edges_of_loops(const std::vector<CurveChain>& chains, const std::vec
 
 /// Throws FaceError if all points of a curve lie at one place: edges there would have no length.
 void refuse_without_length(const Mesh& fine, const SurfaceCurves& curves) {
-  constexpr double kRounding = 1e-14;  // of the diagonal
+  constexpr double kRounding = 1e-14;  // part of the diagonal
   const double least = kRounding * diagonal(fine);
   for (std::size_t p = 0; p < curves.maps.size(); ++p)
     for (const auto& loop : curves.outlines[p])
@@ -360,7 +360,7 @@ CurveDemands measure_curves(const Mesh& fine, const SurfaceCurves& curves, const
     wanted.quads.push_back(0);
     for (const int t : map.fine_triangle) wanted.quads.back() += size.quads_in(fine, t, hint);
   }
-  // The curves of a strip want the mean of what each wants alone.
+  // The curves of a strip want the mean of their own numbers.
   wanted.group = group_facing_curves(fine, chains, across, delta);
   std::vector<double> sum(chains.size(), 0), members(chains.size(), 0);
   for (std::size_t c = 0; c < chains.size(); ++c)

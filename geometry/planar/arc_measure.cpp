@@ -16,15 +16,15 @@ namespace delquad {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-/// Panels to begin with; fewer do for pieces shorter than this many edges, of which outlines may have
-/// thousands.
+/// Number of first panels, and a smaller number for pieces shorter than so many edges, of which outlines may
+/// have thousands.
 constexpr int kFirstPanels = 32, kFewPanels = 8;
 constexpr double kShortPiece = 0.5;
-/// Integral of a panel at most, in edges: four samples a panel see each edge more than once.
+/// Largest integral of a panel, in edges; with four samples in a panel, each edge has more than one.
 constexpr double kEdgesPerPanel = 2;
-/// Narrowest panel, relative to the parameter range: a jump of the size there costs nothing any more.
+/// Narrowest panel, over the parameter range; a jump of the size within it does not matter.
 constexpr double kNarrowest = 0x1p-44;
-/// Panels beyond which the size must be noise, on top of those that the number of edges asks for.
+/// Limit of panels beyond the number that edges need; a size that needs more is noise.
 constexpr double kMaxPanels = 1 << 18;
 
 }  // namespace
@@ -91,9 +91,8 @@ std::vector<ArcMeasure::Panel> ArcMeasure::first_panels(int count) const {
   return panels;
 }
 
-// Rounds of splitting: a panel is split when its error is above its share of the error that is allowed for
-// all of them. So the sum of the errors is in bounds as soon as no panel is split. Too narrow panels are not
-// counted.
+// Splits panels, in rounds, whose error is above their share of the allowed error. So the sum of the errors
+// is in bounds if no panel is split. Too narrow panels do not count.
 void ArcMeasure::refine(std::vector<Panel>& panels, double most) const {
   bool every_edge = false;
   for (;;) {
@@ -136,7 +135,8 @@ void ArcMeasure::finish(const std::vector<Panel>& panels) {
   }
 }
 
-// Illinois' false position on the integral from the cell's start; the bracket never loses the target.
+// Finds a node by false position (Illinois) on the integral from the cell's start; the bracket always has the
+// target.
 double ArcMeasure::find(const Cell& cell, double begin, double target) const {
   const double tolerance = 4 * kEps * integral();
   double low = cell.first.t, f_low = begin - target;

@@ -10,25 +10,23 @@
 
 namespace delquad {
 
-/// The integral of ds/delta along a piece of a curve: how many edges of size delta fit on it.
-/// Found by adaptive Simpson rules on chords: no derivative is needed, and the parametrization need not be
-/// regular.
+/// The integral of ds/delta along a piece of a curve: the number of edges of size delta on it. Adaptive
+/// Simpson rules on chords (own method) need no derivative and no regular parametrization.
 class ArcMeasure {
  public:
-  /// The piece t0 <= t <= t1 of the curve, which messages call `label`. Once the integral is known and is not
-  /// above `most`, the size is sampled more often than once an edge. So no variation that the edges can show
-  /// is missed. Throws InputError where the point is not finite, the size is not finite and positive, or the
-  /// curve jumps.
+  /// Measures the piece t0 <= t <= t1 of the curve, which messages call `label`; `curve` and `size` must
+  /// outlive this object. If the integral is at most `most`, each edge has more than one sample of the size.
+  /// Throws InputError if a point is not finite, a size is not finite and positive, or the curve jumps.
   ArcMeasure(const Curve& curve, double t0, double t1, const PointSize& size, const std::string& label,
              double most);
 
-  /// Returns the integral, to kIntegralTolerance, relative.
+  /// Returns the integral, with a relative error of kIntegralTolerance.
   double integral() const { return cells_.back().end; }
 
-  /// Returns the parameters of the n - 1 nodes that split the piece in n parts of equal integral, in order.
-  /// The ends are not among them.
+  /// Returns the parameters of the n - 1 nodes, without ends, that divide the piece in n >= 1 parts of equal
+  /// integral, in order.
   std::vector<double> interior_nodes(int n) const;
-  /// Returns the parameters at which the integral from the beginning has these values, which ascend.
+  /// Returns the parameters at which the integral from the beginning has these values, in ascending order.
   std::vector<double> nodes_at(const std::vector<double>& targets) const;
 
   static constexpr double kIntegralTolerance = 1e-7;
@@ -39,7 +37,7 @@ class ArcMeasure {
     Vec2 p;
     double density;  ///< 1/delta
   };
-  /// Five samples at quarters: the error is the difference between one Simpson rule and two halves.
+  /// Five samples at quarters, with the difference between Simpson's rule and its halves as error.
   struct Panel {
     Sample s[5];
     double value, error;

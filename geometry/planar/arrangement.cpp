@@ -19,8 +19,8 @@ using Lines = std::vector<std::array<int, 2>>;
 
 bool before(Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
-/// The sides that leave each point, counterclockwise: sides to the right from bottom to top, then sides to
-/// the left from top to bottom.
+/// Sides that leave each point, counterclockwise: to the right from bottom to top, then to the left from top
+/// to bottom.
 class Fans {
  public:
   Fans(const std::vector<Vec2>& points, const Lines& lines)
@@ -40,15 +40,15 @@ class Fans {
   std::span<const int> at(int v) const {
     return {sides_.data() + first_[v], static_cast<std::size_t>(first_[v + 1] - first_[v])};
   }
-  /// How many go to the right; they come first.
+  /// Returns the number of sides to the right; they come first.
   int n_right(int v) const {
     const auto fan = at(v);
     return static_cast<int>(std::ranges::partition_point(fan, [&](int s) { return goes_right(s); }) -
                             fan.begin());
   }
-  /// Two sides that leave a point in the same direction, if any.
+  /// Returns two sides that leave a point in the same direction, if any.
   const std::optional<std::array<int, 2>>& overlap() const { return overlap_; }
-  /// The next side with the same face on its left: the sharpest turn to the left.
+  /// Returns the next side with the same face on its left: the sharpest turn to the left.
   int next(int side) const {
     const int v = end(side);
     const int at = place_[side ^ 1];
@@ -76,18 +76,18 @@ class Fans {
   const std::vector<Vec2>& points_;
   const Lines& lines_;
   std::vector<int> first_, sides_;
-  std::vector<int> place_;  ///< of each side in sides_
+  std::vector<int> place_;  ///< place of each side in sides_
   std::optional<std::array<int, 2>> overlap_;
 };
 
-/// The sweep line goes from left to right, bottom to top. Between the two ends of a line all decisions are
-/// signs of areas of triangles of given points, hence exact.
+/// Sweep of a line from left to right, bottom to top. All decisions are signs of areas of triangles of given
+/// points, and thus exact.
 class Sweep {
  public:
   Sweep(const std::vector<Vec2>& points, const Fans& fans, std::size_t n_lines)
       : points_(points), fans_(fans), below_(points.size(), -1), status_(Below{*this}), position_(n_lines) {}
 
-  /// Two lines that meet, if any do.
+  /// Returns two lines that meet, if any do.
   std::optional<std::array<int, 2>> run() {
     std::vector<int> events;
     for (int v = 0; v < static_cast<int>(points_.size()); ++v)
@@ -101,11 +101,11 @@ class Sweep {
     return conflict_;
   }
 
-  /// The side that runs to the right just below a point, none of whose lines comes from the left; -1: none.
+  /// Returns the side that runs to the right just below a point without lines from the left; -1: none.
   int below(int v) const { return below_[v]; }
 
  private:
-  /// Sides that run to the right, by height.
+  /// Order of sides to the right, by height.
   struct Below {
     using is_transparent = void;
     const Sweep& sweep;
@@ -116,10 +116,10 @@ class Sweep {
 
   Vec2 left(int s) const { return points_[fans_.start(s)]; }
   Vec2 right(int s) const { return points_[fans_.end(s)]; }
-  /// +1: p above the line, -1: below.
+  /// Returns +1 if p is above the line of a side, -1 below, 0 on it.
   int side(int s, Vec2 p) const { return orient2d(left(s), right(s), p); }
 
-  // Order of two lines that both cross the sweep line: told by the one that begins later.
+  // Orders two lines that cross the sweep line, by the one that begins later.
   bool is_below(int a, int b) const {
     if (fans_.start(a) == fans_.start(b)) return side(a, right(b)) > 0;
     if (before(left(a), left(b))) return side(a, left(b)) > 0;
@@ -142,7 +142,8 @@ class Sweep {
     for (const int s : fan.first(n_right)) position_[s / 2] = status_.insert(above, s);
   }
 
-  // Neighbors with a common end cannot meet elsewhere: a point on a line is found when the sweep reaches it.
+  // Checks two neighbors. Lines with a common end cannot meet elsewhere, and a point on a line is found when
+  // the sweep reaches it.
   void check(int a, int b) {
     if (a < 0 || b < 0 || conflict_) return;
     if (fans_.start(a) == fans_.start(b) || fans_.end(a) == fans_.end(b)) return;
@@ -195,8 +196,8 @@ class Arranger {
     bool is_contour;  ///< goes around lines from outside
   };
 
-  /// In the order of their first points; for one point the contour, then contours of inner faces from bottom
-  /// to top.
+  /// Lists the cycles in the order of their first points: at a point the contour first, then inner faces from
+  /// bottom to top.
   void walk_cycles() {
     std::vector<int> order(points_.size());
     std::iota(order.begin(), order.end(), 0);
@@ -204,8 +205,7 @@ class Arranger {
     cycle_of_.assign(2 * lines_.size(), -1);
     for (const int v : order) {
       const auto fan = fans_.at(v);
-      // Nothing of an unknown cycle lies farther to the left. Where no line does, only a contour opens to
-      // there.
+      // No side of an unknown cycle lies farther to the left. If no line does, the cycle is a contour.
       if (!fan.empty() && cycle_of_[fan.back()] < 0) add_cycle(fan.back(), fans_.goes_right(fan.back()));
       for (const int side : fan)
         if (cycle_of_[side] < 0) add_cycle(side, false);
@@ -222,7 +222,7 @@ class Arranger {
     } while (side != first);
   }
 
-  /// The face around a component is on the left of its contour, on the other side of which its faces begin.
+  /// Sets the face around each component, which is on the left of its contour.
   void set_around(Arrangement& result) const {
     DisjointSets components(points_.size());
     for (const auto& [a, b] : lines_) components.join(a, b);

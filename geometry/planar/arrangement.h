@@ -14,27 +14,26 @@ namespace delquad {
 /// The faces that straight lines of a plane enclose. Line l has two sides: side 2 l runs along it as given,
 /// side 2 l + 1 against it. The face of a side lies on its left.
 struct Arrangement {
-  /// Sides one after the other, with the same face on their left, from the lexicographically smallest point
-  /// on.
+  /// Consecutive sides with the same face on their left, from the lexicographically smallest point on.
   using Cycle = std::vector<int>;
-  /// A bounded face: its outline, then the cycles around what lies inside of it.
+  /// A bounded face: its outline, then the cycles around the components inside of it.
   struct Face {
     std::vector<Cycle> cycles;
-    int around = -1;     ///< the face in which its outline lies; -1: the unbounded one
-    int component = -1;  ///< faces whose lines hang together have the same
+    int around = -1;     ///< face in which its outline lies; -1: the unbounded one
+    int component = -1;  ///< number of the connected lines that bound it
   };
   std::vector<Face> faces;     ///< in the order of their outlines' first points
   std::vector<Cycle> outside;  ///< cycles of the unbounded face
-  std::vector<int> face_of;    ///< of each side; -1: the unbounded one
+  std::vector<int> face_of;    ///< face of each side; -1: the unbounded one
   std::optional<std::array<int, 2>>
-      conflict;  ///< lines that share more than common ends; then there is nothing else
+      conflict;  ///< two lines that share more than common ends; the other members are then empty
 
   bool has_one_face(int line) const { return face_of[2 * line] == face_of[2 * line + 1]; }
 };
 
-/// Lines are pairs of points with different coordinates, no pair twice; points do not coincide. Any number of
-/// lines may meet in a point; loose ends are allowed. Sweep of Shamos and Hoey (1976) with exact predicates:
-/// O(n log n) whatever the lines.
+/// Returns the faces of lines, by the sweep of Shamos and Hoey (1976) with exact predicates in O(n log n).
+/// Lines are pairs of points, no pair twice; points must not coincide. Any number of lines may meet in a
+/// point; loose ends are allowed.
 Arrangement arrange(const std::vector<Vec2>& points, const std::vector<std::array<int, 2>>& lines);
 
 /// Returns the point at which a side begins.

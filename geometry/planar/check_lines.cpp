@@ -132,7 +132,7 @@ class LineArranger {
     }
   }
 
-  /// Of two nodes at one place, each with two lines: does one of its lines run on either side of the other's?
+  /// Returns whether the lines of two nodes at one place, each with two lines, cross there.
   bool cross_there(int v, int w) const {
     if (valence(v) != 2 || valence(w) != 2) return false;
     const auto end = [&](int node, std::size_t k) {
@@ -202,7 +202,7 @@ class LineArranger {
 }  // namespace
 
 BoundaryNames names_of_curves(const Mesh& lines, const std::string& source) {
-  // By value: the mesh itself may move away while the names are still wanted.
+  // Captures by value, since the mesh may move while the names are in use.
   const auto label = [curves = lines.curves](int c) {
     const Entity& curve = curves[static_cast<std::size_t>(c)];
     return curve.names.empty() ? fmt::format("curve {}", curve.tag)

@@ -32,7 +32,7 @@ std::vector<CurvePiece> cut_at_stops(const PlanarModel& model, const ModelChain&
   return pieces;
 }
 
-/// Whether some places of one piece lie on another piece with the same ends.
+/// Returns whether sampled places of one piece lie on another piece with the same ends.
 bool are_equal(const CurvePiece& a, const CurvePiece& b, double tolerance) {
   if (a.curves == b.curves) return false;
   const CurveSpan other(*b.shape, b.from, b.to);
@@ -60,7 +60,7 @@ std::vector<CurvePiece> join_equal_pieces(std::vector<CurvePiece> pieces, double
   return kept;
 }
 
-/// An end of a piece, and where it goes from there.
+/// An end of a piece, and the direction from there.
 struct PieceEnd {
   int node;
   double angle;
@@ -81,7 +81,7 @@ std::vector<PieceEnd> ends_by_angle(const std::vector<CurvePiece>& pieces) {
   return ends;
 }
 
-/// Curves of different loops that meet have an angle between them: else they would enclose nothing but
+/// Throws InputError for curves of different loops that meet without an angle, as they would enclose only
 /// slivers.
 void check_angles(const PlanarModel& model, const ModelChain& chain, const std::vector<CurvePiece>& pieces) {
   constexpr double kLeast = 1e-4;  // radians

@@ -21,26 +21,28 @@ namespace delquad {
 
 /// The part of a curve between two compulsory nodes.
 struct CurvePiece {
-  std::vector<int> curves;  ///< of the model; several where these lie on each other; none: a dangling curve
+  std::vector<int> curves;  ///< curves of the model, several if they coincide; none: a dangling curve
   std::array<int, 2> ends;  ///< nodes
   std::shared_ptr<const Curve> shape;
   double from = 0, to = 1;
   std::optional<ArcMeasure> measure = {};
-  int least = 1;                      ///< fewest edges
-  int n = 1;                          ///< edges
-  bool is_divided = false;            ///< its nodes were asked for: neither n nor they change
+  int least = 1;                      ///< least number of edges
+  int n = 1;                          ///< number of edges
+  bool is_divided = false;            ///< its nodes were requested: neither n nor they change
   std::vector<double> interior = {};  ///< parameters of its nodes
-  int curve = -1;                     ///< of the mesh; -1: a dangling curve
-  int master = -1;                    ///< the piece whose nodes it has the images of; -1: none
+  int curve = -1;                     ///< curve of the mesh; -1: a dangling curve
+  int master = -1;                    ///< piece whose nodes have their images here; -1: none
   bool is_mirrored = false;           ///< it has the shape of the master, mirrored, and the same parameters
-  std::vector<Vec2> images = {};      ///< its nodes, where they are images by a motion
+  std::vector<Vec2> images = {};      ///< its nodes, if they are images by a motion
 
+  /// Divides the piece into n >= 1 edges of equal integral; it must have a measure.
   void set_edges(int edges) {
     n = edges;
     interior = measure->interior_nodes(n);
   }
+  /// Returns the place of the k-th inner node.
   Vec2 node(std::size_t k) const { return images.empty() ? shape->point(interior[k]) : images[k]; }
-  /// Returns the direction from its first or last end a little way along it.
+  /// Returns the vector from its first or last end a thousandth of the way along it.
   Vec2 leaving(bool from_last) const {
     const double from_end = from_last ? to : from, step = 1e-3 * (from_last ? from - to : to - from);
     return shape->point(from_end + step) - shape->point(from_end);
@@ -50,20 +52,20 @@ struct CurvePiece {
   std::pair<int, int> sorted_ends() const { return std::minmax(ends[0], ends[1]); }
 };
 
-/// Returns the curves cut at their compulsory nodes. If pieces lie on each other, the first one stays. Throws
-/// InputError for curves of different loops that touch without an angle between them.
+/// Returns the curves cut at their compulsory nodes. If pieces coincide, the first one stays. Throws
+/// InputError for curves of different loops that meet at an angle below 1e-4 radians.
 std::vector<CurvePiece> cut_curves(const PlanarModel& model, const ModelChain& chain);
 
-/// Returns the loops that have each curve of the model.
+/// Returns for each curve of the model the loops (indices) with it.
 std::vector<std::vector<int>> loops_of_model_curves(const PlanarModel& model, const ModelChain& chain);
 
-/// Ends of pieces at each node.
+/// Returns the number of ends of pieces at each node.
 std::vector<int> pieces_at_nodes(const std::vector<CurvePiece>& pieces, std::size_t n_nodes);
 
 /// Returns the model's curves with their names and numbers.
 std::vector<Entity> curve_entities(const PlanarModel& model);
 
-/// Returns the beginning of messages on a model: its file.
+/// Returns the beginning of messages on a model: its file, or an empty text.
 std::string message_prefix(const PlanarModel& model);
 
 }  // namespace delquad

@@ -11,10 +11,10 @@ namespace delquad {
 
 namespace {
 
-/// A curve strays from a chord by less than this part of the chord's length.
+/// Largest distance of a curve from a chord, over the chord's length.
 constexpr double kStray = 0.02;
 constexpr int kMostHalvings = 12;
-/// Steps of the searches that make a place exact: both converge to rounding in less.
+/// Limits of steps of bisection and of Newton's method, which converge in fewer.
 constexpr int kSteps = 80, kNewtonSteps = 30;
 
 double to_chord(Vec2 p, Vec2 a, Vec2 b, double& part) {
@@ -65,7 +65,7 @@ CurveSpan::Place CurveSpan::nearest(Vec2 x) const {
     }
   to_chord(x, chords_[best].a, chords_[best].b, part);
   const Chord& chord = chords_[best];
-  // The parameter need not run evenly along the chord, and the place may be on the next one.
+  // The parameter may vary unevenly along the chord, and the place may be on the next chord.
   const double reach = chord.t1 - chord.t0, guess = chord.t0 + part * reach;
   double low = std::max(begin(), guess - reach), high = std::min(end(), guess + reach);
   for (int i = 0; i < kSteps; ++i) {

@@ -10,9 +10,10 @@
 
 namespace delquad {
 
-/// A part of a curve without compulsory nodes, as chords from which it hardly strays.
+/// A part of a curve without compulsory nodes, as chords to which it is close.
 class CurveSpan {
  public:
+  /// Takes the part from t0 to t1; the curve must outlive this object.
   CurveSpan(const Curve& shape, double t0, double t1);
 
   const Box<Vec2>& box() const { return box_; }
@@ -24,14 +25,14 @@ class CurveSpan {
     Vec2 at;
     double distance;
   };
-  /// Returns the place next to x.
+  /// Returns the place of the curve nearest to x.
   Place nearest(Vec2 x) const;
 
   struct Crossing {
     double mine, other;  ///< parameters
     Vec2 at;
   };
-  /// Returns the places where the two go through each other; touching is none.
+  /// Returns the places where both cross; where they only touch is no crossing.
   std::vector<Crossing> crossings(const CurveSpan& other) const;
 
  private:

@@ -16,8 +16,7 @@ namespace delquad {
 
 namespace {
 
-/// An arc whose sweep differs from a full turn by less (radians) is a full turn: what twelve printed digits
-/// leave.
+/// Tolerance (radians) within which a sweep is a full turn, for angles with twelve printed digits.
 constexpr double kFullTurnTolerance = 1e-11;
 
 void require_finite(double value, const char* what) {
@@ -40,10 +39,10 @@ void check_points(std::span<const Vec2> points, const char* what) {
   }
 }
 
-/// By which angle a line turns at b, radians, at least 0.
+/// Returns the angle by which a polyline turns at b, radians from 0 to pi.
 double turn(Vec2 a, Vec2 b, Vec2 c) { return std::abs(std::atan2(cross(b - a, c - b), dot(b - a, c - b))); }
 
-/// Every bit of the coordinates.
+/// Returns the coordinates with every bit.
 std::string exact_text(std::span<const Vec2> points) {
   std::string text;
   for (const Vec2 p : points) text += fmt::format(" {:a} {:a}", p.x, p.y);
@@ -76,7 +75,7 @@ class Polyline final : public DefinedCurve {
   std::vector<double> knots_;
 };
 
-/// Second derivatives by t at the knots of the cubic spline through these points: natural, or periodic.
+/// Returns second derivatives by t at the knots of the natural or periodic cubic spline through these points.
 std::vector<Vec2> second_derivatives(std::span<const double> t, std::span<const Vec2> points,
                                      bool is_periodic) {
   const int n = static_cast<int>(points.size()) - 1;

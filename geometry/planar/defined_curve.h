@@ -5,15 +5,15 @@
 
 #include "delquad/model.h"
 
-// This header has curves that tell how they were made. Model files use it.
+// This header has curves that know their definition. Model files use it.
 
 namespace delquad {
 
-/// A curve that tells how it was made.
+/// A curve that knows its definition.
 class DefinedCurve : public Curve {
  public:
-  /// Returns a text that no other curve has, such as "arc" with its center, radius and angles. Numbers keep
-  /// every bit.
+  /// Returns a unique text of the curve, such as "arc" with its center, radius and angles. Numbers keep every
+  /// bit.
   virtual std::string definition() const = 0;
 };
 

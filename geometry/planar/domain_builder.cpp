@@ -18,7 +18,7 @@ namespace delquad {
 
 namespace {
 
-/// A side of a line, and the corner of its face at which it begins, stand for each other.
+/// Builds a domain. A side of a line has the same index as the corner of its face at which it begins.
 class DomainBuilder {
  public:
   DomainBuilder(Mesh lines, const Arrangement& arrangement, FaceRegions regions, const BoundaryNames& names,
@@ -74,13 +74,13 @@ class DomainBuilder {
     }
   }
 
-  /// And flattens the rounding of z.
+  /// Drops points without lines, and sets one z for all others.
   void drop_points_without_lines() {
     drop_unused_points(domain_.boundary);
     for (Vec3& p : domain_.boundary.points) p.z = mesh().points.front().z;
   }
 
-  /// The region comes to lie on the left; of two, the one that the other is around. Sides keep their numbers.
+  /// Orients lines so that the region is on the left; of two, the inner one. Sides keep their numbers.
   void orient_lines() {
     lines_ = mesh().lines;
     for (int l = 0; l < static_cast<int>(lines_.size()); ++l)
@@ -103,7 +103,7 @@ class DomainBuilder {
   }
   bool is_crack(int line, const std::vector<char>& cracks) const { return cracks[mesh().line_curve[line]]; }
 
-  /// Corners of regions that meet along a line share its node, unless that is a crack.
+  /// Joins corners of regions that meet along a line, unless it is a crack.
   void join_corners(const std::vector<int>& next, const std::vector<char>& cracks) {
     joined_ = DisjointSets(n_sides());
     for (int s = 0; s < n_sides(); ++s)
@@ -138,7 +138,7 @@ class DomainBuilder {
     }
   }
 
-  /// Lines with the nodes of their corners; cracks have lines on both lips.
+  /// Gives line l the nodes of its corners; cracks get lines on both lips.
   void redraw(int l, const std::vector<int>& next, const std::vector<char>& cracks) {
     Mesh& mesh = domain_.boundary;
     const auto ends = [&](int side) { return std::array{node_[side], node_[next[side]]}; };
@@ -183,7 +183,7 @@ class DomainBuilder {
     }
   }
 
-  /// The corner between two sides, moved into it along its bisector.
+  /// Returns the place of the corner between two sides, moved inside along its bisector.
   Vec2 opened(int before, int after) const {
     const int v = start(after);
     return at(v) + into_corner(at(start(before)), at(v), at(start(after ^ 1)), kOpening);
@@ -198,14 +198,14 @@ class DomainBuilder {
   FaceRegions regions_;
   const BoundaryNames& names_;
   PlanarDomain domain_;
-  std::vector<std::array<int, 2>> lines_;  ///< as the arrangement knows them
-  std::vector<int> node_;                  ///< of each corner
+  std::vector<std::array<int, 2>> lines_;  ///< lines as in the arrangement
+  std::vector<int> node_;                  ///< node of each corner
   DisjointSets joined_;                    ///< corners that have the same node
-  std::vector<int> other_lip_;             ///< of each line: its side that has a line of its own; -1: none
-  std::map<int, int> lip_curves_;          ///< of cracks: the curve of those lines
+  std::vector<int> other_lip_;             ///< side of each line that has an own line; -1: none
+  std::map<int, int> lip_curves_;          ///< for each crack, the curve of its second lip
 };
 
-/// Its edges stay in the patches.
+/// Removes a curve and its lines; its edges stay in the patches.
 void drop_curve(PlanarDomain& domain, int curve) {
   Mesh& mesh = domain.boundary;
   const auto rename = [&](int& c) { c = c == curve ? -1 : c - (c > curve); };

@@ -11,29 +11,31 @@
 
 namespace delquad {
 
-/// Curves that are more, or less, than others.
+/// Curves with special lines.
 struct SpecialCurves {
-  /// By curve, empty: none. There the domain comes apart: nodes are doubled, and the other side gets lines of
-  /// its own, on a curve of the same name.
+  /// Whether each curve is a crack; empty: none. At a crack nodes are doubled, and the other side gets own
+  /// lines, on a curve of the same name.
   std::vector<char> cracks = {};
-  int dangling = -1;  ///< edges at single points, which are no lines in the end
+  int dangling = -1;  ///< curve with edges at single points, which are removed at last; -1: none
   bool may_bound_nothing =
-      false;  ///< lines without a region on either side are no error, see drop_stray_lines()
+      false;  ///< whether lines may have no region on either side, see drop_stray_lines()
 };
 
-/// Makes one patch for each face that has a region. In a patch's plane a point stands for each corner of its
-/// face. Where the boundary meets itself, at lines with the patch on both sides and at nodes that it passes
-/// twice, these are moved apart. They go into their corners by kOpening of the lines there, so that the
-/// outline is a polygon with holes. Throws InputError, naming it, for a line without a region on either side.
+/// Returns the domain with a patch for each face that has a region (own method). A patch has a point for each
+/// corner of its face. If the boundary meets itself, at lines with the patch on both sides or at nodes that
+/// it passes twice, corners are moved apart. They move along their bisectors by kOpening of the lines there,
+/// so that the outline is a polygon with holes. Throws InputError, with the curve, for a line without a
+/// region on either side.
 PlanarDomain build_domain(Mesh lines, const Arrangement& arrangement, FaceRegions regions,
                           const BoundaryNames& names, const SpecialCurves& special = {});
 
-/// Takes out the lines that no patch has, and their points.
+/// Removes the lines that no patch has, and their points.
 void drop_stray_lines(PlanarDomain& domain);
-/// Takes out the nodes that are not used; all that has numbers of nodes gets new ones.
+/// Removes the nodes that are not `used` (by node), and renumbers the others everywhere in the domain.
 void keep_nodes(PlanarDomain& domain, const std::vector<char>& used);
 
-/// Part of the shortest line at a node: far above rounding, far below any edge.
+/// Length by which corners are moved apart, over the shortest line at the node: far above rounding, far below
+/// any edge.
 inline constexpr double kOpening = 1e-6;
 
 }  // namespace delquad

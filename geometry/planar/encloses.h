@@ -10,7 +10,8 @@
 
 namespace delquad {
 
-/// Returns whether a point lies in a closed polygon, by exact predicates.
+/// Returns whether a point lies inside a closed polygon, by exact predicates; points on its sides may count
+/// either way.
 inline bool encloses(const std::vector<Vec2>& loop, Vec2 x) {
   bool inside = false;
   for (std::size_t i = 0; i < loop.size(); ++i) {

@@ -34,7 +34,7 @@ double signed_area(const Mesh& lines, const Arrangement::Cycle& cycle) {
   return area;
 }
 
-/// Tells by which loops each face is surrounded, and how these lie in each other.
+/// Finds the loops around each face, and their nesting.
 class LoopsAround {
  public:
   LoopsAround(const Mesh& lines, const Arrangement& arrangement, const std::vector<ModelLoop>& loops,
@@ -53,7 +53,7 @@ class LoopsAround {
     check_duplicates();
   }
 
-  /// The innermost one; -1: none.
+  /// Returns the innermost loop around a face; -1: none.
   int innermost(std::size_t face) const { return around_[face].empty() ? -1 : around_[face].back(); }
 
   /// Returns for each loop whether there is a region just inside.
@@ -75,11 +75,11 @@ class LoopsAround {
     return "the loop of " + names_.curve(l.curves.front());
   }
 
-  /// From the unbounded face over all lines: to cross a line is to enter or to leave the loops that it is on.
+  /// Walks from the unbounded face over all lines; to cross a line is to enter or leave its loops.
   void spread() {
     const std::size_t n_lines = lines_.lines.size();
     std::vector<std::vector<int>> sides_of(arrangement_.faces.size());
-    std::vector<int> open;  // sides from whose faces to go on
+    std::vector<int> open;  // sides of faces to visit
     for (std::size_t s = 0; s < 2 * n_lines; ++s) {
       const int face = arrangement_.face_of[s];
       if (face < 0)
@@ -118,7 +118,7 @@ class LoopsAround {
                         [&](int l) { return std::tuple(-area_[l], !loops_[l].region.empty(), l); });
   }
 
-  /// `around`: loops, the largest first.
+  /// Nests the loops `around` a face, the largest first.
   void nest(const std::vector<int>& around) {
     int outer = kNone;
     for (const int loop : around) {
@@ -134,7 +134,7 @@ class LoopsAround {
     }
   }
 
-  /// One of two equal loops says that the other one is no hole.
+  /// Throws InputError for two equal loops, unless exactly one of them names a region.
   void check_duplicates() const {
     for (std::size_t l = 0; l < loops_.size(); ++l) {
       const int parent = parent_[l];
@@ -152,7 +152,7 @@ class LoopsAround {
   const std::vector<ModelLoop>& loops_;
   const BoundaryNames& names_;
   const std::vector<std::vector<int>>& of_curve_;
-  std::vector<std::vector<int>> around_;  ///< of each face: loops, the largest first
+  std::vector<std::vector<int>> around_;  ///< loops around each face, the largest first
   std::vector<double> area_;
   std::vector<int> parent_;
 };

@@ -22,7 +22,7 @@
 namespace delquad {
 namespace {
 
-/// A curve with other ends, near its own.
+/// A curve with its ends moved a little.
 class MovedEnds final : public Curve {
  public:
   MovedEnds(std::shared_ptr<const Curve> base, Vec2 from, Vec2 to)
@@ -41,7 +41,7 @@ class MovedEnds final : public Curve {
   Vec2 from_, to_, d0_, d1_;
 };
 
-/// An end of a curve: 2 * curve + (0: start, 1: end). It also stands for the way along the curve from there.
+/// An end of a curve: 2 * curve + (0: start, 1: end). It also stands for the path along the curve from there.
 using End = int;
 End far_end(End e) { return e ^ 1; }
 
@@ -116,7 +116,7 @@ class OutlineJoiner {
     }
   }
 
-  /// Curves that were drawn twice are there once.
+  /// Keeps one of several equal curves.
   void drop_copies() {
     std::map<std::pair<int, int>, std::vector<int>> by_ends;
     for (int c = 0; c < static_cast<int>(curves_.size()); ++c) {
@@ -139,7 +139,7 @@ class OutlineJoiner {
     }
   }
 
-  /// Takes out curves that end alone, and what then does.
+  /// Removes curves with a loose end, again and again. Returns the place of a loose end, for messages.
   std::string drop_loose() {
     std::vector<int> lone;
     for (const auto& [v, at] : at_node_)
@@ -165,7 +165,7 @@ class OutlineJoiner {
                        norm(ends_[next] - x));
   }
 
-  /// Points along a curve from one of its ends to before the other.
+  /// Returns points along a curve from one end, without the other end.
   std::vector<Vec2> points_from(End e) const {
     std::vector<Vec2> points = points_along(*curves_[e / 2].shape);
     if (e % 2 == 1) std::ranges::reverse(points);
@@ -179,11 +179,11 @@ class OutlineJoiner {
     return std::atan2(d.y, d.x);
   }
 
-  /// The outline of the face around all of them: it alone goes round clockwise where faces lie on the left.
+  /// Returns the outer outline of connected curves: it alone is clockwise if faces lie on the left.
   std::vector<int> outer_of(const std::vector<int>& group) {
     std::set<int> nodes;
     for (const int c : group) nodes.insert({node_[2 * c], node_[2 * c + 1]});
-    std::map<End, End> next;  // the way that goes on behind a way
+    std::map<End, End> next;  // path that follows a path
     for (const int v : nodes) {
       std::vector<End>& at = at_node_[v];
       std::ranges::sort(at, {}, [&](End end) { return std::pair(angle_at(end), end); });
@@ -207,21 +207,21 @@ class OutlineJoiner {
       if (area < least) least = area, outer = cycle;
     }
     std::ranges::sort(outer);
-    // Curves with that face on both sides are no outlines.
+    // Curves with the outer face on both sides are no outlines.
     std::erase_if(outer, [&, all = outer](int c) { return std::ranges::equal_range(all, c).size() > 1; });
     return outer;
   }
 
   PlanarModel& model_;
   std::vector<ModelCurve>& curves_;
-  std::vector<char> is_free_;  ///< of each curve: it may be part of a loop
+  std::vector<char> is_free_;  ///< whether each curve may be part of a loop
   std::vector<Vec2> ends_;
   double gap_ = 0;
-  std::vector<int> node_;                    ///< of each end
+  std::vector<int> node_;                    ///< node of each end
   std::map<int, std::vector<End>> at_node_;  ///< the ends of free curves
 };
 
-/// Curves behind those that are gone get other numbers.
+/// Removes the curves that are gone, and renumbers the others.
 void drop_gone(PlanarModel& model) {
   std::vector<int> number;
   int n = 0;
@@ -256,7 +256,7 @@ int leave_out_outside(PlanarModel& model) {
       }
     }
   const BoxTree<Vec2> tree(boxes);
-  const auto is_outside = [&](Vec2 x) {  // a way to the right meets an even number of sides
+  const auto is_outside = [&](Vec2 x) {  // a ray to the right meets an even number of sides
     int met = 0;
     tree.overlapping({x, {std::max(x.x, right), x.y}}, [&](int s) {
       const auto& [a, b] = sides[s];

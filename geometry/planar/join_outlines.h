@@ -9,17 +9,17 @@
 
 namespace delquad {
 
-/// Part of a model's diagonal: ends of curves that are nearer are one, and outlines that are nearer lie on
-/// each other.
+/// Distance, over a model's diagonal, within which ends of curves coincide, and so do outlines.
 inline constexpr double kCoincidence = 1e-5;
 
-/// Makes loops of curves that no loop has, except cracks. Ends within kCoincidence become one. Curves that
-/// hang together are a loop if an even number of them meets at each end. Else their outer outline is the
-/// loop, and the others stand in it. Curves with a loose end stand in the regions, too. Copies of curves are
-/// dropped. Returns where a loose end is and how far the next one is, for messages; empty: no end is loose.
+/// Makes loops of curves that no loop has, except cracks (own method). Ends within kCoincidence become one.
+/// Connected curves are a loop if an even number of them meets at each end. Otherwise their outer outline is
+/// the loop, and the others are embedded in it. Curves with a loose end are embedded, too. Copies of curves
+/// are dropped. Returns the place of a loose end and the distance to the next one, for messages; empty: no
+/// end is loose.
 std::string join_outlines(PlanarModel& model);
 
-/// Drops curves that no loop has, and points, outside of all loops. Returns how many.
+/// Drops embedded curves and points outside of all loops. Returns their number.
 int leave_out_outside(PlanarModel& model);
 
 }  // namespace delquad

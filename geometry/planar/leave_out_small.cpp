@@ -18,7 +18,7 @@ namespace delquad {
 
 namespace {
 
-/// Chords of a piece of a curve without corners.
+/// Number of chords for a piece of a curve without corners.
 constexpr int kChords = 32;
 
 struct Piece {
@@ -40,7 +40,7 @@ double length_of(const std::vector<Vec2>& points) {
   return length;
 }
 
-/// Pieces, one after the other; not all of their ends are corners.
+/// A curve of consecutive pieces; not all of their ends are corners.
 class JoinedCurve final : public Curve {
  public:
   JoinedCurve(std::vector<Piece> pieces, std::vector<double> fixed)
@@ -60,12 +60,12 @@ class JoinedCurve final : public Curve {
   std::vector<double> fixed_;
 };
 
-/// Curves that follow each other, as pieces between their corners.
+/// Consecutive curves, as pieces between their corners.
 struct Chain {
   std::vector<Piece> pieces;
   std::vector<int> curve;     ///< of each piece
-  std::vector<char> is_free;  ///< of the node before each piece: whether it may go
-  std::vector<char> is_kept;  ///< of the node before each piece: whether it is one
+  std::vector<char> is_free;  ///< whether the node before each piece may be removed
+  std::vector<char> is_kept;  ///< whether the node before each piece stays
   bool is_closed = false;
 };
 
@@ -90,7 +90,7 @@ class NodeRemover {
   }
 
  private:
-  /// The curve that goes on where `curve` ends, as the same one could; -1: none.
+  /// Returns the curve that continues `curve` behind a node, and may be joined to it; -1: none.
   int next(int curve, int node) const {
     const std::vector<int>& two = curves_at_[node];
     if (two.size() != 2 || two[0] == two[1] || uses_[node] > 0) return -1;
@@ -151,7 +151,7 @@ class NodeRemover {
       gap.push_back(length_of(points));
     }
     chain.is_kept.assign(n, 1);
-    // Nodes before and behind each, and lengths up to the one behind, among those that are kept.
+    // Previous and next kept node of each node, and lengths up to the next one.
     std::vector<int> before(n + 1), behind(n + 1);
     for (int i = 0; i <= n; ++i) before[i] = i - 1, behind[i] = i + 1;
     using Gap = std::tuple<double, int, int>;
@@ -215,12 +215,12 @@ class NodeRemover {
   ModelChain chain_;
   double length_;
   std::vector<Warning>& warnings_;
-  std::vector<std::vector<int>> curves_at_;  ///< that end at each node
-  std::vector<int> uses_;                    ///< of each node: how many curves have it inside, and points
+  std::vector<std::vector<int>> curves_at_;  ///< curves that end at each node
+  std::vector<int> uses_;                    ///< number of curves with the node inside, and of points there
   std::vector<char> seen_;                   ///< curves
 };
 
-/// Once around, in the order of the curves' numbers where these do not hang together.
+/// Returns the points once around a loop; curves that do not join are in the order of their numbers.
 std::vector<Vec2> outline(const PlanarModel& model, const ModelLoop& loop) {
   std::vector<std::vector<Vec2>> curves;
   for (const int c : loop.curves) {
@@ -233,7 +233,7 @@ std::vector<Vec2> outline(const PlanarModel& model, const ModelLoop& loop) {
       points.insert(points.end(), more.begin() + (i > 0), more.end());
     }
   }
-  // Each next curve is the one that begins or ends nearest to where the last one ended.
+  // The next curve is the one with an end nearest to the last point.
   std::vector<Vec2> points = std::move(curves[0]);
   curves.erase(curves.begin());
   while (!curves.empty()) {
@@ -287,7 +287,7 @@ void close_holes(PlanarModel& model, const SmallOutlines& small, std::vector<War
     const bool alone = std::ranges::all_of(loop.curves, [&](int c) { return uses[c] == 1; });
     goes[l] = length < small.hole && host[l] >= 0 && alone && !small.keep.any_of(names_of(loop));
   }
-  // A loop around something that stays, stays.
+  // A loop around a kept loop stays.
   for (std::size_t l = 0; l < n; ++l)
     for (std::size_t k = 0; k < n; ++k)
       if (goes[l] && is_in(k, l) && small.keep.any_of(names_of(model.loops[k]))) goes[l] = 0;

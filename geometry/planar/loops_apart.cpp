@@ -17,9 +17,9 @@ namespace delquad {
 
 namespace {
 
-/// A curve strays from its chord by at most so many times what it does at three places.
+/// Largest distance of a curve from its chord, over the largest distance at three places.
 constexpr double kSafety = 2;
-/// Halves of halves: by then the parts are shorter than rounding.
+/// Limit of halvings; the parts are then shorter than rounding.
 constexpr int kMostHalvingsOfPairs = 60;
 
 /// An edge or a part of one.
@@ -27,7 +27,7 @@ struct Part {
   const Curve* shape;
   double t0, t1;
   Vec2 a, b;
-  double bulge = 0;  ///< the curve is no farther from the chord
+  double bulge = 0;  ///< bound for the distance of the curve from the chord
 
   static Part make(const Curve* shape, double t0, double t1, Vec2 a, Vec2 b) {
     Part part{shape, t0, t1, a, b};
@@ -51,9 +51,8 @@ double distance_of_parts(const Part& p, const Part& q) {
                    distance_to_segment(q.a, p.a, p.b), distance_to_segment(q.b, p.a, p.b)});
 }
 
-/// Where two curves come nearer than the tolerance. The search ends: it goes on with halves of the part that
-/// strays the most, which stray half as much at most. It stops as soon as both stray by less than the
-/// tolerance.
+/// Returns a place where two curves are within the tolerance; nothing if there is none. The search halves the
+/// part with the larger bulge, and ends if both bulges are below the tolerance.
 std::optional<Vec2> meeting(const Part& p, const Part& q, double tolerance, int halvings = 0) {
   check_cancelled();
   if (distance_of_parts(p, q) - p.bulge - q.bulge > tolerance) return std::nullopt;

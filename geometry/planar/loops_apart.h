@@ -10,8 +10,8 @@
 
 namespace delquad {
 
-/// Loops nearer to each other than this part of the model's diagonal touch. It is well above the rounding of
-/// coordinates with seven digits, and below any gap that a mesh could fill.
+/// Distance, over the model's diagonal, below which loops touch. It is well above the rounding of coordinates
+/// with seven digits, and below any gap that a mesh could fill.
 inline constexpr double kTouch = 1e-6;
 
 /// An edge of a loop: the part of a curve between two of its nodes.
@@ -22,8 +22,8 @@ struct LoopEdge {
   int loop, curve;
 };
 
-/// Throws InputError naming curves and place where two loops touch or cross: by their curves, whose edges may
-/// well keep apart.
+/// Throws InputError, with curves and place, if two loops touch or cross along their curves, even if edges do
+/// not (own method).
 void check_loops_apart(const std::vector<LoopEdge>& edges, const BoundaryNames& names);
 
 }  // namespace delquad

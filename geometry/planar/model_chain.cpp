@@ -32,8 +32,8 @@ std::string loop_label(const PlanarModel& model, int loop) {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A few points of each curve tell the model's extent and which curves have none. A prime number of parts, so
-// that no periodic formula hides from them.
+// A few points of each curve, to find the model's extent and curves without length. Their number of parts is
+// prime, so that no periodic formula hides.
 struct Outline {
   Box<Vec2> extent{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
   std::vector<double> lengths;
@@ -92,10 +92,10 @@ class Chainer {
   }
 
  private:
-  /// Curves that no loop has.
+  /// Returns whether no loop has the curve.
   bool is_embedded(int curve) const { return std::ranges::binary_search(embedded_, curve); }
 
-  /// The node near x, made where there is none.
+  /// Returns the node at x, and makes one if there is none.
   int node_at(Vec2 x) {
     const int known = grid_->find(x, chain_.nodes);
     if (known >= 0) return known;
@@ -152,7 +152,7 @@ class Chainer {
     for (auto& stops : chain_.stops) std::ranges::sort(stops, {}, &CurveStop::t);
   }
 
-  /// A stop where the node lies on the span, and is neither of its ends.
+  /// Adds a stop if the node lies on the span, but is none of its ends.
   void stop_at(const Span& span, int node) {
     if (node == span.ends[0] || node == span.ends[1]) return;
     const CurveSpan::Place place = span.shape.nearest(chain_.nodes[node]);
@@ -175,7 +175,7 @@ class Chainer {
   std::string label(End e) const { return curve_label(model_, e / 2); }
   Vec2 at(End e) const { return ends_[static_cast<std::size_t>(e)]; }
 
-  // The filling of a hole may be a loop of its own, with the same curves.
+  // Returns the loops, where a hole and its filling by the same curves become one.
   std::vector<ModelLoop> merge_loops() {
     std::vector<ModelLoop> merged;
     std::vector<int> first_index;
@@ -220,8 +220,7 @@ class Chainer {
                                    curve_label(model_, *twice)));
   }
 
-  /// At each node an even number of the loop's curves ends, and all of them hang together: a loop may pass a
-  /// node several times.
+  /// Throws InputError unless the loop is connected and an even number of its curves ends at each node.
   void check_closed(const ModelLoop& loop) const {
     const std::string where = prefix(loop.where.empty() ? model_.source : loop.where);
     std::vector<End> ends, loose;
@@ -254,7 +253,7 @@ class Chainer {
                       where, walked.size(), loop.curves.size(), label(ends[0])));
   }
 
-  // All other nodes have an even number of ends, so there are at least two.
+  // Throws InputError for an open loop. Its odd nodes are at least two, since all others are even.
   [[noreturn]] void report_open(const std::vector<End>& loose, const std::string& where) const {
     const End e = loose[0];
     const End nearest = *std::min_element(loose.begin() + 1, loose.end(), [&](End a, End b) {

@@ -13,38 +13,38 @@
 
 namespace delquad {
 
-/// Ends of curves of a loop that lie closer than this, relative to the model's diagonal, are one node. The
-/// coordinates in a model are written with about seven digits.
+/// Distance, over the model's diagonal, within which ends of curves are one node, since coordinates often
+/// have seven digits.
 inline constexpr double kJoinTolerance = 1e-7;
 
-/// A compulsory node inside of a curve.
+/// A compulsory node inside of a curve, with its parameter.
 struct CurveStop {
   double t;
   int node;
 };
 
-/// How the curves of a model hang together.
+/// Nodes that the curves of a model share.
 struct ModelChain {
-  std::vector<Vec2> nodes;                     ///< where curves join: the end point of the first curve listed
+  std::vector<Vec2> nodes;  ///< ends, corners and points; of several within the tolerance, the first one
   std::vector<std::array<int, 2>> curve_ends;  ///< nodes at the start and end of each curve
-  /// For each curve, ascending, its corners and the places where others end on it or stand across it.
+  /// For each curve, ascending, its corners, and the places where other curves end on it or cross it.
   std::vector<std::vector<CurveStop>> stops;
-  std::vector<int> point_nodes;  ///< of the model's points
-  /// The model's loops. A loop listed twice, once with a region (the filling of a hole), stands once.
+  std::vector<int> point_nodes;  ///< nodes of the model's points
+  /// The model's loops. A loop that is listed twice, once with a region (the filling of a hole), occurs once.
   std::vector<ModelLoop> loops;
 };
 
-/// Chains the curves of loops. Each loop must be closed and in one piece; it may pass a node several times.
-/// Ends, corners and points nearer to each other than kJoinTolerance are one node. Throws InputError for open
-/// loops, curves without length, a model without loops.
+/// Returns the nodes of a model (own method). Each loop must be closed and in one piece; it may pass a node
+/// several times. Ends, corners and points within kJoinTolerance are one node. Throws InputError for open
+/// loops, curves without length or with points that are not finite, and a model without loops.
 ModelChain chain_model(const PlanarModel& model);
 
-/// Returns the curve as messages call it: its name or number, and where it was read.
+/// Returns a curve's label in messages: its name or number, and its place in the file.
 std::string curve_label(const PlanarModel& model, int curve);
-/// Returns the same for a point.
+/// Returns a point's label in messages.
 std::string point_label(const PlanarModel& model, int point);
 
-/// Returns the bounding box of the curves, by so many chords each.
+/// Returns the bounding box of the curves, by so many chords >= 1 each.
 Box<Vec2> box_of(const PlanarModel& model, int chords);
 
 }  // namespace delquad

@@ -8,17 +8,17 @@
 
 #include "delquad/mesh.h"
 
-// This header finds points by cells. Outlines use it.
+// This header finds points within a tolerance. Outlines use it.
 
 namespace delquad {
 
-/// Points by cells as wide as the tolerance.
+/// Finds points by square cells as wide as the tolerance, a length > 0, from the corner `low` on.
 class PointGrid {
  public:
   PointGrid(Vec2 low, double tolerance) : low_(low), tolerance_(tolerance) {}
 
   void add(Vec2 x, int number) { cells_[cell(x)].push_back(number); }
-  /// Returns the first of `points` within the tolerance of x; -1: none.
+  /// Returns the first of the added numbers whose point in `points` is within the tolerance of x; -1: none.
   int find(Vec2 x, const std::vector<Vec2>& points) const {
     int found = -1;
     const auto [cx, cy] = cell(x);

@@ -17,16 +17,16 @@ namespace delquad {
 
 namespace {
 
-/// Degree of the polynomials, over Chebyshev's points, where interpolation is as good as at best.
+/// Degree of the polynomials at Chebyshev's points, which are nearly optimal.
 constexpr int kDegree = 12;
-/// Pieces at first: a prime number, so that no periodic formula hides.
+/// Number of first pieces: a prime, so that no periodic formula hides.
 constexpr int kFirstPieces = 7;
-/// A kink is known to this part, as a power of two, of a first piece.
+/// Limit of halvings of a first piece, at a kink.
 constexpr int kMostHalvingsOfPieces = 20;
-/// A curve of more pieces than these has no tangents to speak of.
+/// Limit of pieces; a curve with more has no tangents.
 constexpr std::size_t kMostPieces = 20'000;
 
-/// Points on a piece, from its begin to its end, and weights of the barycentric formula.
+/// Points on a piece, from begin to end, and weights of the barycentric formula.
 struct ChebyshevPoints {
   std::array<double, kDegree + 1> at, weight;
   ChebyshevPoints() {
@@ -75,7 +75,7 @@ class SampledCurve final : public Curve {
   std::vector<SampledPiece> pieces_;
 };
 
-/// Calls the function for parameters of a generation of pieces at once.
+/// Calls the function for all parameters of a generation of pieces at once.
 class Sampler {
  public:
   Sampler(const CurveFunction& function, double t0, double t1) : function_(function), t0_(t0), t1_(t1) {}
@@ -98,7 +98,8 @@ class Sampler {
   double t0_, t1_;
 };
 
-/// Places in a piece where its polynomial is compared with the function: halfway between Chebyshev's points.
+/// Returns the places in a piece where its polynomial is compared with the function: halfway between
+/// Chebyshev's points.
 std::vector<double> test_places(const SampledPiece& piece) {
   std::vector<double> places;
   for (int k = 0; k < kDegree; ++k)
@@ -118,7 +119,7 @@ void sample(const Sampler& sampler, std::vector<SampledPiece>& pieces) {
                 pieces[i].points.begin());
 }
 
-/// Largest extent of the points along an axis.
+/// Returns the largest extent of the points along an axis.
 double extent(const std::vector<SampledPiece>& pieces) {
   Box<Vec2> box = Box<Vec2>::around({pieces[0].points[0]});
   for (const SampledPiece& piece : pieces)

@@ -26,13 +26,13 @@ using Structure = CGAL::Triangulation_data_structure_2<simplification::Vertex_ba
 using Triangulation = CGAL::Constrained_triangulation_plus_2<
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>>;
 
-/// Chords of a curve that is no polyline, which stays.
+/// Number of chords for a curve that is no polyline and stays.
 constexpr int kChordsThatStay = 256;
 
-/// For each given point the least tolerance of its curves.
+/// The least tolerance of the curves at each point.
 using Tolerances = std::map<Point, double>;
 
-/// The largest distance of points that went from the chord in their place, in tolerances, squared.
+/// Squared distance of removed points from their chord, the largest, over their tolerances.
 struct RelativeDistance {
   const Tolerances& tolerances;
   boost::optional<double> operator()(const Triangulation&,

@@ -11,13 +11,13 @@
 
 namespace delquad {
 
-/// How far a point of a curve, by its index, may lie from what stays.
+/// Returns the largest distance, a length, of a removed point of a curve (index) from the remaining polyline.
 using OutlineTolerance = std::function<double(int curve, const Vec3& at)>;
 
-/// Returns the model with polylines of fewer points, in place of polylines of data, or of all. The points
-/// that go lie within their tolerance of the rest, and no outlines touch or cross that did not. Ends, points
-/// of several curves, and three points of a ring stay. By topology-preserving simplification [dyken2009], as
-/// CGAL has it. Warnings tell of each curve how many points stay, and how far the others are from it.
+/// Returns the model with fewer points on polylines of data, or on all polylines, by topology-preserving
+/// simplification [dyken2009] of CGAL. Removed points lie within their tolerance of the rest, and outlines do
+/// not touch or cross each other more than before. Ends, points of several curves, and three points of a ring
+/// stay. A warning for each curve tells the number of its points and the largest distance.
 PlanarModel simplify_outlines(PlanarModel model, const OutlineTolerance& tolerance, bool all,
                               std::vector<Warning>& warnings);
 

@@ -17,7 +17,7 @@
 namespace delquad {
 namespace {
 
-/// Segments that were bent may come near to other points: so often at most.
+/// Limit of rounds, since bent segments may come near other points.
 constexpr int kMostRounds = 8;
 
 class OutlineSnapper {
@@ -41,7 +41,7 @@ class OutlineSnapper {
  private:
   struct Outline {
     int curve;
-    std::vector<int> points;  ///< of all outlines
+    std::vector<int> points;  ///< points of all outlines
     bool is_changed = false;
   };
 
@@ -70,7 +70,7 @@ class OutlineSnapper {
     if (distance > farthest_) farthest_ = distance, where_ = at;
   }
 
-  /// Bends segments to the points beside them. Returns whether there were some.
+  /// Bends segments to points within the tolerance. Returns whether there were any.
   bool bend() {
     std::vector<Box<Vec2>> boxes;
     for (const Vec2 x : points_) boxes.push_back({x, x});
@@ -96,7 +96,7 @@ class OutlineSnapper {
         for (const auto& [part, v] : beside) bent.push_back(v);
       }
       outline.points.clear();
-      for (const int v : bent) {  // there and back again is nothing
+      for (const int v : bent) {  // drops a segment that goes back along the last one
         if (outline.points.size() > 1 && outline.points[outline.points.size() - 2] == v)
           outline.points.pop_back();
         else
@@ -109,7 +109,7 @@ class OutlineSnapper {
   void take(const Outline& outline, PlanarModel& model) const {
     std::vector<Vec2> points;
     for (const int v : outline.points) points.push_back(points_[v]);
-    // An outline that is all hair stays, and is refused where it is used.
+    // An outline without area stays, and is refused where it is used.
     if (points.size() > 3 || (points.size() > 1 && outline.points.front() != outline.points.back()))
       model.curves[outline.curve].shape = make_polyline(points);
   }
@@ -125,7 +125,7 @@ class OutlineSnapper {
 
 }  // namespace
 
-/// Its corners and ends, if it is straight between them.
+/// Returns corners and ends, if the curve is straight between them.
 std::optional<std::vector<Vec2>> polyline_of(const Curve& curve) {
   std::vector<double> t = curve.fixed_parameters();
   t.insert(t.begin(), 0);

@@ -11,12 +11,12 @@
 
 namespace delquad {
 
-/// Corners and ends of a curve that is straight between them; nothing of others.
+/// Returns the corners and ends of a curve that is straight between them; nothing for other curves.
 std::optional<std::vector<Vec2>> polyline_of(const Curve& curve);
 
-/// Joins polylines of data, or `all` polylines, that overlap or gape by less than `tolerance`. Points that
-/// are nearer become one, and segments pass through points that are nearer to them. So outlines that nearly
-/// lie on each other have the same points. A warning tells how many points moved, and how far.
+/// Returns the model with polylines of data, or `all` polylines, joined where they overlap or gape by less
+/// than `tolerance`, a length (own method). Points that are nearer become one, and segments then pass through
+/// points that are nearer to them. A warning tells how many points moved, and how far.
 PlanarModel snap_outlines(PlanarModel model, double tolerance, bool all, std::vector<Warning>& warnings);
 
 }  // namespace delquad

@@ -13,7 +13,8 @@ namespace delquad {
 
 namespace {
 
-/// The closed polygon with the given turns at its vertices and sides as near as possible to `lengths`.
+/// Returns the closed polygon with the given turns at its vertices and sides as near as possible to
+/// `lengths`.
 std::vector<Vec2> close_polygon(const std::vector<double>& turns, const std::vector<double>& lengths) {
   const std::size_t n = turns.size();
   std::vector<Vec2> direction(n);
@@ -39,8 +40,8 @@ std::vector<Vec2> close_polygon(const std::vector<double>& turns, const std::vec
   return polygon;
 }
 
-/// A boundary turns back onto itself around the tip of a slit, or of a cusp beside the chart. Its sides would
-/// touch or cross. It turns less there, and at the points beside more.
+/// Reduces turns at tips of slits and cusps, where both sides would touch or cross, and increases the turns
+/// beside.
 void keep_open(std::vector<double>& turns) {
   constexpr double kOpen = 2 * std::numbers::pi / 180;
   const std::size_t n = turns.size();
@@ -53,7 +54,7 @@ void keep_open(std::vector<double>& turns) {
   }
 }
 
-/// The disk inside of a closed polygon that turns and has sides like this, by harmonic coordinates.
+/// Returns the disk inside of the closed polygon with these turns and sides, by harmonic coordinates.
 std::vector<Vec2> fill_polygon(const LaplaceSolver& solver, const std::vector<double>& turns,
                                const std::vector<double>& lengths, std::size_t n) {
   const std::vector<Vec2> polygon = close_polygon(turns, lengths);
@@ -77,7 +78,7 @@ LaplaceSolver solver_inside(const Chart& chart) {
   return {chart, fixed};
 }
 
-/// Turns of a boundary from this angle on are corners.
+/// Least turn, radians, of a corner of the boundary.
 constexpr double kCorner = std::numbers::pi / 6;
 
 }  // namespace
@@ -111,7 +112,8 @@ std::vector<Vec2> convex_map(const Chart& chart) {
   for (std::size_t i = 0; i < n_boundary; ++i)
     turns[i] = part * turns[i] + (full - part * corners) *
                                      (lengths[i] + lengths[(i + n_boundary - 1) % n_boundary]) / (2 * length);
-  // The scale with these turns is known up to a factor: far below the first eigenvalue the shift chooses one.
+  // The scale with these turns is unique up to a factor, which a shift far below the first eigenvalue
+  // chooses.
   const std::vector<double> areas = triangle_areas(chart);
   const LaplaceSolver free(chart, std::vector<char>(n, 0),
                            1e-6 / std::accumulate(areas.begin(), areas.end(), 0.0));

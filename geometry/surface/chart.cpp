@@ -20,7 +20,7 @@ namespace {
 
 using Side = std::pair<int, int>;  ///< triangle, and which vertex it is opposite to
 
-/// Finds which triangles continue each other and which corners of theirs are one vertex.
+/// Finds triangles that continue each other, and corners that are one vertex.
 class Gluing {
  public:
   Gluing(const Mesh& fine, const std::vector<char>& wanted, const std::vector<char>& open)
@@ -57,14 +57,14 @@ class Gluing {
     return 3 * triangle + static_cast<int>(std::ranges::find(v, node) - v.begin());
   }
 
-  /// Whether two wanted triangles of one face with one orientation share the edge.
+  /// Returns whether two wanted triangles of one face with one orientation share the edge.
   bool continues(std::span<const HalfEdge> edge) const {
     return edge.size() == 2 && wanted_[edge[1].element] && wanted_[edge[0].element] &&
            edge[0].forward != edge[1].forward &&
            fine_.triangle_region[edge[0].element] == fine_.triangle_region[edge[1].element];
   }
 
-  /// Each face that lies on both sides.
+  /// Joins the triangles of each face on both sides of an open line.
   void glue_across_line(std::span<const HalfEdge> edge) {
     for (const HalfEdge& a : edge)
       for (const HalfEdge& b : edge)
@@ -108,7 +108,7 @@ double length(const Mesh& fine, const std::vector<Side>& loop) {
   return sum;
 }
 
-/// The boundary of a chart as closed chains of sides.
+/// Returns the boundary of a chart as closed chains of sides.
 std::vector<std::vector<Side>> boundary_loops(const Mesh& fine, Gluing& gluing,
                                               const std::vector<int>& members) {
   std::vector<std::pair<int, Side>> leaving;  // the boundary side that leaves each boundary vertex
@@ -135,7 +135,7 @@ std::vector<std::vector<Side>> boundary_loops(const Mesh& fine, Gluing& gluing,
   return loops;
 }
 
-/// Fills one chart; `number` holds -1 for all corners of its triangles that are not numbered yet.
+/// Returns one chart. `number` has -1 for corners without a vertex number.
 Chart build_chart(const Mesh& fine, Gluing& gluing, const std::vector<int>& members, std::vector<int>& number,
                   std::vector<int>& position) {
   Chart chart;
@@ -192,7 +192,7 @@ int genus(const Chart& chart) {
 }
 
 std::array<Vec3, 3> corners_at(const std::array<double, 3>& sides) {
-  // Lengths of another metric are no triangle's where it changes much within one.
+  // Lengths of another metric may fit no triangle where the metric varies much.
   constexpr double kFlat = 1e-6;
   const auto& [bc, ca, ab] = sides;
   const double x = (ab * ab + ca * ca - bc * bc) / (2 * ab);

@@ -15,26 +15,26 @@ namespace delquad {
 struct Chart {
   int face = -1;  ///< index into Mesh::regions
   std::vector<Vec3> points;
-  std::vector<int> fine_node;  ///< of each vertex; the loops' vertices come first, in their order
+  std::vector<int> fine_node;  ///< fine point of each vertex; vertices of loops come first, in order
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::array<int, 3>> neighbours;  ///< across the side opposite to vertex k; -1: boundary
-  std::vector<int> fine_triangle;              ///< of each triangle
+  std::vector<int> fine_triangle;              ///< fine triangle of each triangle
   std::vector<std::vector<int>> loops;         ///< vertices, the chart on the left; the longest loop first
-  int n_boundary = 0;                          ///< how many vertices lie on loops
-  /// Lengths of the sides opposite to each corner of each triangle. The chart is measured by these lengths of
-  /// another metric in place of its points. Empty: none.
+  int n_boundary = 0;                          ///< number of vertices on loops
+  /// Lengths, by another metric, of the sides opposite to each corner of each triangle. They replace lengths
+  /// between points. Empty: none.
   std::vector<std::array<double, 3>> sides = {};
 };
 
-/// Corners of a triangle with sides of these lengths, as far as there is one.
+/// Returns the corners of a triangle with sides of these lengths opposite to them, or a flat one if they
+/// allow none.
 std::array<Vec3, 3> corners_at(const std::array<double, 3>& sides);
-/// Returns the corners of a triangle, or any others at these lengths from each other.
+/// Returns the corners of a triangle, or corners_at() its `sides`.
 std::array<Vec3, 3> corners_of(const Chart& chart, int triangle);
 
-/// Returns the charts that the wanted triangles form, in the order of their first triangles. Throws
-/// InputError where a side is neither a line nor shared by two triangles of one face that agree in
-/// orientation. `open` (empty: none): lines, by index, that do not bound charts where wanted triangles of one
-/// face are on both sides.
+/// Returns the charts of the wanted triangles, in the order of their first triangles. Throws InputError for a
+/// side that is neither a line nor shared by two triangles of one face that agree in orientation. Lines (by
+/// index) that are `open` (empty: none) do not bound charts between wanted triangles of one face.
 std::vector<Chart> extract_charts(const Mesh& fine, const std::vector<char>& wanted,
                                   const std::vector<char>& open = {});
 
@@ -47,10 +47,11 @@ std::vector<double> boundary_lengths(const Chart& chart);
 /// Returns the area of each triangle.
 std::vector<double> triangle_areas(const Chart& chart);
 
-/// Triangles around each vertex, ascending.
+/// Returns the triangles around each vertex, ascending.
 std::vector<std::vector<int>> triangles_around(const Chart& chart);
 
-/// Returns 2 pi minus the angles around each inner vertex; pi minus them on the boundary.
+/// Returns, in radians, 2 pi minus the angles around each inner vertex, and pi minus the angles on the
+/// boundary.
 std::vector<double> angle_defects(const Chart& chart);
 
 }  // namespace delquad

@@ -21,19 +21,19 @@ namespace delquad {
 
 namespace {
 
-/// How much more area a tube may have than girth times extent: its ends count, and a bend.
+/// Largest area of a tube over girth times extent, since ends and bends add to it.
 constexpr double kTubeArea = 1.5;
 
-/// A closed chain of lines at which a face ends.
+/// A closed chain of lines on the boundary of a face.
 struct Loop {
-  int face = -1, other = -1;  ///< on the other side; -1: none, -2: several
+  int face = -1, other = -1;  ///< face on the other side; -1: none, -2: several
   double length = 0;
-  std::vector<std::array<int, 2>> sides;  ///< as they run around the face
-  bool simple = true;                     ///< every point has one side that comes and one that goes
-  bool named = false;                     ///< a curve of it
+  std::vector<std::array<int, 2>> sides;  ///< sides in their direction around the face
+  bool simple = true;                     ///< whether every point has one incoming and one outgoing side
+  bool named = false;                     ///< whether one of its curves has a kept name
 };
 
-/// The loops of all faces, by face.
+/// Returns the loops of all faces, by face.
 std::vector<std::vector<Loop>> find_loops(const Mesh& mesh, const KeptNames& keep) {
   struct HoleSide {
     std::array<int, 2> ends;
@@ -57,7 +57,7 @@ std::vector<std::vector<Loop>> find_loops(const Mesh& mesh, const KeptNames& kee
   }
   std::vector<std::vector<Loop>> loops(mesh.regions.size());
   for (std::size_t face = 0; face < of_face.size(); ++face) {
-    std::map<int, int> number;  // of points
+    std::map<int, int> number;  // numbers of points
     for (const HoleSide& side : of_face[face])
       for (const int p : side.ends) number.try_emplace(p, static_cast<int>(number.size()));
     DisjointSets sets(number.size());
@@ -92,7 +92,7 @@ class SmallHoles {
         loops_(find_loops(mesh_, narrow.keep)),
         tube_(mesh_.regions.size(), 0) {}
 
-  /// Whether anything was closed.
+  /// Closes holes. Returns whether any was closed.
   bool close() {
     find_tubes();
     std::set<int> kept;  // tubes with an end that cannot be closed
@@ -123,7 +123,7 @@ class SmallHoles {
     return is_short(loop) && loop.simple && loop.sides.size() > 2 && tube_[loop.face] == 0 &&
            !loses_name(loop);
   }
-  /// Whether no other has a name that is kept, of a curve of the hole or of a face that lines it.
+  /// Returns whether a kept name, of a curve of the hole or a face behind it, would be lost.
   bool loses_name(const Loop& loop) const {
     if (loop.named) return true;
     for (std::size_t face = 0; face < tube_.size() && loop.other >= 0; ++face) {
@@ -134,7 +134,8 @@ class SmallHoles {
     }
     return false;
   }
-  /// The same loop as the face on the other side has it; a loop that cannot be closed where that has more.
+  /// Returns the same loop of the face on the other side, or a loop that cannot be closed if that has more
+  /// sides.
   Loop counterpart(const Loop& loop) const {
     for (const Loop& other : loops_[loop.other]) {
       const auto [from, to] = loop.sides[0];
@@ -149,7 +150,7 @@ class SmallHoles {
     return !loops_[face].empty() &&
            std::ranges::all_of(loops_[face], [&](const Loop& loop) { return is_short(loop); });
   }
-  /// A face that ends nowhere else and is small itself: its outline is no hole.
+  /// Returns whether a face is small and has no other outline, so that its outline is no hole.
   bool is_small_face(int face) const { return all_short(face) && area_of({face}) < length_ * length_; }
 
   double area_of(const std::set<int>& faces) const {
@@ -227,7 +228,7 @@ class SmallHoles {
   double length_;
   const KeptNames& keep_;
   std::vector<std::vector<Loop>> loops_;
-  std::vector<int> tube_;  ///< of each face, from 1; 0: none
+  std::vector<int> tube_;  ///< tube of each face, from 1; 0: none
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ using Groups = EntityGroups;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-/// For each line the faces of its two triangles; -1, -1 where it has not two.
+/// Returns for each line the faces of its two triangles; -1, -1 for another number.
 std::vector<std::array<int, 2>> faces_of_lines(const Mesh& mesh) {
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   std::vector<std::array<int, 2>> faces(mesh.lines.size(), {-1, -1});
@@ -36,7 +36,7 @@ std::vector<std::array<int, 2>> faces_of_lines(const Mesh& mesh) {
   return faces;
 }
 
-/// The group of each face; -1: none.
+/// Returns the group of each face; -1: none. Throws InputError for impossible groups.
 std::vector<int> check_groups(const SurfaceModel& model, const Groups& groups) {
   const Mesh& mesh = model.fine;
   std::vector<int> group_of(mesh.regions.size(), -1);
@@ -69,7 +69,7 @@ std::vector<int> check_groups(const SurfaceModel& model, const Groups& groups) {
   return group_of;
 }
 
-/// One entity of several: the least tag, all names once.
+/// Returns one entity for several: the least tag, and all names once.
 Entity merged(const std::vector<Entity>& entities, const std::vector<int>& members) {
   Entity all = entities[members[0]];
   for (const int i : members) {
@@ -96,7 +96,7 @@ void set_tags_of_pieces(std::vector<Entity>& curves) {
     if (!taken.insert(curve.tag).second) curve.tag = ++greatest;
 }
 
-/// Lines of curves with the same names, of as many triangles, are of one kind.
+/// Returns the kind of each line: the same for curves with the same names and number of triangles.
 std::vector<int> kinds_of_lines(const Mesh& mesh) {
   std::map<std::pair<std::vector<std::string>, std::size_t>, int> kind_of;
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
@@ -112,7 +112,7 @@ std::vector<int> kinds_of_lines(const Mesh& mesh) {
   return kinds;
 }
 
-/// Joins the lines anew. Returns the former curves of each curve.
+/// Joins the lines again. Returns the former curves of each curve.
 Groups rechain(SurfaceModel& model, const std::vector<char>& corner) {
   const std::vector<int> old_curve = model.fine.line_curve;
   Groups members;
@@ -133,7 +133,7 @@ std::vector<char> marked_corners(const SurfaceModel& model) {
   return corner;
 }
 
-/// Sorts the lines out that lie inside a group; their ends are marked.
+/// Removes the lines inside of groups. Returns marks of their ends.
 std::vector<char> drop_inner_lines(Mesh& mesh, const std::vector<int>& group_of) {
   std::vector<char> ends(mesh.points.size(), 0);
   const auto faces = faces_of_lines(mesh);
@@ -146,7 +146,7 @@ std::vector<char> drop_inner_lines(Mesh& mesh, const std::vector<int>& group_of)
   return ends;
 }
 
-/// Faces of a group become one, in the place of the first. Returns the former faces of each.
+/// Joins the faces of each group, in the place of the first. Returns the former faces of each face.
 Groups join_faces(Mesh& mesh, const std::vector<int>& group_of) {
   Groups members;
   std::map<int, int> face_of_group;
@@ -163,7 +163,8 @@ Groups join_faces(Mesh& mesh, const std::vector<int>& group_of) {
   return members;
 }
 
-/// Directions of each face at points of its curves: area vectors of its triangles there, summed.
+/// Returns the direction of each face at points of its curves: the sum of the area vectors of its triangles
+/// there.
 std::map<std::array<int, 2>, Vec3> directions_at_curves(const Mesh& mesh) {
   std::vector<char> on_curve(mesh.points.size(), 0);
   for (const auto& [a, b] : mesh.lines) on_curve[a] = on_curve[b] = 1;
@@ -178,15 +179,15 @@ std::map<std::array<int, 2>, Vec3> directions_at_curves(const Mesh& mesh) {
   return direction;
 }
 
-/// From the middle of a triangle's side, a line of a curve, into its face, by the true surface and square to
-/// the line. `direction`: the direction of the triangles there. These are off by half of the angle by which
-/// the face turns over one of them. On a fillet that is more than the angle that is taken for smooth.
+/// Returns the normal of the true surface beside the middle of a side on a curve. `direction` is the
+/// direction of the triangles there. It differs by half of the angle by which the face turns over one
+/// triangle, which exceeds smooth angles on a fillet.
 Vec3 inward_normal(const SurfaceModel& model, int curve, const HalfEdge& side, const Vec3& direction) {
-  constexpr double kStep = 0.02;  // of the triangle's height
+  constexpr double kStep = 0.02;  // step over the triangle's height
   const Mesh& mesh = model.fine;
   const auto [a, b] = side.run();
   const Vec3 along = mesh.points[b] - mesh.points[a], inwards = cross(direction, along);
-  if (!(norm(inwards) > 0)) return {};  // of triangles without area: nothing is known
+  if (!(norm(inwards) > 0)) return {};  // triangles without area tell nothing
   const double step = kStep * norm(area_vector(mesh, side.element)) / norm(along);
   const Vec3 at = model.projector->to_curve(curve, 0.5 * (mesh.points[a] + mesh.points[b]));
   const Vec3 way =
@@ -195,7 +196,7 @@ Vec3 inward_normal(const SurfaceModel& model, int curve, const HalfEdge& side, c
   return way - (dot(way, along) / dot(along, along)) * along;
 }
 
-/// Which curves shorter than `length` became one with others. `members`: the former curves of each curve.
+/// Warns of curves shorter than `length` that joined others. `members` has the former curves of each curve.
 void report_short_curves(const std::vector<Entity>& old, const std::vector<double>& lengths, double length,
                          const Groups& members, std::vector<Warning>& warnings) {
   for (const auto& curves : members) {
@@ -232,7 +233,7 @@ std::vector<char> tangent_curves(const SurfaceModel& model, double angle) {
   const Mesh& mesh = model.fine;
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   const auto directions = directions_at_curves(mesh);
-  // A sheet folded back onto itself has opposite normals, which no limit below 180 degrees admits.
+  // Both sides of a folded sheet have opposite normals, which no limit below 180 degrees admits.
   const auto agree = [&](const Vec3& m, const Vec3& n) {
     return angle >= 180 || (norm(m) > 0 && norm(n) > 0 && angle_between(m, n) < radians(angle));
   };
@@ -278,7 +279,7 @@ SurfaceModel merge_short_curves(SurfaceModel model, double length, const Compoun
                                 const std::vector<char>& kept) {
   const Mesh& mesh = model.fine;
   struct LineFrom {
-    int line, from;  ///< its other point
+    int line, from;  ///< other point of the line
   };
   const std::vector<double> lengths = lengths_of_curves(mesh);
   std::vector<std::vector<LineFrom>> lines_at(mesh.points.size());

@@ -9,7 +9,8 @@ namespace delquad {
 
 namespace {
 
-/// (The nearest of all faces would not do: beyond their edges, surfaces go on.)
+/// Projects to the member face whose fine triangles are nearest, since surfaces continue beyond the edges of
+/// faces.
 class CompoundProjector final : public SurfaceProjector {
  public:
   CompoundProjector(std::shared_ptr<const SurfaceProjector> base, const Mesh& fine, const EntityGroups& faces,
@@ -48,9 +49,9 @@ class CompoundProjector final : public SurfaceProjector {
 
  private:
   struct Members {
-    int only = -1;  ///< the only face, else -1 and:
+    int only = -1;  ///< the only face; -1: several
     std::optional<NearestTriangle> triangles;
-    std::vector<int> of_triangle;  ///< the face of each
+    std::vector<int> of_triangle;  ///< face of each triangle
   };
 
   int member_at(int face, const Vec3& x) const {
@@ -59,8 +60,8 @@ class CompoundProjector final : public SurfaceProjector {
   }
 
   std::shared_ptr<const SurfaceProjector> base_;
-  std::vector<Members> members_;  // of each face
-  EntityGroups curves_;           // members of each
+  std::vector<Members> members_;  // members of each face
+  EntityGroups curves_;           // members of each curve
 };
 
 class CurvesOnFaces final : public SurfaceProjector {

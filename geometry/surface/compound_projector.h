@@ -11,23 +11,25 @@
 
 namespace delquad {
 
-/// The former faces (or curves) that each face (or curve) was made of, by index.
+/// The former faces (or curves) of each face (or curve), by index.
 using EntityGroups = std::vector<std::vector<int>>;
 
+/// Returns n groups, each of its own index.
 EntityGroups singleton_groups(std::size_t n);
 
-/// Numbers a model's data of its faces and curves anew, after these were made of former ones. The projector
-/// goes to the former face on whose fine triangles the nearest point lies, and to the nearest of the curves.
-/// `former`: the triangulation before.
+/// Renumbers the data of a model by face and curve after these replaced former ones. The projector goes to
+/// the former face whose fine triangles have the nearest point, and to the nearest of the former curves.
+/// `former` is the triangulation before.
 void regroup(SurfaceModel& model, const Mesh& former, const EntityGroups& faces, EntityGroups curves);
 
-/// Returns the same, with more curves, from `first_curve` on: each lies anywhere in its face, `faces`.
+/// Returns a projector with more curves, from `first_curve` on: points on them are projected to their faces,
+/// `faces`.
 std::shared_ptr<const SurfaceProjector> with_curves_on_faces(std::shared_ptr<const SurfaceProjector> base,
                                                              int first_curve, std::vector<int> faces);
 
-/// Takes points out that no triangle and no line has, faces without triangles, curves without lines and
-/// corners without curves. Parts the surface where it touches itself at a point without a line. `former`: the
-/// triangulation before anything was taken from it.
+/// Removes unused points, faces without triangles, curves without lines and corners without curves. Separates
+/// the surface where it touches itself at a point without a line. `former` is the triangulation before any
+/// removal.
 void tidy_model(SurfaceModel& model, const Mesh& former);
 
 }  // namespace delquad

@@ -14,7 +14,7 @@ namespace {
 
 using Edges = std::vector<std::array<int, 2>>;
 
-/// The edges at each point.
+/// Returns the edges at each point.
 std::map<int, std::vector<int>> edges_at_points(const Edges& edges) {
   std::map<int, std::vector<int>> at;
   for (std::size_t e = 0; e < edges.size(); ++e)
@@ -22,7 +22,7 @@ std::map<int, std::vector<int>> edges_at_points(const Edges& edges) {
   return at;
 }
 
-/// Triangles at each line.
+/// Returns the number of triangles at each line.
 std::vector<std::size_t> triangles_on_lines(const Mesh& mesh) {
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   std::vector<std::size_t> counts;

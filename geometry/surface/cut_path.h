@@ -11,7 +11,7 @@
 
 namespace delquad {
 
-/// A point on a vertex (b < 0) or inside an edge of a triangulation: (1 - t) a + t b.
+/// A point on vertex a (b < 0), or inside an edge of a triangulation: (1 - t) a + t b with 0 < t < 1.
 struct EdgePoint {
   int a = -1, b = -1;
   double t = 0;
@@ -26,26 +26,26 @@ struct CutPath {
   double length = 0;
 };
 
+/// Returns the place of a point in space.
 Vec3 position(const Chart& chart, const EdgePoint& point);
 
-/// Returns the path with its length. None when it is no more than one side of the boundary, or visits a
-/// vertex or an edge twice.
+/// Returns the path with its length. Nothing if it is only a side of the boundary, or visits a vertex or an
+/// edge twice.
 std::optional<CutPath> measured(const Chart& chart, CutPath path);
 
 /// A connected piece of a level curve.
 struct LevelCurve {
-  CutPath path;  ///< moved into vertices that are near
+  CutPath path;  ///< path, moved into near vertices
   std::vector<std::pair<int, int>>
-      crossed;  ///< edges that the curve itself crosses, as (lower, higher), sorted
+      crossed;  ///< edges that the level curve crosses, as (lower, higher), sorted
 };
 
-/// Returns the connected pieces of the curve u = level. Pieces that touch the boundary other than with their
-/// ends, or themselves, are left out.
+/// Returns the connected pieces of the curve u = level, without pieces that touch themselves, or the boundary
+/// except with their ends.
 std::vector<LevelCurve> level_curves(const Chart& chart, const std::vector<double>& u, double level);
 
-/// Returns the path of steepest descent of u, linear on triangles, from a vertex to the first vertex or
-/// boundary side that is reached. A target may also be an inner vertex. None when it ends in a minimum
-/// elsewhere.
+/// Returns the path of steepest descent of u, linear on triangles, from a vertex to the first target vertex,
+/// or the boundary between two. Nothing if it ends in a minimum elsewhere. `around` has triangles_around().
 std::optional<CutPath> descend(const Chart& chart, const std::vector<std::vector<int>>& around,
                                const std::vector<double>& u, int start, const std::vector<char>& target);
 

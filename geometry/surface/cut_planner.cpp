@@ -17,10 +17,10 @@ namespace delquad {
 
 namespace {
 
-constexpr int kMaxStarts = 16;  ///< paths tried from one loop
-/// Extra cost of a path, in parts of its length, for an end that becomes a corner only because of it.
+constexpr int kMaxStarts = 16;  ///< limit of tried paths from one loop
+/// Extra cost of a path, over its length, for an end that becomes a new corner.
 constexpr double kNewCorner = 0.15, kNewCornerAtStart = 0.05;
-/// The same for a path that runs into a third loop.
+/// Extra cost of a path that runs into a third loop.
 constexpr double kWrongLoop = 2;
 /// The least angular defect of a sharp tip (radians), and the angle around a blunt one.
 constexpr double kTipDefect = 0.5, kBluntTip = 200 * std::numbers::pi / 180;
@@ -30,7 +30,7 @@ class PathChoice {
   PathChoice(const Chart& chart, const std::vector<CutEnd>& ends)
       : chart_(chart), ends_(ends), around_(triangles_around(chart)) {}
 
-  // `down` falls towards `target`.
+  // Tries paths from these starts; `down` falls towards `target`.
   void try_from(const std::vector<int>& starts, const std::vector<double>& down,
                 const std::vector<char>& target) {
     for (int start : starts) {
@@ -46,7 +46,7 @@ class PathChoice {
     }
   }
 
-  /// The loop's corners, else where its curves begin and points spread along it.
+  /// Returns the loop's corners; without these, starts of its curves and points spread along it.
   std::vector<int> starts(const std::vector<int>& loop) const {
     std::vector<int> corners, begins;
     for (int v : loop) {
@@ -87,7 +87,7 @@ std::vector<double> negated(std::vector<double> u) {
   return u;
 }
 
-/// Areas of the vertices on both sides of a curve; nothing on one side when the curve separates nothing.
+/// Areas of the vertices on both sides of a curve; 0 on one side if the curve separates nothing.
 class Separation {
  public:
   explicit Separation(const Chart& chart)
@@ -124,7 +124,7 @@ class Separation {
   std::vector<double> areas_;
 };
 
-/// Levels below which 1/16, 2/16, ... of the chart's area lie.
+/// Returns the levels below which 1/16, 2/16, ... of the chart's area lie.
 std::vector<double> levels(const std::vector<double>& u, const std::vector<double>& areas) {
   constexpr int kParts = 16;
   std::vector<std::pair<double, double>> sorted;
@@ -142,7 +142,8 @@ std::vector<double> levels(const std::vector<double>& u, const std::vector<doubl
   return found;
 }
 
-/// Triangles by their way along sides from the nearest of `seeds`: which seed that is, and the farthest one.
+/// Distances of triangles, from neighbor to neighbor, to the nearest of some seeds: this seed, and the
+/// farthest triangle.
 struct Spread {
   std::vector<int> seed_of;
   int farthest = 0;
@@ -154,7 +155,7 @@ Spread spread_from(const Chart& chart, const std::vector<int>& seeds) {
     return 1.0 / 3 * (chart.points[a] + chart.points[b] + chart.points[c]);
   };
   Spread spread{std::vector<int>(chart.triangles.size(), -1), 0};
-  using Entry = std::tuple<double, int, int>;  // way, triangle, seed
+  using Entry = std::tuple<double, int, int>;  // distance, triangle, seed
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (std::size_t i = 0; i < seeds.size(); ++i) queue.emplace(0, seeds[i], static_cast<int>(i));
   while (!queue.empty()) {
@@ -231,7 +232,7 @@ std::optional<CutPath> plan_cut_through_tip(const Chart& chart, const std::vecto
   const std::size_t n = loop.size();
   const auto node = [&](std::size_t i) { return chart.fine_node[loop[i % n]]; };
   for (std::size_t i = 0; i < n; ++i) {
-    // The cut is passed on both sides, as far as these are the same nodes.
+    // Follows both sides of the cut as long as they have the same nodes.
     std::size_t length = 0;
     while (2 * length + 3 < n && node(i + n - length - 1) == node(i + length + 1)) ++length;
     if (length == 0) continue;
@@ -256,7 +257,7 @@ std::optional<CutPath> plan_cut_through_tip(const Chart& chart, const std::vecto
 }
 
 std::optional<CutPath> plan_division(const Chart& chart) {
-  constexpr std::size_t kMaxPieces = 6;  // longest pieces of one level looked at
+  constexpr std::size_t kMaxPieces = 6;  // longest pieces of one level that are examined
   constexpr double kSmallestPart = 0.08;
   const std::vector<double> u = fiedler_function(chart);
   const Separation separation(chart);
@@ -272,7 +273,7 @@ std::optional<CutPath> plan_division(const Chart& chart) {
       const double side = separation.smaller_side(piece);
       const bool separates = side > 0;
       if (separates && side < kSmallestPart * total) continue;
-      // A cut that removes a handle is worth far more than one that does not.
+      // A cut that removes a handle is much better than one that does not.
       const double cost =
           separates ? piece.path.length / side * (handles ? 4 : 1) : piece.path.length / total;
       if (cost < best_cost) {

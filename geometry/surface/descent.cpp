@@ -10,7 +10,7 @@ namespace delquad {
 
 namespace {
 
-/// Crossings closer to a vertex than this part of an edge are moved into it, so that no slivers are made.
+/// Part of an edge within which crossings move into a vertex, to avoid slivers.
 constexpr double kSnap = 0.12;
 constexpr double kSnapEnd = 0.3;
 
@@ -22,7 +22,7 @@ class Descent {
 
   std::optional<CutPath> run(int start) {
     go_to_vertex(start);
-    // u falls with each step, but for rounding: a path longer than the chart has triangles meets itself.
+    // u falls with each step, except for rounding; a path with more steps than triangles meets itself.
     for (std::size_t steps = 0; !arrived_; ++steps)
       if (steps > chart_.triangles.size() || !(at_.b < 0 ? leave_vertex() : leave_edge()))
         return std::nullopt;
@@ -39,7 +39,8 @@ class Descent {
     path_.points.push_back(at_);
   }
 
-  // Leaves triangle t by the side opposite to vertex k, at (1 - s) of its first end and s of the second.
+  // Leaves triangle t by the side opposite to vertex k, at (1 - s) times its first end plus s times the
+  // second.
   void cross_side(int t, int k, double s) {
     const int a = chart_.triangles[t][(k + 1) % 3], b = chart_.triangles[t][(k + 2) % 3];
     const int near = s < 0.5 ? a : b;
@@ -57,7 +58,7 @@ class Descent {
     path_.points.push_back(at_);
   }
 
-  // How fast the barycentric coordinates change along the steepest descent of u, and its slope.
+  // Computes the rates of the barycentric coordinates along the steepest descent of u. Returns its slope.
   double rates(int t, double (&rate)[3]) const {
     const auto& v = chart_.triangles[t];
     Vec3 side[3];
@@ -92,7 +93,7 @@ class Descent {
         where = rate[r] / (rate[q] + rate[r]);
       }
       for (const auto& [w, opposite] : {std::pair(corners[q], r), std::pair(corners[r], q)}) {
-        if (chart_.neighbours[t][opposite] < 0) continue;  // runs along the boundary
+        if (chart_.neighbours[t][opposite] < 0) continue;  // the side lies on the boundary
         const double length = norm(chart_.points[w] - chart_.points[v]);
         const double edge_slope = length > 0 ? (u_[v] - u_[w]) / length : 0;
         if (edge_slope > steepest) {
@@ -129,7 +130,7 @@ class Descent {
     const double far = std::numeric_limits<double>::infinity();
     const double time_a = rate[a] < 0 ? lambda[a] / -rate[a] : far;
     const double time_b = rate[b] < 0 ? lambda[b] / -rate[b] : far;
-    if (time_a < time_b)  // out by the side opposite to a: from b to k
+    if (time_a < time_b)  // leaves by the side opposite to a, from b to k
       cross_side(t, a, time_a * rate[k] / (time_a * rate[k] + lambda[b] + time_a * rate[b]));
     else  // opposite to b: from k to a
       cross_side(t, b, (lambda[a] + time_b * rate[a]) / (time_b * rate[k] + lambda[a] + time_b * rate[a]));
@@ -142,7 +143,7 @@ class Descent {
   const std::vector<char>& target_;
   CutPath path_;
   EdgePoint at_;
-  int triangle_ = -1;  ///< that the path enters next, when it lies on an edge
+  int triangle_ = -1;  ///< next triangle of the path, if it is on an edge
   bool arrived_ = false;
 };
 

@@ -19,11 +19,11 @@ namespace delquad {
 
 namespace {
 
-/// A part of less than this of a chart's area is worth no division.
+/// Least area of a part, over the area of the chart.
 constexpr double kLeastPart = 0.08;
-/// A side at a vertex that is to be avoided counts as so many times its length.
+/// Factor for the length of sides at avoided vertices.
 constexpr double kDetour = 8;
-/// Levels that are tried.
+/// Number of levels that are tried.
 constexpr int kLevels = 16;
 
 /// Returns the cost of a cut along the side from v to w.
@@ -31,7 +31,7 @@ double cost_of_side(const Chart& chart, const ChartElements& elements, int v, in
   return norm(chart.points[w] - chart.points[v]) * (elements.avoided[v] || elements.avoided[w] ? kDetour : 1);
 }
 
-/// The elements of a chart, numbered anew, and the sides between them.
+/// The elements of a chart, with new numbers, and the sides between them.
 class ElementGraph {
  public:
   ElementGraph(const Chart& chart, const ChartElements& elements) : chart_(chart), elements_(elements) {
@@ -76,13 +76,13 @@ class ElementGraph {
  private:
   const Chart& chart_;
   const ChartElements& elements_;
-  std::vector<int> number_;                  ///< of each triangle its element
-  std::vector<std::vector<int>> triangles_;  ///< of each element
+  std::vector<int> number_;                  ///< element of each triangle
+  std::vector<std::vector<int>> triangles_;  ///< triangles of each element
 };
 
-using Parts = std::vector<char>;  // of each element, 0 or 1
+using Parts = std::vector<char>;  // part of each element, 0 or 1
 
-/// Components of both parts, by element, and their sizes.
+/// Returns the component of each element within its part, and the sizes of components.
 std::pair<std::vector<int>, std::vector<int>> components(const ElementGraph& graph, const Parts& part) {
   DisjointSets joined(part.size());
   for (int e = 0; e < graph.size(); ++e)
@@ -184,7 +184,7 @@ std::optional<CutPath> path_beside_elements(const Chart& chart, const ChartEleme
     for (int k = 0; k < 3; ++k) {
       const int s = chart.neighbours[t][k];
       if (s < 0 || element[s] == element[t]) continue;
-      // Each side is met from both triangles.
+      // Each side occurs in both triangles.
       beside[chart.triangles[t][(k + 1) % 3]].push_back(chart.triangles[t][(k + 2) % 3]);
     }
   using Entry = std::pair<double, int>;

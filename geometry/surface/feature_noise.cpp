@@ -13,15 +13,16 @@ namespace delquad {
 
 namespace {
 
-/// Longer networks and borders are features (part of the model's diagonal).
+/// Longest network or border that may be noise, over the model's diagonal.
 constexpr double kLongest = 0.1;
-/// Surroundings below this angle (radians) are smooth. There even the smallest feature was meant.
+/// Angle (radians) below which surroundings are smooth; there even the smallest feature is intended.
 constexpr double kSmooth = 3 * std::numbers::pi / 180;
-/// In scans, loops are 2 to 6 times as sharp as their surroundings; on machined parts 8 times and more.
+/// Least sharpness of a feature over its surroundings. Loops in scans have 2 to 6, on machined parts 8 and
+/// more.
 constexpr double kStandsOut = 6;
-/// A vertex that sticks out has so many sharp edges around it, however sharp.
+/// Number of edges that may be noise, however sharp: those around a single vertex that sticks out.
 constexpr std::size_t kFewEdges = 6;
-/// Faces that join a neighbor may make others join.
+/// Limit of passes, since joined faces may let others join.
 constexpr int kMaxPasses = 20;
 
 class NoiseFilter {
@@ -50,13 +51,13 @@ class NoiseFilter {
   bool stands_for_edge(int side) const { return twin_[side] < side; }
   int face_of(int side) const { return face_[side / 3]; }
 
-  /// Free edges, given lines and borders of regions stay.
+  /// Returns whether a side stays: free edges, given lines and borders of regions.
   bool stays(int side) const {
     const int t = twin_[side];
     return t < 0 || cut_[side] != kNewCut || mesh_.triangle_region[side / 3] != mesh_.triangle_region[t / 3];
   }
 
-  /// Each edge is told by one of its sides; none of them stays.
+  /// Returns whether edges, each given by one side, are noise; none of them stays.
   bool is_noise(const std::vector<int>& edges) const {
     double length = 0, sharpness = 0, beside = 0;
     std::size_t n_beside = 0;
@@ -83,7 +84,7 @@ class NoiseFilter {
     for (int s : edges) cut_[s] = cut_[twin_[s]] = kNoCut;
   }
 
-  /// Cuts that hang together.
+  /// Removes connected networks of cuts that are noise.
   void drop_networks() {
     std::vector<char> seen(cut_.size(), 0);
     for (int seed = 0; seed < static_cast<int>(cut_.size()); ++seed) {
@@ -101,11 +102,11 @@ class NoiseFilter {
     }
   }
 
-  /// Whether any face was joined to another.
+  /// Joins small faces. Returns whether any was joined.
   bool join_faces() {
     face_ = parts_between_cuts(twin_, cut_);
     const int n_faces = 1 + std::ranges::max(face_);
-    std::vector<std::vector<int>> borders(n_faces);  // edges, by the side that lies in the face
+    std::vector<std::vector<int>> borders(n_faces);  // border of each face, by its sides in the face
     for (int s = 0; s < static_cast<int>(cut_.size()); ++s)
       if (cut_[s] != kNoCut && !stays(s) && face_of(s) != face_of(twin_[s])) borders[face_of(s)].push_back(s);
     std::vector<char> changed(n_faces, 0);
@@ -122,7 +123,7 @@ class NoiseFilter {
     return any;
   }
 
-  /// The face with the longest part of the border.
+  /// Returns the face with the longest part of the border.
   int best_neighbour(const std::vector<int>& border) const {
     std::map<int, double> shared;
     for (int s : border)
@@ -137,7 +138,7 @@ class NoiseFilter {
   std::vector<int>& cut_;
   double longest_;
   std::vector<std::vector<int>> sides_at_;  ///< one side of each edge
-  std::vector<int> face_;                   ///< of each triangle
+  std::vector<int> face_;                   ///< face of each triangle
   DroppedFeatures dropped_;
 };
 

@@ -10,25 +10,23 @@
 
 namespace delquad {
 
-/// Kinds of sides of a triangle: nothing lies along it, a cut that was found, or else the index of a given
-/// curve.
+/// Kinds of sides of a triangle: no cut, or a cut that was found. Other kinds are indices of given curves.
 constexpr int kNoCut = -2, kNewCut = -1;
 
 /// Returns for each triangle its part of the surface between cuts, in the order of their first triangles.
-/// `twin`: see side_twins; `cut`: for each side.
+/// `twin` has the side_twins(), `cut` the kind of each side.
 std::vector<int> parts_between_cuts(const std::vector<int>& twin, const std::vector<int>& cut);
 
 struct DroppedFeatures {
   std::size_t islands = 0, edges = 0;
-  Vec3 at;  ///< a point of the first
+  Vec3 at;  ///< place of the first
 };
 
-/// Takes away cuts that noise makes: short networks of them, and small faces between them (these join the
-/// neighbor with which they share most). Noise is made of very few edges, or of edges not much sharper than
-/// the edges beside them, which are not smooth either. An edge of a machined part stands out from its
-/// surroundings, an edge of a scan does not. Free edges, given lines and borders of regions stay. `twin`: see
-/// side_twins; `angle`: of each side, radians between the normals; `cut`: of each side, the same on both
-/// sides of an edge.
+/// Removes cuts from noise (own method): short networks, and small faces, which join the neighbor with the
+/// longest common border. Noise has very few edges, or edges not much sharper than their rough surroundings.
+/// Edges of machined parts stand out from their surroundings, edges of scans do not. Free edges, given lines
+/// and borders of regions stay. `twin` has the side_twins(), `angle` the angle between the normals at each
+/// side (radians). `cut` has the kind of each side, the same on both sides of an edge.
 DroppedFeatures drop_noise(const Mesh& mesh, const std::vector<int>& twin, const std::vector<double>& angle,
                            std::vector<int>& cut);
 

@@ -13,7 +13,7 @@ namespace delquad {
 
 namespace {
 
-/// Values with weights, sorted.
+/// Returns the value at a fraction of the weight; pairs are (value, weight), sorted.
 double percentile(const std::vector<std::pair<double, double>>& sorted, double fraction) {
   double total = 0, sum = 0;
   for (const auto& [value, weight] : sorted) total += weight;
@@ -37,8 +37,8 @@ bool is_one_to_one(const Chart& chart, const std::vector<Vec2>& flat) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) return false;
   for (const auto& [a, b, c] : chart.triangles)
     if (orient2d(flat[a], flat[b], flat[c]) <= 0) return false;
-  // Triangles cover each point as often as the loops wind around it: once, when the loops are disjoint simple
-  // curves and only one runs counterclockwise.
+  // Triangles cover each point as often as the loops wind around it. This is once if loops are disjoint
+  // simple curves and only one is counterclockwise.
   std::vector<std::pair<double, double>> boundary;
   for (int v = 0; v < chart.n_boundary; ++v) boundary.push_back({flat[v].x, flat[v].y});
   std::ranges::sort(boundary);
@@ -55,7 +55,7 @@ FlatQuality measure_flat(const Chart& chart, const std::vector<Vec2>& flat) {
   assert(is_one_to_one(chart, flat));
   const std::vector<double> areas = triangle_areas(chart);
   const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
-  // Triangles without area have no shape to keep.
+  // Triangles without area have no distortion.
   const double least = 1e-9 * total / static_cast<double>(areas.size());
   std::vector<std::pair<double, double>> sigma, scale;
   FlatQuality quality;

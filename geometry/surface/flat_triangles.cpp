@@ -18,8 +18,7 @@ namespace {
 
 using Corners = std::array<int, 3>;
 
-constexpr double kCollinear =
-    1e-7;  // height, or a side, by the longest side: single precision leaves it of 0
+constexpr double kCollinear = 1e-7;  // height, or a side, over the longest side: rounding of single precision
 
 bool repeats_vertex(const Corners& v) { return v[0] == v[1] || v[1] == v[2] || v[2] == v[0]; }
 
@@ -60,13 +59,13 @@ class FlatRemover {
       queue_.push({side_length(mesh_.points, v, longest_side(mesh_.points, v)), -t});
   }
 
-  /// Longest first: what is cut along with one is shorter then.
+  /// Removes flat triangles, the longest first, since triangles that are cut with one are shorter.
   void take_out(std::size_t n_flat) {
     triangles_at_.resize(mesh_.points.size());
     for (int t = 0; t < static_cast<int>(gone_.size()); ++t)
       if (!gone_[t])
         for (const int v : mesh_.triangles[t]) triangles_at_[v].push_back(t);
-    constexpr std::size_t kLeast = 1000, kEach = 100;  // a chain of them takes as many steps as it has
+    constexpr std::size_t kLeast = 1000, kEach = 100;  // a chain takes as many steps as it has triangles
     for (std::size_t left = kLeast + kEach * n_flat; !queue_.empty(); --left) {
       check_cancelled();
       const int t = -queue_.top().second;
@@ -114,7 +113,7 @@ class FlatRemover {
     if (std::ranges::find(triangles_at_[to], t) == triangles_at_[to].end()) triangles_at_[to].push_back(t);
   }
 
-  /// The second vertex becomes the first.
+  /// Merges vertex `gone` into vertex `kept`.
   void join(int kept, int gone) {
     const std::vector<int> triangles = triangles_at_[gone];
     for (const int t : triangles) replace_corner(t, gone, kept);
@@ -123,8 +122,8 @@ class FlatRemover {
     for (auto& line : mesh_.lines) std::ranges::replace(line, gone, kept);
   }
 
-  /// Cuts the others on the flat triangle's side from a to b at its third vertex. Its place is taken by the
-  /// first half.
+  /// Cuts the other triangles on side a, b of the flat triangle at its third vertex. The first half takes its
+  /// place.
   void cut(int flat, int a, int b, int middle) {
     remove(flat);
     std::vector<int> changed;
@@ -140,7 +139,7 @@ class FlatRemover {
         gone_.push_back(0);
       }
       gone_[half] = 0;
-      const int end = v[(std::ranges::find(v, a) - v.begin() + 1) % 3] == b ? b : a;  // of the side in u
+      const int end = v[(std::ranges::find(v, a) - v.begin() + 1) % 3] == b ? b : a;  // end of the side in u
       mesh_.triangles[half] = v;
       for (const int w : v) triangles_at_[w].push_back(half);
       replace_corner(half, end, middle);
@@ -171,7 +170,7 @@ class FlatRemover {
   const std::string& source_;
   std::vector<char> gone_;                             ///< triangles
   std::vector<std::vector<int>> triangles_at_;         ///< vertices
-  std::priority_queue<std::pair<double, int>> queue_;  ///< of flat ones: longest side, minus the index
+  std::priority_queue<std::pair<double, int>> queue_;  ///< flat triangles: longest side, minus the index
 };
 
 }  // namespace

@@ -23,10 +23,10 @@ namespace delquad {
 
 namespace {
 
-/// Part of the model's diagonal within which a face counts as plane.
+/// Distance from a plane, over the model's diagonal, within which a face counts as plane.
 constexpr double kPlane = 1e-9;
-/// Limit of triangles that are mapped in all rounds: so many, and so many for each triangle of the model. A
-/// model of a cow took 14 for each.
+/// Limits of triangles mapped in all rounds: the least limit, and a number for each triangle of the model. A
+/// model of a cow took 14.
 constexpr std::size_t kLeastMapped = 100'000, kMappedPerTriangle = 15;
 
 }  // namespace
@@ -53,16 +53,16 @@ FlatPatch to_patch(const Chart& chart, ConformalMap map) {
   return patch;
 }
 
-/// Part of the shorter side at a point of an outline that meets itself by which it is moved into its corner.
-/// Far above rounding, far below any edge; less where triangles are thin.
+/// Lengths by which corners of an outline that meets itself are moved apart, over the shorter side there.
+/// They are far above rounding, far below any edge, and smaller for thin triangles.
 constexpr double kOpenings[] = {1e-6, 1e-7, 1e-8, 1e-9};
 
-/// The places of a part of a chart in the chart's map. The part's boundary meets itself along curves that
-/// stand in it and where these end on it. There its points are moved apart into their corners, as in the
-/// plane (see build_domain()). None if that cannot be.
+/// Returns the places of a part of a chart in the chart's map. If the part's boundary meets itself at
+/// embedded curves, its points are moved apart into their corners (see build_domain()). Nothing if this is
+/// impossible.
 std::optional<std::vector<Vec2>> opened_map(const Chart& chart, const std::vector<Vec2>& map,
                                             const Chart& part) {
-  std::map<int, std::size_t> place_of;  // of fine triangles in the chart
+  std::map<int, std::size_t> place_of;  // places of fine triangles in the chart
   for (std::size_t t = 0; t < chart.fine_triangle.size(); ++t) place_of[chart.fine_triangle[t]] = t;
   std::vector<int> vertex(part.points.size());
   for (std::size_t t = 0; t < part.triangles.size(); ++t)
@@ -85,7 +85,7 @@ std::optional<std::vector<Vec2>> opened_map(const Chart& chart, const std::vecto
   return std::nullopt;
 }
 
-/// Rounds of: flatten what is not flat yet, then cut what would not go.
+/// Flattens a model in rounds: maps charts without a map, then cuts charts that failed.
 class Flattener {
  public:
   Flattener(SurfaceModel& model, const FlattenOptions& options)
@@ -176,7 +176,7 @@ class Flattener {
     if (!planned.empty()) cut(planned);
   }
 
-  /// The lines that maps take no notice of; empty: none.
+  /// Returns the lines that maps ignore, of embedded curves; empty: none.
   std::vector<char> standing_lines() const {
     if (model_.embedded.empty()) return {};
     std::vector<char> standing;
@@ -191,8 +191,8 @@ class Flattener {
     return is_embedded(mesh_.line_curve[line]) && !on_cut_.contains(std::minmax(a, b));
   }
 
-  /// A patch a chart, or where embedded curves stand in it, those that they part it into, cut open along
-  /// them. Charts for which that cannot be are parted otherwise.
+  /// Adds a patch for each chart, or for each of its parts between embedded curves, cut open along these.
+  /// Charts for which this fails are divided in another way.
   void add_patches(std::vector<Planned> mapped, std::vector<Planned>& planned) {
     if (model_.embedded.empty()) {
       for (Planned& p : mapped) patches_.push_back(to_patch(p.chart, *std::move(p.outcome.map)));
@@ -252,7 +252,7 @@ class Flattener {
 
   void cut(const std::vector<Planned>& planned) {
     SurfaceEditor editor(model_);
-    std::vector<CutEndOnCurve> ends;  // of this round
+    std::vector<CutEndOnCurve> ends;  // ends of cuts of this round
     for (const auto& [chart, outcome] : planned) {
       check_cancelled();
       if (outcome.cut) {
@@ -278,7 +278,7 @@ class Flattener {
     return std::ranges::any_of(cuts_, [&](const SurfaceCut& c) { return c.curve == curve; });
   }
 
-  /// Where a curve of the model gets a corner by the end of a cut.
+  /// Place on a curve of the model where the end of a cut makes a corner.
   struct CutEndOnCurve {
     int curve;
     Vec3 at;
@@ -303,10 +303,10 @@ class Flattener {
     return ends;
   }
 
-  /// Whether they would part a curve at a short piece. The later one waits for the next round then, in which
-  /// the other end is a corner, where it can end, too.
+  /// Returns whether both ends would leave a short piece of a curve. Then the later cut waits for the next
+  /// round, and may end at the first one's corner.
   bool are_close(const CutEndOnCurve& a, const CutEndOnCurve& b) const {
-    constexpr double kShortPiece = 0.1;  // of the curve
+    constexpr double kShortPiece = 0.1;  // over the length of the curve
     if (a.curve != b.curve || a.at == b.at) return false;
     double length = 0;
     for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
@@ -315,7 +315,7 @@ class Flattener {
     return norm(a.at - b.at) < kShortPiece * length;
   }
 
-  /// Triangles that cuts of neighbors split are no longer triangles of their patch.
+  /// Reopens patches with triangles that cuts of neighbors split.
   void open_stale(const std::vector<std::pair<int, int>>& splits) {
     stuck_.resize(mesh_.triangles.size(), 0);
     tries_.resize(mesh_.triangles.size(), 0);
@@ -333,7 +333,7 @@ class Flattener {
     for (const auto& [t, half] : splits) open_[half] = open_[t];
   }
 
-  /// Whether it could be made.
+  /// Makes a cut or a division. Returns whether it succeeded.
   bool apply(SurfaceEditor& editor, const Chart& chart, const ChartOutcome& outcome) {
     std::vector<int> chain;
     const CutPath& path = *outcome.cut;
@@ -343,7 +343,7 @@ class Flattener {
         continue;
       }
       const int a = chart.fine_node[p.a], b = chart.fine_node[p.b];
-      // Split in this round by the cut of a neighbor: the next round makes another plan.
+      // A neighbor's cut split this edge; the next round plans again.
       if (editor.triangles_on(a, b).empty()) return true;
       const bool was_on_cut = on_cut_.contains(std::minmax(a, b));
       chain.push_back(editor.split_edge(a, b, on_surface(editor, chart, p, a, b)));
@@ -360,7 +360,7 @@ class Flattener {
     return true;
   }
 
-  /// Where it runs along embedded curves, these are the cut.
+  /// Adds a cut along edges; embedded curves on its way become parts of it.
   void add_cut(SurfaceEditor& editor, const Chart& chart, const std::vector<int>& chain, bool divides) {
     std::vector<std::vector<int>> pieces = {{chain.front()}};
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
@@ -386,7 +386,7 @@ class Flattener {
     cuts_.push_back({editor.add_curve(chain), chart.face, length, divides});
   }
 
-  /// Makes the edges between both parts cuts.
+  /// Makes the edges between both parts cuts. Returns whether there are any.
   bool part(SurfaceEditor& editor, const Chart& chart, const std::vector<char>& parts) {
     std::vector<std::array<int, 2>> edges;
     for (std::size_t t = 0; t < parts.size(); ++t)
@@ -411,12 +411,12 @@ class Flattener {
     const int curve = line < 0 ? -1 : mesh_.line_curve[line];
     const Vec3 y = curve < 0 || is_cut_curve(curve) ? model_.projector->to_face(chart.face, x)
                                                     : model_.projector->to_curve(curve, x);
-    // A projection that jumps elsewhere is no use.
+    // Largest move by the projection over the edge; farther ones are wrong.
     constexpr double kMaxMove = 0.1;
     return norm(y - x) <= kMaxMove * norm(mesh_.points[b] - mesh_.points[a]) ? y : x;
   }
 
-  /// Where elements are given, they stay as they are in spite of cuts and distortion.
+  /// Adds warnings of cuts and failures; cuts beside given elements do not matter.
   void report(const Flattening& result) {
     if (options_.element.empty()) report_cuts(result);
     for (int f : result.failed)
@@ -444,12 +444,12 @@ class Flattener {
   Mesh& mesh_;
   const FlattenOptions& options_;
   double tolerance_;
-  std::size_t to_be_mapped_;  ///< triangles, at most
+  std::size_t to_be_mapped_;  ///< limit of triangles to map
   std::vector<char> open_;    ///< triangles that are in no finished patch
-  std::vector<int> tries_;    ///< of each triangle, cuts through its chart although it had a map
+  std::vector<int> tries_;    ///< cuts through the chart of each triangle although it had a map
   std::vector<char> stuck_;   ///< first triangles of charts whose last cut could not be made
   std::vector<char> failed_;
-  std::vector<char> is_embedded_;  ///< of the curves that the model had
+  std::vector<char> is_embedded_;  ///< whether each curve of the initial model is embedded
   std::set<std::pair<int, int>>
       on_cut_;  ///< lines of embedded curves that cuts run along, as (lower, higher)
   std::vector<FlatPatch> patches_;

@@ -12,20 +12,20 @@ namespace delquad {
 
 namespace {
 
-/// A map this good is taken without trying another.
+/// Distortion of a map that is taken at once.
 constexpr double kGoodSigma = 1.05, kGoodAreaRatio = 4;
-/// Above these a seam is cut through an annulus and a chart with more holes, instead of mapping it uncut.
+/// Distortion above which an annulus, or a chart with more holes, is cut by a seam.
 constexpr double kMaxUncutAnnulus = 2, kMaxUncutHoles = 4;
-/// A chart with branches is divided rather than cut open when that takes a curve this much shorter.
+/// Length of a division over the length of a cut below which a chart is divided.
 constexpr double kShortDivision = 0.5;
-/// Below this a cut to a tip is not worth it.
+/// Least area ratio for a cut to a tip.
 constexpr double kMinTipRatio = 2;
-/// After so many cuts through charts that had a map, it is taken when it is one-to-one. First its angles do
-/// not count, which cuts seldom improve. Then areas count up to kMostAreas: beyond, parts of the face would
-/// be lost between the vertices of the mesh.
+/// Numbers of cuts through charts with a map after which angles, and then areas, of a one-to-one map no
+/// longer count. Cuts seldom improve angles. Areas still count up to kMostAreas, beyond which vertices of the
+/// mesh would miss parts of the face.
 constexpr int kAnyAngles = 2, kAnyAreas = 12;
 constexpr double kMostAreas = 300;
-/// Charts with more loops are divided before any map is tried: one seam after the other would take too long.
+/// Loops above which charts are divided before any map, since one seam for each would take too long.
 constexpr std::size_t kManyLoops = 8;
 
 ChartElements elements_of(const Chart& chart, const FlattenOptions& options) {
@@ -62,7 +62,7 @@ class ChartWork {
  private:
   ChartOutcome plan() const {
     if (chart_.loops.empty() || genus(chart_) > 0) return divide(std::nullopt);
-    // A plane is a map of another metric, too, if that has no directions.
+    // A plane is a map for another isotropic metric, too.
     if (auto flat = planar_map(chart_, tolerance_))
       if (auto map = checked_map(chart_, std::move(*flat), "plane");
           map && (chart_.sides.empty() || map->quality.sigma_95 <= kGoodSigma))
@@ -138,11 +138,11 @@ class ChartWork {
 
   const Chart& chart_;
   const std::vector<CutEnd>& ends_;
-  const std::vector<char>& on_cut_;  ///< fine nodes
+  const std::vector<char>& on_cut_;  ///< whether fine nodes are on cuts
   const FlattenOptions& options_;
   double tolerance_;
-  int tries_;                              ///< cuts that were made because its map distorted
-  bool stuck_;                             ///< its last cut could not be made
+  int tries_;                              ///< earlier cuts because of distortion
+  bool stuck_;                             ///< whether its last cut failed
   std::optional<ChartElements> elements_;  ///< none: cuts run anywhere
 };
 

@@ -34,7 +34,7 @@ double length_of(const Mesh& mesh, const std::array<int, 2>& line) {
   return norm(mesh.points[line[1]] - mesh.points[line[0]]);
 }
 
-/// How much a length of a curve counts where two triangles meet: from a fourth, at 90 degrees and more, to 1.
+/// Returns the weight of a curve's length between two triangles: from 1/4, at 90 degrees and more, to 1.
 double smoothness(const Mesh& mesh, const HalfEdge& one, const HalfEdge& other) {
   constexpr double kLeast = 0.25;
   const Vec3 m = area_vector(mesh, one.element), n = area_vector(mesh, other.element);
@@ -46,7 +46,7 @@ double smoothness(const Mesh& mesh, const HalfEdge& one, const HalfEdge& other) 
 /// Joins narrow faces with their neighbors, the narrowest first.
 class FaceJoiner {
  public:
-  /// `origin`: of each face the one that it is a part of, see cut_narrow_parts().
+  /// `origin` has the former face of each face, see cut_narrow_parts().
   FaceJoiner(const Mesh& mesh, const std::vector<int>& origin, const NarrowOptions& narrow)
       : mesh_(mesh), origin_(origin), narrow_(narrow), sets_(mesh.regions.size()) {
     for (std::size_t face = 0; face < sets_.size(); ++face) sets_[face].members = {static_cast<int>(face)};
@@ -75,7 +75,7 @@ class FaceJoiner {
     }
   }
 
-  /// Groups of faces, the one that keeps its name first. Says which became part of which.
+  /// Returns groups of faces, the one that keeps its name first, with warnings of faces that joined others.
   EntityGroups join(std::vector<Warning>& warnings) {
     while (const std::optional<int> narrow = narrowest()) {
       const Set& thin = sets_[*narrow];
@@ -103,10 +103,10 @@ class FaceJoiner {
     double length = 0, weight = 0;
   };
   struct Set {
-    std::vector<int> members;  ///< faces; none: has become part of another set
+    std::vector<int> members;  ///< faces; empty: it joined another set
     double area = 0, outline = 0;
     bool is_kept = false;
-    std::map<int, Common> common;  ///< with other sets
+    std::map<int, Common> common;  ///< common curves with other sets
     double width() const {
       return outline > 0 ? 2 * area / outline : std::numeric_limits<double>::infinity();
     }
@@ -150,7 +150,7 @@ class FaceJoiner {
     }
   }
 
-  /// A point of the face.
+  /// Returns a point of the face.
   Vec3 place_of(int face) const {
     const auto at = std::ranges::find(mesh_.triangle_region, face) - mesh_.triangle_region.begin();
     const auto& [a, b, c] = mesh_.triangles[at];
@@ -163,7 +163,7 @@ class FaceJoiner {
   std::vector<Set> sets_;
 };
 
-/// The lines of boundaries and branches: edges with one triangle, or with more than two.
+/// Edges on boundaries and branches, with one triangle or more than two.
 class OutlineLines {
  public:
   explicit OutlineLines(const Mesh& mesh) : sides_(sorted_half_edges(mesh)), at_(mesh.points.size(), 0) {
@@ -178,7 +178,7 @@ class OutlineLines {
   std::vector<char> at_;
 };
 
-/// The third corners of the triangles on an edge.
+/// Returns the third corners of the triangles on an edge.
 std::vector<int> opposite_nodes(const Mesh& mesh, const SurfaceEditor& editor, int a, int b) {
   std::vector<int> nodes;
   for (const int t : editor.triangles_on(a, b))
@@ -196,7 +196,7 @@ std::vector<int> neighbours(const Mesh& mesh, const SurfaceEditor& editor, int n
   return nodes;
 }
 
-/// Parts edges at `a` whose other ends would come onto edges of `b` when a moves there.
+/// Splits edges at `a` whose other ends would lie on edges of `b` after a moves there.
 void split_common_edges(SurfaceModel& model, int a, int b) {
   SurfaceEditor editor(model);
   const std::vector<int> opposite = opposite_nodes(model.fine, editor, a, b);
@@ -210,7 +210,7 @@ void split_common_edges(SurfaceModel& model, int a, int b) {
   editor.finish();
 }
 
-/// Whether no triangle at `a` turns over when a moves to `b`.
+/// Returns whether no triangle at `a` flips if a moves to `b`.
 bool keeps_sides(const Mesh& mesh, int a, int b) {
   return std::ranges::all_of(mesh.triangles, [&](std::array<int, 3> triangle) {
     if (std::ranges::find(triangle, a) == triangle.end()) return true;
@@ -221,7 +221,7 @@ bool keeps_sides(const Mesh& mesh, int a, int b) {
   });
 }
 
-/// Moves the end `a` of a line to its other end `b`; false: the surface would not be what it was.
+/// Moves the end `a` of a line to its other end `b`. Returns false if the topology would change.
 bool contract_line(SurfaceModel& model, int a, int b) {
   Mesh& mesh = model.fine;
   const OutlineLines outline(mesh);
@@ -242,11 +242,11 @@ bool contract_line(SurfaceModel& model, int a, int b) {
   return true;
 }
 
-/// How far at most the points that are one with a point have come; points behind the last: no way.
+/// Largest move of the points that were merged into each point; 0 for later points.
 using Moved = std::vector<double>;
 
-/// The model with the curve's nodes in the last of `nodes`; nothing where that cannot be, or takes a point
-/// farther than `most`.
+/// Returns the model with the curve's nodes merged into the last one. Nothing if this is impossible, or a
+/// point moves farther than `most`.
 std::optional<SurfaceModel> contracted(SurfaceModel model, const std::vector<int>& nodes, double most,
                                        Moved& moved) {
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
@@ -258,7 +258,7 @@ std::optional<SurfaceModel> contracted(SurfaceModel model, const std::vector<int
   return model;
 }
 
-/// Whether something became of a curve.
+/// Contracts a curve. Returns whether it succeeded.
 bool contract_curve(SurfaceModel& model, int curve, double most, Moved& moved) {
   std::vector<int> nodes = points_of_curves(model.fine)[curve];
   if (nodes.front() == nodes.back()) return false;
@@ -274,7 +274,7 @@ bool contract_curve(SurfaceModel& model, int curve, double most, Moved& moved) {
   return false;
 }
 
-/// Contracts curves shorter than that, the shortest first.
+/// Returns the model after contraction of shorter curves, the shortest first.
 SurfaceModel contract_short_curves(SurfaceModel model, const NarrowOptions& narrow) {
   const Mesh& mesh = model.fine;
   const std::vector<double> lengths = lengths_of_curves(mesh);
@@ -311,7 +311,7 @@ SurfaceModel contract_short_curves(SurfaceModel model, const NarrowOptions& narr
   return model;
 }
 
-/// Says which names nothing has any more.
+/// Warns of names that no entity has any more.
 void report_lost_names(const char* kind, const std::vector<Entity>& before, const std::vector<Entity>& after,
                        std::vector<Warning>& warnings) {
   std::set<std::string> there;

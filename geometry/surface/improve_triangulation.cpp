@@ -19,14 +19,13 @@ namespace delquad {
 
 namespace {
 
-/// How far flips may turn normals. Where points lie on a smooth surface behind, any diagonal is as good as
-/// the other; else the triangles are the surface.
+/// Largest turn of normals by flips. On a smooth true surface both diagonals are equal; otherwise the
+/// triangles are the surface.
 const double kTurnSmooth = std::cos(25 * std::numbers::pi / 180);
 const double kTurnExact = std::cos(3 * std::numbers::pi / 180);
-/// Height over longest side below which a triangle's normal says nothing about the surface, and below which a
-/// flip must not make one.
+/// Height over longest side below which a triangle's normal is unreliable, and least such ratio after a flip.
 constexpr double kThin = 0.02, kFlat = 1e-7;
-/// A new point moves at most this part of the side it splits.
+/// Largest move of a new point over the side that it splits.
 constexpr double kMaxMove = 0.25;
 
 class Improver {
@@ -80,7 +79,7 @@ class Improver {
     }
   }
 
-  /// The unit normal, zero for a triangle whose height is below this part of its longest side.
+  /// Returns the unit normal; zero for a triangle whose height over its longest side is below `thinnest`.
   Vec3 normal(int a, int b, int c, double thinnest) const {
     const Vec3 n = double_area(a, b, c);
     const double longest = std::max({length({a, b}), length({b, c}), length({c, a})});
@@ -111,9 +110,9 @@ class Improver {
     return sum;
   }
 
-  /// Is c-d better than the edge a-b that the triangles (a, b, c) and (b, a, d) of a face share? One of them
-  /// may be too thin to tell how the surface lies, as facets of long cylinders are. Then the normals at their
-  /// points must not turn away from the triangles more than they did.
+  /// Returns whether c-d is better than the edge a-b of the triangles (a, b, c) and (b, a, d) of a face. One
+  /// of them may be too thin for a normal, as facets of long cylinders are. Then normals at their points must
+  /// not turn further away from the triangles.
   bool should_flip(int a, int b, int c, int d, int face) const {
     constexpr double kTie = 1e-6;  // cocircular points stay as they are
     if (cotangent(c, a, b, face) + cotangent(d, a, b, face) > -kTie) return false;
@@ -136,7 +135,7 @@ class Improver {
            });
   }
 
-  /// Takes the least edge out of the queue, a heap, as often as it is there.
+  /// Removes all copies of the least edge from the queue, a heap, and returns it.
   Edge next_in_queue() {
     const Edge e = queue_.front();
     while (!queue_.empty() && queue_.front() == e) {
@@ -152,7 +151,7 @@ class Improver {
     flip();
   }
 
-  /// Flips the edges in the queue and those around each edge that was flipped, until all are well.
+  /// Flips the edges in the queue, and edges around each flipped edge, until none is better.
   void flip() {
     sort_unique(queue_);
     std::size_t budget = 20 * queue_.size();  // flips in space have no energy that falls
@@ -174,7 +173,7 @@ class Improver {
     queue_.clear();
   }
 
-  /// The triangle as (a, b, c) with a-b the edge.
+  /// Returns the triangle as (a, b, c), with the edge a-b.
   std::array<int, 3> seen_from(int t, const Edge& e) const {
     const auto& v = mesh_.triangles[t];
     for (int k = 0; k < 3; ++k)
@@ -182,7 +181,7 @@ class Improver {
     return v;
   }
 
-  /// Longest first; ties by nodes.
+  /// Side to split: longest first, ties by nodes.
   using Candidate = std::tuple<double, int, int>;
 
   bool is_too_large(int t, double longest) const {
@@ -207,8 +206,8 @@ class Improver {
     if (is_too_large(t, l)) candidates_.push({l, longest.first, longest.second});
   }
 
-  // How long the sides of each triangle may be. Halves keep it: needles around a pole would be needles at any
-  // size.
+  // Sets the largest length of sides for each triangle. Halves keep it, since needles around a pole are
+  // needles at any size.
   void find_targets() {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       double shortest = options_.max_length * diagonal_;
@@ -218,8 +217,8 @@ class Improver {
     }
   }
 
-  // Edges around a new point are turned at once: halves of needles would be needles again. Ends: edges below
-  // the target, or the rule's least length, are not split, and each split halves one.
+  // Splits sides, and flips edges around each new point at once, since halves of needles are needles. It
+  // ends, as each split halves an edge and short edges are not split.
   void split_all() {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) consider(static_cast<int>(t));
     while (!candidates_.empty()) {
@@ -227,7 +226,7 @@ class Improver {
       const auto [l, a, b] = candidates_.top();
       candidates_.pop();
       const std::vector<int> on_edge = editor_.triangles_on(a, b);
-      if (on_edge.empty()) continue;  // split or turned already
+      if (on_edge.empty()) continue;  // split or flipped already
       if (rule_ == nullptr)
         for (int t : on_edge) target_.push_back(target_[t]);
       const int face = mesh_.triangle_region[on_edge[0]];
@@ -258,8 +257,8 @@ class Improver {
   const ImproveOptions& options_;
   double diagonal_;
   RefinementRule* rule_ = nullptr;
-  std::vector<char> curved_;    ///< of each face
-  std::vector<double> target_;  ///< of each triangle
+  std::vector<char> curved_;    ///< whether each face is curved
+  std::vector<double> target_;  ///< largest length of sides of each triangle
   std::vector<Edge> queue_;     ///< edges that may have to be flipped
   std::vector<int> on_edge_;    ///< triangles, in flip()
   std::vector<int> flipped_;    ///< triangles, since the last split

@@ -10,43 +10,42 @@
 namespace delquad {
 
 struct ImproveOptions {
-  /// Sides of a curved face are split when they are longer than this many times the shortest side of their
-  /// triangle, as it was given.
+  /// Sides of a curved face are split if they are longer than this many times, > 1, the shortest side of
+  /// their initial triangle.
   double max_aspect = 4;
-  /// Parts of the model's diagonal: sides shorter than the first are not split, and sides longer than the
-  /// second are in any case.
+  /// Lengths over the model's diagonal: sides shorter than the first stay, sides longer than the second are
+  /// always split.
   double min_length = 1.0 / 80;
   double max_length = 1.0 / 25;
 };
 
-/// Makes the fine triangulation fit for cotangent weights. Edges inside faces are turned to be Delaunay where
-/// that does not bend the surface. Long sides of curved faces are split, and new points moved to the true
-/// surface. Lines keep following their curves. Plane faces are only divided along with their neighbors.
+/// Improves the fine triangulation for cotangent weights (own method). Edges inside faces are flipped to be
+/// Delaunay if this does not bend the surface. Long sides of curved faces are split, and new points moved to
+/// the true surface. Lines keep following their curves. Plane faces are only divided along with their
+/// neighbors.
 void improve_triangulation(SurfaceModel& model, const ImproveOptions& options = {});
 
-/// Tells refine_triangulation() where to refine. Nodes are indices into fine.points.
+/// Rule by which refine_triangulation() refines. Nodes are indices into fine.points.
 class RefinementRule {
  public:
   virtual ~RefinementRule() = default;
-  /// Returns whether the triangle is to be split. `curve[k]`: the curve of the side opposite to nodes[k]; -1:
-  /// it is no line. Must be false for triangles that are small enough in some sense, or refinement does not
-  /// end.
+  /// Returns whether the triangle shall be split. `curve[k]` is the curve of the side opposite to nodes[k];
+  /// -1: it is no line. It must be false for small triangles, or refinement does not end.
   virtual bool is_too_large(int face, const std::array<int, 3>& nodes,
                             const std::array<int, 3>& curve) const = 0;
-  /// Returns the length of a side, by which the longest is told, and what is Delaunay; `in_space`: that
-  /// there.
+  /// Returns the length of a side, which decides on the longest side and on flips. `in_space` is its length
+  /// in space.
   virtual double length([[maybe_unused]] int face, [[maybe_unused]] int a, [[maybe_unused]] int b,
                         double in_space) const {
     return in_space;
   }
-  /// Returns whether that is another than in space.
+  /// Returns whether length() differs from lengths in space.
   virtual bool has_lengths() const { return false; }
-  /// A node was put on the middle of the side a-b, of a triangle of the face; `curve`: as above.
+  /// Called after a node was put on the middle of side a-b of a triangle of the face; `curve` as above.
   virtual void node_added(int node, int a, int b, int face, int curve) = 0;
 };
 
-/// Splits the longest sides of triangles that are too large until none is, with the same care as
-/// improve_triangulation().
+/// Splits the longest sides of triangles until none is too large, and flips edges as improve_triangulation().
 void refine_triangulation(SurfaceModel& model, RefinementRule& rule);
 
 }  // namespace delquad

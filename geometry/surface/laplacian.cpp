@@ -12,7 +12,7 @@ namespace delquad {
 
 namespace {
 
-/// Smallest height of a triangle over its longest side for which cotangents are taken as they are.
+/// Height of a triangle over its longest side below which cotangents are bounded.
 constexpr double kFlattest = 1e-6;
 
 }  // namespace
@@ -46,7 +46,7 @@ std::vector<double> vertex_areas(const Chart& chart) {
 struct LaplaceSolver::System {
   Eigen::SparseMatrix<double> all;  ///< L over all vertices
   std::vector<char> fixed;
-  std::vector<int> unknown;  ///< of each vertex, -1: fixed
+  std::vector<int> unknown;  ///< unknown of each vertex; -1: fixed
   int n_unknowns = 0;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
 };
@@ -120,10 +120,10 @@ std::vector<double> fiedler_function(const Chart& chart) {
   constexpr int kIterations = 20;
   const std::vector<double> areas = vertex_areas(chart);
   const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
-  // Far below the first eigenvalue, which is about 10 / area, yet enough for a safe factorisation.
+  // A shift far below the first eigenvalue, about 10 / area, but enough for a safe factorization.
   const LaplaceSolver solver(chart, std::vector<char>(areas.size(), 0), 1e-3 / total);
 
-  // Begins with a slanted height: a function that is smooth and has no symmetry.
+  // Begins with a slanted height, which is smooth and has no symmetry.
   std::vector<double> x(areas.size()), load(areas.size());
   for (std::size_t v = 0; v < x.size(); ++v)
     x[v] = dot(chart.points[v] - chart.points[0], Vec3{1.0, 0.73, 0.41});

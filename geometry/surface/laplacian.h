@@ -18,10 +18,10 @@ std::vector<std::array<double, 3>> corner_cotangents(const Chart& chart);
 /// Returns a third of the area of the triangles around each vertex.
 std::vector<double> vertex_areas(const Chart& chart);
 
-/// The cotangent Laplacian L of a chart (positive semi-definite), factorised for some fixed vertices.
+/// The cotangent Laplacian L of a chart (positive semi-definite), with factors for some fixed vertices.
 class LaplaceSolver {
  public:
-  /// `shift` times the vertex areas is added on the diagonal: needed when no vertex is fixed.
+  /// Adds `shift` >= 0 times the vertex areas to the diagonal, which is necessary if no vertex is fixed.
   LaplaceSolver(const Chart& chart, std::vector<char> fixed, double shift = 0);
 
   /// Solves (L + shift areas) x = load at the free vertices, x = values at the fixed ones.
@@ -34,8 +34,8 @@ class LaplaceSolver {
   std::shared_ptr<System> system_;
 };
 
-/// Returns the slowest vibration of the chart with free boundary. Its level curves divide the chart where it
-/// is narrow and meet the boundary at right angles.
+/// Returns the Fiedler function of the chart: its slowest vibration with free boundary, at each vertex. Its
+/// level curves divide the chart where it is narrow, and meet the boundary at right angles.
 std::vector<double> fiedler_function(const Chart& chart);
 
 }  // namespace delquad

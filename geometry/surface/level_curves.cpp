@@ -8,10 +8,10 @@ namespace delquad {
 
 namespace {
 
-/// Crossings closer to a vertex than this part of an edge are moved into it, so that no slivers are made.
+/// Part of an edge within which crossings move into a vertex, to avoid slivers.
 constexpr double kSnapInner = 0.15;
 constexpr double kNearEnd = 0.3;
-/// Crossings this close to a boundary vertex touch the boundary.
+/// Part of an edge within which crossings near a boundary vertex touch the boundary.
 constexpr double kTouch = 0.01;
 
 class LevelWalk {
@@ -76,7 +76,7 @@ class LevelWalk {
 
   bool on_boundary(int v) const { return v < chart_.n_boundary; }
 
-  // Moves crossings into near vertices; none when the path then touches itself or the boundary.
+  // Moves crossings into near vertices. Returns nothing if the path then touches itself or the boundary.
   std::optional<CutPath> tidy(const CutPath& path, double snap_inner) const {
     CutPath out;
     out.closed = path.closed;
@@ -110,7 +110,7 @@ Vec3 position(const Chart& chart, const EdgePoint& p) {
 
 namespace {
 
-/// Is the path no more than one side of the boundary?
+/// Returns whether the path is only a side of the boundary.
 bool is_boundary_side(const Chart& chart, const CutPath& path) {
   if (path.points.size() != 2 || path.points[0].b >= 0 || path.points[1].b >= 0) return false;
   const auto ends = std::minmax({path.points[0].a, path.points[1].a});

@@ -20,7 +20,7 @@ namespace {
 constexpr int kSmoothing = 2;
 /// Sine of an angle below which a triangle is too thin to have a normal or a curvature.
 constexpr double kThinRing = 1e-3;
-/// Part of a face's extent within which it counts as plane.
+/// Distance from a plane, over the extent of a face, within which it counts as plane.
 constexpr double kFlatRing = 1e-9;
 
 Vec3 unit(const Vec3& v) {
@@ -28,7 +28,7 @@ Vec3 unit(const Vec3& v) {
   return length > 0 ? (1 / length) * v : Vec3{};
 }
 
-/// One face with points of its own.
+/// A face with own points.
 struct FacePiece {
   std::vector<Vec3> points;
   std::vector<std::array<int, 3>> triangles;
@@ -60,7 +60,7 @@ class FormEstimate {
     for (int round = 0; round < kSmoothing; ++round) smooth_normals();
   }
 
-  /// At each point: the mean of the forms around, weighted by the angles.
+  /// Returns at each point the mean of the forms around, weighted by angles.
   std::vector<Eigen::Matrix3d> forms() const {
     std::vector<Eigen::Matrix3d> sum(piece_.points.size(), Eigen::Matrix3d::Zero());
     std::vector<double> weight(piece_.points.size(), 0);
@@ -101,8 +101,8 @@ class FormEstimate {
       if (count != 2) is_inner_[side.first] = is_inner_[side.second] = 0;
   }
 
-  /// Neighbors count by the inverse square of their distance; at the outline, where they stand on one side
-  /// only, normals stay.
+  /// Smooths normals by the inverse square of distances to neighbors. At the outline, with neighbors on one
+  /// side only, normals stay.
   void smooth_normals() {
     std::vector<Vec3> sum(normals_.size());
     std::vector<double> weight(normals_.size(), 0);
@@ -122,7 +122,7 @@ class FormEstimate {
       if (is_inner_[i] && weight[i] > 0) normals_[i] = unit(normals_[i] + (1 / weight[i]) * sum[i]);
   }
 
-  /// The symmetric form that explains best how the normal changes along the sides.
+  /// Returns the symmetric form that fits the change of the normal along the sides best.
   std::optional<Eigen::Matrix3d> form_of(const std::array<int, 3>& v) const {
     const Vec3 x = unit(point(v[1]) - point(v[0]));
     const Vec3 area = area_vector(piece_.points, v);
@@ -161,14 +161,13 @@ bool is_plane(const FacePiece& piece) {
          });
 }
 
-/// 1 / radius of the circle through three points.
+/// Returns 1 / radius of the circle through three points.
 double circle_curvature(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double product = norm(b - a) * norm(c - b) * norm(a - c);
   return product > 0 ? 2 * norm(cross(b - a, c - a)) / product : 0;
 }
 
-/// At each point of a chain, closed when its ends are the same point; an open chain's ends take after their
-/// neighbors.
+/// Returns the curvature at each point of a chain; ends of an open chain take it from their neighbors.
 std::vector<double> chain_curvatures(const std::vector<Vec3>& points, bool closed) {
   const int n = static_cast<int>(points.size());
   std::vector<double> values(points.size(), 0);
@@ -233,7 +232,7 @@ double ModelCurvature::Sampled::at(const Vec3& x) const {
 double ModelCurvature::of_face(int face, const Vec3& x) const {
   if (!projector_) return faces_[face] ? faces_[face]->at(x) : 0;
   const double curvature = projector_->face_curvature(face, x);
-  return std::isnan(curvature) ? 0 : curvature;  // a singular point: what is around it counts
+  return std::isnan(curvature) ? 0 : curvature;  // unknown at singular points, where the surroundings count
 }
 
 PrincipalCurvatures ModelCurvature::principal(int face, const Vec3& x) const {
@@ -252,7 +251,7 @@ PrincipalCurvatures ModelCurvature::principal(int face, const Vec3& x) const {
     form << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
     sum += found.weights[k] * form;
   }
-  // The least of the three by size is that along the normal.
+  // The eigenvalue with the least absolute value belongs to the normal.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
   const Eigen::Vector3d& value = solver.eigenvalues();
   const int most = std::abs(value[0]) > std::abs(value[2]) ? 0 : 2;

@@ -13,23 +13,23 @@
 
 namespace delquad {
 
-/// How strongly the faces and curves of a model are curved, wherever one asks. Make it from a model as it was
-/// read: sides that are split later lie in the plane of their triangles and would hide it.
+/// Curvature of the faces and curves of a model at any place. Make it from a model as it was read, since
+/// points that later splits add lie in the plane of their triangles.
 ///
 /// The curvature of a CAD face comes from its surface; elsewhere it is estimated from the triangles
-/// [rusinkiewicz2004]. Normals at points are the mean of the triangles around by their angles, smoothed
-/// against noise. Their differences give the second fundamental form of each triangle, and the mean of the
-/// forms around a point counts there. The curvature of a curve is the curvature of the circle through
-/// neighboring points.
+/// [rusinkiewicz2004]. Normals at points are means over triangles, weighted by angle and smoothed against
+/// noise. Their differences give the second fundamental form of each triangle; a point has the mean of the
+/// forms around. The curvature of a curve is the curvature of the circle through neighboring points.
 class ModelCurvature {
  public:
   explicit ModelCurvature(const SurfaceModel& model);
 
   /// Returns the largest curvature (1 / length) in any direction at the face's point nearest to x.
   double of_face(int face, const Vec3& x) const;
-  /// Returns the curvatures in all directions; 0 where it is not known.
+  /// Returns the principal curvatures (1 / length) there; 0 if unknown.
   PrincipalCurvatures principal(int face, const Vec3& x) const;
-  /// Returns the same of a curve that the model had when this was made.
+  /// Returns the curvature (1 / length) of a curve at its point nearest to x. The curve must exist since
+  /// construction.
   double of_curve(int curve, const Vec3& x) const;
 
  private:

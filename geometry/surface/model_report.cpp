@@ -26,10 +26,10 @@ namespace delquad {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-/// Degrees below which two curves that meet bound a corner, not a strip.
+/// Angle, in degrees, below which two curves that meet bound a corner and not a strip.
 constexpr double kCornerAngle = 60;
-/// Cosine between the inward directions of two sides, up to which they look at each other; and that between
-/// either direction and the way across.
+/// Largest cosine between the inward directions of two sides that face each other. Least cosine between
+/// either direction and the line across.
 constexpr double kOpposite = -0.7, kAcross = 0.9;
 
 std::array<int, 2> sorted_ends(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
@@ -40,7 +40,8 @@ struct BoundarySide {
   int curve;
 };
 
-/// Least distance between sides that look at each other, except sides of pairs of curves in `corners`.
+/// Returns the least distance between sides that face each other, except sides of pairs of curves in
+/// `corners`.
 double least_gap(const std::vector<BoundarySide>& sides, const std::vector<std::array<int, 2>>& corners) {
   std::vector<Box<Vec3>> boxes;
   for (const BoundarySide& s : sides) boxes.push_back(Box<Vec3>::around({s.from, s.to}));
@@ -51,7 +52,7 @@ double least_gap(const std::vector<BoundarySide>& sides, const std::vector<std::
     const Vec3 x = 0.5 * (side.from + side.to);
     tree.nearest(x, least2, [&](int j) {
       const BoundarySide& other = sides[j];
-      if (other.from == side.to && other.to == side.from) return;  // of a curve that stands in the face
+      if (other.from == side.to && other.to == side.from) return;  // an embedded curve
       if (dot(side.inwards, other.inwards) > kOpposite) return;
       const Vec3 way = nearest_on_segment(x, other.from, other.to) - x;
       const double gap2 = dot(way, way), gap = std::sqrt(gap2);
@@ -134,7 +135,7 @@ class Reporter {
     face.loops += static_cast<int>(chart.loops.size());
     face.handles += genus(chart);
     if (chart.loops.empty()) return;
-    std::vector<Vec3> inwards(chart.n_boundary);  // of the side that begins at each vertex of a loop
+    std::vector<Vec3> inwards(chart.n_boundary);  // direction at the side that begins at each vertex
     for (std::size_t t = 0; t < chart.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k) {
         if (chart.neighbours[t][k] >= 0) continue;
@@ -198,7 +199,7 @@ class Reporter {
       --shell.euler_characteristic;
       if (edge.size() < 2) shell.closed = false;
     });
-    std::vector<int> last_shell(mesh_.points.size(), -1);  // by shell, so that each counts a point once
+    std::vector<int> last_shell(mesh_.points.size(), -1);  // so that shells count points once
     std::vector<std::vector<int>> triangles(report_.shells.size());
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
       triangles[shell_of[mesh_.triangle_region[t]]].push_back(static_cast<int>(t));
@@ -216,7 +217,7 @@ class Reporter {
   const SurfaceModel& model_;
   const Mesh& mesh_;
   std::vector<HalfEdge> sides_;
-  std::map<std::array<int, 2>, int> line_curve_;  ///< of each line, by its ends
+  std::map<std::array<int, 2>, int> line_curve_;  ///< curve of each line, by its ends
   ModelReport report_;
 };
 

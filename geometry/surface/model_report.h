@@ -10,14 +10,13 @@
 
 namespace delquad {
 
-/// Throws InputError as extract_charts() does.
+/// Returns sizes, topology and defects of a model. Throws as extract_charts().
 ModelReport report_model(const SurfaceModel& model);
 
-/// Returns "disk", "annulus", "disk with 3 holes", "closed", "2 handles, 1 loop": what a map of the face has
-/// to cope with.
+/// Returns the topology of a face: "disk", "annulus", "disk with 3 holes", "closed" or "2 handles, 1 loop".
 std::string topology(const FaceReport& face);
 
-/// Adds warnings that tell of the curves with a face on one side only, and of those with more than two faces.
+/// Adds warnings of curves with one face, and of curves with more than two.
 void report_edges(SurfaceModel& model);
 
 }  // namespace delquad

@@ -22,19 +22,20 @@ namespace delquad {
 
 namespace {
 
-/// In lengths. A part is narrow if it is below kNarrow wide for kLasts. Places from which one looks across
-/// are kApartOnLoop apart. Ends of cuts move so far into corners and other points.
+/// Values in lengths. A part is narrow if it is narrower than kNarrow over kLasts. Places of looks across are
+/// kApartOnLoop apart. Ends of cuts move into corners within kIntoCorner, and into other points within
+/// kIntoPoint.
 constexpr double kNarrow = 1.05, kLasts = 2, kApartOnLoop = 0.25, kIntoCorner = 0.25, kIntoPoint = 0.02;
-/// How many places may be missing in a part.
+/// Number of places without a look across that a narrow part may have in a row.
 constexpr int kMissing = 2;
-/// Sine of the angle up to which two sides face each other.
+/// Sine of the largest angle between sides that face each other.
 constexpr double kFacingSine = 0.5;
 constexpr int kBisections = 20;
-/// Places from which one looks, in all, and triangles on a way across: a few seconds.
+/// Limits of places of looks in all, and of triangles on a look: a few seconds.
 constexpr double kMostPlaces = 1e6;
 constexpr int kMostTriangles = 1000;
 
-/// A place on a side of a loop of a chart: the side from its vertex number `side`, and how far along.
+/// A place on a loop of a chart: the side from its vertex number `side`, and the part along it.
 struct LoopPlace {
   int loop, side;
   double t;
@@ -92,7 +93,7 @@ class ChartView {
     const auto [p, q] = ends(from);
     Vec3 x = point(p) + from.t * (point(q) - point(p));
     double left = reach_;
-    // Direction: so much along the side, ahead, and so much across it.
+    // Direction by its components along the side and across it.
     double along = 0, across = 1;
     for (int step = 0; step < kMostTriangles; ++step) {
       const auto& v = chart_.triangles[t];
@@ -141,10 +142,10 @@ class ChartView {
 /// The ends of a cut on a chart's loops.
 using LoopCut = std::array<LoopPlace, 2>;
 
-/// Where a chart is to be cut.
+/// Finds the cuts of a chart.
 class ChartCuts {
  public:
-  /// `apart`: how far the places are, from which one looks.
+  /// `apart` is the distance of the places of looks.
   ChartCuts(const Chart& chart, const std::vector<char>& is_corner, double length, double apart)
       : view_(chart, kNarrow * length), length_(length), apart_(apart), corners_(chart.loops.size()) {
     for (int l = 0; l < view_.n_loops(); ++l) {
@@ -170,7 +171,7 @@ class ChartCuts {
   }
 
  private:
-  /// Numbers of places, which may be beyond the loop's last.
+  /// A range of places, which may pass the loop's last.
   struct Run {
     int loop, first, last;
   };
@@ -181,7 +182,7 @@ class ChartCuts {
 
   void find_runs(int loop) {
     const int n = n_[loop];
-    const auto ends_before = [&](int i) {  // nothing is seen for long enough
+    const auto ends_before = [&](int i) {  // nothing is seen over enough places
       for (int k = 1; k <= kMissing + 1; ++k)
         if (sees(loop, i - k)) return false;
       return true;
@@ -216,7 +217,7 @@ class ChartCuts {
         if (there) seen = there;
       }
       const LoopCut cut{into_corner(view_.place(run.loop, seeing)), into_corner(*seen)};
-      // A part that runs into a tip is left at one place only.
+      // A part that runs into a tip is cut at one place only.
       if (std::ranges::none_of(cuts, [&](const LoopCut& other) {
             return distance(cut[0], other[1]) < length_ && distance(cut[1], other[0]) < length_;
           }))
@@ -232,7 +233,7 @@ class ChartCuts {
     return best;
   }
 
-  /// Along the loop; infinite: of others.
+  /// Returns the distance along the loop; infinity for places on other loops.
   double distance(const LoopPlace& p, const LoopPlace& q) const {
     if (p.loop != q.loop) return std::numeric_limits<double>::infinity();
     const double d = std::abs(view_.arc(p) - view_.arc(q));
@@ -243,7 +244,7 @@ class ChartCuts {
   double length_, apart_;
   std::vector<std::vector<LoopPlace>> corners_;
   std::vector<int> n_;                                       ///< places, by loop
-  std::vector<std::vector<std::optional<LoopPlace>>> seen_;  ///< from each
+  std::vector<std::vector<std::optional<LoopPlace>>> seen_;  ///< place seen from each place
   std::vector<std::vector<char>> done_;
   std::vector<Run> runs_;
 };
@@ -258,7 +259,7 @@ class FaceCutter {
  public:
   FaceCutter(SurfaceModel& model, double length) : model_(model), mesh_(model.fine), length_(length) {}
 
-  /// The faces of the new curves.
+  /// Makes the cuts. Returns the faces of the new curves.
   std::vector<int> cut() {
     find();
     SurfaceEditor editor(model_);
@@ -301,7 +302,7 @@ class FaceCutter {
     }
   }
 
-  /// In a node that is near.
+  /// Returns the place in the fine triangulation, moved into a near node.
   LinePlace line_place(const Chart& chart, const LoopPlace& p) {
     const auto& loop = chart.loops[p.loop];
     const int a = chart.fine_node[loop[p.side]], b = chart.fine_node[loop[(p.side + 1) % loop.size()]];
@@ -338,7 +339,7 @@ class FaceCutter {
     return -1;
   }
 
-  /// A chain of edges inside of a face from p straight to q, or to a line before; empty: there is none.
+  /// Returns a chain of edges inside of a face from p straight to q, or to a line on the way; empty: none.
   std::vector<int> connect(SurfaceEditor& editor, int face, int p, int q) const {
     constexpr int kMostSteps = 1000;
     std::vector<int> chain{p};
@@ -390,12 +391,12 @@ class FaceCutter {
   const Mesh& mesh_;
   double length_;
   std::vector<Cut> cuts_;
-  std::map<std::array<int, 2>, std::vector<std::pair<double, int>>> splits_;  ///< how far, and the node
+  std::map<std::array<int, 2>, std::vector<std::pair<double, int>>> splits_;  ///< part and node
 };
 
-/// Makes each part into which cuts (curves from `first_cut` on) divide faces a face, except the largest one
-/// that is not narrow. The narrow ones come last. Faces that are narrow everywhere, and faces without cuts,
-/// stay whole. `is_cut`: for each face. Returns the former face of each.
+/// Makes a face of each part between cuts (curves from `first_cut` on); the largest part that is not narrow
+/// keeps the old face. Narrow parts come last. Faces that are narrow everywhere, or not marked in `is_cut`,
+/// stay. Returns the former face of each.
 std::vector<int> number_parts(Mesh& mesh, int first_cut, const std::vector<char>& is_cut,
                               const NarrowOptions& options) {
   const std::vector<Chart> charts = extract_charts(mesh, std::vector<char>(mesh.triangles.size(), 1));
@@ -472,7 +473,7 @@ std::vector<int> cut_narrow_parts(SurfaceModel& whole, const NarrowOptions& opti
   regroup(model, mesh, faces, singleton_groups(n_curves));
   if (model.projector)
     model.projector = with_curves_on_faces(std::move(model.projector), n_curves, faces_of_cuts);
-  // Cuts that part nothing go.
+  // Cuts that separate nothing are removed.
   const Mesh former = mesh;
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   keep_lines(mesh, [&](std::size_t l) {

@@ -21,7 +21,7 @@ namespace {
 
 struct Component {
   std::vector<int> triangles;
-  double volume = 0;  ///< that it encloses, negative when its triangles face inwards
+  double volume = 0;  ///< enclosed volume, negative if its triangles face inwards
   Box<Vec3> box{};
 
   bool within_box_of(const Component& other) const {
@@ -31,7 +31,7 @@ struct Component {
   double box_volume() const { return box.size().x * box.size().y * box.size().z; }
 };
 
-/// Whether two triangles run the same way along the edge that they share, so that they disagree.
+/// Returns whether two triangles disagree: they have the same direction along their common edge.
 bool orientations_disagree(const Mesh& mesh, int side, int twin) {
   return side_start(mesh, side) == side_start(mesh, twin);
 }
@@ -45,20 +45,20 @@ bool orientations_disagree(const Mesh& mesh, int side, int twin) {
                   show_point(mesh.points[side_end(mesh, side)])));
 }
 
-/// Radians by which the surface turns at an edge, were its triangles to agree.
+/// Returns the angle, radians, by which the surface would turn at an edge if its triangles agreed.
 double turn_at(const Mesh& mesh, int side, int twin) {
   const double sign = orientations_disagree(mesh, side, twin) ? -1 : 1;
   return angle_between(area_vector(mesh, side / 3), sign * area_vector(mesh, twin / 3));
 }
 
-/// Triangles that are known to agree, or to disagree, with others.
+/// Known agreements and disagreements of triangles.
 class Agreements {
  public:
   explicit Agreements(size_t n) : above_(n), against_(n, 0), size_(n, 1) {
     std::iota(above_.begin(), above_.end(), 0);
   }
 
-  /// Joins them; false where it is known that they are the other way.
+  /// Joins two triangles. Returns false if the opposite is known already.
   bool join(int t, int u, bool against) {
     against ^= climb(t);
     against ^= climb(u);
@@ -71,7 +71,7 @@ class Agreements {
   }
 
  private:
-  /// Goes to the top; whether t is against it.
+  /// Replaces t by its root. Returns whether t disagrees with it.
   bool climb(int& t) const {
     bool against = false;
     for (; above_[t] != t; t = above_[t]) against ^= against_[t] != 0;
@@ -79,15 +79,15 @@ class Agreements {
   }
 
   std::vector<int> above_;
-  std::vector<char> against_;  ///< the one above
+  std::vector<char> against_;  ///< whether each triangle disagrees with its parent
   std::vector<int> size_;
 };
 
-/// Parts neighbors that cannot agree at the sharpest edges on the way from one to the other: joints of
-/// sheets, which bound faces anyway. Refuses a surface that is smooth there.
+/// Separates neighbors that cannot agree at the sharpest edges between them, which are joints of sheets.
+/// Throws InputError if the surface is smooth there.
 void split_at_joints(const Mesh& mesh, const std::string& source, std::vector<int>& twin,
                      std::vector<Warning>& warnings) {
-  constexpr double kJoint = 40 * std::numbers::pi / 180;  // where faces end, see TriangulatedOptions
+  constexpr double kJoint = 40 * std::numbers::pi / 180;  // turn at which faces end, see TriangulatedOptions
   std::vector<std::pair<double, int>> edges;
   for (int side = 0; side < static_cast<int>(twin.size()); ++side)
     if (twin[side] > side) edges.emplace_back(turn_at(mesh, side, twin[side]), side);
@@ -108,8 +108,8 @@ void split_at_joints(const Mesh& mesh, const std::string& source, std::vector<in
                   show_point(mesh.points[side_end(mesh, first)])));
 }
 
-/// Tells which triangles are to be turned over, so that neighbors agree. `edges` receives the sides that the
-/// neighbors share.
+/// Returns which triangles must be reversed so that neighbors agree. `edges` gets the common sides of
+/// neighbors.
 Turned turn_neighbors(const Mesh& mesh, const std::vector<int>& twin, std::vector<int>& edges) {
   std::vector<Neighbours> neighbors;
   edges.clear();

@@ -9,10 +9,10 @@ namespace delquad {
 
 namespace {
 
-/// How far the sides of a slit move apart, each, as a part of the shorter line beside.
+/// Move of each side of a slit, over the shorter line beside.
 constexpr double kOpening = 1e-4;
 
-/// Slits are lines with the chart on both sides: vertices that coincide move a little into their own sectors.
+/// Opens slits, lines with the chart on both sides: coinciding vertices move a little into their own sectors.
 void open_slits(const Chart& chart, std::vector<Vec2>& flat) {
   std::vector<std::pair<int, int>> by_node;  // fine node, vertex
   for (int v = 0; v < chart.n_boundary; ++v) by_node.emplace_back(chart.fine_node[v], v);

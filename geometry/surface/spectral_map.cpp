@@ -10,7 +10,8 @@ namespace delquad {
 
 namespace {
 
-/// Dirichlet energy of both coordinates minus area, as a quadratic form over (x, y) of each vertex.
+/// Returns the Dirichlet energy of both coordinates minus the area, as a quadratic form over (x, y) of each
+/// vertex.
 Eigen::SparseMatrix<double> conformal_energy(const Chart& chart) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto cotangents = corner_cotangents(chart);
@@ -36,7 +37,7 @@ Eigen::SparseMatrix<double> conformal_energy(const Chart& chart) {
     }
   }
   const auto n = static_cast<Eigen::Index>(2 * chart.points.size());
-  // The constants cost nothing; weights are about 1, so this is far below what tells maps apart.
+  // Constants cost nothing. Weights are about 1, so the shift is far below differences between maps.
   constexpr double kShift = 1e-9;
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, kShift);
   Eigen::SparseMatrix<double> energy(n, n);
@@ -49,7 +50,7 @@ Eigen::SparseMatrix<double> conformal_energy(const Chart& chart) {
 std::vector<Vec2> spectral_map(const Chart& chart) {
   assert(!chart.loops.empty());
   constexpr int kMaxIterations = 25;
-  constexpr double kSettled = 1e-7;  // change of the boundary, relative
+  constexpr double kSettled = 1e-7;  // relative change of the boundary
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(conformal_energy(chart));
   const int n = static_cast<int>(chart.points.size()), n_boundary = chart.n_boundary;
   Eigen::VectorXd z(2 * n), load(2 * n), last = Eigen::VectorXd::Zero(2 * n);

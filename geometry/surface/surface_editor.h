@@ -18,28 +18,30 @@ class SurfaceEditor {
  public:
   explicit SurfaceEditor(SurfaceModel& model);
 
-  /// Triangles that hold both nodes, ascending: empty when there is no such edge.
+  /// Returns the triangles with both nodes, ascending; empty if there is no such edge.
   std::vector<int> triangles_on(int a, int b) const;
-  /// The same, into a vector whose memory is used again.
+  /// Does the same in `found`, whose memory is reused.
   void find_triangles_on(int a, int b, std::vector<int>& found) const;
-  /// Returns the index of the line between two nodes, -1: none.
+  /// Returns the index of the line between two nodes; -1: none.
   int line_on(int a, int b) const;
   bool is_on_line(int node) const { return !lines_at_[node].empty(); }
   std::span<const int> triangles_at(int node) const { return triangles_at_[node]; }
 
-  /// Puts a new node on an existing edge; splits its triangles and its line. Returns the node.
+  /// Puts a new node at x on an existing edge, and splits its triangles and its line. Returns the node.
   int split_edge(int a, int b, const Vec3& x);
-  /// Puts a new node inside a triangle, which becomes three. Returns the node.
+  /// Puts a new node at x inside a triangle, which becomes three. Returns the node.
   int split_triangle(int triangle, const Vec3& x);
-  /// Turns the edge that two triangles share, if it is not a line and the other diagonal is no edge yet.
+  /// Flips the edge that two triangles share. Returns false, without a change, if it is a line or the other
+  /// diagonal is an edge already.
   bool flip_edge(int a, int b);
-  /// Adds a curve of lines along existing edges; the last node equals the first one when it is closed.
-  /// Returns its index.
+  /// Adds a curve of lines along existing edges; the last node of a closed one equals the first. Returns its
+  /// index.
   int add_curve(std::span<const int> chain);
 
-  /// Pairs (triangle that was split, half that was added), in order.
+  /// Returns the pairs (split triangle, added half), in order.
   const std::vector<std::pair<int, int>>& splits() const { return splits_; }
 
+  /// Puts the lines of each curve in order again.
   void finish();
 
  private:

@@ -36,7 +36,7 @@ class SurfaceProjector {
   virtual PrincipalCurvatures curvatures([[maybe_unused]] int face, [[maybe_unused]] const Vec3& x) const {
     return {};
   }
-  /// Returns the largest in any direction, >= 0.
+  /// Returns the largest absolute curvature in any direction; NaN if unknown.
   double face_curvature(int face, const Vec3& x) const { return std::abs(curvatures(face, x).most); }
 };
 
@@ -49,19 +49,19 @@ struct LeftOutFace {
 /// A polyline, or a single point, on a surface that is no part of its triangulation yet, see imprint().
 struct LooseLine {
   std::vector<Vec3> points;        ///< one: a point
-  std::vector<std::string> names;  ///< physical groups; may be empty
-  std::string where;               ///< what it is, for messages
-  /// Whether the user asked for it: all its points become nodes, and it must lie on the surface. Else it is
-  /// from the model's file. Then its ends and sharp turns become nodes, and it is left out with a warning
-  /// where it lies elsewhere.
+  std::vector<std::string> names;  ///< names of physical groups; may be empty
+  std::string where;               ///< label for messages
+  /// Whether the user requested it: then all its points become nodes, and it must lie on the surface.
+  /// Otherwise it is from the model's file. Its ends and sharp turns become nodes, and it is left out with a
+  /// warning if it is off the surface.
   bool is_requested = false;
 };
 
-/// A curve that stands in a face, with the face on both sides, and need not reach the face's boundary.
+/// A curve inside of a face, with the face on both sides, which need not reach the face's boundary.
 struct EmbeddedCurve {
   int curve;                 ///< index into SurfaceModel::fine.curves
   int face;                  ///< index into SurfaceModel::fine.regions
-  bool is_dangling = false;  ///< a short one, any way, from a single point
+  bool is_dangling = false;  ///< a short one, in any direction, at a single point
 };
 
 /// A model made of faces that share curves, as a fine conforming triangulation.
@@ -77,11 +77,11 @@ struct SurfaceModel {
   std::vector<int> corners;
   /// Null: the triangulation itself is the surface.
   std::shared_ptr<const SurfaceProjector> projector;
-  std::vector<LooseLine> loose;         ///< to be imprinted
+  std::vector<LooseLine> loose;         ///< lines that imprint() will add
   std::vector<EmbeddedCurve> embedded;  ///< by curve
   std::vector<LeftOutFace> left_out;
-  std::shared_ptr<const Mesh> before;  ///< `fine` before ignore_small(); null where that did not run
-  std::vector<Warning> warnings;       ///< what was repaired or looks suspicious
+  std::shared_ptr<const Mesh> before;  ///< `fine` before ignore_small(); null if it did not run
+  std::vector<Warning> warnings;       ///< repairs and suspicious parts
 };
 
 }  // namespace delquad

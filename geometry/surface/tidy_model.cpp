@@ -10,7 +10,7 @@ namespace delquad {
 
 namespace {
 
-/// Renumbers `of`, and takes out the entities that it does not name. Returns the former number of each.
+/// Renumbers `of`, and removes the entities that it does not have. Returns the former number of each.
 EntityGroups keep_used(std::vector<Entity>& entities, std::vector<int>& of) {
   std::vector<int> number(entities.size(), -1);
   for (const int e : of) number[e] = 0;
@@ -26,10 +26,10 @@ EntityGroups keep_used(std::vector<Entity>& entities, std::vector<int>& of) {
   return former;
 }
 
-/// Triangles around one point that hang together along edges of it.
+/// Triangles around a point that its edges connect.
 struct Fan {
   std::vector<int> triangles;
-  std::set<int> neighbours;  ///< of the point
+  std::set<int> neighbours;  ///< neighbors of the point
 };
 
 std::vector<Fan> fans_at(const Mesh& mesh, int point, const std::vector<int>& triangles) {
@@ -51,8 +51,7 @@ std::vector<Fan> fans_at(const Mesh& mesh, int point, const std::vector<int>& tr
   return fans;
 }
 
-/// Where fans touch at a point, those without a line there get points of their own: no node of a mesh will
-/// hold them together.
+/// Gives fans that touch at a point without a line own points, since no node of a mesh will join them.
 void split_touching_fans(Mesh& mesh) {
   std::vector<std::vector<int>> triangles_at(mesh.points.size()), lines_to(mesh.points.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)

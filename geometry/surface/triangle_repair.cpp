@@ -33,7 +33,7 @@ Triangle sorted_vertices(Triangle v) {
   return v;
 }
 
-/// Keeps the triangles for which keep(t), in order; returns how many went and where the first of them was.
+/// Number of removed triangles, and place of the first.
 struct Dropped {
   int count = 0;
   Vec3 first;
@@ -56,7 +56,7 @@ void leave_out_flat(Mesh& mesh, const std::string& source, std::vector<Warning>&
                                    counted(flat.count, "triangle"), show_point(flat.first)));
 }
 
-/// Gives a triangle that stands for one of another region, too, a region with the names of both.
+/// Gives a triangle that also replaces one of another region a region with the names of both.
 class CommonRegions {
  public:
   explicit CommonRegions(Mesh& mesh) : mesh_(mesh) {}
@@ -102,7 +102,7 @@ void remove_duplicates(Mesh& mesh, std::vector<Warning>& warnings) {
                                  counted(dropped.count, "triangle"), show_point(dropped.first)));
 }
 
-/// Whether the points of triangles lie in one plane, but for single precision.
+/// Returns whether the points of triangles lie in one plane, up to single precision.
 bool are_in_plane(const Mesh& mesh, const std::vector<int>& triangles, double tolerance) {
   Vec3 normal{};
   const auto corner = [&](int t, int k) { return mesh.points[mesh.triangles[t][k]]; };
@@ -118,8 +118,8 @@ bool are_in_plane(const Mesh& mesh, const std::vector<int>& triangles, double to
   });
 }
 
-/// Takes out flat parts that have the outline of another part, such as the face in which two bodies touch
-/// with other diagonals. Branching edges are their outlines. The first part stays.
+/// Removes flat parts with the outline of an earlier part, such as a common face of two bodies with other
+/// diagonals. Branching edges are their outlines.
 void take_out_flat_copies(Mesh& mesh, std::vector<Warning>& warnings) {
   DisjointSets sets(mesh.triangles.size());
   std::vector<std::pair<int, std::array<int, 2>>> bounds;  // a triangle and its branching edge
@@ -165,8 +165,8 @@ void take_out_flat_copies(Mesh& mesh, std::vector<Warning>& warnings) {
                                  show_point(dropped.first)));
 }
 
-/// Edges in more than two triangles: shells with ribs, bodies that touch. Where most are, these are the sides
-/// of cells that fill a volume.
+/// Warns of edges in more than two triangles, as of ribs or bodies that touch. Throws InputError if most
+/// edges are, as for cells that fill a volume.
 void warn_of_branches(const Mesh& mesh, const std::string& source, std::vector<Warning>& warnings) {
   int count = 0, n_edges = 0;
   Vec3 first;
@@ -184,8 +184,8 @@ void warn_of_branches(const Mesh& mesh, const std::string& source, std::vector<W
                                  counted(count, "edge"), show_point(first)));
 }
 
-/// For each line the number of a side along it. Lines that are no edges go, and those on the edge of an
-/// earlier one.
+/// Returns for each line the number of a side along it. Removes lines that are no edges, or on the edge of an
+/// earlier line.
 std::vector<int> settle_lines(Mesh& mesh, std::vector<Warning>& warnings) {
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   std::vector<int> side_of_line;
@@ -211,8 +211,8 @@ std::vector<int> settle_lines(Mesh& mesh, std::vector<Warning>& warnings) {
   return side_of_line;
 }
 
-/// Corners of triangles that share an edge at their vertex belong to one fan, also where more than two
-/// triangles share it. Corner 3 t + k is at the start of side 3 t + k. The fans, each by one of its corners.
+/// Returns the fans, as sets of corners. Corners of triangles that share an edge at their vertex belong to
+/// one fan, also at branching edges. Corner 3 t + k is at the start of side 3 t + k.
 DisjointSets fans(const Mesh& mesh) {
   DisjointSets corners(3 * mesh.triangles.size());
   const auto corner_at = [&](int side, int v) {
@@ -227,7 +227,7 @@ DisjointSets fans(const Mesh& mesh) {
   return corners;
 }
 
-/// Gives each fan at a vertex a vertex of its own.
+/// Gives each fan at a vertex an own vertex.
 void split_vertices(Mesh& mesh, std::vector<Warning>& warnings) {
   const std::vector<int> fan = fans(mesh).roots();
   std::vector<int> vertex_of_fan(fan.size(), -1);
@@ -305,9 +305,9 @@ int count_open_edges(const Mesh& mesh) {
   return n;
 }
 
-/// Tells of open edges that nearly meet others, where welding them has been tried and closes some.
+/// Warns of open edges that nearly meet others, if a trial shows that welding closes some.
 void report_gaps(const Mesh& mesh, const std::string& source, std::vector<Warning>& warnings) {
-  constexpr double kGap = 1e-5;  // of the diagonal: closer than any element will be small
+  constexpr double kGap = 1e-5;  // over the diagonal: smaller than any element
   const double whole = diagonal(mesh.points);
   const PointNames names = names_at_open_edges(mesh, kGap * whole);
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
@@ -316,7 +316,7 @@ void report_gaps(const Mesh& mesh, const std::string& source, std::vector<Warnin
   Vec3 first;
   for (int i = 0; i < static_cast<int>(names.size()); ++i) {
     const double width = norm(mesh.points[i] - mesh.points[names[i]]);
-    // Where the surface was parted both are at the same place.
+    // Both ends coincide where the surface was separated.
     if (width == 0 || !sides_of_edge(sides, i, names[i]).empty()) continue;
     if (gaps++ == 0) first = mesh.points[i];
     widest = std::max(widest, width);
@@ -334,7 +334,7 @@ void report_gaps(const Mesh& mesh, const std::string& source, std::vector<Warnin
           "a part of the diagonal) closes {} of {} [near-open-edges]",
           counted(gaps, "point"), widest, show_point(first), part, open - left, counted(open, "open edge")));
   } catch (const InputError&) {
-    // Welded it would be no surface.
+    // Welding would leave no surface.
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include "geometry/mesh/half_edges.h"
 
-/// This header numbers sides of triangles: side 3 t + k of triangle t runs from its vertex k to the next.
+// This header numbers sides of triangles: side 3 t + k of triangle t runs from its vertex k to the next.
 // Features of triangulations use it.
 namespace delquad {
 
@@ -14,6 +14,7 @@ inline int side_start(const Mesh& mesh, int side) { return mesh.triangles[side /
 inline int side_end(const Mesh& mesh, int side) { return mesh.triangles[side / 3][(side % 3 + 1) % 3]; }
 inline int next_side(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
 
+/// Returns the number of a half-edge of a triangle.
 inline int side_number(const Mesh& mesh, const HalfEdge& half) {
   const auto [start, end] = half.run();
   int side = 3 * half.element;
@@ -21,8 +22,7 @@ inline int side_number(const Mesh& mesh, const HalfEdge& half) {
   return side;
 }
 
-/// Returns for each side the other side of its edge, whichever way that runs; -1: there is none, or more than
-/// one.
+/// Returns for each side the other side of its edge, in either direction; -1: none, or more than one.
 inline std::vector<int> side_twins(const Mesh& mesh) {
   std::vector<int> twin(3 * mesh.triangles.size(), -1);
   for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
@@ -34,7 +34,7 @@ inline std::vector<int> side_twins(const Mesh& mesh) {
   return twin;
 }
 
-/// Returns the same where the two run opposite ways, so that their triangles agree.
+/// Returns the same, but only if both sides have opposite directions, so that their triangles agree.
 inline std::vector<int> agreeing_twins(const Mesh& mesh) {
   std::vector<int> twin = side_twins(mesh);
   for (int s = 0; s < static_cast<int>(twin.size()); ++s)

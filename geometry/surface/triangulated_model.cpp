@@ -23,7 +23,7 @@ namespace delquad {
 
 namespace {
 
-/// Unit normals; a sliver has the normal of its neighbor across its longest side.
+/// Returns unit normals; a sliver has the normal of its neighbor across its longest side.
 std::vector<Vec3> steady_normals(const Mesh& mesh, const std::vector<int>& twin) {
   constexpr double kSliver = 1e-6;  // of the diagonal: some units in the last place of single precision
   const double least_height = kSliver * diagonal(mesh.points);
@@ -40,13 +40,13 @@ std::vector<Vec3> steady_normals(const Mesh& mesh, const std::vector<int>& twin)
     }
     const auto& v = mesh.triangles[t];
     const Vec3 area = cross((1 / length) * (mesh.points[v[1]] - mesh.points[v[0]]),
-                            mesh.points[v[2]] - mesh.points[v[0]]);  // as long as the height
+                            mesh.points[v[2]] - mesh.points[v[0]]);  // vector as long as the height
     normal[t] = (1 / norm(area)) * area;
     if (norm(area) < least_height && twin[longest] >= 0) across[t] = twin[longest] / 3;
   }
   std::vector<Vec3> steady = normal;
   for (int t = 0; t < n; ++t) {
-    constexpr int kFarthest = 16;  // slivers side by side
+    constexpr int kFarthest = 16;  // most slivers side by side
     int at = t;
     for (int step = 0; step < kFarthest && across[at] >= 0; ++step) at = across[at];
     if (across[at] < 0) steady[t] = normal[at];
@@ -54,7 +54,7 @@ std::vector<Vec3> steady_normals(const Mesh& mesh, const std::vector<int>& twin)
   return steady;
 }
 
-/// For each side the angle between the normals of its triangles; 0 where there is no twin.
+/// Returns for each side the angle (radians) between the normals of its triangles; 0 without a twin.
 std::vector<double> side_angles(const Mesh& mesh, const std::vector<int>& twin) {
   const std::vector<Vec3> normal = steady_normals(mesh, twin);
   std::vector<double> angles(twin.size(), 0.0);
@@ -66,7 +66,7 @@ std::vector<double> side_angles(const Mesh& mesh, const std::vector<int>& twin) 
   return angles;
 }
 
-/// For each side what cut lies along it; the same for both sides of an edge.
+/// Returns the kind of cut along each side, the same for both sides of an edge.
 std::vector<int> find_cuts(const Mesh& mesh, const std::vector<int>& twin, const std::vector<double>& angle,
                            double feature_angle) {
   std::vector<int> cut(twin.size(), kNoCut);
@@ -87,7 +87,7 @@ std::vector<int> find_cuts(const Mesh& mesh, const std::vector<int>& twin, const
   return cut;
 }
 
-/// Takes cuts away from their loose ends. Adds the sides of given lines that went, and their curves.
+/// Removes cuts from their loose ends on. Adds the sides of removed given lines, with their curves.
 void drop_loose_ends(const Mesh& mesh, const std::vector<int>& twin, std::vector<int>& cut,
                      std::vector<std::pair<int, int>>& given) {
   std::vector<std::vector<int>> sides_at(mesh.points.size());  // one side of each cut edge
@@ -100,7 +100,7 @@ void drop_loose_ends(const Mesh& mesh, const std::vector<int>& twin, std::vector
     for (int p = seed; sides_at[p].size() == 1;) {
       const int s = sides_at[p][0];
       if (cut[s] >= 0) given.emplace_back(s, cut[s]);
-      cut[s] = cut[twin[s]] = kNoCut;  // a free edge has cuts at both ends: this one has a twin
+      cut[s] = cut[twin[s]] = kNoCut;  // a free edge has cuts at both ends, so this one has a twin
       const int q = side_start(mesh, s) == p ? side_end(mesh, s) : side_start(mesh, s);
       sides_at[p].clear();
       std::erase(sides_at[q], s);
@@ -109,7 +109,7 @@ void drop_loose_ends(const Mesh& mesh, const std::vector<int>& twin, std::vector
   }
 }
 
-/// Given lines that end inside faces, joined by curve.
+/// Returns given lines that end inside faces, joined by curve.
 std::vector<LooseLine> join_loose_lines(const Mesh& mesh, std::vector<std::pair<int, int>> sides,
                                         const std::string& source) {
   std::ranges::sort(sides);
@@ -133,7 +133,7 @@ std::vector<LooseLine> join_loose_lines(const Mesh& mesh, std::vector<std::pair<
   return loose;
 }
 
-/// Makes edges features again that are sharp enough and have their middle in one of the balls.
+/// Makes edges features again if they are sharp enough and have their middle in a ball.
 void keep_features(const Mesh& mesh, const std::vector<FeatureBall>& balls, const std::vector<double>& angle,
                    std::vector<int>& cut) {
   constexpr double kSharp = std::numbers::pi / 3;
@@ -145,7 +145,7 @@ void keep_features(const Mesh& mesh, const std::vector<FeatureBall>& balls, cons
   }
 }
 
-/// Numbers the parts between cuts in the order of their first triangles; returns the region of each.
+/// Numbers the parts between cuts in the order of their first triangles. Returns the region of each.
 std::vector<int> number_faces(Mesh& mesh, const std::vector<int>& twin, const std::vector<int>& cut) {
   std::vector<int> face = parts_between_cuts(twin, cut), region_of_face;
   for (std::size_t t = 0; t < face.size(); ++t)
@@ -154,23 +154,21 @@ std::vector<int> number_faces(Mesh& mesh, const std::vector<int>& twin, const st
   return region_of_face;
 }
 
-/// Returns the kind of a standing line of one of n given curves (kNewCut: of none), beyond all cuts; and
-/// back.
+/// Convert a given curve (kNewCut: none) to the kind of an embedded line, beyond the kinds of cuts, and back.
 int standing_kind(int n_curves, int curve) { return n_curves + 1 + curve; }
 bool is_standing_kind(int n_curves, int kind) { return kind >= n_curves; }
 int given_curve_of(int n_curves, int kind) {
   return is_standing_kind(n_curves, kind) ? kind - n_curves - 1 : kind;
 }
 
-/// Cuts, and `standing` lines besides (sides with the lines along them), become the lines of the model,
-/// joined into curves. Returns for each what lay along it, standing lines beyond the cuts: see
-/// standing_kind().
+/// Makes lines of the model from cuts and from `standing` lines (sides with their curves), joined to curves.
+/// Returns the kind of each curve, see standing_kind().
 std::vector<int> make_curves(SurfaceModel& model, const std::vector<int>& twin, const std::vector<int>& cut,
                              double angle, const std::vector<std::pair<int, int>>& standing = {}) {
   Mesh& mesh = model.fine;
   mesh.lines.clear();
   std::vector<int> given;
-  std::set<std::pair<int, int>> seen;  // where the surface branches, no side has a twin
+  std::set<std::pair<int, int>> seen;  // sides have no twin where the surface branches
   for (int s = 0; s < static_cast<int>(cut.size()); ++s) {
     if (cut[s] == kNoCut || (twin[s] >= 0 && twin[s] < s)) continue;
     if (twin[s] < 0 && !seen.insert(std::minmax({side_start(mesh, s), side_end(mesh, s)})).second) continue;
@@ -194,8 +192,8 @@ std::vector<int> make_curves(SurfaceModel& model, const std::vector<int>& twin, 
   return kinds;
 }
 
-/// Lines that stand in faces. They are given lines that end there, and lines that go on from these and from
-/// named points on no line. One edge alone would enclose nothing.
+/// Embedded lines: given lines that end inside faces, continued by an edge, and two edges at named points on
+/// no line. A single edge would enclose nothing.
 class StandingLines {
  public:
   StandingLines(const Mesh& mesh, const std::vector<int>& twin, const std::vector<int>& element,
@@ -236,7 +234,7 @@ class StandingLines {
     lines_.emplace_back(side, kNewCut);
     count(side);
   }
-  /// Goes on from v, away from `from`.
+  /// Extends a line from v, away from `from`.
   void extend(int v, int from) {
     const auto ahead = [&](int side) {
       const int w = other_end(side, v);
@@ -248,8 +246,8 @@ class StandingLines {
 
   const Mesh& mesh_;
   std::vector<std::pair<int, int>> lines_;
-  std::vector<std::vector<int>> sides_at_;  ///< that are no diagonals, one for each edge
-  std::vector<int> count_;                  ///< of cuts and lines, by point
+  std::vector<std::vector<int>> sides_at_;  ///< sides that are no diagonals, one for each edge
+  std::vector<int> count_;                  ///< number of cuts and lines at each point
 };
 
 double checked_angle(const TriangulatedOptions& options) {
@@ -258,7 +256,7 @@ double checked_angle(const TriangulatedOptions& options) {
   return options.feature_angle * std::numbers::pi / 180;
 }
 
-/// Takes what noise makes from the cuts, and tells of it; `loose`: as of drop_loose_ends().
+/// Removes cuts from noise, with a warning, and loose ends; `loose` is as in drop_loose_ends().
 void drop_noise_and_ends(SurfaceModel& model, const std::vector<int>& twin, const std::vector<double>& angles,
                          std::vector<int>& cut, std::vector<std::pair<int, int>>& loose) {
   drop_loose_ends(model.fine, twin, cut, loose);

@@ -14,13 +14,13 @@
 
 namespace delquad {
 
-/// Shape functions of an element and their slopes at a place.
+/// Shape functions of an element and their slopes at a place, by node.
 struct Shape {
   static constexpr std::size_t kMost = (kMostOrder + 1) * (kMostOrder + 1);
   std::array<double, kMost> value, along_s, along_t;
 };
 
-/// A quadrature point of an element.
+/// A quadrature point of an element, in [0, 1]; weights sum up to the area of its domain.
 struct Quadrature {
   double s, t, weight;
 };
@@ -36,12 +36,16 @@ class Elements {
   std::span<const int> nodes(int element) const {
     return std::span(nodes_).subspan(start_[element], start_[element + 1] - start_[element]);
   }
+  /// Returns the shape functions at (s, t) of an element's domain: Lagrange polynomials on equal parts.
   Shape shape(int element, double s, double t) const;
-  /// Returns the shape at the element's nearest place to x, searched from a guess.
+  /// Returns the shape at the element's nearest place to x, by Newton's method from the guess (s, t); there
+  /// if it fails.
   Shape shape_at(int element, const Vec3& x, double s, double t) const;
+  /// Returns a field with these values at points, or a point of space, at a place.
   double value(int element, const Shape& shape, std::span<const double> values) const;
   Vec3 point(int element, const Shape& shape) const;
-  /// Returns the area factor of the map, and replaces slopes along s and t by slopes in the plane.
+  /// Returns the area factor >= 0 of the map to the xy-plane, and replaces slopes along s and t by slopes
+  /// along x and y.
   double to_plane(int element, Shape& shape) const;
   /// Returns points that are exact for products of two shape functions, a linear one and the area factor.
   std::span<const Quadrature> quadrature(int element) const;
@@ -61,9 +65,9 @@ class ElementFinder {
   explicit ElementFinder(const Mesh& mesh);
   struct Found {
     int element;
-    double s, t;  ///< on the element as two triangles
+    double s, t;  ///< place in the element's domain, exact for straight triangles only
   };
-  /// Returns the element; `hint` is -1 at first.
+  /// Returns the element at x, or the nearest one; `hint` is -1 at first.
   Found at(const Vec3& x, int& hint) const;
 
  private:
@@ -71,12 +75,13 @@ class ElementFinder {
   int n_triangles_;
 };
 
-/// Throws InputError, with the name `what`, for a mesh without elements.
+/// Throws InputError, with the name `what`, for a mesh that is not readable or has no elements.
 void require_elements(const Mesh& mesh, const std::string& what);
 /// Throws InputError if no two elements share a point, as in files of discontinuous fields.
 void require_joined(const Mesh& mesh, const std::string& what);
+/// Throws InputError also if the elements have different z.
 void require_planar(const Mesh& mesh, const std::string& what);
-/// Throws InputError unless each point of elements has a finite value.
+/// Throws InputError unless there is a value for each point, finite at nodes of elements.
 void require_values(const Mesh& mesh, std::span<const double> values, const std::string& name);
 
 }  // namespace delquad

@@ -12,9 +12,10 @@
 
 namespace delquad {
 
-/// Items of one piece of work. It does not depend on the number of threads, so neither do results.
+/// Items of one block. It does not depend on the number of threads, so neither do results.
 inline constexpr std::size_t kBlock = 2048;
 
+/// Returns the number of blocks of n items.
 inline std::size_t n_blocks(std::size_t n) { return (n + kBlock - 1) / kBlock; }
 
 /// Calls work(begin, end) for each block of [0, n) in parallel, see parallel_for().

@@ -10,11 +10,11 @@
 
 namespace delquad {
 
-/// Bounded Voronoi diagram of a triangulation's points, boundary points included. The cell of a seed is the
-/// part of the patch that sees it and sees no nearer seed. It is dual to the constrained Delaunay
-/// triangulation [tournois2010]. Inside the patch the circumcenter of a triangle is a corner of three cells.
-/// If it lies beyond a boundary edge, the triangle is blind, and the edges between cells end on that boundary
-/// edge.
+/// Bounded Voronoi diagram of a triangulation's points, boundary points included, in the parameter plane. The
+/// cell of a seed is the part of the patch that sees it and sees no nearer seed. It is dual to the
+/// constrained Delaunay triangulation [tournois2010]. Inside the patch the circumcenter of a triangle is a
+/// corner of three cells. If it lies beyond a boundary edge, the triangle is blind, and the edges between
+/// cells end on that boundary edge.
 ///
 /// Since all boundary points are seeds, no cell reaches around a corner of the boundary, and the diagram is
 /// continuous in the seeds.
@@ -40,8 +40,9 @@ class BoundedVoronoi {
 
   /// Returns the circumcenter of each triangle.
   const std::vector<Vec2>& centres() const { return centres_; }
-  /// Returns whether the cell of a seed has corners other than circumcenters of its triangles.
+  /// Returns whether the cell of a seed has corners other than circumcenters, or is at the boundary.
   bool is_cut(int seed) const { return cut_[seed] != 0; }
+  /// Returns whether the circumcenter of a triangle lies beyond a boundary edge.
   bool is_blind(int triangle) const { return blind_[triangle] >= 0; }
   /// Returns where the edge dual to side k of a blind triangle ends: a clip or kOutside.
   int clip_of(int triangle, int k) const { return clip_of_[blind_[triangle]][k]; }

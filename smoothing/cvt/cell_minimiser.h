@@ -27,15 +27,18 @@ namespace delquad {
 /// Seeds with fixed weights would settle at widths of delta'^(1 + 2/p).
 class CvtProblem {
  public:
+  /// Takes an even p from 2 to 16; otherwise throws InputError. hold_frames() must come before other calls.
   CvtProblem(MovingDelaunay delaunay, int p);
 
-  /// Takes cross and size at the current points.
+  /// Takes cross and size at the current points. The size must be positive there.
   void hold_frames(const CrossField& cross, const ParametricSize& size);
 
+  /// Returns the number of inner points, which are the variables.
   int n_free() const { return delaunay_.n_points() - delaunay_.n_boundary(); }
+  /// Returns the inner points, in the parameter plane.
   std::vector<Vec2> seeds() const;
-  /// Moves the seeds and returns F; nothing if the places are not admissible (MovingDelaunay::move_to,
-  /// BoundedVoronoi::build). It is free if the seeds are already there.
+  /// Moves the seeds, n_free() of them, and returns F; nothing if the places are not admissible
+  /// (MovingDelaunay::move_to, BoundedVoronoi::build). If the seeds are already there, it costs nothing.
   std::optional<double> evaluate(std::span<const Vec2> seeds);
   /// Returns dF/dx for each seed at the last evaluation.
   std::span<const Vec2> gradient() const;
@@ -70,7 +73,7 @@ enum class MinimiserTermination {
 
 struct MinimiserOptions {
   int iterations = 25;               ///< limit of iterations
-  double function_tolerance = 1e-5;  ///< converged if a step lowers F by less than this times F
+  double function_tolerance = 1e-5;  ///< converged if a step lowers F by less than this times F; >= 0
   double gradient_tolerance = 0;     ///< converged if no derivative by a seed, in newton_scale(), is larger
 };
 

@@ -21,9 +21,9 @@ struct CellEnd {
   Vec2 at;
 };
 
-/// Calls edge(first, second) for each edge between the cell of a seed and another cell, counterclockwise. At
-/// a boundary seed, edges also end in the middles of its boundary edges. The triangles (seed, first, second)
-/// and the pieces of the boundary in the cell make up the cell.
+/// Calls edge(first, second), with CellEnds, for each edge between the cell of a seed and another cell,
+/// counterclockwise. At a boundary seed, edges also end in the middles of its boundary edges. The triangles
+/// (seed, first, second) and the pieces of the boundary in the cell make up the cell.
 template <class Edge>
 void walk_cell(const MovingDelaunay& delaunay, const BoundedVoronoi& cells, int seed, Edge edge) {
   const TriPatch& tri = delaunay.patch();

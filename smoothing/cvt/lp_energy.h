@@ -17,7 +17,7 @@ struct SeedFrames {
   std::vector<Vec2> axis;      ///< unit vector along one direction of the cross
   std::vector<double> weight;  ///< > 0
   std::vector<Vec2> slope;     ///< gradient of log weight
-  std::vector<Vec2> from;
+  std::vector<Vec2> from;      ///< place of the seed when `weight` was taken
 };
 
 /// Throws InputError unless p is even, from 2 to 16.
@@ -31,6 +31,7 @@ void check_norm(int p);
 /// continuous first derivatives, also if the triangulation changes.
 class LpEnergy {
  public:
+  /// Throws as check_norm().
   explicit LpEnergy(int p);
 
   /// Returns F. `gradient` gets its exact derivative by each point, with fixed axes: through corners of

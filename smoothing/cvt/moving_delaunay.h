@@ -15,8 +15,8 @@ namespace delquad {
 /// Next and previous corner of a triangle, counterclockwise.
 inline constexpr std::array<int, 3> kNextCorner = {1, 2, 0}, kLastCorner = {2, 0, 1};
 
-/// Constrained Delaunay triangulation whose inner points move between fixed boundary points. It follows the
-/// points by flips, and is rebuilt only if a triangle would be inverted.
+/// Constrained Delaunay triangulation whose inner points move between fixed boundary points, in the parameter
+/// plane. It follows the points by flips, and is rebuilt only if a triangle would be inverted.
 ///
 /// If four points are cocircular up to rounding, either diagonal stays.
 class MovingDelaunay {
@@ -31,8 +31,8 @@ class MovingDelaunay {
   /// the other.
   std::span<const int> corners(int i) const { return {&stars_[star_[i].begin], star_[i].count}; }
 
-  /// Moves all inner points. Returns false if a point is outside the patch, on its boundary or on another
-  /// point. Then the points are somewhere on their way.
+  /// Moves all inner points, in their order. Returns false if a point is outside the patch, on its boundary
+  /// or on another point. Then the points are somewhere on their way.
   bool move_to(std::span<const Vec2> inner);
 
   /// Returns the work of the moves so far.

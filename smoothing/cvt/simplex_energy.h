@@ -10,8 +10,8 @@
 
 namespace delquad {
 
-/// An integral over a triangle and its derivatives by two corners. The derivative by the third one, the
-/// origin, is minus their sum if the corners move with it.
+/// An integral over a triangle (0, first, second) and its derivatives by two corners. The derivative by the
+/// third one, the origin, is minus their sum if the corners move with it.
 struct SimplexEnergy {
   double value = 0;
   Vec2 by_first, by_second;

@@ -20,7 +20,7 @@ struct SmoothingOptions {
   MinimiserOptions inner;    ///< options of each
 };
 
-/// Throws InputError that names an option out of its range.
+/// Throws InputError, with the name, if an option is out of its range.
 void check_options(const SmoothingOptions& options);
 
 enum class SmoothingTermination {
@@ -71,8 +71,9 @@ struct Counters<SmoothingSummary> {
 };
 
 /// Moves the inner points of a patch so that their Voronoi cells become squares of side delta' along the
-/// cross [paper, section 7]. The number of points limits this. Boundary points stay. Returns the constrained
-/// Delaunay triangulation of the moved points, in their order.
+/// cross [levy2010; baudouin2014]. The number of points limits this. Boundary points stay. Returns the
+/// constrained Delaunay triangulation of the moved points, in their order. Throws InputError for options out
+/// of range and flat or inverted triangles.
 TriPatch smooth_points(const TriPatch& patch, const CrossField& cross, const ParametricSize& size,
                        const SmoothingOptions& options = {}, SmoothingSummary* summary = nullptr);
 

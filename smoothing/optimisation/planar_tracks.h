@@ -30,7 +30,7 @@ class PlanarTracks final : public VertexTracks<Vec2> {
 
   const std::vector<Vec2>& points() const { return points_; }
   const std::vector<std::array<int, 4>>& quads() const { return quads_; }
-  /// Writes places to the patches.
+  /// Writes the places of all vertices to the patches' meshes.
   void store(const std::vector<Vec2>& points);
 
   Vec2 position(int v) const override { return slides(v) ? Vec2{places_[v].t, 0} : points_[v]; }

@@ -14,7 +14,7 @@
 
 namespace delquad {
 
-/// Weights of the parts of the energy.
+/// Weights of the parts of the energy, all >= 0.
 struct QuadEnergyWeights {
   double bad = 2;            ///< weight of the second term of quads against the first
   int bad_power = 2;         ///< exponent of the second term
@@ -32,22 +32,22 @@ struct MovingVertex {
   std::array<Vec, 2> axes;
 };
 
-/// Input of an energy, in the plane (Vec2) or in space (Vec3).
+/// Input of an energy, in the plane (Vec2) or in space (Vec3), with lengths in one unit.
 template <class Vec>
 struct QuadEnergyMesh {
   std::vector<Vec> points;
   std::vector<std::array<int, 4>> quads;  ///< counterclockwise; in space as seen from outside
   std::vector<MovingVertex<Vec>> moving;  ///< each vertex at most once
-  std::vector<double> delta;              ///< wanted edge length by vertex
-  /// Lengths that the sides of each quad, by first corner, should stay well above.
+  std::vector<double> delta;              ///< wanted edge length > 0 by vertex
+  /// Lengths >= 0 that the sides of each quad, by first corner, should stay well above.
   std::vector<std::array<double, 4>> least_lengths;
-  std::vector<double> kept_sine;  ///< sine of corners by quad; smaller sines matter less steeply
-  std::vector<double> weight;     ///< weight of each quad's shape
+  std::vector<double> kept_sine;  ///< sine by quad, in [0, 1]; smaller sines matter less steeply
+  std::vector<double> weight;     ///< weight > 0 of each quad's shape
   /// Returns a unit vector along an arm of the cross on a side of a quad, by its first corner; zero: none.
   std::function<Vec(int quad, int side)> arm;
 };
 
-/// Energy of vertex optimization: the sum of
+/// Energy of vertex optimization (own): the sum of
 /// - weight * (s^(1/2) + bad * s^bad_power) over quads, s the sum over corners of 1/sin alpha - 1. The first
 ///   term is about as linear in |angle - 90 degrees| as eta. The second one protects bad quads from being
 ///   traded for a better mean.
@@ -65,10 +65,11 @@ struct QuadEnergyMesh {
 /// blocks the others. Corners with three fixed vertices do not count. In space, the angle of a corner lies
 /// between its sides, and is reflex if it turns against the initial normal of its quad.
 ///
-/// Variables: x, y of each moving vertex.
+/// Variables: x, y of each moving vertex, in multiples of its axes.
 template <class Vec>
 class QuadEnergy {
  public:
+  /// Lists of the mesh must have one entry for each vertex, or for each quad.
   QuadEnergy(QuadEnergyMesh<Vec> mesh, const QuadEnergyWeights& weights);
 
   int variables() const { return 2 * static_cast<int>(moving_.size()); }
@@ -76,7 +77,7 @@ class QuadEnergy {
   /// no length. It runs on several threads, with the same result for any number; only one call at a time is
   /// allowed.
   bool evaluate(const double* x, double& energy, double* gradient) const;
-  /// Returns all points of the mesh after a displacement.
+  /// Returns all points of the mesh after a displacement by variables().
   std::vector<Vec> points(const double* x) const;
 
  private:
@@ -143,7 +144,7 @@ struct EnergyDescent {
   double energy_before = 0, energy_after = 0;
 };
 
-/// Lowers the energy from x = 0, where it must be finite, by L-BFGS (Ceres).
+/// Lowers the energy from x = 0, where it must be finite, by L-BFGS (Ceres), in at most `max_iterations`.
 template <class Vec>
 EnergyDescent minimise(const QuadEnergy<Vec>& energy, int max_iterations);
 

@@ -125,7 +125,7 @@ class TrackOptimisation {
                     VertexTracks<Vec>& tracks, const OptimisationOptions& options)
       : points_(points), quads_(quads), tracks_(tracks), options_(options) {}
 
-  /// Must be called once, before all others.
+  /// Finds the vertices that may move. Must be called once, before all others.
   void find_free();
   OptimisationSummary run();
   /// Returns the least eta of movable quads.

@@ -69,23 +69,23 @@ template <class Vec>
 class VertexTracks {
  public:
   virtual ~VertexTracks() = default;
-  /// Returns the parameters on the surface, or the parameter on the curve and 0.
+  /// Returns the parameters in the patch's plane, or the parameter on the curve and 0.
   virtual Vec2 position(int v) const = 0;
-  /// Puts v at a position and returns its place. The range of a curve limits it.
+  /// Puts v at a position, within the range of a curve, and returns its place.
   virtual Vec put(int v, Vec2 position) = 0;
   /// Returns the derivatives of v's place by its position; zero: it does not move that way.
   virtual std::array<Vec, 2> axes(int v) const = 0;
-  /// Returns the wanted edge length.
+  /// Returns the wanted edge length at a place, > 0.
   virtual double delta(const Vec& place, TrackHint& hint) const = 0;
   /// Returns a unit vector along an arm of the cross on a side of a quad, by its first corner; zero: none.
   virtual Vec arm(int quad, int side, TrackHint& hint) const = 0;
 };
 
-/// Moves all vertices of a quad mesh to a minimum of QuadEnergy by L-BFGS (Ceres). In each pass, vertices
-/// around the worst quads move first, with a higher weight of bad quads. Then all move; after the first pass,
-/// only vertices around quads that are not good yet. `points` has the places of the vertices on their tracks,
-/// and is updated. Several threads work on a large mesh block by block (ElementBlocks), each block with its
-/// own passes.
+/// Moves all vertices of a quad mesh to a minimum of QuadEnergy by L-BFGS (Ceres); the passes are own. In
+/// each pass, vertices around the worst quads move first, with a higher weight of bad quads. Then all move;
+/// after the first pass, only vertices around quads that are not good yet. `points` has the places of the
+/// vertices on their tracks, and is updated. Several threads work on a large mesh block by block
+/// (ElementBlocks), each block with its own passes.
 ///
 /// Vertices of flat or inverted quads stay. In each pass vertices move along tangents and are then put on
 /// their tracks. Limits hold for each quad: its least sine may fall by half a percent, or to the sine of
@@ -97,9 +97,9 @@ template <class Vec>
 OptimisationSummary optimise_on_tracks(std::vector<Vec>& points, const std::vector<std::array<int, 4>>& quads,
                                        VertexTracks<Vec>& tracks, const OptimisationOptions& options = {});
 
-/// Opens edges without length and untangles inverted or flat quads with their surroundings. Connectivity and
-/// boundary points stay. Returns the number of repaired quads. Throws std::invalid_argument if there are such
-/// quads and the input is not conforming.
+/// Opens edges without length and untangles inverted or flat quads [escobar2003] with their surroundings.
+/// Connectivity and boundary points stay. Returns the number of repaired quads. Throws std::invalid_argument
+/// if there are such quads and the input is not conforming.
 int untangle_flat(QuadPatch& mesh, const ParametricSize& size);
 
 }  // namespace delquad

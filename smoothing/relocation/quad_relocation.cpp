@@ -75,7 +75,7 @@ struct Sums {
   Number cost{}, flat{}, least_sine = Number{} + 1;
   Number gx{}, gy{}, hxx{}, hxy{}, hyy{};
 
-  /// `turn_x`, `turn_y` is the gradient of the corner's angle.
+  /// Adds a corner. The vector (`turn_x`, `turn_y`) is the gradient of its angle.
   void add_corner(Number sine, Number cosine, Number turn_x, Number turn_y) {
     const Number zero{};
     const Number excess = larger(zero, kSteepSine - sine);
@@ -94,7 +94,7 @@ struct Sums {
       hyy += second * turn_y * turn_y;
     }
   }
-  /// `wall` is the weight of walls at the misfits `low` and `high`.
+  /// Adds an edge. `wall` is the weight of walls at the misfits `low` and `high`.
   void add_edge(Number ux, Number uy, Number inverse, Number misfit, double wall, double low, double high) {
     const Number zero{};
     const Number beyond = smaller(zero, misfit - low) + larger(zero, misfit - high);

@@ -13,7 +13,8 @@
 
 namespace delquad {
 
-/// Moves the interior vertices of a quad mesh one by one towards right angles and wanted lengths.
+/// Moves the interior vertices of a quad mesh one by one towards right angles and wanted lengths, in the
+/// parameter plane. The method is own.
 ///
 /// Each vertex lowers a sum. Over corners that its place changes and over its edges, the terms are
 /// - c + 40 max(0, c - 0.95)^2 with c = 1 - sin alpha;
@@ -30,6 +31,7 @@ class QuadRelocation {
   /// move of a part of delta'.
   QuadRelocation(QuadTopology& mesh, const ParametricSize& size);
 
+  /// Returns delta' at a vertex.
   double delta(int v) const { return delta_[v]; }
   const QuadLimits& limits() const { return size_.limits; }
   /// Evaluates delta' at new vertices, `first` and later ones.
@@ -40,29 +42,32 @@ class QuadRelocation {
   void keep_convex_corners() { keep_convex_corners_ = true; }
   /// Holds lengths within walls, by a term without bound.
   void hold_lengths() { wall_weight_ = kWallWeight; }
-  /// Forbids steps that take the least sine around a vertex below both this and its old value.
+  /// Forbids steps that take the least sine around a vertex below both this, in [-1, 1], and its old value.
   void keep_sines_above(double sine) { kept_sine_ = sine; }
 
   /// Marks v for the next sweeps, unless it is on the boundary or dead.
   void activate(int v);
+  /// Marks all vertices inside of the mesh.
   void activate_all();
   /// Marks the vertices of a block that it works on.
   void activate_all(const QuadBlock& block);
   /// Visits active vertices until no move exceeds `tolerance` (in shortest edges of the vertex), or
   /// `max_sweeps` are done. Returns the number of moves.
   long long relax(double tolerance, int max_sweeps);
-  /// Lifts the worst elements. While quads below `eta` improve, their vertices and neighbors move to raise
-  /// the worst corner around them. The least eta around a vertex never falls. Returns the number of moves.
+  /// Lifts the worst elements. While quads below `eta`, in [0, 1], improve, their vertices and neighbors move
+  /// to raise the worst corner around them. The least eta around a vertex never falls. Returns the number of
+  /// moves.
   long long lift_worst(double eta, int max_sweeps);
 
   /// Makes a Newton step of v. Returns its length in shortest edges of v; 0 on the boundary or if v is dead.
   double step(int v);
-  /// Moves v to the largest least sine nearby, unless the sine is at least `enough`. Returns its growth.
+  /// Moves v to the largest least sine around it nearby, unless this sine is at least `enough`. Returns its
+  /// growth, >= 0.
   double lift(int v, double enough);
   /// Returns the sum of crowding_of() over the inner sides of an element. Sides that end on the boundary may
   /// be as short as its edges. In narrow places quads reach across the domain.
   double crowding(int element) const { return crowding(element, -1, {}, 0); }
-  /// Returns the vertex's part of the objective at its place.
+  /// Returns the sum above for a vertex at its place.
   double cost(int v);
   /// Returns the number of elements around visited vertices, with repetition: the work done.
   long long looks() const { return looks_; }
@@ -107,6 +112,7 @@ class QuadRelocation {
   Lengths look_from(Vec2 at) const;
   template <class Number, bool kDerivatives>
   Value add_up(Derivatives* derivatives) const;
+  /// Returns whether a step leaves the region of the vertex.
   bool strays(Vec2 from, Vec2 to) const;
   bool is_narrow(int element) const;
   double crowding(int element, int moved, Vec2 to, double delta_there) const;

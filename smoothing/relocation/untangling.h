@@ -20,12 +20,12 @@ namespace delquad {
 /// with the least a x b.
 bool untangle(QuadTopology& mesh, std::span<const int> vertices);
 
-/// Returns false if lengthen_short_edges() would move nothing.
+/// Returns whether an edge is shorter than 1e-3 delta', so that lengthen_short_edges() might move a vertex.
 bool may_have_short_edges(const QuadPatch& mesh, const ParametricSize& size);
 
-/// Lengthens edges shorter than 1e-3 delta'. Their directions are noise, and so are the angles beside them,
-/// so relocation cannot help. An interior end moves towards the middle of its neighbors, to the largest least
-/// sine around. Returns the number of moved vertices.
+/// Lengthens edges shorter than 1e-3 delta' (own method). Their directions are noise, and so are the angles
+/// beside them, so relocation cannot help. An interior end moves towards the middle of its neighbors, to the
+/// largest least sine around. Returns the number of moved vertices.
 int lengthen_short_edges(QuadTopology& mesh, const ParametricSize& size);
 
 }  // namespace delquad

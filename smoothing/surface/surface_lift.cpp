@@ -407,7 +407,7 @@ class FailingRepair final : public SurfaceMoves {
 
   bool is_gain(double deficit, double before) const override { return deficit < before - kLeastRepair; }
 
-  /// Not below the requirement and the initial length.
+  /// Returns the least of the required and the initial length.
   double least_edge(int v) const override {
     return std::min(shortest_edge(v, start_), limits_.kept.shortest * delta_[v]);
   }

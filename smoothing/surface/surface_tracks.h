@@ -14,8 +14,9 @@
 
 namespace delquad {
 
-/// The vertices of all patches of a surface as one mesh. Nodes inside curves slide along them, ends of curves
-/// stay, and vertices inside a patch move in its parameter plane. Vertices of leftover triangles stay.
+/// The vertices of all patches of a surface as one mesh in space. Nodes inside curves slide along them, ends
+/// of curves stay, and vertices inside a patch move in its parameter plane. Vertices of leftover triangles
+/// stay.
 ///
 /// The nodes of curves come first, then the vertices inside each patch. All arguments must outlive this
 /// object.
@@ -33,7 +34,7 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
 
   const std::vector<Vec3>& points() const { return points_; }
   const std::vector<std::array<int, 4>>& quads() const { return quads_; }
-  /// Writes places and positions to the patches and nodes.
+  /// Writes places in space and positions to the patches and nodes.
   void store(const std::vector<Vec3>& points);
 
   Vec2 position(int v) const override { return position_[v]; }
@@ -42,15 +43,17 @@ class SurfaceTracks final : public VertexTracks<Vec3> {
   double delta(const Vec3& place, TrackHint& hint) const override { return size_.at(place, hint.size); }
   Vec3 arm(int quad, int side, TrackHint& hint) const override;
 
-  /// Place on a vertex's track.
+  /// Place on a vertex's track: its parameters and its point in space.
   struct TrackPlace {
     Vec2 position;
     Vec3 place;
   };
-  /// Returns the spot next to x, searched from the nearby spot `from`. On a CAD face it is the face's nearest
-  /// point to x, even outside the fine triangles; its position is then a guess.
+  /// Returns the place of the track next to x, searched from the nearby place `from`. On a CAD face it is the
+  /// face's nearest point to x, even outside the fine triangles; its position is then a guess.
   TrackPlace track_place_near(int v, const TrackPlace& from, const Vec3& x) const;
+  /// Moves v to such a place, without a projection.
   void put(int v, const TrackPlace& spot);
+  /// Returns whether the model knows its true surfaces.
   bool is_on_cad() const { return model_.projector != nullptr; }
   bool is_on_curve(int v) const { return vertex_patch_[v] < 0; }
   /// Returns the outward normal (of any length) of the fine triangles around each quad's initial corners.

@@ -19,27 +19,27 @@ namespace delquad {
 
 namespace {
 
-/// The most that a side turns with a curved face or curve (radians), however coarse its chords may be.
+/// Largest turn (radians) of a side along a curved face or curve, however coarse its chords may be.
 constexpr double kLargestTurn = std::numbers::pi / 3;
 /// The sagitta of a straight side along a curve, in lengths across it.
 constexpr double kMostSagitta = 0.2;
-/// Where a curve asks a face for sides that are shorter by more than this factor, rows have to end.
+/// Largest factor by which a curve may shorten sides of a face without rows that end.
 constexpr double kMostShorter = 1.5;
-/// The growth of lengths where none is asked for: of those by curvature, which jump, and beside curves.
+/// Growth of lengths if none is requested: for lengths by curvature, which jump, and beside curves.
 constexpr double kGradation = 1.5;
 /// Relative amount by which a tensor may be below the demand of gradation.
 constexpr double kGraded = 1e-3;
 constexpr int kMostSweeps = 200, kMostRefinings = 4, kMostScalings = 20;
-/// How near the complexity comes to what is asked.
+/// Relative tolerance of the complexity.
 constexpr double kNearComplexity = 0.005;
-/// In the metric. Sides are halved if they are longer than kShortest and lengths along them differ by more
-/// than kSteepest (as a logarithm). The longest sides are halved in any case. For metrics that are functions,
-/// sides longer than a part of the model's diagonal are halved, too.
+/// Limits of sides in the metric. Sides are halved if they are longer than kShortest and lengths along them
+/// differ by more than kSteepest (as a logarithm). Sides longer than kLongest are halved in any case. For
+/// metrics that are functions, sides longer than a part of the model's diagonal are halved, too.
 constexpr double kShortest = 0.6, kLongest = 3, kSteepest = 0.25, kLargestSide = 1.0 / 64;
 constexpr std::size_t kMostPoints = 4'000'000;
 
-/// No length is less than the least of both. Planes of slivers turn from point to point, and intersections
-/// would become ever smaller there.
+/// Returns the intersection of both, but with no length below the least of both. Planes of slivers turn from
+/// point to point, so lengths would become ever smaller there.
 Tensor2 finer_of(const Tensor2& a, const Tensor2& b) {
   return limited(intersection(a, b), {.min = std::min(axes_of(a).h1, axes_of(b).h1)});
 }
@@ -90,7 +90,7 @@ int SurfaceMetric::add(int face, int node, const Vec3& x, const Vec3& normal) {
 double SurfaceMetric::length_for(double curvature) const {
   const double k = std::abs(curvature);
   if (!(k > 0)) return wanted_.spec.limits.max;
-  // A side strays from whatever arc by no more than half of its length.
+  // A side strays from any arc by at most half of its length.
   const double chord = wanted_.spec.chord, least = std::min(2 * chord, wanted_.spec.limits.max);
   return std::clamp(std::min(std::sqrt(8 * chord / k), kLargestTurn / k), least, wanted_.spec.limits.max);
 }
@@ -133,7 +133,7 @@ bool SurfaceMetric::shorten_along(Site& site, const Vec3& direction, double most
   const double square = metric_square((1 / norm(direction)) * direction, site.metric) * most * most;
   if (!(square < 1 - kGraded)) return false;
   const Vec2 along = site.metric.in_plane(direction);
-  // By curvature in all directions where rows have to end, or the face has no directions.
+  // Takes the curvature in all directions if rows must end or the face has no directions.
   const MetricAxes axes = axes_of(m);
   const bool is_round = wanted_.spec.chord > 0 &&
                         (square < 1 / (kMostShorter * kMostShorter) || axes.h2 < (1 + kGraded) * axes.h1);
@@ -142,7 +142,7 @@ bool SurfaceMetric::shorten_along(Site& site, const Vec3& direction, double most
   return true;
 }
 
-/// Sides along a curve follow it: by its chords, or by the lengths across it.
+/// Limits sides along each curve by its chords, or by the lengths across it.
 void SurfaceMetric::follow_curves(const SurfaceModel& model, std::vector<char>& is_less) {
   const Mesh& fine = model.fine;
   const auto& [spec, curvature, spots] = wanted_;
@@ -171,14 +171,14 @@ void SurfaceMetric::compose(const SurfaceModel& model) {
   grade(model.fine, std::move(is_less));
 }
 
-/// Each sweep goes on from the changes of the sweep before. By curvature, lengths grow with the distance in
-/// space, so that a length beside a curve soon counts in all directions. Otherwise they grow with the length
-/// in the metric.
+/// Limits the growth of lengths in sweeps, each from the changes of the one before. By curvature, lengths
+/// grow with the distance in space, so that a length beside a curve soon counts in all directions. Otherwise
+/// they grow with the length in the metric.
 void SurfaceMetric::grade(const Mesh& fine, std::vector<char> is_new) {
   struct Link {
     int from, to;
     Vec3 way;
-    bool is_curve;  ///< of two faces at a point of a curve, which runs that way
+    bool is_curve;  ///< two faces at a point of a curve in this direction
     auto key() const { return std::pair(from, to); }
   };
   std::vector<Link> links;
@@ -309,7 +309,7 @@ double SurfaceMetric::at(const Vec3& x, int& hint) const {
   return std::pow(determinant(in_face(face_of_[found.triangle], x).m), -0.25);
 }
 
-/// Follows the metric with new points.
+/// Decides which triangles to split, and gives new points their metric.
 class MetricRule final : public RefinementRule {
  public:
   MetricRule(const SurfaceModel& model, const WantedMetric& wanted)

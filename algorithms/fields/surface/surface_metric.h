@@ -18,31 +18,33 @@
 
 namespace delquad {
 
-/// A metric that is asked for on a surface.
+/// A requested metric on a surface.
 struct WantedMetric {
   MetricSpec spec;
-  std::shared_ptr<const ModelCurvature> curvature;  ///< of the model as it was read
-  std::vector<SizeBall> spots = {};                 ///< lengths in these are no larger than their sizes
+  std::shared_ptr<const ModelCurvature> curvature;  ///< curvature of the model as it was read
+  std::vector<SizeBall> spots = {};                 ///< balls in which lengths are at most their sizes
 };
 
-/// Metrics of the tangent planes of a model's faces: at each point of its fine triangulation one for each
-/// face there, exp(linear) between them. They are within their limits and graded along each face; along a
-/// curve all faces beside it agree on its lengths.
+/// Metrics in the tangent planes of a model's faces. Each point of the fine triangulation has one for each
+/// face there, with linear logarithms between points [arsigny2006]. They keep their limits and are graded
+/// along each face [alauzet2010]. All faces beside a curve agree on its lengths.
 class SurfaceMetric final : public SizeField {
  public:
+  /// Throws InputError, with place and tensor, for values that are no metric.
   SurfaceMetric(const SurfaceModel& model, const WantedMetric& wanted);
 
-  /// Returns the metric at a point of a face, or at a point next to it.
+  /// Returns the metric at the point of a face nearest to x.
   TangentMetric in_face(int face, const Vec3& x) const;
-  /// Returns the metric at a fine point of its model, or at a point that a cut added.
+  /// Returns the metric at a point of the fine triangulation, or at a point that a cut added.
   TangentMetric at_node(const Mesh& fine, int face, int node) const;
-  /// Returns the length of a side of a triangle of the face.
+  /// Returns the length, in the metric, of a side of a triangle of the face.
   double length(const Mesh& fine, int face, int a, int b) const;
+  /// Returns the area of a triangle in the metric.
   double area(const Mesh& fine, int triangle) const;
-  /// Returns by which factor each line is longer than in space, by its ends, the lower first: the most of the
-  /// faces there.
+  /// Returns the length of each line in the metric over its length in space, the largest over its faces. Keys
+  /// are its ends, the lower first.
   std::map<std::pair<int, int>, double> stretches_of_lines(const Mesh& fine) const;
-  /// Returns the geometric mean of both lengths, in space.
+  /// Returns the geometric mean of both wanted lengths, in space, at the surface's point nearest to x.
   double at(const Vec3& x, int& hint) const override;
 
  private:
@@ -68,7 +70,7 @@ class SurfaceMetric final : public SizeField {
   bool shorten_along(Site& site, const Vec3& direction, double most) const;
 
   WantedMetric wanted_;
-  double scale_ = 1;  ///< of lengths, to the complexity
+  double scale_ = 1;  ///< factor of lengths that gives the wanted complexity
   std::vector<Site> sites_;
   std::vector<std::vector<int>> sites_at_;  ///< of each fine point
   std::vector<std::optional<Piece>> pieces_;
@@ -76,9 +78,9 @@ class SurfaceMetric final : public SizeField {
   std::vector<int> face_of_;  ///< of the triangles of `all_`
 };
 
-/// Refines the fine triangulation until the metric hardly changes along its sides, or they are short in it.
-/// Then turns its sides to be Delaunay in it. Returns the metric there. Throws InputError for values that are
-/// no metric, with the place and the tensor.
+/// Refines the fine triangulation until its sides are short in the metric, or the metric hardly changes along
+/// them. Then flips sides until it is Delaunay in the metric (own method). Returns the metric there. Throws
+/// InputError, with place and tensor, for values that are no metric.
 std::shared_ptr<const SurfaceMetric> refine_for_metric(SurfaceModel& model, const WantedMetric& wanted);
 
 }  // namespace delquad

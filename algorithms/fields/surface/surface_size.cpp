@@ -18,27 +18,27 @@ namespace delquad {
 
 namespace {
 
-/// Edges beside an edge of a short curve are at most so many times as long, but for this part of the base. A
-/// closed curve has at least so many edges.
+/// Largest length of edges beside a short curve, over its own edge, and least length over the base. Least
+/// number of edges of a closed curve.
 constexpr double kBesideShort = 4, kLeastBeside = 1.0 / 50, kLoopEdges = 4;
-/// Points up to this part of the base away from where sizes are less belong there.
+/// Largest distance of a point from the surface, over the base, at which smaller sizes count.
 constexpr double kOffSurface = 0.1;
-/// How far linear values may be from what they stand for.
+/// Largest factor between linear values and true sizes.
 constexpr double kMiss = 1.25;
-/// Sides up to this many sizes are short enough.
+/// Length of sides, in sizes, that are not split.
 constexpr double kShortSide = 1;
-/// A base that varies is seen at this part of the diagonal at least.
+/// Longest side, over the diagonal, for a base that varies.
 constexpr double kCoarsest = 1.0 / 64;
-/// Rounds of refining and spreading sizes anew.
+/// Limit of rounds that refine and limit sizes again.
 constexpr int kMostRounds = 4;
 
-/// A point of the triangulation on an entity it belongs to.
+/// A point of the triangulation and an entity with this point.
 struct Incidence {
   int node, entity;
   friend auto operator<=>(const Incidence&, const Incidence&) = default;
 };
 
-/// Returns the size at each point that all faces and curves there ask for, without the limit of gradation.
+/// Returns the least size of the faces and curves at each point, without the limit of gradation.
 std::vector<double> wanted_at_points(const Mesh& fine, const WantedSize& wanted) {
   std::vector<Incidence> in_faces, on_curves;
   for (std::size_t t = 0; t < fine.triangles.size(); ++t)
@@ -66,7 +66,7 @@ std::vector<double> wanted_at_points(const Mesh& fine, const WantedSize& wanted)
   return delta;
 }
 
-/// The least of T + slope |p - x| over the side from a to b, where T is linear.
+/// Returns the least T + slope |p - x| over the points p of side a, b, with T linear along it.
 double least_through(const Vec3& x, const Vec3& a, double ta, const Vec3& b, double tb, double slope) {
   const Vec3 side = b - a;
   const double length = norm(side);
@@ -128,7 +128,7 @@ class SizeRule final : public RefinementRule {
     return std::min({delta_[nodes[0]], delta_[nodes[1]], delta_[nodes[2]]});
   }
 
-  /// Is it larger than a ball inside of it or beside may be?
+  /// Returns whether a ball of small sizes inside or beside the triangle might be missed.
   bool may_hide_spot(const std::array<int, 3>& nodes, double longest) const {
     const Vec3 sum = fine_.points[nodes[0]] + fine_.points[nodes[1]] + fine_.points[nodes[2]];
     return std::ranges::any_of(wanted_.spots, [&](const SizeBall& spot) {
@@ -136,7 +136,7 @@ class SizeRule final : public RefinementRule {
     });
   }
 
-  /// Is the mean of the ends far from the size in the middle of the side, as far as it can be told?
+  /// Returns whether the mean of the ends is far from the size in the middle of the side.
   bool misses(int face, int a, int b, double length, int curve) const {
     const double linear = (delta_[a] + delta_[b]) / 2;
     const double in_middle = base(0.5 * (fine_.points[a] + fine_.points[b]));
@@ -146,14 +146,14 @@ class SizeRule final : public RefinementRule {
     return most > kMiss * linear || linear > kMiss * in_middle;
   }
 
-  /// Returns the size that a curve alone asks for on its side from a to b, as the ends may belong to shorter
-  /// curves. If sizes follow curvature, this is the largest size at both ends.
+  /// Returns the size of a curve alone on its side from a to b, since the ends may belong to shorter curves.
+  /// If sizes follow curvature, this is the larger size of both ends.
   double raw_on(int curve, int a, int b) const {
     if (wanted_.curvature) return std::max(raw_[a], raw_[b]);
     return std::max(wanted_.on_curve(curve, fine_.points[a]), wanted_.on_curve(curve, fine_.points[b]));
   }
 
-  /// Returns the size that the face alone asks for at one of its points.
+  /// Returns the size of the face alone at one of its points.
   double raw(int face, int node) const {
     if (!wanted_.curvature) return wanted_.in_face(face, fine_.points[node]);
     const auto [at, fresh] = face_raw_.try_emplace(static_cast<long long>(face) << 32 | node, 0.0);
@@ -164,7 +164,7 @@ class SizeRule final : public RefinementRule {
   const Mesh& fine_;
   const WantedSize& wanted_;
   double coarsest_;
-  std::vector<double> raw_, delta_;  ///< of each point: without and with the limit of gradation
+  std::vector<double> raw_, delta_;  ///< sizes of each point without and with the limit of gradation
   mutable std::unordered_map<long long, double> face_raw_;  // only looked up, never iterated
   int n_added_ = 0;
 };
@@ -232,7 +232,7 @@ void limit_slope(const Mesh& fine, double slope, std::vector<double>& values) {
   for (std::size_t t = 0; t < fine.triangles.size(); ++t)
     for (const int v : fine.triangles[t]) around[next[v]++] = static_cast<int>(t);
 
-  // Values that are final are taken in ascending order, as in Dijkstra's method.
+  // Values become final in ascending order, as in Dijkstra's method.
   using Entry = std::pair<double, int>;
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < values.size(); ++i) entries.push_back({values[i], static_cast<int>(i)});

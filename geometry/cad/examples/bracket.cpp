@@ -25,14 +25,14 @@ namespace delquad::cad {
 namespace {
 
 constexpr double kLength = 80, kWidth = 60, kHeight = 66, kThickness = 8;
-constexpr double kBend = 8;  // inner radius; the outer one goes round the same axis
+constexpr double kBend = 8;  // inner radius; the outer arc has the same axis
 constexpr double kFootCorner = 10, kTopCorner = 15;
 constexpr double kBossRadius = 15, kBossEnd = 16, kBossHeight = 40, kBossFillet = 3;
 constexpr double kBoreRadius = 9, kHoleRadius = 4;
 constexpr double kHoleFromSide = 12;
 constexpr std::array<double, 2> kHolesAt = {30, 64};
 
-/// An L of constant thickness with a round bend, made wide along y.
+/// Returns an L-shaped plate of constant thickness with a round bend, extruded along y.
 TopoDS_Shape bent_plate() {
   const double axis = kThickness + kBend, r = kBend * std::numbers::sqrt2 / 2,
                far = axis * std::numbers::sqrt2 / 2;
@@ -53,7 +53,7 @@ TopoDS_Shape bent_plate() {
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline.Wire()), gp_Vec(0, kWidth, 0));
 }
 
-/// Whether an edge lies in the plane x, y or z (0, 1, 2) = value.
+/// Returns whether an edge lies in the plane x, y or z (0, 1, 2) = value.
 bool lies_in(const TopoDS_Edge& edge, int direction, double value) {
   for (const TopoDS_Vertex& v : {TopExp::FirstVertex(edge), TopExp::LastVertex(edge)})
     if (std::abs(BRep_Tool::Pnt(v).Coord(direction + 1) - value) > 1e-9) return false;

@@ -25,7 +25,8 @@ constexpr int kDegree = 3;
 constexpr int kAlong = 3, kAcross = 6;  // Bezier patches
 constexpr double kSliver = 1.2;         // length of the outline's slivers; the outline is 4600 long
 
-/// Control point at s along (0: front edge, 1: windscreen) and t across (-1: right side, 1: left side).
+/// Returns the control point at s along (0: front edge, 1: windscreen) and t across (-1: right side, 1: left
+/// side).
 gp_Pnt control_point(double s, double t) {
   const double x = 1000 * s + 110 * t * t * (1 - s) - 40 * t * t * s;
   const double y = t * (610 + 90 * s);
@@ -34,14 +35,14 @@ gp_Pnt control_point(double s, double t) {
   return {x, y, 200 - fall + bulge};
 }
 
-/// Where control point k of a spline with `spans` equal pieces belongs, in [0, 1]: its Greville abscissa.
+/// Returns the Greville abscissa, in [0, 1], of control point k of a spline with `spans` equal pieces.
 double greville(int k, int spans) {
   double sum = 0;
   for (int j = 1; j <= kDegree; ++j) sum += std::clamp(k + j - kDegree, 0, spans);
   return sum / (kDegree * spans);
 }
 
-/// Two times differentiable, in kAlong x kAcross pieces.
+/// Returns the surface, twice differentiable, in kAlong x kAcross pieces.
 Handle(Geom_BSplineSurface) whole_surface() {
   TColgp_Array2OfPnt poles(1, kAlong + kDegree, 1, kAcross + kDegree);
   for (int i = 1; i <= poles.ColLength(); ++i)
@@ -62,7 +63,7 @@ Handle(Geom_BSplineSurface) whole_surface() {
                                  multiplicities(kAcross), kDegree, kDegree);
 }
 
-/// On the windscreen's edge, a sliver's length outside of where patches meet at parameter v.
+/// Returns the vertex on the windscreen's edge, a sliver's length beside the joint of patches at parameter v.
 TopoDS_Shape sliver_end(const Handle(Geom_BSplineSurface) & surface, double v) {
   gp_Pnt at;
   gp_Vec along_u, along_v;

@@ -26,7 +26,7 @@ TopoDS_Wire circle(const gp_Ax2& place, double radius) {
   return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(place, radius))).Wire();
 }
 
-/// Straight, a quarter of a turn, straight: from the origin along x, then along y.
+/// Returns a spine from the origin along x, around a quarter of a turn, and along y.
 TopoDS_Wire elbow_spine(double before, double bend, double after) {
   const double s = bend * std::sqrt(0.5);
   const gp_Pnt a(0, 0, 0), b(before, 0, 0), middle(before + s, bend - s, 0), c(before + bend, bend, 0),
@@ -37,15 +37,14 @@ TopoDS_Wire elbow_spine(double before, double bend, double after) {
       .Wire();
 }
 
-/// A main cylinder along x and a branch along z. The third direction puts each one's seam away from the curve
-/// where they meet.
+/// Returns a main cylinder along x and a branch along z, with seams away from their common curve.
 TopoDS_Shape cross_of(double length, double radius, double height, double branch_radius) {
   const gp_Ax2 along({-length / 2, 0, 0}, {1, 0, 0}, {0, 0, -1}), up({0, 0, 0}, {0, 0, 1}, {0, 1, 0});
   return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(along, radius, length),
                           BRepPrimAPI_MakeCylinder(up, branch_radius, height));
 }
 
-/// Rounds the edges that are neither circles nor lines: where two cylinders meet.
+/// Rounds the edges between two cylinders, which are neither circles nor lines.
 TopoDS_Shape rounded_crossing(const TopoDS_Shape& sharp, double radius) {
   BRepFilletAPI_MakeFillet fillet(sharp);
   for (TopExp_Explorer edge(sharp, TopAbs_EDGE); edge.More(); edge.Next()) {

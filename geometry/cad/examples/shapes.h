@@ -12,9 +12,10 @@
 
 namespace delquad::cad {
 
+/// Returns a cylinder from the center of its first end along a direction; lengths in millimeters.
 TopoDS_Shape cylinder(const gp_Pnt& from, const gp_Dir& along, double radius, double length);
 
-/// The example models, in millimeters, with the names of their faces.
+/// Return the example models, in millimeters, with the names of their faces.
 CadShape make_bracket();
 CadShape make_hood();
 CadShape make_pipe_tee();
@@ -32,9 +33,9 @@ CadShape make_sheet();
 CadShape make_thin_box();
 CadShape make_variable_fillet();
 
-/// Makes an example by its name, which must exist.
+/// Returns an example by its name. Throws std::logic_error for an unknown name.
 CadShape make_example(const std::string& name);
-/// Returns the same whose faces have the example's name first, as the name of a product in a STEP file.
+/// Returns the same, with the example's name first on all faces, like the name of a product in a STEP file.
 CadShape make_product(const std::string& name);
 
 }  // namespace delquad::cad

@@ -28,7 +28,7 @@ TopoDS_Shape cylinder(const gp_Pnt& from, const gp_Dir& along, double radius, do
 
 namespace {
 
-/// The straight edges along a direction.
+/// Returns the straight edges along a direction.
 TopTools_IndexedMapOfShape edges_along(const TopoDS_Shape& shape, const gp_Dir& direction) {
   const TopTools_IndexedMapOfShape edges = parts(shape, TopAbs_EDGE);
   TopTools_IndexedMapOfShape found;

@@ -28,7 +28,7 @@ TopoDS_Edge bezier(const std::array<gp_Pnt, N>& poles) {
   return BRepBuilderAPI_MakeEdge(Handle(Geom_Curve)(new Geom_BezierCurve(array)));
 }
 
-/// The left half (y > 0) of a body of revolution about x with a round nose and a round tail.
+/// Returns the left half (y > 0) of a body of revolution about x with a round nose and a round tail.
 TopoDS_Shape half_fuselage() {
   constexpr double kBodyLength = 100;
   const TopoDS_Edge profile = bezier<7>({{{0, 0, 0},
@@ -43,7 +43,8 @@ TopoDS_Shape half_fuselage() {
   return BRepPrimAPI_MakeRevol(below, gp_Ax1({0, 0, 0}, {1, 0, 0}), std::numbers::pi);
 }
 
-/// An airfoil section in a plane of constant y: 12 % thick, round in front, with a sharp trailing edge.
+/// Returns an airfoil section in a plane of constant y: 12 % thick, round in front, with a sharp trailing
+/// edge.
 TopoDS_Wire section(const gp_Pnt& leading_edge, double chord) {
   const auto side = [&](double up) {
     const auto at = [&](double x, double z) {
@@ -54,7 +55,7 @@ TopoDS_Wire section(const gp_Pnt& leading_edge, double chord) {
   return BRepBuilderAPI_MakeWire(side(1), side(-1)).Wire();
 }
 
-/// From inside the fuselage to a tip at y = 50.
+/// Returns a wing from inside the fuselage to a tip at y = 50.
 TopoDS_Shape wing() {
   BRepOffsetAPI_ThruSections loft(/*isSolid=*/true, /*ruled=*/true);
   loft.AddWire(section({30, 2, -1}, 30));
