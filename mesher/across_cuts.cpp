@@ -103,7 +103,7 @@ MeshingSetup with_other_cuts(const MeshingSetup& prepared, const std::vector<cha
   problem.criteria = prepared.settings.criteria;
   MeshingSetup again = prepare_given_surface(problem, std::move(given), start.mesh, prepared.size.field);
   again.given_worst = prepared.given_worst;
-  again.size.asked = prepared.size.asked;
+  again.size.asked = prepared.size.asked, again.size.curved = prepared.size.curved;
   for (PatchSetup& patch : again.patches)
     patch.given_stays = regions[again.surface->given->region_of[patch.region]] == 0;
   return again;

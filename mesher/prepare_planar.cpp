@@ -124,8 +124,8 @@ void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatc
   for (QuadPatch& patch : given)
     for (Vec2& point : patch.points) point = rotation(point);
   p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
-  p.size.field = rotated(std::move(p.size.field), rotation);
-  if (p.size.asked) p.size.asked = rotated(std::move(p.size.asked), rotation);
+  for (auto* size : {&p.size.field, &p.size.asked, &p.size.curved})
+    if (*size) *size = rotated(std::move(*size), rotation);
   for (PatchImage& image : domain.images)
     image.motion = [motion = std::move(image.motion), rotation](Vec2 x) {
       return rotation(motion(rotation.back(x)));

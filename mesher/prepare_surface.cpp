@@ -284,6 +284,11 @@ class SurfaceSteps final : public ModelSteps {
     if (!hints_.spots.empty()) p.size.adapted_to.push_back("sound quads");
     if (!divisions_.empty()) p.size.adapted_to.push_back("given edges");
     if (!p.size.adapted_to.empty()) p.size.asked = asked_;
+    if (wanted_.curvature) {
+      WantedSize curved = wanted_;
+      curved.curve_limit.clear(), curved.spots.clear();
+      p.size.curved = std::make_shared<SurfaceSize>(model_, curved);
+    }
     p.size.expected_quads = expected_quads(model_.fine, *surface_->size, periodic_.faces, part());
     check_count(p.size.expected_quads, problem_);
   }

@@ -84,6 +84,10 @@ void print_summary(const MeshMetrics& metrics) {
               {"edge_min", "edges from ", 3},
               {"edge_max", " to ", 3, " sizes"},
               {"n_short", "", 0, " edges far too short", true}});
+  print_line("in the metric", metrics,
+             {{"metric_eta_mean", "eta mean ", 3},
+              {"metric_eta_worst", "worst ", 3},
+              {"metric_tau", "tau ", 1, " %"}});
   print_line("vertices", metrics,
              {{"d4", "d4 ", 1, " %"},
               {"n_irregular", "", 0, " irregular"},

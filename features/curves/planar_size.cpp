@@ -169,6 +169,7 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
     p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
     sized.mesh_by(limit_gradation(size.field, p.plane.background, spec.gradation));
   }
+  if (size.asked) size.curved = size.field;
   // Sizes beside divided curves are the lengths of their edges.
   if (!problem.divisions.empty()) {
     if (!size.asked) size.asked = size.field;

@@ -190,8 +190,8 @@ std::vector<double> most_of_curves(const std::vector<double>& values, const CutS
 
 void add_whole(CutSurface cut, SurfaceSetup& surface, MeshingSetup& p) {
   p.symmetry = cut.planes.all();
-  p.size.field = folded_size(p.size.field, cut.planes);
-  if (p.size.asked) p.size.asked = folded_size(p.size.asked, cut.planes);
+  for (auto* size : {&p.size.field, &p.size.asked, &p.size.curved})
+    if (*size) *size = folded_size(*size, cut.planes);
   const int first_cut = static_cast<int>(cut.whole.fine.curves.size());
   MirroredSurface m{{std::move(cut.whole), {}},
                     first_cut,

@@ -263,7 +263,8 @@ void report_edges(SurfaceModel& model) {
     if (n > 2) crowded[mesh.line_curve[l]] = 1;
   }
   if (std::ranges::count(free, 1) > 0)
-    model.warnings.push_back("the surface is open: free curves: " + list_curves(mesh, free));
+    model.warnings.push_back("the surface is open: free curves: " + list_curves(mesh, free) +
+                             "; a larger tolerance of welding closes gaps of a solid, a shell needs nothing");
   if (std::ranges::count(crowded, 1) > 0)
     model.warnings.push_back("more than two faces meet on curves: " + list_curves(mesh, crowded));
 }

@@ -191,9 +191,10 @@ struct FaceFailure {
 /// The size that the stages follow.
 struct PreparedSize {
   std::shared_ptr<const SizeField> field;
-  std::shared_ptr<const SizeField> asked;  ///< requested size, if `field` is less; else null
-  std::vector<std::string> adapted_to;     ///< reasons for smaller sizes: "short curves", ...
-  double expected_quads = 0;               ///< integral of dA/delta^2
+  std::shared_ptr<const SizeField> asked;   ///< requested size, if `field` is less; else null
+  std::shared_ptr<const SizeField> curved;  ///< the same with the requested curvature; null: as `asked`
+  std::vector<std::string> adapted_to;      ///< reasons for smaller sizes: "short curves", ...
+  double expected_quads = 0;                ///< integral of dA/delta^2
 };
 
 /// Known properties of the cross field.

@@ -43,9 +43,12 @@ std::string trimmed(const std::string& s) {
 // muParser's own texts repeat the formula and the position, which fail() states already.
 std::string reason_of(const mu::ParserError& error, const std::vector<std::string>& variables) {
   switch (error.GetCode()) {
-    case mu::ecUNASSIGNABLE_TOKEN:
-      return fmt::format("'{}' is not known (variables: {})", excerpt(trimmed(error.GetToken()), 0),
-                         join(variables));
+    case mu::ecUNASSIGNABLE_TOKEN: {
+      const auto at = static_cast<std::size_t>(std::max(error.GetPos(), 0));
+      const bool is_unit = at > 0 && at < error.GetExpr().size() && std::isdigit(error.GetExpr()[at - 1]);
+      return fmt::format("'{}' is not known (variables: {}){}", excerpt(trimmed(error.GetToken()), 0),
+                         join(variables), is_unit ? "; a number has no unit here" : "");
+    }
     case mu::ecUNEXPECTED_EOF:
     case mu::ecEMPTY_EXPRESSION:
       return "the expression ends too early: expected an operand";

@@ -43,9 +43,10 @@ const CriterionLimit* least_length(const Criteria& criteria);
 /// converted to sizes at the largest size of `points`.
 QuadLimits limits_of(const Criteria& criteria, const SizeField& size, std::span<const Vec3> points);
 
-/// Returns the requested size, before it was reduced.
+/// Returns the requested size with its curvature, before short curves or repairs reduced it.
 inline const SizeField& requested_size(const Preparation& prepared) {
-  return prepared.size.asked ? *prepared.size.asked : *prepared.size.field;
+  const PreparedSize& size = prepared.size;
+  return size.curved ? *size.curved : size.asked ? *size.asked : *size.field;
 }
 /// Throws InputError for names that no curve or region of the mesh has. Also throws if the wanted size is
 /// everywhere below the least length, or above the largest.

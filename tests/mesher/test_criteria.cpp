@@ -113,6 +113,16 @@ TEST(Criteria, AreAimedAtByAllStages) {
   EXPECT_LT(failing, 0.05 * static_cast<double>(elements));
 }
 
+TEST(Criteria, CountLengthsInTheSizeByCurvature) {
+  MeshProblem plate = ModelMaker().rectangle({0, 0}, {20, 20}).circle({10, 10}, 1).problem(2);
+  MeshProblem bracket = problem_of(ExampleModel{"bracket"}, 6);
+  for (MeshProblem* problem : {&plate, &bracket}) {
+    problem->size.curvature = 24;
+    problem->criteria = preset("batch");
+    EXPECT_TRUE(result_of(*mesh(*problem, "DB").criteria, "min_length").failing.empty());
+  }
+}
+
 TEST(Criteria, UsualOnesLeaveThePlaneAsItIs) {
   const auto problem = [](const Criteria& c) {
     return judged_problem({{{0, 0}, {6, -0.7}, {5, 1}}}, 0.2, c);
