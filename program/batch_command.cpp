@@ -45,7 +45,9 @@ std::map<std::string, fs::path> parts_in(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (entry.is_regular_file() && is_surface_file(entry.path())) files.push_back(entry.path().filename());
   if (error) throw InputError(folder.string() + ": " + error.message() + ": expected a folder of models");
-  if (files.empty()) throw InputError(folder.string() + ": no models: expected files " + surface_files());
+  if (files.empty())
+    throw InputError(folder.string() + ": no models: expected files " + surface_files() +
+                     "; 'delquad run' takes planar models");
   std::ranges::sort(files);
   std::map<std::string, fs::path> parts;
   std::set<std::string> taken;

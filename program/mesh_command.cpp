@@ -193,6 +193,20 @@ void print_before(const std::string& file, const Mesh& mesh, const Prepared& pre
     print_criteria(judge(mesh, criteria, prepared->size.field.get()), mesh);
 }
 
+/// Warns of a size that asks for another number of elements, which stages on given elements keep.
+void warn_of_number(const Mesh& given, const Prepared& prepared, const Word& word, Progress& progress) {
+  constexpr double kMuch = 1.5;
+  const double asked = prepared->size.expected_quads;
+  const auto number =
+      static_cast<double>(given.quads.size()) + static_cast<double>(given.triangles.size()) / 2;
+  if (word.stages.front()->from == PatchForm::kBoundary || (asked < kMuch * number && number < kMuch * asked))
+    return;
+  progress.warn({Warning(fmt::format(
+      "--size: about {:.2g} quads are wanted, and {} keeps the number of {:.0f}: '--pipeline DBCO' makes new "
+      "ones between the edges of the boundary, which stay",
+      asked, word.text, number))});
+}
+
 /// The least and the largest wanted size at nodes.
 std::pair<double, double> size_on(const Mesh& mesh, const SizeField& size) {
   std::vector<double> at;
@@ -294,8 +308,13 @@ void write_result(const MeshArguments& arguments, const Case& c, const Word& wor
   if (!arguments.keep_numbers) reduce_bandwidth(result.mesh);
   std::optional<Mesh> other;
   if (arguments.failing_sets) name_failing(*result.criteria, other.emplace(result.mesh));
-  if (depth)
+  if (depth) {
     for (Vec3& x : other.emplace(result.mesh).points) x.z = -depth(x);
+    if (std::ranges::none_of(other->points, [](const Vec3& x) { return x.z < 0; }))
+      progress.warn(
+          {Warning("--depth: no depth is above 0, and depths count downwards: expected \"FILE: "
+                   "-value\" for a raster of heights")});
+  }
   const Stopwatch writing;
   const Mesh& last = other ? *other : result.mesh;
   const auto write = arguments.serendipity ? write_serendipity : write_mesh;
@@ -354,6 +373,7 @@ int mesh_command(MeshArguments arguments) {
   const Prepared prepared = prepare(c, told(c.name));
   on_estimate() = nullptr;
   progress.warn(prepared->warnings);
+  if (given && !c.size.text.empty()) warn_of_number(*given, prepared, word, progress);
   MeshResult result = mesh_or_report(arguments, prepared, word, told(c.name + " " + word.text), progress);
   const bool is_kept = keeps_given(arguments, given, result, progress);
   write_result(arguments, c, word, depth, is_kept, progress, result);

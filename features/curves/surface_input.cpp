@@ -177,11 +177,13 @@ void warn_of_penetrating(const std::string& source, SurfaceModel& model) {
            kContact * diagonal(mesh)))
     first.try_emplace(std::minmax(part[crossing.first], part[crossing.second]), crossing);
   std::vector<std::string> places;
-  const auto face = [&](int t) { return mesh.regions[mesh.triangle_region[t]].tag; };
+  const auto face = [&](int t) {
+    const Entity& region = mesh.regions[mesh.triangle_region[t]];
+    return fmt::format("face {}{}", region.tag, region.names.empty() ? "" : " of '" + region.names[0] + "'");
+  };
   for (const auto& [pair, crossing] : first)
-    places.push_back(fmt::format("face {} {} face {} at {}", face(crossing.first),
-                                 crossing.is_flat ? "on" : "through", face(crossing.second),
-                                 show_point(crossing.at)));
+    places.push_back(fmt::format("{} {} {} at {}", face(crossing.first), crossing.is_flat ? "on" : "through",
+                                 face(crossing.second), show_point(crossing.at)));
   constexpr std::size_t kMostPlaces = 20;
   if (!places.empty())
     model.warnings.push_back(

@@ -115,6 +115,11 @@ constexpr double kHopelessShape = 3;
 constexpr double kShortest = 0.2;
 /// The same for edges that are already beyond the wall.
 constexpr double kShort = 0.5;
+/// Sines of the angle between a side and the curve under it, which is half of the turn of the curve: sides
+/// above the last one lie across, and only those above the first one are limited, by their old value.
+constexpr double kBent = 0.2, kAcross = 0.7;
+/// Part by which that sine may grow.
+constexpr double kMoreBent = 1.15;
 /// A move that makes a quad bad is halved, and dropped below this part.
 constexpr double kLeastPart = 0.2;
 
@@ -145,6 +150,8 @@ class TrackOptimisation {
   void set_kept(const QuadEnergyWeights& weights, QuadEnergyMesh<Vec>& mesh);
   EnergyDescent descend(const std::vector<char>& free, const QuadEnergyWeights& weights);
   bool too_short(std::size_t quad) const;
+  std::array<double, 4> bends(std::size_t quad) const;
+  bool too_bent(std::size_t quad) const;
   void find_room();
   double crowding(std::size_t quad) const;
   std::vector<std::vector<int>> quads_around() const;
@@ -160,6 +167,7 @@ class TrackOptimisation {
   std::vector<double> delta_;                         ///< by vertex
   std::vector<Vec> delta_at_;                         ///< place of the evaluation
   std::vector<std::array<double, 4>> least_lengths_;  ///< by quad and side
+  std::vector<std::array<double, 4>> most_bent_;      ///< largest bends(), by quad and side
   std::vector<double> kept_;                          ///< least sine that each quad must keep in this pass
   std::vector<char> failed_;                          ///< by quad: is_failing() before this pass
   std::vector<char> inside_;                          ///< by vertex: on no curve
@@ -364,6 +372,31 @@ bool TrackOptimisation<Vec>::too_short(std::size_t quad) const {
   return false;
 }
 
+/// Returns the larger sine between each side and the curve at its ends; 0 for sides that are not on curves.
+template <class Vec>
+std::array<double, 4> TrackOptimisation<Vec>::bends(std::size_t quad) const {
+  std::array<double, 4> sines{};
+  for (int k = 0; k < 4; ++k) {
+    const int a = quads_[quad][k], b = quads_[quad][(k + 1) % 4];
+    if (inside_[a] || inside_[b]) continue;
+    const Vec side = points_[b] - points_[a];
+    for (const int v : {a, b})
+      if (const Vec along = tracks_.axes(v)[0]; along != Vec{}) {
+        const double cosine = dot(side, along) / std::max(norm(side) * norm(along), kTinyLength);
+        sines[k] = std::max(sines[k], std::sqrt(std::max(0.0, 1 - cosine * cosine)));
+      }
+  }
+  return sines;
+}
+
+template <class Vec>
+bool TrackOptimisation<Vec>::too_bent(std::size_t quad) const {
+  const auto now = bends(quad);
+  for (int k = 0; k < 4; ++k)
+    if (now[k] > most_bent_[quad][k]) return true;
+  return false;
+}
+
 template <class Vec>
 void TrackOptimisation<Vec>::find_room() {
   inside_.resize(points_.size());
@@ -382,6 +415,13 @@ void TrackOptimisation<Vec>::find_room() {
     const bool across = (on_curve(quad[0]) && on_curve(quad[2])) || (on_curve(quad[1]) && on_curve(quad[3]));
     if (!across || std::ranges::count_if(quad, on_curve) == 3) continue;  // three: in a corner
     for (const int v : quad) narrow_[v] = on_curve(v);
+  }
+  most_bent_.resize(quads_.size());
+  for (std::size_t q = 0; q < quads_.size(); ++q) {
+    most_bent_[q] = bends(q);
+    const bool is_narrow = std::ranges::any_of(quads_[q], [this](int v) { return narrow_[v] != 0; });
+    for (double& sine : most_bent_[q])
+      sine = is_narrow || sine > kAcross ? 1 : std::max(kBent, kMoreBent * sine);
   }
   crowding_.resize(quads_.size());
   for (std::size_t q = 0; q < quads_.size(); ++q) crowding_[q] = crowding(q);
@@ -442,11 +482,11 @@ void TrackOptimisation<Vec>::settle(const std::vector<MovingVertex<Vec>>& moving
       check_cancelled();
       const auto& quad = quads_[q];
       if (std::none_of(quad.begin(), quad.end(), [&](int v) { return moves[v].part > 0; })) continue;
-      if (movable_sine(q) >= kept_[q] && !too_short(q) && crowding(q) <= crowding_[q] &&
-          (failed_[q] || !is_failing(q)))
-        continue;
+      const bool is_good = movable_sine(q) >= kept_[q] && !too_short(q) && crowding(q) <= crowding_[q] &&
+                           (failed_[q] || !is_failing(q));
+      if (is_good && !too_bent(q)) continue;
       for (const int v : quad) {
-        if (moves[v].part == 0) continue;
+        if (moves[v].part == 0 || (is_good && inside_[v])) continue;
         moves[v].part = moves[v].part > kLeastPart ? moves[v].part / 2 : 0;
         put(v);
         changed.push_back(v);

@@ -90,9 +90,10 @@ class VertexTracks {
 /// Vertices of flat or inverted quads stay. In each pass vertices move along tangents and are then put on
 /// their tracks. Limits hold for each quad: its least sine may fall by half a percent, or to the sine of
 /// kOptimisedFloorEta if that is lower. It stays above the least sine of the whole mesh, or that floor. It
-/// does not get beyond the limits (is_beyond()). No edge gets shorter than a fifth of its
-/// old length, or of delta if that is less. Vertices that would violate a limit move only a part of the way,
-/// or not at all. The same input gives the same mesh.
+/// does not get beyond the limits (is_beyond()). No edge gets shorter than a fifth of its old length, or of
+/// delta if that is less. No edge on a curve turns by much more than before, so that holes keep their shape.
+/// Vertices that would violate a limit move only a part of the way, or not at all. The same input gives the
+/// same mesh.
 template <class Vec>
 OptimisationSummary optimise_on_tracks(std::vector<Vec>& points, const std::vector<std::array<int, 4>>& quads,
                                        VertexTracks<Vec>& tracks, const OptimisationOptions& options = {});

@@ -67,6 +67,16 @@ TEST(PlanarTracks, NodesSlideOnTheirCurves) {
     EXPECT_LT(norm(result.points[v] - grid.points[v]), 0.02) << v;
 }
 
+TEST(PlanarTracks, HolesKeepTheirShape) {
+  const auto ellipse = make_expression_curve("0.2*cos(t)", "0.11*sin(t)", 0, 2 * std::numbers::pi);
+  const Mesh made =
+      mesh(ModelMaker().rectangle({-1, -0.75}, {1, 0.75}).loop({ellipse}).problem(0.08), "DBQO").mesh;
+  double hole = 3;
+  for (const auto& [a, b, c, d] : made.quads)
+    hole -= cross(made.points[c] - made.points[a], made.points[d] - made.points[b]).z / 2;
+  EXPECT_GT(hole, 0.93 * std::numbers::pi * 0.2 * 0.11);  // 0.95 by edges of one length
+}
+
 TEST(QuadOptimisation, JitteredGridBecomesRegular) {
   const QuadPatch grid = grid_patch(8, 7);
   OptimisationSummary summary;
