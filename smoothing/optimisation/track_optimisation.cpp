@@ -115,8 +115,8 @@ constexpr double kHopelessShape = 3;
 constexpr double kShortest = 0.2;
 /// The same for edges that are already beyond the wall.
 constexpr double kShort = 0.5;
-/// Sines of the angle between a side and the curve under it, which is half of the turn of the curve: sides
-/// above the last one lie across, and only those above the first one are limited, by their old value.
+/// Sines of the angle between a side and the curve under it, which is half of the turn of the curve. Sides
+/// below the first one may turn freely. Sides above the second one lie across the curve.
 constexpr double kBent = 0.2, kAcross = 0.7;
 /// Part by which that sine may grow.
 constexpr double kMoreBent = 1.15;
