@@ -457,23 +457,13 @@ class CurveMesher {
 };
 
 PlanarDomain mesh_curves(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options) {
-  const bool asked = options.symmetry.automatic || !options.symmetry.planes.empty();
-  const auto symmetry = asked ? find_symmetry(model, options.symmetry) : std::nullopt;
-  if (!symmetry) {
-    PlanarDomain domain = CurveMesher(model, size, options).domain();
-    if (asked) {
-      const std::string near_miss = why_not_symmetric(model);
-      domain.notes.push_back(options.symmetry.where +
-                             ": no plane of symmetry was found: all of the model is meshed" +
-                             (near_miss.empty() ? "" : "; " + near_miss));
-    }
-    return domain;
-  }
-  const PlanarModel whole = with_axes(model, *symmetry);
-  PlanarDomain domain = CurveMesher(whole, size, options, &*symmetry).domain();
+  if (options.symmetry.planes.empty()) return CurveMesher(model, size, options).domain();
+  const Symmetry symmetry(options.symmetry.planes, model);
+  const PlanarModel whole = with_axes(model, symmetry);
+  PlanarDomain domain = CurveMesher(whole, size, options, &symmetry).domain();
   const int n_points = static_cast<int>(model.points.size());
   std::erase_if(domain.boundary.named_points, [&](const NamedPoint& p) { return p.entity.tag > n_points; });
-  domain.images = patch_images(domain.patches, *symmetry, options.symmetry.where);
+  domain.images = patch_images(domain.patches, symmetry, options.symmetry.where);
   return domain;
 }
 

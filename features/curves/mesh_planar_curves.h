@@ -19,7 +19,7 @@ struct CurveMeshOptions {
   std::vector<PeriodicPair> periodic = {};
   MappedSpec mapped = {};
   bool narrow_grids = false;  ///< narrow faces become grids, too, see GridFinder
-  SymmetrySpec symmetry = {};
+  SymmetrySpec symmetry = {};  ///< planes of find_symmetry()
   /// By which numbers of edges around grids are chosen; empty: as all others. Sizes that follow the edges of
   /// grids must not make more of these.
   PointSize grid_size = {};

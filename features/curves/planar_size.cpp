@@ -85,13 +85,6 @@ std::vector<LocalSize> fine_spots(const MeshProblem& problem, const std::vector<
   return fine;
 }
 
-/// Directions that are given or found.
-std::vector<SymmetryPlane> planes_of(const MeshProblem& problem, const PlanarModel& model) {
-  if (!is_symmetric(problem)) return {};
-  const std::optional<Symmetry> symmetry = find_symmetry(model, problem.symmetry);
-  return symmetry ? symmetry->all() : std::vector<SymmetryPlane>{};
-}
-
 /// A model whose curves are meshed as often as a decision on their size depends on how they were.
 class SizedModel {
  public:
@@ -112,7 +105,7 @@ class SizedModel {
     options.periodic = problem_.periodic;
     options.mapped = problem_.mapped;
     options.narrow_grids = !curves.thin_rows && curves.agreement > 0;
-    options.symmetry = problem_.symmetry;
+    options.symmetry = {planes, false, problem_.symmetry.where};
     options.agreement = agreement_;
     options.size_field = p_.size.field;
     if (problem_.seed != 0)
@@ -121,6 +114,7 @@ class SizedModel {
   }
 
   PlanarDomain domain;
+  std::vector<SymmetryPlane> planes;  ///< of symmetry
 
  private:
   const MeshProblem& problem_;
@@ -147,7 +141,8 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   SizedModel sized(problem, model, agreement, p);
   const PlanarDomain& domain = sized.domain;
   size.field = planar_base_size(spec, model, p.warnings);
-  p.symmetry = planes_of(problem, model);
+  sized.planes = find_symmetry(model, problem.symmetry, p.warnings);
+  p.symmetry = SymmetryPlanes(sized.planes).all();
   const auto with_images = [&](std::shared_ptr<const SizeField> field) {
     return p.symmetry.empty() ? field : least_of_images(std::move(field), SymmetryPlanes(p.symmetry));
   };

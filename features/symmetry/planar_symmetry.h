@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +21,8 @@ namespace delquad {
 /// One or two planes of symmetry of a planar model.
 class Symmetry : public SymmetryPlanes {
  public:
-  /// Planes that are perpendicular to each other; they are seen in the plane.
-  Symmetry(std::vector<SymmetryPlane> planes, double tolerance);
+  /// `planes`: of find_symmetry(), and so perpendicular to each other.
+  Symmetry(std::vector<SymmetryPlane> planes, const PlanarModel& model);
 
   /// Returns the bits of the planes that x lies behind by more than the tolerance.
   int folds_of(Vec2 x) const { return SymmetryPlanes::folds_of({x.x, x.y, 0}, tolerance_); }
@@ -39,14 +38,9 @@ class Symmetry : public SymmetryPlanes {
   double tolerance_;
 };
 
-/// Returns the planes of a problem; with SymmetrySpec::automatic those that are found, which go through the
-/// centroid of the curves, or none. Throws InputError for planes that are given and not perpendicular, or
-/// about which the model is not symmetric.
-std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySpec& spec);
-
-/// Returns a warning if no plane is found for the model, but its loops have one. The warning names the parts
-/// in the regions without an image. It is empty if the loops have no plane.
-std::string why_not_symmetric(const PlanarModel& model);
+/// Returns the planes of a problem in the plane, or none, see find_symmetry_planes().
+std::vector<SymmetryPlane> find_symmetry(const PlanarModel& model, SymmetrySpec spec,
+                                         std::vector<Warning>& warnings);
 
 /// Returns the model with the planes' axes as curves after its own, and with points, after its own, where its
 /// nodes have their images.
