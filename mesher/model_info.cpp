@@ -11,6 +11,7 @@
 #include "features/given/named_domain.h"
 #include "features/sizes/size_warnings.h"
 #include "geometry/mesh/constrained_delaunay.h"
+#include "geometry/mesh/model_kind.h"
 #include "geometry/planar/model_chain.h"
 #include "geometry/surface/curve_chains.h"
 #include "geometry/surface/model_report.h"
@@ -55,14 +56,15 @@ SurfaceModel load(const MeshProblem& problem) {
   const StageScope stage("reading");
   if (const auto* model = std::get_if<PlanarModel>(&problem.model)) {
     const double edge = kPlanarEdge * norm(box_of(*model, kChordsOfCurve).size());
-    return as_model(make_domain(*model, [edge](const Vec3&) { return edge; }), model->source);
+    return as_model(make_domain(*model, *make_constant_size(edge)), model->source);
   }
   if (const auto* lines = std::get_if<LineModel>(&problem.model))
     return as_model(make_named_domain(lines->mesh, lines->surfaces, lines->source), lines->source);
   if (const auto* given = std::get_if<GivenMesh>(&problem.model)) {
     const double angle = problem.surface.feature_angle.value_or(kGivenFeatureAngle);
-    SurfaceModel model = is_in_space(given->mesh) ? make_given_surface(*given, angle).model
-                                                  : as_model(make_given_domain(*given).domain, given->source);
+    SurfaceModel model = !kind_of(problem.model).in_plane
+                             ? make_given_surface(*given, angle).model
+                             : as_model(make_given_domain(*given).domain, given->source);
     model.warnings.insert(model.warnings.begin(), given->notes.begin(), given->notes.end());
     return model;
   }

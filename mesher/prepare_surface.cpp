@@ -259,7 +259,7 @@ class SurfaceSteps final : public ModelSteps {
     p.settings.limits = limits_of(problem_.criteria, *asked_, model_.fine.points);
     if (least_length(problem_.criteria) != nullptr) shortest_ = p.settings.limits.shortest;
     model_ = join_short_curves(problem_, *asked_, std::move(model_), shortest_);
-    washers_.plan(as_function(asked_));
+    washers_.plan(*asked_);
     asked_ = imprint_named(problem_.size.named, std::move(asked_), model_, p.warnings);
     washers_.cut();
   }
@@ -309,8 +309,10 @@ class SurfaceSteps final : public ModelSteps {
 
 class GivenSurfaceSteps final : public ModelSteps {
  public:
-  GivenSurfaceSteps(const MeshProblem& problem, const GivenMesh& given)
-      : problem_(problem), mesh_(given.mesh), source_(&given) {}
+  explicit GivenSurfaceSteps(const MeshProblem& problem)
+      : problem_(problem),
+        mesh_(std::get<GivenMesh>(problem.model).mesh),
+        source_(&std::get<GivenMesh>(problem.model)) {}
   /// Makes the steps for a mesh that was read.
   GivenSurfaceSteps(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,
                     std::shared_ptr<const SizeField> size)
@@ -418,8 +420,8 @@ std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const Retr
   return std::make_unique<SurfaceSteps>(problem, hints);
 }
 
-std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem, const GivenMesh& given) {
-  return std::make_unique<GivenSurfaceSteps>(problem, given);
+std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem) {
+  return std::make_unique<GivenSurfaceSteps>(problem);
 }
 
 MeshingSetup prepare_given_surface(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,

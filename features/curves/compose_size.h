@@ -42,8 +42,6 @@ std::shared_ptr<const SizeField> planar_base_size(const SizeSpec& spec, const Pl
 /// is none.
 std::shared_ptr<const SizeField> largest_size(const SizeSpec& size, const std::string& why);
 
-PointSize as_function(std::shared_ptr<const SizeField> size, double scale = 1);
-
 /// Throws InputError for more quads than problem.max_elements. Else calls on_estimate().
 void check_count(double quads, const MeshProblem& problem);
 

@@ -18,14 +18,12 @@ struct CurveMeshOptions {
   std::vector<CurveDivision> divisions = {};
   std::vector<PeriodicPair> periodic = {};
   MappedSpec mapped = {};
-  bool narrow_grids = false;  ///< narrow faces become grids, too, see GridFinder
+  bool narrow_grids = false;   ///< narrow faces become grids, too, see GridFinder
   SymmetrySpec symmetry = {};  ///< planes of find_symmetry()
-  /// By which numbers of edges around grids are chosen; empty: as all others. Sizes that follow the edges of
+  /// By which numbers of edges around grids are chosen; null: as all others. Sizes that follow the edges of
   /// grids must not make more of these.
-  PointSize grid_size = {};
+  std::shared_ptr<const SizeField> grid_size = nullptr;
   CurveAgreement agreement = {};
-  /// The size, for several threads; null: the function is called by one.
-  std::shared_ptr<const SizeField> size_field = nullptr;
 };
 
 /// Meshes the model's curves at equal integrals of ds/delta, and tells what they bound, regions named as in
@@ -37,7 +35,7 @@ struct CurveMeshOptions {
 /// kJoinTolerance (see model_chain.h) are one node. Throws InputError for open
 /// loops, zero-length curves, sizes not > 0, as build_domain(), and for loops whose curves touch although
 /// their edges do not (see loops_apart.h).
-PlanarDomain make_domain(const PlanarModel& model, const PointSize& size,
+PlanarDomain make_domain(const PlanarModel& model, const SizeField& size,
                          const CurveMeshOptions& options = {});
 
 }  // namespace delquad

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "algorithms/fields/fields.h"
+#include "algorithms/fields/size_by.h"
 #include "delquad/error.h"
 #include "features/curves/compose_size.h"
 #include "features/curves/mesh_planar_curves.h"
@@ -54,7 +55,7 @@ void check_count_early(const MeshProblem& problem, const PlanarModel& model,
   if (!(edges > kCheapEdges)) return;
   std::optional<PlanarDomain> coarse;
   try {
-    coarse = make_domain(model, as_function(size, edges / kCoarseEdges));
+    coarse = make_domain(model, *scaled(edges / kCoarseEdges, size));
   } catch (const InputError&) {
     // The boundary makes sense only at its full resolution, where the same check is made again.
   }
@@ -99,7 +100,7 @@ class SizedModel {
     check_count_early(problem_, model_, p_.size.field);
     const CurveOptions curves = curve_options(problem_.options);
     CurveMeshOptions options;
-    if (grid_size) options.grid_size = as_function(grid_size);
+    options.grid_size = grid_size;
     options.max_edges = static_cast<double>(problem_.max_elements);
     options.divisions = problem_.divisions;
     options.periodic = problem_.periodic;
@@ -107,10 +108,9 @@ class SizedModel {
     options.narrow_grids = !curves.thin_rows && curves.agreement > 0;
     options.symmetry = {planes, false, problem_.symmetry.where};
     options.agreement = agreement_;
-    options.size_field = p_.size.field;
-    if (problem_.seed != 0)
-      options.size_field = jittered(std::move(options.size_field), problem_.seed, diagonal_of(model_));
-    domain = make_domain(model_, as_function(options.size_field), options);
+    auto on_curves = p_.size.field;
+    if (problem_.seed != 0) on_curves = jittered(std::move(on_curves), problem_.seed, diagonal_of(model_));
+    domain = make_domain(model_, *on_curves, options);
   }
 
   PlanarDomain domain;

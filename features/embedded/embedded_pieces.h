@@ -27,7 +27,7 @@ std::vector<std::array<Vec2, 2>> dangling_ends(const std::vector<CurveSpan>& cur
 
 /// Gives points that are on no curve two edges, pieces without curves. Throws InputError as dangling_ends().
 /// `fold(at, x)`: mirrors x as it mirrors `at` into the fundamental part of a symmetric model.
-void add_dangling_edges(const PlanarModel& model, const PointSize& size,
+void add_dangling_edges(const PlanarModel& model, const SizeField& size,
                         const std::function<Vec2(Vec2, Vec2)>& fold, ModelChain& chain,
                         std::vector<CurvePiece>& pieces);
 

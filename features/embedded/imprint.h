@@ -25,7 +25,7 @@ namespace delquad {
 /// surface, leave it or run along another curve. So it does for requested lines of length zero, or with
 /// points nearer to each other than a thousandth of the size. The last reason is a point with no room for a
 /// curve. The model's warnings name lines of its file that are left out.
-void imprint(SurfaceModel& model, const PointSize& size);
+void imprint(SurfaceModel& model, const SizeField& size);
 
 /// Imprints the loose lines and points of a model, and returns the size with what is asked of it by names,
 /// theirs among them. Throws InputError as imprint() does, and for a name that nothing has.

@@ -25,9 +25,6 @@ struct GivenSurface {
   std::vector<char> avoided = {};              ///< as in FlattenOptions
 };
 
-/// Returns whether its elements are not all in one plane of constant z.
-bool is_in_space(const Mesh& mesh);
-
 /// Faces end at lines, edges of one element or of more than two, edges between regions and edges sharper than
 /// the feature angle (degrees). All nodes there stay, and so does each named point. Throws InputError, naming
 /// places, for surfaces with one side only, and for meshes that are not conforming. These have hanging nodes,

@@ -128,9 +128,7 @@ std::optional<CutSurface> cut_at_planes(const MeshProblem& problem, SurfaceModel
   const SymmetryPlanes planes(given);
   drop_loose_seams(model, matches);
   size = least_of_images(std::move(size), planes);
-  SymmetricHalf half = cut_symmetric(
-      model, planes, matches, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); },
-      spec.where);
+  SymmetricHalf half = cut_symmetric(model, planes, matches, *size, spec.where);
   if (half.model.fine.triangles.empty())
     throw InputError(
         spec.where +

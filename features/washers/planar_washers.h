@@ -12,6 +12,6 @@ namespace delquad {
 
 /// Returns the problem of a planar model of curves with what its washers come to: numbers of edges of holes,
 /// and layers. `size`: that is asked for.
-MeshProblem with_planar_washers(MeshProblem problem, const PointSize& size, std::vector<Warning>& warnings);
+MeshProblem with_planar_washers(MeshProblem problem, const SizeField& size, std::vector<Warning>& warnings);
 
 }  // namespace delquad

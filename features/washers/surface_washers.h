@@ -39,7 +39,7 @@ class SurfaceWashers {
 
   /// Adds the rings to the lines that are to be imprinted. Warnings, of the model, tell of holes that get
   /// other rows than asked for, or none.
-  void plan(const PointSize& size);
+  void plan(const SizeField& size);
   /// Parts the faces, and divides the fillets.
   void cut();
   /// Takes the divisions that were added out again that are of curves of a face, which cannot be meshed with

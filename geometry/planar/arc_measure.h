@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/planar/planar_model.h"
+#include "delquad/fields.h"
+#include "delquad/model.h"
 
 // This header divides curves into edges of the wanted size. Geometry uses it.
 
@@ -19,7 +20,7 @@ class ArcMeasure {
   /// above `most`, the size is sampled more often than once an edge. So no variation that the edges can show
   /// is missed. Throws InputError where the point is not finite, the size is not finite and positive, or the
   /// curve jumps.
-  ArcMeasure(const Curve& curve, double t0, double t1, const PointSize& size, const std::string& label,
+  ArcMeasure(const Curve& curve, double t0, double t1, const SizeField& size, const std::string& label,
              double most);
 
   /// Returns the integral, to kIntegralTolerance, relative.
@@ -62,7 +63,8 @@ class ArcMeasure {
 
   const Curve& curve_;
   double t0_, t1_;
-  const PointSize& size_;
+  const SizeField& size_;
+  mutable int hint_ = -1;
   std::string label_;
   std::vector<Cell> cells_;
 };
