@@ -86,6 +86,20 @@ std::vector<LocalSize> fine_spots(const MeshProblem& problem, const std::vector<
   return fine;
 }
 
+/// Planes that are given or found, by edges that are short enough to keep curves apart.
+std::vector<SymmetryPlane> planes_of(const MeshProblem& problem, const PlanarModel& model,
+                                     std::vector<Warning>& warnings) {
+  constexpr double kLongest = 1.0 / 200, kShortest = 1e-5, kShorter = 1.0 / 8;  // in diagonals
+  if (!is_symmetric(problem)) return {};
+  PlanarDomain domain;
+  for (double edge = kLongest; domain.patches.empty(); edge *= kShorter) try {
+      domain = make_domain(model, *make_constant_size(edge * diagonal_of(model)));
+    } catch (const InputError&) {
+      if (edge < kShortest) throw;
+    }
+  return find_symmetry(model, domain, problem.symmetry, warnings);
+}
+
 /// A model whose curves are meshed as often as a decision on their size depends on how they were.
 class SizedModel {
  public:
@@ -141,7 +155,7 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   SizedModel sized(problem, model, agreement, p);
   const PlanarDomain& domain = sized.domain;
   size.field = planar_base_size(spec, model, p.warnings);
-  sized.planes = find_symmetry(model, problem.symmetry, p.warnings);
+  sized.planes = planes_of(problem, model, p.warnings);
   p.symmetry = SymmetryPlanes(sized.planes).all();
   const auto with_images = [&](std::shared_ptr<const SizeField> field) {
     return p.symmetry.empty() ? field : least_of_images(std::move(field), SymmetryPlanes(p.symmetry));

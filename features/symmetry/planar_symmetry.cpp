@@ -54,11 +54,18 @@ std::array<Vec2, 2> Symmetry::axis(int plane, const Box<Vec2>& box) const {
   return {middle - reach * along, middle + reach * along};
 }
 
-std::vector<SymmetryPlane> find_symmetry(const PlanarModel& model, SymmetrySpec spec,
-                                         std::vector<Warning>& warnings) {
+std::vector<SymmetryPlane> find_symmetry(const PlanarModel& model, const PlanarDomain& domain,
+                                         SymmetrySpec spec, std::vector<Warning>& warnings) {
   for (SymmetryPlane& p : spec.planes) p.point.z = p.normal.z = 0;
-  if (!spec.automatic && spec.planes.empty()) return {};
-  return find_symmetry_planes(spec, flat_model(model), true, warnings).planes;
+  std::vector<char> in_loop(model.curves.size(), 0);
+  for (const ModelLoop& loop : model.loops)
+    for (const int c : loop.curves) in_loop[c] = 1;
+  SurfaceModel flat = flat_model(domain, model.source);
+  flat.projector = flat_projector(domain, flat.fine);
+  for (std::size_t c = 0; c < domain.model_curves.size(); ++c)
+    if (std::ranges::none_of(domain.model_curves[c], [&](int m) { return in_loop[m] != 0; }))
+      flat.embedded.push_back({static_cast<int>(c), 0});
+  return find_symmetry_planes(spec, flat, true, warnings).planes;
 }
 
 namespace {

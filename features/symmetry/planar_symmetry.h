@@ -38,9 +38,10 @@ class Symmetry : public SymmetryPlanes {
   double tolerance_;
 };
 
-/// Returns the planes of a problem in the plane, or none, see find_symmetry_planes().
-std::vector<SymmetryPlane> find_symmetry(const PlanarModel& model, SymmetrySpec spec,
-                                         std::vector<Warning>& warnings);
+/// Returns the planes of a problem in the plane, or none, see find_symmetry_planes(). `domain`: of the model,
+/// with edges of any length.
+std::vector<SymmetryPlane> find_symmetry(const PlanarModel& model, const PlanarDomain& domain,
+                                         SymmetrySpec spec, std::vector<Warning>& warnings);
 
 /// Returns the model with the planes' axes as curves after its own, and with points, after its own, where its
 /// nodes have their images.

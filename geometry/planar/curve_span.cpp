@@ -55,12 +55,6 @@ void CurveSpan::add(double t0, double t1, Vec2 a, Vec2 b, int halvings) {
   add(t, t1, m, b, halvings + 1);
 }
 
-std::vector<double> CurveSpan::ends() const {
-  std::vector<double> ends{begin()};
-  for (const Chord& chord : chords_) ends.push_back(chord.t1);
-  return ends;
-}
-
 CurveSpan::Place CurveSpan::nearest(Vec2 x) const {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity(), part = 0;

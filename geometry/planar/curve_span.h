@@ -18,8 +18,6 @@ class CurveSpan {
   const Box<Vec2>& box() const { return box_; }
   double begin() const { return chords_.front().t0; }
   double end() const { return chords_.back().t1; }
-  /// Returns the parameters at which chords end, from begin() to end().
-  std::vector<double> ends() const;
 
   struct Place {
     double t;
