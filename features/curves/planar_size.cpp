@@ -31,9 +31,6 @@ constexpr double kCheapEdges = 2e5;
 /// The boundary edges of the coarse domain on which the number of quads is estimated beyond that.
 constexpr double kCoarseEdges = 4e3;
 
-/// Rows in gaps that make so many times the quads are worth a warning.
-constexpr double kManyMore = 5;
-
 /// Boundary edges that the size asks for, by chords: a first idea, before anything is allocated.
 double rough_edges(const PlanarModel& model, const SizeField& size) {
   constexpr int kChords = 200;  // a curve
@@ -189,14 +186,15 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   std::vector<LocalSize> fine = short_edges(domain, *size.field, curves.thin_rows ? curves.aspect : 1);
   if (!fine.empty()) size.adapted_to.push_back("short curves");
   if (curves.gap_rows > 0) {
-    const auto gaps = gap_spots(domain, *size.field, curves.gap_rows);
+    const auto before = size.field;
+    const auto gaps = sizes_in_gaps(before, curves.gap_rows, [&](const auto& by, const LookAtPatch& look) {
+      if (by != before) sized.mesh_by(by);
+      for (const PatchBoundary& patch : domain.patches) look(patch, domain.boundary.points, {});
+    });
+    size.field = before;
     const BackgroundMesh background(domain.patches);
-    const double before = expected_quads(background.triangles(), *size.field),
-                 after = expected_quads(background.triangles(), *finer_near(size.field, gaps));
-    if (after > kManyMore * before)
-      p.warnings.emplace_back(fmt::format(
-          "{}: {} rows of quads in gaps make about {:.3g} quads, where {:.3g} would do for the size",
-          problem.name, curves.gap_rows, after, before));
+    warn_of_many_rows(problem.name, curves.gap_rows, expected_quads(background.triangles(), *size.field),
+                      expected_quads(background.triangles(), *finer_near(size.field, gaps)), p.warnings);
     if (!gaps.empty()) size.adapted_to.push_back("gaps between curves");
     fine.insert(fine.end(), gaps.begin(), gaps.end());
   }
