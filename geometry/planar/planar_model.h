@@ -13,9 +13,6 @@
 
 namespace delquad {
 
-/// delta at a point, physical length.
-using PointSize = std::function<double(const Vec3&)>;
-
 /// Where a node is on its curve, and how far it may slide: over from <= t <= to.
 struct CurvePlace {
   std::shared_ptr<const Curve> curve;  ///< null: the node stays
