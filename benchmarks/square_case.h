@@ -53,8 +53,7 @@ struct SquareCase {
     PlanarModel model;
     model.curves.push_back({make_polyline({low, {high.x, low.y}, high, {low.x, high.y}, low}), "", ""});
     model.loops.push_back({{0}, "", ""});
-    int hint = -1;
-    domain = make_domain(model, [&](const Vec3& x) { return size.at(x, hint); });
+    domain = make_domain(model, size);
   }
   const PatchBoundary& boundary() const { return domain.patches[0]; }
 

@@ -10,6 +10,7 @@
 #include "algorithms/fields/fields.h"
 #include "features/curves/compose_size.h"
 #include "geometry/mesh/check_mesh.h"
+#include "geometry/mesh/model_kind.h"
 #include "io/cases/check_described.h"
 #include "io/cases/problem_record.h"
 
@@ -103,7 +104,7 @@ void refuse_surface_options(const MeshProblem& problem, bool angle_may_be, const
   const SurfaceSpec& s = problem.surface;
   std::set<std::string> allowed = {"keep", "groups"};
   if (angle_may_be) allowed.insert("feature_angle");
-  if (std::holds_alternative<PlanarModel>(problem.model))
+  if (kind_of(problem.model).has_outlines())
     allowed.insert({"ignore_below", "idealize", "simplify", "fill_holes", "weld_tolerance"});
   std::vector<std::string> given = given_keys(s);
   std::erase_if(given, [&](const std::string& key) { return allowed.contains(key); });
@@ -119,7 +120,7 @@ void check_no_surface(const MeshProblem& problem, bool in_space) {
       problem, in_space,
       in_space ? "a mesh that is given keeps its faces, lines and unit" : "the model is planar",
       in_space ? "models" : "surfaces");
-  if (!std::holds_alternative<PlanarModel>(problem.model) && follows_curvature(problem.size))
+  if (!kind_of(problem.model).has_outlines() && follows_curvature(problem.size))
     throw InputError(problem.size.where +
                      ": sizes by curvature need a model of curves or a surface: leave 'curvature' out");
 }
@@ -160,17 +161,15 @@ void check_overlaps(const std::vector<Spec>& specs, const char* what) {
 void check_washers(const MeshProblem& problem) {
   check_overlaps(problem.washers, "diameters");
   check_overlaps(problem.fillet_rows, "radii");
-  const bool is_planar = std::holds_alternative<PlanarModel>(problem.model);
-  const bool is_kept =
-      std::holds_alternative<LineModel>(problem.model) || std::holds_alternative<GivenMesh>(problem.model);
-  if (!problem.fillet_rows.empty() && (is_planar || is_kept))
+  const ModelKind kind = kind_of(problem.model);
+  if (!problem.fillet_rows.empty() && (kind.in_plane || kind.kept))
     throw InputError(problem.fillet_rows[0].where + ": rows across fillets need a CAD model: leave them out");
   if (problem.washers.empty() && problem.fillet_rows.empty()) return;
   const std::string& where =
       problem.washers.empty() ? problem.fillet_rows[0].where : problem.washers[0].where;
-  if (is_kept)
+  if (kind.kept)
     throw InputError(where + ": washers need a planar model of curves or a surface: leave them out");
-  if (!is_planar && (is_symmetric(problem) || !problem.periodic.empty()))
+  if (!kind.in_plane && (is_symmetric(problem) || !problem.periodic.empty()))
     throw InputError(where +
                      ": rows around holes and across fillets of a surface go neither with symmetry nor with "
                      "periodic sides");
@@ -178,22 +177,19 @@ void check_washers(const MeshProblem& problem) {
 
 /// Refuses requests that do not go with the kind of model.
 void check_kind(const MeshProblem& problem) {
-  const auto* lines = std::get_if<LineModel>(&problem.model);
-  const auto* given = std::get_if<GivenMesh>(&problem.model);
-  const bool in_space = given != nullptr && is_in_space(given->mesh);
-  if (!in_space &&
-      (given != nullptr || lines != nullptr || std::holds_alternative<PlanarModel>(problem.model))) {
+  const ModelKind kind = kind_of(problem.model);
+  if (kind.in_plane) {
     check_no_surface(problem, false);
     check_small_outlines(problem);
     check_symmetry_alone(problem);
   }
-  if (given == nullptr && lines == nullptr) return;
-  check_lines_are_free(problem, given != nullptr ? given->source : lines->source);
+  if (kind.kept == nullptr) return;
+  check_lines_are_free(problem, *kind.kept);
   check_curves_are_meshed(problem);
-  if (given != nullptr && !problem.layers.empty())
+  if (kind.is_given && !problem.layers.empty())
     throw InputError(problem.layers[0].where +
                      ": a given mesh gets no layers: leave them out, or mesh its model");
-  if (in_space) check_no_surface(problem, true);
+  if (!kind.in_plane) check_no_surface(problem, true);
 }
 
 }  // namespace
@@ -201,16 +197,14 @@ void check_kind(const MeshProblem& problem) {
 void check_problem(const MeshProblem& problem) {
   check_described(problem, problem.where);
   std::visit([&](const auto& model) { check(model, problem.where); }, problem.model);
-  const bool is_planar =
-      std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
-  if (!problem.layers.empty() && !is_planar &&
+  const bool in_plane = kind_of(problem.model).in_plane;
+  if (!problem.layers.empty() && !in_plane &&
       (is_symmetric(problem) || !problem.periodic.empty() || problem.metric.asks()))
     throw InputError(
         problem.layers[0].where +
         ": layers on a surface go neither with symmetry, nor with periodic sides, nor with a metric");
-  const bool is_flat = is_planar || std::holds_alternative<GivenMesh>(problem.model);
   for (const SymmetryPlane& plane : problem.symmetry.planes)
-    if (is_flat && !(std::hypot(plane.normal.x, plane.normal.y) > 0))
+    if (in_plane && !(std::hypot(plane.normal.x, plane.normal.y) > 0))
       throw InputError(
           problem.symmetry.where +
           ": the normal of a plane of symmetry has no length in the plane: expected x or y other than 0");

@@ -16,19 +16,12 @@
 #include "base/system.h"
 #include "base/text.h"
 #include "delquad/error.h"
-#include "features/curves/compose_size.h"
-#include "features/curves/surface_input.h"
 #include "features/metric/metric_plane.h"
 #include "features/metric/metric_surface.h"
 #include "features/symmetry/mirrored_surface.h"
-#include "features/washers/planar_washers.h"
 #include "geometry/mesh/check_invariants.h"
+#include "geometry/mesh/model_kind.h"
 #include "geometry/mesh/nearest_triangle.h"
-#include "geometry/planar/join_outlines.h"
-#include "geometry/planar/leave_out_small.h"
-#include "geometry/planar/model_chain.h"
-#include "geometry/planar/simplify_outlines.h"
-#include "geometry/planar/snap_outlines.h"
 #include "mesher/finish_steps.h"
 #include "mesher/prepare.h"
 #include "mesher/runner.h"
@@ -75,74 +68,9 @@ void check_order(const MeshingSetup& p) {
 
 /// Returns the steps for the kind of model.
 std::unique_ptr<ModelSteps> steps_of(const MeshProblem& problem, const RetryHints& hints) {
-  if (const auto* given = std::get_if<GivenMesh>(&problem.model)) {
-    if (is_in_space(given->mesh)) return given_surface_steps(problem, *given);
-    return planar_steps(problem, hints);
-  }
-  const bool is_planar =
-      std::holds_alternative<PlanarModel>(problem.model) || std::holds_alternative<LineModel>(problem.model);
-  return is_planar ? planar_steps(problem, hints) : surface_steps(problem, hints);
-}
-
-/// Returns the requested size of a planar model, before its curves make it smaller.
-PointSize size_of(const MeshProblem& problem) {
-  std::vector<Warning> of_size;
-  return as_function(planar_base_size(problem.size, std::get<PlanarModel>(problem.model), of_size));
-}
-
-/// Tolerance for outlines of data, in sizes.
-constexpr double kSimplify = 0.1;
-
-/// Returns whether a change of outlines applies to this model: its outlines are data, or the change was
-/// requested.
-bool is_requested(const MeshProblem& problem, const std::optional<double>& asked) {
-  const auto* model = std::get_if<PlanarModel>(&problem.model);
-  if (model == nullptr || problem.metric.plane) return false;
-  return asked ? *asked > 0 : std::ranges::any_of(model->curves, &ModelCurve::is_data);
-}
-
-MeshProblem snapped(MeshProblem problem, std::vector<Warning>& model_warnings) {
-  constexpr int kChords = 64;
-  auto& model = std::get<PlanarModel>(problem.model);
-  const auto asked = std::exchange(problem.surface.weld_tolerance, 0);
-  model = snap_outlines(std::move(model), asked.value_or(kCoincidence) * norm(box_of(model, kChords).size()),
-                        asked.has_value(), model_warnings);
-  return problem;
-}
-
-MeshProblem simplified(MeshProblem problem, std::vector<Warning>& model_warnings) {
-  const double part = problem.surface.simplify.value_or(kSimplify);
-  const PlanarModel& model = std::get<PlanarModel>(problem.model);
-  std::vector<double> named(model.curves.size(), std::numeric_limits<double>::infinity());
-  for (const NamedSize& size : problem.size.named)
-    for (std::size_t c = 0; c < named.size(); ++c)
-      if (size.size > 0 && model.curves[c].name == size.name) named[c] = std::min(named[c], size.size);
-  const OutlineTolerance tolerance = [part, named, size = size_of(problem)](int curve, const Vec3& x) {
-    return part * std::min(named[curve], size(x));
-  };
-  problem.model = simplify_outlines(std::move(std::get<PlanarModel>(problem.model)), tolerance,
-                                    problem.surface.simplify.has_value(), model_warnings);
-  problem.surface.simplify = 0;
-  return problem;
-}
-
-/// Returns the problem of a planar model without small details of its outlines.
-MeshProblem without_small_outlines(MeshProblem problem, std::vector<Warning>& model_warnings) {
-  PlanarModel& model = std::get<PlanarModel>(problem.model);
-  std::vector<Vec3> ends;
-  std::vector<Entity> curves, regions;
-  for (const ModelCurve& curve : model.curves) {
-    const Vec2 end = curve.shape->point(0);
-    ends.push_back({end.x, end.y, 0});
-    curves.push_back({0, {curve.name}});
-  }
-  for (const ModelLoop& loop : model.loops) regions.push_back({0, {loop.region}});
-  const double length = length_of_small(problem, ends);
-  const double hole = std::max(length, std::numbers::pi * problem.surface.fill_holes);
-  model = leave_out_small(std::move(model), {length, hole, names_that_stay(problem, curves, regions)},
-                          model_warnings);
-  problem.surface = {};
-  return problem;
+  const ModelKind kind = kind_of(problem.model);
+  if (kind.in_plane) return planar_steps(problem, hints);
+  return kind.is_given ? given_surface_steps(problem) : surface_steps(problem, hints);
 }
 
 /// Returns options for a surface with large faces, in which the ends of rows lie far apart: of compounds and
@@ -190,22 +118,10 @@ RetryHints no_hints(const MeshingSetup& prepared) {
 MeshingSetup prepare_problem(const MeshProblem& problem, const RetryHints& hints) {
   check_problem(problem);
   check_criteria(problem.criteria);
-  const SurfaceSpec& s = problem.surface;
-  const bool has_small = s.ignore_below > 0 || s.idealize || s.fill_holes > 0,
-             is_to_be_snapped = is_requested(problem, s.weld_tolerance),
-             is_to_be_simplified = is_requested(problem, s.simplify);
-  if (std::holds_alternative<PlanarModel>(problem.model) &&
-      (has_small || is_to_be_snapped || is_to_be_simplified || !problem.washers.empty())) {
-    std::vector<Warning> model_warnings;
-    MeshProblem other = is_to_be_snapped ? snapped(problem, model_warnings) : problem;
-    if (is_to_be_simplified) other = simplified(std::move(other), model_warnings);
-    for (ModelCurve& curve : std::get<PlanarModel>(other.model).curves) curve.is_data = false;
-    if (has_small) other = without_small_outlines(std::move(other), model_warnings);
-    if (!problem.washers.empty())
-      other = with_planar_washers(std::move(other), size_of(problem), model_warnings);
-    MeshingSetup prepared = prepare_problem(other, hints);
-    prepared.plane.ignores_small = has_small;
-    prepared.warnings.insert(prepared.warnings.begin(), model_warnings.begin(), model_warnings.end());
+  if (auto other = with_other_outlines(problem)) {
+    MeshingSetup prepared = prepare_problem(other->problem, hints);
+    prepared.plane.ignores_small = other->ignores_small;
+    prepared.warnings.insert(prepared.warnings.begin(), other->warnings.begin(), other->warnings.end());
     return prepared;
   }
   MeshingSetup prepared = run_model_steps(problem, *steps_of(problem, hints));

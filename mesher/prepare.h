@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -55,7 +56,17 @@ class ModelSteps {
 /// Return the steps of a kind of model. The arguments must outlive them.
 std::unique_ptr<ModelSteps> planar_steps(const MeshProblem& problem, const RetryHints& hints);
 std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const RetryHints& hints);
-std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem, const GivenMesh& given);
+std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem);
+
+/// A problem of a planar model whose outlines are changed before they are meshed.
+struct OtherOutlines {
+  MeshProblem problem;
+  std::vector<Warning> warnings = {};
+  bool ignores_small = false;
+};
+/// Snaps and simplifies outlines, leaves small parts out and adds washers, as the problem asks for or
+/// outlines of data need. Returns none if nothing is to be done.
+std::optional<OtherOutlines> with_other_outlines(const MeshProblem& problem);
 
 /// Returns the settings by which numbers of edges agree, with fewer steps for a problem that is meshed again.
 CurveAgreement agreement_of(const MeshProblem& problem, const RetryHints& hints);

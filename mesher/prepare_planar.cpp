@@ -56,8 +56,7 @@ PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, M
   }
   if (spec.gradation > 0) p.size.field = limit_gradation(p.size.field, p.plane.background, spec.gradation);
   if (has_single_points(mesh)) {
-    const PointSize size_at = as_function(p.size.field);
-    domain = make_named_domain(mesh, model.surfaces, model.source, &size_at);
+    domain = make_named_domain(mesh, model.surfaces, model.source, p.size.field.get());
     p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
   }
   return domain;
@@ -132,50 +131,42 @@ void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatc
     };
 }
 
-PlanarDomain planar_domain(const MeshProblem& problem, const RetryHints& hints, std::vector<QuadPatch>& given,
-                           MeshingSetup& p) {
-  if (const auto* model = std::get_if<PlanarModel>(&problem.model)) {
-    p.warnings.insert(p.warnings.end(), model->notes.begin(), model->notes.end());
-    return mesh_by_size(problem, *model, hints.spots, agreement_of(problem, hints), p);
-  }
-  const auto* start = std::get_if<GivenMesh>(&problem.model);
-  if (start == nullptr) return prepare_lines(problem, std::get<LineModel>(problem.model), p);
-  return prepare_given(problem, *start, p, given);
-}
-
 class PlanarSteps final : public ModelSteps {
  public:
-  PlanarSteps(const MeshProblem& problem, const RetryHints& hints) : problem_(problem), hints_(hints) {}
+  PlanarSteps(const MeshProblem& problem, const RetryHints& hints)
+      : problem_(problem),
+        hints_(hints),
+        model_(std::get_if<PlanarModel>(&problem.model)),
+        lines_(std::get_if<LineModel>(&problem.model)) {}
 
   void read(MeshingSetup&) override {}
   bool is_surface() const override { return false; }
 
   void mesh_curves(MeshingSetup& p) override {
-    domain_ = planar_domain(problem_, hints_, given_, p);
+    domain_ = make_domain(p);
     for (const std::string& note : domain_.notes) p.warnings.emplace_back(note);
-    if (!std::holds_alternative<GivenMesh>(problem_.model)) warn_of_gaps(domain_, p.warnings);
+    if (model_ != nullptr || lines_ != nullptr) warn_of_gaps(domain_, p.warnings);
     if (!problem_.layers.empty()) {
       const std::vector<LocalSize> fine = put_layers(problem_, domain_, p);
       if (!fine.empty() && !p.size.asked) p.size.asked = p.size.field;
       if (!fine.empty()) p.size.field = finer_near(p.size.field, fine);
-    } else if (std::holds_alternative<PlanarModel>(problem_.model) &&
-               curve_options(problem_.options).thin_rows) {
+    } else if (model_ != nullptr && curve_options(problem_.options).thin_rows) {
       cut_wedges(domain_);
     }
-    if (std::holds_alternative<LineModel>(problem_.model))
+    if (lines_ != nullptr)
       for (const std::string& line : odd_boundaries(domain_))
         p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
     p.size.expected_quads = expected_quads(p.plane.background->triangles(), *p.size.field) +
                             (p.layers ? p.layers->count.quads : 0);
     check_count(p.size.expected_quads, problem_);
     warn_of_large_size(*p.size.field, domain_.boundary, p.warnings);
-    if (const auto* model = std::get_if<PlanarModel>(&problem_.model); model && !p.metric_plane)
-      warn_of_coarse_turns(*model, domain_, problem_.size, p.size.asked ? *p.size.asked : *p.size.field,
+    if (model_ != nullptr && !p.metric_plane)
+      warn_of_coarse_turns(*model_, domain_, problem_.size, p.size.asked ? *p.size.asked : *p.size.field,
                            p.warnings);
     given_cross_ = given_cross(problem_.cross, domain_.boundary, p);
     auto shapes = domain_.curve_shapes;
     if (problem_.seed != 0) turn(problem_, domain_, given_, p);
-    if (std::holds_alternative<PlanarModel>(problem_.model)) seed_narrow(agreement_of(problem_, hints_));
+    if (model_ != nullptr) seed_narrow(agreement_of(problem_, hints_));
     p.boundary = std::move(domain_.boundary);
     p.plane.curve_places = std::move(domain_.places);
     p.plane.outlines = std::move(domain_.outlines);
@@ -217,7 +208,14 @@ class PlanarSteps final : public ModelSteps {
   }
 
  private:
-  /// Adds seeds between nodes that face each other, where a single edge may be impossible.
+  PlanarDomain make_domain(MeshingSetup& p) {
+    if (lines_ != nullptr) return prepare_lines(problem_, *lines_, p);
+    if (model_ == nullptr) return prepare_given(problem_, std::get<GivenMesh>(problem_.model), p, given_);
+    p.warnings.insert(p.warnings.end(), model_->notes.begin(), model_->notes.end());
+    return mesh_by_size(problem_, *model_, hints_.spots, agreement_of(problem_, hints_), p);
+  }
+
+  /// Where nodes face each other, single edges across may be impossible.
   void seed_narrow(const CurveAgreement& agreement) {
     if (agreement.price == 0 || agreement.thin_rows) return;
     for (std::size_t p = 0; p < domain_.patches.size(); ++p)
@@ -227,6 +225,8 @@ class PlanarSteps final : public ModelSteps {
 
   const MeshProblem& problem_;
   const RetryHints& hints_;
+  const PlanarModel* model_;
+  const LineModel* lines_;  ///< null, and no model: a mesh is given
   PlanarDomain domain_;
   std::vector<QuadPatch> given_;  ///< elements of a given mesh, by patch
   std::shared_ptr<const CrossField> given_cross_;

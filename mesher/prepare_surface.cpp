@@ -35,6 +35,7 @@
 #include "features/sizes/named_parts.h"
 #include "features/sizes/size_warnings.h"
 #include "features/symmetry/mirrored_surface.h"
+#include "features/thin/gap_sizes.h"
 #include "features/washers/surface_washers.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
@@ -168,35 +169,21 @@ class SurfaceSteps final : public ModelSteps {
 
   bool is_surface() const override { return true; }
 
-  void flatten(MeshingSetup&) override {
+  void flatten(MeshingSetup& p) override {
     improve_triangulation(model_);
     if (metric_) {
       wanted_.base = make_constant_size(1);
       wanted_.metric = refine_for_metric(model_, *metric_);
+    } else if (const int rows = curve_options(problem_.options).gap_rows; rows > 0) {
+      make_room_in_gaps(rows, p);
     }
-    refine_for_size(model_, wanted_);
-    periodic_ = find_periodic_sides(model_, problem_.periodic, of_periodic_);
-    flattening_ = located(problem_.where, [&] {
-      return metric_ ? flatten_by_metric(model_, *wanted_.metric) : flatten_periodic(model_, periodic_);
-    });
-    for (const LeftOutFace& face : model_.left_out) failures_.add(face.face, face.reason);
-    add_unflattened(flattening_, model_, failures_);
+    lay_flat();
   }
 
   void mesh_curves(MeshingSetup& p) override {
     surface_->cuts = flattening_.cuts;
     set_size(p);
-    auto on_curves = surface_->size;
-    if (problem_.seed != 0) {
-      WantedSize other = wanted_;
-      other.base = jittered(wanted_.base, problem_.seed, diagonal(model_.fine));
-      on_curves = std::make_shared<SurfaceSize>(model_, other);
-    }
-    CurveAgreement agreement = agreement_of(problem_, hints_);
-    agreement.shortest = shortest_;
-    surface_->domain = mesh_curves_of(model_, std::move(flattening_), *on_curves,
-                                      wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_,
-                                      divisions_, washers_, mapped_, periodic_, agreement, failures_);
+    surface_->domain = curves_by(*surface_->size, std::move(flattening_));
     put_layers_on(p);
     surface_->is_retry = !hints_.spots.empty();
     surface_->model = std::move(model_);
@@ -259,9 +246,54 @@ class SurfaceSteps final : public ModelSteps {
     p.settings.limits = limits_of(problem_.criteria, *asked_, model_.fine.points);
     if (least_length(problem_.criteria) != nullptr) shortest_ = p.settings.limits.shortest;
     model_ = join_short_curves(problem_, *asked_, std::move(model_), shortest_);
-    washers_.plan(as_function(asked_));
+    washers_.plan(*asked_);
     asked_ = imprint_named(problem_.size.named, std::move(asked_), model_, p.warnings);
     washers_.cut();
+  }
+
+  SurfaceDomain curves_by(const SurfaceSize& size, Flattening flattening) {
+    std::optional<SurfaceSize> other;
+    if (problem_.seed != 0) {
+      WantedSize on_curves = wanted_;
+      on_curves.base = jittered(wanted_.base, problem_.seed, diagonal(model_.fine));
+      other.emplace(model_, on_curves);
+    }
+    CurveAgreement agreement = agreement_of(problem_, hints_);
+    agreement.shortest = shortest_;
+    return mesh_curves_of(model_, std::move(flattening), other ? *other : size,
+                          wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_, divisions_,
+                          washers_, mapped_, periodic_, agreement, failures_);
+  }
+
+  void lay_flat() {
+    refine_for_size(model_, wanted_);
+    periodic_ = find_periodic_sides(model_, problem_.periodic, of_periodic_);
+    flattening_ = located(problem_.where, [&] {
+      return metric_ ? flatten_by_metric(model_, *wanted_.metric) : flatten_periodic(model_, periodic_);
+    });
+    for (const LeftOutFace& face : model_.left_out) failures_.add(face.face, face.reason);
+    add_unflattened(flattening_, model_, failures_);
+  }
+
+  /// Meshes the curves once before, by sizes as they are, and makes these smaller in gaps.
+  void make_room_in_gaps(int rows, MeshingSetup& p) {
+    const SurfaceModel model = model_;
+    const std::shared_ptr<const SizeField> base = wanted_.base;
+    const auto spots = sizes_in_gaps(base, rows, [&](const auto& size, const LookAtPatch& look) {
+      wanted_.base = size;
+      lay_flat();
+      const SurfaceDomain domain = curves_by(SurfaceSize(model_, wanted_), std::move(flattening_));
+      for (const SurfacePatch& patch : domain.patches)
+        look(patch.boundary, domain.boundary.points, domain.cut_face);
+      model_ = model;
+      failures_ = Failures(problem_);
+      of_periodic_.clear();
+    });
+    if (spots.empty()) return;
+    wanted_.base = finer_near(base, spots);
+    warn_of_many_rows(problem_.name, rows, expected_quads(model_.fine, SurfaceSize(base)),
+                      expected_quads(model_.fine, SurfaceSize(wanted_.base)), p.warnings);
+    p.size.adapted_to.emplace_back("gaps between curves");
   }
 
   void put_layers_on(MeshingSetup& p) {
@@ -314,8 +346,10 @@ class SurfaceSteps final : public ModelSteps {
 
 class GivenSurfaceSteps final : public ModelSteps {
  public:
-  GivenSurfaceSteps(const MeshProblem& problem, const GivenMesh& given)
-      : problem_(problem), mesh_(given.mesh), source_(&given) {}
+  explicit GivenSurfaceSteps(const MeshProblem& problem)
+      : problem_(problem),
+        mesh_(std::get<GivenMesh>(problem.model).mesh),
+        source_(&std::get<GivenMesh>(problem.model)) {}
   /// Makes the steps for a mesh that was read.
   GivenSurfaceSteps(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,
                     std::shared_ptr<const SizeField> size)
@@ -423,8 +457,8 @@ std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const Retr
   return std::make_unique<SurfaceSteps>(problem, hints);
 }
 
-std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem, const GivenMesh& given) {
-  return std::make_unique<GivenSurfaceSteps>(problem, given);
+std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem) {
+  return std::make_unique<GivenSurfaceSteps>(problem);
 }
 
 MeshingSetup prepare_given_surface(const MeshProblem& problem, GivenSurface given, const Mesh& mesh,

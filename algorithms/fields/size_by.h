@@ -21,4 +21,10 @@ std::shared_ptr<const SizeField> size_by(F size) {
   return std::make_shared<SizeBy>(std::move(size));
 }
 
+/// Returns `factor` times a size.
+inline std::shared_ptr<const SizeField> scaled(double factor, std::shared_ptr<const SizeField> size) {
+  return size_by(
+      [factor, size = std::move(size)](const Vec3& x, int& hint) { return factor * size->at(x, hint); });
+}
+
 }  // namespace delquad

@@ -31,11 +31,6 @@ std::shared_ptr<const SizeField> largest_size(const SizeSpec& size, const std::s
   throw InputError(size.where + ": " + why);
 }
 
-PointSize as_function(std::shared_ptr<const SizeField> size, double scale) {
-  return
-      [size = std::move(size), scale, hint = -1](const Vec3& x) mutable { return scale * size->at(x, hint); };
-}
-
 void check_count(double quads, const MeshProblem& problem) {
   if (quads <= static_cast<double>(problem.max_elements)) {
     if (on_estimate()) on_estimate()(quads);

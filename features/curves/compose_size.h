@@ -43,10 +43,7 @@ std::shared_ptr<const SizeField> planar_base_size(const SizeSpec& spec, const Pl
 /// Returns the constant `size.max`, in place of a missing base. Throws InputError with `why` if it is 0.
 std::shared_ptr<const SizeField> largest_size(const SizeSpec& size, const std::string& why);
 
-/// Returns the size times `scale`, as a function for one thread.
-PointSize as_function(std::shared_ptr<const SizeField> size, double scale = 1);
-
-/// Throws InputError if `quads` is above problem.max_elements; otherwise calls on_estimate().
+/// Throws InputError for more quads than problem.max_elements. Else calls on_estimate().
 void check_count(double quads, const MeshProblem& problem);
 
 /// Returns whether planes of symmetry are given or sought.

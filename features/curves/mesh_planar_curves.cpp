@@ -77,16 +77,16 @@ class PieceCounts {
     return find_surface_grids(spec, flat_.fine, flat_.curves, wanted_);
   }
 
-  /// Gives the sides of grids numbers that fit. `size`: by which these are chosen; empty: as all others.
+  /// Gives the sides of grids numbers that fit. `size`: by which these are chosen; null: as all others.
   /// Faces that are not asked for may drop out; where all do, numbers stay.
-  void balance(const MappedSpec& spec, const PointSize& size, std::vector<MappedFace>& mapped) {
+  void balance(const MappedSpec& spec, const SizeField* size, std::vector<MappedFace>& mapped) {
     CurveDemands wanted = wanted_;
     for (const MappedFace& face : mapped)
       for (const auto& side : face.sides)
         for (const int i : side)
-          if (const CurvePiece& p = pieces_[i]; size && p.is_free())
+          if (const CurvePiece& p = pieces_[i]; size != nullptr && p.is_free())
             wanted.demands[i].integral =
-                ArcMeasure(*p.shape, p.from, p.to, size, curve_label(model_, p.curves[0]), kMostEdges)
+                ArcMeasure(*p.shape, p.from, p.to, *size, curve_label(model_, p.curves[0]), kMostEdges)
                     .integral();
     std::vector<int> odd;
     const std::vector<int> counts = grid_counts(spec, flat_.fine, flat_.curves, wanted, mapped, odd);
@@ -168,29 +168,20 @@ class PieceCounts {
   CurveDemands wanted_;
 };
 
-class SizeOfFunction final : public SizeField {
- public:
-  explicit SizeOfFunction(PointSize size) : size_(std::move(size)) {}
-  double at(const Vec3& x, int&) const override { return size_(x); }
-
- private:
-  PointSize size_;
-};
-
 class CurveMesher {
  public:
-  CurveMesher(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options,
+  CurveMesher(const PlanarModel& model, const SizeField& size, const CurveMeshOptions& options,
               const Symmetry* symmetry = nullptr)
       : model_(model),
         mapped_spec_(options.mapped),
         narrow_grids_(options.narrow_grids),
-        grid_size_(options.grid_size),
+        grid_size_(options.grid_size.get()),
         agreement_(options.agreement),
-        size_field_(options.size_field ? options.size_field : std::make_shared<SizeOfFunction>(size)),
+        size_(size),
         chain_(chain_model(model)),
         pieces_(cut_curves(model, chain_)) {
     if (symmetry != nullptr) first_axis_ = static_cast<int>(model.curves.size()) - symmetry->count();
-    measure(size, options.max_edges);
+    measure(options.max_edges);
     name_curves();
     set_least();
     divide_pieces(model_, options.divisions, pieces_);
@@ -373,10 +364,10 @@ class CurveMesher {
     return edges;
   }
 
-  void measure(const PointSize& size, double max_edges) {
+  void measure(double max_edges) {
     double total = 0;
     for (CurvePiece& p : pieces_) {
-      p.measure.emplace(*p.shape, p.from, p.to, size, prefix() + curve_label(model_, p.curves[0]),
+      p.measure.emplace(*p.shape, p.from, p.to, size_, prefix() + curve_label(model_, p.curves[0]),
                         max_edges - total);
       total += p.measure->integral();
     }
@@ -433,19 +424,19 @@ class CurveMesher {
     const Arrangement arrangement = arrange_lines(lines, names);
     const FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
     PieceCounts& counts = counts_.emplace(model_, flat_curves(lines, arrangement, regions, names, pieces_),
-                                          images_, *size_field_, agreement_.shortest, pieces_);
+                                          images_, size_, agreement_.shortest, pieces_);
     if (mapped_spec_.asks() || narrow_grids_) mapped_ = counts.find_grids(mapped_spec_);
     if (!mapped_.empty()) counts.balance(mapped_spec_, grid_size_, mapped_);
     if (mapped_.empty()) counts.make_even();
-    if (agreement_.price > 0) counts.agree(agreement_, *size_field_, mapped_);
+    if (agreement_.price > 0) counts.agree(agreement_, size_, mapped_);
   }
 
   const PlanarModel& model_;
   const MappedSpec mapped_spec_;
   const bool narrow_grids_;
-  const PointSize grid_size_;
+  const SizeField* const grid_size_;
   const CurveAgreement agreement_;
-  const std::shared_ptr<const SizeField> size_field_;
+  const SizeField& size_;
   ModelChain chain_;
   std::vector<CurvePiece> pieces_;
   std::vector<ChainPair> images_;
@@ -456,30 +447,20 @@ class CurveMesher {
   std::vector<std::vector<int>> of_curve_;            ///< the model's curves of each
 };
 
-PlanarDomain mesh_curves(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options) {
-  const bool asked = options.symmetry.automatic || !options.symmetry.planes.empty();
-  const auto symmetry = asked ? find_symmetry(model, options.symmetry) : std::nullopt;
-  if (!symmetry) {
-    PlanarDomain domain = CurveMesher(model, size, options).domain();
-    if (asked) {
-      const std::string near_miss = why_not_symmetric(model);
-      domain.notes.push_back(options.symmetry.where +
-                             ": no plane of symmetry was found: all of the model is meshed" +
-                             (near_miss.empty() ? "" : "; " + near_miss));
-    }
-    return domain;
-  }
-  const PlanarModel whole = with_axes(model, *symmetry);
-  PlanarDomain domain = CurveMesher(whole, size, options, &*symmetry).domain();
+PlanarDomain mesh_curves(const PlanarModel& model, const SizeField& size, const CurveMeshOptions& options) {
+  if (options.symmetry.planes.empty()) return CurveMesher(model, size, options).domain();
+  const Symmetry symmetry(options.symmetry.planes, model);
+  const PlanarModel whole = with_axes(model, symmetry);
+  PlanarDomain domain = CurveMesher(whole, size, options, &symmetry).domain();
   const int n_points = static_cast<int>(model.points.size());
   std::erase_if(domain.boundary.named_points, [&](const NamedPoint& p) { return p.entity.tag > n_points; });
-  domain.images = patch_images(domain.patches, *symmetry, options.symmetry.where);
+  domain.images = patch_images(domain.patches, symmetry, options.symmetry.where);
   return domain;
 }
 
 }  // namespace
 
-PlanarDomain make_domain(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options) {
+PlanarDomain make_domain(const PlanarModel& model, const SizeField& size, const CurveMeshOptions& options) {
   if (options.agreement.price > 0) try {
       return mesh_curves(model, size, options);
     } catch (const InputError&) {

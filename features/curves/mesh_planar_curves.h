@@ -19,28 +19,24 @@ struct CurveMeshOptions {
   std::vector<CurveDivision> divisions = {};
   std::vector<PeriodicPair> periodic = {};
   MappedSpec mapped = {};
-  bool narrow_grids = false;  ///< narrow faces become grids, too, see GridFinder
-  SymmetrySpec symmetry = {};
-  /// Size by which numbers of edges around grids are chosen; empty: the size of all others. Sizes that follow
-  /// the edges of grids must not raise these numbers.
-  PointSize grid_size = {};
+  bool narrow_grids = false;   ///< narrow faces become grids, too, see GridFinder
+  SymmetrySpec symmetry = {};  ///< planes of find_symmetry()
+  /// By which numbers of edges around grids are chosen; null: as all others. Sizes that follow the edges of
+  /// grids must not make more of these.
+  std::shared_ptr<const SizeField> grid_size = nullptr;
   CurveAgreement agreement = {};
-  /// The size for several threads; null: one thread calls the function.
-  std::shared_ptr<const SizeField> size_field = nullptr;
 };
 
-/// Divides the curves of a model at equal integrals of ds/delta, and returns the regions that they bound,
-/// with names as in the model. Each compulsory piece gets n = round(integral) edges, at least one (a closed
-/// curve three). Then every region gets an even number of edges around it: pieces change by one at the least
-/// |log((n +- 1)/integral)| [edmonds1973]. If `agreement` asks for it, numbers agree, and nodes face each
-/// other across narrow places, unless curves could then not be kept apart.
-///
-/// Shared nodes come first, each once, in the order of the curves. The curves of a loop may have any
-/// orientation and order. Ends that are equal up to kJoinTolerance (see model_chain.h) are one node. Throws
-/// InputError, with the curve or place, for open loops, zero-length curves and sizes that are not above 0.
-/// Also throws as build_domain(), and for loops whose curves touch although their edges do not (see
-/// loops_apart.h).
-PlanarDomain make_domain(const PlanarModel& model, const PointSize& size,
+/// Meshes the model's curves at equal integrals of ds/delta, and tells what they bound, regions named as in
+/// the model. Each compulsory piece gets n = round(integral) edges, at least one (a closed curve three). Then
+/// every region gets an even number of edges around it: pieces change by one, where |log((n +- 1)/integral)|
+/// is least. If `agreement` asks for it, numbers agree, and nodes face each other across narrow places,
+/// unless curves could then not be kept apart. Nodes that curves share come first, each once, in the order of
+/// the curves. The curves of a loop may run either way and stand in any order. Ends that are equal up to
+/// kJoinTolerance (see model_chain.h) are one node. Throws InputError for open
+/// loops, zero-length curves, sizes not > 0, as build_domain(), and for loops whose curves touch although
+/// their edges do not (see loops_apart.h).
+PlanarDomain make_domain(const PlanarModel& model, const SizeField& size,
                          const CurveMeshOptions& options = {});
 
 }  // namespace delquad

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "algorithms/fields/fields.h"
+#include "algorithms/fields/size_by.h"
 #include "delquad/error.h"
 #include "features/curves/compose_size.h"
 #include "features/curves/mesh_planar_curves.h"
@@ -30,9 +31,6 @@ constexpr double kCheapEdges = 2e5;
 /// The boundary edges of the coarse domain on which the number of quads is estimated beyond that.
 constexpr double kCoarseEdges = 4e3;
 
-/// Rows in gaps that make so many times the quads are worth a warning.
-constexpr double kManyMore = 5;
-
 /// Boundary edges that the size asks for, by chords: a first idea, before anything is allocated.
 double rough_edges(const PlanarModel& model, const SizeField& size) {
   constexpr int kChords = 200;  // a curve
@@ -54,7 +52,7 @@ void check_count_early(const MeshProblem& problem, const PlanarModel& model,
   if (!(edges > kCheapEdges)) return;
   std::optional<PlanarDomain> coarse;
   try {
-    coarse = make_domain(model, as_function(size, edges / kCoarseEdges));
+    coarse = make_domain(model, *scaled(edges / kCoarseEdges, size));
   } catch (const InputError&) {
     // The boundary makes sense only at its full resolution, where the same check is made again.
   }
@@ -85,11 +83,18 @@ std::vector<LocalSize> fine_spots(const MeshProblem& problem, const std::vector<
   return fine;
 }
 
-/// Directions that are given or found.
-std::vector<SymmetryPlane> planes_of(const MeshProblem& problem, const PlanarModel& model) {
+/// Planes that are given or found, by edges that are short enough to keep curves apart.
+std::vector<SymmetryPlane> planes_of(const MeshProblem& problem, const PlanarModel& model,
+                                     std::vector<Warning>& warnings) {
+  constexpr double kLongest = 1.0 / 200, kShortest = 1e-5, kShorter = 1.0 / 8;  // in diagonals
   if (!is_symmetric(problem)) return {};
-  const std::optional<Symmetry> symmetry = find_symmetry(model, problem.symmetry);
-  return symmetry ? symmetry->all() : std::vector<SymmetryPlane>{};
+  PlanarDomain domain;
+  for (double edge = kLongest; domain.patches.empty(); edge *= kShorter) try {
+      domain = make_domain(model, *make_constant_size(edge * diagonal_of(model)));
+    } catch (const InputError&) {
+      if (edge < kShortest) throw;
+    }
+  return find_symmetry(model, domain, problem.symmetry, warnings);
 }
 
 /// A model whose curves are meshed as often as a decision on their size depends on how they were.
@@ -106,21 +111,21 @@ class SizedModel {
     check_count_early(problem_, model_, p_.size.field);
     const CurveOptions curves = curve_options(problem_.options);
     CurveMeshOptions options;
-    if (grid_size) options.grid_size = as_function(grid_size);
+    options.grid_size = grid_size;
     options.max_edges = static_cast<double>(problem_.max_elements);
     options.divisions = problem_.divisions;
     options.periodic = problem_.periodic;
     options.mapped = problem_.mapped;
     options.narrow_grids = !curves.thin_rows && curves.agreement > 0;
-    options.symmetry = problem_.symmetry;
+    options.symmetry = {planes, false, problem_.symmetry.where};
     options.agreement = agreement_;
-    options.size_field = p_.size.field;
-    if (problem_.seed != 0)
-      options.size_field = jittered(std::move(options.size_field), problem_.seed, diagonal_of(model_));
-    domain = make_domain(model_, as_function(options.size_field), options);
+    auto on_curves = p_.size.field;
+    if (problem_.seed != 0) on_curves = jittered(std::move(on_curves), problem_.seed, diagonal_of(model_));
+    domain = make_domain(model_, *on_curves, options);
   }
 
   PlanarDomain domain;
+  std::vector<SymmetryPlane> planes;  ///< of symmetry
 
  private:
   const MeshProblem& problem_;
@@ -147,7 +152,8 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   SizedModel sized(problem, model, agreement, p);
   const PlanarDomain& domain = sized.domain;
   size.field = planar_base_size(spec, model, p.warnings);
-  p.symmetry = planes_of(problem, model);
+  sized.planes = planes_of(problem, model, p.warnings);
+  p.symmetry = SymmetryPlanes(sized.planes).all();
   const auto with_images = [&](std::shared_ptr<const SizeField> field) {
     return p.symmetry.empty() ? field : least_of_images(std::move(field), SymmetryPlanes(p.symmetry));
   };
@@ -181,14 +187,15 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   std::vector<LocalSize> fine = short_edges(domain, *size.field, curves.thin_rows ? curves.aspect : 1);
   if (!fine.empty()) size.adapted_to.push_back("short curves");
   if (curves.gap_rows > 0) {
-    const auto gaps = gap_spots(domain, *size.field, curves.gap_rows);
+    const auto before = size.field;
+    const auto gaps = sizes_in_gaps(before, curves.gap_rows, [&](const auto& by, const LookAtPatch& look) {
+      if (by != before) sized.mesh_by(by);
+      for (const PatchBoundary& patch : domain.patches) look(patch, domain.boundary.points, {});
+    });
+    size.field = before;
     const BackgroundMesh background(domain.patches);
-    const double before = expected_quads(background.triangles(), *size.field),
-                 after = expected_quads(background.triangles(), *finer_near(size.field, gaps));
-    if (after > kManyMore * before)
-      p.warnings.emplace_back(fmt::format(
-          "{}: {} rows of quads in gaps make about {:.3g} quads, where {:.3g} would do for the size",
-          problem.name, curves.gap_rows, after, before));
+    warn_of_many_rows(problem.name, curves.gap_rows, expected_quads(background.triangles(), *size.field),
+                      expected_quads(background.triangles(), *finer_near(size.field, gaps)), p.warnings);
     if (!gaps.empty()) size.adapted_to.push_back("gaps between curves");
     fine.insert(fine.end(), gaps.begin(), gaps.end());
   }

@@ -122,12 +122,12 @@ namespace {
 /// The pieces of one curve, in their order, get its nodes.
 void divide_curve(const PlanarModel& model, const CurveDivision& division, int curve,
                   const std::vector<CurvePiece*>& pieces) {
-  const PointSize unit = [](const Vec3&) { return 1.0; };
+  const auto unit = make_constant_size(1);
   const std::string label = curve_label(model, curve);
   std::vector<ArcMeasure> arcs;
   std::vector<double> lengths;
   for (const CurvePiece* p : pieces) {
-    arcs.emplace_back(*p->shape, p->from, p->to, unit, message_prefix(model) + label, 1);
+    arcs.emplace_back(*p->shape, p->from, p->to, *unit, message_prefix(model) + label, 1);
     lengths.push_back(arcs.back().integral());
   }
   const auto places = division_places(division, lengths, label);

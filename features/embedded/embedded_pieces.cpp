@@ -19,7 +19,7 @@ bool is_crack(const PlanarModel& model, const std::vector<int>& curves) {
   return std::ranges::any_of(curves, [&](int c) { return model.curves[c].is_crack; });
 }
 
-void add_dangling_edges(const PlanarModel& model, const PointSize& size,
+void add_dangling_edges(const PlanarModel& model, const SizeField& size,
                         const std::function<Vec2(Vec2, Vec2)>& fold, ModelChain& chain,
                         std::vector<CurvePiece>& pieces) {
   std::vector<char> has_piece(chain.nodes.size(), 0);
@@ -29,6 +29,7 @@ void add_dangling_edges(const PlanarModel& model, const PointSize& size,
   std::vector<Vec2> points;
   std::vector<double> sizes;
   std::vector<std::string> labels;
+  int hint = -1;
   for (std::size_t i = 0; i < model.points.size(); ++i) {
     const int v = chain.point_nodes[i];
     if (has_piece[v]) continue;
@@ -40,7 +41,7 @@ void add_dangling_edges(const PlanarModel& model, const PointSize& size,
     }
     nodes.push_back(v);
     points.push_back(at);
-    sizes.push_back(size({points.back().x, points.back().y, 0}));
+    sizes.push_back(size.at({at.x, at.y, 0}, hint));
     labels.push_back(message_prefix(model) + point_label(model, static_cast<int>(i)));
   }
   if (nodes.empty()) return;

@@ -25,9 +25,9 @@ std::vector<std::array<Vec2, 2>> dangling_ends(const std::vector<CurveSpan>& cur
                                                const std::vector<double>& sizes,
                                                const std::vector<std::string>& labels);
 
-/// Gives points that are on no curve two edges, pieces without curves. `fold(at, x)` mirrors x as it mirrors
-/// `at` into the fundamental part of a symmetric model. Throws InputError as dangling_ends().
-void add_dangling_edges(const PlanarModel& model, const PointSize& size,
+/// Gives points that are on no curve two edges, pieces without curves. Throws InputError as dangling_ends().
+/// `fold(at, x)`: mirrors x as it mirrors `at` into the fundamental part of a symmetric model.
+void add_dangling_edges(const PlanarModel& model, const SizeField& size,
                         const std::function<Vec2(Vec2, Vec2)>& fold, ModelChain& chain,
                         std::vector<CurvePiece>& pieces);
 

@@ -221,7 +221,7 @@ class DanglingEdges {
 
 class Imprinter {
  public:
-  Imprinter(SurfaceModel& model, const PointSize& size)
+  Imprinter(SurfaceModel& model, const SizeField& size)
       : model_(model),
         mesh_(model.fine),
         size_(size),
@@ -358,7 +358,7 @@ class Imprinter {
         for (const int v : of_line) nodes.emplace_back(v, line);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const Vec3 x = mesh_.points[nodes[i].first];
-      const double apart = kApart * size_(x);
+      const double apart = kApart * size_.at(x, hint_);
       for (std::size_t j = 0; j < i; ++j) {
         const double distance = norm(mesh_.points[nodes[j].first] - x);
         if (nodes[i].first == nodes[j].first || distance >= apart) continue;
@@ -450,7 +450,7 @@ class Imprinter {
         const auto& [a, b, c] = mesh_.triangles[t];
         normal = normal + cross(mesh_.points[b] - mesh_.points[a], mesh_.points[c] - mesh_.points[a]);
       }
-      const double size = size_(mesh_.points[points[i]]);
+      const double size = size_.at(mesh_.points[points[i]], hint_);
       const auto ends =
           dangling.ends(i, normal, size, [&](const Vec3& x) { return places_.find(x, editor_).at; });
       if (!ends) {
@@ -520,7 +520,8 @@ class Imprinter {
 
   SurfaceModel& model_;
   Mesh& mesh_;
-  const PointSize& size_;
+  const SizeField& size_;
+  mutable int hint_ = -1;
   double diagonal_;
   int first_curve_;
   SurfaceEditor editor_;
@@ -532,18 +533,15 @@ class Imprinter {
 
 }  // namespace
 
-void imprint(SurfaceModel& model, const PointSize& size) {
+void imprint(SurfaceModel& model, const SizeField& size) {
   if (!model.loose.empty()) Imprinter(model, size).run();
 }
 
 std::shared_ptr<const SizeField> imprint_named(const std::vector<NamedSize>& named,
                                                std::shared_ptr<const SizeField> size, SurfaceModel& model,
                                                std::vector<Warning>& warnings) {
-  const auto imprint_with = [&](const std::shared_ptr<const SizeField>& at) {
-    imprint(model, [&at, hint = -1](const Vec3& x) mutable { return at->at(x, hint); });
-  };
   if (named.empty()) {
-    imprint_with(size);
+    imprint(model, *size);
     return size;
   }
   // Parts of the triangles before they are split give the same sizes to the last bit, whatever is imprinted.
@@ -553,7 +551,7 @@ std::shared_ptr<const SizeField> imprint_named(const std::vector<NamedSize>& nam
   std::vector<LocalSize> spots = parts.known_spots(named);
   const std::vector<LocalSize> loose = NamedParts(model.loose).known_spots(named);
   spots.insert(spots.end(), loose.begin(), loose.end());
-  imprint_with(finer_near(size, std::move(spots)));
+  imprint(model, *finer_near(size, std::move(spots)));
   parts.add_lines(model.fine, n_curves, n_points);
   warn_of_ineffective_sizes(named, parts, *size, warnings);
   return finer_near(size, parts.spots(named));

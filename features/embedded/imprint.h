@@ -21,11 +21,11 @@ namespace delquad {
 /// as a node. The curve reaches about one size to either side, away from near curves and points (see
 /// dangling_ends()).
 ///
-/// Throws InputError, with the line, for requested lines that are farther than 0.001 model diagonals from the
-/// surface, leave it or follow another curve. Also throws for requested lines of length zero, points nearer
-/// to each other than 0.001 sizes, and points without room for a curve. Warnings of the model name lines of
-/// its file that are left out. Own method.
-void imprint(SurfaceModel& model, const PointSize& size);
+/// Throws InputError for requested lines that are further than a thousandth of the model's diagonal from the
+/// surface, leave it or run along another curve. So it does for requested lines of length zero, or with
+/// points nearer to each other than a thousandth of the size. The last reason is a point with no room for a
+/// curve. The model's warnings name lines of its file that are left out.
+void imprint(SurfaceModel& model, const SizeField& size);
 
 /// Imprints the loose lines and points of a model, and returns the size with all sizes by name, also of
 /// these. Throws InputError as imprint(), and for a name that no part has.

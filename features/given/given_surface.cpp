@@ -322,19 +322,6 @@ class Triangulation {
 
 }  // namespace
 
-bool is_in_space(const Mesh& mesh) {
-  const double tolerance = kGivenRounding * diagonal(mesh);
-  bool differs = false;
-  double z = std::numeric_limits<double>::quiet_NaN();
-  for_each_element(mesh, [&](int, const auto& v) {
-    for (const int i : v) {
-      if (std::isnan(z)) z = mesh.points[i].z;
-      differs = differs || std::abs(mesh.points[i].z - z) > tolerance;
-    }
-  });
-  return differs;
-}
-
 GivenSurface make_given_surface(const GivenMesh& given, double feature_angle) {
   check_given_elements(given);
   Mesh mesh = given.mesh;

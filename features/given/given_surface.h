@@ -25,15 +25,11 @@ struct GivenSurface {
   std::vector<char> avoided = {};              ///< as in FlattenOptions
 };
 
-/// Returns whether the elements do not all lie in one plane of constant z.
-bool is_in_space(const Mesh& mesh);
-
-/// Returns a given mesh as a surface. Faces end at lines, at edges of one element or of more than two,
-/// between regions, and at edges sharper than the feature angle (degrees). All nodes there stay, and so does
-/// each named point. Throws InputError, with places, for one-sided surfaces and for meshes that are not
-/// conforming. These have hanging nodes, or elements that are repeated, have a corner twice or no area. Quads
-/// that are inverted, folded or without area are repaired first, by nodes that may move over the other
-/// elements.
+/// Faces end at lines, edges of one element or of more than two, edges between regions and edges sharper than
+/// the feature angle (degrees). All nodes there stay, and so does each named point. Throws InputError, naming
+/// places, for surfaces with one side only, and for meshes that are not conforming. These have hanging nodes,
+/// or elements that are there twice, have a corner twice or no area. Quads that are inverted, folded or
+/// without area are repaired first, by moving nodes that need not stay over the other elements.
 GivenSurface make_given_surface(const GivenMesh& given, double feature_angle);
 
 /// Returns the elements of a patch, with points of its boundary first. `inside` gets the places in space of

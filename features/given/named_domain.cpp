@@ -151,7 +151,7 @@ std::vector<int> single_points(const Mesh& lines) {
 }
 
 /// Returns the curve of the edges at single points.
-int add_dangling_edges(Mesh& lines, const std::vector<int>& points, const PointSize& size,
+int add_dangling_edges(Mesh& lines, const std::vector<int>& points, const SizeField& size,
                        const std::string& source) {
   std::vector<std::shared_ptr<const Curve>> shapes;
   std::vector<CurveSpan> spans;
@@ -161,9 +161,10 @@ int add_dangling_edges(Mesh& lines, const std::vector<int>& points, const PointS
   }
   std::vector<Vec2> at;
   std::vector<double> sizes;
+  int hint = -1;
   for (const int v : points) {
     at.push_back(flat(lines.points[v]));
-    sizes.push_back(size(lines.points[v]));
+    sizes.push_back(size.at(lines.points[v], hint));
   }
   const std::vector<std::string> labels(points.size(), source + ": the point");
   const auto ends = dangling_ends(spans, at, sizes, labels);
@@ -183,7 +184,7 @@ int add_dangling_edges(Mesh& lines, const std::vector<int>& points, const PointS
 bool has_single_points(const Mesh& mesh) { return !single_points(mesh).empty(); }
 
 PlanarDomain make_named_domain(const Mesh& mesh, const DeclaredSurfaces& surfaces, const std::string& source,
-                               const PointSize* size) {
+                               const SizeField* size) {
   Mesh lines = lines_of(mesh, source);
   const std::vector<int> single = size != nullptr ? single_points(lines) : std::vector<int>{};
   const int dangling = single.empty() ? -1 : add_dangling_edges(lines, single, *size, source);

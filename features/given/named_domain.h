@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "delquad/fields.h"
 #include "delquad/model.h"
 #include "geometry/planar/planar_model.h"
 
@@ -16,7 +17,7 @@ namespace delquad {
 /// is no hole. Named points without lines become nodes (see dangling_ends()) if there is a `size`; null: they
 /// are left out. Throws InputError as build_domain() and dangling_ends(), beginning with `source`.
 PlanarDomain make_named_domain(const Mesh& mesh, const DeclaredSurfaces& surfaces, const std::string& source,
-                               const PointSize* size = nullptr);
+                               const SizeField* size = nullptr);
 
 /// Returns whether a mesh has named points without lines.
 bool has_single_points(const Mesh& mesh);

@@ -18,6 +18,7 @@
 #include "delquad/error.h"
 #include "features/curves/mesh_planar_curves.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/model_kind.h"
 #include "geometry/planar/curve_span.h"
 #include "geometry/planar/model_chain.h"
 #include "geometry/surface/conformal_maps.h"
@@ -92,8 +93,7 @@ void check_metric(const MeshProblem& problem) {
   const auto refuse = [&](const std::string& what, const std::string& where) {
     refuse_with_metric(problem, what, where);
   };
-  if (std::holds_alternative<LineModel>(problem.model) || std::holds_alternative<GivenMesh>(problem.model))
-    refuse("kept lines and given meshes do", problem.where);
+  if (kind_of(problem.model).kept != nullptr) refuse("kept lines and given meshes do", problem.where);
   if (!problem.layers.empty()) refuse("layers do", problem.layers[0].where);
   if (!problem.washers.empty()) refuse("rows around holes do", problem.washers[0].where);
   if (!problem.fillet_rows.empty()) refuse("rows across fillets do", problem.fillet_rows[0].where);
@@ -452,7 +452,7 @@ MeshProblem in_metric_plane(MeshProblem problem, std::vector<Warning>& warnings)
   const Vec2 low = box_of(model, 64).low, high = box_of(model, 64).high;
   const double edge = kCoarseEdge * norm(high - low);
   if (!(problem.metric.limits.max > 0)) problem.metric.limits.max = norm(high - low);
-  const PlanarDomain domain = make_domain(model, [edge](const Vec3&) { return edge; });
+  const PlanarDomain domain = make_domain(model, *make_constant_size(edge));
   MetricMesh made = resolve_metric(domain, problem.metric.function, problem.metric, problem.max_elements);
   if (made.is_isotropic) return by_its_size(std::move(problem), std::move(made));
   auto [plane, vertex] = lay_flat(made, domain, problem);

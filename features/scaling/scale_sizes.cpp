@@ -11,6 +11,7 @@
 #include "algorithms/fields/fields.h"
 #include "algorithms/fields/size_by.h"
 #include "delquad/error.h"
+#include "geometry/mesh/model_kind.h"
 
 namespace delquad {
 namespace {
@@ -53,9 +54,7 @@ void refine(LayerSpec& layer, double k) {
 MeshProblem with_scaled_sizes(MeshProblem problem, double factor) {
   SizeSpec& size = problem.size;
   const bool has_curvature = follows_curvature(size);
-  if (size.field)
-    size.field =
-        size_by([factor, base = size.field](const Vec3& x, int& hint) { return factor * base->at(x, hint); });
+  if (size.field) size.field = scaled(factor, size.field);
   if (size.function)
     size.function = [factor, base = std::move(size.function)](std::span<const Vec3> points,
                                                               std::span<double> delta) {
@@ -78,13 +77,11 @@ MeshProblem with_scaled_sizes(MeshProblem problem, double factor) {
 }
 
 void require_free_sizes(const MeshProblem& problem, const std::string& asked) {
-  const auto* lines = std::get_if<LineModel>(&problem.model);
-  const auto* given = std::get_if<GivenMesh>(&problem.model);
-  if (lines != nullptr || given != nullptr)
+  if (const std::string* source = kind_of(problem.model).kept)
     throw InputError(fmt::format(
         "{}: {}: the lines of {} are kept, each as an edge: expected curves (in a model file, a polyline "
         "will do), a surface or CAD",
-        problem.where, asked, lines != nullptr ? lines->source : given->source));
+        problem.where, asked, *source));
 }
 
 MeshProblem refined(MeshProblem problem) {

@@ -34,8 +34,7 @@ const OptionTable<CurveOptions>& curve_table() {
                 .most = 100},
                &CurveOptions::aspect)
           .add({.name = "gap_rows",
-                .help =
-                    "in the plane: rows of quads that fit between curves of a region; 0: by the size alone",
+                .help = "rows of quads that fit between curves of a region or face; 0: by the size alone",
                 .least = 0,
                 .most = 1000},
                &CurveOptions::gap_rows)

@@ -10,6 +10,8 @@
 
 #include "base/cancel.h"
 #include "base/text.h"
+#include "delquad/error.h"
+#include "geometry/planar/loops_apart.h"
 
 namespace delquad {
 namespace {
@@ -138,11 +140,13 @@ std::vector<Vec3> candidate_normals(const SurfaceModel& model, const Moments& mo
 
 class PlaneFinder {
  public:
-  PlaneFinder(const SurfaceModel& model, const MirrorMatcher& matcher)
-      : model_(model), matcher_(matcher), moments_(moments_of(model.fine)) {}
+  /// `known`: planes to which others are perpendicular.
+  PlaneFinder(const SurfaceModel& model, const MirrorMatcher& matcher, std::vector<SymmetryPlane> known)
+      : model_(model), matcher_(matcher), moments_(moments_of(model.fine)), found_(std::move(known)) {}
 
-  FoundPlanes run() {
+  std::vector<SymmetryPlane> run() {
     constexpr std::size_t kMost = 3;
+    const std::size_t n_known = found_.size();
     while (found_.size() < kMost) {
       const std::size_t before = found_.size();
       near_miss_.clear();
@@ -153,8 +157,11 @@ class PlaneFinder {
         }
       if (found_.size() == before) break;
     }
-    return {found_, near_miss_};
+    return {found_.begin() + static_cast<std::ptrdiff_t>(n_known), found_.end()};
   }
+
+  /// A plane that would be one more, and the embedded item without an image; or empty.
+  const std::string& near_miss() const { return near_miss_; }
 
  private:
   std::optional<SymmetryPlane> try_normal(const Vec3& normal) {
@@ -205,8 +212,28 @@ class PlaneFinder {
 
 }  // namespace
 
-FoundPlanes find_symmetry_planes(const SurfaceModel& model, const MirrorMatcher& matcher) {
-  return PlaneFinder(model, matcher).run();
+FoundPlanes find_symmetry_planes(const SymmetrySpec& spec, const SurfaceModel& model, bool is_flat,
+                                 std::vector<Warning>& warnings) {
+  const MirrorMatcher matcher(model, is_flat ? kTouch : kSymmetric);
+  FoundPlanes found{spec.planes, {}};
+  if (spec.automatic) {
+    PlaneFinder finder(model, matcher,
+                       is_flat ? std::vector<SymmetryPlane>{{{}, {0, 0, 1}}} : std::vector<SymmetryPlane>{});
+    found.planes = finder.run();
+    std::string said =
+        found.planes.empty() ? "no plane of symmetry was found: all of the model is meshed" : "";
+    if (!finder.near_miss().empty()) said += (said.empty() ? "" : "; ") + finder.near_miss();
+    if (!said.empty()) warnings.emplace_back(spec.where + ": " + said);
+  }
+  const SymmetryPlanes planes = given_planes(found.planes, spec.where);
+  for (int k = 0; k < planes.count(); ++k) {
+    found.matches.push_back(matcher.match(planes, k));
+    if (const std::string& failure = found.matches.back().failure; !failure.empty())
+      throw InputError(fmt::format(
+          "{}: the model is not symmetric at the plane through {} with the normal {}: {} [not-symmetric]",
+          spec.where, show_point(found.planes[k].point), show_point(found.planes[k].normal), failure));
+  }
+  return found;
 }
 
 }  // namespace delquad

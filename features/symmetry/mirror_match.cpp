@@ -59,20 +59,21 @@ std::string label(const char* kind, const Entity& entity) {
 }  // namespace
 
 struct MirrorMatcher::Tables {
-  explicit Tables(const SurfaceModel& m)
+  Tables(const SurfaceModel& m, double part)
       : model(m),
         mesh(m.fine),
         diagonal(delquad::diagonal(m.fine)),
+        largest(part * diagonal),
         all(mesh.points, mesh.triangles),
         line_bends(bends_of_lines(mesh)),
         bends(mesh.triangles.size(), 0),
         triangles_of(mesh.regions.size()),
-        tolerance(mesh.regions.size(), kSymmetric * diagonal),
+        tolerance(mesh.regions.size(), largest),
         is_dangling(mesh.curves.size(), 0),
         is_embedded(mesh.curves.size(), 0),
         is_seam(mesh.curves.size(), 0),
         lines_of(mesh.curves.size()),
-        curve_tolerance(mesh.curves.size(), kSymmetric * diagonal) {
+        curve_tolerance(mesh.curves.size(), largest) {
     fill_faces_and_curves();
     fill_points();
   }
@@ -125,7 +126,7 @@ struct MirrorMatcher::Tables {
             std::min(curve_tolerance[mesh.line_curve[l]], tolerance[face_of(side)]);
   }
 
-  /// Where two dangling curves begin, and no other curve is.
+  /// Named points without lines, and where two dangling curves begin and no other curve is.
   void fill_points() {
     std::vector<int> dangling_at(mesh.points.size(), -1);
     std::vector<char> is_single(mesh.points.size(), 0), is_on_curve(mesh.points.size(), 0);
@@ -138,6 +139,8 @@ struct MirrorMatcher::Tables {
       }
     for (const int p : model.corners)
       if (is_single[p] && !is_on_curve[p]) single_points.push_back(p);
+    for (const NamedPoint& n : mesh.named_points)
+      if (dangling_at[n.point] < 0) single_points.push_back(n.point);
   }
 
   /// The place where an image is farthest off, beyond the tolerance.
@@ -264,9 +267,8 @@ struct MirrorMatcher::Tables {
   std::string match_points(const SymmetryPlanes& planes, int plane) const {
     for (const int p : single_points) {
       const Vec3 at = mesh.points[p], image = planes.reflect(plane, at);
-      if (std::ranges::any_of(single_points, [&](int other) {
-            return norm(mesh.points[other] - image) <= kSymmetric * diagonal;
-          }))
+      if (std::ranges::any_of(single_points,
+                              [&](int other) { return norm(mesh.points[other] - image) <= largest; }))
         continue;
       std::string name;
       for (const NamedPoint& n : mesh.named_points)
@@ -279,7 +281,7 @@ struct MirrorMatcher::Tables {
 
   const SurfaceModel& model;
   const Mesh& mesh;
-  double diagonal;
+  double diagonal, largest;  // tolerance of places
   NearestTriangle all;
   BoxTree<Vec3> lines;
   std::vector<double> line_bends, bends;
@@ -291,7 +293,8 @@ struct MirrorMatcher::Tables {
   std::vector<int> single_points;  // in faces
 };
 
-MirrorMatcher::MirrorMatcher(const SurfaceModel& model) : tables_(std::make_unique<Tables>(model)) {}
+MirrorMatcher::MirrorMatcher(const SurfaceModel& model, double tolerance)
+    : tables_(std::make_unique<Tables>(model, tolerance)) {}
 MirrorMatcher::~MirrorMatcher() = default;
 
 MirrorMatch MirrorMatcher::match(const SymmetryPlanes& planes, int plane) const {

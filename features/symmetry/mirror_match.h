@@ -32,7 +32,8 @@ struct MirrorMatch {
 /// Compares a model with its mirror images.
 class MirrorMatcher {
  public:
-  explicit MirrorMatcher(const SurfaceModel& model);
+  /// `tolerance`: in place of kSymmetric.
+  explicit MirrorMatcher(const SurfaceModel& model, double tolerance = kSymmetric);
   ~MirrorMatcher();
 
   /// Returns the images of faces and curves at a plane, or the reason why there are none.
@@ -51,12 +52,16 @@ class MirrorMatcher {
 
 struct FoundPlanes {
   std::vector<SymmetryPlane> planes;  ///< perpendicular to each other
-  std::string near_miss;  ///< a plane that only an embedded item without an image prevents; or empty
+  std::vector<MirrorMatch> matches;   ///< of each
 };
 
-/// Returns the planes at which a model is symmetric, or none. They go through the middle of the model or the
-/// centroid of its surface. If several are equally good, planes perpendicular to x, y and z come first. Own
-/// method.
-FoundPlanes find_symmetry_planes(const SurfaceModel& model, const MirrorMatcher& matcher);
+/// Returns the planes at which a model is symmetric: those that are given, or those that are found. These go
+/// through the middle of the model or the centroid of its surface. If several are equally good, planes
+/// perpendicular to x, y and z come first. A warning says that there is none, and which item that is embedded
+/// spoils one. `is_flat`: the model is a flat_model(), so that planes are perpendicular to z = 0 and pieces
+/// match to kTouch. Throws InputError for given planes at which it is not symmetric, naming the part without
+/// an image and its distance.
+FoundPlanes find_symmetry_planes(const SymmetrySpec& spec, const SurfaceModel& model, bool is_flat,
+                                 std::vector<Warning>& warnings);
 
 }  // namespace delquad

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 
-#include "base/text.h"
 #include "delquad/error.h"
 #include "features/symmetry/symmetry_planes.h"
 #include "geometry/mesh/entity_names.h"
@@ -16,19 +15,6 @@
 
 namespace delquad {
 namespace {
-
-std::vector<MirrorMatch> matches_at(const MirrorMatcher& matcher, const SymmetryPlanes& planes,
-                                    const std::vector<SymmetryPlane>& given, const std::string& where) {
-  std::vector<MirrorMatch> matches;
-  for (int k = 0; k < planes.count(); ++k) {
-    matches.push_back(matcher.match(planes, k));
-    if (!matches.back().failure.empty())
-      throw InputError(fmt::format(
-          "{}: the model is not symmetric at the plane through {} with the normal {}: {} [not-symmetric]",
-          where, show_point(given[k].point), show_point(given[k].normal), matches.back().failure));
-  }
-  return matches;
-}
 
 /// Seams without an image, which are only where a surface was cut open, go.
 void drop_loose_seams(SurfaceModel& model, const std::vector<MirrorMatch>& matches) {
@@ -137,22 +123,12 @@ std::optional<CutSurface> cut_at_planes(const MeshProblem& problem, SurfaceModel
   if (!spec.automatic && spec.planes.empty()) return std::nullopt;
   if (!problem.periodic.empty())
     throw InputError(spec.where + ": symmetry does not go with periodic sides: expected one of these");
-  const MirrorMatcher matcher(model);
-  const auto [given, near_miss] =
-      spec.automatic ? find_symmetry_planes(model, matcher) : FoundPlanes{spec.planes, {}};
-  if (given.empty())
-    model.warnings.push_back(spec.where + ": no plane of symmetry was found: all of the model is meshed" +
-                             (near_miss.empty() ? "" : "; " + near_miss));
-  else if (!near_miss.empty())
-    model.warnings.push_back(spec.where + ": " + near_miss);
+  auto [given, matches] = find_symmetry_planes(spec, model, false, model.warnings);
   if (given.empty()) return std::nullopt;
-  const SymmetryPlanes planes = given_planes(given, spec.where);
-  std::vector<MirrorMatch> matches = matches_at(matcher, planes, given, spec.where);
+  const SymmetryPlanes planes(given);
   drop_loose_seams(model, matches);
   size = least_of_images(std::move(size), planes);
-  SymmetricHalf half = cut_symmetric(
-      model, planes, matches, [&size, hint = -1](const Vec3& x) mutable { return size->at(x, hint); },
-      spec.where);
+  SymmetricHalf half = cut_symmetric(model, planes, matches, *size, spec.where);
   if (half.model.fine.triangles.empty())
     throw InputError(
         spec.where +

@@ -36,7 +36,7 @@ struct SymmetricHalf {
 /// images could share an edge of the mesh. Throws InputError, beginning with `where`, if a face lies in a
 /// plane in part, and if a corner or a named point has no image.
 SymmetricHalf cut_symmetric(const SurfaceModel& whole, const SymmetryPlanes& planes,
-                            const std::vector<MirrorMatch>& matches, const PointSize& size,
+                            const std::vector<MirrorMatch>& matches, const SizeField& size,
                             const std::string& where);
 
 /// A surface of which one part is meshed, and the rest is its mirror image.

@@ -12,14 +12,16 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/divisions/divisions.h"
+#include "features/symmetry/flat_model.h"
+#include "features/symmetry/mirror_match.h"
 #include "geometry/planar/curve_span.h"
 #include "geometry/planar/loops_apart.h"
 
 namespace delquad {
 namespace {
 
-/// Curves are seen by so many points where symmetries are looked for.
-constexpr int kSamplesOfCurve = 32, kProbesOfCurve = 5;
+/// Curves are seen by so many points.
+constexpr int kSamplesOfCurve = 32;
 
 /// The parameters of the corners of a curve, and of its ends.
 std::vector<double> corner_parameters(const Curve& shape) {
@@ -30,109 +32,10 @@ std::vector<double> corner_parameters(const Curve& shape) {
   return corners;
 }
 
-/// Curves as spans between their corners, to ask how near they are.
-class NearCurves {
- public:
-  explicit NearCurves(const PlanarModel& model) {
-    for (const ModelCurve& curve : model.curves) {
-      const std::vector<double> corners = corner_parameters(*curve.shape);
-      for (std::size_t c = 1; c < corners.size(); ++c)
-        spans_.emplace_back(*curve.shape, corners[c - 1], corners[c]);
-    }
-  }
-  bool has(Vec2 x, double tolerance) const {
-    return std::ranges::any_of(spans_, [&](const CurveSpan& span) {
-      return std::sqrt(span.box().distance2(x)) <= tolerance && span.nearest(x).distance <= tolerance;
-    });
-  }
-
- private:
-  std::vector<CurveSpan> spans_;
-};
-
-/// The centroid of the curves by their lengths.
-Vec2 centroid(const PlanarModel& model) {
-  Vec2 sum;
-  double length = 0;
-  for (const ModelCurve& curve : model.curves) {
-    const std::vector<double> corners = corner_parameters(*curve.shape);
-    Vec2 last = curve.shape->point(0);
-    for (std::size_t c = 1; c < corners.size(); ++c)
-      for (int k = 1; k <= kSamplesOfCurve; ++k) {
-        const double part = static_cast<double>(k) / kSamplesOfCurve;
-        const Vec2 next = curve.shape->point((1 - part) * corners[c - 1] + part * corners[c]);
-        const double chord = norm(next - last);
-        sum = sum + (chord / 2) * (last + next);
-        length += chord;
-        last = next;
-      }
-  }
-  return (1 / length) * sum;
-}
-
-/// Directions of axes that may be: along x and y, diagonals, to ends and middles of curves, and halfway
-/// between them.
-std::vector<double> candidate_angles(const PlanarModel& model, Vec2 centre) {
-  constexpr std::size_t kMost = 64;
-  std::vector<double> angles{std::numbers::pi / 2, 0, std::numbers::pi / 4, 3 * std::numbers::pi / 4};
-  const auto add = [&](Vec2 d) {
-    if (norm(d) == 0 || angles.size() >= kMost) return;
-    double angle = std::atan2(d.y, d.x);
-    if (angle < 0) angle += std::numbers::pi;
-    if (std::ranges::none_of(angles, [&](double a) { return std::abs(a - angle) < 1e-6; }))
-      angles.push_back(angle);
-  };
-  for (const ModelCurve& curve : model.curves)
-    for (const double t : corner_parameters(*curve.shape)) add(curve.shape->point(t) - centre);
-  for (const ModelCurve& curve : model.curves) add(curve.shape->point(0.5) - centre);
-  return angles;
-}
-
-/// A point in a region without an image.
-const ModelPoint* point_without_image(const PlanarModel& model, const NearCurves& curves,
-                                      const Symmetry& symmetry, int plane) {
-  const auto has_image = [&](const ModelPoint& p) {
-    const Vec2 image = symmetry.reflect(1 << plane, p.at);
-    return curves.has(p.at, symmetry.tolerance()) ||
-           std::ranges::any_of(model.points, [&](const ModelPoint& other) {
-             return norm(other.at - image) <= symmetry.tolerance();
-           });
-  };
-  const auto found = std::ranges::find_if_not(model.points, has_image);
-  return found == model.points.end() ? nullptr : &*found;
-}
-
-/// The first curve without an image, and its place; -1: there is none.
-std::pair<int, Vec2> curve_without_image(const PlanarModel& model, const NearCurves& curves,
-                                         const Symmetry& symmetry, int plane) {
-  for (std::size_t c = 0; c < model.curves.size(); ++c)
-    for (int k = 0; k < kProbesOfCurve; ++k) {
-      const Vec2 image =
-          symmetry.reflect(1 << plane, model.curves[c].shape->point((k + 0.37) / kProbesOfCurve));
-      if (!curves.has(image, symmetry.tolerance())) return {static_cast<int>(c), image};
-    }
-  return {-1, {}};
-}
-
-bool has_symmetry(const PlanarModel& model, const NearCurves& curves, const Symmetry& symmetry, int plane) {
-  return curve_without_image(model, curves, symmetry, plane).first < 0 &&
-         point_without_image(model, curves, symmetry, plane) == nullptr;
-}
-
-SymmetryPlane plane_at(Vec2 centre, double axis_angle) {
-  const auto exact = [](double x) { return std::abs(x) < 1e-15 ? 0.0 : x; };
-  return {{centre.x, centre.y, 0}, {exact(std::sin(axis_angle)), exact(-std::cos(axis_angle)), 0}};
-}
-
-std::vector<SymmetryPlane> in_plane(std::vector<SymmetryPlane> planes) {
-  for (SymmetryPlane& p : planes) p.point.z = p.normal.z = 0;
-  return planes;
-}
-
 }  // namespace
 
-Symmetry::Symmetry(std::vector<SymmetryPlane> planes, double tolerance)
-    : SymmetryPlanes(in_plane(std::move(planes))), tolerance_(tolerance) {}
+Symmetry::Symmetry(std::vector<SymmetryPlane> planes, const PlanarModel& model)
+    : SymmetryPlanes(std::move(planes)), tolerance_(kTouch * norm(box_of(model, kSamplesOfCurve).size())) {}
 
 Vec2 Symmetry::reflect(int folds, Vec2 x) const {
   const Vec3 image = reflect_all(folds, {x.x, x.y, 0});
@@ -151,62 +54,18 @@ std::array<Vec2, 2> Symmetry::axis(int plane, const Box<Vec2>& box) const {
   return {middle - reach * along, middle + reach * along};
 }
 
-std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySpec& spec) {
-  const double tolerance = kTouch * norm(box_of(model, kSamplesOfCurve).size());
-  const NearCurves curves(model);
-  if (!spec.automatic) {
-    given_planes(in_plane(spec.planes), spec.where);
-    Symmetry symmetry(spec.planes, tolerance);
-    for (int k = 0; k < symmetry.count(); ++k)
-      if (const ModelPoint* p = point_without_image(model, curves, symmetry, k)) {
-        const Vec2 image = symmetry.reflect(1 << k, p->at);
-        throw InputError(
-            fmt::format("{}: the model is not symmetric: the point '{}' ({}) has no mirror image at "
-                        "({:.10g}, {:.10g}) [not-symmetric]",
-                        spec.where, p->name, p->where, image.x, image.y));
-      }
-    return symmetry;
-  }
-  const Vec2 centre = centroid(model);
-  std::vector<SymmetryPlane> found;
-  for (const double angle : candidate_angles(model, centre)) {
-    const Symmetry one({plane_at(centre, angle)}, tolerance);
-    if (!has_symmetry(model, curves, one, 0)) continue;
-    found.push_back(plane_at(centre, angle));
-    const Symmetry other({plane_at(centre, angle + std::numbers::pi / 2)}, tolerance);
-    if (has_symmetry(model, curves, other, 0))
-      found.push_back(plane_at(centre, angle + std::numbers::pi / 2));
-    return Symmetry(found, tolerance);
-  }
-  return std::nullopt;
-}
-
-std::string why_not_symmetric(const PlanarModel& model) {
+std::vector<SymmetryPlane> find_symmetry(const PlanarModel& model, const PlanarDomain& domain,
+                                         SymmetrySpec spec, std::vector<Warning>& warnings) {
+  for (SymmetryPlane& p : spec.planes) p.point.z = p.normal.z = 0;
   std::vector<char> in_loop(model.curves.size(), 0);
   for (const ModelLoop& loop : model.loops)
     for (const int c : loop.curves) in_loop[c] = 1;
-  PlanarModel outline{model.source, {}, {}, {}};
-  for (std::size_t c = 0; c < model.curves.size(); ++c)
-    if (in_loop[c]) outline.curves.push_back(model.curves[c]);
-  const std::optional<Symmetry> symmetry = find_symmetry(outline, {{}, true});
-  if (!symmetry) return {};
-  const NearCurves curves(model);
-  std::string item;
-  auto [curve, image] = curve_without_image(model, curves, *symmetry, 0);
-  if (curve >= 0) {
-    item = curve_label(model, curve);
-  } else if (const ModelPoint* point = point_without_image(model, curves, *symmetry, 0)) {
-    item = point_label(model, static_cast<int>(point - model.points.data()));
-    image = symmetry->reflect(1, point->at);
-  } else {
-    return {};
-  }
-  const SymmetryPlane plane = symmetry->all()[0];
-  return fmt::format(
-      "the plane through {} with the normal {} would be one, but {} has no "
-      "mirror image at {}",
-      show_point(Vec2{plane.point.x, plane.point.y}), show_point(Vec2{plane.normal.x, plane.normal.y}), item,
-      show_point(image));
+  SurfaceModel flat = flat_model(domain, model.source);
+  flat.projector = flat_projector(domain, flat.fine);
+  for (std::size_t c = 0; c < domain.model_curves.size(); ++c)
+    if (std::ranges::none_of(domain.model_curves[c], [&](int m) { return in_loop[m] != 0; }))
+      flat.embedded.push_back({static_cast<int>(c), 0});
+  return find_symmetry_planes(spec, flat, true, warnings).planes;
 }
 
 namespace {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +21,8 @@ namespace delquad {
 /// One or two planes of symmetry of a planar model.
 class Symmetry : public SymmetryPlanes {
  public:
-  /// Planes must be perpendicular to each other, seen in the plane. `tolerance` is a length.
-  Symmetry(std::vector<SymmetryPlane> planes, double tolerance);
+  /// `planes`: of find_symmetry(), and so perpendicular to each other.
+  Symmetry(std::vector<SymmetryPlane> planes, const PlanarModel& model);
 
   /// Returns the bits of the planes behind which x lies by more than the tolerance.
   int folds_of(Vec2 x) const { return SymmetryPlanes::folds_of({x.x, x.y, 0}, tolerance_); }
@@ -39,14 +38,10 @@ class Symmetry : public SymmetryPlanes {
   double tolerance_;
 };
 
-/// Returns the planes of a problem. With SymmetrySpec::automatic these are found planes through the centroid
-/// of the curves, or none. Throws InputError for given planes that are not perpendicular, or at which the
-/// model is not symmetric.
-std::optional<Symmetry> find_symmetry(const PlanarModel& model, const SymmetrySpec& spec);
-
-/// Returns a warning if no plane is found for the model, but its loops have one. The warning names the parts
-/// in the regions without an image. It is empty if the loops have no plane.
-std::string why_not_symmetric(const PlanarModel& model);
+/// Returns the planes of a problem in the plane, or none, see find_symmetry_planes(). `domain`: of the model,
+/// with edges of any length.
+std::vector<SymmetryPlane> find_symmetry(const PlanarModel& model, const PlanarDomain& domain,
+                                         SymmetrySpec spec, std::vector<Warning>& warnings);
 
 /// Returns the model with the axes of the planes as last curves, and with last points where its nodes have
 /// their images.

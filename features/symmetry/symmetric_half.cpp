@@ -60,7 +60,7 @@ class HalfProjector final : public SurfaceProjector {
 class SymmetricCutter {
  public:
   SymmetricCutter(const SurfaceModel& whole, const SymmetryPlanes& planes,
-                  const std::vector<MirrorMatch>& matches, const PointSize& size, const std::string& where)
+                  const std::vector<MirrorMatch>& matches, const SizeField& size, const std::string& where)
       : whole_(whole),
         planes_(planes),
         matches_(matches),
@@ -401,7 +401,7 @@ class SymmetricCutter {
         length += length_of(end);
       const int first = mesh().lines[begin][0], last = mesh().lines[end - 1][1];
       const int both = shared_[first] & shared_[last] & ~half_.curve_planes[curve];
-      if (both == 0 || length > kSizes * size_(mesh().points[first])) continue;
+      if (both == 0 || length > kSizes * size_.at(mesh().points[first], hint_)) continue;
       double along = 0;
       std::size_t middle = begin;
       while (along < length / 2) along += length_of(middle++);
@@ -454,7 +454,8 @@ class SymmetricCutter {
   const SurfaceModel& whole_;
   const SymmetryPlanes& planes_;
   const std::vector<MirrorMatch>& matches_;
-  const PointSize& size_;
+  const SizeField& size_;
+  int hint_ = -1;
   const std::string& where_;
   double diagonal_;
   int n_curves_, n_faces_;
@@ -467,7 +468,7 @@ class SymmetricCutter {
 }  // namespace
 
 SymmetricHalf cut_symmetric(const SurfaceModel& whole, const SymmetryPlanes& planes,
-                            const std::vector<MirrorMatch>& matches, const PointSize& size,
+                            const std::vector<MirrorMatch>& matches, const SizeField& size,
                             const std::string& where) {
   return SymmetricCutter(whole, planes, matches, size, where).run();
 }

@@ -153,8 +153,10 @@ const WasherSpec* washer_of(const std::vector<WasherSpec>& washers, const Hole& 
   return at == washers.end() ? nullptr : &*at;
 }
 
-double rim_size(const Hole& hole, const WasherSpec& washer, const SizeSpec& spec, double size,
+double rim_size(const Hole& hole, const WasherSpec& washer, const SizeSpec& spec, const SizeField& field,
                 std::vector<Warning>& warnings) {
+  int hint = -1;
+  const double size = field.at(hole.outline[0], hint);
   const double length = hole.length(),
                finer = size_by_curvature(size, kTurn / length, spec.curvature, spec.min);
   const int edges = washer.edges > 0 ? washer.edges : edges_for(washer, length, size),

@@ -55,9 +55,9 @@ struct HoleRows {
 };
 /// Returns the first washer whose range of diameters has the hole; null: none.
 const WasherSpec* washer_of(const std::vector<WasherSpec>& washers, const Hole& hole);
-/// Returns the size at the rim of a hole: `size`, or less if curvature asks for more edges. Given edges win
-/// over curvature. A warning tells which of both gives way.
-double rim_size(const Hole& hole, const WasherSpec& washer, const SizeSpec& spec, double size,
+/// Returns the size at the rim of a hole: the size of the field, or less if curvature asks for more edges.
+/// Edges that are given stay. A warning tells which of them gives way.
+double rim_size(const Hole& hole, const WasherSpec& washer, const SizeSpec& spec, const SizeField& field,
                 std::vector<Warning>& warnings);
 /// Returns whether edges are about as long as the size, so that quads beside them stay within QuadLimits.
 bool edge_fits(double length, double size);

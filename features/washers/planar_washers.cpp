@@ -71,7 +71,7 @@ std::vector<Vec3> in_space(const std::vector<Vec2>& points) {
 
 }  // namespace
 
-MeshProblem with_planar_washers(MeshProblem problem, const PointSize& size, std::vector<Warning>& warnings) {
+MeshProblem with_planar_washers(MeshProblem problem, const SizeField& size, std::vector<Warning>& warnings) {
   const std::vector<WasherSpec> washers = std::exchange(problem.washers, {});
   const PlanarModel& model = std::get<PlanarModel>(problem.model);
   const ModelChain chain = chain_model(model);
@@ -111,7 +111,7 @@ MeshProblem with_planar_washers(MeshProblem problem, const PointSize& size, std:
   for (std::size_t l = 0; l < holes.size(); ++l) {
     if (of_hole[l] == nullptr) continue;
     for (const int c : sampled[l].curves) holes[l].given.push_back(divided.contains(c) ? divided[c] : 0);
-    const double there = rim_size(holes[l], *of_hole[l], problem.size, size(holes[l].outline[0]), warnings);
+    const double there = rim_size(holes[l], *of_hole[l], problem.size, size, warnings);
     const auto rows = rows_around(holes[l], static_cast<int>(l), *of_hole[l], there, room, warnings);
     if (!rows) continue;
     // Heights of layers are the heights of their quads, between nodes that turn.

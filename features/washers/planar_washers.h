@@ -10,8 +10,8 @@
 
 namespace delquad {
 
-/// Returns the problem of a planar model of curves with its washers as layers and numbers of edges of holes.
-/// `size` is the requested size.
-MeshProblem with_planar_washers(MeshProblem problem, const PointSize& size, std::vector<Warning>& warnings);
+/// Returns the problem of a planar model of curves with what its washers come to: numbers of edges of holes,
+/// and layers. `size`: that is asked for.
+MeshProblem with_planar_washers(MeshProblem problem, const SizeField& size, std::vector<Warning>& warnings);
 
 }  // namespace delquad

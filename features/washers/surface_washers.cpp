@@ -207,7 +207,7 @@ void SurfaceWashers::spread(const std::vector<FacingSides>& facing, double size,
   }
 }
 
-void SurfaceWashers::plan(const PointSize& size) {
+void SurfaceWashers::plan(const SizeField& size) {
   if (problem_.washers.empty()) return;
   const Mesh& mesh = model_.fine;
   find_divided();
@@ -247,7 +247,7 @@ void SurfaceWashers::plan(const PointSize& size) {
         hole.given.push_back(edges_.contains(c) ? edges_[c] : 0);
         hole.is_rim |= n_faces[c] > 1;
       }
-      const double there = rim_size(hole, washer, problem_.size, size(hole.outline[0]), model_.warnings);
+      const double there = rim_size(hole, washer, problem_.size, size, model_.warnings);
       auto rows = rows_around(hole, static_cast<int>(h), washer, there, room, model_.warnings);
       if (!rows) continue;
       for (std::size_t i = 0; i < hole.curves.size(); ++i) {

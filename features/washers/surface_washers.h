@@ -38,10 +38,10 @@ class SurfaceWashers {
                  MappedSpec& mapped)
       : problem_(problem), model_(model), divisions_(divisions), mapped_(mapped) {}
 
-  /// Adds the rings to the lines to be imprinted. Warnings of the model tell of holes with other rows than
-  /// requested, or none.
-  void plan(const PointSize& size);
-  /// Divides the faces along the rings, and the curves of fillets.
+  /// Adds the rings to the lines that are to be imprinted. Warnings, of the model, tell of holes that get
+  /// other rows than asked for, or none.
+  void plan(const SizeField& size);
+  /// Parts the faces, and divides the fillets.
   void cut();
   /// Removes added divisions of curves of a face that cannot be meshed with them. Returns whether there were
   /// any.

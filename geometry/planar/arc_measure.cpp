@@ -29,7 +29,7 @@ constexpr double kMaxPanels = 1 << 18;
 
 }  // namespace
 
-ArcMeasure::ArcMeasure(const Curve& curve, double t0, double t1, const PointSize& size,
+ArcMeasure::ArcMeasure(const Curve& curve, double t0, double t1, const SizeField& size,
                        const std::string& label, double most)
     : curve_(curve), t0_(t0), t1_(t1), size_(size), label_(label) {
   std::vector<Panel> panels;
@@ -60,7 +60,7 @@ ArcMeasure::Sample ArcMeasure::sample(double t) const {
   if (!std::isfinite(p.x) || !std::isfinite(p.y))
     throw InputError(
         fmt::format("{} is ({}, {}) at {} of its way: expected finite coordinates", label_, p.x, p.y, t));
-  const double delta = size_({p.x, p.y, 0});
+  const double delta = size_.at({p.x, p.y, 0}, hint_);
   if (!(delta > 0) || !std::isfinite(delta))
     throw InputError(fmt::format("the size is {} at ({}, {}) on {}: expected a finite number above 0", delta,
                                  p.x, p.y, label_));

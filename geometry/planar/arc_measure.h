@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/planar/planar_model.h"
+#include "delquad/fields.h"
+#include "delquad/model.h"
 
 // This header divides curves into edges of the wanted size. Geometry uses it.
 
@@ -14,10 +15,11 @@ namespace delquad {
 /// Simpson rules on chords (own method) need no derivative and no regular parametrization.
 class ArcMeasure {
  public:
-  /// Measures the piece t0 <= t <= t1 of the curve, which messages call `label`; `curve` and `size` must
-  /// outlive this object. If the integral is at most `most`, each edge has more than one sample of the size.
-  /// Throws InputError if a point is not finite, a size is not finite and positive, or the curve jumps.
-  ArcMeasure(const Curve& curve, double t0, double t1, const PointSize& size, const std::string& label,
+  /// The piece t0 <= t <= t1 of the curve, which messages call `label`. Once the integral is known and is not
+  /// above `most`, the size is sampled more often than once an edge. So no variation that the edges can show
+  /// is missed. Throws InputError where the point is not finite, the size is not finite and positive, or the
+  /// curve jumps.
+  ArcMeasure(const Curve& curve, double t0, double t1, const SizeField& size, const std::string& label,
              double most);
 
   /// Returns the integral, with a relative error of kIntegralTolerance.
@@ -60,7 +62,8 @@ class ArcMeasure {
 
   const Curve& curve_;
   double t0_, t1_;
-  const PointSize& size_;
+  const SizeField& size_;
+  mutable int hint_ = -1;
   std::string label_;
   std::vector<Cell> cells_;
 };

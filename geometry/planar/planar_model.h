@@ -13,10 +13,7 @@
 
 namespace delquad {
 
-/// Returns delta at a point, a length.
-using PointSize = std::function<double(const Vec3&)>;
-
-/// Place of a node on its curve, and its range of sliding: from <= t <= to.
+/// Where a node is on its curve, and how far it may slide: over from <= t <= to.
 struct CurvePlace {
   std::shared_ptr<const Curve> curve;  ///< null: the node stays
   double t = 0, from = 0, to = 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cases/read_problem.h"
 
+#include "geometry/mesh/model_kind.h"
 #include "io/cases/outline_files.h"
 
 #include <fmt/format.h>
@@ -171,9 +172,7 @@ void read_surface_metric(MetricSpec& metric) {
 
 void read_metric(const Model& model, MetricSpec& metric) {
   if (metric.function || !metric.asks()) return;
-  if (!std::holds_alternative<PlanarModel>(model) && !std::holds_alternative<LineModel>(model) &&
-      !std::holds_alternative<GivenMesh>(model))
-    return read_surface_metric(metric);
+  if (!kind_of(model).in_plane) return read_surface_metric(metric);
   metric.function = located(metric.where, [&]() -> MetricFunction {
     if (metric.in_space || metric.chord > 0)
       throw InputError("a chord and tensors in space are for surfaces, and this is a planar domain");

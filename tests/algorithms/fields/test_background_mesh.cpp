@@ -108,7 +108,7 @@ TEST(BackgroundMesh, IsNoFinerWhereLinesCross) {
   PlanarModel model = polygons({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
   model.curves.push_back({make_segment({0.2, 0.3}, {0.8, 0.57}), "", ""});
   model.curves.push_back({make_segment({0.2, 0.6}, {0.8, 0.27}), "", ""});
-  const PlanarDomain domain = make_domain(model, [](const Vec3&) { return 0.02; });
+  const PlanarDomain domain = make_domain(model, *make_constant_size(0.02));
   ASSERT_EQ(domain.patches.size(), 1u);
   const BackgroundMesh background(domain.patches);
   EXPECT_LT(background.triangles().triangles.size(), 4 * domain.boundary.lines.size());

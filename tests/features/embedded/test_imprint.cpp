@@ -9,7 +9,7 @@
 namespace delquad {
 namespace {
 
-double size_of_tenth(const Vec3&) { return 0.1; }
+const auto size_of_tenth = make_constant_size(0.1);
 
 LooseLine asked(std::vector<Vec3> points, const std::string& name) {
   return {std::move(points), {name}, "the line '" + name + "'", true};
@@ -20,7 +20,7 @@ SurfaceModel square() { return make_surface_model(triangle_grid(4, 4)); }
 
 SurfaceModel imprinted(SurfaceModel model, std::vector<LooseLine> lines) {
   model.loose = std::move(lines);
-  imprint(model, size_of_tenth);
+  imprint(model, *size_of_tenth);
   EXPECT_TRUE(model.loose.empty());
   EXPECT_EQ(check_invariants(model.fine), std::vector<std::string>{});
   expect_sound_curves(model);
@@ -153,7 +153,8 @@ TEST(Imprint, PointsOfAFileWithoutRoomStayNoNodes) {
   SurfaceModel twice = square();
   twice.loose = {line, near, near};
   twice.loose[2].is_requested = true;
-  expect_input_error([&] { imprint(twice, size_of_tenth); }, {"the line 'near' is nearer than a thousandth"});
+  expect_input_error([&] { imprint(twice, *size_of_tenth); },
+                     {"the line 'near' is nearer than a thousandth"});
 }
 
 TEST(Imprint, ALineThatLeavesTheSurfaceIsRefused) {
@@ -163,7 +164,7 @@ TEST(Imprint, ALineThatLeavesTheSurfaceIsRefused) {
     return Vec3{(1 + v) * std::cos(phi), (1 + v) * std::sin(phi), 0};
   });
   ring.loose = {asked({{1.5, 0.1, 0}, {-1.5, 0.1, 0}}, "bridge")};
-  expect_input_error([&] { imprint(ring, size_of_tenth); },
+  expect_input_error([&] { imprint(ring, *size_of_tenth); },
                      {"'bridge' leaves the surface between (1.5, 0.1, 0)"});
 }
 

@@ -56,7 +56,7 @@ void expect_no_plane(const PlanarModel& model, const std::string& near_miss = ""
   const MeshResult r = mesh(symmetric_problem(model, 0.2, {{}, true, "s 1"}), "DBCO");
   EXPECT_EQ(r.mesh.points, mesh(symmetric_problem(model, 0.2, {}), "DBCO").mesh.points);
   EXPECT_TRUE(std::ranges::any_of(r.warnings, [&](const Warning& w) {
-    return w.text == "s 1: no plane of symmetry was found: all of the model is meshed" + near_miss;
+    return w.text.starts_with("s 1: no plane of symmetry was found: all of the model is meshed" + near_miss);
   }));
 }
 
@@ -94,11 +94,14 @@ TEST(Symmetry, EdgesAtSinglePointsAreMirrored) {
       [&] {
         mesh(symmetric_problem(model, 0.1, {{{{2, 1, 0}, {0, 1, 0}}}, false, "s 1"}), "DBCO");
       },
-      {"s 1: the model is not symmetric: the point 'sensor' (m 3) has no mirror image at (0.6, 1.59)"});
+      {"s 1: the model is not symmetric",
+       "the point 'sensor' at (0.6, 0.41, 0) has no mirror image at (0.6, "
+       "1.59, 0)"});
   // The other points' planes are none of this one.
-  expect_no_plane(model,
-                  "; the plane through (2, 1) with the normal (1, 0) would be one, but point 'sensor' (m 3) "
-                  "has no mirror image at (3.4, 0.41)");
+  expect_no_plane(
+      model,
+      "; the plane through (2, 1, 0) with the normal (1, 0, 0) would be one, but the point 'sensor' "
+      "at (0.6, 0.41, 0) has no mirror image at (3.4, 0.41, 0)");
 }
 
 /// The edges at the second point run askew, past the other ones.
@@ -116,8 +119,8 @@ TEST(Symmetry, CurvesThatSpoilAPlaneAreNamed) {
   model.curves.push_back({make_segment({0.2, 0.2}, {0.2, 1.2}), "rib", "m 4"});
   expect_no_plane(
       model,
-      "; the plane through (2, 1) with the normal (1, 0) would be one, but curve 'rib' (m 4) has no "
-      "mirror image at (3.8, 0.274)");
+      "; the plane through (2, 1, 0) with the normal (1, 0, 0) would be one, but the mirror image of curve 8 "
+      "'rib' is 0.2 away from curves at (3.8, ");
 }
 
 TEST(Symmetry, PlanesThatAreFoundAreTold) {
@@ -203,7 +206,7 @@ TEST(Symmetry, ModelsThatAreNotSymmetricAreRefused) {
     expect_input_error([&] { mesh(symmetric_problem(std::move(model), 0.2, spec), "DBCO"); }, says);
   };
   refused(symmetric_plate(), {{{{1.9, 0, 0}, {1, 0, 0}}}},
-          {"s 1: the model is not symmetric", "has no mirror image"});
+          {"s 1: the model is not symmetric", "the mirror image of"});
   PlanarModel hole = polygons({{{0, 0}, {4, 0}, {4, 2}, {0, 2}}, {{1, 0.5}, {1.5, 0.5}, {1.5, 1}}});
   refused(hole, {{{{2, 0, 0}, {1, 0, 0}}}}, {"s 1: the model is not symmetric"});
   refused(symmetric_plate(), {{{{2, 0, 0}, {1, 0, 0}}, {{2, 0, 0}, {1, 1, 0}}}},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/meshing.h"
+#include "tests/support/triangulated_shapes.h"
 
 namespace delquad {
 namespace {
@@ -233,6 +234,41 @@ TEST(GapRows, FitBetweenArcs) {
   problem.options.set("curves.gap_rows", 30LL);
   EXPECT_EQ(told(mesh(problem, "D")), 1);
   EXPECT_EQ(told(wide), 0);
+}
+
+/// The first edges of the holes are too long to show how near these are.
+TEST(GapRows, FitBetweenSmallHoles) {
+  MeshProblem problem =
+      problem_of(ModelMaker().rectangle({0, 0}, {60, 40}).circle({25, 20}, 5).circle({36, 20}, 5), 4);
+  problem.options.set("curves.gap_rows", 3LL);
+  const Mesh made = mesh(problem, "DBCO").mesh;
+  const auto between = std::ranges::count_if(made.quads, [&](const std::array<int, 4>& quad) {
+    const auto has = [&](double sign) {
+      return std::ranges::any_of(quad, [&](int v) { return sign * (made.points[v].y - 20.01) > 0; });
+    };
+    return has(1) && has(-1) &&
+           std::ranges::all_of(quad, [&](int v) { return std::abs(made.points[v].x - 30.5) < 0.8; });
+  });
+  EXPECT_GE(between, 3);
+}
+
+/// A plate of triangles, half a size thick: quads across the middle of a rim.
+TEST(GapRows, FitBetweenCurvesOfFaces) {
+  constexpr double kThick = 0.1, kMiddle = 0.401;
+  MeshProblem problem = problem_of(TriangleModel{testing_support::box(4, 1, 0.8, kThick), "plate"});
+  problem.size.field = make_constant_size(2 * kThick);
+  const auto across = [&](long long rows) {
+    problem.options.set("curves.gap_rows", rows);
+    const Mesh made = mesh(problem, "DBCO").mesh;
+    return std::ranges::count_if(made.quads, [&](const std::array<int, 4>& quad) {
+      const auto at = [&](double sign) {
+        return std::ranges::any_of(quad, [&](int v) { return sign * (made.points[v].y - kMiddle) > 0; });
+      };
+      return at(1) && at(-1) && std::ranges::all_of(quad, [&](int v) { return made.points[v].x == 0; });
+    });
+  };
+  EXPECT_EQ(across(0), 1);
+  EXPECT_GE(across(3), 3);
 }
 
 /// Lines that are kept get no rows, and no wedges are cut from them.

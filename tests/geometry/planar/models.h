@@ -12,7 +12,18 @@ inline std::vector<ModelMaker::Shape> rectangle_sides(double x0, double y0, doub
           make_segment({x1, y1}, {x0, y1}), make_segment({x0, y1}, {x0, y0})};
 }
 
-inline PointSize constant(double delta) {
+/// A size by a function, whose values nobody checks.
+class TestSize final : public SizeField {
+ public:
+  template <class F>
+  TestSize(F size) : size_(std::move(size)) {}  // NOLINT(google-explicit-constructor)
+  double at(const Vec3& x, int&) const override { return size_(x); }
+
+ private:
+  std::function<double(const Vec3&)> size_;
+};
+
+inline TestSize constant(double delta) {
   return [delta](const Vec3&) { return delta; };
 }
 

@@ -5,7 +5,7 @@
 namespace delquad {
 namespace {
 
-Mesh mesh_curves(const PlanarModel& model, const PointSize& size, const CurveMeshOptions& options = {}) {
+Mesh mesh_curves(const PlanarModel& model, const TestSize& size, const CurveMeshOptions& options = {}) {
   return make_domain(model, size, options).boundary;
 }
 
@@ -49,7 +49,7 @@ TEST(CurveMeshing, CurvesAreNamedAndTagged) {
 }
 
 TEST(CurveMeshing, CoarseSizesKeepEveryPieceAndNoLoopFolds) {
-  const PointSize coarse = constant(1000);
+  const TestSize coarse = constant(1000);
   EXPECT_EQ(mesh_curves(ModelMaker().loop({make_circle({0, 0}, 1)}), coarse).lines.size(), 4u);
   // A half disc: neither the arc nor its chord may be a single edge.
   const Mesh half = mesh_curves(
@@ -127,7 +127,7 @@ TEST(CurveMeshing, EveryPatchOfRandomModelsIsEven) {
   for (int round = 0; round < 300; ++round) {
     const PlanarModel model = random_model(engine);
     const double h = std::uniform_real_distribution<double>(0.05, 0.4)(engine);
-    const PointSize size = [h](const Vec3& p) { return h * (1 + 0.3 * std::sin(p.x + 2 * p.y)); };
+    const TestSize size = [h](const Vec3& p) { return h * (1 + 0.3 * std::sin(p.x + 2 * p.y)); };
     const PlanarDomain domain = make_domain(model, size);
     for (const PatchBoundary& patch : domain.patches) {
       EXPECT_EQ(patch.edges.size() % 2, 0u) << round;
@@ -138,10 +138,9 @@ TEST(CurveMeshing, EveryPatchOfRandomModelsIsEven) {
     EXPECT_GT(kinds[kind], 10) << kind;
 }
 
-CurveMeshOptions agreeing(double size) {
+CurveMeshOptions agreeing() {
   CurveMeshOptions options;
   options.agreement.price = 3;
-  options.size_field = make_constant_size(size);
   return options;
 }
 
@@ -149,22 +148,21 @@ TEST(CurveMeshing, OppositeSidesAgree) {
   const PlanarModel wedge = ModelMaker().loop({make_segment({0, 0}, {3, 0}), make_segment({3, 0}, {3, 5}),
                                                make_segment({3, 5}, {0, 4}), make_segment({0, 4}, {0, 0})});
   EXPECT_EQ(edges_per_curve(mesh_curves(wedge, constant(0.5))), (std::vector<int>{6, 10, 6, 8}));
-  EXPECT_EQ(edges_per_curve(mesh_curves(wedge, constant(0.5), agreeing(0.5))),
-            (std::vector<int>{6, 9, 6, 9}));
+  EXPECT_EQ(edges_per_curve(mesh_curves(wedge, constant(0.5), agreeing())), (std::vector<int>{6, 9, 6, 9}));
 }
 
 TEST(CurveMeshing, PatchesOfRandomModelsWithNumbersThatAgreeAreEven) {
   std::mt19937 engine(12);
   for (int round = 0; round < 100; ++round) {
     const double h = std::uniform_real_distribution<double>(0.05, 0.4)(engine);
-    for (const PatchBoundary& patch : make_domain(random_model(engine), constant(h), agreeing(h)).patches)
+    for (const PatchBoundary& patch : make_domain(random_model(engine), constant(h), agreeing()).patches)
       EXPECT_EQ(patch.edges.size() % 2, 0u) << round;
   }
 }
 
 TEST(CurveMeshing, NodesOfNarrowRingsAreEven) {
   const PlanarModel ring = ModelMaker().loop({make_circle({0, 0}, 1)}).loop({make_circle({0, 0}, 0.8)});
-  CurveMeshOptions options = agreeing(0.15);
+  CurveMeshOptions options = agreeing();
   options.narrow_grids = true;
   const Mesh mesh = mesh_curves(ring, constant(0.15), options);
   const std::vector<int> edges = edges_per_curve(mesh);
@@ -178,13 +176,14 @@ TEST(CurveMeshing, NodesOfNarrowRingsAreEven) {
 }
 
 TEST(CurveMeshing, EdgesOfACurveAreAllAsLongAsTheSizeSays) {
-  const PointSize size = [](const Vec3& p) { return 1e-4 + 0.1 * std::hypot(p.x, p.y); };
+  const TestSize size = [](const Vec3& p) { return 1e-4 + 0.1 * std::hypot(p.x, p.y); };
   const Mesh mesh = mesh_curves(ModelMaker().loop(rectangle_sides(0, 0, 1, 1)), size);
   std::vector<double> shortest(4, 10), longest(4, 0);
+  int hint = -1;
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
     const Vec3 a = mesh.points[mesh.lines[l][0]];
     const Vec3 b = mesh.points[mesh.lines[l][1]];
-    const double ratio = norm(b - a) / size(0.5 * (a + b));
+    const double ratio = norm(b - a) / size.at(0.5 * (a + b), hint);
     const auto c = static_cast<std::size_t>(mesh.line_curve[l]);
     shortest[c] = std::min(shortest[c], ratio);
     longest[c] = std::max(longest[c], ratio);

@@ -59,7 +59,7 @@ TEST(ModelDomain, AirfoilWithASharpTrailingEdge) {
       ModelMaker()
           .loop(rectangle_sides(-5, -5, 6, 5))
           .loop({make_expression_curve("t^2", half, 0, 1), make_expression_curve("t^2", "-" + half, 0, 1)});
-  const PointSize size = [](const Vec3& p) {
+  const TestSize size = [](const Vec3& p) {
     return 0.002 + 0.15 * std::min(std::hypot(p.x, p.y), std::hypot(p.x - 1, p.y));
   };
   const PlanarDomain domain = make_domain(model, size);
@@ -109,7 +109,7 @@ TEST(ModelDomain, SharpCornersTinyEdgesAndSlivers) {
 
 TEST(ModelDomain, TheSameBytesTwice) {
   const PlanarModel model = ModelMaker().loop({make_circle({0, 0}, 2)}).loop({make_circle({0.3, 0}, 1)});
-  const PointSize size = [](const Vec3& p) { return 0.01 + 0.1 * p.x * p.x; };
+  const TestSize size = [](const Vec3& p) { return 0.01 + 0.1 * p.x * p.x; };
   const PlanarDomain a = make_domain(model, size), b = make_domain(model, size);
   EXPECT_EQ(a.boundary.points, b.boundary.points);
   EXPECT_EQ(a.patches.at(0).points, b.patches.at(0).points);
