@@ -22,7 +22,7 @@ std::string show_coordinate(double x) {
   constexpr int kLeast = 6, kMost = 15, kHundredths = 3;
   const double size = std::abs(x);
   const int digits = size > 1 && size < 1e15 ? static_cast<int>(std::log10(size)) + kHundredths : kLeast;
-  return fmt::format("{:.{}g}", x, std::clamp(digits, kLeast, kMost));
+  return fmt::format("{:.{}g}", x + 0.0, std::clamp(digits, kLeast, kMost));  // not -0
 }
 
 }  // namespace

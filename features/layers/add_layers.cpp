@@ -219,7 +219,7 @@ void count(const PlanarDomain& domain, const PatchLayers& patch, int images, Lay
       const double edge = norm(layers.node(c, {a, top}) - layers.node(c, {b, top})) / layers.stretch(c, k);
       if (layers.scales[c][k] < 1 || edge <= result.largest_jump * last) return;
       result.largest_jump = edge / last;
-      result.jump_on = title(k);
+      result.jump_on = title(k) + " at " + show_node(domain, layers.foot_node(c, k));
     });
   }
 }

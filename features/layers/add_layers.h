@@ -39,7 +39,7 @@ struct LayerReport {
   /// Largest ratio of the length of a front edge to the height of its last layer, if that height is the
   /// requested one.
   double largest_jump = 1;
-  std::string jump_on;  ///< curve with this ratio
+  std::string jump_on;  ///< curve and place of this ratio
   /// The curve where heights are scaled the most.
   std::string least_on;
   std::vector<int> patches;      ///< changed patches
