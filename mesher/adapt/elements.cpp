@@ -43,7 +43,7 @@ void lagrange(int order, double x, std::array<double, kMostOrder + 1>& value,
 
 }  // namespace
 
-Elements::Elements(const Mesh& mesh, bool corners_only)
+ElementMaps::ElementMaps(const Mesh& mesh, bool corners_only)
     : points_(mesh.points),
       n_triangles_(static_cast<int>(mesh.triangles.size())),
       order_(corners_only ? 1 : mesh.order) {
@@ -62,7 +62,7 @@ Elements::Elements(const Mesh& mesh, bool corners_only)
     for (const auto& [s, ws] : rule) of_quads_.push_back({s, t, ws * wt});
 }
 
-Shape Elements::shape(int element, double s, double t) const {
+Shape ElementMaps::shape(int element, double s, double t) const {
   Shape shape{};
   if (is_triangle(element)) {
     shape.value = {1 - s - t, s, t};
@@ -82,7 +82,7 @@ Shape Elements::shape(int element, double s, double t) const {
   return shape;
 }
 
-Shape Elements::shape_at(int element, const Vec3& x, double s, double t) const {
+Shape ElementMaps::shape_at(int element, const Vec3& x, double s, double t) const {
   if (is_triangle(element)) {
     const auto v = nodes(element);
     const auto w = nearest_weights(points_[v[0]], points_[v[1]], points_[v[2]], x);
@@ -112,21 +112,21 @@ Shape Elements::shape_at(int element, const Vec3& x, double s, double t) const {
   return shape(element, std::clamp(best_s, 0.0, 1.0), std::clamp(best_t, 0.0, 1.0));
 }
 
-double Elements::value(int element, const Shape& shape, std::span<const double> values) const {
+double ElementMaps::value(int element, const Shape& shape, std::span<const double> values) const {
   double sum = 0;
   const auto v = nodes(element);
   for (std::size_t k = 0; k < v.size(); ++k) sum += shape.value[k] * values[v[k]];
   return sum;
 }
 
-Vec3 Elements::point(int element, const Shape& shape) const {
+Vec3 ElementMaps::point(int element, const Shape& shape) const {
   Vec3 sum;
   const auto v = nodes(element);
   for (std::size_t k = 0; k < v.size(); ++k) sum = sum + shape.value[k] * points_[v[k]];
   return sum;
 }
 
-double Elements::to_plane(int element, Shape& shape) const {
+double ElementMaps::to_plane(int element, Shape& shape) const {
   Vec2 along_s, along_t;
   const auto v = nodes(element);
   for (std::size_t k = 0; k < v.size(); ++k) {
@@ -143,7 +143,7 @@ double Elements::to_plane(int element, Shape& shape) const {
   return std::abs(area);
 }
 
-std::span<const Quadrature> Elements::quadrature(int element) const {
+std::span<const Quadrature> ElementMaps::quadrature(int element) const {
   if (is_triangle(element)) return kTriangle;
   return of_quads_;
 }

@@ -26,10 +26,10 @@ struct Quadrature {
 };
 
 /// Elements of a mesh, triangles first, as maps from the triangle (0, 0), (1, 0), (0, 1) and the unit square.
-class Elements {
+class ElementMaps {
  public:
   /// With `corners_only` elements have straight sides.
-  explicit Elements(const Mesh& mesh, bool corners_only = false);
+  explicit ElementMaps(const Mesh& mesh, bool corners_only = false);
 
   int size() const { return static_cast<int>(start_.size()) - 1; }
   bool is_triangle(int element) const { return element < n_triangles_; }

@@ -19,7 +19,7 @@ constexpr int kPlaces = 4;
 
 ErrorEstimate interpolation_error(const Recovery& solution, double p) {
   if (!(p >= 1)) refuse("the norm {}: expected 1 to infinity", p);
-  const Elements elements(solution.mesh, true);
+  const ElementMaps elements(solution.mesh, true);
   ErrorEstimate estimate;
   for (int e = 0; e < elements.size(); ++e) {
     const auto v = elements.nodes(e);
@@ -59,7 +59,7 @@ ErrorEstimate interpolation_error(const Recovery& solution, double p) {
 }
 
 ErrorEstimate gradient_error(const Recovery& solution) {
-  const Elements elements(solution.mesh);
+  const ElementMaps elements(solution.mesh);
   ErrorEstimate estimate;
   for (int e = 0; e < elements.size(); ++e) {
     const auto v = elements.nodes(e);

@@ -54,7 +54,7 @@ Recovery recover_by_part(const Mesh& mesh, std::span<const double> values) {
 /// Rings of elements around points, as indices of their points.
 class Rings {
  public:
-  explicit Rings(const Elements& elements) : elements_(elements), start_(elements.points().size() + 1, 0) {
+  explicit Rings(const ElementMaps& elements) : elements_(elements), start_(elements.points().size() + 1, 0) {
     for (int e = 0; e < elements.size(); ++e)
       for (const int v : elements.nodes(e)) ++start_[v + 1];
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
@@ -75,7 +75,7 @@ class Rings {
   }
 
  private:
-  const Elements& elements_;
+  const ElementMaps& elements_;
   std::vector<int> start_, at_;
 };
 
@@ -155,7 +155,7 @@ Recovery recover(const Mesh& mesh, std::span<const double> values) {
   const std::size_t n = made.mesh.points.size();
   made.gradient.assign(n, {0, 0});
   made.hessian.assign(n, {0, 0, 0});
-  const Elements elements(made.mesh);
+  const ElementMaps elements(made.mesh);
   const Rings rings(elements);
   parallel_each(n, [&](std::size_t i) {
     const int centre = static_cast<int>(i);

@@ -117,14 +117,14 @@ class Overlaps {
   std::vector<Half> from_, to_;
   std::vector<int> first_;  ///< first half of each element of `to`
   ElementFinder finder_;
-  Elements new_;
+  ElementMaps new_;
   double z_;
   BoxTree<Vec2> tree_;
 };
 
 /// Returns the integrals of shape functions.
 std::vector<double> masses(const Mesh& mesh) {
-  const Elements elements(mesh);
+  const ElementMaps elements(mesh);
   std::vector<double> mass(mesh.points.size(), 0);
   for (int e = 0; e < elements.size(); ++e)
     for (const Quadrature& q : elements.quadrature(e)) {
@@ -174,7 +174,7 @@ std::vector<double> project(const Mesh& from, std::span<const double> values, co
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     Bounds bounds = {};
   };
-  const Elements old(from), fresh(to);
+  const ElementMaps old(from), fresh(to);
   const Overlaps overlaps(from, to);
   std::vector<Local> each(static_cast<std::size_t>(fresh.size()));
   parallel_each(each.size(), [&](std::size_t i) {
@@ -234,7 +234,7 @@ std::vector<double> transfer_points(const Mesh& from, std::span<const double> va
     keep_integral(integral(masses(from), values), masses(to), bounds, how, made);
     return made;
   }
-  const Elements elements(from);
+  const ElementMaps elements(from);
   const ElementFinder finder(from);
   parallel_ranges(made.size(), [&](std::size_t begin, std::size_t end) {
     int hint = -1;
@@ -249,7 +249,7 @@ std::vector<double> transfer_points(const Mesh& from, std::span<const double> va
 std::vector<double> transfer_elements(const Mesh& from, std::span<const double> values, const Mesh& to,
                                       Transfer how) {
   require_pair(from, to, how);
-  const Elements old(from), fresh(to);
+  const ElementMaps old(from), fresh(to);
   if (std::ssize(values) != old.size())
     refuse("there are {} values for the {} triangles and quads of the mesh of the field", values.size(),
            old.size());
