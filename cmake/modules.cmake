@@ -147,7 +147,7 @@ delquad_module(mesher COLD LINKS base geometry/mesh geometry/planar geometry/sur
                algorithms/recombination algorithms/cleanup algorithms/regularity algorithms/layout algorithms/finish io/cases
                features/seed features/sizes features/crosses features/divisions features/embedded features/symmetry features/periodic
                features/grids features/washers features/layers features/scaling features/thin features/given features/curved
-               features/curves features/metric metrics/judgement)
+               features/curves features/metric features/naming metrics/judgement)
 delquad_module(mesher/adapt COLD LINKS base geometry/mesh algorithms/fields mesher PRIVATE Eigen3::Eigen)
 
 if(DELQUAD_PROGRAMS)

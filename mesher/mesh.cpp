@@ -152,8 +152,9 @@ void Meshing::run(const Stage& stage) {
 
 Mesh Meshing::mesh() const {
   const MeshingSetup& prepared = state_->patches.now(state_->prepared.inside());
-  Mesh mesh = assemble(prepared, state_->patches.nodes.points, state_->patches.patches,
-                       std::vector<char>(prepared.boundary.regions.size()));
+  std::vector<char> left_out = prepared.unselected;
+  left_out.resize(prepared.boundary.regions.size());
+  Mesh mesh = assemble(prepared, state_->patches.nodes.points, state_->patches.patches, left_out);
   if (prepared.metric_plane) to_plane(*prepared.metric_plane, mesh);
   return mesh;
 }

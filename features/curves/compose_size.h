@@ -64,8 +64,8 @@ WantedSize surface_size(const MeshProblem& problem, const SurfaceModel& model,
 
 /// Returns the integral of dA/delta^2 over the fine triangles, by their centroids; faces that are images have
 /// the integral of their masters. `part`: of what, if the triangles are a part of a symmetric model; null:
-/// they are all.
+/// they are all. `unselected`: by region, faces that do not count; empty: none.
 double expected_quads(const Mesh& fine, const SurfaceSize& size, const std::vector<FacePair>& images = {},
-                      const CutSurface* part = nullptr);
+                      const CutSurface* part = nullptr, const std::vector<char>& unselected = {});
 
 }  // namespace delquad

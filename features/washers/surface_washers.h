@@ -46,6 +46,8 @@ class SurfaceWashers {
   /// them. Returns whether there were some.
   bool give_way(const FaceError& error);
   bool can_give_way() const { return n_added_ > 0; }
+  /// Returns the number of the face that a ring was cut from; of other faces their own.
+  int face_of(int tag) const { return face_of_.contains(tag) ? face_of_.at(tag) : tag; }
 
  private:
   struct Ring {
@@ -74,6 +76,7 @@ class SurfaceWashers {
   std::map<int, int> edges_;  ///< of curves that are divided
   std::set<int> rims_;        ///< faces among them that belong to holes with rows, and to other ends of these
   std::vector<Ring> rings_;
+  std::map<int, int> face_of_;  ///< numbers of rings, and of the faces that they were cut from
   std::ptrdiff_t n_added_ = 0;  ///< divisions, the last ones
 };
 

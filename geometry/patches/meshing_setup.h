@@ -112,6 +112,8 @@ struct MeshingSetup : Preparation {
   std::shared_ptr<const MetricPlane>
       metric_plane;                       ///< in which all of this lies; null: it is the domain's own
   std::optional<GivenWorst> given_worst;  ///< of a GivenMesh with quads
+  /// By region, faces beside those that SurfaceSpec::faces selects; empty: all are selected.
+  std::vector<char> unselected = {};
 
   /// Returns whether the model is a GivenMesh in space.
   bool is_given_surface() const { return surface && surface->given; }

@@ -214,6 +214,7 @@ def mesh(
     glue: bool | None = None,
     unit: Literal["um", "mm", "cm", "m", "km", "in", "ft"] | None = None,
     names: Mapping[str, Any] | Iterable[Any] | None = None,
+    faces: str | Iterable[Any] | Mapping[str, Any] | None = None,
     sources: Mapping[str, Any] | Iterable[Any] | None = None,
     size_on: Mapping[str, Any] | Iterable[Any] | None = None,
     gradation: float | None = None,
