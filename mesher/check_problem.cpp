@@ -145,17 +145,21 @@ void check_symmetry_alone(const MeshProblem& problem) {
                                  problem.symmetry.where, problem.periodic[0].where));
 }
 
-/// Nodes on the outline of selected faces depend on the model alone.
+/// Nodes on the outline of selected faces depend on the model alone. Mid-surfaces select faces, too.
 void check_faces(const MeshProblem& problem) {
   const SurfaceSpec& s = problem.surface;
-  if (s.faces.empty()) return;
+  if (s.faces.empty() && !s.midsurface) return;
   const char* other = is_symmetric(problem)       ? "symmetry"
                       : !problem.periodic.empty() ? "periodic sides"
                       : !problem.layers.empty()   ? "layers"
+                      : !s.midsurface             ? nullptr
+                      : !s.faces.empty()          ? "selected faces"
+                      : problem.order > 1         ? "curved elements"
                                                   : nullptr;
   if (other != nullptr)
-    throw InputError(fmt::format("{}: selected faces do not go with {}: expected one of the two",
-                                 s.where.empty() ? problem.where : s.where, other));
+    throw InputError(fmt::format("{}: {} do not go with {}: expected one of the two",
+                                 s.where.empty() ? problem.where : s.where,
+                                 s.midsurface ? "mid-surfaces" : "selected faces", other));
 }
 
 /// Refuses ranges that share more than an end. `Spec`: WasherSpec or FilletRows.

@@ -14,6 +14,7 @@
 #include "features/crosses/size_aware.h"
 #include "features/metric/metric_plane.h"
 #include "features/metric/metric_surface.h"
+#include "features/midsurface/opposite_sides.h"
 #include "features/scaling/scale_sizes.h"
 #include "geometry/patches/meshing_setup.h"
 #include "io/cases/read_problem.h"
@@ -119,6 +120,17 @@ Word pipeline_of_quality(const Quality& quality, MeshProblem& problem) {
   return parse_word(quality.word);
 }
 
+/// Moves meshes of thin bodies from one side half-way to the other, where quads are measured and checked
+/// again.
+void move_to_midsurface(MeshResult& result) {
+  const MeshingSetup& prepared = result.prepared.inside();
+  if (!prepared.surface || !prepared.surface->opposite || !result.soundness.sound()) return;
+  prepared.surface->opposite->move_half_way(result.mesh);
+  result.metrics = metrics_of(prepared, result.mesh, sorted_half_edges(result.mesh));
+  Soundness moved = check_elements(prepared, result.mesh);
+  for (std::string& reason : moved.reasons) result.soundness.reasons.push_back("half-way, " + reason);
+}
+
 /// The preparation comes first.
 void add_preparation(MeshResult& result) {
   const Preparation& made = *result.prepared;
@@ -178,6 +190,7 @@ MeshResult Meshing::finish() {
         prepared, result);
   result.prepared = std::move(prepared);
   add_preparation(result);
+  move_to_midsurface(result);
   return result;
 }
 

@@ -29,6 +29,7 @@
 #include "features/grids/grids.h"
 #include "features/layers/add_layers.h"
 #include "features/metric/metric_surface.h"
+#include "features/midsurface/opposite_sides.h"
 #include "features/naming/name_parts.h"
 #include "features/periodic/periodic.h"
 #include "features/seed/perturb.h"
@@ -252,6 +253,7 @@ class SurfaceSteps final : public ModelSteps {
       for (const SizeBall& spot : hints_.spots) kept.push_back({spot.at, spot.reach});
     cad_ = hints_.cad;
     model_ = make_surface(problem_, kept, cad_);
+    if (problem_.surface.midsurface) find_opposite_sides();
     const std::string& where = problem_.surface.where.empty() ? problem_.where : problem_.surface.where;
     for (const int face : selected_faces(problem_.surface.faces, where, model_.fine))
       selected_.insert(model_.fine.regions[face].tag);
@@ -277,6 +279,14 @@ class SurfaceSteps final : public ModelSteps {
     washers_.plan(as_function(asked_));
     asked_ = imprint_named(problem_.size.named, std::move(asked_), model_, p.warnings);
     washers_.cut();
+  }
+
+  /// Selects one side of thin bodies.
+  void find_opposite_sides() {
+    const auto opposite = std::make_shared<OppositeSides>(model_);
+    opposite->add_to(model_);
+    for (const int face : opposite->faces()) selected_.insert(model_.fine.regions[face].tag);
+    surface_->opposite = opposite;
   }
 
   /// By region; empty if all are selected.

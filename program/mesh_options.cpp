@@ -58,7 +58,7 @@ const std::set<std::string> kOfImprove = {"size.base",
                                           "criteria"};
 
 /// Keys of surfaces that change no model, but what is meshed of it.
-const std::set<std::string> kOfMesh = {"surface.faces"};
+const std::set<std::string> kOfMesh = {"surface.faces", "surface.midsurface"};
 
 bool accepts_type(const TomlKey& key, const char* type) {
   return key.type.find('"' + std::string(type) + '"') != std::string::npos;

@@ -22,6 +22,7 @@ namespace delquad {
 
 struct LayerReport;
 struct MirroredSurface;
+class OppositeSides;
 
 /// A patch, ready for the stages: its boundary and fields in the parameter plane, and the way back to space.
 struct PatchSetup {
@@ -63,6 +64,7 @@ struct SurfaceSetup {
   std::optional<GivenEntities> given;               ///< of a GivenMesh
   bool is_retry = false;                            ///< with smaller sizes, as its mesh was not sound
   std::shared_ptr<const SurfaceModel> cad;          ///< as it was read; null of other models
+  std::shared_ptr<const OppositeSides> opposite;    ///< of thin bodies with a mid-surface; null: none
 
   const SurfaceModel& whole() const { return full_model ? full_model->model : model; }
   const std::vector<SurfaceCut>& all_cuts() const { return full_model ? full_model->cuts : cuts; }

@@ -321,6 +321,8 @@ struct SurfaceSpec {
   /// Only faces that one of these selects are meshed, after compounds are made; empty: all. Nodes on their
   /// outline depend on the model and its sizes alone. So meshes of other faces fit there, node by node.
   std::vector<PartRule> faces;
+  /// Mesh thin bodies half-way between their opposite faces, with Mesh::thickness.
+  bool midsurface = false;
   std::string where;  ///< origin of the request, for messages; empty: no request
 };
 

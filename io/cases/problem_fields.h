@@ -128,6 +128,8 @@ inline constexpr auto kFields<SurfaceSpec> = std::tuple(
           {.form = Form::kOwn,
            .type = R"({"type": ["string", "array"], "items": {"type": ["string", "object"]}})",
            .option = "--faces"}),
+    field("midsurface", &SurfaceSpec::midsurface,
+          "whether thin bodies are meshed half-way between their faces", {.option = "--midsurface"}),
     place(&SurfaceSpec::where));
 
 // --- sizes and directions
