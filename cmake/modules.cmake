@@ -125,6 +125,7 @@ delquad_module(features/layers COLD LINKS base geometry/mesh geometry/planar geo
 delquad_module(features/scaling COLD LINKS base geometry/mesh algorithms/fields geometry/patches features/layers)
 delquad_module(features/thin COLD LINKS base geometry/mesh geometry/planar geometry/patches features/sizes)
 delquad_module(features/naming COLD LINKS base geometry/mesh geometry/surface)
+delquad_module(features/midsurface COLD LINKS base geometry/mesh geometry/surface PRIVATE Eigen3::Eigen)
 delquad_module(io/cases COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/cad algorithms/fields io io/gdal
                features/layers
                PRIVATE PkgConfig::muparser tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json)
@@ -147,7 +148,7 @@ delquad_module(mesher COLD LINKS base geometry/mesh geometry/planar geometry/sur
                algorithms/recombination algorithms/cleanup algorithms/regularity algorithms/layout algorithms/finish io/cases
                features/seed features/sizes features/crosses features/divisions features/embedded features/symmetry features/periodic
                features/grids features/washers features/layers features/scaling features/thin features/given features/curved
-               features/curves features/metric metrics/judgement)
+               features/curves features/metric features/naming features/midsurface metrics/judgement)
 delquad_module(mesher/adapt COLD LINKS base geometry/mesh algorithms/fields mesher PRIVATE Eigen3::Eigen)
 
 if(DELQUAD_PROGRAMS)

@@ -147,6 +147,23 @@ void check_symmetry_alone(const MeshProblem& problem) {
                                  problem.symmetry.where, problem.periodic[0].where));
 }
 
+/// Nodes on the outline of selected faces depend on the model alone. Mid-surfaces select faces, too.
+void check_faces(const MeshProblem& problem) {
+  const SurfaceSpec& s = problem.surface;
+  if (s.faces.empty() && !s.midsurface) return;
+  const char* other = is_symmetric(problem)       ? "symmetry"
+                      : !problem.periodic.empty() ? "periodic sides"
+                      : !problem.layers.empty()   ? "layers"
+                      : !s.midsurface             ? nullptr
+                      : !s.faces.empty()          ? "selected faces"
+                      : problem.order > 1         ? "curved elements"
+                                                  : nullptr;
+  if (other != nullptr)
+    throw InputError(fmt::format("{}: {} do not go with {}: expected one of the two",
+                                 s.where.empty() ? problem.where : s.where,
+                                 s.midsurface ? "mid-surfaces" : "selected faces", other));
+}
+
 /// Refuses ranges that share more than an end. `Spec`: WasherSpec or FilletRows.
 template <class Spec>
 void check_overlaps(const std::vector<Spec>& specs, const char* what) {
@@ -210,6 +227,7 @@ void check_problem(const MeshProblem& problem) {
           ": the normal of a plane of symmetry has no length in the plane: expected x or y other than 0");
   check(problem.cross, problem.metric.asks());
   check_washers(problem);
+  check_faces(problem);
   check_kind(problem);
 }
 

@@ -14,6 +14,7 @@
 #include "features/crosses/size_aware.h"
 #include "features/metric/metric_plane.h"
 #include "features/metric/metric_surface.h"
+#include "features/midsurface/opposite_sides.h"
 #include "features/scaling/scale_sizes.h"
 #include "geometry/patches/meshing_setup.h"
 #include "io/cases/read_problem.h"
@@ -119,7 +120,18 @@ Word pipeline_of_quality(const Quality& quality, MeshProblem& problem) {
   return parse_word(quality.word);
 }
 
-/// Puts the warnings and times of the preparation before the ones that the result has.
+/// Moves meshes of thin bodies from one side half-way to the other, where quads are measured and checked
+/// again.
+void move_to_midsurface(MeshResult& result) {
+  const MeshingSetup& prepared = result.prepared.inside();
+  if (!prepared.surface || !prepared.surface->opposite || !result.soundness.sound()) return;
+  prepared.surface->opposite->move_half_way(result.mesh);
+  result.metrics = metrics_of(prepared, result.mesh, sorted_half_edges(result.mesh));
+  Soundness moved = check_elements(prepared, result.mesh);
+  for (std::string& reason : moved.reasons) result.soundness.reasons.push_back("half-way, " + reason);
+}
+
+/// The preparation comes first.
 void add_preparation(MeshResult& result) {
   const Preparation& made = *result.prepared;
   StageLog log{made.times};
@@ -152,8 +164,9 @@ void Meshing::run(const Stage& stage) {
 
 Mesh Meshing::mesh() const {
   const MeshingSetup& prepared = state_->patches.now(state_->prepared.inside());
-  Mesh mesh = assemble(prepared, state_->patches.nodes.points, state_->patches.patches,
-                       std::vector<char>(prepared.boundary.regions.size()));
+  std::vector<char> left_out = prepared.unselected;
+  left_out.resize(prepared.boundary.regions.size());
+  Mesh mesh = assemble(prepared, state_->patches.nodes.points, state_->patches.patches, left_out);
   if (prepared.metric_plane) to_plane(*prepared.metric_plane, mesh);
   return mesh;
 }
@@ -177,6 +190,7 @@ MeshResult Meshing::finish() {
         prepared, result);
   result.prepared = std::move(prepared);
   add_preparation(result);
+  move_to_midsurface(result);
   return result;
 }
 

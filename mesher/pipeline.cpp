@@ -46,7 +46,8 @@ std::vector<char> collect_failures(const MeshingSetup& prepared, const std::vect
                                   prepared.boundary.regions[pair.face].tag,
                                   prepared.boundary.regions[pair.master].tag)});
   std::ranges::stable_sort(result.failures, {}, &FaceFailure::face);
-  std::vector<char> left_out(prepared.boundary.regions.size(), 0);
+  std::vector<char> left_out = prepared.unselected;
+  left_out.resize(prepared.boundary.regions.size(), 0);
   for (const FaceFailure& failure : result.failures)
     if (failure.face >= 0) left_out[failure.face] = 1;
   if (std::ranges::none_of(prepared.patches, [&](const PatchSetup& p) { return !left_out[p.region]; }))

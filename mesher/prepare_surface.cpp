@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "algorithms/fields/sampled_fields.h"
@@ -28,6 +29,8 @@
 #include "features/grids/grids.h"
 #include "features/layers/add_layers.h"
 #include "features/metric/metric_surface.h"
+#include "features/midsurface/opposite_sides.h"
+#include "features/naming/name_parts.h"
 #include "features/periodic/periodic.h"
 #include "features/seed/perturb.h"
 #include "features/sizes/curve_options.h"
@@ -50,11 +53,15 @@ class Failures {
  public:
   explicit Failures(const MeshProblem& problem) : where_(problem.where), keep_going_(problem.keep_going) {}
 
+  /// Failures of these faces, by region, do not count.
+  void ignore(std::vector<char> faces) { ignored_ = std::move(faces); }
   void add(int face, const std::string& reason) {
+    if (is_ignored(face)) return;
     if (!keep_going_) throw InputError(where_ + ": " + reason);
     failures_.push_back({face, reason});
   }
-  bool are_left_out() const { return keep_going_; }
+  bool are_left_out() const { return keep_going_ || !ignored_.empty(); }
+  bool is_ignored(int face) const { return face >= 0 && !ignored_.empty() && ignored_[face] != 0; }
   std::vector<FaceFailure> take() {
     std::ranges::stable_sort(failures_, {}, &FaceFailure::face);
     return std::move(failures_);
@@ -63,6 +70,7 @@ class Failures {
  private:
   std::string where_;
   bool keep_going_;
+  std::vector<char> ignored_;
   std::vector<FaceFailure> failures_;
 };
 
@@ -110,7 +118,9 @@ void check_surface_cross(const CrossSpec& cross) {
 
 /// Least size beside short curves, over the least length of the criteria.
 constexpr double kLeastSize = 1.5;
-/// FlattenOptions::max_sigma for given elements, which may be large; every cut holds nodes.
+/// The growth of sizes away from spots inside of patches.
+constexpr double kSpotGradation = 0.7;
+/// Maps of given elements are taken when they distort less: these may be large, and every cut holds nodes.
 constexpr double kMaxSigmaOfGiven = 1.6;
 
 void prepare_patches(const std::shared_ptr<SurfaceSetup>& surface, MeshingSetup& p) {
@@ -141,14 +151,16 @@ class SurfaceSteps final : public ModelSteps {
   void read(MeshingSetup& p) override {
     read_model(p);
     check_surface_cross(problem_.cross);
-    check_count(expected_quads(model_.fine, SurfaceSize(asked_)), problem_);
+    p.unselected = unselected_faces();
+    failures_.ignore(p.unselected);
+    check_count(expected_quads(model_.fine, SurfaceSize(asked_), {}, nullptr, p.unselected), problem_);
     cut_ = cut_at_planes(problem_, model_, asked_);
     if (cut_) divisions_ = divisions_of_part(problem_.divisions, *cut_);
     if (cut_) model_ = std::move(cut_->half.model);
     if (problem_.metric.asks())
       metric_ = wanted_metric(problem_, model_, hints_.spots);
     else
-      wanted_ = surface_size(problem_, model_, asked_, divisions_, hints_.spots, part());
+      wanted_ = surface_size(problem_, model_, asked_, divisions_, spots_of_curves(), part());
     if (shortest_ > 0 && !wanted_.curve_limit.empty()) keep_size_beside_curves();
   }
 
@@ -185,6 +197,7 @@ class SurfaceSteps final : public ModelSteps {
     set_size(p);
     surface_->domain = curves_by(*surface_->size, std::move(flattening_));
     put_layers_on(p);
+    if (!p.unselected.empty()) leave_out(p);
     surface_->is_retry = !hints_.spots.empty();
     surface_->model = std::move(model_);
     surface_->cad = cad_;
@@ -223,10 +236,14 @@ class SurfaceSteps final : public ModelSteps {
 
   void read_model(MeshingSetup& p) {
     std::vector<FeatureBall> kept;
-    if (hints_.keep_features)
+    if (hints_.keep_features && problem_.surface.faces.empty())
       for (const SizeBall& spot : hints_.spots) kept.push_back({spot.at, spot.reach});
     cad_ = hints_.cad;
     model_ = make_surface(problem_, kept, cad_);
+    if (problem_.surface.midsurface) find_opposite_sides();
+    const std::string& where = problem_.surface.where.empty() ? problem_.where : problem_.surface.where;
+    for (const int face : selected_faces(problem_.surface.faces, where, model_.fine))
+      selected_.insert(model_.fine.regions[face].tag);
     if (problem_.metric.asks()) {
       asked_ = std::make_shared<SurfaceMetric>(model_, wanted_metric(problem_, model_, {}));
       model_ = join_short_curves(problem_, *asked_, std::move(model_));
@@ -258,7 +275,7 @@ class SurfaceSteps final : public ModelSteps {
       on_curves.base = jittered(wanted_.base, problem_.seed, diagonal(model_.fine));
       other.emplace(model_, on_curves);
     }
-    CurveAgreement agreement = agreement_of(problem_, hints_);
+    CurveAgreement agreement = agreement_of(problem_, selected_.empty() ? hints_ : RetryHints{});
     agreement.shortest = shortest_;
     return mesh_curves_of(model_, std::move(flattening), other ? *other : size,
                           wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_, divisions_,
@@ -296,6 +313,56 @@ class SurfaceSteps final : public ModelSteps {
     p.size.adapted_to.emplace_back("gaps between curves");
   }
 
+  /// Selects one side of thin bodies.
+  void find_opposite_sides() {
+    const auto opposite = std::make_shared<OppositeSides>(model_);
+    opposite->add_to(model_);
+    for (const int face : opposite->faces()) selected_.insert(model_.fine.regions[face].tag);
+    surface_->opposite = opposite;
+  }
+
+  /// By region; empty if all are selected.
+  std::vector<char> unselected_faces() const {
+    std::vector<char> unselected;
+    for (const Entity& face : model_.fine.regions)
+      unselected.push_back(!selected_.empty() && !selected_.contains(washers_.face_of(face.tag)));
+    return std::ranges::count(unselected, 1) > 0 ? unselected : std::vector<char>();
+  }
+
+  /// Where faces are left out, nodes on curves stay as they are in the whole model.
+  std::vector<SizeBall> spots_of_curves() const {
+    return selected_.empty() ? hints_.spots : std::vector<SizeBall>();
+  }
+
+  /// Takes out the patches of unselected faces. Nodes on their curves stay from then on; smaller sizes for a
+  /// sound mesh hold inside of patches alone.
+  void leave_out(MeshingSetup& p) {
+    SurfaceDomain& domain = surface_->domain;
+    std::vector<int> number;  // of each patch now
+    int n = 0;
+    for (const SurfacePatch& patch : domain.patches) {
+      const bool stays = !failures_.is_ignored(patch.map.face);
+      number.push_back(stays ? n++ : -1);
+      for (const auto& loop : patch.outline)
+        for (const CurveSide& side : loop)
+          if (!stays) domain.chain_stays[side.chain] = 1;
+    }
+    std::erase_if(domain.patches, [&](const SurfacePatch& q) { return failures_.is_ignored(q.map.face); });
+    const auto renumber = [&](auto& parts) {
+      for (auto& part : parts) part.patch = number[part.patch];
+      std::erase_if(parts, [](const auto& part) { return part.patch < 0; });
+    };
+    renumber(domain.caps);
+    renumber(domain.mapped);
+    if (domain.patches.empty())
+      throw InputError(model_.source + ": none of the selected faces can be meshed");
+    if (hints_.spots.empty()) return;
+    wanted_.spots = hints_.spots;
+    if (!(wanted_.gradation > 0)) wanted_.gradation = kSpotGradation;
+    surface_->size = std::make_shared<SurfaceSize>(model_, wanted_);
+    p.size.field = surface_->size;
+  }
+
   void put_layers_on(MeshingSetup& p) {
     if (problem_.layers.empty()) return;
     const std::vector<LocalSize> fine = put_layers(problem_, model_, surface_->domain, p);
@@ -321,7 +388,8 @@ class SurfaceSteps final : public ModelSteps {
       curved.curve_limit.clear(), curved.spots.clear();
       p.size.curved = std::make_shared<SurfaceSize>(model_, curved);
     }
-    p.size.expected_quads = expected_quads(model_.fine, *surface_->size, periodic_.faces, part());
+    p.size.expected_quads =
+        expected_quads(model_.fine, *surface_->size, periodic_.faces, part(), p.unselected);
     check_count(p.size.expected_quads, problem_);
   }
 
@@ -329,6 +397,7 @@ class SurfaceSteps final : public ModelSteps {
   const RetryHints& hints_;
   Failures failures_{problem_};
   SurfaceModel model_;
+  std::set<int> selected_;                   ///< numbers of the faces that are meshed; empty: all
   std::shared_ptr<const SurfaceModel> cad_;  ///< SurfaceSetup::cad
   std::shared_ptr<const SizeField> asked_;
   double shortest_ = 0;            ///< least length of the criteria, in sizes; 0: none

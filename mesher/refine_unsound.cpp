@@ -167,8 +167,8 @@ void make_finer(const PrepareWithHints& prepare_with_hints, const Word& word, Bu
 void leave_out_small(const PrepareWithHints& prepare_with_hints, const Word& word, Budget& work,
                      MeshingSetup& prepared, MeshResult& result) {
   const RepairOptions options = repair_options(prepared.settings.options);
-  if (!options.refine_unsound || !options.ignore_small || !prepared.surface || prepared.surface->given ||
-      prepared.surface->model.before || result.soundness.places.empty())
+  if (!prepared.unselected.empty() || !options.refine_unsound || !options.ignore_small || !prepared.surface ||
+      prepared.surface->given || prepared.surface->model.before || result.soundness.places.empty())
     return;
   double least = std::numeric_limits<double>::infinity();
   int hint = -1;
@@ -240,6 +240,7 @@ void take_fallback(const PrepareWithHints& prepare_with_hints, const Word& word,
   for (const Fallback& last : kFallbacks) {
     const double part = last.size_part;
     if (last.makes_quads_only && first.text == word.text) continue;
+    if (!last.makes_quads_only && !prepared.unselected.empty()) continue;  // nodes on curves stay
     if (last.feature_angle > 0 && prepared.surface->cad) continue;
     if (once / (part * part) > static_cast<double>(work.left())) continue;
     try {

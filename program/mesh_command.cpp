@@ -248,6 +248,8 @@ void print_after(const MeshArguments& arguments, const MeshResult& result, doubl
     fmt::print("  symmetry: plane through {}, normal {}\n", show_point(at), show_point(n));
   if (!all && result.surface) print_surface_summary(*result.surface);
   print_names(result.mesh);
+  if (const auto& of = result.mesh.thickness; !of.empty())
+    fmt::print("  thickness: {:.4g} to {:.4g}\n", std::ranges::min(of), std::ranges::max(of));
   if (!result.mesh.unit.empty()) fmt::print("  lengths: in {}\n", result.mesh.unit);
   if (all) print_seconds(result.log.times);
   if (all && result.surface) print_surface_report(result.prepared, *result.surface);

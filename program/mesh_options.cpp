@@ -57,6 +57,9 @@ const std::set<std::string> kOfImprove = {"size.base",
                                           "surface.weld_tolerance",
                                           "criteria"};
 
+/// Keys of surfaces that change no model, but what is meshed of it.
+const std::set<std::string> kOfMesh = {"surface.faces", "surface.midsurface"};
+
 bool accepts_type(const TomlKey& key, const char* type) {
   return key.type.find('"' + std::string(type) + '"') != std::string::npos;
 }
@@ -119,7 +122,7 @@ std::string toml_text(const std::string& value, const TomlKey* key) {
     const bool is_whole = *number == std::floor(*number) && std::abs(*number) < 1e15;
     return is_whole ? fmt::format("{}", static_cast<long long>(*number)) : fmt::format("{}", *number);
   }
-  return is_toml && !(is_text && key->many) ? value : in_quotes(value);
+  return is_toml && !(is_text && key->many && value[0] != '{') ? value : in_quotes(value);
 }
 
 /// Adds the options of keys that are wanted by their dotted names.
@@ -208,7 +211,8 @@ void set_criteria(const MeshArguments& arguments, Criteria& criteria) {
 }  // namespace
 
 void add_surface(CLI::App& command, KeyArguments& arguments) {
-  add_keys(command, arguments, [](const std::string& key) { return key.starts_with("surface."); });
+  add_keys(command, arguments,
+           [](const std::string& key) { return key.starts_with("surface.") && !kOfMesh.contains(key); });
   command.add_flag("--keep-going", arguments.keep_going,
                    "leave out what cannot be read or meshed, name it, do the rest and exit with 4");
 }
@@ -265,7 +269,8 @@ CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
                    "a model (.toml), outlines (.geojson), lines or triangles (.msh), triangles (.stl, .obj, "
                    ".off, .ply, .3mf), CAD (.step, .stp, .iges, .igs, .brep), or a record (.json)")
       ->required();
-  add_keys(*mesh, arguments, [](const std::string& key) { return !key.starts_with("surface."); });
+  add_keys(*mesh, arguments,
+           [](const std::string& key) { return !key.starts_with("surface.") || kOfMesh.contains(key); });
   mesh->add_option("--metric", arguments.metric,
                    "set lengths by direction, in place of a size: FILE or FILE:FIELD with tensors at the "
                    "points of its mesh (MSH, "

@@ -106,9 +106,18 @@ std::string show_counts(const Mesh& mesh) {
 }
 
 void print_names(const Mesh& mesh) {
-  std::vector<const Entity*> regions, curves, points;
-  for (const Entity& region : mesh.regions) regions.push_back(&region);
-  for (const Entity& curve : mesh.curves) curves.push_back(&curve);
+  const auto with_elements = [](const std::vector<Entity>& entities, const auto&... entity_of) {
+    std::vector<char> has_some(entities.size(), 0);
+    for (const std::vector<int>* all : {&entity_of...})
+      for (const int entity : *all) has_some[entity] = 1;
+    std::vector<const Entity*> found;
+    for (std::size_t i = 0; i < entities.size(); ++i)
+      if (has_some[i]) found.push_back(&entities[i]);
+    return found;
+  };
+  const auto regions = with_elements(mesh.regions, mesh.triangle_region, mesh.quad_region);
+  const auto curves = with_elements(mesh.curves, mesh.line_curve);
+  std::vector<const Entity*> points;
   for (const NamedPoint& point : mesh.named_points) points.push_back(&point.entity);
   std::string line;
   for (const auto& [what, entities] : {std::pair("regions", regions), {"curves", curves}, {"points", points}})

@@ -48,8 +48,9 @@ bool is_symmetric(const MeshProblem& problem) {
 }
 
 double expected_quads(const Mesh& fine, const SurfaceSize& size, const std::vector<FacePair>& images,
-                      const CutSurface* part) {
+                      const CutSurface* part, const std::vector<char>& unselected) {
   std::vector<int> times(fine.regions.size(), 1);
+  for (std::size_t f = 0; f < unselected.size(); ++f) times[f] = unselected[f] == 0;
   for (const FacePair& pair : images) times[pair.face] = 0, times[pair.master] = 2;
   double sum = 0;
   int hint = -1;

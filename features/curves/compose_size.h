@@ -66,6 +66,6 @@ WantedSize surface_size(const MeshProblem& problem, const SurfaceModel& model,
 /// the integral of their masters. `part` is the symmetric model whose part the triangles are; null: they are
 /// all.
 double expected_quads(const Mesh& fine, const SurfaceSize& size, const std::vector<FacePair>& images = {},
-                      const CutSurface* part = nullptr);
+                      const CutSurface* part = nullptr, const std::vector<char>& unselected = {});
 
 }  // namespace delquad

@@ -15,8 +15,10 @@
 
 #include "base/box.h"
 #include "base/segment.h"
+#include "base/sort_unique.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "geometry/mesh/entity_names.h"
 #include "geometry/mesh/nearest_triangle.h"
 
 namespace delquad {
@@ -95,12 +97,19 @@ class Parts {
   std::vector<std::vector<int>> elements_;  ///< by part
 };
 
+/// A rule, and what messages call it.
+struct Request {
+  const PartRule& rule;
+  bool curves;
+  std::string what, where;  ///< "the name 'load'"
+};
+
 /// The part among these that is nearest to x; throws where there are two.
-int nearest_of(const std::vector<int>& found, const Parts& parts, const NamedPart& asked, double tolerance) {
+int nearest_of(const std::vector<int>& found, const Parts& parts, const Request& asked, double tolerance) {
   double least = std::numeric_limits<double>::infinity();
   int best = found[0], other = -1;
   for (const int i : found) {
-    const double distance = parts.distance(i, *asked.at);
+    const double distance = parts.distance(i, *asked.rule.at);
     if (distance < least - tolerance)
       best = i, other = -1, least = distance;
     else if (distance <= least + tolerance && i != best)
@@ -111,35 +120,46 @@ int nearest_of(const std::vector<int>& found, const Parts& parts, const NamedPar
         fmt::format("{}: {} {} and {} are as near to {} as each other: expected a place nearer to one "
                     "[two-parts-for-a-name]",
                     asked.where, asked.curves ? "curves" : "faces", parts.entities()[best].tag,
-                    parts.entities()[other].tag, show_point(*asked.at)));
+                    parts.entities()[other].tag, show_point(*asked.rule.at)));
   return best;
 }
 
-std::vector<int> find(const NamedPart& asked, const Mesh& fine) {
+std::vector<int> find(const Request& asked, const Mesh& fine) {
+  const PartRule& rule = asked.rule;
+  if (rule.numbers.empty() && rule.like.empty() && !rule.box && !rule.normal && !rule.at)
+    throw InputError(
+        fmt::format("{}: nothing says what {} is: expected numbers, names, a box, a normal or a place",
+                    asked.where, asked.what));
+  for (const auto& place : {rule.at, rule.normal, rule.box ? std::optional((*rule.box)[0]) : std::nullopt,
+                            rule.box ? std::optional((*rule.box)[1]) : std::nullopt})
+    if (place && !std::isfinite(place->x + place->y + place->z))
+      throw InputError(fmt::format("{}: {} has a coordinate that is not finite", asked.where, asked.what));
+  if (rule.normal && (asked.curves || !(norm(*rule.normal) > 0)))
+    throw InputError(asked.where +
+                     (asked.curves ? ": curves have no normals" : ": the normal has no length"));
   const Parts parts(fine, asked.curves);
   const std::vector<Entity>& all = parts.entities();
   const double tolerance = kRoundOff * diagonal(fine);
-  for (const int number : asked.numbers)
+  for (const int number : rule.numbers)
     if (std::ranges::find(all, number, &Entity::tag) == all.end())
       throw InputError(fmt::format("{}: there is no {} {}: expected a number of 'delquad info'", asked.where,
                                    asked.curves ? "curve" : "face", number));
   std::vector<int> found;
   for (int i = 0; i < static_cast<int>(all.size()); ++i) {
-    if (!asked.numbers.empty() && std::ranges::find(asked.numbers, all[i].tag) == asked.numbers.end())
+    if (!rule.numbers.empty() && std::ranges::find(rule.numbers, all[i].tag) == rule.numbers.end()) continue;
+    if (!rule.like.empty() &&
+        std::ranges::none_of(all[i].names, [&](const std::string& name) { return fits(rule.like, name); }))
       continue;
-    if (!asked.like.empty() &&
-        std::ranges::none_of(all[i].names, [&](const std::string& name) { return fits(asked.like, name); }))
+    if (rule.box && !parts.is_in(i, {lower((*rule.box)[0], (*rule.box)[1]) - tolerance * Vec3{1, 1, 1},
+                                     upper((*rule.box)[0], (*rule.box)[1]) + tolerance * Vec3{1, 1, 1}}))
       continue;
-    if (asked.box && !parts.is_in(i, {lower((*asked.box)[0], (*asked.box)[1]) - tolerance * Vec3{1, 1, 1},
-                                      upper((*asked.box)[0], (*asked.box)[1]) + tolerance * Vec3{1, 1, 1}}))
-      continue;
-    if (asked.normal && !parts.looks_along(i, *asked.normal)) continue;
+    if (rule.normal && !parts.looks_along(i, *rule.normal)) continue;
     found.push_back(i);
   }
   if (found.empty())
-    throw InputError(fmt::format("{}: no {} of the {} fits the rule for the name '{}' [no-part-for-a-name]",
-                                 asked.where, asked.curves ? "curve" : "face", all.size(), asked.name));
-  if (asked.at) found = {nearest_of(found, parts, asked, tolerance)};
+    throw InputError(fmt::format("{}: no {} of the {} fits the rule for {} [no-part-for-a-name]", asked.where,
+                                 asked.curves ? "curve" : "face", all.size(), asked.what));
+  if (rule.at) found = {nearest_of(found, parts, asked, tolerance)};
   return found;
 }
 
@@ -148,24 +168,26 @@ std::vector<int> find(const NamedPart& asked, const Mesh& fine) {
 void name_parts(const std::vector<NamedPart>& parts, SurfaceModel& model) {
   for (const NamedPart& asked : parts) {
     if (asked.name.empty()) throw InputError(asked.where + ": a part without a name: expected one");
-    if (asked.numbers.empty() && asked.like.empty() && !asked.box && !asked.normal && !asked.at)
-      throw InputError(
-          fmt::format("{}: nothing says what '{}' is: expected numbers, names, a box, a normal or a place",
-                      asked.where, asked.name));
-    for (const auto& place :
-         {asked.at, asked.normal, asked.box ? std::optional((*asked.box)[0]) : std::nullopt,
-          asked.box ? std::optional((*asked.box)[1]) : std::nullopt})
-      if (place && !std::isfinite(place->x + place->y + place->z))
-        throw InputError(
-            fmt::format("{}: '{}' has a coordinate that is not finite", asked.where, asked.name));
-    if (asked.normal && (asked.curves || !(norm(*asked.normal) > 0)))
-      throw InputError(asked.where +
-                       (asked.curves ? ": curves have no normals" : ": the normal has no length"));
-    for (const int i : find(asked, model.fine)) {
+    const Request request = {asked.rule, asked.curves, fmt::format("the name '{}'", asked.name), asked.where};
+    for (const int i : find(request, model.fine)) {
       std::vector<std::string>& names = (asked.curves ? model.fine.curves : model.fine.regions)[i].names;
       if (std::ranges::find(names, asked.name) == names.end()) names.push_back(asked.name);
     }
   }
+}
+
+std::vector<int> selected_faces(const std::vector<PartRule>& rules, const std::string& where,
+                                const Mesh& fine) {
+  std::vector<int> faces;
+  for (const PartRule& rule : rules) {
+    const bool is_name = !rule.like.empty() && rule.like.find_first_of("*?") == std::string::npos;
+    const std::vector<int> found = is_name && rule.numbers.empty() && !rule.box && !rule.normal && !rule.at
+                                       ? find_entities(fine.regions, "region", rule.like, where + ": faces")
+                                       : find({rule, false, "'faces'", where}, fine);
+    faces.insert(faces.end(), found.begin(), found.end());
+  }
+  sort_unique(faces);
+  return faces;
 }
 
 }  // namespace delquad

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "delquad/model.h"
@@ -14,5 +15,10 @@ namespace delquad {
 /// ones. Throws InputError for an entry that no part fits, for unknown numbers, and for two parts equally
 /// near to a place.
 void name_parts(const std::vector<NamedPart>& parts, SurfaceModel& model);
+
+/// Returns the faces that any of the rules selects, ascending. Throws InputError, beginning with `where`, for
+/// a rule that no face fits.
+std::vector<int> selected_faces(const std::vector<PartRule>& rules, const std::string& where,
+                                const Mesh& fine);
 
 }  // namespace delquad

@@ -311,6 +311,7 @@ void SurfaceWashers::cut() {
     for (const int t : found->second) mesh.triangle_region[t] = static_cast<int>(mesh.regions.size());
     mesh.regions.push_back({++tag, mesh.regions[ring.face].names});
     origin.push_back({ring.face});
+    face_of_[tag] = mesh.regions[ring.face].tag;
     mapped_.rings.emplace_back(fmt::format("region_{}", tag), ring.rows.rows);
     for (std::size_t i = 0; i < curves.size(); ++i) {
       outer.erase(curves[i]);

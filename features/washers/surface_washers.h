@@ -47,6 +47,8 @@ class SurfaceWashers {
   /// any.
   bool give_way(const FaceError& error);
   bool can_give_way() const { return n_added_ > 0; }
+  /// Returns the number of the face that a ring was cut from; of other faces their own.
+  int face_of(int tag) const { return face_of_.contains(tag) ? face_of_.at(tag) : tag; }
 
  private:
   struct Ring {
@@ -75,7 +77,8 @@ class SurfaceWashers {
   std::map<int, int> edges_;  ///< by divided curve
   std::set<int> rims_;        ///< divided curves around holes with rows, and at other ends of bores
   std::vector<Ring> rings_;
-  std::ptrdiff_t n_added_ = 0;  ///< number of added divisions, the last ones
+  std::map<int, int> face_of_;  ///< numbers of rings, and of the faces that they were cut from
+  std::ptrdiff_t n_added_ = 0;  ///< divisions, the last ones
 };
 
 }  // namespace delquad

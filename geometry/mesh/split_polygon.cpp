@@ -111,6 +111,7 @@ std::optional<std::vector<std::array<int, 3>>> split_polygon(const std::vector<V
 void split_quads(Mesh& mesh, ReadNotes& notes) {
   if (mesh.quads.empty()) return;
   std::size_t odd = 0;
+  std::vector<double> of_parts;
   for (size_t i = 0; i < mesh.quads.size(); ++i) {
     const auto& q = mesh.quads[i];
     const auto corner = [&](int k) { return mesh.points[q[k]]; };
@@ -124,6 +125,9 @@ void split_quads(Mesh& mesh, ReadNotes& notes) {
     }
     for (const auto& t : *parts) mesh.triangles.push_back({q[t[0]], q[t[1]], q[t[2]]});
     mesh.triangle_region.insert(mesh.triangle_region.end(), parts->size(), mesh.quad_region[i]);
+    if (!mesh.thickness.empty())
+      of_parts.insert(of_parts.end(), parts->size(),
+                      mesh.thickness[mesh.thickness.size() - mesh.quads.size() + i]);
   }
   notes.push_back(mesh.quads.size() == 1
                       ? "1 quad was split into triangles"
@@ -131,6 +135,8 @@ void split_quads(Mesh& mesh, ReadNotes& notes) {
   if (odd > 0)
     notes.back() +=
         fmt::format("; along the shorter diagonal where they cross themselves or have no area ({})", odd);
+  if (!mesh.thickness.empty()) mesh.thickness.resize(mesh.thickness.size() - mesh.quads.size());
+  mesh.thickness.insert(mesh.thickness.end(), of_parts.begin(), of_parts.end());
   mesh.quads.clear();
   mesh.quad_region.clear();
 }

@@ -22,6 +22,7 @@ namespace delquad {
 
 struct LayerReport;
 struct MirroredSurface;
+class OppositeSides;
 
 /// A patch, ready for the stages: its boundary and fields in the parameter plane, and the way back to space.
 struct PatchSetup {
@@ -57,12 +58,13 @@ struct SurfaceSetup {
   SurfaceDomain domain;
   std::vector<SurfaceCut> cuts;
   std::shared_ptr<const SurfaceSize> size;
-  std::shared_ptr<const SurfaceMetric> metric;      ///< metric in place of a size; null: none
-  std::shared_ptr<const MirroredSurface> mirrored;  ///< whole of which `model` is a part; null: none
-  std::shared_ptr<const WholeSurface> full_model;   ///< model of the whole; null: `model` itself
-  std::optional<GivenEntities> given;               ///< entities of a GivenMesh
-  bool is_retry = false;                            ///< whether sizes are smaller after an unsound mesh
-  std::shared_ptr<const SurfaceModel> cad;          ///< CAD model as it was read; null: not CAD
+  std::shared_ptr<const SurfaceMetric> metric;      ///< in place of a size; null: none
+  std::shared_ptr<const MirroredSurface> mirrored;  ///< of symmetric ones, of which `model` is a part
+  std::shared_ptr<const WholeSurface> full_model;   ///< that; null: `model` is the whole
+  std::optional<GivenEntities> given;               ///< of a GivenMesh
+  bool is_retry = false;                            ///< with smaller sizes, as its mesh was not sound
+  std::shared_ptr<const SurfaceModel> cad;          ///< as it was read; null of other models
+  std::shared_ptr<const OppositeSides> opposite;    ///< of thin bodies with a mid-surface; null: none
 
   const SurfaceModel& whole() const { return full_model ? full_model->model : model; }
   const std::vector<SurfaceCut>& all_cuts() const { return full_model ? full_model->cuts : cuts; }
@@ -110,8 +112,10 @@ struct MeshingSetup : Preparation {
   std::shared_ptr<const SurfaceSetup> surface;  ///< null on planar domains
   std::shared_ptr<const LayerReport> layers;    ///< null: none
   std::shared_ptr<const MetricPlane>
-      metric_plane;  ///< plane of a metric with all of this; null: the plane of the domain
-  std::optional<GivenWorst> given_worst;  ///< worst values of a GivenMesh with quads
+      metric_plane;                       ///< in which all of this lies; null: it is the domain's own
+  std::optional<GivenWorst> given_worst;  ///< of a GivenMesh with quads
+  /// By region, faces beside those that SurfaceSpec::faces selects; empty: all are selected.
+  std::vector<char> unselected = {};
 
   /// Returns whether the model is a GivenMesh in space.
   bool is_given_surface() const { return surface && surface->given; }

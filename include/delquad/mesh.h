@@ -120,6 +120,8 @@ struct Mesh {
   std::vector<std::array<int, 8>> hexahedra = {};
   std::vector<int> hex_volume = {};  ///< index into `volumes` of each hexahedron
   std::vector<Entity> volumes = {};
+  /// Thickness of a shell, by triangle, then by quad; empty: none is known.
+  std::vector<double> thickness = {};
 };
 
 /// Returns the diagonal of the bounding box; 0 without points.

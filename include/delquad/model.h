@@ -284,17 +284,21 @@ struct EmbeddedLine {
   std::string where;  ///< as ModelCurve::where
 };
 
-/// Selects faces or curves of a surface that get a name, before compounds are made. All given rules must
-/// match. Other names are kept.
-struct NamedPart {
-  std::string name;               ///< physical group
-  bool curves = false;            ///< select curves instead of faces
+/// Selects faces or curves of a surface. All given rules must match.
+struct PartRule {
   std::vector<int> numbers = {};  ///< as `delquad info` lists them
   std::string like = {};          ///< pattern for one of their names: * matches any text, ? one character
   std::optional<std::array<Vec3, 2>> box = {};  ///< two opposite corners of a box that contains them
   std::optional<Vec3> normal = {};              ///< direction of all normals, within 5 degrees
   std::optional<Vec3> at = {};                  ///< selects the nearest one
-  std::string where = "name";                   ///< origin of the request, for messages
+};
+
+/// Gives faces or curves a name, before compounds are made. Other names are kept.
+struct NamedPart {
+  std::string name;     ///< physical group
+  bool curves = false;  ///< select curves instead of faces
+  PartRule rule = {};
+  std::string where = "name";  ///< origin of the request, for messages
 };
 
 /// Options for the faces of a surface.
@@ -319,6 +323,11 @@ struct SurfaceSpec {
   std::string unit;
   std::vector<EmbeddedLine> embed;
   std::vector<NamedPart> names;
+  /// Only faces that one of these selects are meshed, after compounds are made; empty: all. Nodes on their
+  /// outline depend on the model and its sizes alone. So meshes of other faces fit there, node by node.
+  std::vector<PartRule> faces;
+  /// Mesh thin bodies half-way between their opposite faces, with Mesh::thickness.
+  bool midsurface = false;
   std::string where;  ///< origin of the request, for messages; empty: no request
 };
 

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "base/located.h"
+#include "base/text.h"
 #include "delquad/error.h"
 #include "delquad/mesher.h"
 #include "geometry/cad/example_models.h"
@@ -109,6 +110,19 @@ void read_options(const TomlTable& table, const OptionGroup& group, Options& opt
       located(table.where(key.name),
               [&] { return options.set(group.name + "." + key.name, std::visit(read, key.value)); });
   }
+}
+
+/// Names, numbers, or tables of rules.
+std::vector<PartRule> read_faces(const TomlTable& table) {
+  std::vector<PartRule> faces;
+  const auto [texts, tables] = table.texts_and_tables("faces");
+  for (const std::string& text : texts) {
+    const auto number = as_number(text);
+    const bool is_number = number && *number >= 1 && *number == static_cast<int>(*number);
+    faces.push_back(is_number ? PartRule{.numbers = {static_cast<int>(*number)}} : PartRule{.like = text});
+  }
+  for (const TomlTable& one : tables) read_described(one, faces.emplace_back());
+  return faces;
 }
 
 MappedSpec read_mapped(const TomlTable& table) {
@@ -225,6 +239,7 @@ void finish_reading(const TomlTable& table, SurfaceSpec& surface) {
     surface.groups = table.get<std::vector<std::vector<int>>>("compound");
     check_together(surface, table.where("compound"));
   }
+  if (table.has("faces")) surface.faces = read_faces(table);
   if (const auto mirror = table.optional_table("mirror"); mirror && !mirror->has("tolerance"))
     surface.mirror->tolerance = surface.weld_tolerance.value_or(TriangulatedOptions{}.weld_tolerance);
 }

@@ -80,15 +80,17 @@ inline constexpr auto kFields<EmbeddedLine> = std::tuple(inner("points", &Embedd
                                                          inner("name", &EmbeddedLine::name),
                                                          place(&EmbeddedLine::where));
 template <>
-inline constexpr auto kFields<NamedPart> = std::tuple(
-    field("as", &NamedPart::name, "name that the parts get", {.required = true}),
-    field("of", &NamedPart::curves, "kind of the parts", {.words = "faces|curves"}),
-    field("number", &NamedPart::numbers, "numbers that 'delquad info' lists", {.least = 1}),
-    field("like", &NamedPart::like, "one of their names: * is any text, ? a letter"),
-    field("box", &NamedPart::box, "two opposite corners of a box that holds them whole"),
-    field("normal", &NamedPart::normal, "normal everywhere, within 5 degrees", {.form = Form::kVector}),
-    field("at", &NamedPart::at, "place that the part is nearest to", {.form = Form::kVector}),
-    place(&NamedPart::where));
+inline constexpr auto kFields<PartRule> = std::tuple(
+    field("number", &PartRule::numbers, "numbers that 'delquad info' lists", {.least = 1}),
+    field("like", &PartRule::like, "one of their names: * is any text, ? a letter"),
+    field("box", &PartRule::box, "two opposite corners of a box that holds them whole"),
+    field("normal", &PartRule::normal, "normal everywhere, within 5 degrees", {.form = Form::kVector}),
+    field("at", &PartRule::at, "place that the part is nearest to", {.form = Form::kVector}));
+template <>
+inline constexpr auto kFields<NamedPart> =
+    std::tuple(field("as", &NamedPart::name, "name that the parts get", {.required = true}),
+               field("of", &NamedPart::curves, "kind of the parts", {.words = "faces|curves"}),
+               field("", &NamedPart::rule), place(&NamedPart::where));
 template <>
 inline constexpr auto kFields<SurfaceSpec> = std::tuple(
     field("compound", &SurfaceSpec::compounds, "faces to mesh as one",
@@ -122,6 +124,12 @@ inline constexpr auto kFields<SurfaceSpec> = std::tuple(
           {.words = "um|mm|cm|m|km|in|ft", .option = "--unit"}),
     inner("embed", &SurfaceSpec::embed),
     field("name", &SurfaceSpec::names, "names of faces and curves", {.keyword = "names"}),
+    field("faces", &SurfaceSpec::faces, "faces to mesh alone: names, numbers or rules",
+          {.form = Form::kOwn,
+           .type = R"({"type": ["string", "array"], "items": {"type": ["string", "object"]}})",
+           .option = "--faces"}),
+    field("midsurface", &SurfaceSpec::midsurface,
+          "whether thin bodies are meshed half-way between their faces", {.option = "--midsurface"}),
     place(&SurfaceSpec::where));
 
 // --- sizes and directions

@@ -41,9 +41,10 @@ namespace described {
 template <class T>
 void add_type(const T*, const Rule& rule, TomlKey& key) {
   using namespace toml_types;
-  if (rule.form == Form::kOwn)
+  if (rule.form == Form::kOwn) {
     key.type = rule.type != nullptr ? rule.type : "";
-  else if constexpr (Described<T>)
+    if constexpr (std::is_same_v<T, std::vector<PartRule>>) key.table = keys_of<PartRule>, key.many = true;
+  } else if constexpr (Described<T>)
     key.table = keys_of<T>;
   else if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T>)
     key.type = rule.words != nullptr ? one_of(words_of(rule.words)) : kFlag;

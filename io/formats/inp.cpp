@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -92,6 +94,15 @@ std::array<std::string, 2> pair_names(const char* kind, size_t pair) {
 }
 constexpr const char *kCurvePair = "PERIODIC_", *kFacePair = "PERIODIC_FACE_";
 
+/// Elements, from 1, by thickness to four digits.
+std::map<std::string, std::vector<int>> elements_by_thickness(const Mesh& mesh) {
+  std::map<std::string, std::vector<int>> elements;
+  for (std::size_t e = 0; e < mesh.thickness.size(); ++e)
+    elements[fmt::format("{:.4g}", mesh.thickness[e])].push_back(static_cast<int>(e) + 1);
+  return elements;
+}
+constexpr const char* kThickness = "thickness_";
+
 UniqueLabels make_labels(const Mesh& mesh, bool is_solid) {
   const std::vector<Entity> points = entities_of(mesh.named_points);
   const std::array all = {&points, &mesh.curves, &mesh.regions, &mesh.volumes};
@@ -105,6 +116,8 @@ UniqueLabels make_labels(const Mesh& mesh, bool is_solid) {
        {std::pair{kCurvePair, mesh.periodic.size()}, std::pair{kFacePair, mesh.periodic_faces.size()}})
     for (size_t i = 0; i < count; ++i)
       for (const std::string& name : pair_names(kind, i)) keys.emplace_back(kSet, name);
+  for (const auto& [thickness, elements] : elements_by_thickness(mesh))
+    keys.emplace_back(kSet, kThickness + thickness);
   for (const char* set : {kAllElements, kAllNodes}) keys.emplace_back(kSet, set);
   return UniqueLabels(keys, {plain_label, true, kLongestInpName});
 }
@@ -141,6 +154,9 @@ class InpWriter {
     write_nodes();
     write_elements();
     for (const CellBlock& cells : cells_) collect(cells);
+    Sets by_thickness = elements_by_thickness(mesh_);
+    for (auto& [thickness, elements] : by_thickness)
+      add(element_sets_, labels_.of({kSet, kThickness + thickness}), elements);
     for (const NamedPoint& named : mesh_.named_points)
       for (const std::string& label : labels_of(named.entity, 0)) add(node_sets_, label, {named.point + 1});
     for (auto* sets : {&element_sets_, &sides_}) write_inp_sets(out_, "ELSET", *sets);
@@ -150,6 +166,10 @@ class InpWriter {
     write_pairs(kCurvePair, mesh_.periodic);
     write_pairs(kFacePair, mesh_.periodic_faces);
     write_surfaces();
+    if (!by_thickness.empty()) out_ << "** *MATERIAL, NAME=SHEET stands before this file\n";
+    for (const auto& [thickness, elements] : by_thickness)
+      out_ << "*SHELL SECTION, ELSET=" << labels_.of({kSet, kThickness + thickness}) << ", MATERIAL=SHEET\n"
+           << thickness << '\n';
   }
 
  private:

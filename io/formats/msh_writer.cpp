@@ -384,7 +384,9 @@ void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options
 }
 
 void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
-  write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options); });
+  std::vector<MeshField> fields;
+  if (!mesh.thickness.empty()) fields.push_back({"thickness", false, 1, mesh.thickness});
+  write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options, fields); });
 }
 
 MeshFormat msh_format() {

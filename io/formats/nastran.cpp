@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +37,23 @@ void write_names(TextWriter& out, const Mesh& mesh, const std::vector<MeshGroup>
   out << "BEGIN BULK\n";
 }
 
+/// Gives elements a property for each thickness, to four digits, of each group. Writes PSHELL cards of
+/// material 1.
+void write_shells(TextWriter& out, const Mesh& mesh, std::vector<int>& property) {
+  std::map<std::pair<int, std::string>, int> shells;
+  std::set<int> taken(property.begin(), property.end()), used;
+  for (std::size_t e = 0; e < mesh.thickness.size(); ++e) {
+    const auto [at, is_new] =
+        shells.try_emplace({property[e], fmt::format("{:.4g}", mesh.thickness[e])}, property[e]);
+    if (is_new && !used.insert(at->second).second) taken.insert(at->second = *taken.rbegin() + 1);
+    property[e] = at->second;
+  }
+  if (!shells.empty()) out << "$ material 1 is yours\n";
+  for (const auto& [key, number] : shells)
+    out << card_text("PSHELL",
+                     {std::to_string(number), "1", nastran_number(std::stod(key.second)), "1", "", "1"});
+}
+
 /// Writes bulk data: CHEXA, or CQUAD4, CQUAD8 and CTRIA3, with a property for each name of elements. SETs
 /// hold the nodes of other names; comments tell the names.
 void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
@@ -41,10 +62,11 @@ void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
       {kTriangle, 3, "CTRIA3"}, {kQuad, 4, "CQUAD4"}, {kQuad, 8, "CQUAD8"}, {kHexahedron, 8, "CHEXA"}};
   require_numbers(path, "Nastran", mesh, kMostNastran);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
-  const std::vector<int> property = group_numbers(mesh, groups, dimension_of(mesh));
+  std::vector<int> property = group_numbers(mesh, groups, dimension_of(mesh));
   const std::vector<char> left_out = are_in_middles(mesh);
   write_text_file(path, [&](TextWriter& out) {
     write_names(out, mesh, groups);
+    write_shells(out, mesh, property);
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
       if (const Vec3& p = mesh.points[i]; !left_out[i])
         out << card_text("GRID", {std::to_string(i + 1), "", nastran_number(p.x), nastran_number(p.y),

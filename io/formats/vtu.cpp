@@ -116,7 +116,12 @@ void write_with_quality(const std::filesystem::path& path, const Mesh& mesh, con
   std::vector<double> eta(mesh.lines.size() + mesh.triangles.size(), kNone);
   const std::vector<double> of_quads = quad_etas(mesh);
   eta.insert(eta.end(), of_quads.begin(), of_quads.end());
-  write_vtu(path, mesh, {{"eta", eta}});
+  std::map<std::string, std::vector<double>> data = {{"eta", std::move(eta)}};
+  if (!mesh.thickness.empty()) {
+    std::vector<double>& thickness = data["thickness"] = mesh.thickness;
+    thickness.insert(thickness.begin(), mesh.lines.size(), kNone);
+  }
+  write_vtu(path, mesh, data);
 }
 
 }  // namespace

@@ -62,6 +62,9 @@ py::array view(const std::vector<std::array<int, N>>& elements, const py::object
 inline py::array view(const std::vector<int>& numbers, const py::object& owner) {
   return view<std::int32_t>(numbers.data(), {static_cast<py::ssize_t>(numbers.size())}, owner);
 }
+inline py::array view(const std::vector<double>& numbers, const py::object& owner) {
+  return view<double>(numbers.data(), {static_cast<py::ssize_t>(numbers.size())}, owner);
+}
 inline py::array view(const std::vector<Vec3>& points, const py::object& owner) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   return view<double>(points.empty() ? nullptr : &points[0].x, {static_cast<py::ssize_t>(points.size()), 3},

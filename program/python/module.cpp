@@ -118,6 +118,8 @@ void define_mesh(py::module_& m) {
       .def_property_readonly("triangle_region", view_of(&Mesh::triangle_region),
                              "index into regions for each triangle")
       .def_property_readonly("quad_region", view_of(&Mesh::quad_region), "index into regions for each quad")
+      .def_property_readonly("thickness", view_of(&Mesh::thickness),
+                             "of the shell, for each triangle, then each quad; empty: not known")
       .def_property_readonly("periodic", &periodic_of,
                              "(index of a curve, index of the master curve, (n, 2) pairs of nodes)")
       .def_property_readonly("periodic_faces", &periodic_faces_of,

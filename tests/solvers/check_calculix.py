@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """CalculiX computes with the meshes in INP files: check_calculix.py DELQUAD PROBLEM [WRITER]. Exit code 77: no ccx.
 
-PROBLEM: patch, shell_patch, strip, shell, periodic, materials, kept_deck or joints, whose models WRITER writes.
+PROBLEM: patch, shell_patch, strip, shell, periodic, materials, kept_deck, midsurface or joints, whose models WRITER writes.
 
 CalculiX prints seven digits of each number. A zero of the exact solution is printed with its size, so that it can be checked to rounding.
 Forces on nodes inside of a patch are zero to 1e-10 of forces on its boundary. All else is checked to seven digits.
@@ -452,7 +452,59 @@ def kept_deck(delquad, folder):
     return max(off["better"][:2]) < 1e-3 and max(off["better"][2:]) < 0.02 < min(off["moved"][2:]) < 0.1
 
 
-PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic, materials, kept_deck, joints)}
+def angle_pairs(thickness, radius=5, length=50, height=25, steps=12):
+    """Points of an angle's profile, along it: on its outer side and on its inner side."""
+    middle = [((x, 0), (0, 1)) for x in range(0, length, 10)]
+    for k in range(steps + 1):
+        a = math.pi / 2 * k / steps
+        middle.append(((length + radius * math.sin(a), radius * (1 - math.cos(a))), (-math.sin(a), math.cos(a))))
+    middle += [((length + radius, radius + z), (-1, 0)) for z in (10, height - radius)]
+    return [[(x + side * thickness / 2 * nx, z + side * thickness / 2 * nz) for side in (-1, 1)] for (x, z), (nx, nz) in middle]
+
+
+def write_angle(path, pairs, width):
+    """Triangles of the angle as a solid."""
+    points = [(x, y, z) for y in (0, width) for pair in pairs for x, z in pair]
+    n = 2 * len(pairs)
+    quads = [(0, 1, n + 1, n), (n - 2, 2 * n - 2, 2 * n - 1, n - 1)]
+    for i in range(0, n - 2, 2):
+        quads += [(i, i + n, i + n + 2, i + 2), (i + 1, i + 3, i + n + 3, i + n + 1), (i, i + 2, i + 3, i + 1),
+                  (i + n, i + n + 1, i + n + 3, i + n + 2)]
+    triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
+        file.writelines(" ".join(map(repr, p)) + "\n" for p in points)
+        file.writelines("3 " + " ".join(map(str, t)) + "\n" for t in triangles)
+
+
+def midsurface(delquad, folder):
+    """An angle, held at one end: the force that moves the other end by 1, by its mid-surface and by C3D20R, four through the thickness."""
+    width, pairs = 20, angle_pairs(2.0)
+    write_angle(os.path.join(folder, "angle.off"), pairs, width)
+    ends = [[sum(p[k] for p in pairs[i]) / 2 for k in (0, 1)] for i in (0, -1)]
+    names = ", ".join(f'{{ as = "{name}", at = [{x}, {width / 2}, {z}] }}' for name, (x, z) in zip(("clamp", "tip"), ends))
+    text = f'model = "angle.off"\nsize = 2.5\nsurface = {{ midsurface = true, name = [{names}] }}\n'
+    mesh(delquad, folder, "angle.toml", text, "shell.inp")
+    outline = [("outer", [p[0] for p in pairs]), ("tip", pairs[-1]), ("inner", [p[1] for p in pairs[::-1]]), ("clamp", pairs[0][::-1])]
+    text = "".join(f'[[curve]]\nname = "{name}"\npolyline = {[list(p) for p in line]}\n' for name, line in outline)
+    loop = 'size = 0.5\nloop = { curves = ["outer", "tip", "inner", "clamp"] }\ndivide = [{ name = "clamp", edges = 4 }, { name = "tip", edges = 4 }]\n'
+    mesh(delquad, folder, "profile.toml", loop + text, "profile.msh")
+    subprocess.run([delquad, "-q", "extrude", os.path.join(folder, "profile.msh"), "--along", f"0,0,{width}", "--layers", "8", "--element",
+                    "C3D20R", "-o", os.path.join(folder, "solid.inp")], check=True)
+    found = {}
+    for name, section, held in (("shell", [], "clamp, 1, 6"), ("solid", ["*SOLID SECTION, ELSET=Eall, MATERIAL=SHEET"], "clamp, 1, 3")):
+        deck = ["*MATERIAL, NAME=SHEET", "*ELASTIC", f"{YOUNG}, {POISSON}", f"*INCLUDE, INPUT={name}.inp", *section, "*BOUNDARY", held,
+                "tip, 1, 1, 1.0", "*STEP", "*STATIC", "*NODE PRINT, NSET=tip, TOTALS=ONLY", "RF", "*END STEP", ""]
+        with open(os.path.join(folder, f"{name}_deck.inp"), "w", encoding="utf-8") as file:
+            file.write("\n".join(deck))
+        run_ccx(folder, f"{name}_deck")
+        with open(os.path.join(folder, f"{name}_deck.dat"), encoding="utf-8") as file:
+            found[name] = [[float(word) for word in line.split()] for line in file if re.match(r" +-?[0-9]", line)][0][0]
+    print(f"forces {found}: that of the shell is {found['shell'] / found['solid']:.4f} of that of the solid")
+    return abs(found["shell"] / found["solid"] - 1) < 0.02
+
+
+PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic, materials, kept_deck, midsurface, joints)}
 
 
 def main():

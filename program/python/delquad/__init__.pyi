@@ -54,6 +54,8 @@ class Mesh:
     @property
     def quad_region(self) -> _Integers: ...
     @property
+    def thickness(self) -> _Floats: ...
+    @property
     def curves(self) -> list[_Entity]: ...
     @property
     def regions(self) -> list[_Entity]: ...
@@ -214,6 +216,8 @@ def mesh(
     glue: bool | None = None,
     unit: Literal["um", "mm", "cm", "m", "km", "in", "ft"] | None = None,
     names: Mapping[str, Any] | Iterable[Any] | None = None,
+    faces: str | Iterable[Any] | Mapping[str, Any] | None = None,
+    midsurface: bool | None = None,
     sources: Mapping[str, Any] | Iterable[Any] | None = None,
     size_on: Mapping[str, Any] | Iterable[Any] | None = None,
     gradation: float | None = None,

@@ -35,23 +35,26 @@ std::vector<int> named_by(const NamedPart& part) {
 
 TEST(NamedParts, AreFoundInEveryWay) {
   using Tags = std::vector<int>;
-  EXPECT_EQ(named_by({.name = "end", .at = Vec3{3.2, 1, 0.4}}), (Tags{2}));
-  EXPECT_EQ(named_by({.name = "sides", .like = "side_*"}), (Tags{3, 4}));
-  EXPECT_EQ(named_by({.name = "last", .like = "*d*h*g*"}), (Tags{4}));
-  EXPECT_EQ(named_by({.name = "low", .like = "side_l?w"}), (Tags{3}));
-  EXPECT_EQ(named_by({.name = "up", .normal = Vec3{0.05, 0, 7}}), (Tags{6}));
-  EXPECT_EQ(named_by({.name = "ends", .numbers = {1, 2}}), (Tags{1, 2}));
-  EXPECT_EQ(named_by({.name = "bottom", .box = {{Vec3{3, 2, 0}, Vec3{0, 0, 0}}}}), (Tags{5}));
-  EXPECT_EQ(named_by({.name = "both fit", .numbers = {1, 4, 6}, .normal = Vec3{0, 1, 0}}), (Tags{4}));
-  EXPECT_EQ(named_by({.name = "rim", .curves = true, .box = {{Vec3{0, 0, 1}, Vec3{3, 2, 1}}}}).size(), 4U);
-  EXPECT_EQ(named_by({.name = "edge", .curves = true, .at = Vec3{1, -0.1, 1.1}}).size(), 1U);
+  EXPECT_EQ(named_by({.name = "end", .rule = {.at = Vec3{3.2, 1, 0.4}}}), (Tags{2}));
+  EXPECT_EQ(named_by({.name = "sides", .rule = {.like = "side_*"}}), (Tags{3, 4}));
+  EXPECT_EQ(named_by({.name = "last", .rule = {.like = "*d*h*g*"}}), (Tags{4}));
+  EXPECT_EQ(named_by({.name = "low", .rule = {.like = "side_l?w"}}), (Tags{3}));
+  EXPECT_EQ(named_by({.name = "up", .rule = {.normal = Vec3{0.05, 0, 7}}}), (Tags{6}));
+  EXPECT_EQ(named_by({.name = "ends", .rule = {.numbers = {1, 2}}}), (Tags{1, 2}));
+  EXPECT_EQ(named_by({.name = "bottom", .rule = {.box = {{Vec3{3, 2, 0}, Vec3{0, 0, 0}}}}}), (Tags{5}));
+  EXPECT_EQ(named_by({.name = "both fit", .rule = {.numbers = {1, 4, 6}, .normal = Vec3{0, 1, 0}}}),
+            (Tags{4}));
+  EXPECT_EQ(
+      named_by({.name = "rim", .curves = true, .rule = {.box = {{Vec3{0, 0, 1}, Vec3{3, 2, 1}}}}}).size(),
+      4U);
+  EXPECT_EQ(named_by({.name = "edge", .curves = true, .rule = {.at = Vec3{1, -0.1, 1.1}}}).size(), 1U);
 }
 
 TEST(NamedParts, KeepNamesAndStandForSizesAndCompounds) {
   MeshProblem problem = block();
-  problem.surface.names = {{.name = "wall", .like = "side_low"},
-                           {.name = "end", .at = Vec3{3.2, 1, 0.4}},
-                           {.name = "end_too", .like = "end"}};
+  problem.surface.names = {{.name = "wall", .rule = {.like = "side_low"}},
+                           {.name = "end", .rule = {.at = Vec3{3.2, 1, 0.4}}},
+                           {.name = "end_too", .rule = {.like = "end"}}};
   problem.size.named = {{.name = "end", .size = 0.1}};
   EXPECT_EQ(named(problem, "side_low"), std::vector<int>{3});
   EXPECT_EQ(named(problem, "wall"), std::vector<int>{3});
@@ -69,14 +72,14 @@ TEST(NamedParts, RefuseWhatDoesNotFit) {
     part.where = "m.toml:4";
     expect_input_error([&] { named_by(part); }, says);
   };
-  refuses({.name = "a", .numbers = {7}}, {"m.toml:4", "no face 7"});
-  refuses({.name = "a", .like = "inlet*"}, {"no face of the 6 fits the rule for the name 'a'"});
-  refuses({.name = "a", .at = Vec3{3, 2, 0.5}}, {"as near to"});
-  refuses({.name = "a", .at = Vec3{NAN, 2, 0.5}}, {"not finite"});
-  refuses({.name = "a"}, {"nothing says what 'a' is"});
-  refuses({.name = "a", .curves = true, .normal = Vec3{0, 0, 1}}, {"curves have no normals"});
-  refuses({.name = "a", .normal = Vec3{0, 0, 0}}, {"no length"});
-  refuses({.name = "", .numbers = {1}}, {"m.toml:4", "'as' is empty"});
+  refuses({.name = "a", .rule = {.numbers = {7}}}, {"m.toml:4", "no face 7"});
+  refuses({.name = "a", .rule = {.like = "inlet*"}}, {"no face of the 6 fits the rule for the name 'a'"});
+  refuses({.name = "a", .rule = {.at = Vec3{3, 2, 0.5}}}, {"as near to"});
+  refuses({.name = "a", .rule = {.at = Vec3{NAN, 2, 0.5}}}, {"not finite"});
+  refuses({.name = "a"}, {"nothing says what the name 'a' is"});
+  refuses({.name = "a", .curves = true, .rule = {.normal = Vec3{0, 0, 1}}}, {"curves have no normals"});
+  refuses({.name = "a", .rule = {.normal = Vec3{0, 0, 0}}}, {"no length"});
+  refuses({.name = "", .rule = {.numbers = {1}}}, {"m.toml:4", "'as' is empty"});
 }
 
 }  // namespace
