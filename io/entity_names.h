@@ -22,6 +22,9 @@ namespace delquad {
 /// "volume_7" (3).
 std::string tag_label(int dim, int tag);
 
+/// Gives entities that are called by a number, as in our files ("curve_7"), this number again.
+void take_numbers(Mesh& mesh);
+
 /// Returns one name for each entity of one dimension, for formats that take no more. If an entity has several
 /// names, the name that the fewest entities have is chosen, the first of equal ones. So a part's own name
 /// comes before the name of the product. A color, or a name that all have, is used only if there is nothing

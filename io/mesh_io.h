@@ -85,7 +85,7 @@ NodalValues read_values(const std::filesystem::path& path, const std::string& na
 NodalValues read_tensors(const std::filesystem::path& path, const std::string& name);
 
 /// Numbers at each point of a mesh, or of each of its triangles, then quads: so many side by side. NaN: there
-/// is none.
+/// is none. If there are hexahedra, numbers are of these.
 struct MeshField {
   std::string name;
   bool is_of_points;

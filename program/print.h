@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "delquad/hexahedra.h"
 #include "delquad/mesher.h"
 #include "delquad/options.h"
 #include "metrics/tables/tables.h"
@@ -23,7 +24,8 @@ void print_summary(const MeshMetrics& metrics);
 /// Prints every measure with -v, otherwise the summary.
 void print_measures(const MeshMetrics& metrics);
 
-/// Returns "9 quads, 0 triangles, 16 vertices"; "nodes" if elements are curved and have more than corners.
+/// Returns "9 quads, 0 triangles, 16 vertices", hexahedra first if there are any; "nodes" if elements are
+/// curved and have more than corners.
 std::string show_counts(const Mesh& mesh);
 
 /// Prints the names of the parts of a mesh in one line, and nothing if no part has a name.
@@ -34,6 +36,11 @@ void print_criteria(const CriteriaReport& report, const Mesh& mesh);
 
 /// Prints how long each step took, the times of all threads added up.
 void print_seconds(const StepTimes& times);
+
+/// Prints numbers, least and mean scaled Jacobian, and volume of hexahedra.
+void print_hexahedra(const Mesh& mesh, const HexMeasures& measures);
+/// Returns the same with the parts of the mesh, in JSON.
+std::string hexahedra_record(const std::string& source, const Mesh& mesh, const HexMeasures& measures);
 
 /// Prints how the mesh fits its surface, in one line.
 void print_surface_summary(const SurfaceReport& report);

@@ -16,10 +16,11 @@ namespace delquad {
 /// A mesh as `unpackMesh` of page/packed_mesh.js takes it apart.
 ///
 /// packed_text() makes the text, from numbers of 32 bits. The first are x, y and z of the points as float,
-/// less the `origin`. Whole numbers follow: vertices of triangles and quads, and eta of quads in 128ths (128:
-/// it fails). Then come the ends of lines, irregular vertices (number and valence), and pairs of them. With
-/// entities the last are the regions of triangles and quads and the curves of lines, by index. A curved quad
-/// is a polygon: `order` nodes for each side. A curved line has as many pieces.
+/// less the `origin`. Whole numbers follow: vertices of triangles and quads, and eta of quads, or the
+/// scaled Jacobian of hexahedra at them, in 128ths (128: it fails). Then come the ends of lines, irregular
+/// vertices (number and valence), and pairs of them. With entities the last are the regions of triangles and
+/// quads and the curves of lines, by index. A curved quad is a polygon: `order` nodes for each side. A curved
+/// line has as many pieces.
 struct PackedMesh {
   Json info;  ///< how many there are of each
   std::string text;

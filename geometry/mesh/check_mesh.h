@@ -14,7 +14,7 @@ namespace delquad {
 /// see check_invariants().
 void require_readable(const Mesh& mesh, const std::string& where);
 
-/// Throws InputError, which begins with `where`, for elements of a higher order.
+/// Throws InputError, which begins with `where`, for hexahedra and for elements of a higher order.
 void require_straight(const Mesh& mesh, const std::string& where);
 
 }  // namespace delquad

@@ -57,6 +57,8 @@ struct HexMeasures {
   double least_jacobian = 0, mean_jacobian = 0;
   double volume = 0;
   std::vector<double> jacobian;  ///< value of each hexahedron
+  int unproven =
+      0;  ///< hexahedra whose Jacobian is not proven positive everywhere, by Bernstein coefficients
 };
 HexMeasures measure(const Mesh& hexahedra);
 

@@ -53,7 +53,7 @@ struct Deck {
     int pin = -1;            ///< the line that names it, so that it stays; 0: a set; -1: none
     int joined = -1;         ///< the node that takes its place, by index; -1: none
   };
-  /// A line, triangle or quad.
+  /// A line, triangle or quad, or a hexahedron of a deck that is no one to improve.
   struct Element {
     long long number;
     std::vector<int> nodes;  ///< indices
@@ -63,9 +63,11 @@ struct Deck {
     int region = -1;                     ///< index into Mesh::regions, or Mesh::curves of a line
     int pin = -1;                        ///< see Node
     double angle = 0;                    ///< from the first side to the material's direction, in degrees
+    bool is_solid = false;
 
-    /// Returns 2, 3 or 4; some programs write triangles as quads that name a corner twice.
+    /// Returns 2, 3, 4 or 8; some programs write triangles as quads that name a corner twice.
     std::size_t corners() const {
+      if (is_solid) return 8;
       return nodes.size() == 4 && nodes[2] == nodes[3] ? 3 : std::min<std::size_t>(nodes.size(), 4);
     }
   };
@@ -156,9 +158,10 @@ class DeckText {
 /// their side, and elements that lines name by number have regions of their own. Some nodes must stay, and
 /// their place alone does not tell them. They are named points without names; tags are their numbers.
 ///
-/// Abaqus input: *NODE, *ELEMENT of two to four or eight nodes (shells, membranes, plane ones, bars),
-/// *ELSET. Element sets become names of regions, unless their own begins with an underscore; surfaces of
-/// elements' sides (S1 to S4, E1 to E4) become curves. Other keywords are left out.
+/// Abaqus input: *NODE, *ELEMENT of two to four or eight nodes (shells, membranes, plane ones, bars), and of
+/// hexahedra unless it is `as_deck`, *ELSET. Element sets become names of regions or volumes, unless their
+/// own begins with an underscore. Surfaces of elements' sides (S1 to S6, E1 to E4) become curves or faces.
+/// Other keywords are left out.
 Deck read_inp_deck(const std::filesystem::path& path, bool as_deck);
 /// Reads Nastran's bulk data, in free, small and large fields: GRID, CQUAD4, CQUAD8, CTRIA3, and as lines
 /// CBAR, CBEAM, CROD, CTUBE, CONROD and PLOTEL. Properties are tags, names those that write_nastran() leaves

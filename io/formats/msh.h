@@ -13,11 +13,11 @@
 
 namespace delquad {
 
-/// Reads MSH 2.2 or 4.1, text or binary, by content. Elements of dimension 1 and 2 become lines, triangles
-/// and quads, curved ones of one order. Physical names and entity tags are kept (a group without a name goes
-/// by its number), and so are the further names that write_msh() leaves. Points are ignored, and so are nodes
-/// that no other element uses. `notes` tells of periodic pairs, which are not read. Throws InputError with
-/// file and line, or byte.
+/// Reads MSH 2.2 or 4.1, text or binary, by content. Elements become lines, triangles, quads and hexahedra,
+/// curved ones of one order; hexahedra keep their corners. Physical names and entity tags are kept (a group
+/// without a name goes by its number), and so are the further names that write_msh() leaves. Points are
+/// ignored, and so are nodes that no other element uses. `notes` tells of periodic pairs, which are not read.
+/// Throws InputError with file and line, or byte.
 Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces = nullptr,
               ReadNotes* notes = nullptr);
 /// Writes MSH 4.1 with $PhysicalNames and $Entities, volumes with dimension 3. Coordinates read back exactly.

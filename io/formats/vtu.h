@@ -13,10 +13,10 @@
 
 namespace delquad {
 
-/// Reads VTK XML of an unstructured grid: lines, triangles and quads. Arrays are text or base64, inline or
-/// appended (raw, too), plain or compressed by zlib. Curves, regions and names are as write_vtu() writes
-/// them; files of other programs have one curve and one region.
-Mesh read_vtu(const std::filesystem::path& path);
+/// Reads VTK XML of an unstructured grid: lines, triangles, quads and hexahedra. Arrays are text or base64,
+/// inline or appended (raw, too), plain or compressed by zlib. Curves, regions and names are as write_vtu()
+/// writes them; files of other programs have one curve and one region.
+Mesh read_vtu(const std::filesystem::path& path, ReadNotes* notes = nullptr);
 /// Writes VTK XML (base64). Cells are lines, then triangles, then quads; with hexahedra they are these, then
 /// quads, then lines. Arrays of tags tell the curve and the region of each cell, or the volume, face and
 /// curve beside hexahedra (0: none). A cell has one value for each field in `cell_data`. Lines have no values
