@@ -6,8 +6,12 @@
 #include <map>
 #include <utility>
 
+#include "base/located.h"
 #include "base/sort_unique.h"
+#include "base/text.h"
+#include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
+#include "io/mesh_formats.h"
 #include "io/text_writer.h"
 
 namespace delquad {
@@ -108,19 +112,76 @@ CellSide cell_side(const Mesh& mesh, const HalfEdge& edge) {
   return {edge.element, quad < 0 ? place(mesh.triangles[edge.element]) : place(mesh.quads[quad])};
 }
 
-CellSides::CellSides(const Mesh& mesh) : mesh_(mesh) {
-  constexpr int kSides[6][4] = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
-                                {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
-  if (mesh.hexahedra.empty()) of_faces_ = sorted_half_edges(mesh);
-  of_hexahedra_.reserve(6 * mesh.hexahedra.size());
+std::array<int, 4> outward_side(std::span<const int> hexahedron, int side) {
+  constexpr int kSides[kHexSides][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                        {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  std::array<int, 4> nodes;
+  for (int k = 0; k < 4; ++k) nodes[k] = hexahedron[kSides[side][k]];
+  return nodes;
+}
+
+std::vector<HexSide> sorted_sides(const Mesh& mesh) {
+  std::vector<HexSide> sides;
+  sides.reserve(kHexSides * mesh.hexahedra.size());
   for (std::size_t h = 0; h < mesh.hexahedra.size(); ++h)
-    for (int s = 0; s < 6; ++s) {
-      HexSide side{{}, {static_cast<int>(h), s}};
-      for (int k = 0; k < 4; ++k) side.nodes[k] = mesh.hexahedra[h][kSides[s][k]];
+    for (int s = 0; s < kHexSides; ++s) {
+      HexSide side{outward_side(mesh.hexahedra[h], s), {static_cast<int>(h), s}};
       std::ranges::sort(side.nodes);
-      of_hexahedra_.push_back(side);
+      sides.push_back(side);
     }
-  std::ranges::stable_sort(of_hexahedra_, {}, &HexSide::nodes);
+  std::ranges::stable_sort(sides, {}, &HexSide::nodes);
+  return sides;
+}
+
+void complete_faces(Mesh& mesh, ReadNotes* notes) {
+  if (mesh.hexahedra.empty()) return;
+  if (mesh.order > 1) mesh = straightened(std::move(mesh));
+  const std::vector<HexSide> sides = sorted_sides(mesh);
+  const auto outward = [&](const HexSide& side) {
+    return outward_side(mesh.hexahedra[side.side.element], side.side.side);
+  };
+  std::vector<char> has_quad(sides.size(), 0);
+  const std::size_t n_faces = n_cells(mesh, 2);
+  std::size_t kept = 0;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    std::array<int, 4> quad = mesh.quads[q], nodes = quad;
+    std::ranges::sort(nodes);
+    const auto at = std::ranges::equal_range(sides, nodes, {}, &HexSide::nodes);
+    if (at.empty()) continue;
+    has_quad[at.begin() - sides.begin()] = 1;
+    const std::array<int, 4> side = outward(at.front());
+    const auto first = std::ranges::find(quad, side[0]) - quad.begin();
+    if (at.size() == 1 && quad[(first + 1) % 4] != side[1]) std::swap(quad[1], quad[3]);
+    mesh.quads[kept] = quad;
+    mesh.quad_region[kept++] = mesh.quad_region[q];
+  }
+  mesh.quads.resize(kept);
+  mesh.quad_region.resize(kept);
+  mesh.triangles.clear();
+  mesh.triangle_region.clear();
+  if (notes != nullptr && kept < n_faces)
+    notes->push_back(
+        fmt::format("triangles and quads that are no sides of hexahedra are left out: {}", n_faces - kept));
+  int tag = 0;
+  for (const Entity& region : mesh.regions) tag = std::max(tag, region.tag);
+  const int region = static_cast<int>(mesh.regions.size());
+  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+    while (end < sides.size() && sides[end].nodes == sides[i].nodes) ++end;
+    const std::array<int, 4> side = outward(sides[i]);
+    if (end - i > 2)
+      refuse("{} hexahedra share the side at {}: expected two at most", end - i,
+             show_point(mesh.points[side[0]]));
+    if (end - i == 2 || has_quad[i]) continue;
+    mesh.quads.push_back(side);
+    mesh.quad_region.push_back(region);
+  }
+  if (mesh.quads.size() > kept) mesh.regions.push_back({tag + 1, {}});
+  drop_unused_points(mesh);
+}
+
+CellSides::CellSides(const Mesh& mesh) : mesh_(mesh) {
+  if (mesh.hexahedra.empty()) of_faces_ = sorted_half_edges(mesh);
+  of_hexahedra_ = sorted_sides(mesh);
 }
 
 std::vector<CellSide> CellSides::at(int item) const {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -75,7 +76,22 @@ struct CellSide {
 /// Returns the element and side of a half-edge.
 CellSide cell_side(const Mesh& mesh, const HalfEdge& edge);
 
-/// The sides of triangles and quads; if there are hexahedra, their sides.
+inline constexpr int kHexSides = 6;
+/// Returns the nodes of a side of a hexahedron, counterclockwise seen from outside.
+std::array<int, 4> outward_side(std::span<const int> hexahedron, int side);
+struct HexSide {
+  std::array<int, 4> nodes;  ///< ascending
+  CellSide side;
+};
+/// Returns the sides of all hexahedra, by their nodes.
+std::vector<HexSide> sorted_sides(const Mesh& mesh);
+/// Completes the faces of hexahedra that were read; does nothing to other meshes. Quads on the boundary look
+/// outwards, and missing ones are added in a region without a name. Triangles and quads that are no sides of
+/// hexahedra go, which a note tells. All elements become straight. Throws InputError, with the place, for a
+/// side of three hexahedra.
+void complete_faces(Mesh& mesh, ReadNotes* notes);
+
+/// The sides of triangles and quads, or of hexahedra if there are any.
 class CellSides {
  public:
   explicit CellSides(const Mesh& mesh);
@@ -84,10 +100,6 @@ class CellSides {
   std::vector<CellSide> at(int item) const;
 
  private:
-  struct HexSide {
-    std::array<int, 4> nodes;
-    CellSide side;
-  };
   const Mesh& mesh_;
   std::vector<HalfEdge> of_faces_;
   std::vector<HexSide> of_hexahedra_;

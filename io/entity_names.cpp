@@ -212,4 +212,38 @@ std::string plain_label(const std::string& name) {
   return label;
 }
 
+namespace {
+
+void take_numbers(std::vector<Entity>& entities, int dim) {
+  std::map<std::string, std::vector<int>> holders;
+  for (size_t i = 0; i < entities.size(); ++i)
+    for (const std::string& name : entities[i].names) holders[name].push_back(static_cast<int>(i));
+  std::map<int, int> of_tag;
+  const std::string prefix = tag_label(dim, 0).substr(0, tag_label(dim, 0).size() - 1);
+  for (const auto& [name, held] : holders) {
+    if (held.size() != 1 || !name.starts_with(prefix)) continue;
+    int tag = 0;
+    const auto [end, error] = std::from_chars(name.data() + prefix.size(), name.data() + name.size(), tag);
+    Entity& entity = entities[held[0]];
+    const bool is_first = std::ranges::none_of(of_tag, [&](const auto& t) { return t.second == held[0]; });
+    if (error != std::errc() || tag < 1 || name != tag_label(dim, tag) || !is_first) continue;
+    of_tag[tag] = held[0];
+    entity.tag = tag;
+    std::erase(entity.names, name);
+  }
+  int next = of_tag.empty() ? 0 : of_tag.rbegin()->first;
+  std::set<int> known;
+  for (const auto& [tag, entity] : of_tag) known.insert(entity);
+  for (size_t i = 0; i < entities.size() && !of_tag.empty(); ++i)
+    if (!known.contains(static_cast<int>(i))) entities[i].tag = ++next;
+}
+
+}  // namespace
+
+void take_numbers(Mesh& mesh) {
+  take_numbers(mesh.curves, 1);
+  take_numbers(mesh.regions, 2);
+  take_numbers(mesh.volumes, 3);
+}
+
 }  // namespace delquad

@@ -22,11 +22,14 @@ namespace delquad {
 /// or "volume_7" (3).
 std::string tag_label(int dim, int tag);
 
-/// Returns one name for each entity of one dimension, for formats that allow no more. Among several names of
-/// an entity, the name of the fewest entities wins, then the first. So the name of a part comes before the
-/// name of the product. A color, or a name of all entities, is the last choice. A nameless entity gets
-/// tag_label(), with a number behind it if that is taken. Entities get the same name only if they share it.
-/// Own method.
+/// Gives entities that are called by a number, as in our files ("curve_7"), this number again.
+void take_numbers(Mesh& mesh);
+
+/// Returns one name for each entity of one dimension, for formats that take no more. If an entity has several
+/// names, the name that the fewest entities have is chosen, the first of equal ones. So a part's own name
+/// comes before the name of the product. A color, or a name that all have, is used only if there is nothing
+/// else. A nameless entity gets tag_label(), with a number behind it if that is taken. Entities have the same
+/// name here only if they share it.
 std::vector<std::string> group_names(const std::vector<Entity>& entities, int dim);
 
 /// Returns the tags of the entities that have each name.

@@ -41,8 +41,17 @@ void FaceReader::add_face(const std::vector<int>& corners, int region) {
   mesh_.triangle_region.insert(mesh_.triangle_region.end(), triangles.size(), region);
 }
 
+std::vector<Entity>& entities_of(Mesh& mesh, int dim) {
+  return dim == 1 ? mesh.curves : dim == 2 ? mesh.regions : mesh.volumes;
+}
+
 std::string add_element(Mesh& mesh, int corners, std::span<const int> nodes, int entity,
                         std::vector<int> (*places)(int order)) {
+  if (corners == kHexCorners) {
+    std::copy_n(nodes.begin(), kHexCorners, mesh.hexahedra.emplace_back().begin());
+    mesh.hex_volume.push_back(entity);
+    return "";
+  }
   const int order = corners == 2   ? order_of_line(nodes.size())
                     : corners == 3 ? 1
                                    : order_of_quad(nodes.size());

@@ -23,8 +23,15 @@ namespace delquad {
 /// of a point in the file.
 void check_strays(const Mesh& mesh, Strays strays, const std::function<std::string(int)>& place);
 
-/// Adds a line, triangle or quad by its nodes: its corners, then the nodes at further `places` of its order.
-/// Returns the problem if its order differs from the order of the mesh; empty: it was added.
+/// Adds a line, triangle, quad or hexahedron by its nodes: its corners first, then the nodes that `places` of
+/// its order has beside them. Hexahedra keep their corners alone. Returns the problem if its order differs
+/// from the order of the mesh; empty: it was added.
+inline constexpr int kHexCorners = 8;
+inline constexpr const char* kCornersOfHexahedra = "hexahedra of order 2 are read as their corners";
+/// Returns the dimension of elements with so many corners.
+constexpr int dimension_of(int corners) { return corners == kHexCorners ? 3 : corners > 2 ? 2 : corners - 1; }
+/// Returns Mesh::curves, regions or volumes.
+std::vector<Entity>& entities_of(Mesh& mesh, int dim);
 std::string add_element(Mesh& mesh, int corners, std::span<const int> nodes, int entity,
                         std::vector<int> (*places)(int order) = gmsh_places);
 

@@ -42,12 +42,14 @@ constexpr UniqueLabels::Rules kUgridLabels{word_label};
 }  // namespace
 
 MeshFormat exodus_format() {
-  return loaded_format<kExodus>(DELQUAD_HAS_EXODUS, {.extensions = {".e", ".exo", ".ex2"},
-                                                     .description = "Exodus II: MOOSE, Cubit",
-                                                     .most_order = 2,
-                                                     .package = "libexodusii-dev",
-                                                     .has_hexahedra = true,
-                                                     .labels = &kExodusLabels});
+  return loaded_format<kExodus>(DELQUAD_HAS_EXODUS,
+                                {.extensions = {".e", ".exo", ".ex2"},
+                                 .description = "Exodus II: MOOSE, Cubit",
+                                 .read = DELQUAD_HAS_EXODUS ? read_loaded<kExodus> : nullptr,
+                                 .most_order = 2,
+                                 .package = "libexodusii-dev",
+                                 .has_hexahedra = true,
+                                 .labels = &kExodusLabels});
 }
 
 MeshFormat cgns_format() {

@@ -38,7 +38,8 @@ Mesh with_utf8(Mesh mesh) {
   const auto convert = [](Entity& entity) {
     for (std::string& name : entity.names) name = as_utf8(name);
   };
-  for (auto* entities : {&mesh.curves, &mesh.regions}) std::ranges::for_each(*entities, convert);
+  for (auto* entities : {&mesh.curves, &mesh.regions, &mesh.volumes})
+    std::ranges::for_each(*entities, convert);
   for (NamedPoint& point : mesh.named_points) convert(point.entity);
   return mesh;
 }
@@ -112,7 +113,9 @@ Mesh read_mesh(const std::filesystem::path& path, ReadNotes* notes, Strays stray
   const MeshFormat* format = find_format(kind_of_file(path));
   if (format == nullptr || format->read == nullptr)
     unknown(path, extensions_of([](const MeshFormat& f) { return f.read != nullptr; }));
-  return with_utf8(format->read(path, notes, strays));
+  Mesh mesh = with_utf8(format->read(path, notes, strays));
+  located(path.string(), [&] { complete_faces(mesh, notes); });
+  return mesh;
 }
 
 Mesh read_given_mesh(const std::filesystem::path& path, ReadNotes* notes) {
@@ -283,25 +286,34 @@ std::vector<std::string> unsupported_in_file(const std::filesystem::path& path, 
       lost.push_back(
           fmt::format("names of {}, which '{}' does not hold: {}", of, kind, fmt::join(all, ", ")));
   };
+  // Beside hexahedra volumes and faces take the places of regions and curves.
+  const bool is_solid = !mesh.hexahedra.empty();
+  const std::vector<Entity>&cells = is_solid ? mesh.volumes : mesh.regions,
+        &sides_of = is_solid ? mesh.regions : mesh.curves;
+  const char *const of_cells = is_solid ? "volumes" : "regions", *const of_sides =
+                                                                     is_solid ? "faces" : "curves";
   std::set<std::string> of_regions, of_points, inside, around;
-  for (const Entity& region : mesh.regions) of_regions.insert(region.names.begin(), region.names.end());
+  for (const Entity& region : cells) of_regions.insert(region.names.begin(), region.names.end());
   of_regions.erase("domain");  // whose model has no name for it
   for (const NamedPoint& point : mesh.named_points)
     of_points.insert(point.entity.names.begin(), point.entity.names.end());
   const CellSides sides(mesh);
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    const std::vector<std::string>& of_curve = mesh.curves[mesh.line_curve[l]].names;
-    (sides.at(static_cast<int>(l)).size() > 1 ? inside : around).insert(of_curve.begin(), of_curve.end());
+  const std::vector<int>& entity_of = is_solid ? mesh.quad_region : mesh.line_curve;
+  for (std::size_t i = 0; i < entity_of.size(); ++i) {
+    const std::vector<std::string>& names_of = sides_of[entity_of[i]].names;
+    (sides.at(static_cast<int>(i)).size() > 1 ? inside : around).insert(names_of.begin(), names_of.end());
   }
-  add(kRegionNames, "regions", of_regions);
-  add(kBoundaryNames, "curves of the boundary", around);
-  add(kInnerNames, "curves inside", inside);
+  add(kRegionNames, of_cells, of_regions);
+  add(kBoundaryNames, fmt::format("{} of the boundary", of_sides).c_str(), around);
+  add(kInnerNames, fmt::format("{} inside", of_sides).c_str(), inside);
   add(kPointNames, "points", of_points);
   if ((names & kPeriodicPairs) == 0 && !(mesh.periodic.empty() && mesh.periodic_faces.empty()))
     lost.push_back(fmt::format("which nodes are images of others, which '{}' does not hold", kind));
   if ((names & kFurtherNames) != 0) return lost;
-  for (const auto& [which, of, entities, dim] : {std::tuple(kRegionNames, "regions", &mesh.regions, 2),
-                                                 std::tuple(kBoundaryNames, "curves", &mesh.curves, 1)}) {
+  const int dim_of_cells = dimension_of(mesh);
+  for (const auto& [which, of, entities, dim] :
+       {std::tuple(kRegionNames, of_cells, &cells, dim_of_cells),
+        std::tuple(kBoundaryNames, of_sides, &sides_of, dim_of_cells - 1)}) {
     const std::vector<std::string> own = group_names(*entities, dim);
     std::set<std::string> further;
     for (std::size_t i = 0; i < own.size(); ++i)

@@ -15,6 +15,8 @@
 
 #include "base/located.h"
 #include "base/text.h"
+#include "geometry/mesh/check_mesh.h"
+#include "io/cell_view.h"
 #include "io/formats/msh.h"
 #include "io/formats/msh_raw.h"
 #include "io/formats/vtu.h"
@@ -56,6 +58,7 @@ MeshWithFields read_msh_fields(const std::filesystem::path& path, const FieldCho
   MeshWithFields result{msh::to_mesh(std::move(contents), scanner, &tags), {}};
   require_own_points(result.mesh, tags.points.size(), path);
   tags.triangles.insert(tags.triangles.end(), tags.quads.begin(), tags.quads.end());
+  if (!tags.hexahedra.empty()) tags.triangles = std::move(tags.hexahedra);
   for (const std::size_t i : chosen) {
     all[i].values = in_order(views[i], all[i].is_of_points ? tags.points : tags.triangles);
     result.fields.push_back(std::move(all[i]));
@@ -64,7 +67,11 @@ MeshWithFields read_msh_fields(const std::filesystem::path& path, const FieldCho
 }
 
 MeshWithFields read_chosen(const std::filesystem::path& path, const FieldChoice& choice) {
-  return (kind_of_file(path) == ".vtu" ? read_vtu_fields : read_msh_fields)(path, choice);
+  MeshWithFields whole = (kind_of_file(path) == ".vtu" ? read_vtu_fields : read_msh_fields)(path, choice);
+  const std::size_t n_points = whole.mesh.points.size();
+  complete_faces(whole.mesh, nullptr);
+  require_own_points(whole.mesh, n_points, path);
+  return whole;
 }
 
 void check_number(TextScanner& in, std::size_t n_points) {
@@ -229,6 +236,7 @@ NodalValues read_field(const std::filesystem::path& path, const std::string& nam
     });
     if (mesh.order > 1)
       refuse("{}: a field on elements of order {}: expected order 1", path.string(), mesh.order);
+    require_straight(mesh, path.string());
     MeshField& field = fields[0];
     if (are_tensors) field.values = as_tensors(field.values, field.n_components);
     if (!field.is_of_points) field.values = means_at_points(mesh, field.values, width);
@@ -244,7 +252,8 @@ NodalValues read_field(const std::filesystem::path& path, const std::string& nam
 
 void require_own_points(const Mesh& mesh, std::size_t n_points, const std::filesystem::path& path) {
   if (mesh.points.size() != n_points)
-    refuse("{}: fields on quads of 8 nodes: expected 4, 9, 16 or 25", path.string());
+    refuse("{}: fields on quads of 8 nodes, or on hexahedra of order 2: expected 4, 9, 16 or 25",
+           path.string());
 }
 
 bool holds_values(const std::filesystem::path& path) {
@@ -271,7 +280,7 @@ MeshWithFields read_fields(const std::filesystem::path& path) {
 void write_fields(const std::filesystem::path& path, const Mesh& mesh, const std::vector<MeshField>& fields,
                   const MshOptions& options) {
   assert(std::ranges::all_of(fields, [&](const MeshField& field) {
-    const std::size_t n = field.is_of_points ? mesh.points.size() : mesh.triangles.size() + mesh.quads.size();
+    const std::size_t n = field.is_of_points ? mesh.points.size() : n_cells(mesh, dimension_of(mesh));
     return field.values.size() == n * static_cast<std::size_t>(field.n_components);
   }));
   check_mesh_format(path, options, mesh.order);

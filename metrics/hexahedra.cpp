@@ -112,14 +112,17 @@ HexMeasures measure(const Mesh& mesh) {
   const std::size_t n = mesh.hexahedra.size();
   measures.jacobian.resize(n);
   std::vector<double> volumes(n);
+  std::vector<char> is_proven(n);
   parallel_ranges(n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const HexCorners at = corners_of(mesh.points, mesh.hexahedra[i]);
       measures.jacobian[i] = scaled_jacobian(at);
       volumes[i] = signed_volume(at);
+      is_proven[i] = is_positive(at);
     }
   });
   if (n == 0) return measures;
+  measures.unproven = static_cast<int>(std::ranges::count(is_proven, 0));
   measures.least_jacobian = *std::min_element(measures.jacobian.begin(), measures.jacobian.end());
   for (std::size_t i = 0; i < n; ++i) {
     measures.mean_jacobian += measures.jacobian[i] / static_cast<double>(n);

@@ -34,7 +34,9 @@ MeshWithFields read_whole(const std::filesystem::path& path, ReadNotes& notes,
   if (!holds_fields(path)) return whole;
   try {
     MeshWithFields read = read_fields(path);
-    std::erase_if(read.fields, [](const MeshField& f) { return f.name == "eta" && !f.is_of_points; });
+    std::erase_if(read.fields, [](const MeshField& f) {
+      return (f.name == "eta" || f.name == "scaled Jacobian") && !f.is_of_points;
+    });
     if (!read.fields.empty()) return read;
   } catch (const InputError& error) {
     lost.push_back(fmt::format("fields: {}", error.what()));

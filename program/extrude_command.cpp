@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/context.h"
@@ -18,6 +17,7 @@
 #include "io/text_scanner.h"
 #include "program/commands.h"
 #include "program/options.h"
+#include "program/print.h"
 
 namespace delquad {
 namespace {
@@ -170,34 +170,6 @@ SweepPath path_of(const ExtrudeArguments& arguments, const Mesh& mesh) {
                  [&] { return AlongCurve{read_polyline(arguments.curve, centre)}; });
 }
 
-using Json = nlohmann::ordered_json;
-
-Json entities_json(const std::vector<Entity>& entities, const std::vector<int>& entity_of,
-                   const char* items) {
-  std::vector<long long> counts(entities.size(), 0);
-  for (const int e : entity_of) ++counts[e];
-  Json all = Json::array();
-  for (std::size_t i = 0; i < entities.size(); ++i)
-    if (counts[i] > 0)
-      all.push_back({{"number", entities[i].tag}, {"names", entities[i].names}, {items, counts[i]}});
-  return all;
-}
-
-std::string extrusion_record(const ExtrudeArguments& arguments, const Mesh& mesh,
-                             const HexMeasures& measures) {
-  const Json json = {{"mesh", arguments.mesh.string()},
-                     {"points", mesh.points.size()},
-                     {"hexahedra", mesh.hexahedra.size()},
-                     {"least_scaled_jacobian", measures.least_jacobian},
-                     {"mean_scaled_jacobian", measures.mean_jacobian},
-                     {"volume", measures.volume},
-                     {"unit", mesh.unit.empty() ? Json() : Json(mesh.unit)},
-                     {"volumes", entities_json(mesh.volumes, mesh.hex_volume, "hexahedra")},
-                     {"faces", entities_json(mesh.regions, mesh.quad_region, "quads")},
-                     {"curves", entities_json(mesh.curves, mesh.line_curve, "lines")}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-}
-
 int extrude_command(const ExtrudeArguments& arguments) {
   check_hex_format(arguments.output, arguments.file);
   // The curve may lie in the mesh's own file.
@@ -222,14 +194,9 @@ int extrude_command(const ExtrudeArguments& arguments) {
   const HexMeasures measures = measure(hexahedra);
   write_mesh(arguments.output, hexahedra, arguments.file);
   if (!arguments.json.empty())
-    write_text_file(arguments.json, extrusion_record(arguments, hexahedra, measures));
+    write_text_file(arguments.json, hexahedra_record(arguments.mesh.string(), hexahedra, measures));
   fmt::print("{}\n", arguments.output.string());
-  fmt::print("  {:<10} {:>12}\n  {:<10} {:>12}\n", "hexahedra", hexahedra.hexahedra.size(), "points",
-             hexahedra.points.size());
-  fmt::print("  {:<10} {:>12.6g} least\n  {:<10} {:>12.6g} mean\n", "scaled J", measures.least_jacobian,
-             "scaled J", measures.mean_jacobian);
-  fmt::print("  {:<10} {:>12.9g}{}\n", "volume", measures.volume,
-             hexahedra.unit.empty() ? "" : " " + hexahedra.unit + "^3");
+  print_hexahedra(hexahedra, measures);
   return kDone;
 }
 

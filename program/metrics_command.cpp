@@ -90,6 +90,18 @@ void print_solver(const MeshMetrics& metrics, const std::string& solver) {
     fmt::print(stderr, "warning: no '{}': {}\n", solver, at->second);
 }
 
+/// Measures of hexahedra, for which there are no criteria, sizes and solvers here.
+int measure_hexahedra(const MetricsArguments& arguments, const Mesh& mesh) {
+  if (arguments.size || arguments.links || !arguments.criteria.empty() || !arguments.solvers.empty())
+    require_straight(mesh, arguments.mesh.string() + ": --size, --criteria, --links or --solve");
+  const HexMeasures measures = measure(mesh);
+  if (!arguments.json.empty())
+    write_text_file(arguments.json, hexahedra_record(arguments.mesh.string(), mesh, measures));
+  fmt::print("{}\n", arguments.mesh.string());
+  print_hexahedra(mesh, measures);
+  return kDone;
+}
+
 int metrics_command(const MetricsArguments& arguments) {
   check_distinct({{"the mesh", arguments.mesh}, {"--json", arguments.json}});
   if (!arguments.json.empty()) check_output(arguments.json);
@@ -102,6 +114,7 @@ int metrics_command(const MetricsArguments& arguments) {
   const Mesh mesh = read_mesh(arguments.mesh, &notes);
   if (std::string torn = describe_unjoined(mesh); !torn.empty()) notes.push_back(std::move(torn));
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+  if (!mesh.hexahedra.empty()) return measure_hexahedra(arguments, mesh);
   if (mesh.triangles.empty() && mesh.quads.empty())
     throw InputError(arguments.mesh.string() + ": holds no triangles and no quads: expected some to measure");
   std::shared_ptr<const SizeField> size;

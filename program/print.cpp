@@ -101,7 +101,9 @@ void print_measures(const MeshMetrics& metrics) {
 }
 
 std::string show_counts(const Mesh& mesh) {
-  return fmt::format("{} quads, {} triangles, {} {}", mesh.quads.size(), mesh.triangles.size(),
+  const std::string solids =
+      mesh.hexahedra.empty() ? "" : fmt::format("{} hexahedra, ", mesh.hexahedra.size());
+  return fmt::format("{}{} quads, {} triangles, {} {}", solids, mesh.quads.size(), mesh.triangles.size(),
                      mesh.points.size(), mesh.order > 1 ? "nodes" : "vertices");
 }
 

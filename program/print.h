@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "delquad/hexahedra.h"
 #include "delquad/mesher.h"
 #include "delquad/options.h"
 #include "metrics/tables/tables.h"
@@ -23,7 +24,8 @@ void print_summary(const MeshMetrics& metrics);
 /// Prints every measure with -v, otherwise the summary.
 void print_measures(const MeshMetrics& metrics);
 
-/// Returns "9 quads, 0 triangles, 16 vertices"; "nodes" if elements are curved and have more than corners.
+/// Returns "9 quads, 0 triangles, 16 vertices", hexahedra first if there are any; "nodes" if elements are
+/// curved and have more than corners.
 std::string show_counts(const Mesh& mesh);
 
 /// Prints the names of the parts of a mesh in one line, and nothing if no part has a name.
@@ -35,7 +37,12 @@ void print_criteria(const CriteriaReport& report, const Mesh& mesh);
 /// Prints the time of each step in seconds, added up over threads.
 void print_seconds(const StepTimes& times);
 
-/// Prints distances and topology of a mesh and its surface, in one line.
+/// Prints numbers, least and mean scaled Jacobian, and volume of hexahedra.
+void print_hexahedra(const Mesh& mesh, const HexMeasures& measures);
+/// Returns the same with the parts of the mesh, in JSON.
+std::string hexahedra_record(const std::string& source, const Mesh& mesh, const HexMeasures& measures);
+
+/// Prints how the mesh fits its surface, in one line.
 void print_surface_summary(const SurfaceReport& report);
 /// Prints the whole comparison, with the quality of the surface's maps and its cuts.
 void print_surface_report(const Prepared& prepared, const SurfaceReport& report);

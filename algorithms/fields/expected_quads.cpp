@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
+#include <vector>
 
 #include "algorithms/fields/fields.h"
 #include "algorithms/fields/sample_triangle.h"
@@ -24,6 +27,24 @@ struct Orbit {
 constexpr Orbit kRule[] = {{0.445948490915965, 0.223381589678011}, {0.091576213509771, 0.109951743655322}};
 constexpr int kRulePoints = 6;
 
+/// Ratio of longest to shortest side of slivers.
+constexpr double kSliver = 8;
+
+/// Returns the quarters of a triangle, or both halves across a sliver. Quarters of slivers are as thin.
+/// Beside a curve with many edges there would be far too many of them.
+std::vector<Corners> parts_of(const Corners& c) {
+  const auto side = [&](std::size_t k) { return norm(c[(k + 1) % 3] - c[k]); };
+  const std::array lengths = {side(0), side(1), side(2)};
+  const auto [least, most] = std::ranges::minmax_element(lengths);
+  if (*most <= kSliver * *least) {
+    const auto all = quarters(c);
+    return {all.begin(), all.end()};
+  }
+  const auto k = static_cast<std::size_t>(most - lengths.begin());
+  const Vec2 a = c[k], b = c[(k + 1) % 3], tip = c[(k + 2) % 3], middle = 0.5 * (a + b);
+  return {{a, middle, tip}, {middle, b, tip}};
+}
+
 class Quadrature {
  public:
   explicit Quadrature(const SizeField& size) : size_(size) {}
@@ -32,7 +53,7 @@ class Quadrature {
   void add(const Corners& corners, double longest) {
     check_cancelled();
     if (longest_side(corners) > longest && !exhausted()) {
-      for (const Corners& quarter : quarters(corners)) add(quarter, longest);
+      for (const Corners& part : parts_of(corners)) add(part, longest);
     } else {
       push(integrate(corners));
     }
@@ -46,14 +67,14 @@ class Quadrature {
       parts_.pop();
       total_ -= worst.integral;
       error_ -= worst.error;
-      Part part[4];
+      std::vector<Part> parts;
       double sum = 0;
-      for (int i = 0; i < 4; ++i) {
-        part[i] = integrate(quarters(worst.corners)[i]);
-        sum += part[i].integral;
+      for (const Corners& corners : parts_of(worst.corners)) {
+        parts.push_back(integrate(corners));
+        sum += parts.back().integral;
       }
-      for (Part& p : part) {
-        p.error = std::abs(sum - worst.integral) / 4;
+      for (Part& p : parts) {
+        p.error = std::abs(sum - worst.integral) / static_cast<double>(parts.size());
         push(p);
       }
     }

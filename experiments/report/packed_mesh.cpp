@@ -9,7 +9,9 @@
 #include <span>
 
 #include "base/box.h"
+#include "delquad/hexahedra.h"
 #include "geometry/mesh/element_nodes.h"
+#include "io/cell_view.h"
 #include "io/picture.h"
 #include "io/xml.h"
 
@@ -36,6 +38,18 @@ class Arrays {
   std::string bytes_;
 };
 
+/// Returns eta of each quad, or the least scaled Jacobian, from 0 on, of hexahedra at it.
+std::vector<double> qualities(const Mesh& mesh) {
+  if (mesh.hexahedra.empty()) return quad_etas(mesh);
+  const std::vector<double> jacobian = measure(mesh).jacobian;
+  const CellSides sides(mesh);
+  std::vector<double> least(mesh.quads.size(), 1);
+  for (std::size_t q = 0; q < least.size(); ++q)
+    for (const auto& [element, side] : sides.at(static_cast<int>(q)))
+      least[q] = std::min(least[q], std::max(0.0, jacobian[element]));
+  return least;
+}
+
 }  // namespace
 
 PackedMesh pack_mesh(const Mesh& mesh, const std::vector<std::size_t>& failing, bool with_entities) {
@@ -50,7 +64,7 @@ PackedMesh pack_mesh(const Mesh& mesh, const std::vector<std::size_t>& failing, 
   for (const auto& v : mesh.triangles) out.put_all(v);
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) out.put_all(nodes_around(mesh, q));
   std::vector<std::size_t> classes;
-  for (const double eta : quad_etas(mesh))
+  for (const double eta : qualities(mesh))
     classes.push_back(static_cast<std::size_t>(std::min(eta * kEtaClasses, kEtaClasses - 1)));
   for (const std::size_t q : failing) classes[q] = static_cast<std::size_t>(kEtaClasses);
   for (const std::size_t eta : classes) out.put(eta);

@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "delquad/error.h"
+#include "delquad/hexahedra.h"
 #include "experiments/report/page.h"
 #include "io/mesh_io.h"
 
@@ -39,11 +40,17 @@ void write_view(const std::filesystem::path& file, const Mesh& mesh, const std::
   data["title"] = title;
   data["unit"] = mesh.unit;
   data["values"] = Json::object();
+  const bool is_solid = !mesh.hexahedra.empty();
+  if (is_solid)
+    data["values"] = {{"n_elements", mesh.hexahedra.size()},
+                      {"n_vertices", mesh.points.size()},
+                      {"scaled_jacobian_min", measure(mesh).least_jacobian}};
   for (const auto& [key, value] : metrics.values)
-    if (std::isfinite(value)) data["values"][key] = value;
+    if (std::isfinite(value) && !is_solid) data["values"][key] = value;
+  data["hexahedra"] = mesh.hexahedra.size();
   data["eta"] = metrics.eta.counts;
   data["warnings"] = notes.warnings;
-  data["closeups"] = closeups_json(mesh, kCloseups);
+  data["closeups"] = is_solid ? Json::array() : closeups_json(mesh, kCloseups);
   data["regions"] = entities_json(mesh.regions);
   data["curves"] = entities_json(mesh.curves);
   data["points"] = points_json(mesh);

@@ -22,6 +22,8 @@ namespace delquad {
 namespace {
 
 void require_quads(const Mesh& mesh) {
+  if (!mesh.hexahedra.empty())
+    throw InputError("the mesh has hexahedra already: only meshes of quads are swept");
   if (mesh.order > 1)
     throw InputError(
         fmt::format("the mesh has elements of order {}: only quads of order 1 are swept", mesh.order));

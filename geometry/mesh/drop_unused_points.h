@@ -35,6 +35,7 @@ inline std::vector<int> drop_unused_points(Mesh& mesh) {
     for (auto& e : mesh.lines) std::for_each(e.begin(), e.end(), visit);
     for (auto& e : mesh.triangles) std::for_each(e.begin(), e.end(), visit);
     for (auto& e : mesh.quads) std::for_each(e.begin(), e.end(), visit);
+    for (auto& e : mesh.hexahedra) std::for_each(e.begin(), e.end(), visit);
     for (auto* nodes : {&mesh.line_nodes, &mesh.quad_nodes})
       std::for_each(nodes->begin(), nodes->end(), visit);
   };

@@ -83,6 +83,7 @@ void rename_points(Mesh& mesh, const PointNames& names) {
   rename(mesh.lines);
   rename(mesh.triangles);
   rename(mesh.quads);
+  rename(mesh.hexahedra);
   renumber_nodes(mesh, names);
 }
 

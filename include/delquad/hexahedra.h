@@ -59,6 +59,8 @@ struct HexMeasures {
   double least_jacobian = 0, mean_jacobian = 0;
   double volume = 0;
   std::vector<double> jacobian;  ///< value of each hexahedron
+  int unproven =
+      0;  ///< hexahedra whose Jacobian is not proven positive everywhere, by Bernstein coefficients
 };
 /// Returns the measures of a mesh of hexahedra of order 1.
 HexMeasures measure(const Mesh& hexahedra);

@@ -53,7 +53,7 @@ struct Deck {
     int pin = -1;            ///< line that names it, so that it stays; 0: a set; -1: none
     int joined = -1;         ///< index of the node that replaces it; -1: none
   };
-  /// A line, triangle or quad.
+  /// A line, triangle or quad, or a hexahedron of a deck that is no one to improve.
   struct Element {
     long long number;
     std::vector<int> nodes;  ///< indices
@@ -62,10 +62,12 @@ struct Deck {
     std::vector<std::string> sets = {};  ///< elements of the same sets are a region
     int region = -1;                     ///< index into Mesh::regions; for a line into Mesh::curves
     int pin = -1;                        ///< see Node
-    double angle = 0;                    ///< from the first side to the direction of the material, degrees
+    double angle = 0;                    ///< from the first side to the material's direction, in degrees
+    bool is_solid = false;
 
     /// Returns 2, 3 or 4; a quad that repeats its last corner counts as a triangle.
     std::size_t corners() const {
+      if (is_solid) return 8;
       return nodes.size() == 4 && nodes[2] == nodes[3] ? 3 : std::min<std::size_t>(nodes.size(), 4);
     }
   };

@@ -17,6 +17,7 @@
 #include "base/sort_unique.h"
 #include "io/cell_view.h"
 #include "io/entity_names.h"
+#include "io/face_reader.h"
 #include "io/formats/deck.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
@@ -336,6 +337,10 @@ MeshFormat inp_format() {
                 for (const auto& [other, count] : deck.others)
                   if (notes != nullptr && other.starts_with("*ELEMENT"))
                     notes->push_back(other + " is not read");
+                if (notes != nullptr && std::ranges::any_of(deck.elements, [](const Deck::Element& e) {
+                      return e.is_solid && e.nodes.size() > e.corners();
+                    }))
+                  notes->push_back(kCornersOfHexahedra);
                 return std::move(deck.mesh);
               },
           .write = write_inp,

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/element_nodes.h"
+#include "io/cell_view.h"
 #include "io/entity_names.h"
 #include "io/face_reader.h"
 #include "io/formats/deck.h"
@@ -50,15 +51,15 @@ Deck::Card card_of(std::string_view line) {
   return keyword;
 }
 
-/// Nodes of an element type; 0: not one of lines, triangles and quads.
+/// Nodes of an element type; 0: not one of lines, triangles, quads and hexahedra.
 int nodes_of_type(const std::string& type) {
   static const std::pair<const char*, int> kinds[] = {
-      {"S4", 4},   {"CPS4", 4},   {"CPE4", 4},   {"CPEG4", 4},  {"CAX4", 4},  {"M3D4", 4},
-      {"R3D4", 4}, {"SFM3D4", 4}, {"DS4", 4},    {"DC2D4", 4},  {"S3", 3},    {"STRI3", 3},
-      {"CPS3", 3}, {"CPE3", 3},   {"S8", 8},     {"CPS8", 8},   {"CPE8", 8},  {"CPEG8", 8},
-      {"CAX8", 8}, {"M3D8", 8},   {"SFM3D8", 8}, {"DS8", 8},    {"DC2D8", 8}, {"CPEG3", 3},
-      {"CAX3", 3}, {"M3D3", 3},   {"R3D3", 3},   {"SFM3D3", 3}, {"DS3", 3},   {"DC2D3", 3},
-      {"T2D2", 2}, {"T3D2", 2},   {"B21", 2},    {"B31", 2},    {"R2D2", 2},  {"RAX2", 2}};
+      {"S4", 4},     {"CPS4", 4},  {"CPE4", 4},  {"CPEG4", 4},  {"CAX4", 4},   {"M3D4", 4}, {"R3D4", 4},
+      {"SFM3D4", 4}, {"DS4", 4},   {"DC2D4", 4}, {"S3", 3},     {"STRI3", 3},  {"CPS3", 3}, {"CPE3", 3},
+      {"S8", 8},     {"CPS8", 8},  {"CPE8", 8},  {"CPEG8", 8},  {"CAX8", 8},   {"M3D8", 8}, {"SFM3D8", 8},
+      {"DS8", 8},    {"DC2D8", 8}, {"CPEG3", 3}, {"CAX3", 3},   {"M3D3", 3},   {"R3D3", 3}, {"SFM3D3", 3},
+      {"DS3", 3},    {"DC2D3", 3}, {"T2D2", 2},  {"T3D2", 2},   {"B21", 2},    {"B31", 2},  {"R2D2", 2},
+      {"RAX2", 2},   {"C3D8", 8},  {"DC3D8", 8}, {"C3D20", 20}, {"DC3D20", 20}};
   for (const auto& [name, n] : kinds) {
     const std::string_view rest =
         std::string_view(type).substr(std::min(type.size(), std::string_view(name).size()));
@@ -91,6 +92,8 @@ bool is_side(std::string_view label) {
   return !label.empty() && begins_name(label.front()) &&
          std::isdigit(static_cast<unsigned char>(label.back()));
 }
+
+bool is_solid_type(const std::string& type) { return type.find("C3D") != std::string::npos; }
 
 class InpReader {
  public:
@@ -150,9 +153,10 @@ class InpReader {
 
   [[noreturn]] void fail_type(int line) const {
     in_.fail_at(line,
-                "element type {}: expected lines or triangles of first order or quads, such as S4, "
-                "CPS4, S3, S8R",
-                TextScanner::printable(unread_type_));
+                "element type {}: expected lines or triangles of first order, quads{}, such as S4, CPS4, S3, "
+                "S8R{}",
+                TextScanner::printable(unread_type_), as_deck_ ? "" : " or hexahedra",
+                as_deck_ ? "" : ", C3D8");
   }
 
   void begin(const std::string& line, size_t place) {
@@ -183,7 +187,7 @@ class InpReader {
       sort_unique(set);
     }
     if (card.name != "ELEMENT") return;
-    n_nodes_ = nodes_of_type(type);
+    n_nodes_ = as_deck_ && is_solid_type(type) ? 0 : nodes_of_type(type);
     if (n_nodes_ > 0) return;
     ++deck_.others["*ELEMENT, TYPE=" + type];
     if (unread_line_ == 0) unread_line_ = in_.line(), unread_type_ = type;
@@ -281,6 +285,7 @@ class InpReader {
       in_.fail("element {} is there twice; files of several parts cannot be read [deck-in-parts]",
                pending_[0]);
     if (set_ != nullptr) set_->push_back(index);
+    e.is_solid = is_solid_type(deck_.type_of(e));
     deck_.elements.push_back(std::move(e));
     pending_.clear();
   }
@@ -358,8 +363,8 @@ class InpReader {
   void make_mesh() {
     std::map<std::pair<int, std::vector<std::string>>, int> index;
     for (Element& e : deck_.elements) {
-      const int dim = e.nodes.size() == 2 ? 1 : 2;
-      std::vector<Entity>& entities = dim == 1 ? mesh_.curves : mesh_.regions;
+      const int dim = dimension_of(static_cast<int>(e.corners()));
+      std::vector<Entity>& entities = entities_of(mesh_, dim);
       const auto [it, is_new] = index.emplace(std::pair{dim, e.sets}, static_cast<int>(entities.size()));
       if (is_new) entities.push_back({it->second + 1, e.sets});
       std::erase_if(entities.back().names,
@@ -369,8 +374,7 @@ class InpReader {
       if (!wrong.empty()) in_.fail_at(e.line, "{}", wrong);
     }
     add_surfaces();
-    take_numbers(mesh_.curves, 1);
-    take_numbers(mesh_.regions, 2);
+    take_numbers(mesh_);
   }
 
   /// Adds the sides of shells along curves. Our writer has them in sets "_NAME_E2", without surfaces.
@@ -387,61 +391,47 @@ class InpReader {
     }
   }
 
-  /// Gives entities that are called by a number, as in our files ("curve_7"), this number again.
-  void take_numbers(std::vector<Entity>& entities, int dim) {
-    std::map<std::string, std::vector<int>> holders;
-    for (size_t i = 0; i < entities.size(); ++i)
-      for (const std::string& name : entities[i].names) holders[name].push_back(static_cast<int>(i));
-    std::map<int, int> of_tag;
-    const std::string prefix = tag_label(dim, 0).substr(0, tag_label(dim, 0).size() - 1);
-    for (const auto& [name, held] : holders) {
-      if (held.size() != 1 || !name.starts_with(prefix)) continue;
-      int tag = 0;
-      const auto [end, error] = std::from_chars(name.data() + prefix.size(), name.data() + name.size(), tag);
-      Entity& entity = entities[held[0]];
-      const bool is_first = std::ranges::none_of(of_tag, [&](const auto& t) { return t.second == held[0]; });
-      if (error != std::errc() || tag < 1 || name != tag_label(dim, tag) || !is_first) continue;
-      of_tag[tag] = held[0];
-      entity.tag = tag;
-      std::erase(entity.names, name);
-    }
-    int next = of_tag.empty() ? 0 : of_tag.rbegin()->first;
-    std::set<int> known;
-    for (const auto& [tag, entity] : of_tag) known.insert(entity);
-    for (size_t i = 0; i < entities.size() && !of_tag.empty(); ++i)
-      if (!known.contains(static_cast<int>(i))) entities[i].tag = ++next;
-  }
-
-  /// Sides "S2" or "E2" of elements become lines; those on several surfaces are lines of a curve of all their
-  /// names. Surfaces of whole elements are no curves.
+  /// Sides "S2" or "E2" of elements become lines, or quads of hexahedra. Sides on several surfaces are of a
+  /// curve or face of all their names. Surfaces of whole elements are no curves.
   void add_surfaces() {
-    std::map<std::vector<int>, std::vector<std::string>> names_of;  // by the nodes of a line, its ends first
+    // By the nodes of a line, its ends first, or of a quad, the least first.
+    std::map<std::vector<int>, std::vector<std::string>> names_of;
     for (const Deck::Side& s : deck_.sides) {
       for (const int e : deck_.elements_of(s)) {
         const int side = deck_.side_of(deck_.elements[e], s.label);
         if (side < 0) continue;
         const std::vector<int>& v = deck_.elements[e].nodes;
-        const size_t k = static_cast<size_t>(side), n = deck_.elements[e].corners();
+        const bool is_solid = deck_.elements[e].is_solid;
+        const size_t k = static_cast<size_t>(side), n = is_solid ? kHexSides : deck_.elements[e].corners();
         if (k >= n || n < 3) in_.fail_at(s.line, "an element has no side {}", s.label);
-        std::vector<int> nodes = {v[k], v[(k + 1) % n]};
-        if (v.size() == 8) nodes.push_back(v[4 + k]);
-        if (names_of.contains({nodes[1], nodes[0]})) nodes = {nodes[1], nodes[0]};  // of a neighbor
+        std::vector<int> nodes = {v[k % v.size()], v[(k + 1) % n]}, other = {nodes[1], nodes[0]};
+        if (!is_solid && v.size() == 8) nodes.push_back(v[4 + k]);
+        if (is_solid) {
+          std::array<int, 4> quad = outward_side(v, side);
+          std::ranges::rotate(quad, std::ranges::min_element(quad));
+          nodes.assign(quad.begin(), quad.end());
+          other = {nodes[0], nodes[3], nodes[2], nodes[1]};
+        }
+        if (names_of.contains(other)) nodes = other;  // of a neighbor
         std::vector<std::string>& names = names_of[nodes];
         if (std::find(names.begin(), names.end(), s.surface) == names.end()) names.push_back(s.surface);
       }
     }
-    std::map<std::vector<std::string>, int> index;
-    for (const auto& [line, names] : names_of) {
-      const auto [it, is_new] = index.emplace(names, static_cast<int>(mesh_.curves.size()));
-      if (is_new) mesh_.curves.push_back({it->second + 1, names});
-      add_line(mesh_, line, it->second);
+    std::map<std::pair<int, std::vector<std::string>>, int> index;
+    for (const auto& [nodes, names] : names_of) {
+      const int corners = nodes.size() == 4 ? 4 : 2, dim = dimension_of(corners);
+      std::vector<Entity>& entities = entities_of(mesh_, dim);
+      const auto [it, is_new] = index.emplace(std::pair{dim, names}, static_cast<int>(entities.size()));
+      if (is_new) entities.push_back({it->second + 1, names});
+      if (dim == 1) add_line(mesh_, nodes, it->second);
+      if (dim == 2) add_element(mesh_, corners, nodes, it->second);
     }
   }
 
-  /// Nodes of a set are named points, unless it is one of a region or a curve.
+  /// Nodes of a set are named points, unless it is one of a volume, a region or a curve.
   void add_node_sets() {
     std::set<std::string, LessBlindToCase> known = {""};
-    for (const auto* entities : {&mesh_.curves, &mesh_.regions})
+    for (const auto* entities : {&mesh_.curves, &mesh_.regions, &mesh_.volumes})
       for (const Entity& entity : *entities) known.insert(entity.names.begin(), entity.names.end());
     const DeckSets filled = deck_.filled_regions();
     NamedPoints points;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "io/face_reader.h"
 #include "io/text_scanner.h"
 
 // This header has the contents of MSH files before tags become indices. Readers and writers use it.
@@ -24,14 +25,14 @@ struct Node {
 
 struct Element {
   long long tag;
-  int n_nodes;                     ///< corners: 2 line, 3 triangle, 4 quad
+  int n_nodes;                     ///< corners: 2 line, 3 triangle, 4 quad, 8 hexahedron
   int entity;                      ///< elementary tag
   int physical;                    ///< physical tag (2.2 only), 0: none
-  std::array<long long, 4> nodes;  ///< tags of corners
+  std::array<long long, 8> nodes;  ///< tags of corners
   int line;                        ///< of the file
   int n_further = 0;               ///< further nodes of a curved element
   std::size_t first_further = 0;   ///< index into Contents::further_nodes
-  int dim() const { return n_nodes == 2 ? 1 : 2; }
+  int dim() const { return dimension_of(n_nodes); }
 };
 
 /// A point element.
@@ -69,7 +70,7 @@ struct Contents {
 
 /// Tags of the points and elements of a mesh.
 struct MeshTags {
-  std::vector<long long> points, triangles, quads;
+  std::vector<long long> points, triangles, quads, hexahedra;
 };
 
 /// Returns the sections of a file [Gmsh reference manual, "MSH file format" and "Legacy formats"]; views only

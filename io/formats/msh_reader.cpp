@@ -65,14 +65,14 @@ std::vector<std::string> point_names(const Contents& contents, const Point& poin
   return {name != contents.physical_names.end() ? name->second : std::to_string(point.physical)};
 }
 
-/// Curves and regions in the order in which elements first name them.
+/// Curves, regions and volumes in the order in which elements first name them.
 class EntityTable {
  public:
   EntityTable(const Contents& contents, Mesh& mesh) : contents_(contents), mesh_(mesh) {}
 
   int index(int dim, int tag) {
     if (dim == last_.first && tag == last_.second) return last_index_;
-    std::vector<Entity>& entities = dim == 1 ? mesh_.curves : mesh_.regions;
+    std::vector<Entity>& entities = entities_of(mesh_, dim);
     const auto [it, is_new] = index_.emplace(DimTag{dim, tag}, static_cast<int>(entities.size()));
     if (is_new) entities.push_back({tag, names_of(contents_, {dim, tag})});
     last_ = {dim, tag};
@@ -137,6 +137,7 @@ void add_elements(const Contents& contents, const std::vector<int>& new_index, c
     if (!tags) continue;
     if (e.n_nodes == 3) tags->triangles.push_back(e.tag);
     if (e.n_nodes == 4) tags->quads.push_back(e.tag);
+    if (e.n_nodes == kHexCorners) tags->hexahedra.push_back(e.tag);
   }
 }
 
@@ -166,7 +167,7 @@ std::vector<std::string> names_of(const Contents& contents, DimTag entity) {
 }
 
 void settle_physicals(Contents& contents) {
-  int greatest[3] = {};
+  int greatest[4] = {};
   for (Element& e : contents.elements) {
     if (e.entity == 0) e.entity = e.physical > 0 ? e.physical : 1;
     greatest[e.dim()] = std::max(greatest[e.dim()], e.entity);
@@ -192,7 +193,7 @@ void settle_physicals(Contents& contents) {
 }
 
 Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags) {
-  if (contents.elements.empty()) scanner.fail("the file holds no lines, triangles or quads");
+  if (contents.elements.empty()) scanner.fail("the file holds no lines, triangles, quads or hexahedra");
   if (contents.nodes.empty()) scanner.fail("the file holds no nodes");
   std::ranges::stable_sort(contents.nodes, [](const Node& a, const Node& b) { return a.tag < b.tag; });
   check_tags(contents, scanner);
@@ -229,6 +230,9 @@ Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces, Rea
   if (notes != nullptr && contents.has_periodic)
     notes->push_back(
         "the periodic pairs of the file ($Periodic) are not read: nothing keeps their nodes alike");
+  const bool is_curved = std::ranges::any_of(
+      contents.elements, [](const msh::Element& e) { return e.n_nodes == kHexCorners && e.n_further > 0; });
+  if (notes != nullptr && is_curved) notes->push_back(kCornersOfHexahedra);
   return msh::to_mesh(std::move(contents), scanner);
 }
 

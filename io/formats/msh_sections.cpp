@@ -104,14 +104,13 @@ struct NodeCount {
   int corners, all;
 };
 
-/// Only points, lines, triangles and quads are known, straight ones and curved lines and quads.
+/// Only points, lines, triangles, quads and hexahedra are known, straight ones and curved ones but triangles.
 NodeCount nodes_of_type(int type, const TextScanner& scanner) {
-  static const std::map<int, NodeCount> counts = {{15, {1, 1}}, {1, {2, 2}},   {8, {2, 3}},  {26, {2, 4}},
-                                                  {27, {2, 5}}, {2, {3, 3}},   {3, {4, 4}},  {16, {4, 8}},
-                                                  {10, {4, 9}}, {36, {4, 16}}, {37, {4, 25}}};
+  static const std::map<int, NodeCount> counts = {
+      {15, {1, 1}}, {1, {2, 2}},  {8, {2, 3}},   {26, {2, 4}},  {27, {2, 5}}, {2, {3, 3}},   {3, {4, 4}},
+      {16, {4, 8}}, {10, {4, 9}}, {36, {4, 16}}, {37, {4, 25}}, {5, {8, 8}},  {17, {8, 20}}, {12, {8, 27}}};
   if (const auto known = counts.find(type); known != counts.end()) return known->second;
   static const std::map<int, const char*> names = {{4, "tetrahedron"},
-                                                   {5, "hexahedron"},
                                                    {6, "prism"},
                                                    {7, "pyramid"},
                                                    {9, "second-order triangle"},
@@ -120,8 +119,8 @@ NodeCount nodes_of_type(int type, const TextScanner& scanner) {
                                                    {39, "third-order quad without inner nodes"}};
   const auto name = names.find(type);
   scanner.fail(
-      "element type {}{}: expected points (15), lines (1, 8, 26, 27), triangles (2) or quads (3, "
-      "10, 16, 36, 37)",
+      "element type {}{}: expected points (15), lines (1, 8, 26, 27), triangles (2), quads (3, 10, 16, 36, "
+      "37) or hexahedra (5, 12, 17)",
       type, name == names.end() ? "" : fmt::format(" ({})", name->second));
 }
 
@@ -404,7 +403,7 @@ class SectionReader {
         numbers_.integer("the entity of an element block", -kLargestEntityTag, kLargestEntityTag));
     const NodeCount nodes =
         nodes_of_type(static_cast<int>(numbers_.integer("an element type", 1, INT_MAX)), in_);
-    if (dim != std::min(nodes.corners - 1, 2)) {
+    if (dim != dimension_of(nodes.corners)) {
       in_.fail("elements of {} corners in a block of dimension {}", nodes.corners, dim);
     }
     const long long count = numbers_.size("the number of elements in the block", 0, INT_MAX);

@@ -289,7 +289,8 @@ void write_more_names(std::ostream& stream, const std::vector<MshBlock>& blocks)
 }
 
 /// Vectors of the plane get a third component, for Gmsh knows 1, 3 and 9; a NaN is not written.
-void write_views(MshNumbers& out, const std::vector<MshBlock>& blocks, const std::vector<MeshField>& fields) {
+void write_views(MshNumbers& out, const std::vector<MshBlock>& blocks, const std::vector<MeshField>& fields,
+                 int dim) {
   for (const MeshField& field : fields) {
     const auto width = static_cast<std::size_t>(field.n_components);
     const std::size_t written = width == 2 ? 3 : width;
@@ -305,7 +306,7 @@ void write_views(MshNumbers& out, const std::vector<MshBlock>& blocks, const std
       else
         for (const auto& [cells, items] : block.elements)
           for (const std::size_t i : items)
-            if (++tag; block.dim == 2) add(tag, cells->first + i);
+            if (++tag; block.dim == dim) add(tag, cells->first + i);
     }
     const std::string section = field.is_of_points ? "NodeData" : "ElementData";
     // One text, one time, and three numbers: of the step, of components and of values.
@@ -328,7 +329,7 @@ void write_blocks(std::ostream& stream, bool binary, const Mesh& mesh, std::vect
   write_nodes(out, mesh.points, blocks);
   write_elements(out, blocks);
   write_periodic(out, mesh, blocks);
-  write_views(out, blocks, fields);
+  write_views(out, blocks, fields, dimension_of(mesh));
   out.flush();
   write_more_names(stream, blocks);
   if (!mesh.unit.empty()) stream << "$Unit\n" << mesh.unit << "\n$EndUnit\n";
@@ -365,7 +366,7 @@ std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
     std::map<std::pair<int, int>, std::string> label_of;
     for (const auto& [dim, tag, label] : number_groups(blocks)) label_of[{dim, tag}] = label;
     std::set<UniqueLabels::Key> reported;
-    constexpr std::array kKinds = {"point", "curve", "region"};
+    const std::array kKinds = {"point", "curve", mesh.hexahedra.empty() ? "region" : "face", "volume"};
     for (const MshBlock& b : blocks)
       if (const std::string& label = label_of.at({b.dim, b.group_tag});
           label != b.group && reported.emplace(b.dim, b.group).second)

@@ -144,7 +144,7 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
     content.names.emplace_back(kind, tags_of_names(*entities[dim]));
     content.tags.push_back({kind, {}});
   }
-  if (!is_solid) content.names.emplace_back("point", points_of_names(mesh));
+  content.names.emplace_back("point", points_of_names(mesh));
   const std::vector<CellBlock> blocks = cell_blocks(mesh, vtk_places(mesh.order));
   for (const int dim : dims)
     for (const CellBlock& cells : blocks)
@@ -161,8 +161,9 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
     content.fields.push_back({name, false, 1, values});
   }
   for (MeshField field : fields) {
-    if (!field.is_of_points)
-      field.values.insert(field.values.begin(), field.n_components * mesh.lines.size(),
+    if (!field.is_of_points)  // cells of lower dimension have no values
+      field.values.insert(is_solid ? field.values.end() : field.values.begin(),
+                          field.n_components * (content.types.size() - n_cells(mesh, dimension_of(mesh))),
                           std::numeric_limits<double>::quiet_NaN());
     content.fields.push_back(std::move(field));
   }
@@ -172,7 +173,8 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
 MeshFormat vtu_format() {
   return {.extensions = {".vtu"},
           .description = "VTK XML, ParaView",
-          .read = read_by<read_vtu>,
+          .read = [](const std::filesystem::path& path, ReadNotes* notes,
+                     Strays) { return read_vtu(path, notes); },
           .write = write_with_quality,
           .most_order = kMostOrder,
           .has_hexahedra = true,

@@ -78,7 +78,8 @@ std::string from_base64(std::string_view text, size_t* used = nullptr) {
 
 class VtuReader {
  public:
-  explicit VtuReader(const std::filesystem::path& path) : path_(path.string()), in_(path) {
+  explicit VtuReader(const std::filesystem::path& path, ReadNotes* notes = nullptr)
+      : path_(path.string()), in_(path), notes_(notes) {
     refuse_other_kinds(in_, "VTU");
   }
 
@@ -97,8 +98,9 @@ class VtuReader {
     const Tree& grid = child(file, "UnstructuredGrid");
     for (const auto& [name, piece] : grid)
       if (name == "Piece") read_piece(piece);
-    if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty())
-      fail("the file holds no lines, triangles or quads");
+    if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty() && mesh_.hexahedra.empty())
+      fail("the file holds no lines, triangles, quads or hexahedra");
+    if (notes_ != nullptr && has_curved_hexahedra_) notes_->push_back(kCornersOfHexahedra);
     for (const auto& [name, data] : grid)
       if (name == "FieldData") read_names(data);
     if (choice_ == nullptr) drop_unused_points(mesh_);
@@ -112,6 +114,8 @@ class VtuReader {
     require_own_points(result.mesh, n_points_, path_);
     for (std::size_t k = 0; k < fields_.size(); ++k) {
       std::vector<double>& values = fields_[k].values;
+      if (!fields_[k].is_of_points && !result.mesh.hexahedra.empty()) values = std::move(of_hexahedra_[k]);
+      if (!result.mesh.hexahedra.empty()) continue;
       values.insert(values.end(), of_quads_[k].begin(), of_quads_[k].end());
     }
     result.fields = std::move(fields_);
@@ -305,8 +309,11 @@ class VtuReader {
     if (types.size() != offsets.size())
       fail("{} types of cells and {} offsets", types.size(), offsets.size());
     check_number(piece, "NumberOfCells", types.size());
-    const std::vector<double> curve = tags(piece, "curve", types.size()),
-                              region = tags(piece, "region", types.size());  // or kTagsOfGmsh
+    // By dimension; of hexahedra our files have "face" in the place of "region".
+    const std::array<std::vector<double>, 4> tags_of = {{{},
+                                                         tags(piece, {"curve"}, types.size()),
+                                                         tags(piece, {"region", "face"}, types.size()),
+                                                         tags(piece, {"volume"}, types.size())}};
     std::vector<MeshField> fields;
     if (choice_ != nullptr) fields = read_fields_of(piece, n_points, types.size());
     double begin = 0;
@@ -319,11 +326,11 @@ class VtuReader {
           fail("cell {}: there is no point {}", c, corners[k]);
         v.push_back(static_cast<int>(first) + static_cast<int>(corners[k]));
       }
-      add_cell(as_int(types[c]), v, curve[c], region[c]);
       const int n_corners = corners_of_type(as_int(types[c]));
+      add_cell(as_int(types[c]), v, n_corners == 0 ? 0 : tags_of[dimension_of(n_corners)][c]);
       for (size_t k = 0; k < fields.size() && n_corners >= 3; ++k) {
         if (fields[k].is_of_points) continue;
-        auto& target = n_corners == 3 ? fields_[k].values : of_quads_[k];
+        auto& target = n_corners == 3 ? fields_[k].values : n_corners == 4 ? of_quads_[k] : of_hexahedra_[k];
         const auto of_cell =
             fields[k].values.begin() + static_cast<std::ptrdiff_t>(c) * fields[k].n_components;
         target.insert(target.end(), of_cell, of_cell + fields[k].n_components);
@@ -343,7 +350,8 @@ class VtuReader {
       if (data == piece.not_found()) continue;
       for (const auto& [tag, array] : data->second) {
         const std::string name = attribute(array, "Name");
-        if (tag != "DataArray" || name == "curve" || name == "region" || name == kTagsOfGmsh) continue;
+        constexpr std::array<std::string_view, 5> kTags = {"curve", "region", "face", "volume", kTagsOfGmsh};
+        if (tag != "DataArray" || std::ranges::find(kTags, name) != kTags.end()) continue;
         all.push_back({name,
                        std::string_view(kind) == "PointData",
                        array.get<int>("<xmlattr>.NumberOfComponents", 1),
@@ -363,6 +371,7 @@ class VtuReader {
       for (const MeshField& field : chosen) {
         fields_.push_back({field.name, field.is_of_points, field.n_components, {}});
         of_quads_.emplace_back();
+        of_hexahedra_.emplace_back();
       }
     const auto is_like = [](const MeshField& a, const MeshField& b) {
       return a.name == b.name && a.is_of_points == b.is_of_points && a.n_components == b.n_components;
@@ -372,16 +381,19 @@ class VtuReader {
     return chosen;
   }
 
-  std::vector<double> tags(const Tree& piece, const std::string& name, size_t n) const {
+  /// Returns the first of these arrays that there is, or the tags of Gmsh; 0: there are none.
+  std::vector<double> tags(const Tree& piece, std::vector<std::string> names, size_t n) const {
     const auto data = piece.find("CellData");
-    const Tree* array = data == piece.not_found() ? nullptr : array_named(data->second, name);
-    if (!array && data != piece.not_found()) array = array_named(data->second, kTagsOfGmsh);
+    names.emplace_back(kTagsOfGmsh);
+    const Tree* array = nullptr;
+    for (const std::string& name : names)
+      if (!array && data != piece.not_found()) array = array_named(data->second, name);
     if (!array) return std::vector<double>(n, 0);
     std::vector<double> all = read_array(*array);
-    if (all.size() != n) fail("data array '{}': {} values for {} cells", name, all.size(), n);
+    if (all.size() != n) fail("data array '{}': {} values for {} cells", names[0], all.size(), n);
     for (const double tag : all)
       if (!(tag >= 0 && tag < INT_MAX && tag == std::floor(tag)))
-        fail("data array '{}': {}: expected whole numbers", name, tag);
+        fail("data array '{}': {}: expected whole numbers", names[0], tag);
     return all;
   }
 
@@ -389,7 +401,9 @@ class VtuReader {
   static int corners_of_type(int type) {
     constexpr std::array kLines = {3, 21, 68};
     constexpr std::array kQuads = {9, 23, 28, 70};
+    constexpr std::array kHexahedra = {12, 25, 29};
     constexpr int kTriangle = 5;
+    if (std::ranges::find(kHexahedra, type) != kHexahedra.end()) return kHexCorners;
     if (std::ranges::find(kLines, type) != kLines.end()) return 2;
     if (std::ranges::find(kQuads, type) != kQuads.end()) return 4;
     return type == kTriangle ? 3 : 0;
@@ -397,7 +411,8 @@ class VtuReader {
 
   void check_cell(int type, int corners, size_t n_points) const {
     constexpr int kLagrangeLine = 68;
-    static const std::map<int, size_t> points = {{3, 2}, {5, 3}, {9, 4}, {21, 3}, {23, 8}, {28, 9}};
+    static const std::map<int, size_t> points = {{3, 2},  {5, 3},  {9, 4},   {21, 3}, {23, 8},
+                                                 {28, 9}, {12, 8}, {25, 20}, {29, 27}};
     const int order = corners == 2 ? order_of_line(n_points) : order_of_quad(n_points);
     const auto given = points.find(type);
     if (given != points.end() && n_points != given->second)
@@ -408,40 +423,47 @@ class VtuReader {
            type == kLagrangeLine ? "2 to 5" : "4, 9, 16 or 25");
   }
 
-  void add_cell(int type, const std::vector<int>& v, double curve, double region) {
+  void add_cell(int type, const std::vector<int>& v, double tag) {
     constexpr int kVertex = 1, kPolyVertex = 2;
     if (type == kVertex || type == kPolyVertex) return;
     const int corners = corners_of_type(type);
     if (corners == 0)
-      fail("a cell of type {}: expected lines (3, 21, 68), triangles (5) and quads (9, 23, 28, 70)", type);
+      fail(
+          "a cell of type {}: expected lines (3, 21, 68), triangles (5), quads (9, 23, 28, 70) and hexahedra "
+          "(12, 25, 29)",
+          type);
     check_cell(type, corners, v.size());
-    const int cell = corners == 2 ? entity(mesh_.curves, 1, curve) : entity(mesh_.regions, 2, region);
+    has_curved_hexahedra_ |= corners == kHexCorners && v.size() > kHexCorners;
+    const int cell = entity(dimension_of(corners), tag);
     if (const auto wrong = add_element(mesh_, corners, v, cell, vtk_places); !wrong.empty())
       fail("{}", wrong);
   }
 
   /// 0, where a file has no tags, is entity 1.
-  int entity(std::vector<Entity>& entities, int dim, double tag) {
+  int entity(int dim, double tag) {
+    std::vector<Entity>& entities = entities_of(mesh_, dim);
     const int number = std::max(1, static_cast<int>(tag));
     const auto [it, is_new] = index_.emplace(std::pair{dim, number}, static_cast<int>(entities.size()));
     if (is_new) entities.push_back({number, {}});
     return it->second;
   }
 
-  /// "curve NAME" or "region NAME": the tags of those that have it. "point NAME": their numbers, from 0.
+  /// "curve NAME", "region NAME", "face NAME" or "volume NAME": the tags of those that have it. "point NAME":
+  /// their numbers, from 0.
   void read_names(const Tree& data) {
     for (const auto& [tag, array] : data) {
       if (tag != "DataArray") continue;
       const std::string title = attribute(array, "Name");
       if (const std::string kind = "point "; title.starts_with(kind))
         for (const double number : read_array(array)) name_point(number, title.substr(kind.size()));
-      for (const auto& [kind, dim] : {std::pair{"curve ", 1}, std::pair{"region ", 2}}) {
+      for (const auto& [kind, dim] : {std::pair{"curve ", 1}, std::pair{"region ", 2}, std::pair{"face ", 2},
+                                      std::pair{"volume ", 3}}) {
         if (!title.starts_with(kind)) continue;
         const std::string name = title.substr(std::string_view(kind).size());
         for (const double number : read_array(array)) {
           const auto found = index_.find({dim, as_int(number)});
           if (found == index_.end()) continue;
-          (dim == 1 ? mesh_.curves : mesh_.regions)[found->second].names.push_back(name);
+          entities_of(mesh_, dim)[found->second].names.push_back(name);
         }
       }
     }
@@ -464,13 +486,15 @@ class VtuReader {
   NamedPoints point_names_;
   const FieldChoice* choice_ = nullptr;  // of fields; null: none are read
   std::vector<MeshField> fields_;        // triangles among the cells
-  std::vector<std::vector<double>> of_quads_;
+  std::vector<std::vector<double>> of_quads_, of_hexahedra_;
+  ReadNotes* notes_;
+  bool has_curved_hexahedra_ = false;
   size_t n_points_ = 0;  // of the file
 };
 
 }  // namespace
 
-Mesh read_vtu(const std::filesystem::path& path) { return VtuReader(path).read(); }
+Mesh read_vtu(const std::filesystem::path& path, ReadNotes* notes) { return VtuReader(path, notes).read(); }
 
 MeshWithFields read_vtu_fields(const std::filesystem::path& path, const FieldChoice& choice) {
   return VtuReader(path).read_fields(choice);

@@ -2,10 +2,19 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <map>
+#include <set>
+#include <span>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
+#include "base/located.h"
+#include "base/text.h"
+#include "geometry/mesh/drop_unused_points.h"
 #include "io/cell_view.h"
+#include "io/face_reader.h"
 #include "io/library_file.h"
 #include "io/library_format.h"
 
@@ -16,6 +25,7 @@ namespace delquad {
 namespace {
 
 constexpr int kExodusNameLength = 80;
+constexpr std::array kSideOf = {5, 6, 1, 2, 3, 4};  // of Abaqus's S1, S2, ...
 
 /// A file that is being written.
 class ExodusFile {
@@ -151,7 +161,6 @@ class ExodusWriter {
 
   /// Node sets of all below the highest dimension, side sets of those next to it.
   void write_sets() {
-    constexpr std::array kSideOf = {5, 6, 1, 2, 3, 4};  // of Abaqus's S1, S2, ...
     const CellSides sides(mesh_);
     for (const MeshGroup& group : groups_) {
       if (group.dim == dim_) continue;
@@ -184,8 +193,213 @@ void write_exodus(const std::filesystem::path& path, const Mesh& mesh) {
   });
 }
 
+/// Types of elements, which begin so: how many nodes they have, and corners.
+struct ExodusType {
+  std::string_view name;
+  int n_nodes, corners;
+};
+constexpr ExodusType kTypesToRead[] = {{"TRI", 3, 3},  {"SHELL", 3, 3}, {"QUAD", 4, 4},  {"QUAD", 8, 4},
+                                       {"QUAD", 9, 4}, {"SHELL", 4, 4}, {"SHELL", 8, 4}, {"SHELL", 9, 4},
+                                       {"HEX", 8, 8},  {"HEX", 20, 8},  {"HEX", 27, 8}};
+
+class ExodusReader {
+ public:
+  ExodusReader(const std::filesystem::path& path, ReadNotes* notes) : path_(path), notes_(notes) {
+    ex_opts(0);
+    int real_in_memory = sizeof(double), real_in_file = 0;
+    float version = 0;
+    file_.id = ex_open(path.c_str(), EX_READ, &real_in_memory, &real_in_file, &version);
+    check(file_, "an Exodus file");
+    ex_set_max_name_length(file_, kExodusNameLength);
+    check(ex_get_init_ext(file_, &head_), "its header");
+  }
+
+  Mesh read() {
+    read_points();
+    read_blocks();
+    if (n_cells(mesh_, 2) + n_cells(mesh_, 3) == 0)
+      refuse("{}: the file holds no triangles, quads or hexahedra", path_.string());
+    if (is_curved_ && notes_ != nullptr) notes_->push_back(kCornersOfHexahedra);
+    read_side_sets();
+    read_node_sets();
+    take_numbers(mesh_);
+    drop_unused_points(mesh_);
+    return std::move(mesh_);
+  }
+
+ private:
+  struct Block {
+    const ExodusType* type;
+    std::size_t n_nodes;  ///< of each element
+    std::vector<int> nodes;
+  };
+
+  void check(int status, const std::string& what) const {
+    if (status < 0)
+      refuse("{}: the Exodus library cannot read {}: expected a whole file", path_.string(), what);
+  }
+  /// Returns an index of what the file counts from 1.
+  std::size_t index(int number, std::size_t n, const char* what) const {
+    if (number < 1 || static_cast<std::size_t>(number) > n)
+      refuse("{}: there is no {} {}: the last one is {}", path_.string(), what, number, n);
+    return static_cast<std::size_t>(number) - 1;
+  }
+
+  /// Returns the number and the name of each block or set.
+  std::vector<std::pair<ex_entity_id, std::string>> list(ex_entity_type type, int64_t n) const {
+    std::vector<int> ids(static_cast<std::size_t>(n));
+    std::vector<std::string> texts(ids.size(), std::string(kExodusNameLength + 1, '\0'));
+    std::vector<char*> names;
+    for (std::string& text : texts) names.push_back(text.data());
+    std::vector<std::pair<ex_entity_id, std::string>> all;
+    if (n == 0) return all;
+    check(ex_get_ids(file_, type, ids.data()), "numbers");
+    check(ex_get_names(file_, type, names.data()), "names");
+    for (std::size_t i = 0; i < ids.size(); ++i) all.emplace_back(ids[i], texts[i].c_str());
+    return all;
+  }
+
+  /// Returns the index of the entity that has a name; those without one are told apart by their numbers.
+  int entity(int dim, const std::string& name, ex_entity_id id) {
+    std::vector<Entity>& entities = entities_of(mesh_, dim);
+    const auto [at, is_new] =
+        entity_of_.try_emplace({dim, name, name.empty() ? id : 0}, static_cast<int>(entities.size()));
+    if (is_new) entities.push_back({at->second + 1, {}});
+    if (is_new && !name.empty()) entities.back().names = {name};
+    return at->second;
+  }
+
+  void read_points() {
+    std::vector<double> x(static_cast<std::size_t>(head_.num_nodes)), y = x, z = x;
+    check(ex_get_coord(file_, x.data(), y.data(), head_.num_dim > 2 ? z.data() : nullptr), "coordinates");
+    for (std::size_t i = 0; i < x.size(); ++i) mesh_.points.push_back({x[i], y[i], z[i]});
+    check_strays(mesh_, Strays::kRefused,
+                 [&](int i) { return fmt::format("{}: node {}", path_.string(), i + 1); });
+  }
+
+  void read_blocks() {
+    std::string before;
+    for (auto [id, name] : list(EX_ELEM_BLOCK, head_.num_elem_blk)) {
+      ex_block block{};
+      block.id = id;
+      block.type = EX_ELEM_BLOCK;
+      check(ex_get_block_param(file_, &block), "a block");
+      const auto n_nodes = static_cast<int>(block.num_nodes_per_entry);
+      const std::string kind = upper(block.topology);
+      const auto* type = std::ranges::find_if(kTypesToRead, [&](const ExodusType& t) {
+        return kind.starts_with(t.name) && t.n_nodes == n_nodes;
+      });
+      const bool is_read = type != std::end(kTypesToRead);
+      if (!is_read && block.num_entry > 0 && notes_ != nullptr)
+        notes_->push_back(
+            fmt::format("elements {} of {} nodes are not read: {}", kind, n_nodes, block.num_entry));
+      Block read{is_read ? type : nullptr, static_cast<std::size_t>(n_nodes), {}};
+      read.nodes.resize(static_cast<std::size_t>(block.num_entry) * read.n_nodes);
+      if (!read.nodes.empty())
+        check(ex_get_conn(file_, EX_ELEM_BLOCK, id, read.nodes.data(), nullptr, nullptr), "elements");
+      if (name == before + "_quads") name = before;  // as the writer parts triangles and quads
+      before = name;
+      add(read, name, id, static_cast<std::size_t>(block.num_entry));
+    }
+  }
+
+  void add(Block& block, const std::string& name, ex_entity_id id, std::size_t n_elements) {
+    for (int& v : block.nodes) v = static_cast<int>(index(v, mesh_.points.size(), "node"));
+    blocks_.push_back(std::move(block));
+    const Block& added = blocks_.back();
+    for (std::size_t i = 0; i < n_elements; ++i) {
+      elements_.emplace_back(blocks_.size() - 1, i);
+      if (added.type == nullptr) continue;
+      const int corners = added.type->corners;
+      is_curved_ |= corners == kHexCorners && added.n_nodes > kHexCorners;
+      if (const std::string wrong =
+              add_element(mesh_, corners, nodes_of(added, i), entity(dimension_of(corners), name, id));
+          !wrong.empty())
+        refuse("{}: block {}: {}", path_.string(), name, wrong);
+    }
+  }
+
+  static std::span<const int> nodes_of(const Block& block, std::size_t i) {
+    return std::span(block.nodes).subspan(i * block.n_nodes, block.n_nodes);
+  }
+
+  /// Sides of triangles and quads become lines, sides of hexahedra quads.
+  void read_side_sets() {
+    for (const auto& [id, name] : list(EX_SIDE_SET, head_.num_side_sets)) {
+      side_sets_.insert(name);
+      std::set<std::vector<int>> done;  // sides of two elements are there twice
+      const auto [elements, sides] = set_of(EX_SIDE_SET, id, true);
+      for (std::size_t i = 0; i < elements.size(); ++i) {
+        const auto& [b, e] = elements_[index(elements[i], elements_.size(), "element")];
+        if (blocks_[b].type == nullptr) continue;
+        std::vector<int> nodes = nodes_of_side(blocks_[b], e, sides[i]), key = nodes;
+        std::ranges::sort(key);
+        if (nodes.empty() || !done.insert(key).second) continue;
+        const int corners = blocks_[b].type->corners == kHexCorners ? 4 : 2;
+        if (const std::string wrong =
+                add_element(mesh_, corners, nodes, entity(dimension_of(corners), name, id));
+            !wrong.empty())
+          refuse("{}: side set {}: {}", path_.string(), name, wrong);
+      }
+    }
+  }
+
+  /// None for the top and the bottom of a shell, which are its sides 1 and 2.
+  std::vector<int> nodes_of_side(const Block& block, std::size_t element, int number) const {
+    const std::span<const int> v = nodes_of(block, element);
+    const auto n = static_cast<std::size_t>(block.type->corners);
+    if (n == kHexCorners) {
+      const auto side = static_cast<int>(
+          std::ranges::find(kSideOf, static_cast<int>(index(number, kSideOf.size(), "side")) + 1) -
+          kSideOf.begin());
+      const auto nodes = outward_side(v, side);
+      return {nodes.begin(), nodes.end()};
+    }
+    if (block.type->name == "SHELL" && number <= 2) return {};
+    const std::size_t k = index(block.type->name == "SHELL" ? number - 2 : number, n, "side");
+    std::vector<int> nodes = {v[k], v[(k + 1) % n]};
+    if (v.size() > n) nodes.push_back(v[n + k]);
+    return nodes;
+  }
+
+  /// Nodes become named points, unless a set of sides has their name.
+  void read_node_sets() {
+    NamedPoints points;
+    for (const auto& [id, name] : list(EX_NODE_SET, head_.num_node_sets))
+      if (!name.empty() && !side_sets_.contains(name))
+        for (const int v : set_of(EX_NODE_SET, id, false).first)
+          points.add(mesh_, static_cast<int>(index(v, mesh_.points.size(), "node")), name);
+  }
+
+  std::pair<std::vector<int>, std::vector<int>> set_of(ex_entity_type type, ex_entity_id id,
+                                                       bool has_extra) const {
+    int n = 0, n_factors = 0;
+    check(ex_get_set_param(file_, type, id, &n, &n_factors), "a set");
+    std::vector<int> entries(static_cast<std::size_t>(n)), extra(has_extra ? entries.size() : 0);
+    if (n > 0)
+      check(ex_get_set(file_, type, id, entries.data(), has_extra ? extra.data() : nullptr), "a set");
+    return {entries, extra};
+  }
+
+  const std::filesystem::path& path_;
+  ReadNotes* notes_;
+  OpenFile<int, ex_close> file_;
+  ex_init_params head_{};
+  Mesh mesh_;
+  std::vector<Block> blocks_;
+  std::vector<std::pair<std::size_t, std::size_t>> elements_;  ///< block, and place in it
+  std::map<std::tuple<int, std::string, ex_entity_id>, int> entity_of_;
+  std::set<std::string> side_sets_;
+  bool is_curved_ = false;
+};
+
+/// Blocks become regions or volumes, side sets curves or faces, other node sets named points.
+Mesh read_exodus(const std::filesystem::path& path, ReadNotes* notes, Strays) {
+  return ExodusReader(path, notes).read();
+}
+
 }  // namespace
 
 }  // namespace delquad
 
-extern "C" const delquad::LibraryFormat delquad_format = {nullptr, delquad::write_exodus};
+extern "C" const delquad::LibraryFormat delquad_format = {delquad::read_exodus, delquad::write_exodus};

@@ -30,9 +30,9 @@ std::vector<Entity> entities_of(const std::vector<std::pair<int, std::vector<std
 }
 
 /// Returns a list of the mesh as a property: a view that keeps the mesh alive.
-template <class Owner = Mesh, class List>
+template <class List>
 auto view_of(List Mesh::*member) {
-  return [member](const py::object& self) { return view(self.cast<const Owner&>().*member, self); };
+  return [member](const py::object& self) { return view(self.cast<const Mesh&>().*member, self); };
 }
 
 /// Adds a property of (tag, names).
@@ -61,11 +61,10 @@ Mesh make_mesh(const py::object& points, const py::object& lines, const py::obje
   return mesh;
 }
 
-void write(const Mesh& mesh, const std::string& path, bool binary, bool triangles) {
+void write(const Mesh& mesh, const std::string& path, bool binary, bool triangles,
+           const std::string& element) {
   const py::gil_scoped_release released;
-  MshOptions options;
-  options.binary = binary, options.triangles = triangles;
-  write_mesh(path, mesh, options);
+  write_mesh(path, mesh, {.binary = binary, .element = element, .triangles = triangles});
 }
 
 Mesh read(const std::string& path) {
@@ -104,10 +103,30 @@ py::list periodic_faces_of(const Mesh& mesh) {
   return pairs;
 }
 
+Mesh extruded(const Mesh& mesh, int layers, double growth, int threads, double time_limit,
+              const py::object& along, const py::object& point, const py::object& axis, double degrees,
+              const py::object& curve, const py::object& thickness, bool both_sides) {
+  const auto path = [&]() -> SweepPath {
+    if (!along.is_none()) return AlongVector{read_vec3(along, "along")};
+    if (!point.is_none())
+      return AroundAxis{read_vec3(point, "around: the point"), read_vec3(axis, "around: the axis"), degrees};
+    if (!curve.is_none()) return AlongCurve{read_points(curve, "curve")};
+    return AlongNormals{thickness.cast<double>(), both_sides};
+  }();
+  Mesh result;
+  CallingThread().run([&](const std::stop_token& stop) {
+    const RunScope scope({.threads = threads, .cancel = stop, .seconds = time_limit});
+    result = extrude(mesh, path, {layers, growth});
+  });
+  return result;
+}
+
 void define_mesh(py::module_& m) {
   py::class_<Mesh, std::shared_ptr<Mesh>> c(m, "Mesh", "Points and elements; indices count from 0.");
   add_entities(c, "curves", &Mesh::curves);
   add_entities(c, "regions", &Mesh::regions);
+  add_entities(c, "volumes", &Mesh::volumes);
+  add_entities(c, "faces", &Mesh::regions);
   c.def(py::init(&make_mesh), arg("points"), arg("lines"), arg("line_curve"), arg("triangles"),
         arg("triangle_region"), arg("quads"), arg("quad_region"), arg("curves"), arg("regions"))
       .def_property_readonly("points", view_of(&Mesh::points), "(n, 3) coordinates")
@@ -120,75 +139,29 @@ void define_mesh(py::module_& m) {
       .def_property_readonly("quad_region", view_of(&Mesh::quad_region), "index into regions for each quad")
       .def_property_readonly("thickness", view_of(&Mesh::thickness),
                              "of the shell, for each triangle, then each quad; empty: not known")
+      .def_property_readonly("quad_face", view_of(&Mesh::quad_region), "the same beside hexahedra")
+      .def_property_readonly("hexahedra", view_of(&Mesh::hexahedra), "(n, 8) indices of points")
+      .def_property_readonly("hex_volume", view_of(&Mesh::hex_volume),
+                             "index into volumes for each hexahedron")
+      .def_property_readonly(
+          "volume", [](const Mesh& self) { return measure(self).volume; }, "of all hexahedra")
+      .def_property_readonly(
+          "scaled_jacobian",
+          [](const Mesh& self) {
+            const std::vector<double> values = measure(self).jacobian;
+            return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+          },
+          "the least of each hexahedron, 1 for boxes")
       .def_property_readonly("periodic", &periodic_of,
                              "(index of a curve, index of the master curve, (n, 2) pairs of nodes)")
       .def_property_readonly("periodic_faces", &periodic_faces_of,
                              "(index of a region, index of the master region, (n, 2) pairs of nodes)")
       .def_readonly("order", &Mesh::order, "of the elements, 1 to 4; lines and quads are their corners")
       .def_readonly("unit", &Mesh::unit, "of lengths; empty: not known")
-      .def("_write_file", &write, arg("path"), arg("binary") = false, arg("triangles") = false);
+      .def("_write_file", &write);
   m.def("read_mesh", &read, arg("path"));
-  m.def("_extensions", &extensions, arg("written"));
-}
-
-struct Hexahedra : Mesh {
-  HexMeasures measures;
-};
-
-Hexahedra extruded(const Mesh& mesh, int layers, double growth, int threads, double time_limit,
-                   const py::object& along, const py::object& point, const py::object& axis, double degrees,
-                   const py::object& curve, const py::object& thickness, bool both_sides) {
-  const auto path = [&]() -> SweepPath {
-    if (!along.is_none()) return AlongVector{read_vec3(along, "along")};
-    if (!point.is_none())
-      return AroundAxis{read_vec3(point, "around: the point"), read_vec3(axis, "around: the axis"), degrees};
-    if (!curve.is_none()) return AlongCurve{read_points(curve, "curve")};
-    return AlongNormals{thickness.cast<double>(), both_sides};
-  }();
-  Hexahedra result;
-  CallingThread().run([&](const std::stop_token& stop) {
-    const RunScope scope({.threads = threads, .cancel = stop, .seconds = time_limit});
-    result = {extrude(mesh, path, {layers, growth}), {}};
-    result.measures = measure(result);
-  });
-  return result;
-}
-
-void define_hexahedra(py::module_& m) {
-  py::class_<Hexahedra> c(m, "HexMesh", "Hexahedra, quads on their named faces; indices count from 0.");
-  add_entities(c, "volumes", &Mesh::volumes);
-  add_entities(c, "faces", &Mesh::regions);
-  add_entities(c, "curves", &Mesh::curves);
-  c.def_property_readonly("points", view_of<Hexahedra>(&Mesh::points), "(n, 3) coordinates")
-      .def_property_readonly("hexahedra", view_of<Hexahedra>(&Mesh::hexahedra), "(n, 8) points")
-      .def_property_readonly("hex_volume", view_of<Hexahedra>(&Mesh::hex_volume),
-                             "index into volumes of each hexahedron")
-      .def_property_readonly("quads", view_of<Hexahedra>(&Mesh::quads), "(n, 4) points of quads on faces")
-      .def_property_readonly("quad_face", view_of<Hexahedra>(&Mesh::quad_region),
-                             "index into faces of each quad")
-      .def_property_readonly("lines", view_of<Hexahedra>(&Mesh::lines),
-                             "(n, 2) indices of points: edges on curves")
-      .def_property_readonly("line_curve", view_of<Hexahedra>(&Mesh::line_curve),
-                             "index into curves for each line")
-      .def_property_readonly(
-          "unit", [](const Hexahedra& self) { return self.unit; }, "of lengths; empty: not known")
-      .def_property_readonly(
-          "volume", [](const Hexahedra& self) { return self.measures.volume; }, "of all hexahedra")
-      .def_property_readonly(
-          "scaled_jacobian",
-          [](const py::object& self) {
-            const std::vector<double>& values = self.cast<const Hexahedra&>().measures.jacobian;
-            return view<double>(values.data(), {static_cast<py::ssize_t>(values.size())}, self);
-          },
-          "least value of each hexahedron, in [-1, 1]; 1 for boxes")
-      .def(
-          "_write_file",
-          [](const Hexahedra& self, const std::string& path, bool binary, const std::string& element) {
-            const py::gil_scoped_release released;
-            write_mesh(path, self, {.binary = binary, .element = element});
-          },
-          arg("path"), arg("binary") = false, arg("element") = "");
   m.def("extrude", &extruded);
+  m.def("_extensions", &extensions, arg("written"));
 }
 
 py::dict dict_of(const Summaries& summaries) {
@@ -409,7 +382,6 @@ PYBIND11_MODULE(_core, m) {
   define_result(m);
   define_models(m);
   define_problem(m);
-  define_hexahedra(m);
   define_adapt(m);
   define_parts(m);
 #ifdef DELQUAD_HAS_PROGRAM

@@ -59,6 +59,7 @@ bool try_3mf(std::string_view bytes) {
   });
 }
 
+Mesh vtu(const std::filesystem::path& path) { return read_as(".vtu", path); }
 Mesh inp(const std::filesystem::path& path) { return read_as(".inp", path); }
 Mesh nastran(const std::filesystem::path& path) { return read_as(".bdf", path); }
 Mesh obj(const std::filesystem::path& path) { return read_as(".obj", path); }
@@ -75,7 +76,7 @@ std::vector<Target> reader_targets() {
           {"stl", try_reader<stl>, stl_seeds},
           {"ply", try_reader<ply>, ply_seeds},
           {"3mf", try_3mf, three_mf_seeds},
-          {"vtu", try_reader<read_vtu>, vtu_seeds},
+          {"vtu", try_reader<vtu>, vtu_seeds},
           {"inp", try_reader<inp>, inp_seeds},
           {"medit", try_reader<read_medit>, medit_seeds},
           {"mfem", try_reader<read_mfem>, mfem_seeds},

@@ -150,7 +150,7 @@ TEST_F(MshReader, NeedsElements) {
   expect_error(
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 15 0 "
       "1\n$EndElements\n",
-      {"no lines, triangles or quads"});
+      {"no lines, triangles, quads or hexahedra"});
 }
 
 }  // namespace

@@ -351,7 +351,7 @@ TEST(MeshFormats, AreToldByExtension) {
       },
       {"a.obj", "binary", ".msh"});
   expect_input_error([&] { read_mesh(folder / "a.xyz"); },
-                     {"a.xyz", ".msh, .vtu, .obj, .inp, .mesh, .mfem, .bdf, "});
+                     {"a.xyz", ".msh, .vtu, .obj, .inp, .mesh, .e, .mfem, .bdf, "});
   write_mesh(folder / "a.svg", quad_grid(3, 3));
   EXPECT_TRUE(holds(read_text(folder / "a.svg"), "<svg"));
 }

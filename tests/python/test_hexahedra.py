@@ -34,7 +34,13 @@ def test_volumes_and_arrays(tmp_path):
     assert shell.volume == pytest.approx(0.5) and shell.points[:, 2].min() == -0.25
     for name in ("a.msh", "a.vtu", "a.inp"):
         shell.write(tmp_path / name)
-        assert (tmp_path / name).stat().st_size > 1000
+        back = delquad.read_mesh(tmp_path / name)
+        assert isinstance(back, delquad.HexMesh) and "hexahedra" in repr(back)
+        assert back.hexahedra.shape == shell.hexahedra.shape and back.volume == pytest.approx(0.5)
+    shell.write(tmp_path / "c.inp", element="C3D20")
+    assert "TYPE=C3D20" in (tmp_path / "c.inp").read_text()
+    with pytest.raises(delquad.InputError, match="hexahedra"):
+        delquad.improve(tmp_path / "a.msh")
 
 
 def test_what_cannot_be_swept():

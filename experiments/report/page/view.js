@@ -133,7 +133,7 @@ class MeshPage {
     const choice = el("select", { id: "coloured-by", change: () => {
       this.colouredBy = choice.value;
       this.colour();
-    } }, Object.keys(kQuantities).map((name) => el("option", { value: name }, name)));
+    } }, Object.keys(kQuantities).map((name) => el("option", { value: name }, kQuantities[name]?.label || name)));
     choice.value = this.colouredBy;
     Object.assign(palette, { fixed: quantity ? null : kWordColours, low: 0, high: 1 });
     let bar = el("div", { class: "bar" });
@@ -175,11 +175,12 @@ async function main() {
   const data = JSON.parse(document.getElementById("data").textContent);
   Object.assign(kMarks, data.marks);
   kColourMaps.viridis = data.colours;
+  if (data.hexahedra > 0) Object.assign(kEta, { name: "scaled Jacobian", label: "scaled Jacobian" });
   data.byKey = Object.fromEntries(data.metrics.map((metric) => [metric.key, metric]));
   document.title = document.getElementById("top").textContent = data.title;
   try {
     const mesh = await unpackMesh(data.mesh), span = (axis) => Number(axis.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]).reduce((a, b) => b - a).toPrecision(4));
-    document.getElementById("facts").textContent = `${[mesh.x, mesh.y, mesh.z].slice(0, data.mesh.dimension).map(span).join(" \u00d7 ")} ${data.unit}` +
+    document.getElementById("facts").textContent = `${[mesh.x, mesh.y, mesh.z].slice(0, data.mesh.dimension).map(span).join(" \u00d7 ")} ${data.unit}` + (data.hexahedra > 0 ? `, ${grouped(data.hexahedra)} hexahedra` : "") +
       (data.mesh.order > 1 ? `, elements of order ${data.mesh.order}` : "");
     new MeshPage(data, mesh);
   } catch (error) {

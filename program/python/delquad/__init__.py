@@ -12,7 +12,6 @@ from . import _core
 from ._core import (
     Cancelled,
     Curve,
-    HexMesh,
     InputError,
     Loop,
     Mesh,
@@ -42,6 +41,8 @@ from ._exchange import View, from_meshio, read_mesh
 from ._hexahedra import extrude
 from ._mesh import UnsoundError, cad, improve, judge, mesh, planar, polygons
 from ._parts import add_cross, add_merge_cost, add_metric, add_size, add_stage, run
+
+HexMesh = Mesh  # its name before hexahedra were part of Mesh
 
 __all__ = [name for name in dir() if not name.startswith("_")]
 

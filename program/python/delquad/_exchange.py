@@ -16,11 +16,11 @@ def read_mesh(path):
 read_mesh.__doc__ = f"Reads {', '.join(_core._extensions(written=False))}, perhaps with .gz behind."
 
 
-def _write(self, path, binary=False, triangles=False):
-    _core.Mesh._write_file(self, os.fspath(path), binary, triangles)
+def _write(self, path, binary=False, triangles=False, element=""):
+    _core.Mesh._write_file(self, os.fspath(path), binary, triangles, element)
 
 
-_write.__doc__ = f"Writes {', '.join(_core._extensions(written=True))} (docs/meshing.md tells more), whole or not at all."
+_write.__doc__ = f"Writes {', '.join(_core._extensions(written=True))} (docs/meshing.md tells more), whole or not at all. element: of hexahedra in .inp, C3D8, C3D8I, C3D20, ..."
 
 
 def _names(entities, kind):
@@ -28,7 +28,7 @@ def _names(entities, kind):
 
 
 def _to_meshio(self):
-    """Returns a meshio.Mesh: cells in blocks by kind, with the tags of curves and regions as "gmsh:physical"."""
+    """Returns a meshio.Mesh: cells in blocks by kind, with the tags of curves, regions and volumes as "gmsh:physical"."""
     import meshio
     import numpy as np
 
@@ -39,10 +39,11 @@ def _to_meshio(self):
         ("line", self.lines, tags(self.curves, self.line_curve)),
         ("triangle", self.triangles, tags(self.regions, self.triangle_region)),
         ("quad", self.quads, tags(self.regions, self.quad_region)),
+        ("hexahedron", self.hexahedra, tags(self.volumes, self.hex_volume)),
     ]
     blocks = [block for block in blocks if len(block[1])]
     field_data = {}
-    for entities, kind, dim in ((self.curves, "curve", 1), (self.regions, "region", 2)):
+    for entities, kind, dim in ((self.curves, "curve", 1), (self.regions, "region", 2), (self.volumes, "volume", 3)):
         for (tag, _), name in zip(entities, _names(entities, kind)):
             field_data.setdefault(name, np.array([tag, dim]))
     return meshio.Mesh(
@@ -179,7 +180,8 @@ def _view(self, path=None):
 
 def _repr(self):
     kind = type(self).__name__
-    return f"<delquad.{kind}: {len(self.points)} points, {len(self.quads)} quads, {len(self.triangles)} triangles>"
+    hexahedra = f", {len(self.hexahedra)} hexahedra" if len(self.hexahedra) else ""
+    return f"<delquad.{kind}: {len(self.points)} points, {len(self.quads)} quads, {len(self.triangles)} triangles{hexahedra}>"
 
 
 _core.Mesh.write = _write

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""extrude() and its result."""
+"""extrude()."""
 
 import os
 
@@ -9,7 +9,7 @@ from . import _core
 def extrude(
     mesh, *, along=None, around=None, angle=360.0, curve=None, normals=None, both_sides=False, layers=0, growth=1.0, threads=0, time_limit=0.0
 ):
-    """Sweeps a mesh of quads, or the file of one, and returns hexahedra. One of these sets the path:
+    """Sweeps a mesh of quads, or the file of one, and returns a Mesh of hexahedra. One of these sets the path:
 
     along: a vector from the first layer of nodes to the last.
     around: a point of an axis and its direction; angle: from -360 to 360 degrees, not 0; a full turn closes the ring.
@@ -31,14 +31,3 @@ def extrude(
         raise _core.InputError("expected one of along, around, curve and normals")
     point, axis = (None, None) if around is None else around
     return _core.extrude(mesh, layers, growth, threads, time_limit, along, point, axis, angle, curve, normals, both_sides)
-
-
-def _write(self, path, binary=False, element=""):
-    """Writes .msh, .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv, completely or not at all.
-
-    element: for .inp, C3D8, C3D8I, C3D20 and others. Raises InputError for another extension.
-    """
-    self._write_file(os.fspath(path), binary, element)
-
-
-_core.HexMesh.write = _write

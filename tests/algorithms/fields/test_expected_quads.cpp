@@ -49,6 +49,26 @@ TEST(ExpectedQuads, SeesASmallSource) {
               0.01 * exact);
 }
 
+class Counting final : public SizeField {
+ public:
+  explicit Counting(std::shared_ptr<const SizeField> size) : size_(std::move(size)) {}
+  double at(const Vec3& x, int& hint) const override { return ++n, size_->at(x, hint); }
+  mutable int n = 0;
+
+ private:
+  std::shared_ptr<const SizeField> size_;
+};
+
+/// Edges of a curve make slivers up to the far boundary.
+TEST(ExpectedQuads, LooksAtSliversWhereTheyAreFine) {
+  PatchBoundary strip;
+  shapes::add_polygon(strip, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {400, 1, 1, 1});
+  const Counting size(make_expression_size("0.002 + 0.3 * y"));
+  const double d = 0.002, g = 0.3, exact = (1 / d - 1 / (d + g)) / g;
+  EXPECT_NEAR(expected_quads(background_of(strip)->triangles(), size, 0.1), exact, 0.1 * exact);
+  EXPECT_LT(size.n, 200'000);
+}
+
 TEST(ExpectedQuads, EndsWhereTheIntegralDoesNot) {
   const double diverges =
       count(shapes::polygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}), "1e-200 + x^2 + y^2", 1e-9);
