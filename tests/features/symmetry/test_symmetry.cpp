@@ -119,7 +119,7 @@ TEST(Symmetry, CurvesThatSpoilAPlaneAreNamed) {
   model.curves.push_back({make_segment({0.2, 0.2}, {0.2, 1.2}), "rib", "m 4"});
   expect_no_plane(
       model,
-      "; the plane through (2, 1, 0) with the normal (1, 0, 0) would be one, but the mirror image of curve 8 "
+      "; the plane through (2, 1, 0) with the normal (1, 0, 0) would be one, but the mirror image of curve 5 "
       "'rib' is 0.2 away from curves at (3.8, ");
 }
 
