@@ -152,6 +152,7 @@ class PlanarSteps final : public ModelSteps {
 
   void mesh_curves(MeshingSetup& p) override {
     domain_ = planar_domain(problem_, hints_, given_, p);
+    if (domain_.boundary.unit.empty()) domain_.boundary.unit = problem_.surface.unit;
     for (const std::string& note : domain_.notes) p.warnings.emplace_back(note);
     if (!std::holds_alternative<GivenMesh>(problem_.model)) warn_of_gaps(domain_, p.warnings);
     if (!problem_.layers.empty()) {

@@ -37,10 +37,10 @@ std::optional<OutlineFile> outline_file_of(const std::filesystem::path& text);
 /// Returns these endings.
 std::string outline_files();
 
-/// Returns what read_geojson() makes of GeoJSON and of all that GDAL reads, or read_dxf() of a drawing, and
-/// its coordinate system (see read_raster()). Throws InputError in builds without GDAL for all but GeoJSON as
-/// it is.
-Model read_outlines(const OutlineFile& file, std::string& crs);
+/// Returns what read_geojson() makes of GeoJSON and of all that GDAL reads, with its coordinate system (see
+/// read_raster()). Returns what read_dxf() makes of a drawing, with its unit. Throws InputError in builds
+/// without GDAL for all but GeoJSON as it is.
+Model read_outlines(const OutlineFile& file, std::string& crs, std::string& unit);
 
 /// Returns points, one a line: x and y, with comments behind '#'. The first line may be the name of an
 /// airfoil. Two counts may follow, of points on the upper side and the lower, both from the nose.
