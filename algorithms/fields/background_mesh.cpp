@@ -87,7 +87,7 @@ class Refiner {
     faces_.scan_triangulation();
   }
   /// False where nothing is left to do.
-  bool step() { return faces_.try_to_insert_one_point(visitor_); }
+  bool step() { return faces_.one_step(visitor_); }
 
  private:
   using Edges = CGAL::Mesh_2::Refine_edges_with_clusters<Cdt, Test>;
@@ -147,10 +147,10 @@ bool has_slits(const PatchBoundary& patch) {
   return std::ranges::adjacent_find(nodes) != nodes.end();
 }
 
-/// None where so many steps add nothing: slivers inside may keep the weaker test from its end.
+/// If many steps in a row add nothing, refinement stops, and there is no result if it `must_end`. Slivers
+/// inside may keep the weaker test from its end, and points nearer to edges than rounding both tests.
 template <class Test>
-std::optional<TriPatch> refined(const PatchBoundary& patch,
-                                int most_in_vain = std::numeric_limits<int>::max()) {
+std::optional<TriPatch> refined(const PatchBoundary& patch, bool must_end) {
   Cdt cdt;
   const auto vertex = patch_cdt::insert(cdt, patch, patch.points);
   for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->set_in_domain(false);
@@ -162,7 +162,9 @@ std::optional<TriPatch> refined(const PatchBoundary& patch,
     check_cancelled();
     const std::size_t before = std::exchange(n, cdt.number_of_vertices());
     in_vain = n > before ? 0 : in_vain + 1;
-    if (in_vain == most_in_vain) return std::nullopt;
+    if (in_vain < kMostInVain) continue;
+    if (must_end) return std::nullopt;
+    break;
   }
   return extract(cdt, patch);
 }
@@ -171,8 +173,8 @@ std::optional<TriPatch> refined(const PatchBoundary& patch,
 /// split. The boundary's points first, in their order. Throws InputError where the boundary crosses itself.
 TriPatch refine_patch(const PatchBoundary& patch) {
   if (has_slits(patch))
-    if (auto tri = refined<GabrielBesideSlits>(patch, kMostInVain)) return *std::move(tri);
-  return *refined<CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt>>(patch);
+    if (auto tri = refined<GabrielBesideSlits>(patch, true)) return *std::move(tri);
+  return *refined<CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt>>(patch, false);
 }
 
 // A walk this long costs more than asking the tree. Its end also breaks cycles, which are possible where the
