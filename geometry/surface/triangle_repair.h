@@ -18,6 +18,7 @@ namespace delquad {
 /// to `warnings`:
 /// - ends of open edges within `weld_tolerance` (a length) become one point. Where others are nearly so, a
 ///   warning tells the tolerance that closes the gaps, if one does;
+/// - small folds go: pairs of triangles back to back, with others on some sides and none on others;
 /// - of triangles on the same vertices the first stays;
 /// - triangles without area go, and no gap opens (take_out_flat_triangles);
 /// - flat parts between branching edges that have the same outline are one place: the first stays;
