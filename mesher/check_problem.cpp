@@ -8,9 +8,11 @@
 #include <variant>
 
 #include "algorithms/fields/fields.h"
+#include "base/text.h"
 #include "features/curves/compose_size.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/model_kind.h"
+#include "geometry/planar/model_chain.h"
 #include "io/cases/check_described.h"
 #include "io/cases/problem_record.h"
 
@@ -23,6 +25,15 @@ void check(const PlanarModel& model, const std::string& where) {
   for (std::size_t i = 0; i < model.curves.size(); ++i)
     if (!model.curves[i].shape)
       throw InputError(fmt::format("{}: curve {} of the model has no shape", where, i + 1));
+  constexpr double kMost = 1e60;  // fourth powers of lengths are finite
+  for (std::size_t i = 0; i < model.curves.size(); ++i) {
+    std::vector<double> at = model.curves[i].shape->fixed_parameters();
+    at.insert(at.end(), {0, 0.5, 1});
+    for (const double t : at)
+      if (const Vec2 x = model.curves[i].shape->point(t); !(norm(x) < kMost))
+        throw InputError(fmt::format("{}: {} goes to {}: expected coordinates below {:g}", where,
+                                     curve_label(model, static_cast<int>(i)), show_point(x), kMost));
+  }
   for (std::size_t i = 0; i < model.loops.size(); ++i)
     for (const int curve : model.loops[i].curves)
       if (curve < 0 || curve >= static_cast<int>(model.curves.size()))
@@ -104,6 +115,9 @@ void refuse_surface_options(const MeshProblem& problem, bool angle_may_be, const
   const SurfaceSpec& s = problem.surface;
   std::set<std::string> allowed = {"keep", "groups"};
   if (angle_may_be) allowed.insert("feature_angle");
+  const auto* planar = std::get_if<PlanarModel>(&problem.model);
+  if (planar != nullptr && (planar->source.ends_with(".dxf") || planar->source.ends_with(".DXF")))
+    allowed.insert("unit");
   if (kind_of(problem.model).has_outlines())
     allowed.insert({"ignore_below", "idealize", "simplify", "fill_holes", "weld_tolerance"});
   std::vector<std::string> given = given_keys(s);

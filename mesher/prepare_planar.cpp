@@ -144,6 +144,7 @@ class PlanarSteps final : public ModelSteps {
 
   void mesh_curves(MeshingSetup& p) override {
     domain_ = make_domain(p);
+    if (domain_.boundary.unit.empty()) domain_.boundary.unit = problem_.surface.unit;
     for (const std::string& note : domain_.notes) p.warnings.emplace_back(note);
     if (model_ != nullptr || lines_ != nullptr) warn_of_gaps(domain_, p.warnings);
     if (!problem_.layers.empty()) {

@@ -75,16 +75,13 @@ class Failures {
 };
 
 void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Failures& failures) {
-  const Mesh& fine = model.fine;
-  for (const int face : flattening.failed) {
-    Box<Vec3> box;
-    for (std::size_t t = 0; t < fine.triangles.size(); ++t)
-      if (fine.triangle_region[t] == face)
-        for (const int v : fine.triangles[t]) box.add(fine.points[v]);
+  for (std::size_t i = 0; i < flattening.failed.size(); ++i) {
+    const int face = flattening.failed[i];
+    const auto& [low, high] = flattening.failed_at[i];
     failures.add(face,
                  fmt::format("face {} could not be flattened, not even in pieces: look between {} and {} "
                              "for triangles without area, or for a fold [not-flattened]",
-                             fine.regions[face].tag, show_point(box.low), show_point(box.high)));
+                             model.fine.regions[face].tag, show_point(low), show_point(high)));
   }
 }
 

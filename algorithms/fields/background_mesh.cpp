@@ -86,8 +86,8 @@ class Refiner {
     edges_.scan_triangulation();
     faces_.scan_triangulation();
   }
-  /// Inserts one point. Returns false if nothing is left to do.
-  bool step() { return faces_.try_to_insert_one_point(visitor_); }
+  /// False where nothing is left to do.
+  bool step() { return faces_.one_step(visitor_); }
 
  private:
   using Edges = CGAL::Mesh_2::Refine_edges_with_clusters<Cdt, Test>;
@@ -150,8 +150,7 @@ bool has_slits(const PatchBoundary& patch) {
 /// Returns the refined patch; nothing if so many steps add no point, since slivers may keep the weaker test
 /// from its end.
 template <class Test>
-std::optional<TriPatch> refined(const PatchBoundary& patch,
-                                int most_in_vain = std::numeric_limits<int>::max()) {
+std::optional<TriPatch> refined(const PatchBoundary& patch, bool must_end) {
   Cdt cdt;
   const auto vertex = patch_cdt::insert(cdt, patch, patch.points);
   for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->set_in_domain(false);
@@ -163,7 +162,9 @@ std::optional<TriPatch> refined(const PatchBoundary& patch,
     check_cancelled();
     const std::size_t before = std::exchange(n, cdt.number_of_vertices());
     in_vain = n > before ? 0 : in_vain + 1;
-    if (in_vain == most_in_vain) return std::nullopt;
+    if (in_vain < kMostInVain) continue;
+    if (must_end) return std::nullopt;
+    break;
   }
   return extract(cdt, patch);
 }
@@ -173,8 +174,8 @@ std::optional<TriPatch> refined(const PatchBoundary& patch,
 /// itself.
 TriPatch refine_patch(const PatchBoundary& patch) {
   if (has_slits(patch))
-    if (auto tri = refined<GabrielBesideSlits>(patch, kMostInVain)) return *std::move(tri);
-  return *refined<CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt>>(patch);
+    if (auto tri = refined<GabrielBesideSlits>(patch, true)) return *std::move(tri);
+  return *refined<CGAL::Mesh_2::Is_locally_conforming_Gabriel<Cdt>>(patch, false);
 }
 
 // Limit of steps of a walk, since a longer one costs more than the tree. It also breaks cycles, which are

@@ -34,7 +34,7 @@ constexpr int kRingPasses = 3;
 /// Trials of edits; quads of all meshes of these trials; edits of one quad.
 constexpr int kMostTrials = 200, kMostTried = 1'000'000, kWays = 21;
 /// Limit of tried places of vertices, see lift_worst_on_surface(): by the quads, and about ten seconds.
-constexpr long long kLeastCost = 500'000, kCostPerQuad = 1000, kMostCost = 8'000'000;
+constexpr long long kLeastCost = 500'000, kCostPerQuad = 300, kMostCost = 8'000'000;
 /// Limit for failing quads: about five seconds.
 constexpr long long kMostRepairs = 5'000'000;
 

@@ -22,6 +22,7 @@
 #include <Message_Printer.hxx>
 #include <Resource_FormatType.hxx>
 #include <STEPControl_Reader.hxx>
+#include <StepBasic_DocumentFile.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_AsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
@@ -169,7 +170,20 @@ std::string first_failure(const XSControl_Reader& reader) {
   return check->HasFailed() ? fmt::format(" ({})", check->CFail(1)) : "";
 }
 
-/// Returns the names of the units of lengths, in capitals.
+/// "; its parts lie in other files (A.stp, B.stp): ...", or nothing.
+std::string other_files(const XSControl_Reader& reader) {
+  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  std::vector<std::string> names;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Handle(StepBasic_DocumentFile) file = Handle(StepBasic_DocumentFile)::DownCast(model->Value(i));
+    if (!file.IsNull() && !file->Id().IsNull()) names.push_back(as_utf8(file->Id()->ToCString()));
+  }
+  if (names.empty()) return "";
+  return fmt::format("; its parts lie in other files ({}): mesh these, or export all parts in one file",
+                     first_of(names, kMostNamed));
+}
+
+/// Names of the units of lengths, in capitals.
 std::vector<std::string> units_of_file(STEPControl_Reader& reader) {
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.FileUnits(lengths, angles, solid_angles);
@@ -215,7 +229,8 @@ CadShape transfer(Reader& reader, const std::string& kind, const CadOptions& opt
   const LostShapes lost = lost_shapes(reader);
   if (!lost.damaged.empty())
     lose(unread(kind, lost.damaged, first_failure(reader)), options.keep_going, reader.NbShapes() > 0, cad);
-  if (reader.NbShapes() == 0) throw InputError("the " + kind + " file holds no shape" + complaint->why());
+  if (reader.NbShapes() == 0)
+    throw InputError("the " + kind + " file holds no shape" + other_files(reader) + complaint->why());
   if (lost.damaged.empty() && transferred < roots)
     cad.warnings.push_back(fmt::format("{} of {} entries of the {} file are no faces and cannot be read{}",
                                        roots - transferred, roots, kind, complaint->why()));

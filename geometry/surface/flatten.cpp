@@ -97,7 +97,6 @@ class Flattener {
         open_(mesh_.triangles.size(), 1),
         tries_(mesh_.triangles.size(), 0),
         stuck_(mesh_.triangles.size(), 0),
-        failed_(mesh_.regions.size(), 0),
         is_embedded_(mesh_.curves.size(), 0) {
     for (const EmbeddedCurve& c : model.embedded) is_embedded_[c.curve] = 1;
     if (options.left_out.empty()) return;
@@ -107,14 +106,16 @@ class Flattener {
 
   Flattening run() {
     for (int round = 0; std::ranges::find(open_, 1) != open_.end(); ++round) flatten_open(round);
-    std::erase_if(patches_, [&](const FlatPatch& p) { return failed_[p.face] != 0; });
+    std::erase_if(patches_, [&](const FlatPatch& p) { return failed_.contains(p.face); });
     std::ranges::sort(patches_, {},
                       [](const FlatPatch& p) { return std::pair(p.face, p.fine_triangle.front()); });
     Flattening result;
     result.patches = std::move(patches_);
     result.cuts = std::move(cuts_);
-    for (std::size_t f = 0; f < failed_.size(); ++f)
-      if (failed_[f]) result.failed.push_back(static_cast<int>(f));
+    for (const auto& [face, piece] : failed_) {
+      result.failed.push_back(face);
+      result.failed_at.push_back(piece.second);
+    }
     report(result);
     return result;
   }
@@ -170,13 +171,19 @@ class Flattener {
       if (outcome.map)
         mapped.push_back({std::move(chart), std::move(outcome)});
       else
-        failed_[chart.face] = 1;
+        fail(chart);
     }
     add_patches(std::move(mapped), planned);
     if (!planned.empty()) cut(planned);
   }
 
-  /// Returns the lines that maps ignore, of embedded curves; empty: none.
+  void fail(const Chart& chart) {
+    const std::size_t n = chart.triangles.size();
+    if (const auto at = failed_.find(chart.face); at != failed_.end() && at->second.first <= n) return;
+    failed_[chart.face] = {n, Box<Vec3>::around(chart.points)};
+  }
+
+  /// The lines that maps take no notice of; empty: none.
   std::vector<char> standing_lines() const {
     if (model_.embedded.empty()) return {};
     std::vector<char> standing;
@@ -225,7 +232,7 @@ class Flattener {
       Chart& chart = mapped[i].chart;
       std::vector<char> parts = split_chart(chart, options_);
       if (parts.empty()) {
-        failed_[chart.face] = 1;
+        fail(chart);
         continue;
       }
       for (const int t : chart.fine_triangle) open_[t] = 1;
@@ -448,8 +455,8 @@ class Flattener {
   std::vector<char> open_;    ///< triangles that are in no finished patch
   std::vector<int> tries_;    ///< cuts through the chart of each triangle although it had a map
   std::vector<char> stuck_;   ///< first triangles of charts whose last cut could not be made
-  std::vector<char> failed_;
-  std::vector<char> is_embedded_;  ///< whether each curve of the initial model is embedded
+  std::map<int, std::pair<std::size_t, Box<Vec3>>> failed_;  ///< by face: triangles of a piece, its box
+  std::vector<char> is_embedded_;                            ///< of the curves that the model had
   std::set<std::pair<int, int>>
       on_cut_;  ///< lines of embedded curves that cuts run along, as (lower, higher)
   std::vector<FlatPatch> patches_;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/box.h"
 #include "delquad/mesh.h"
 #include "delquad/metrics.h"
 #include "geometry/surface/chart.h"
@@ -45,7 +46,8 @@ double double_area(const FlatPatch& patch, const Mesh& fine, std::size_t triangl
 struct Flattening {
   std::vector<FlatPatch> patches;  ///< by face, then by first triangle; a face may have several
   std::vector<SurfaceCut> cuts;
-  std::vector<int> failed;  ///< faces with a piece that could not be flattened; they have no patches
+  std::vector<int> failed;  ///< faces of which some piece could not be flattened; they have no patches
+  std::vector<Box<Vec3>> failed_at;  ///< box of the smallest such piece of each
 };
 
 struct FlattenOptions {

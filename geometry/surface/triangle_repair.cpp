@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -80,22 +81,75 @@ class CommonRegions {
   std::map<std::pair<int, int>, int> common_;
 };
 
-void remove_duplicates(Mesh& mesh, std::vector<Warning>& warnings) {
+/// Triangles on the same vertices, where there are several; ascending.
+std::vector<std::vector<int>> find_copies(const Mesh& mesh) {
   std::vector<int> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<Triangle> keys;
   for (const Triangle& v : mesh.triangles) keys.push_back(sorted_vertices(v));
   std::sort(order.begin(), order.end(),
             [&](int s, int t) { return keys[s] != keys[t] ? keys[s] < keys[t] : s < t; });
-  std::vector<char> twin(order.size(), 0);
-  CommonRegions regions(mesh);
-  for (size_t i = 1, first = 0; i < order.size(); ++i) {
-    twin[order[i]] = keys[order[i]] == keys[order[i - 1]];
-    if (!twin[order[i]])
-      first = i;
-    else
-      regions.join(order[first], mesh.triangle_region[order[i]]);
+  std::vector<std::vector<int>> copies;
+  for (size_t i = 1; i < order.size(); ++i) {
+    if (keys[order[i]] != keys[order[i - 1]]) continue;
+    if (copies.empty() || copies.back().back() != order[i - 1]) copies.push_back({order[i - 1]});
+    copies.back().push_back(order[i]);
   }
+  return copies;
+}
+
+/// Takes out small folds: pairs of triangles back to back that others meet on some sides, and none on others.
+void take_out_folds(Mesh& mesh, std::vector<Warning>& warnings) {
+  constexpr double kSmall = 0.02;  // of the diagonal: much less than usual sizes
+  std::vector<int> pair_of(mesh.triangles.size(), -1);
+  int n_pairs = 0;
+  for (const std::vector<int>& copies : find_copies(mesh)) {
+    const Triangle &a = mesh.triangles[copies[0]], &b = mesh.triangles[copies[1]];
+    const auto same = std::ranges::find(b, a[0]) - b.begin();
+    if (copies.size() != 2 || b[(same + 1) % 3] == a[1]) continue;
+    pair_of[copies[0]] = pair_of[copies[1]] = n_pairs++;
+  }
+  if (n_pairs == 0) return;
+  DisjointSets folds(n_pairs);
+  std::vector<std::array<int, 2>> on_edge;  // pairs that only they are on an edge, or with others
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
+    int pair = -1;
+    for (const HalfEdge& half : edge) {
+      const int other = pair_of[half.element];
+      if (pair >= 0 && other >= 0) folds.join(pair, other);
+      pair = std::max(pair, other);
+    }
+    const bool is_alone =
+        std::ranges::all_of(edge, [&](const HalfEdge& h) { return pair_of[h.element] >= 0; });
+    if (pair >= 0 && (edge.size() == 2 || !is_alone)) on_edge.push_back({pair, is_alone ? 0 : 1});
+  });
+  std::vector<std::array<char, 2>> sides(n_pairs);
+  for (const auto& [pair, kind] : on_edge) sides[folds.root(pair)][kind] = 1;
+  std::vector<std::optional<Box<Vec3>>> boxes(n_pairs);
+  for (size_t t = 0; t < pair_of.size(); ++t)
+    for (const int v : mesh.triangles[t]) {
+      if (pair_of[t] < 0) break;
+      auto& box = boxes[folds.root(pair_of[t])];
+      box ? box->add(mesh.points[v]) : void(box = {mesh.points[v], mesh.points[v]});
+    }
+  const double least = kSmall * diagonal(mesh.points);
+  const Dropped dropped = drop_triangles(mesh, [&](size_t t) {
+    const int fold = pair_of[t] < 0 ? -1 : folds.root(pair_of[t]);
+    return fold < 0 || !sides[fold][0] || !sides[fold][1] || norm(boxes[fold]->size()) > least;
+  });
+  if (dropped.count > 0)
+    warnings.push_back(fmt::format("left out {} in small folds without thickness (the first at {})",
+                                   counted(dropped.count, "triangle"), show_point(dropped.first)));
+}
+
+void remove_duplicates(Mesh& mesh, std::vector<Warning>& warnings) {
+  std::vector<char> twin(mesh.triangles.size(), 0);
+  CommonRegions regions(mesh);
+  for (const std::vector<int>& copies : find_copies(mesh))
+    for (size_t i = 1; i < copies.size(); ++i) {
+      twin[copies[i]] = 1;
+      regions.join(copies[0], mesh.triangle_region[copies[i]]);
+    }
   const Dropped dropped = drop_triangles(mesh, [&](size_t t) { return !twin[t]; });
   if (dropped.count == 0) return;
   warnings.push_back(fmt::format("left out {} on the vertices of another (the first at {})",
@@ -289,6 +343,7 @@ Mesh repaired(Mesh mesh, double weld_tolerance, const std::string& source, std::
   check_contents(mesh, source);
   if (std::string welded = weld_open_edges(mesh, weld_tolerance); !welded.empty())
     warnings.push_back(std::move(welded));
+  take_out_folds(mesh, warnings);
   remove_duplicates(mesh, warnings);
   leave_out_flat(mesh, source, warnings);
   take_out_flat_copies(mesh, warnings);

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/length_unit.h"
 #include "base/located.h"
 #include "base/text.h"
 #include "geometry/planar/join_outlines.h"
@@ -21,6 +22,8 @@
 
 namespace delquad {
 namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
 
 /// A non-uniform rational B-spline, by de Boor's algorithm.
 std::shared_ptr<const Curve> make_nurbs(std::size_t degree, std::vector<double> knots,
@@ -94,30 +97,53 @@ struct Block {
   };
   Vec2 base = {};
   std::vector<ModelCurve> curves = {};
+  std::vector<ModelCurve> fills = {};  ///< outlines of filled areas
   std::vector<ModelPoint> points = {};
   std::vector<Face> faces = {};
   std::vector<Insert> inserts = {};
   std::string why_not = {};  ///< why it cannot be read; empty: it can
 };
 
+/// Returns the unit of $INSUNITS, a name of length_unit.h; empty: none of them.
+std::string unit_of(double code) {
+  static const std::map<double, const char*> kUnits = {{1, "in"}, {2, "ft"}, {4, "mm"}, {5, "cm"},
+                                                       {6, "m"},  {7, "km"}, {13, "um"}};
+  const auto at = kUnits.find(code);
+  return at == kUnits.end() ? "" : at->second;
+}
+
 class DxfReader {
  public:
-  explicit DxfReader(const std::filesystem::path& path) : in_(path) {
+  DxfReader(const std::filesystem::path& path, std::string& unit) : in_(path), unit_(unit) {
     model_.source = path.string();
     if (in_.text().starts_with("AutoCAD Binary DXF")) in_.fail("binary DXF: expected it as text");
     bool has_entities = false;
     for (next(); value_ != "EOF"; next()) {
+      if (code_ == 9 && value_ == "$INSUNITS") next(), unit_of_file_ = unit_of(number());
       if (code_ == 2) has_entities = value_ == "ENTITIES" || value_ == "BLOCKS";
       while (code_ == 0 && has_entities && value_ != "ENDSEC") entity();
       if (value_ == "ENDSEC") has_entities = false;
       if (value_ == "EOF") break;
     }
-    put(drawing_, {}, "", 0);
+    if (unit_.empty()) unit_ = unit_of_file_;
+    if (unit_of_file_.empty() && !unit_.empty())
+      refuse(
+          "{}: the drawing does not say its unit ($INSUNITS), so that lengths cannot be in {}: leave it out",
+          model_.source, unit_);
+    const double factor =
+        unit_ == unit_of_file_ ? 1 : length_unit(unit_of_file_).metres / length_unit(unit_).metres;
+    put(drawing_, {{factor, 0}, {0, factor}, {}, factor, 0}, "", 0);
   }
 
   Model model() {
     if (!faces_.empty()) return surface();
-    const std::string loose = join_outlines(model_);
+    std::string loose = join_outlines(model_);
+    if (model_.loops.empty() && !fills_.empty()) {
+      model_.curves.insert(model_.curves.end(), fills_.begin(), fills_.end());
+      loose = join_outlines(model_);
+      for (const char* kind : {"HATCH", "SOLID", "TRACE"}) left_out_.erase(kind);
+      model_.notes.push_back(model_.source + ": no curves close up: filled areas are the outlines");
+    }
     std::vector<std::string> others;
     for (const auto& [kind, n] : left_out_) others.push_back(fmt::format("{} {}", n, kind));
     const std::string left_out =
@@ -159,14 +185,19 @@ class DxfReader {
     constexpr int kMostDepth = 16;
     constexpr std::size_t kMostParts = 1'000'000;
     if (!block.why_not.empty()) refuse("{}", block.why_not);
-    n_parts_ += 1 + block.curves.size() + block.points.size() + block.faces.size();
+    n_parts_ += 1 + block.curves.size() + block.fills.size() + block.points.size() + block.faces.size();
     if (depth > kMostDepth || n_parts_ > kMostParts)
       refuse("{}: blocks stand in each other more than {} deep, or hold more than {} parts", model_.source,
              kMostDepth, kMostParts);
     const auto layer_of = [&](const std::string& own) { return own.empty() ? layer : own; };
-    for (const ModelCurve& curve : block.curves)
-      model_.curves.push_back({depth == 0 ? curve.shape : std::make_shared<CurveOfBlock>(curve.shape, place),
-                               layer_of(curve.name), curve.where});
+    const auto put_curves = [&](const std::vector<ModelCurve>& from, std::vector<ModelCurve>& to) {
+      for (const ModelCurve& curve : from)
+        to.push_back(
+            {depth == 0 && place.x.x == 1 ? curve.shape : std::make_shared<CurveOfBlock>(curve.shape, place),
+             layer_of(curve.name), curve.where});
+    };
+    put_curves(block.curves, model_.curves);
+    put_curves(block.fills, fills_);
     for (const ModelPoint& p : block.points)
       model_.points.push_back({place(p.at), layer_of(p.name), p.where});
     for (const Block::Face& face : block.faces) {
@@ -186,6 +217,7 @@ class DxfReader {
   TriangleModel surface() const {
     TriangleModel surface{{}, model_.source};
     Mesh& mesh = surface.mesh;
+    mesh.unit = unit_;
     std::map<std::string, int> region_of;
     for (const auto& [corners, layer] : faces_) {
       const auto [at, is_new] = region_of.try_emplace(layer, static_cast<int>(mesh.regions.size()));
@@ -209,7 +241,7 @@ class DxfReader {
   void entity() {
     const std::string kind = value_, where = in_.place(static_cast<std::size_t>(in_.line()) - 1);
     layer_.clear(), name_.clear(), values_.clear(), corners_.clear(), fit_.clear(), knots_.clear(),
-        weights_.clear();
+        weights_.clear(), hatch_.clear(), hatch_at_ = 0, is_fill_ = false;
     groups(kind);
     if (kind == "POLYLINE") {
       const auto of_line = values_;
@@ -234,12 +266,14 @@ class DxfReader {
 
   /// The groups behind one of code 0, up to the next.
   void groups(const std::string& kind) {
-    const bool is_polyline = kind == "LWPOLYLINE", is_spline = kind == "SPLINE";
+    const bool is_polyline = kind == "LWPOLYLINE", is_spline = kind == "SPLINE", is_hatch = kind == "HATCH";
     for (next(); code_ != 0; next()) {
       if (code_ == 2) name_ = value_;
       if (code_ == 8) layer_ = value_ == "0" ? "" : value_;
-      if (code_ < 10 || (code_ > 79 && code_ != 230)) continue;
+      const bool is_of_hatch = is_hatch && code_ > 90 && code_ < 98;
+      if (code_ < 10 || (code_ > 79 && code_ != 230 && !is_of_hatch)) continue;
       const double value = number();
+      if (is_hatch) hatch_.push_back({code_, value});
       if (code_ == 10 && (is_polyline || is_spline)) corners_.push_back({{value, 0}});
       if (code_ == 20 && !corners_.empty()) corners_.back().at.y = value;
       if (code_ == 42 && is_polyline && !corners_.empty()) corners_.back().bulge = value;
@@ -258,7 +292,6 @@ class DxfReader {
   Vec2 point(int code) const { return {value(code), value(code + 10)}; }
 
   void add(const std::string& kind) {
-    constexpr double kDegree = std::numbers::pi / 180;
     constexpr int kMesh = 16 | 64;  // flags of a polyline
     if (value(67) != 0) return;     // it is on paper, around views of the model
     // If the plane of a shape is seen from below, x points to the left.
@@ -269,14 +302,9 @@ class DxfReader {
     } else if (kind == "CIRCLE") {
       push(make_circle(centre, value(40)));
     } else if (kind == "ARC") {
-      const double from = value(50), turn = std::fmod(value(51) - from + 720, 360);
-      const double begin = side > 0 ? from : 180 - from;
-      push(make_arc(centre, value(40), begin * kDegree, (begin + side * (turn > 0 ? turn : 360)) * kDegree));
+      push_arc(side, centre, value(40), value(50), value(51));
     } else if (kind == "ELLIPSE") {
-      const Vec2 a = point(11), b{side * -value(40) * a.y, side * value(40) * a.x}, c = point(10);
-      const double from = value(41), to = value(42, 2 * std::numbers::pi);
-      push(make_parametric_curve([=](double t) { return c + std::cos(t) * a + std::sin(t) * b; }, from,
-                                 to > from ? to : to + 2 * std::numbers::pi));
+      push_ellipse(side, point(10), point(11), value(40), value(41), value(42, 2 * std::numbers::pi));
     } else if (kind == "POLYLINE" && (static_cast<int>(value(70)) & kMesh) != 0) {
       ++left_out_["mesh (POLYLINE)"];
     } else if (kind == "LWPOLYLINE" || kind == "POLYLINE") {
@@ -295,15 +323,112 @@ class DxfReader {
       for (int k = 0; k < 4; ++k) face.corners[k] = {value(10 + k), value(20 + k), value(30 + k)};
     } else if (kind == "INSERT") {
       add_inserts(side);
+    } else if (kind == "HATCH" || kind == "SOLID" || kind == "TRACE") {
+      is_fill_ = true;
+      try {
+        kind == "HATCH" ? add_hatch(side) : add_solid(side);
+        ++left_out_[kind];
+      } catch (const InputError&) {  // nobody may need it
+        ++left_out_["damaged " + kind];
+      }
     } else if (kind != "VERTEX" && kind != "SEQEND" && kind != "ATTRIB") {
       ++left_out_[kind];
+    }
+  }
+
+  /// From and to are degrees, counterclockwise.
+  void push_arc(double side, Vec2 centre, double radius, double from, double to) {
+    const double turn = std::fmod(to - from + 720, 360), begin = side > 0 ? from : 180 - from;
+    push(make_arc(centre, radius, begin * kDegree, (begin + side * (turn > 0 ? turn : 360)) * kDegree));
+  }
+
+  /// `a` is half of the long axis, and the short axis is `ratio` times as long; from and to are parameters.
+  void push_ellipse(double side, Vec2 centre, Vec2 a, double ratio, double from, double to) {
+    const Vec2 b{side * -ratio * a.y, side * ratio * a.x};
+    push(make_parametric_curve([=](double t) { return centre + std::cos(t) * a + std::sin(t) * b; }, from,
+                               to > from ? to : to + 2 * std::numbers::pi));
+  }
+
+  /// Corners 3 and 4 are exchanged; they are equal in a triangle.
+  void add_solid(double side) {
+    for (const int code : {10, 11, 13, 12}) corners_.push_back({point(code)});
+    values_[70] = 1;
+    add_polyline(side);
+  }
+
+  /// The value of the next group of a hatch with that code.
+  double next_of_hatch(int code) {
+    while (hatch_at_ < hatch_.size() && hatch_[hatch_at_].first != code) ++hatch_at_;
+    if (hatch_at_ == hatch_.size()) refuse("its outline ends before group {}: expected a whole hatch", code);
+    return hatch_[hatch_at_++].second;
+  }
+  Vec2 next_point_of_hatch(int code, double side) {
+    const double x = side * next_of_hatch(code);
+    return {x, next_of_hatch(code + 10)};
+  }
+  /// Degrees, counterclockwise; angles of clockwise edges are negative.
+  std::array<double, 2> next_turn_of_hatch() {
+    const double from = next_of_hatch(50), to = next_of_hatch(51);
+    return next_of_hatch(73) != 0 ? std::array{from, to} : std::array{-to, -from};
+  }
+
+  /// The outlines of a hatch: polylines, or lists of edges.
+  void add_hatch(double side) {
+    for (double outlines = next_of_hatch(91); outlines > 0; --outlines) {
+      const bool is_polyline = std::fmod(next_of_hatch(92), 4) >= 2;
+      corners_.clear();
+      for (double n = next_of_hatch(93); n > 0; --n) {
+        if (!is_polyline) {
+          add_edge_of_hatch(side);
+          continue;
+        }
+        corners_.push_back({next_point_of_hatch(10, 1)});
+        if (hatch_at_ < hatch_.size() && hatch_[hatch_at_].first == 42)
+          corners_.back().bulge = next_of_hatch(42);
+      }
+      values_[70] = 1;
+      add_polyline(side);
+    }
+  }
+
+  void add_edge_of_hatch(double side) {
+    const double kind = next_of_hatch(72);
+    if (kind == 1) {
+      const Vec2 a = next_point_of_hatch(10, side), b = next_point_of_hatch(11, side);
+      if (a != b) push(make_segment(a, b));
+    } else if (kind == 2) {
+      const Vec2 centre = next_point_of_hatch(10, side);
+      const double radius = next_of_hatch(40);
+      const auto [from, to] = next_turn_of_hatch();
+      push_arc(side, centre, radius, from, to);
+    } else if (kind == 3) {
+      const Vec2 centre = next_point_of_hatch(10, side), axis = next_point_of_hatch(11, side);
+      const double ratio = next_of_hatch(40);
+      const auto [from, to] = next_turn_of_hatch();
+      const auto parameter = [&](double angle) {
+        return std::atan2(std::sin(angle * kDegree) / ratio, std::cos(angle * kDegree));
+      };
+      push_ellipse(side, centre, axis, ratio, parameter(from), parameter(to));
+    } else if (kind == 4) {
+      const double degree = next_of_hatch(94), is_rational = next_of_hatch(73), n_knots = next_of_hatch(95),
+                   n_points = next_of_hatch(96);
+      std::vector<double> knots, weights;
+      std::vector<Vec2> points;
+      while (static_cast<double>(knots.size()) < n_knots) knots.push_back(next_of_hatch(40));
+      while (static_cast<double>(points.size()) < n_points) {
+        points.push_back(next_point_of_hatch(10, side));
+        if (is_rational != 0) weights.push_back(next_of_hatch(42));
+      }
+      push(make_nurbs(static_cast<std::size_t>(std::clamp(degree, 0., 100.)), knots, weights, points));
+    } else {
+      refuse("an edge of kind {:g}: expected 1 (line), 2 (arc), 3 (ellipse) or 4 (spline)", kind);
     }
   }
 
   /// Rows and columns of a block.
   void add_inserts(double side) {
     constexpr double kMost = 1e6;
-    const double turn = value(50) * std::numbers::pi / 180, columns = std::max(1., value(70)),
+    const double turn = value(50) * kDegree, columns = std::max(1., value(70)),
                  rows = std::max(1., value(71));
     if (const double n = columns * rows + static_cast<double>(into_->inserts.size()); n > kMost)
       refuse("{:g} copies of blocks: expected at most {:g}", n, kMost);
@@ -344,11 +469,12 @@ class DxfReader {
   }
 
   void push(std::shared_ptr<const Curve> shape) {
-    into_->curves.push_back({std::move(shape), layer_, where_});
+    (is_fill_ ? into_->fills : into_->curves).push_back({std::move(shape), layer_, where_});
   }
 
   TextScanner in_;
   PlanarModel model_;
+  std::vector<ModelCurve> fills_;   ///< of the model, outlines if no curves close up
   std::vector<Block::Face> faces_;  ///< of the model
   Block drawing_;
   std::map<std::string, Block> blocks_;
@@ -356,15 +482,19 @@ class DxfReader {
   std::size_t n_parts_ = 0;
   std::map<std::string, int> left_out_;  ///< entities by kind
   int code_ = -1;
-  std::string value_, layer_, name_, where_;
+  std::string& unit_;  ///< of lengths in the model
+  std::string value_, layer_, name_, where_, unit_of_file_;
   std::map<int, double> values_;  ///< by group code; of several the last
   std::vector<Corner> corners_;
   std::vector<Vec2> fit_;
   std::vector<double> knots_, weights_;
+  std::vector<std::pair<int, double>> hatch_;  ///< groups of a hatch, in order
+  std::size_t hatch_at_ = 0;                   ///< the next of them
+  bool is_fill_ = false;                       ///< what is pushed is the outline of a filled area
 };
 
 }  // namespace
 
-Model read_dxf(const std::filesystem::path& path) { return DxfReader(path).model(); }
+Model read_dxf(const std::filesystem::path& path, std::string& unit) { return DxfReader(path, unit).model(); }
 
 }  // namespace delquad

@@ -145,6 +145,8 @@ class GeoJsonReader {
   Vec2 point(const Json& xy, const std::string& where) {
     where_ = where;
     const Vec2 p{xy.at(0), xy.at(1)};
+    if (constexpr double kMost = 1e60; !(norm(p) < kMost))  // else their squares overflow
+      refuse("{}: a point at {}: expected coordinates below {:g}", where, show_point(p), kMost);
     are_degrees_ = are_degrees_ && std::abs(p.x) <= 180 && std::abs(p.y) <= 90;
     return p;
   }
@@ -208,12 +210,12 @@ PlanarModel read_geojson(const std::filesystem::path& path) {
   return GeoJsonReader(path, {std::string(read_whole_file(path))}).model();
 }
 
-Model read_outlines(const OutlineFile& file, std::string& crs) {
+Model read_outlines(const OutlineFile& file, std::string& crs, std::string& unit) {
   const std::string kind = kind_of_file(file.path);
   const bool as_it_is = file.layer.empty() && file.project.empty();
   if (kind == kDxf && !as_it_is)
     refuse("{}: a drawing is read with all its layers, and is not projected", file.path.string());
-  if (kind == kDxf) return read_dxf(file.path);
+  if (kind == kDxf) return read_dxf(file.path, unit);
   GeoJsonReader reader(file.path, kind == kGeoJson && as_it_is
                                       ? Outlines{std::string(read_whole_file(file.path))}
                                       : read_layer(file.path, file.layer, file.project));

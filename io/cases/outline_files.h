@@ -37,10 +37,10 @@ std::optional<OutlineFile> outline_file_of(const std::filesystem::path& text);
 /// Returns these extensions, for messages.
 std::string outline_files();
 
-/// Returns the model of a GeoJSON file, of any file that GDAL reads, or of a drawing (read_dxf()). `crs` gets
-/// its coordinate system (see read_raster()). Throws InputError if GDAL is needed and not installed, and as
-/// both readers.
-Model read_outlines(const OutlineFile& file, std::string& crs);
+/// Returns what read_geojson() makes of GeoJSON and of all that GDAL reads, with its coordinate system (see
+/// read_raster()). Returns what read_dxf() makes of a drawing, with its unit. Throws InputError in builds
+/// without GDAL for all but GeoJSON as it is.
+Model read_outlines(const OutlineFile& file, std::string& crs, std::string& unit);
 
 /// Returns points from lines "x y", with comments behind '#'. The first line may be the name of an airfoil.
 /// Two counts may follow, of points on the upper and on the lower side, both from the nose. Throws InputError

@@ -221,8 +221,8 @@ Model read_msh_model(const std::filesystem::path& path) {
   return lines;
 }
 
-/// With the coordinate system of outlines, where that is known.
-Model read_model(const ModelFile& file, const MeshProblem& problem, std::string& crs) {
+/// With the coordinate system of outlines, or the unit of a drawing, where that is known.
+Model read_model(const ModelFile& file, const MeshProblem& problem, std::string& crs, std::string& unit) {
   const StageScope stage("reading");
   const std::string kind = kind_of_file(file.path);
   if (file.given) {
@@ -232,7 +232,7 @@ Model read_model(const ModelFile& file, const MeshProblem& problem, std::string&
       given.notes.push_back(std::move(torn));
     return given;
   }
-  if (const auto outlines = outline_file_of(file.path)) return read_outlines(*outlines, crs);
+  if (const auto outlines = outline_file_of(file.path)) return read_outlines(*outlines, crs, unit);
   if (kCadFiles.count(kind) > 0) return CadModel{file.path};
   if (kTriangleFiles.count(kind) == 0) return read_msh_model(file.path);
   TriangleModel triangles{{}, file.path.string()};
@@ -260,7 +260,8 @@ std::string text_of(const CrossSpec& cross) {
 MeshProblem read_files(MeshProblem problem) {
   std::string crs;
   if (const auto* file = std::get_if<ModelFile>(&problem.model))
-    problem.model = located(problem.where, [&] { return read_model(*file, problem, crs); });
+    problem.model =
+        located(problem.where, [&] { return read_model(*file, problem, crs, problem.surface.unit); });
   if (auto* given = std::get_if<GivenMesh>(&problem.model); given && problem.surface.weld_tolerance) {
     const double tolerance = *problem.surface.weld_tolerance * diagonal(given->mesh);
     if (std::string welded = weld_open_edges(given->mesh, tolerance); !welded.empty())
@@ -295,10 +296,10 @@ std::function<double(const Vec3&)> read_depths(const std::string& text, const Mo
     if (!raster || !is_raster_file(raster->path))
       refuse("'{}' is no raster: expected FILE or \"FILE: FORMULA\" in value, such as \"dem.tif: -value\"",
              text);
-    std::string crs;
+    std::string crs, unit;
     const auto* file = std::get_if<ModelFile>(&model);
     if (const auto outlines = file != nullptr ? outline_file_of(file->path) : std::nullopt)
-      read_outlines(*outlines, crs);
+      read_outlines(*outlines, crs, unit);
     return raster_function(*raster, crs);
   });
 }

@@ -65,6 +65,15 @@ void expect_sound(const BackgroundMesh& background, const PatchBoundary& patch) 
   EXPECT_LE(tri.points.size(), 8 * patch.points.size() + 1000 + 10);
 }
 
+TEST(BackgroundMesh, EndsBesideAPointNearerToAnEdgeThanRounding) {
+  // The last corner but one lies 1e-200 from the left side. Splits of that side move nothing.
+  const PatchBoundary patch = shapes::polygon({{0, 0}, {2, 0}, {2, 2}, {1e-200, 1}, {0, 2}});
+  const TriPatch tri = background_of(patch)->triangles();
+  double sum = 0;
+  for (std::size_t t = 0; t < tri.triangles.size(); ++t) sum += area(tri, static_cast<int>(t));
+  EXPECT_NEAR(sum, area(patch), 1e-12);
+}
+
 TEST(BackgroundMesh, CoversUnfriendlyShapes) {
   for (const auto& [name, boundary] : unfriendly_shapes()) {
     SCOPED_TRACE(name);

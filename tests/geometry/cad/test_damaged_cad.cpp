@@ -56,6 +56,14 @@ TEST_F(DamagedCad, TextOfADrawingMayBeUnreadable) {
   EXPECT_EQ(read_cad(CadModel{{}, text}).fine.regions.size(), 6u);
 }
 
+TEST_F(DamagedCad, FilesOfPartsAreNamed) {
+  expect_refused(
+      "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'1');\nFILE_NAME('','',(''),(''),'','','');\n"
+      "FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\n#1=DOCUMENT_TYPE('geometry');\n"
+      "#2=DOCUMENT_FILE('wheel.stp','','',#1,'',$);\nENDSEC;\nEND-ISO-10303-21;\n",
+      {"holds no shape", "other files (wheel.stp)"}, 0);
+}
+
 TEST_F(DamagedCad, MissingEntitiesAreNamed) {
   const std::string text = read_text(write_step(folder_ / "box.step", BRepPrimAPI_MakeBox(1, 2, 3).Shape()));
   // The number of faces that are left: shells alone do without faces.

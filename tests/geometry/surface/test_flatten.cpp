@@ -197,10 +197,12 @@ TEST(Flatten, SameInputSameOutput) {
 
 TEST(Flatten, NamesFacesThatCannotBe) {
   // A face of zero area.
-  SurfaceModel model = one_face({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}});
+  SurfaceModel model = one_face({{3, 1, 1}, {4, 1, 1}, {5, 1, 1}}, {{0, 1, 2}});
   const Flattening f = flatten(model);
   EXPECT_TRUE(f.patches.empty());
   EXPECT_EQ(f.failed, std::vector<int>{0});
+  EXPECT_EQ(f.failed_at.at(0).low, (Vec3{3, 1, 1}));
+  EXPECT_EQ(f.failed_at.at(0).high, (Vec3{5, 1, 1}));
   ASSERT_EQ(model.warnings.size(), 1u);
   EXPECT_EQ(model.warnings[0].text, "face 1: could not be flattened [not-flattened]");
 }

@@ -135,6 +135,8 @@ TEST_F(OutlineFiles, MessagesNameFeatureAndRing) {
   for (int i = 0; i < 100000; ++i) nested += "]}";
   expect_input_error([&] { read(nested); }, {"in each other"});
   expect_input_error([&] { read(feature("Polygon", "[[[0, 0], [1e999, 0], [1, 1], [0, 0]]]")); }, {"1e999"});
+  expect_input_error([&] { read(feature("Polygon", "[[[0, 0], [500, 0], [1e99, 1], [0, 1]]]")); },
+                     {"feature 1", "below 1e+60"});
   expect_input_error([&] { read(feature("Hexagon", "[]")); }, {"'Hexagon'"});
   expect_input_error([&] { read_geojson(write_text(folder_ / "b.geojson", "{")); },
                      {"b.geojson: no GeoJSON"});
@@ -159,12 +161,15 @@ class DxfFiles : public OutlineFiles {
   PlanarModel read(const std::string& groups) {
     return std::get<PlanarModel>(read_model("0\nSECTION\n2\nENTITIES\n" + groups));
   }
-  Model read_model(const std::string& sections) {
+  Model read_model(const std::string& sections, std::string unit = {}) {
     std::string text = sections + " 0 ENDSEC 0 EOF";
     std::ranges::replace(text, ' ', '\n');
     std::string crs;
-    return read_outlines({write_text(folder_ / "a.dxf", text), "", ""}, crs);
+    Model model = read_outlines({write_text(folder_ / "a.dxf", text), "", ""}, crs, unit);
+    unit_ = unit;
+    return model;
   }
+  std::string unit_;  ///< of what was read last
   static std::string line(double x0, double y0, double x1, double y1) {
     return "0 LINE 8 wall 10 " + std::to_string(x0) + " 20 " + std::to_string(y0) + " 11 " +
            std::to_string(x1) + " 21 " + std::to_string(y1) + " ";
@@ -242,6 +247,53 @@ TEST_F(DxfFiles, ThreeDimensionalFacesAreASurface) {
   EXPECT_EQ(model.mesh.triangles.size(), 1u);
   EXPECT_EQ(model.mesh.points[2], (Vec3{4, 3, 2}));
   EXPECT_EQ(model.mesh.regions[0].names, Strings{"roof"});
+}
+
+TEST_F(DxfFiles, TheUnitOfTheHeaderIsKept) {
+  const std::string face =
+      "0 SECTION 2 ENTITIES 0 3DFACE 10 0 20 0 30 0 11 4 21 0 31 1 12 4 22 3 32 2 13 4 23 3 33 2";
+  const auto unit = [&](const std::string& code) {
+    const std::string head = "0 SECTION 2 HEADER 9 $INSUNITS 70 " + code + " 9 $EXTMIN 10 0 0 ENDSEC ";
+    return std::get<TriangleModel>(read_model(head + face)).mesh.unit;
+  };
+  EXPECT_EQ(unit("1"), "in");
+  EXPECT_EQ(unit("6"), "m");
+  EXPECT_EQ(unit("0"), "");
+  EXPECT_EQ(unit("99"), "");
+  const std::string drawing =
+      "0 SECTION 2 HEADER 9 $INSUNITS 70 1 0 ENDSEC 0 SECTION 2 ENTITIES 0 CIRCLE 10 2 20 0 40 1 ";
+  for (const auto& [asked, unit, x] : {std::tuple{"", "in", 3.}, {"mm", "mm", 76.2}}) {
+    const auto model = std::get<PlanarModel>(read_model(drawing, asked));
+    EXPECT_EQ(unit_, unit);
+    EXPECT_NEAR(model.curves[0].shape->point(0).x, x, 1e-12);
+  }
+  expect_input_error([&] { read_model("0 SECTION 2 ENTITIES 0 CIRCLE 10 2 20 0 40 1", "mm"); },
+                     {"does not say its unit", "mm"});
+}
+
+TEST_F(DxfFiles, FilledAreasAreOutlinesIfThereAreNoOthers) {
+  const std::string solid = "0 SOLID 8 pad 10 20 20 0 11 22 21 0 12 20 22 1 13 22 23 1 ";
+  // A square as a polyline with an arc, an edge list of a half disk and half an ellipse, and a spline.
+  const std::string hatch =
+      "0 HATCH 8 fill 10 0 20 0 30 0 2 SOLID 91 3 92 3 72 1 73 1 93 4 10 0 20 0 42 0 10 10 20 0 42 1 10 10 "
+      "20 "
+      "10 42 0 10 0 20 10 42 0 97 0 92 1 93 2 72 2 10 5 20 5 40 2 50 180 51 360 73 0 72 3 10 5 20 5 11 2 21 "
+      "0 40 0.5 50 180 51 360 73 1 97 0 92 1 93 2 72 4 94 2 73 0 74 0 95 6 96 3 40 0 40 0 40 0 40 1 40 1 40 "
+      "1 10 2 20 8 10 3 20 9 10 4 20 8 72 1 10 4 20 8 11 2 21 8 97 0 75 0 98 1 10 1 20 1 ";
+  const PlanarModel model = read(hatch + solid + "0 HATCH 91 1 92 1 93 1 72 2 10 5");
+  ASSERT_EQ(model.loops.size(), 4u);
+  ASSERT_EQ(model.curves.size(), 8u);
+  EXPECT_EQ(model.curves[0].name, "fill");
+  EXPECT_NEAR(norm(model.curves[1].shape->point(0.5) - Vec2{15, 5}), 0, 1e-12);
+  EXPECT_NEAR(norm(model.curves[3].shape->point(0.5) - Vec2{5, 7}), 0, 1e-12);  // a clockwise arc
+  EXPECT_NEAR(norm(model.curves[4].shape->point(0.5) - Vec2{5, 4}), 0, 1e-12);
+  EXPECT_NEAR(norm(model.curves[5].shape->point(0.5) - Vec2{3, 8.5}), 0, 1e-12);
+  EXPECT_NEAR(norm(model.curves[7].shape->point(0.5) - Vec2{22, 1}), 0, 1e-12);
+  EXPECT_TRUE(holds(model.notes.at(0), "filled areas are the outlines"));
+  EXPECT_TRUE(holds(model.notes.at(1), "1 damaged HATCH"));
+  const PlanarModel drawn = read("0 CIRCLE 8 rim 10 5 20 5 40 30 " + hatch + solid);
+  EXPECT_EQ(drawn.curves.size(), 1u);
+  EXPECT_TRUE(holds(drawn.notes.at(0), "1 HATCH, 1 SOLID are left out"));
 }
 
 TEST_F(DxfFiles, TheOuterOutlineCountsWhereThreeCurvesMeet) {

@@ -60,11 +60,12 @@ class GdalFiles : public testing::Test {
   }
 
   PlanarModel read(const std::string& name) {
-    return std::get<PlanarModel>(read_outlines(*outline_file_of(folder_ / name), crs_));
+    return std::get<PlanarModel>(read_outlines(*outline_file_of(folder_ / name), crs_, unit_));
   }
 
   Folder folder_;
   std::string crs_;
+  std::string unit_;
 };
 
 TEST_F(GdalFiles, DepthsOfARasterGoIntoMeshesOfCoasts) {
