@@ -198,7 +198,6 @@ class SurfaceSteps final : public ModelSteps {
                                       wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_,
                                       divisions_, washers_, mapped_, periodic_, agreement, failures_);
     put_layers_on(p);
-    surface_->is_retry = !hints_.spots.empty();
     surface_->model = std::move(model_);
     surface_->cad = cad_;
     surface_->metric = wanted_.metric;
