@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures the cost of fewer irregular vertices: Delquad's qualities at several weights beside QuadWild with Bi-MDF at several alphas.
+"""Measures the cost of fewer irregular vertices: Delquad's qualities, `best` at several weights, beside QuadWild with Bi-MDF at several alphas.
 
 The size of each CAD model is --size-part of its diagonal in length. If the variable QUADWILD names the folder of QuadWild's built sources, it gets Delquad's triangles
 (F at that size), with the settings of experiments/peers/adapters/quadwild.sh. Its patches are made once for each model, its quads for each alpha,
@@ -18,10 +18,9 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-SERIES = {name: ["--quality", name] for name in ("best", "regular")}
 WORDS = {"fast": ["--quality", "fast"], "good": ["--quality", "good"]} | {
-    f"{name} {weight:g}": [*options, "--set", f"regularity.weight={weight}"] for name, options in SERIES.items() for weight in (0, .3, 1, 3)}
-COLOURS = {"fast": "#888", "good": "#555", "best": "#0b6e99", "regular": "#2e8b57", "QuadWild": "#c2571a"}
+    f"best {weight:g}": ["--quality", "best", "--set", f"regularity.weight={weight}"] for weight in (0, .3, 1, 3)}
+COLOURS = {"fast": "#888", "good": "#555", "best": "#0b6e99", "QuadWild": "#c2571a"}
 MEASURES = {"n_quads": 0, "n_irregular": 1, "eta_mean": 3, "eta_worst": 3, "tau": 1, "n_inverted": 2, "seconds": 1}
 
 
@@ -135,10 +134,10 @@ def figure(path, means):
             svg.append(f'<path d="M{" L".join(f"{a:.1f} {b:.1f}" for a, b in places)}" fill="none" stroke="{colour}" stroke-opacity=".5"/>')
             for k, ((name, _), (a, b)) in enumerate(zip(row, places)):
                 svg.append(f'<circle cx="{a:.1f}" cy="{b:.1f}" r="5" fill="{colour}"/>'
-                           f'<text x="{a + 8:.1f}" y="{b + (16 if series == "regular" else -6):.1f}" font-size="10">{name.split()[-1]}</text>')
+                           f'<text x="{a + 8:.1f}" y="{b - 6:.1f}" font-size="10">{name.split()[-1]}</text>')
     svg.append('<text x="20" y="180" transform="rotate(-90 20 180)" text-anchor="middle">irregular vertices</text>' + "".join(
         f'<text x="{left}" y="14" fill="{COLOURS[series]}">{text}</text>' for left, series, text in
-        ((70, "best", "best, by weight"), (180, "regular", "regular, by weight"), (320, "QuadWild", "QuadWild, by alpha"))) + '</svg>')
+        ((70, "best", "best, by weight"), (320, "QuadWild", "QuadWild, by alpha"))) + '</svg>')
     path.write_text("\n".join(svg) + "\n")
 
 

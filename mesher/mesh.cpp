@@ -214,9 +214,12 @@ MeshResult mesh(MeshProblem problem, const std::string& text, const Context& con
 }
 
 const std::vector<Quality>& quality_registry() {
-  // Longer annealing does not leave fewer irregular vertices if Q follows.
-  const auto best =
-      Options().set("curves.round_holes", true).set("recombination.settled", 0.05).set("cleanup.rounds", 10);
+  // Annealing for longer leaves as many irregular vertices once there is Q.
+  const auto best = Options()
+                        .set("curves.round_holes", true)
+                        .set("recombination.settled", 0.05)
+                        .set("cleanup.rounds", 10)
+                        .set("regularity.usual_quads", 4000LL);
   static const std::vector<Quality> registry = {
       {"fast", "DB", CrossKind::kBoundary},
       // Q and O move vertices after B, which need not settle before. Cavities are small and cost nothing.
@@ -226,10 +229,9 @@ const std::vector<Quality>& quality_registry() {
            .set("regularity.quads", 60)
            .set("regularity.rounds", 1)
            .set("regularity.tolerance", 0.0)
-           .set("regularity.across_curves", false)
            .set("repair.across_cuts", false)},
-      {"best", "DBCQO", CrossKind::kSizeAware, best},
-      {"regular", "DBCQRO", CrossKind::kSizeAware, best},
+      {"best", "DBCQRO", CrossKind::kSizeAware, best},
+      {"regular", "DBCQRO", CrossKind::kSizeAware, Options(best).set("regularity.weight", 3.0)},
   };
   return registry;
 }

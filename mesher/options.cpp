@@ -11,7 +11,6 @@
 
 #include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
-#include "algorithms/layout/layout.h"
 #include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
 #include "base/nearest_name.h"
@@ -26,9 +25,9 @@ namespace delquad {
 namespace {
 
 std::deque<OptionGroup>& groups() {
-  static std::deque<OptionGroup> all = {
-      curve_group(),      insertion_group(), smoothing_group(),    recombination_group(), cleanup_group(),
-      regularity_group(), layout_group(),    optimisation_group(), repair_group(),        limit_group()};
+  static std::deque<OptionGroup> all = {curve_group(),         insertion_group(), smoothing_group(),
+                                        recombination_group(), cleanup_group(),   regularity_group(),
+                                        optimisation_group(),  repair_group(),    limit_group()};
   return all;
 }
 

@@ -74,14 +74,13 @@ std::unique_ptr<ModelSteps> steps_of(const MeshProblem& problem, const RetryHint
   return kind.is_given ? given_surface_steps(problem) : surface_steps(problem, hints);
 }
 
-/// Returns options for a surface with large faces, in which the ends of rows lie far apart: of compounds and
-/// triangulations. Options that allow no cost stay, and so does a requested number of quads of cavities.
-Options for_large_faces(Options options) {
+/// Returns options by which an irregular vertex may cost more, in larger cavities. Options that allow no cost
+/// stay, and so does a requested number of quads of cavities.
+Options with_factor(Options options, double factor) {
   constexpr double kMostTolerance = 100;
-  const RegularityOptions regularity = regularity_options(options);
-  if (regularity.tolerance == 0 || regularity.joined == 1) return options;
   const double tolerance = options.number("regularity.tolerance");  // the weight comes later
-  options.set("regularity.tolerance", std::min(regularity.joined * tolerance, kMostTolerance));
+  if (tolerance == 0 || factor <= 1) return options;
+  options.set("regularity.tolerance", std::min(factor * tolerance, kMostTolerance));
   if (options.find("regularity.quads") == nullptr) options.set("regularity.quads", kFarQuads);
   return options;
 }
@@ -97,8 +96,6 @@ MeshingSetup run_model_steps(const MeshProblem& problem, ModelSteps& model) {
   p.metric_plane = problem.metric.plane;
   p.settings = {problem.name,       problem.where, problem.options, problem.max_elements,
                 problem.keep_going, problem.order, problem.criteria};
-  if (problem.surface.compounds != Compounds::kNone || std::holds_alternative<TriangleModel>(problem.model))
-    p.settings.options = for_large_faces(p.settings.options);
   const auto timed = [&](const char* time, const char* doing, void (ModelSteps::*step)(MeshingSetup&)) {
     const Stopwatch watch;
     const StageScope stage(doing);
@@ -108,6 +105,13 @@ MeshingSetup run_model_steps(const MeshProblem& problem, ModelSteps& model) {
   timed("read", "reading", &ModelSteps::read);
   if (model.is_surface()) timed("maps", "maps", &ModelSteps::flatten);
   timed("curves", "boundary", &ModelSteps::mesh_curves);
+  const bool has_large_faces =
+      problem.surface.compounds != Compounds::kNone || std::holds_alternative<TriangleModel>(problem.model);
+  // In large faces the ends of rows lie far apart.
+  p.settings.options =
+      with_factor(p.settings.options,
+                  has_large_faces ? kMostPriceFactor
+                                  : price_factor(regularity_options(problem.options), p.size.expected_quads));
   timed("fields", "fields", &ModelSteps::make_patches);
   return p;
 }

@@ -195,7 +195,6 @@ class SurfaceSteps final : public ModelSteps {
     surface_->domain = curves_by(*surface_->size, std::move(flattening_));
     put_layers_on(p);
     if (!p.unselected.empty()) leave_out(p);
-    surface_->is_retry = !hints_.spots.empty();
     surface_->model = std::move(model_);
     surface_->cad = cad_;
     surface_->metric = wanted_.metric;

@@ -303,22 +303,28 @@ void leave_out_unsound(const Word& word, MeshingSetup& prepared, MeshResult& res
   result.seconds = seconds;
 }
 
-void stay_within_patches(MeshingSetup& prepared) {
-  prepared.settings.options.set("regularity.across_curves", false);
+/// The word without layouts, whose gain is not worth an unsound mesh.
+Word without_layouts(const Word& word) {
+  Word other{"", {}, word.result};
+  for (const Stage* stage : word.stages) {
+    if (stage->letter == 'R') continue;
+    other.text += stage->letter;
+    other.stages.push_back(stage);
+  }
+  return other;
 }
 
-/// Meshes without cavities over curves if some were filled, since their gain is not worth an unsound mesh.
-void undo_across_curves(const Word& word, Budget& work, MeshingSetup& prepared, MeshResult& result) {
+/// Meshes without layouts where these changed an unsound mesh.
+void undo_layouts(const Word& plain, Budget& work, const MeshingSetup& prepared, MeshResult& result) {
   const Summaries& summaries = result.log.summaries;
-  if (!repair_options(prepared.settings.options).refine_unsound || !summaries.has("across_curves") ||
-      summaries.number("across_curves", "accepted") == 0)
+  if (!repair_options(prepared.settings.options).refine_unsound || !summaries.has("layouts_together") ||
+      summaries.number("layouts_together", "accepted") == 0)
     return;
-  stay_within_patches(prepared);
-  MeshResult run = run_pipeline(prepared, word);
+  MeshResult run = run_pipeline(prepared, plain);
   work.spend(work_on(prepared, run));
   run.seconds += result.seconds;
   add_times(result.log.times, run.log);
-  run.log.summaries.add(kRefining, {{"within_patches", 1LL}});
+  run.log.summaries.add(kRefining, {{"without_layouts", 1LL}});
   result = std::move(run);
 }
 
@@ -343,18 +349,14 @@ void refine_unsound(const PrepareWithHints& prepare_with_hints, const Word& word
                   most =
                       std::max(std::min(kLeastWork + kWorkPerQuad * quads, kUsualWork), kMostTimes * quads);
   Budget finer(most - once), others(most / 3);
-  undo_across_curves(word, finer, prepared, result);
-  const auto within_patches = [&prepare_with_hints](const RetryHints& hints) {
-    MeshingSetup anew = prepare_with_hints(hints);
-    stay_within_patches(anew);
-    return anew;
-  };
-  make_finer(within_patches, word, finer, prepared, result);
+  const Word plain = without_layouts(word);
+  undo_layouts(plain, finer, prepared, result);
+  make_finer(prepare_with_hints, plain, finer, prepared, result);
   others.spend(std::max(-finer.left(), 0LL));
   if (!result.soundness.sound() && once < others.left())
-    leave_out_small(within_patches, word, others, prepared, result);
-  if (!result.soundness.sound()) take_fallback(within_patches, word, others, prepared, result);
-  if (!result.soundness.sound()) leave_out_unsound(word, prepared, result);
+    leave_out_small(prepare_with_hints, plain, others, prepared, result);
+  if (!result.soundness.sound()) take_fallback(prepare_with_hints, plain, others, prepared, result);
+  if (!result.soundness.sound()) leave_out_unsound(plain, prepared, result);
 }
 
 }  // namespace delquad

@@ -265,7 +265,6 @@ void run_stage(const Stage& stage, const MeshingSetup& prepared, PipelineState& 
   const StageScope running(stage.name.c_str());
   run_on_patches(stage, state.now(prepared), state);
   if (stage.letter == 'R' && prepared.surface) run_joint_layouts(state.now(prepared), state);
-  if (stage.fills_cavities && prepared.surface) run_across_curves(state.now(prepared), state);
   run_on_all(stage, state.now(prepared), state);
   state.seconds += watch.seconds();
 }

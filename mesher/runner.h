@@ -38,11 +38,8 @@ struct PipelineState {
 };
 /// Returns the state before the first stage. `prepared` must outlive it.
 PipelineState begin_meshing(const MeshingSetup& prepared);
-/// Fills cavities over curves of a surface, see make_regular_across_curves(). Nodes on curves change, and
-/// state.other with them.
-void run_across_curves(const MeshingSetup& prepared, PipelineState& state);
-/// Replaces the layouts of patches of a surface, with other numbers of edges on curves, see
-/// lay_out_jointly().
+/// Lays all patches of a surface out anew, with other numbers of edges on curves, where that is better.
+/// Nodes on curves change, and state.other with them.
 void run_joint_layouts(const MeshingSetup& prepared, PipelineState& state);
 /// Returns whether the patch is on both sides of one of its curves, and two of its quads have the same four
 /// nodes. These are two quads around a tube.

@@ -172,23 +172,11 @@ void fill_cavities(const StageInput& in, PatchMesh& patch, StageLog& log) {
   reduce_irregular(make_regular, regularity_options(in.options), "regularity", in, patch, log);
 }
 
-/// Meshes a patch by a layout; by D and B if it has none, or if the layout closes too tightly.
-void lay_out_or_insert(const StageInput& in, PatchMesh& patch, StageLog& log) {
-  log_step<LayoutSummary>(log, "layout", [&](LayoutSummary& summary) {
-    auto mesh = lay_out(in.boundary, in.cross, in.size, layout_options(in.options), &summary);
-    if (mesh && has_duplicate_quads(*mesh, in.boundary.point_node)) mesh = std::nullopt, summary.without = 1;
-    if (mesh) patch.quads = *std::move(mesh), patch.form = PatchForm::kQuads;
-  });
-  if (patch.form == PatchForm::kQuads) return;
-  insert_points(mesh_delquad, *make_linf_delquad(), in, patch, log);
-  merge_triangles(in, patch, log);
-}
-
 void lay_out_where_better(const StageInput& in, PatchMesh& patch, StageLog& log) {
   if (count_irregular(patch.quads) == 0 || !patch.quads.triangles.empty()) return;
   log_step<LayoutSummary>(log, "layout", [&](LayoutSummary& summary) {
-    auto mesh =
-        more_regular(patch.quads, in.boundary, in.cross, in.size, layout_options(in.options), &summary);
+    auto mesh = more_regular(patch.quads, in.boundary, in.cross, in.size,
+                             regularity_options(in.options).tolerance, &summary);
     if (mesh && has_duplicate_quads(*mesh, in.boundary.point_node)) mesh = std::nullopt, summary.worse = 1;
     if (mesh) patch.quads = *std::move(mesh);
   });
@@ -353,15 +341,8 @@ std::deque<Stage>& stages() {
       {'B', "recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_triangles},
       {'G', "greedy recombination", PatchForm::kTriangles, PatchForm::kQuads, merge_and_treat, {}, true},
       {'T', "L-infinity adaptation", PatchForm::kTriangles, PatchForm::kQuads, adapt_and_merge, {}, true},
-      {'K', "layout", PatchForm::kBoundary, PatchForm::kQuads, lay_out_or_insert},
-      {'R',
-       "layout where that is better",
-       PatchForm::kQuads,
-       PatchForm::kQuads,
-       lay_out_where_better,
-       {},
-       false,
-       true},
+      // On surfaces run_joint_layouts() follows.
+      {'R', "layouts", PatchForm::kQuads, PatchForm::kQuads, lay_out_where_better, {}, false, true},
       {'C', "topological clean-up", PatchForm::kQuads, PatchForm::kQuads, clean_up_quads},
       {'Q', "regularity", PatchForm::kQuads, PatchForm::kQuads, fill_cavities, {}, false, true},
       {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, untangle_quads, optimise_quads},

@@ -22,7 +22,7 @@ namespace delquad {
 
 namespace {
 
-// Prices are in irregular vertices; each of these costs the tolerance.
+// Prices are in irregular vertices.
 
 /// Price of an open sum, for each missing edge, and of a polygon without a star.
 constexpr double kOpenSumPrice = 1, kMissingEdgePrice = 0.5, kNoStarPrice = 2;
@@ -33,15 +33,15 @@ constexpr double kFreeEdgePrice = 0.3, kRowsThatFollow = 2;
 constexpr double kSizePrice = 1.5 / 2, kAffectedPart = 0.5;
 /// Price of a forbidden choice.
 constexpr double kForbiddenPrice = 1e6;
-/// Prices of an open sum, in tolerances, one after the other.
-constexpr double kOpenSumFactors[] = {1, 3};
+/// Factor of the price of an open sum: groups lose less than predicted.
+constexpr double kOpenSumFactor = 2;
 /// Limits of agree_counts(): steps, and patches in one of its searches.
-constexpr long long kMostSteps = 500'000;
+constexpr long long kMostSteps = 50'000;
 constexpr int kMostLooks = 100;
-/// Limit of choices of numbers at each price.
+/// Rounds of annealing in a candidate.
+constexpr int kCleanupRounds = 10;
+/// Limit of choices of numbers.
 constexpr int kMostRounds = 8;
-/// Limit of examined pieces of a patch.
-constexpr int kMostPieces = 600;
 /// Least eta of quads, unless they were worse before.
 constexpr double kLeastEta = 0.3;
 
@@ -190,9 +190,9 @@ class NumberProblem {
 
 class JointLayout {
  public:
-  JointLayout(LayoutNetwork& network, const LayoutOptions& options)
+  JointLayout(LayoutNetwork& network, double price)
       : network_(network),
-        options_(options),
+        price_(price),
         n_(network.patches.size()),
         layouts_(n_),
         score_(n_),
@@ -203,18 +203,15 @@ class JointLayout {
     std::vector<int> curves;
     for (const LayoutCurve& c : network_.curves) curves.push_back(c.edges);
     for_each_patch([&](std::size_t p) { begin(p); });
-    for (const double times : kOpenSumFactors) {
-      stays_ = takes_no_part_;
-      for (int round = 0; round < kMostRounds; ++round) {
-        Budget steps(kMostSteps);
-        const Numbers numbers =
-            NumberProblem(network_, layouts_, stays_, times * options_.tolerance).solve(steps);
-        ++summary_.chosen;
-        for_each_patch([&](std::size_t p) {
-          if (!stays_[p]) make_candidate(p, numbers);
-        });
-        if (choose(numbers)) break;
-      }
+    stays_ = takes_no_part_;
+    for (int round = 0; round < kMostRounds; ++round) {
+      Budget steps(kMostSteps);
+      const Numbers numbers = NumberProblem(network_, layouts_, stays_, kOpenSumFactor * price_).solve(steps);
+      ++summary_.chosen;
+      for_each_patch([&](std::size_t p) {
+        if (!stays_[p]) make_candidate(p, numbers);
+      });
+      if (choose(numbers)) break;
     }
     for (const LayoutPatch& patch : network_.patches) summary_.patches += patch.changed;
     for (const auto& candidate : candidates_) summary_.filled += candidate.filled;
@@ -245,10 +242,7 @@ class JointLayout {
     takes_no_part_[p] = patch.cross == nullptr;
     if (takes_no_part_[p]) return;
     score_[p] = PatchScore::of(patch.mesh, *patch.size);
-    LayoutOptions few = options_;
-    few.pieces = std::min(few.pieces, kMostPieces);
-    LayoutSummary own;
-    if (auto layout = find_layout(patch.boundary, *patch.cross, *patch.size, LayoutEdges::kFree, few, own))
+    if (auto layout = find_layout(patch.boundary, *patch.cross, *patch.size, LayoutEdges::kFree))
       set_layout(p, *std::move(layout));
   }
 
@@ -277,26 +271,28 @@ class JointLayout {
       if (!mesh.triangles.empty() || !score_[p].keeps_worst(score, kLeastEta) ||
           !network_.is_allowed(mesh, *boundary))
         return;
-      const double cost =
-          score_[p].loss(score) - options_.tolerance * (score_[p].irregular - score.irregular);
+      const double cost = score_[p].loss(score) - price_ * (score_[p].irregular - score.irregular);
       if (best.mesh && cost >= best.cost) return;
       best.cost = cost, best.mesh = std::move(mesh), best.score = score;
     };
     if (boundary && layouts_[p]) {
-      LayoutSummary own;
       const PatchLayout layout = layouts_[p]->with(numbers.arcs[p], *boundary, *patch.size);
-      if (const auto mesh = fill_layout(layout, *boundary, *patch.cross, *patch.size, options_, own))
-        consider(make_regular(*mesh, *patch.size));
+      if (const auto mesh = fill_layout(layout, *boundary, *patch.cross, *patch.size))
+        consider(by_cavities(*mesh, patch));
     }
     if (boundary && best.moved && best.cost > 0) consider(by_front(patch, *boundary));
     if (boundary) best.boundary = *boundary;
     now = std::move(best);
   }
 
+  static QuadPatch by_cavities(const QuadPatch& mesh, const LayoutPatch& patch) {
+    return make_regular(mesh, *patch.size, {.rounds = 1});
+  }
   static QuadPatch by_front(const LayoutPatch& patch, const PatchBoundary& boundary) {
     const TriPatch triangles = mesh_delquad(boundary, *make_linf_delquad(), *patch.cross, *patch.size);
     const QuadPatch merged = recombine(triangles, *make_primal_dual_solver());
-    return make_regular(clean_up(treat_paper(merged, *patch.size), *patch.size), *patch.size);
+    return by_cavities(clean_up(treat_paper(merged, *patch.size), *patch.size, {.rounds = kCleanupRounds}),
+                       patch);
   }
 
   /// Takes worthwhile groups. Returns false if a patch of each other group keeps its curves from now on.
@@ -349,7 +345,7 @@ class JointLayout {
   }
 
   LayoutNetwork& network_;
-  const LayoutOptions& options_;
+  double price_;
   std::size_t n_;
   std::vector<std::optional<LayoutArcs>> layouts_;  ///< layout of each patch, if it has one
   std::vector<PatchScore> score_;                   ///< worth of its mesh
@@ -360,9 +356,9 @@ class JointLayout {
 
 }  // namespace
 
-JointLayoutSummary lay_out_jointly(LayoutNetwork& network, const LayoutOptions& options) {
+JointLayoutSummary lay_out_jointly(LayoutNetwork& network, double price) {
   const Stopwatch watch;
-  JointLayoutSummary summary = JointLayout(network, options).run();
+  JointLayoutSummary summary = JointLayout(network, price).run();
   summary.seconds = watch.seconds();
   return summary;
 }

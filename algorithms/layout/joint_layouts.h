@@ -77,9 +77,9 @@ struct Counters<JointLayoutSummary> {
 /// new numbers on its curves may also be meshed by D, B, C and Q if that is better.
 ///
 /// Patches connected by such curves form a group. A group is taken if its loss for each removed irregular
-/// vertex is below the tolerance (see more_regular()). An eta of 0.3 is enough for quads, since O moves nodes
-/// along curves. Otherwise its most expensive patch keeps its curves, and numbers are chosen again. An open
-/// sum first costs the tolerance, then more, to find groups with a smaller loss than predicted.
-JointLayoutSummary lay_out_jointly(LayoutNetwork& network, const LayoutOptions& options);
+/// vertex (PatchScore::loss()) is below the `price`, in quads times eta. An eta of 0.3 is enough for quads,
+/// since O moves nodes along curves. Otherwise its most expensive patch keeps its curves, and numbers are
+/// chosen again.
+JointLayoutSummary lay_out_jointly(LayoutNetwork& network, double price);
 
 }  // namespace delquad

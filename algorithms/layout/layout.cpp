@@ -21,7 +21,6 @@
 #include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
 #include "base/cancel.h"
-#include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "delquad/error.h"
 #include "geometry/mesh/quad_corners.h"
@@ -57,9 +56,10 @@ constexpr int kFewCorners = 8;
 constexpr std::size_t kMostStarts = 160;
 /// For a piece without a pattern: irregular vertices for each vertex of its rim, and loss of a quad.
 constexpr double kMixedPerVertex = 0.1, kMixedLoss = 0.15;
-/// If quads exist: limit of examined pieces, and cost of one more failing quad. With 2000 pieces a layout
-/// takes four times as long and leaves as many irregular vertices.
-constexpr int kFewPieces = 40;
+/// Limits of examined pieces of a patch. With 2000 counted pieces a layout takes four times as long and
+/// leaves as many irregular vertices.
+constexpr int kMostCountedPieces = 40, kMostFreePieces = 200;
+/// Cost of one more failing quad.
 constexpr double kFailing = 0.4;
 /// Sweeps of relocation, first without lengths, and the part of an edge that counts as no move.
 constexpr int kSweeps = 60;
@@ -68,14 +68,8 @@ constexpr double kRelaxed = 0.02;
 class LayoutSearch {
  public:
   LayoutSearch(const PatchBoundary& boundary, const CrossField& cross, const ParametricSize& size,
-               const LayoutOptions& options, LayoutSummary& summary,
                LayoutEdges edges = LayoutEdges::kCounted)
-      : boundary_(boundary),
-        cross_(cross),
-        size_(size),
-        options_(options),
-        summary_(summary),
-        edges_(edges) {}
+      : boundary_(boundary), cross_(cross), size_(size), edges_(edges) {}
 
   /// Returns the necessary number of irregular vertices, by Euler's formula.
   int necessary() {
@@ -122,8 +116,6 @@ class LayoutSearch {
         mesh.quads.push_back(quad);
       }
     }
-    summary_.pieces += static_cast<int>(layout.pieces.size());
-    summary_.cuts += static_cast<int>(layout.pieces.size()) - 1;
     return relaxed(mesh);
   }
 
@@ -369,7 +361,6 @@ class LayoutSearch {
     QuadPatch mesh = recombine(triangles, *make_primal_dual_solver());
     mesh = make_regular(treat_paper(mesh, size_), size_);
     if (!mesh.triangles.empty()) throw InputError("a piece of a layout has triangles");
-    ++summary_.mixed;
     return {{mesh.points.begin() + n, mesh.points.end()}, std::move(mesh.quads)};
   }
 
@@ -396,7 +387,7 @@ class LayoutSearch {
 
   std::optional<Solution> solve(const Rim& rim, int level) {
     check_cancelled();
-    if (++summary_.looks > options_.pieces) return mixed(rim);
+    if (++looks_ > (is_free() ? kMostFreePieces : kMostCountedPieces)) return mixed(rim);
     const int corners = corners_of(rim);
     std::optional<Solution> best;
     if (is_polygon(rim)) best = by_pattern(rim);
@@ -468,9 +459,8 @@ class LayoutSearch {
   const PatchBoundary& boundary_;
   const CrossField& cross_;
   const ParametricSize& size_;
-  LayoutOptions options_;
-  LayoutSummary& summary_;
   LayoutEdges edges_;
+  int looks_ = 0;  ///< examined pieces
   LayoutVertices vertices_;
 };
 
@@ -497,16 +487,14 @@ bool PatchScore::keeps_worst(const PatchScore& now, double eta) const {
 }
 
 std::optional<PatchLayout> find_layout(const PatchBoundary& boundary, const CrossField& cross,
-                                       const ParametricSize& size, LayoutEdges edges,
-                                       const LayoutOptions& options, LayoutSummary& summary) {
-  return LayoutSearch(boundary, cross, size, options, summary, edges).find();
+                                       const ParametricSize& size, LayoutEdges edges) {
+  return LayoutSearch(boundary, cross, size, edges).find();
 }
 
 std::optional<QuadPatch> fill_layout(const PatchLayout& layout, const PatchBoundary& boundary,
-                                     const CrossField& cross, const ParametricSize& size,
-                                     const LayoutOptions& options, LayoutSummary& summary) {
+                                     const CrossField& cross, const ParametricSize& size) {
   try {
-    return LayoutSearch(boundary, cross, size, options, summary).fill(layout);
+    return LayoutSearch(boundary, cross, size).fill(layout);
   } catch (const InputError&) {
     // A piece is no polygon in the plane, so there is no such layout.
   } catch (const std::invalid_argument&) {
@@ -515,68 +503,29 @@ std::optional<QuadPatch> fill_layout(const PatchLayout& layout, const PatchBound
   return std::nullopt;
 }
 
-std::optional<QuadPatch> lay_out(const PatchBoundary& boundary, const CrossField& cross,
-                                 const ParametricSize& size, const LayoutOptions& options,
-                                 LayoutSummary* summary) {
-  const Stopwatch watch;
-  LayoutSummary own;
-  own.patches = 1;
-  std::optional<QuadPatch> mesh;
-  if (const auto layout = find_layout(boundary, cross, size, LayoutEdges::kCounted, options, own))
-    mesh = fill_layout(*layout, boundary, cross, size, options, own);
-  own.without = mesh ? 0 : 1;
-  if (mesh) own.irregular = count_irregular(*mesh);
-  own.seconds = watch.seconds();
-  if (summary != nullptr) *summary = own;
-  return mesh;
-}
-
 std::optional<QuadPatch> more_regular(const QuadPatch& mesh, const PatchBoundary& boundary,
-                                      const CrossField& cross, const ParametricSize& size,
-                                      const LayoutOptions& options, LayoutSummary* summary) {
+                                      const CrossField& cross, const ParametricSize& size, double price,
+                                      LayoutSummary* summary) {
   const Stopwatch watch;
-  LayoutSummary own;
-  own.patches = own.worse = 1;
-  const int irregular = count_irregular(mesh);
+  LayoutSummary own{.patches = 1, .irregular = count_irregular(mesh)};
   std::optional<QuadPatch> found;
-  if (irregular > LayoutSearch(boundary, cross, size, options, own).necessary()) {
-    LayoutOptions few = options;
-    few.pieces = std::min(options.pieces, kFewPieces);
-    found = lay_out(boundary, cross, size, few, &own);
+  if (own.irregular > LayoutSearch(boundary, cross, size).necessary()) {
+    if (const auto layout = find_layout(boundary, cross, size, LayoutEdges::kCounted))
+      found = fill_layout(*layout, boundary, cross, size);
+    own.without = found ? 0 : 1;
   }
   if (found) {
     found = make_regular(*found, size);
     const PatchScore before = PatchScore::of(mesh, size), now = PatchScore::of(*found, size);
     const int fewer = before.irregular - now.irregular;
-    if (fewer <= 0 || before.loss(now) >= options.tolerance * fewer ||
-        !before.keeps_worst(now, kCleanupFloorEta))
-      found.reset(), own.worse = 1;
+    if (fewer <= 0 || before.loss(now) >= price * fewer || !before.keeps_worst(now, kCleanupFloorEta))
+      found.reset();
   }
-  if (!found) own.irregular = irregular;
+  if (found) own.irregular = count_irregular(*found);
+  own.worse = found || own.without == 1 ? 0 : 1;
   own.seconds = watch.seconds();
   if (summary != nullptr) *summary = own;
   return found;
-}
-
-namespace {
-
-const OptionTable<LayoutOptions>& table() {
-  static const auto all = OptionTable<LayoutOptions>("layout", "options of K and R")
-                              .add({.name = "tolerance",
-                                    .help = "price of an irregular vertex in R, in quads times eta",
-                                    .least = 0,
-                                    .most = 1e9},
-                                   &LayoutOptions::tolerance);
-  return all;
-}
-
-}  // namespace
-
-OptionGroup layout_group() { return table().group(); }
-LayoutOptions layout_options(const Options& options) {
-  LayoutOptions read = table().read(options);
-  read.tolerance *= regularity_options(options).weight;
-  return read;
 }
 
 }  // namespace delquad

@@ -110,19 +110,14 @@ class CavitySearch {
   Cavity& cavity() { return cavity_; }
   const Cavity& cavity() const { return cavity_; }
 
-  /// Calls consider() for the cavity of start(), for it with each near irregular vertex, and for it with the
-  /// nearest two, three and so on. A false start() has no cavity.
-  template <class Start, class F>
-  void grow(std::span<const int> sources, int most_quads, Start&& start, F&& consider) {
-    find_near(sources, most_quads, [](int) {});
-    grow(most_quads, start, consider);
-  }
-  /// Does the same from the sources of the last find_near().
-  template <class Start, class F>
-  void grow(int most_quads, Start&& start, F&& consider) {
+  /// Calls consider() for the cavity around a vertex. Does so with each near irregular vertex, too, and with
+  /// the nearest two, three and so on.
+  template <class F>
+  void grow(int v, int most_quads, F&& consider) {
+    find_near(v, most_quads);
     const auto begin = [&] {
       cavity_.begin(most_quads);
-      return start();
+      return cavity_.add_around(v);
     };
     if (begin()) consider();
     for (std::size_t j = 0; j < near_.size(); ++j) {
@@ -134,20 +129,20 @@ class CavitySearch {
     }
   }
 
-  /// Adds the quads around `from`, which find_near() met, and around the path to its source.
-  bool add_path(int from);
   /// Adds the quads around the rim of the closed cavity.
   bool add_ring();
-  /// Finds irregular vertices near the sources, nearest first, in steps from vertex to vertex through quads.
-  /// It visits at most kMostMet * most_quads vertices, and calls each() for all of them.
-  template <class F>
-  void find_near(std::span<const int> sources, int most_quads, F&& each) {
+
+ private:
+  /// Adds the quads around `from`, which find_near() met, and around the path to its source.
+  bool add_path(int from);
+  /// Finds irregular vertices near a vertex, nearest first, in steps from vertex to vertex through quads.
+  /// It visits at most kMostMet * most_quads vertices.
+  void find_near(int source, int most_quads) {
     near_.clear();
     met_.begin(mesh_.vertex_slots());
     from_.resize(mesh_.vertex_slots());
-    std::vector<int> queue;
-    for (const int v : sources)
-      if (met_.meet(v)) from_[v] = v, queue.push_back(v);
+    std::vector<int> queue{source};
+    met_.meet(source), from_[source] = source;
     const std::size_t most = kMostMet * static_cast<std::size_t>(most_quads);
     for (std::size_t i = 0; i < queue.size() && queue.size() < most; ++i) {
       const int at = queue[i];
@@ -155,7 +150,6 @@ class CavitySearch {
         if (mesh_.held(w) || !met_.meet(w)) return;
         from_[w] = at;
         queue.push_back(w);
-        each(w);
         if (energy_.of(w) > 0) near_.push_back(w);
       };
       mesh_.for_each_out(at, [&](int h) {
@@ -168,11 +162,10 @@ class CavitySearch {
     if (near_.size() > kNear) near_.resize(kNear);
   }
 
- private:
   const QuadTopology& mesh_;
   const ValenceEnergy& energy_;
   Cavity cavity_;
-  std::vector<int> near_;  ///< irregular vertices near the sources, nearest first
+  std::vector<int> near_;  ///< irregular vertices near the source, nearest first
   std::vector<int> from_;  ///< by met vertex: its predecessor in the search
   Marks met_;
 };

@@ -89,35 +89,23 @@ void FillTrial::sweep() {
   for (const int v : region) relocation_.step(v);
 }
 
-bool settle(std::span<FillTrial> trials, double allowed, int more_failing, double& loss, long long& tried) {
-  const double floor = sine_of_eta(kCleanupFloorEta);
-  double n = 0;
-  for (const FillTrial& trial : trials) n += trial.before.n;
-  const double hopeless = allowed + kHopelessLoss / std::sqrt(n);
-  double last_loss = 0;
-  std::vector<double> last_sine(trials.size(), 0);
+bool settle(FillTrial& trial, double allowed, double& loss, long long& tried) {
+  const FillTrial::Quality& before = trial.before;
+  const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
+  const double hopeless = allowed + kHopelessLoss / std::sqrt(before.n);
+  double last_loss = 0, last_sine = 0;
   for (int sweep = 0; sweep <= kFillSweeps; ++sweep) {
     if (sweep == 1) ++tried;
-    bool is_good = true, is_stuck = false;
-    int failing = 0;
-    loss = 0;
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      FillTrial& trial = trials[i];
-      if (sweep > 0) trial.sweep();
-      const FillTrial::Quality after = trial.quality(), &before = trial.before;
-      const double least = std::min(before.least_sine, floor);
-      loss += before.n / n * (before.mean - after.mean);
-      failing += std::max(0, after.failing - before.failing);
-      is_good = is_good && after.least_sine >= least && after.thin <= before.thin &&
-                after.crowding <= before.crowding;
-      is_stuck = is_stuck || is_slow(after.least_sine - last_sine[i], least - after.least_sine);
-      last_sine[i] = after.least_sine;
-    }
-    if (is_good && failing <= more_failing && loss <= allowed) return true;
+    if (sweep > 0) trial.sweep();
+    const FillTrial::Quality after = trial.quality();
+    loss = before.mean - after.mean;
+    if (after.least_sine >= least && after.thin <= before.thin && after.crowding <= before.crowding &&
+        after.failing <= before.failing && loss <= allowed)
+      return true;
     if (loss > hopeless) return false;
     if (sweep > 2 && is_slow(last_loss - loss, loss - allowed)) return false;
-    if (sweep > 2 && is_stuck) break;
-    last_loss = loss;
+    if (sweep > 2 && is_slow(after.least_sine - last_sine, least - after.least_sine)) break;
+    last_loss = loss, last_sine = after.least_sine;
   }
   // A larger allowed loss would not make a corner better.
   if (loss <= allowed) loss = std::numeric_limits<double>::infinity();

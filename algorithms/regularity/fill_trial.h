@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "algorithms/regularity/cavity.h"
@@ -10,7 +9,7 @@
 #include "geometry/mesh/quad_topology.h"
 #include "smoothing/relocation/quad_relocation.h"
 
-// This header tries fills of cavities. Stage Q, in patches and across curves, uses it.
+// This header tries fills of cavities. Stage Q uses it.
 
 namespace delquad {
 
@@ -62,9 +61,8 @@ class FillTrial {
   Marks elements_met_, vertices_met_;
 };
 
-/// Relocates cavities that are filled together. Returns whether the loss of mean quality falls to `allowed`,
-/// with at most `more_failing` more failing quads. `loss` gets the loss; infinity if corners fail at an
-/// allowed loss. `tried` grows unless the start suffices.
-bool settle(std::span<FillTrial> trials, double allowed, int more_failing, double& loss, long long& tried);
+/// Relocates a filled cavity. Returns whether the loss of the mean falls to `allowed`, without more failing
+/// quads. `tried` grows unless that holds from the start.
+bool settle(FillTrial& trial, double allowed, double& loss, long long& tried);
 
 }  // namespace delquad

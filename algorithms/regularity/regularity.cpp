@@ -97,8 +97,7 @@ class RegularityProcess {
   void visit(int v) {
     check_cancelled();
     candidates_.clear();
-    search_.grow(
-        std::span(&v, 1), options_.quads, [&] { return cavity_.add_around(v); }, [&] { consider(); });
+    search_.grow(v, options_.quads, [&] { consider(); });
     std::ranges::sort(candidates_, std::less<>());
     const long long tried = summary_.tried;
     for (Candidate& candidate : candidates_) {
@@ -175,8 +174,7 @@ class RegularityProcess {
     trial_.region.insert(trial_.region.begin(), inside.begin(), inside.end());
     trial_.collect_elements();
     double loss = 0;
-    if (settle(std::span(&trial_, 1), tolerance_ * candidate.gain / trial_.before.n, 0, loss,
-               summary_.tried)) {
+    if (settle(trial_, tolerance_ * candidate.gain / trial_.before.n, loss, summary_.tried)) {
       ++summary_.accepted;
       summary_.grids += candidate.pattern->kind == Pattern::kGrid ? 1 : 0;
       return true;
@@ -223,7 +221,7 @@ namespace {
 
 const OptionTable<RegularityOptions>& table() {
   static const auto all =
-      OptionTable<RegularityOptions>("regularity", "options of Q")
+      OptionTable<RegularityOptions>("regularity", "options of Q and R")
           .add({.name = "tolerance",
                 .help = "price of an irregular vertex, in quads times eta",
                 .least = 0,
@@ -234,24 +232,24 @@ const OptionTable<RegularityOptions>& table() {
           .add({.name = "rounds", .help = "over which the tolerance grows", .least = 1, .most = 1000},
                &RegularityOptions::rounds)
           .add({.name = "weight",
-                .help = "weight of irregular vertices against sizes: factor of curves.agreement, "
-                        "regularity.tolerance and layout.tolerance",
+                .help = "weight of irregular vertices against sizes: factor of curves.agreement and "
+                        "regularity.tolerance",
                 .least = 0,
                 .most = 1000},
                &RegularityOptions::weight)
-          .add({.name = "across_curves",
-                .help = "on surfaces: whether cavities go over curves, and change their numbers of edges"},
-               &RegularityOptions::across_curves)
-          .add({.name = "joined",
-                .help = "factor of the tolerance on compounds and triangulations, with cavities of up to "
-                        "1000 quads; 1: no change",
-                .least = 1,
-                .most = 100},
-               &RegularityOptions::joined);
+          .add({.name = "usual_quads",
+                .help = "beyond so many quads, prices of irregular vertices grow with their number, up to "
+                        "fourfold, with cavities of up to 1000 quads; 0: never",
+                .least = 0},
+               &RegularityOptions::usual_quads);
   return all;
 }
 
 }  // namespace
+
+double price_factor(const RegularityOptions& options, double quads) {
+  return options.usual_quads > 0 ? std::clamp(quads / options.usual_quads, 1.0, kMostPriceFactor) : 1;
+}
 
 OptionGroup regularity_group() { return table().group(); }
 

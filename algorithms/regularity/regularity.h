@@ -16,13 +16,16 @@ struct RegularityOptions {
   int quads = 200;       ///< most quads of a cavity
   int rounds = 3;        ///< rounds in which the tolerance grows
   double weight = 1;     ///< factor for the tolerances of all stages
-  bool across_curves = true;  ///< for surfaces, see make_regular_across_curves()
-  double joined = 4;          ///< factor for the tolerance of compounds and triangulations
+  int usual_quads = 0;   ///< beyond them prices grow with the number of quads; 0: they do not
 };
 
 OptionGroup regularity_group();
 /// Returns the options, with the tolerance multiplied by the weight.
 RegularityOptions regularity_options(const Options& options);
+/// Largest factor of a price.
+inline constexpr double kMostPriceFactor = 4;
+/// Returns the factor of all prices in a mesh of so many quads. A finer mesh then ends no more rows.
+double price_factor(const RegularityOptions& options, double quads);
 
 struct RegularitySummary {
   int irregular_before = 0;  ///< vertices whose valence is not ideal

@@ -62,7 +62,6 @@ struct SurfaceSetup {
   std::shared_ptr<const MirroredSurface> mirrored;  ///< of symmetric ones, of which `model` is a part
   std::shared_ptr<const WholeSurface> full_model;   ///< that; null: `model` is the whole
   std::optional<GivenEntities> given;               ///< of a GivenMesh
-  bool is_retry = false;                            ///< with smaller sizes, as its mesh was not sound
   std::shared_ptr<const SurfaceModel> cad;          ///< as it was read; null of other models
   std::shared_ptr<const OppositeSides> opposite;    ///< of thin bodies with a mid-surface; null: none
 

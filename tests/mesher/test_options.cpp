@@ -45,7 +45,6 @@ TEST(OptionValues, WhereFacesAreJoinedRegularityMayCostMore) {
   };
   EXPECT_EQ(tolerance(Compounds::kNone, {}), 3);
   EXPECT_EQ(tolerance(Compounds::kAll, {}), 12);
-  EXPECT_EQ(tolerance(Compounds::kAll, Options{}.set("regularity.joined", 1)), 3);
   EXPECT_EQ(tolerance(Compounds::kAll, quality_named("good").options), 0);
   EXPECT_EQ(tolerance(Compounds::kAll, Options{}.set("regularity.weight", 2)), 12) << "it counts once, later";
   EXPECT_EQ(prepare_problem(problem_of(TriangleModel{can(12, 4)}, 0.5), {})
@@ -53,6 +52,17 @@ TEST(OptionValues, WhereFacesAreJoinedRegularityMayCostMore) {
             12);
   EXPECT_EQ(prepared(Compounds::kAll, {}).integer("regularity.quads"), 1000);
   EXPECT_EQ(prepared(Compounds::kAll, Options{}.set("regularity.quads", 50)).integer("regularity.quads"), 50);
+}
+
+TEST(OptionValues, InAFineMeshRegularityMayCostAsManyTimesMore) {
+  MeshProblem problem;
+  for (const int usual : {0, 10, 100, 1000}) {
+    problem.options.set("regularity.usual_quads", usual);
+    const auto prepared = prepare_surface(problem, cylinder(12, 4, 1, 2), make_constant_size(0.2));
+    ASSERT_GT(prepared.size.expected_quads, 200);
+    const double times = usual > 0 ? std::clamp(prepared.size.expected_quads / usual, 1.0, 4.0) : 1;
+    EXPECT_NEAR(prepared.settings.options.number("regularity.tolerance"), 3 * times, 1e-9) << usual;
+  }
 }
 
 TEST(OptionValues, AWholeNumberWillDoForANumber) {

@@ -139,7 +139,7 @@ TEST_P(ScansOf, LargeFacesPayMoreForRegularity) {
     return result.metrics.values.at("n_irregular");
   };
   const double now = irregular();
-  problem.options.set("regularity.joined", 1);
+  problem.options.set("regularity.tolerance", 0.75).set("regularity.quads", 200);
   EXPECT_LT(now, irregular());
 }
 

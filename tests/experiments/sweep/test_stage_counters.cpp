@@ -4,7 +4,7 @@
 #include "algorithms/finish/separate_duplicates.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/linf_adaptation.h"
-#include "algorithms/layout/layout.h"
+#include "algorithms/layout/joint_layouts.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
@@ -27,9 +27,10 @@ namespace {
 template <class... Summaries>
 struct Types {};
 /// The summaries of all steps.
-using AllSummaries = Types<FrontalSummary, AdaptationSummary, RecombineSummary, SmoothingSummary,
-                           TreatmentSummary, CleanupSummary, RegularitySummary, LayoutSummary,
-                           OptimisationSummary, SeparationSummary, LiftingSummary, FailingRepairSummary>;
+using AllSummaries =
+    Types<FrontalSummary, AdaptationSummary, RecombineSummary, SmoothingSummary, TreatmentSummary,
+          CleanupSummary, RegularitySummary, LayoutSummary, JointLayoutSummary, OptimisationSummary,
+          SeparationSummary, LiftingSummary, FailingRepairSummary>;
 
 template <class Visit, class... All>
 void for_each_summary(Types<All...>, Visit&& visit) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "algorithms/regularity/across_curves.h"
 #include "algorithms/layout/joint_layouts.h"
 
 #include <algorithm>
@@ -7,11 +6,10 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "base/activity.h"
+#include "algorithms/regularity/regularity.h"
 #include "base/stopwatch.h"
 #include "geometry/patches/surface_curves.h"
 #include "mesher/runner.h"
@@ -45,73 +43,12 @@ std::vector<char> patches_that_may_change(const MeshingSetup& prepared, const Pi
   return may;
 }
 
-/// Finds places of curves in the planes of patches.
-class CurvesInPatches {
- public:
-  explicit CurvesInPatches(const SurfaceDomain& domain) : domain_(domain), sides_(domain.patches.size()) {
-    for (std::size_t p = 0; p < domain.patches.size(); ++p)
-      for (const auto& loop : domain.patches[p].outline)
-        for (const CurveSide& side : loop) {
-          auto& of_chain = sides_[p][side.chain];
-          of_chain.resize(domain.chains[side.chain].points.size() - 1);
-          of_chain[side.line] = &side;
-        }
-  }
-  Vec2 at(int patch, int chain, double s) const {
-    const auto& of_chain = sides_[patch].at(chain);
-    const int line = std::clamp(static_cast<int>(s), 0, static_cast<int>(of_chain.size()) - 1);
-    const CurveSide& side = *of_chain[line];
-    const auto& points = domain_.patches[patch].map.flat.points;
-    const double t = side.forward ? s - line : line + 1 - s;
-    return points[side.from] + t * (points[side.to] - points[side.from]);
-  }
+/// Parameters of the nodes of each curve, ascending.
+using CurvePlaces = std::vector<std::vector<double>>;
 
- private:
-  const SurfaceDomain& domain_;
-  /// The sides of each patch by chain, one for each of its lines.
-  std::vector<std::unordered_map<int, std::vector<const CurveSide*>>> sides_;
-};
-
-CurveNetwork network_of(const MeshingSetup& prepared, const PipelineState& state) {
-  const SurfaceDomain& domain = prepared.surface->domain;
-  const std::vector<char> may_change = patches_that_may_change(prepared, state);
-  CurveNetwork network;
-  for (const auto& nodes : state.nodes.on_curve) {
-    auto& places = network.nodes.emplace_back();
-    for (const CurveNode& node : nodes) places.push_back(node.s);
-  }
-  std::vector<std::vector<int>> beside(domain.chains.size());
-  for (std::size_t p = 0; p < domain.patches.size(); ++p) {
-    const SurfacePatch& patch = domain.patches[p];
-    PatchAtCurves& at = network.patches.emplace_back();
-    std::vector<std::size_t> met(domain.chains.size(), 0);
-    for (const auto& loop : patch.outline)
-      for (const CurveSide& side : loop)
-        if (side.begins(domain.chains[side.chain])) beside[side.chain].push_back(static_cast<int>(p));
-    if (!may_change[p]) continue;
-    at.mesh = state.patches[p].quads;
-    at.size = prepared.patches[p].size.get();
-    std::vector<int> chain;
-    place_boundary(patch.map, patch.outline, domain.chains, state.nodes, &chain);
-    std::map<int, bool> forward;
-    for (const auto& loop : patch.outline)
-      for (const CurveSide& side : loop) forward.try_emplace(side.chain, side.forward);
-    for (const int c : chain) {
-      const int n = static_cast<int>(network.nodes[c].size()) - 1, k = static_cast<int>(met[c]++);
-      at.edges.push_back({c, forward.at(c) ? k : n - 1 - k, forward.at(c)});
-    }
-  }
-  for (std::size_t c = 0; c < beside.size(); ++c) {
-    const bool may = beside[c].size() == 2 && beside[c][0] != beside[c][1] && !domain.chain_stays[c] &&
-                     may_change[beside[c][0]] && may_change[beside[c][1]];
-    network.sides.push_back(may ? std::array{beside[c][0], beside[c][1]} : std::array{-1, -1});
-  }
-  return network;
-}
-
-/// Returns the nodes of curves where the network has them. Removed nodes make room: `number` gets the new
-/// number of each node.
-SurfaceNodes other_nodes(const SurfaceSetup& surface, const CurveNetwork& network, const SurfaceNodes& old,
+/// Returns the nodes of curves at other places. Removed nodes make room: `number` gets the new number of each
+/// node.
+SurfaceNodes other_nodes(const SurfaceSetup& surface, const CurvePlaces& places, const SurfaceNodes& old,
                          std::vector<int>& number) {
   const SurfaceDomain& domain = surface.domain;
   SurfaceNodes nodes;
@@ -119,7 +56,7 @@ SurfaceNodes other_nodes(const SurfaceSetup& surface, const CurveNetwork& networ
   std::vector<std::map<double, int>> kept(old.on_curve.size());
   for (std::size_t c = 0; c < old.on_curve.size(); ++c)
     for (const CurveNode& node : old.on_curve[c]) {
-      if (std::ranges::binary_search(network.nodes[c], node.s))
+      if (std::ranges::binary_search(places[c], node.s))
         kept[c].emplace(node.s, node.node);
       else
         stays[node.node] = 0;
@@ -130,9 +67,9 @@ SurfaceNodes other_nodes(const SurfaceSetup& surface, const CurveNetwork& networ
       number[v] = static_cast<int>(nodes.points.size());
       nodes.points.push_back(old.points[v]);
     }
-  for (std::size_t c = 0; c < network.nodes.size(); ++c) {
+  for (std::size_t c = 0; c < places.size(); ++c) {
     auto& on_curve = nodes.on_curve.emplace_back();
-    for (const double s : network.nodes[c]) {
+    for (const double s : places[c]) {
       if (const auto at = kept[c].find(s); at != kept[c].end()) {
         on_curve.push_back({s, number[at->second]});
         continue;
@@ -146,7 +83,7 @@ SurfaceNodes other_nodes(const SurfaceSetup& surface, const CurveNetwork& networ
 
 /// Returns the problem with these nodes on curves.
 std::shared_ptr<const MeshingSetup> with_nodes(const MeshingSetup& prepared, const SurfaceNodes& nodes,
-                                               const std::vector<int>& number, const CurveNetwork& network) {
+                                               const std::vector<int>& number, const LayoutNetwork& network) {
   auto surface = std::make_shared<SurfaceSetup>(*prepared.surface);
   auto other = std::make_shared<MeshingSetup>(prepared);
   SurfaceDomain& domain = surface->domain;
@@ -181,11 +118,7 @@ std::shared_ptr<const MeshingSetup> with_nodes(const MeshingSetup& prepared, con
   return other;
 }
 
-}  // namespace
-
-namespace {
-
-/// Returns whether curves keep their nodes, as for symmetry, periodic sides, given meshes and higher orders.
+/// Whether curves keep their nodes, as in images, given meshes and elements of higher order.
 bool keeps_curves(const MeshingSetup& prepared) {
   const SurfaceSetup& surface = *prepared.surface;
   return surface.mirrored || surface.full_model || surface.metric || surface.given ||
@@ -193,10 +126,11 @@ bool keeps_curves(const MeshingSetup& prepared) {
          !prepared.boundary.periodic_faces.empty();
 }
 
-/// Moves the network's nodes and changed meshes to the state.
-void take_over(const MeshingSetup& prepared, CurveNetwork network, PipelineState& state) {
+/// The network's meshes that changed, and its nodes on curves, become the state's.
+void take_over(const MeshingSetup& prepared, const CurvePlaces& places, LayoutNetwork& network,
+               PipelineState& state) {
   std::vector<int> number;
-  SurfaceNodes nodes = other_nodes(*prepared.surface, network, state.nodes, number);
+  SurfaceNodes nodes = other_nodes(*prepared.surface, places, state.nodes, number);
   state.other = with_nodes(prepared, nodes, number, network);
   state.nodes = std::move(nodes);
   for (std::size_t p = 0; p < network.patches.size(); ++p) {
@@ -205,7 +139,7 @@ void take_over(const MeshingSetup& prepared, CurveNetwork network, PipelineState
     mesh = std::move(network.patches[p].mesh);
     const auto& points = state.other->patches[p].boundary.points;
     if (points.size() != static_cast<std::size_t>(mesh.n_boundary))
-      throw std::logic_error("across curves: a patch has other nodes than its curves");
+      throw std::logic_error("layouts: a patch has other nodes than its curves");
     std::ranges::copy(points, mesh.points.begin());
     state.patches[p].inside.clear();
   }
@@ -233,25 +167,10 @@ std::vector<double> spaced(const std::vector<CurveNode>& nodes, int edges) {
 
 }  // namespace
 
-void run_across_curves(const MeshingSetup& prepared, PipelineState& state) {
-  const RegularityOptions options = regularity_options(prepared.settings.options);
-  if (!options.across_curves || keeps_curves(prepared)) return;
-  const StageScope doing("across curves");
-  CurveNetwork network = network_of(prepared, state);
-  const CurvesInPatches curves(prepared.surface->domain);
-  network.at = [&](int patch, int chain, double s) { return curves.at(patch, chain, s); };
-  const Stopwatch watch;
-  const AcrossCurvesSummary summary = make_regular_across_curves(network, options);
-  add_summary(state.log, summary);
-  state.log.add_time("regularity", watch.time());
-  if (summary.accepted > 0) take_over(prepared, std::move(network), state);
-}
-
 void run_joint_layouts(const MeshingSetup& prepared, PipelineState& state) {
-  // An unsound mesh does not lack regularity, and may be made many times.
-  if (keeps_curves(prepared) || prepared.surface->is_retry) return;
-  const SurfaceDomain& domain = prepared.surface->domain;
+  if (keeps_curves(prepared)) return;
   const Stopwatch watch;
+  const SurfaceDomain& domain = prepared.surface->domain;
   const std::vector<char> may_change = patches_that_may_change(prepared, state);
   LayoutNetwork layouts;
   for (std::size_t c = 0; c < domain.chains.size(); ++c)
@@ -288,16 +207,15 @@ void run_joint_layouts(const MeshingSetup& prepared, PipelineState& state) {
   layouts.is_allowed = [](const QuadPatch& mesh, const PatchBoundary& boundary) {
     return !has_duplicate_quads(mesh, boundary.point_node);
   };
-  const JointLayoutSummary summary = lay_out_jointly(layouts, layout_options(prepared.settings.options));
+  const double price = regularity_options(prepared.settings.options).tolerance;
+  const JointLayoutSummary summary = lay_out_jointly(layouts, price);
   add_summary(state.log, summary);
   state.log.add_time("layout", watch.time());
   if (summary.accepted == 0) return;
-  CurveNetwork network;
+  CurvePlaces places;
   for (std::size_t c = 0; c < layouts.curves.size(); ++c)
-    network.nodes.push_back(spaced(state.nodes.on_curve[c], layouts.curves[c].edges));
-  for (LayoutPatch& patch : layouts.patches)
-    network.patches.push_back({std::move(patch.mesh), nullptr, {}, patch.changed});
-  take_over(prepared, std::move(network), state);
+    places.push_back(spaced(state.nodes.on_curve[c], layouts.curves[c].edges));
+  take_over(prepared, places, layouts, state);
 }
 
 }  // namespace delquad

@@ -22,41 +22,9 @@ MeshProblem folded_sheet() {
   return problem;
 }
 
-TEST(AcrossCurves, AFoldedSheetBecomesTwoGrids) {
-  const auto run = [](bool across, int threads) {
-    MeshProblem problem = folded_sheet();
-    problem.options.set("regularity.across_curves", across);
-    problem.options.set("curves.agreement", 0.0);
-    return mesh(problem, "DBCQO", {.threads = threads});
-  };
-  const MeshResult without = run(false, 1), result = run(true, 1);
-  ASSERT_GT(without.metrics.values.at("n_beyond"), 0);
-  EXPECT_EQ(result.metrics.values.at("n_beyond"), 0);
-  EXPECT_EQ(result.log.summaries.get<long long>("across_curves", "accepted"), 1);
-  const auto time = std::ranges::find(result.log.times, "regularity", &StepTimes::value_type::first);
-  EXPECT_GE(time->second.seconds, result.log.summaries.number("across_curves", "seconds"));
-  EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
-  EXPECT_EQ(result.mesh.regions.at(1).names, std::vector<std::string>{"wall"});
-  // Lines of the ridge lie there, fewer than before, and are sides of quads of both faces.
-  const auto on_ridge = [](const MeshResult& made) {
-    return std::ranges::count_if(made.mesh.lines, [&](const auto& line) {
-      return std::ranges::all_of(line, [&](int v) {
-        const Vec3& p = made.mesh.points[v];
-        return std::abs(p.x - kRidge) < 1e-9 && std::abs(p.z) < 1e-9;
-      });
-    });
-  };
-  EXPECT_LT(on_ridge(result), on_ridge(without));
-  EXPECT_EQ(on_ridge(result), kRidge);
-  const MeshResult parallel = run(true, 3);
-  EXPECT_EQ(parallel.mesh.points, result.mesh.points);
-  EXPECT_EQ(parallel.mesh.quads, result.mesh.quads);
-}
-
 TEST(LayoutsTogether, AFoldedSheetBecomesTwoGrids) {
   const auto run = [](const char* word, int threads) {
     MeshProblem problem = folded_sheet();
-    problem.options.set("regularity.across_curves", false);
     problem.options.set("curves.agreement", 0.0);
     return mesh(problem, word, {.threads = threads});
   };
@@ -88,7 +56,7 @@ TEST(RegularityWeight, CountsForNumbersOfEdgesAndForStages) {
     MeshProblem problem = folded_sheet();
     for (const std::string& key : keys) problem.options.set(key, 0.0);
     if (weighed) problem.options.set("regularity.weight", 0.0);
-    return mesh(problem, "DBCQO").mesh.points;
+    return mesh(problem, "DBCQRO").mesh.points;
   };
   const auto weighed = run({}, true), none = run({"curves.agreement", "regularity.tolerance"}, false);
   EXPECT_TRUE(weighed == none);
