@@ -138,7 +138,7 @@ delquad_module(features/extrusion COLD LINKS base geometry/mesh metrics io PRIVA
 delquad_module(features/curves COLD LINKS base base/matching geometry/mesh geometry/planar geometry/surface geometry/cad algorithms/fields
                algorithms/fields/surface
                geometry/patches features/seed features/sizes features/divisions features/embedded features/symmetry features/periodic
-               features/grids features/thin features/naming)
+               features/grids features/layers features/thin features/naming)
 delquad_module(features/metric LINKS base geometry/mesh geometry/planar geometry/surface algorithms/fields algorithms/fields/surface
                geometry/patches metrics
                features/seed features/curves)

@@ -11,6 +11,7 @@
 #include "features/curves/compose_size.h"
 #include "features/curves/mesh_planar_curves.h"
 #include "features/divisions/divisions.h"
+#include "features/layers/add_layers.h"
 #include "features/seed/perturb.h"
 #include "features/sizes/curvature_spots.h"
 #include "features/sizes/curve_options.h"
@@ -176,6 +177,12 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
     sized.mesh_by(limit_gradation(size.field, p.plane.background, spec.gradation));
   }
   if (size.asked) size.curved = size.field;
+  // Quads beside a fan of layers are not much larger than its quads.
+  if (const auto fans = fan_spots(domain, problem.layers); !fans.empty()) {
+    if (!size.asked) size.asked = size.field;
+    size.adapted_to.push_back("fans of layers");
+    sized.mesh_by(with_images(finer_near(size.field, fans)));
+  }
   // Sizes beside divided curves are the lengths of their edges.
   if (!problem.divisions.empty()) {
     if (!size.asked) size.asked = size.field;

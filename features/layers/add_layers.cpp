@@ -345,6 +345,12 @@ namespace {
 
 /// Edges of fronts below this part of the size make it less.
 constexpr double kShortFront = 0.8;
+/// Most length of edges at the corner of a fan, by the height of its first layer. Quads of 45 degrees have
+/// 0.4 of the square of that height.
+constexpr double kLongestAtFan = 25;
+/// Least length of these, by the thickness of the layers. The last quads of the fan are 0.4 of it long, and
+/// quads outside get poor if edges beside them are far shorter.
+constexpr double kShortestAtFan = 1.0 / 60;
 /// Beyond this, solvers see the jump from the last layer to the quads beside it.
 constexpr double kLargeJump = 4;
 
@@ -418,6 +424,26 @@ std::shared_ptr<const BackgroundMesh> mesh_rest(const MeshProblem& problem, cons
 }
 
 }  // namespace
+
+std::vector<LocalSize> fan_spots(const PlanarDomain& domain, std::span<const LayerSpec> specs) {
+  std::vector<LocalSize> spots;
+  if (specs.empty()) return spots;
+  std::vector<std::vector<double>> heights;
+  for (const LayerSpec& spec : specs) heights.push_back(layer_heights(spec));
+  const CurveLayers of_curves = layers_of_curves(domain, specs);
+  const BoundaryGraph graph(domain);
+  for (const PatchLayers& patch : find_patch_layers(domain, specs, of_curves, graph, heights))
+    for (int c = 0; c < patch.columns.n_chains(); ++c)
+      for (int k = 0; k < patch.columns.chain(c).n_points(); ++k) {
+        const double first = patch.columns.height(c, k, 1);
+        const double most = std::max(kLongestAtFan * first, kShortestAtFan * patch.columns.thickness(c, k));
+        if (patch.columns.corner(c, k).quads == 0 || std::ranges::max(patch.columns.edges_at(c, k)) <= most)
+          continue;
+        const Vec3& corner = domain.boundary.points[patch.columns.foot_node(c, k)];
+        spots.push_back({corner, corner, most, 0});
+      }
+  return spots;
+}
 
 std::vector<LocalSize> put_layers(const MeshProblem& problem, PlanarDomain& domain, MeshingSetup& p) {
   LayerReport report = add_layers(domain, problem.layers, static_cast<double>(p.settings.max_elements));

@@ -53,6 +53,10 @@ struct LayerReport {
 /// curve and place, for impossible layers and for more than `max_quads`. Own method.
 LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, double max_quads);
 
+/// Returns spots at corners with fans whose edges are too long. Quads there would have more than 50 times the
+/// area of the fan's quads beside them. Solvers see that jump.
+std::vector<LocalSize> fan_spots(const PlanarDomain& domain, std::span<const LayerSpec> specs);
+
 /// Puts the layers of a problem into its domain, and makes the background mesh of the rest in the plane.
 /// Warnings tell where layers had to be lower, and where the rest of the mesh is far coarser. Returns the
 /// edges that are much shorter than the size, beside which sizes must shrink.

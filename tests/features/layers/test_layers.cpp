@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/half_edges.h"
 #include "tests/features/layers/layered_model.h"
 
 namespace delquad {
@@ -194,6 +195,32 @@ TEST(Layers, FansOfThickLayersHaveShorterEdges) {
   };
   EXPECT_EQ(fans(10), 4);
   EXPECT_EQ(fans(20), 8);
+}
+
+/// Without sources, quads beside the fan would have 2000 times the area of its first ones.
+TEST(Layers, QuadsBesideFansAreNotMuchLarger) {
+  for (const auto& [first, number] : {std::pair(1e-3, 5), {1e-4, 25}, {1e-5, 28}}) {
+    SCOPED_TRACE(first);
+    const MeshProblem problem = ModelMaker()
+                                    .rectangle({-1, -1}, {2, 1}, {"far"})
+                                    .polygon({{0, -0.05}, {1, 0}, {0, 0.05}}, {"wedge"})
+                                    .problem(0.05, {layer_on({"wedge"}, first, number)});
+    const MeshResult result = mesh(problem, "DBCO");
+    expect_layers(problem, result);
+    double least = 1;
+    for_each_edge(sorted_half_edges(result.mesh), [&](std::span<const HalfEdge> sides) {
+      const auto area = [&](const HalfEdge& side) {
+        const auto& [a, b, c, d] = result.mesh.quads[side.element];
+        const auto& p = result.mesh.points;
+        return norm(cross(p[c] - p[a], p[d] - p[b])) / 2;
+      };
+      if (sides.size() != 2) return;
+      const double ratio = area(sides[0]) / area(sides[1]);
+      least = std::min({least, ratio, 1 / ratio});
+    });
+    EXPECT_GT(least, 0.01);
+    EXPECT_GT(result.metrics.values.at("scaled_jacobian_min"), 0.3);
+  }
 }
 
 TEST(Layers, WarningsOfThinLastLayersNameTheCurve) {
