@@ -52,11 +52,11 @@ double distance_along(const Vec3& from, const Vec3& along, const Box<Vec3>& box)
 OppositeSides::OppositeSides(const SurfaceModel& model)
     : source_(model.source), fine_(model.fine), projector_(model.projector), regions_(model.fine) {
   std::vector<Box<Vec3>> boxes;
-  const double margin = kBegin * diagonal(fine_);
+  begin_ = kBegin * diagonal(fine_);
   double volume = 0;
   for (const auto& [a, b, c] : fine_.triangles) {
     const Vec3 &x = fine_.points[a], &y = fine_.points[b], &z = fine_.points[c];
-    boxes.push_back(Box<Vec3>::around({x, y, z}).grown(margin));
+    boxes.push_back(Box<Vec3>::around({x, y, z}).grown(begin_));
     volume += dot(x - fine_.points[fine_.triangles[0][0]], cross(y - x, z - x));
   }
   tree_ = BoxTree<Vec3>(boxes);
@@ -75,7 +75,6 @@ Vec3 OppositeSides::normal(int triangle) const {
 
 OppositeSides::Hit OppositeSides::leave(const Vec3& from, const Vec3& along) const {
   constexpr double kRounding = 1e-9;  // of weights
-  const double begin = kBegin * diagonal(fine_);
   double limit = std::numeric_limits<double>::max();
   Hit hit;
   tree_.search(
@@ -88,7 +87,7 @@ OppositeSides::Hit OppositeSides::leave(const Vec3& from, const Vec3& along) con
         if (!(-inwards_ * towards > 0)) return;
         const Vec3 x = from - fine_.points[a];
         const double distance = -dot(n, x) / towards;
-        if (!(distance > begin && distance < limit)) return;
+        if (!(distance > begin_ && distance < limit)) return;
         const Vec3 at = x + distance * along;
         const double wu = dot(n, cross(at, v)) / dot(n, n), wv = dot(n, cross(u, at)) / dot(n, n);
         if (wu < -kRounding || wv < -kRounding || wu + wv > 1 + kRounding) return;

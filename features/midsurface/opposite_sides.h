@@ -73,6 +73,7 @@ class OppositeSides {
   std::shared_ptr<const SurfaceProjector> projector_;
   NearestOnRegions regions_;
   BoxTree<Vec3> tree_;
+  double begin_ = 0;                           ///< least length of a ray
   double inwards_ = -1;                        ///< times a triangle's normal
   std::vector<std::vector<Sample>> samples_;   ///< by face
   std::vector<double> thickness_;              ///< by face, the median

@@ -182,7 +182,7 @@ std::vector<int> selected_faces(const std::vector<PartRule>& rules, const std::s
   for (const PartRule& rule : rules) {
     const bool is_name = !rule.like.empty() && rule.like.find_first_of("*?") == std::string::npos;
     const std::vector<int> found = is_name && rule.numbers.empty() && !rule.box && !rule.normal && !rule.at
-                                       ? find_entities(fine.regions, "region", rule.like, where + ": faces")
+                                       ? find_entities(fine.regions, "region", rule.like, where)
                                        : find({rule, false, "'faces'", where}, fine);
     faces.insert(faces.end(), found.begin(), found.end());
   }

@@ -16,7 +16,7 @@ using std::numbers::pi;
 
 constexpr double kThick = 1.5, kRadius = 6, kLong = 100, kHigh = 40, kWide = 60;
 
-TopoDS_Shape block(double x, double y, double z, double dx, double dy, double dz) {
+TopoDS_Shape cuboid(double x, double y, double z, double dx, double dy, double dz) {
   return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), dx, dy, dz).Shape();
 }
 
@@ -26,7 +26,7 @@ TopoDS_Shape without_cylinder(const TopoDS_Shape& shape, const gp_Pnt& at, const
 }
 
 /// The example "sheet" as a solid, without its pinhole.
-TopoDS_Shape angle() {
+TopoDS_Shape sheet_as_solid() {
   const double outer = kRadius + kThick;
   const auto at = [](double x, double z) { return gp_Pnt(x, 0, z); };
   const auto on_bend = [&](double r) { return at(kLong + r * std::sqrt(0.5), outer - r * std::sqrt(0.5)); };
@@ -47,7 +47,7 @@ TopoDS_Shape angle() {
       BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline.Wire()).Face(), gp_Vec(0, kWide, 0)).Shape();
   for (const double y : {18.0, 42.0}) sheet = without_cylinder(sheet, {25, y, -1}, {0, 0, 1}, 5, 4);
   for (const double x : {60.0, 70.2}) sheet = without_cylinder(sheet, {x, 30, -1}, {0, 0, 1}, 5, 4);
-  sheet = BRepAlgoAPI_Cut(sheet, block(-1, kWide - 0.3, -1, 46, 1, 4)).Shape();
+  sheet = BRepAlgoAPI_Cut(sheet, cuboid(-1, kWide - 0.3, -1, 46, 1, 4)).Shape();
   return without_cylinder(sheet, {kLong - 5, 30, 24}, {1, 0, 0}, 8, 30);
 }
 
@@ -80,7 +80,7 @@ class Midsurface : public ::testing::Test {
 };
 
 TEST_F(Midsurface, OfAnAngleWithBendAndHoles) {
-  MeshProblem sheet = problem(angle(), 3);
+  MeshProblem sheet = problem(sheet_as_solid(), 3);
   sheet.surface.names = {{.name = "clamp", .rule = {.box = {{Vec3{0, 0, 0}, Vec3{0, kWide, kThick}}}}},
                          {.name = "below", .rule = {.normal = Vec3{0, 0, -1}}},
                          {.name = "above", .rule = {.at = Vec3{50, 30, kThick}}}};
@@ -105,7 +105,7 @@ TEST_F(Midsurface, OfAnAngleWithBendAndHoles) {
 }
 
 TEST_F(Midsurface, OfFoldsWithoutRadius) {
-  TopoDS_Shape channel = BRepAlgoAPI_Cut(block(0, 0, 0, 40, 50, 20), block(2, -1, 2, 36, 52, 20)).Shape();
+  TopoDS_Shape channel = BRepAlgoAPI_Cut(cuboid(0, 0, 0, 40, 50, 20), cuboid(2, -1, 2, 36, 52, 20)).Shape();
   const Mesh made = expect_half_way(problem(channel, 4), (38 + 2 * 19) * 50, {2});
   const auto at_fold = [](const Vec3& x) { return std::abs(x.x - 1) < 1e-9 && std::abs(x.z - 1) < 1e-9; };
   EXPECT_GT(std::ranges::count_if(made.points, at_fold), 10);
@@ -115,13 +115,14 @@ TEST_F(Midsurface, OfATubeAndOfAPlateWithHoles) {
   const TopoDS_Shape tube =
       without_cylinder(BRepPrimAPI_MakeCylinder(20, 50).Shape(), {0, 0, -1}, {0, 0, 1}, 19, 52);
   expect_half_way(problem(tube, 3), 2 * pi * 19.5 * 50, {1});
-  TopoDS_Shape plate = block(0, 0, 0, 80, 50, 3);
+  TopoDS_Shape plate = cuboid(0, 0, 0, 80, 50, 3);
   for (const double x : {20.0, 40.0, 60.0}) plate = without_cylinder(plate, {x, 25, -1}, {0, 0, 1}, 6, 5);
   expect_half_way(problem(plate, 2), 80 * 50 - 3 * pi * 36, {3});
 }
 
 TEST_F(Midsurface, OfAStep) {
-  const TopoDS_Shape stepped = BRepAlgoAPI_Fuse(block(0, 0, 0, 60, 40, 1), block(0, 0, 1, 31, 40, 1)).Shape();
+  const TopoDS_Shape stepped =
+      BRepAlgoAPI_Fuse(cuboid(0, 0, 0, 60, 40, 1), cuboid(0, 0, 1, 31, 40, 1)).Shape();
   const Mesh made = expect_half_way(problem(stepped, 4), 60 * 40, {1, 2});
   double thick = 0;
   for (std::size_t q = 0; q < made.quads.size(); ++q) {
@@ -146,13 +147,14 @@ TEST_F(Midsurface, OfAStep) {
 }
 
 TEST_F(Midsurface, RefusesWhatHasNone) {
-  expect_refused(problem(block(0, 0, 0, 10, 8, 6), 2), "DB", {"face", "thick", "[no-midsurface]"});
-  const TopoDS_Shape joint = BRepAlgoAPI_Fuse(block(0, 0, 0, 60, 40, 2), block(29, 0, 2, 2, 40, 30)).Shape();
+  expect_refused(problem(cuboid(0, 0, 0, 10, 8, 6), 2), "DB", {"face", "thick", "[no-midsurface]"});
+  const TopoDS_Shape joint =
+      BRepAlgoAPI_Fuse(cuboid(0, 0, 0, 60, 40, 2), cuboid(29, 0, 2, 2, 40, 30)).Shape();
   expect_refused(problem(joint, 4), "DB", {"face", "plates join", "[no-midsurface]"});
   MeshProblem open = problem_of(ExampleModel{"sheet"}, 5);
   open.surface.midsurface = true;
   expect_refused(open, "DB", {"is open at", "[no-midsurface]"});
-  MeshProblem curved = problem(angle(), 5);
+  MeshProblem curved = problem(sheet_as_solid(), 5);
   curved.order = 2;
   expect_refused(curved, "DB", {"mid-surfaces do not go with curved elements"});
 }

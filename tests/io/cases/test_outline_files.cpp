@@ -262,9 +262,9 @@ TEST_F(DxfFiles, TheUnitOfTheHeaderIsKept) {
   EXPECT_EQ(unit("99"), "");
   const std::string drawing =
       "0 SECTION 2 HEADER 9 $INSUNITS 70 1 0 ENDSEC 0 SECTION 2 ENTITIES 0 CIRCLE 10 2 20 0 40 1 ";
-  for (const auto& [asked, unit, x] : {std::tuple{"", "in", 3.}, {"mm", "mm", 76.2}}) {
+  for (const auto& [asked, wanted, x] : {std::tuple{"", "in", 3.}, {"mm", "mm", 76.2}}) {
     const auto model = std::get<PlanarModel>(read_model(drawing, asked));
-    EXPECT_EQ(unit_, unit);
+    EXPECT_EQ(unit_, wanted);
     EXPECT_NEAR(model.curves[0].shape->point(0).x, x, 1e-12);
   }
   expect_input_error([&] { read_model("0 SECTION 2 ENTITIES 0 CIRCLE 10 2 20 0 40 1", "mm"); },
