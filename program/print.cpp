@@ -12,6 +12,7 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
+#include "experiments/console/progress.h"
 #include "metrics/anisotropic_measures.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/judgement/soundness.h"
