@@ -43,8 +43,8 @@ using Criteria = CGAL::Delaunay_mesh_criteria_2<Cdt>;
 
 // Both sides of a slit are some 1e-6 of its edges apart, and refinement leaves some of these shorter.
 constexpr double kSlit = 3e-5;
-// Limit of steps without a new point: far more than usual.
-constexpr int kMostInVain = 10000;
+// Steps that add nothing, and so many more for each vertex: far more than faces are dropped and edges listed.
+constexpr std::size_t kMostInVain = 10000, kInVainPerVertex = 4;
 
 /// CGAL's test of an edge by the circle around it and the vertices on both sides, but without vertices across
 /// a slit. If slits turn or cross, vertices on one side are in the circles of the other side's edges. Both
@@ -147,8 +147,8 @@ bool has_slits(const PatchBoundary& patch) {
   return std::ranges::adjacent_find(nodes) != nodes.end();
 }
 
-/// Returns the refined patch; nothing if so many steps add no point, since slivers may keep the weaker test
-/// from its end.
+/// If many steps add nothing, refinement stops, and there is no result if it `must_end`. Slivers
+/// inside may keep the weaker test from its end, and points nearer to edges than rounding both tests.
 template <class Test>
 std::optional<TriPatch> refined(const PatchBoundary& patch, bool must_end) {
   Cdt cdt;
@@ -157,12 +157,12 @@ std::optional<TriPatch> refined(const PatchBoundary& patch, bool must_end) {
   for (const auto f : patch_cdt::number_inside(cdt, patch, vertex)) f->set_in_domain(true);
   Refiner<Test> refiner(cdt);
   const std::size_t most = kMostGrowth * patch.points.size() + kMostExtra;
-  int in_vain = 0;
+  std::size_t in_vain = 0;
   for (std::size_t n = cdt.number_of_vertices(); n < most && refiner.step();) {
     check_cancelled();
     const std::size_t before = std::exchange(n, cdt.number_of_vertices());
-    in_vain = n > before ? 0 : in_vain + 1;
-    if (in_vain < kMostInVain) continue;
+    in_vain += n == before ? 1 : 0;
+    if (in_vain < kMostInVain + kInVainPerVertex * most) continue;
     if (must_end) return std::nullopt;
     break;
   }

@@ -29,9 +29,8 @@ namespace delquad::cad {
 
 namespace {
 
-/// Inside one face. A ball has some 1000; more are seconds of work, here and in maps that
-/// a damaged face needs again and again.
-constexpr int kMostPoints = 6000;
+/// Inside one face. A ball has some 1000; more are seconds of work, here and in maps.
+constexpr int kMostPoints = 20'000;
 /// Each halves the chords that cross.
 constexpr int kMostRounds = 12;
 /// Limit of chords of an edge; finer chords would not help.
