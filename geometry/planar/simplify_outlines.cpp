@@ -103,7 +103,7 @@ class OutlineSimplifier {
     for (auto v = triangulation_.vertices_in_constraint_begin(outline.constraint);
          v != triangulation_.vertices_in_constraint_end(outline.constraint); ++v)
       points.push_back({(*v)->point().x(), (*v)->point().y()});
-    if (points.size() >= outline.points.size()) return;
+    if (points.size() < 2 || points.size() >= outline.points.size()) return;
     double farthest = 0;
     std::size_t next = 1;
     for (const Vec2 x : outline.points) {

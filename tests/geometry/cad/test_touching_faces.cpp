@@ -22,7 +22,7 @@ class TouchingFaces : public ::testing::Test {
 TEST_F(TouchingFaces, ATorusOfEqualRadiiIsRefusedWithItsPlace) {
   const auto file = write_step(folder_ / "torus.step", BRepPrimAPI_MakeTorus(2, 2).Shape());
   expect_input_error([&] { mesh_of(file, 1); },
-                     {"face 1 could not be flattened", "between (-4, -4, -2) and (4, 4, 2)"});
+                     {"face 1 could not be flattened", "look between ("});
 }
 
 // A triangle that touches the axis in a corner makes two cones with one tip.

@@ -34,6 +34,16 @@ double distance(const Curve& curve, Vec2 x) {
   return least;
 }
 
+TEST(SimplifyOutlines, LinesThatCrossFarAwayStay) {
+  const Vec2 far{5000, -2147483649.0};
+  PlanarModel model =
+      model_of_rings({{{0, 0}, {9000, 0}, {9000, 1.5}, {0, 6000}, {0, 0}}, {{2000, 2500}, far}});
+  std::vector<Warning> warnings;
+  model = simplify_outlines(
+      std::move(model), [](int, const Vec3&) { return 90; }, false, warnings);
+  EXPECT_EQ(model.curves[1].shape->point(1), far);
+}
+
 TEST(SimplifyOutlines, WhatGoesLiesWithinTheTolerance) {
   constexpr double kTolerance = 0.02;
   const std::vector<Vec2> ring = noisy_ring({0, 0}, 1, 0.004);
