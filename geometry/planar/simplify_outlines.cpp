@@ -83,7 +83,8 @@ class OutlineSimplifier {
       double& least = tolerances_.try_emplace(corners.back(), allowed).first->second;
       least = std::min(least, allowed);
     }
-    outlines_.push_back({curve, points, triangulation_.insert_constraint(corners.begin(), corners.end())});
+    const auto constraint = triangulation_.insert_constraint(corners.begin(), corners.end());
+    if (constraint != Triangulation::Constraint_id()) outlines_.push_back({curve, points, constraint});
   }
 
   void add_that_stays(const Curve& curve) {
@@ -93,6 +94,7 @@ class OutlineSimplifier {
       points.emplace_back(p.x, p.y);
     }
     const auto constraint = triangulation_.insert_constraint(points.begin(), points.end());
+    if (constraint == Triangulation::Constraint_id()) return;  // all points are one
     for (auto v = triangulation_.vertices_in_constraint_begin(constraint);
          v != triangulation_.vertices_in_constraint_end(constraint); ++v)
       (*v)->set_removable(false);
@@ -103,7 +105,7 @@ class OutlineSimplifier {
     for (auto v = triangulation_.vertices_in_constraint_begin(outline.constraint);
          v != triangulation_.vertices_in_constraint_end(outline.constraint); ++v)
       points.push_back({(*v)->point().x(), (*v)->point().y()});
-    if (points.size() < 2 || points.size() >= outline.points.size()) return;
+    if (points.size() >= outline.points.size()) return;
     double farthest = 0;
     std::size_t next = 1;
     for (const Vec2 x : outline.points) {
