@@ -48,7 +48,8 @@ class GeoJsonReader {
                  loose.empty() ? "" : ": " + loose + ": expected ends that meet");
       check_unit(root, file);
     } catch (const Json::exception& error) {
-      refuse("{}: {}", where_, error.what());
+      const std::string text = error.what();  // "[json.exception.out_of_range.403] key 'geometry' not found"
+      refuse("{}: no valid GeoJSON: {}", where_, text.substr(text.find("] ") + 2));
     }
   }
 

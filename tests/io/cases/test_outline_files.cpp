@@ -140,6 +140,9 @@ TEST_F(OutlineFiles, MessagesNameFeatureAndRing) {
   expect_input_error([&] { read(feature("Hexagon", "[]")); }, {"'Hexagon'"});
   expect_input_error([&] { read_geojson(write_text(folder_ / "b.geojson", "{")); },
                      {"b.geojson: no GeoJSON"});
+  expect_input_error(
+      [&] { read_geojson(write_text(folder_ / "c.geojson", "{\"type\": \"FeatureCollection\"}")); },
+      {"c.geojson: no valid GeoJSON: key 'features' not found"});
 }
 
 TEST_F(OutlineFiles, AirfoilsInBothOrders) {
