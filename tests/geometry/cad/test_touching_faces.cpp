@@ -21,8 +21,7 @@ class TouchingFaces : public ::testing::Test {
 // Its inner circle is a point.
 TEST_F(TouchingFaces, ATorusOfEqualRadiiIsRefusedWithItsPlace) {
   const auto file = write_step(folder_ / "torus.step", BRepPrimAPI_MakeTorus(2, 2).Shape());
-  expect_input_error([&] { mesh_of(file, 1); },
-                     {"face 1 could not be flattened", "look between ("});
+  expect_input_error([&] { mesh_of(file, 1); }, {"face 1 could not be flattened", "look between ("});
 }
 
 // A triangle that touches the axis in a corner makes two cones with one tip.
