@@ -317,6 +317,8 @@ class PatchMaker {
 
 /// Edges of one element must not meet but in common nodes: a hanging node lies on an edge.
 void check_free_edges(const GivenMesh& given, std::span<const HalfEdge> sides) {
+  constexpr double kRounding = 1e-16;  // part of the diagonal
+  const double least = kRounding * diagonal(given.mesh);
   std::map<std::pair<double, double>, int> place;
   std::vector<Vec2> points;
   std::set<std::pair<int, int>> edges;
@@ -329,9 +331,9 @@ void check_free_edges(const GivenMesh& given, std::span<const HalfEdge> sides) {
       if (is_new) points.push_back(p);
       ends[k] = at->second;
     }
-    if (ends[0] == ends[1])
+    if (norm(points[ends[1]] - points[ends[0]]) <= least)
       throw InputError(given.source + ": " + text_of_edge(given.mesh, edge[0].lo, edge[0].hi) +
-                       " has no length");
+                       " has no length: expected different nodes");
     edges.insert(std::minmax(ends[0], ends[1]));
   });
   std::vector<std::array<int, 2>> lines;

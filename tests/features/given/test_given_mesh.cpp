@@ -268,6 +268,9 @@ TEST(GivenMeshes, WhatCannotBeUsedIsNamed) {
   hanging.quads.push_back({25, 6, 5, 0});
   hanging.quad_region.push_back(0);
   expect_input_error([&] { improve_given(hanging, "CO"); }, {"(0.25, 0.125)", "hanging node"});
+  Mesh short_edge = grid;
+  short_edge.points[1] = {1e-300, 0, short_edge.points[1].z};
+  expect_input_error([&] { improve_given(short_edge, "O"); }, {"has no length"});
 
   Mesh branching = grid;
   branching.points.push_back({0.4, 0.4, 3});
