@@ -162,13 +162,13 @@ MeshMetrics metrics_of(const MeshingSetup& prepared, const Mesh& mesh, std::span
   return metrics;
 }
 
-void measure_added_metrics(const MeshingSetup& prepared, const Mesh& mesh, const std::string& word,
+void measure_added_metrics(const MeshingSetup& prepared, const Mesh& mesh, const std::string& pipeline,
                            MeshMetrics& metrics) {
   const StageScope measuring("metrics");
   const bool by_size = !metric_of(prepared);
   measure_added_metrics(
       {mesh, by_size ? prepared.size.field.get() : nullptr, by_size ? prepared.size.asked.get() : nullptr,
-       prepared.settings.options, prepared.settings.name, word,
+       prepared.settings.options, prepared.settings.name, pipeline,
        prepared.surface ? &prepared.surface->whole().fine : nullptr},
       metrics);
 }

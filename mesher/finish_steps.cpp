@@ -107,13 +107,13 @@ void keep_better(FinishContext& on) {
   for (int n = static_cast<int>(stages.size()) - 1; n > 0; --n)
     for (unsigned mask = all; mask-- > 1;) {
       std::vector<const Stage*> fewer;
-      std::string word;
+      std::string pipeline;
       for (std::size_t i = 0; i < stages.size(); ++i)
-        if ((mask >> i & 1U) != 0) fewer.push_back(stages[i]), word += stages[i]->letter;
+        if ((mask >> i & 1U) != 0) fewer.push_back(stages[i]), pipeline += stages[i]->letter;
       if (std::popcount(mask) != n || !continues_quads(fewer, stages[0])) continue;
       MeshResult run = mesh_of_stages(on, fewer);
       if (!is_good(run)) continue;
-      warn(fmt::format("{} alone ({})", word, text_of_worst(run)));
+      warn(fmt::format("{} alone ({})", pipeline, text_of_worst(run)));
       take_mesh(std::move(run), result);
       return;
     }

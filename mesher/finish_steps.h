@@ -93,8 +93,8 @@ long long work_on(const MeshingSetup& prepared, const MeshResult& result);
 /// left out. The last tries change the size, the stages or the feature angle of a triangulation. Each is
 /// taken, with a warning, if its mesh is sound. If problem.keep_going is set, faces with such places are left
 /// out at last, as long as others remain.
-void refine_unsound(const PrepareWithHints& prepare_with_hints, const Word& word, MeshingSetup& prepared,
-                    MeshResult& result);
+void refine_unsound(const PrepareWithHints& prepare_with_hints, const Pipeline& pipeline,
+                    MeshingSetup& prepared, MeshResult& result);
 
 /// Returns whether a mesh is worse than the given mesh that it was made of. It is worse if it is not sound
 /// where the given one was, or degradation_of() finds harm. It is not worse if only it is sound. Otherwise it

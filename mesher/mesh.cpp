@@ -70,7 +70,7 @@ Prepared prepare_now(MeshProblem problem, Steps& steps) {
           std::make_shared<const MeshingSetup>(std::move(made))};
 }
 
-void make_sound(const Word& word, Prepared& prepared, MeshResult& result) {
+void make_sound(const Pipeline& pipeline, Prepared& prepared, MeshResult& result) {
   if (result.soundness.sound()) return;
   const auto problem = std::make_shared<const MeshProblem>(prepared.problem());
   MeshingSetup best = prepared.inside();
@@ -87,13 +87,13 @@ void make_sound(const Word& word, Prepared& prepared, MeshResult& result) {
     }
     return prepare_problem(other, r);
   };
-  refine_unsound(anew, word, best, result);
+  refine_unsound(anew, pipeline, best, result);
   prepared = {problem, std::make_shared<const MeshingSetup>(std::move(best))};
 }
 
-MeshResult mesh_now(Prepared prepared, const Word& word, Steps& steps) {
+MeshResult mesh_now(Prepared prepared, const Pipeline& pipeline, Steps& steps) {
   Meshing meshing(std::move(prepared));
-  for (const Stage* stage : word.stages) {
+  for (const Stage* stage : pipeline.stages) {
     steps.begin(stage->name);
     meshing.run(*stage);
   }
@@ -104,20 +104,20 @@ MeshResult mesh_now(Prepared prepared, const Word& word, Steps& steps) {
   result.warnings.emplace_back(complaint);
   const MeshProblem& problem = result.prepared.problem();
   if (problem.allow_unsound) return result;
-  const std::string why = problem.name + " " + word.text + ": " + complaint;
+  const std::string why = problem.name + " " + pipeline.text + ": " + complaint;
   throw UnsoundError(why, std::make_shared<const MeshResult>(std::move(result)));
 }
 
 /// Returns the pipeline of a quality; a given mesh is improved.
-Word pipeline_of_quality(const Quality& quality, MeshProblem& problem) {
-  if (word_start(problem.model) == WordStart::kGivenMesh) {
+Pipeline pipeline_of_quality(const Quality& quality, MeshProblem& problem) {
+  if (pipeline_start(problem.model) == PipelineStart::kGivenMesh) {
     problem = read_files(std::move(problem));
     const Mesh& given = std::get<GivenMesh>(problem.model).mesh;
-    return parse_word(given.quads.empty() ? "BCO" : "CO", WordStart::kGivenMesh);
+    return parse_pipeline(given.quads.empty() ? "BCO" : "CO", PipelineStart::kGivenMesh);
   }
   if (!problem.cross.kind && problem.cross.text.empty()) problem.cross.kind = quality.cross;
   problem.options.set_absent(quality.options);
-  return parse_word(quality.word);
+  return parse_pipeline(quality.pipeline);
 }
 
 /// Moves meshes of thin bodies from one side half-way to the other, where quads are measured and checked
@@ -146,7 +146,7 @@ const char* version() { return DELQUAD_VERSION; }
 
 struct Meshing::State {
   Prepared prepared;
-  Word word = {};
+  Pipeline pipeline = {};
   PipelineState patches = begin_meshing(prepared.inside());
 };
 
@@ -157,9 +157,9 @@ Meshing::~Meshing() = default;
 
 void Meshing::run(const Stage& stage) {
   run_stage(stage, state_->prepared.inside(), state_->patches);
-  state_->word.text += stage.letter;
-  state_->word.stages.push_back(&stage);
-  state_->word.result = stage.to;
+  state_->pipeline.text += stage.letter;
+  state_->pipeline.stages.push_back(&stage);
+  state_->pipeline.result = stage.to;
 }
 
 Mesh Meshing::mesh() const {
@@ -173,18 +173,18 @@ Mesh Meshing::mesh() const {
 
 MeshResult Meshing::finish() {
   Prepared prepared = std::move(state_->prepared);
-  const Word word = std::move(state_->word);
-  MeshResult result = finish_meshing(prepared.inside(), prepared.problem().name + " " + word.text,
+  const Pipeline pipeline = std::move(state_->pipeline);
+  MeshResult result = finish_meshing(prepared.inside(), prepared.problem().name + " " + pipeline.text,
                                      std::move(state_->patches));
-  make_sound(word, prepared, result);
+  make_sound(pipeline, prepared, result);
   if (prepared.problem().quads)
     match_quad_count(
         [&](MeshProblem problem) {
           const RetryHints read = no_hints(prepared.inside());
           Prepared other(std::make_shared<const MeshProblem>(problem),
                          std::make_shared<const MeshingSetup>(prepare_problem(problem, read)));
-          MeshResult run = run_pipeline(other.inside(), word);
-          make_sound(word, other, run);
+          MeshResult run = run_pipeline(other.inside(), pipeline);
+          make_sound(pipeline, other, run);
           return std::pair(std::move(other), std::move(run));
         },
         prepared, result);
@@ -200,17 +200,17 @@ Prepared prepare(MeshProblem problem, const Context& context) {
 }
 
 MeshResult mesh(const Prepared& prepared, const std::string& text, const Context& context) {
-  const Word word = parse_word(text, word_start(prepared.problem().model));
-  Steps steps(context, word.stages.size() + 1);
-  return mesh_now(prepared, word, steps);
+  const Pipeline pipeline = parse_pipeline(text, pipeline_start(prepared.problem().model));
+  Steps steps(context, pipeline.stages.size() + 1);
+  return mesh_now(prepared, pipeline, steps);
 }
 
 MeshResult mesh(MeshProblem problem, const std::string& text, const Context& context) {
   const Quality* quality = find_quality(text);
-  const Word word = quality != nullptr ? pipeline_of_quality(*quality, problem)
-                                       : parse_word(text, word_start(problem.model));
-  Steps steps(context, word.stages.size() + 2);
-  return mesh_now(prepare_now(std::move(problem), steps), word, steps);
+  const Pipeline pipeline = quality != nullptr ? pipeline_of_quality(*quality, problem)
+                                               : parse_pipeline(text, pipeline_start(problem.model));
+  Steps steps(context, pipeline.stages.size() + 2);
+  return mesh_now(prepare_now(std::move(problem), steps), pipeline, steps);
 }
 
 const std::vector<Quality>& quality_registry() {
@@ -291,9 +291,9 @@ std::vector<DomainCurve> domain_curves(const Prepared& prepared) {
   return curves;
 }
 
-MeshMetrics Prepared::metrics(const Mesh& made, const std::string& word) const {
+MeshMetrics Prepared::metrics(const Mesh& made, const std::string& pipeline) const {
   MeshMetrics metrics = metrics_of(*made_, made, sorted_half_edges(made));
-  measure_added_metrics(*made_, made, word, metrics);
+  measure_added_metrics(*made_, made, pipeline, metrics);
   return metrics;
 }
 

@@ -139,10 +139,10 @@ void add_times(const StepTimes& times, StageLog& log) {
   for (const auto& [step, time] : times) log.add_time(step, time);
 }
 
-MeshResult run_pipeline(const MeshingSetup& prepared, const Word& word) {
+MeshResult run_pipeline(const MeshingSetup& prepared, const Pipeline& pipeline) {
   PipelineState state = begin_meshing(prepared);
-  for (const Stage* stage : word.stages) run_stage(*stage, prepared, state);
-  return finish_meshing(prepared, prepared.settings.name + " " + word.text, std::move(state));
+  for (const Stage* stage : pipeline.stages) run_stage(*stage, prepared, state);
+  return finish_meshing(prepared, prepared.settings.name + " " + pipeline.text, std::move(state));
 }
 
 void require_sound(const std::string& label, const MeshResult& result) {
@@ -206,10 +206,10 @@ MeshResult finish_meshing(const MeshingSetup& given, const std::string& label, P
       metric ? count_bad_quads(metric, label, result.mesh, result.warnings) : bad.elsewhere;
   judge_by_criteria(prepared, false, result);
   if (prepared.is_given_surface()) put_back_entities(*prepared.surface->given, result.mesh);
-  std::string word;
-  for (const Stage* stage : state.stages) word += stage->letter;
+  std::string pipeline;
+  for (const Stage* stage : state.stages) pipeline += stage->letter;
   const Stopwatch measuring;
-  measure_added_metrics(prepared, result.mesh, word, result.metrics);
+  measure_added_metrics(prepared, result.mesh, pipeline, result.metrics);
   result.log.add_time("metrics", measuring.time());
   return std::move(on.result);
 }

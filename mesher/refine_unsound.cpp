@@ -106,7 +106,7 @@ Warning warning_of_end(const MeshResult& result, const MeshingSetup& prepared, l
       prepared.settings.name, rounds, why, unsound_places(result));
 }
 
-void make_finer(const PrepareWithHints& prepare_with_hints, const Word& word, Budget& work,
+void make_finer(const PrepareWithHints& prepare_with_hints, const Pipeline& pipeline, Budget& work,
                 MeshingSetup& prepared, MeshResult& result) {
   // Given lines keep their nodes.
   const bool can_be_finer =
@@ -133,7 +133,7 @@ void make_finer(const PrepareWithHints& prepare_with_hints, const Word& word, Bu
       if (++rounds >= kFirstWithFeatures || ignores_small) hints.keep_features = true;
       const std::vector<SizeBall> spots = hints.spots;
       MeshingSetup finer = prepare_with_hints(hints);
-      MeshResult run = run_pipeline(finer, word);
+      MeshResult run = run_pipeline(finer, pipeline);
       seconds += run.seconds;
       last = work_on(finer, run);
       work.spend(last);
@@ -164,7 +164,7 @@ void make_finer(const PrepareWithHints& prepare_with_hints, const Word& word, Bu
 }
 
 /// Meshes without details that are small beside the size, and takes the mesh if it is sound.
-void leave_out_small(const PrepareWithHints& prepare_with_hints, const Word& word, Budget& work,
+void leave_out_small(const PrepareWithHints& prepare_with_hints, const Pipeline& pipeline, Budget& work,
                      MeshingSetup& prepared, MeshResult& result) {
   const RepairOptions options = repair_options(prepared.settings.options);
   if (!prepared.unselected.empty() || !options.refine_unsound || !options.ignore_small || !prepared.surface ||
@@ -180,9 +180,9 @@ void leave_out_small(const PrepareWithHints& prepare_with_hints, const Word& wor
   };
   try {
     MeshingSetup other = anew(no_hints(prepared));
-    MeshResult run = run_pipeline(other, word);
+    MeshResult run = run_pipeline(other, pipeline);
     work.spend(work_on(other, run));
-    make_finer(anew, word, work, other, run);
+    make_finer(anew, pipeline, work, other, run);
     if (run.soundness.sound()) {
       run.warnings.emplace_back(
           fmt::format("{}: parts narrower than {:.3g}, a tenth of the size, are left out, as the mesh would "
@@ -212,16 +212,16 @@ constexpr std::array kFallbacks = {Fallback{0.8, false}, Fallback{1, true}, Fall
                                    Fallback{1, false, 60}, Fallback{1, false, 25}};
 
 /// Returns the change for a warning, such as "by the stages DB alone".
-std::string fallback_text(const Fallback& last, const Word& first) {
+std::string fallback_text(const Fallback& last, const Pipeline& first) {
   if (last.makes_quads_only) return fmt::format("by the stages {} alone", first.text);
   if (last.feature_angle > 0) return fmt::format("with a feature angle of {:g} degrees", last.feature_angle);
   return fmt::format("with all sizes times {:g}", last.size_part);
 }
 
 /// Returns the stages of a pipeline up to its first quads.
-Word pipeline_until_quads(const Word& word) {
-  Word first{"", {}, PatchForm::kQuads};
-  for (const Stage* stage : word.stages) {
+Pipeline pipeline_until_quads(const Pipeline& pipeline) {
+  Pipeline first{"", {}, PatchForm::kQuads};
+  for (const Stage* stage : pipeline.stages) {
     first.text += stage->letter;
     first.stages.push_back(stage);
     if (stage->to == PatchForm::kQuads) break;
@@ -230,16 +230,16 @@ Word pipeline_until_quads(const Word& word) {
 }
 
 /// Takes the first of the last tries whose mesh is sound.
-void take_fallback(const PrepareWithHints& prepare_with_hints, const Word& word, Budget& work,
+void take_fallback(const PrepareWithHints& prepare_with_hints, const Pipeline& pipeline, Budget& work,
                    MeshingSetup& prepared, MeshResult& result) {
   if (!repair_options(prepared.settings.options).refine_unsound || !prepared.surface ||
       prepared.surface->given || prepared.surface->model.before || unsound_places(result) > kMostByChance)
     return;
   const double once = static_cast<double>(result.mesh.quads.size());
-  const Word first = pipeline_until_quads(word);
+  const Pipeline first = pipeline_until_quads(pipeline);
   for (const Fallback& last : kFallbacks) {
     const double part = last.size_part;
-    if (last.makes_quads_only && first.text == word.text) continue;
+    if (last.makes_quads_only && first.text == pipeline.text) continue;
     if (!last.makes_quads_only && !prepared.unselected.empty()) continue;  // nodes on curves stay
     if (last.feature_angle > 0 && prepared.surface->cad) continue;
     if (once / (part * part) > static_cast<double>(work.left())) continue;
@@ -248,7 +248,7 @@ void take_fallback(const PrepareWithHints& prepare_with_hints, const Word& word,
       hints.size_part = part;
       hints.feature_angle = last.feature_angle;
       MeshingSetup other = prepare_with_hints(hints);
-      MeshResult run = run_pipeline(other, last.makes_quads_only ? first : word);
+      MeshResult run = run_pipeline(other, last.makes_quads_only ? first : pipeline);
       work.spend(work_on(other, run));
       add_times(other.times, result.log);
       add_times(run.log.times, result.log);
@@ -274,7 +274,7 @@ void take_fallback(const PrepareWithHints& prepare_with_hints, const Word& word,
 }
 
 /// Meshes without the faces where the mesh is unsound, as long as others remain.
-void leave_out_unsound(const Word& word, MeshingSetup& prepared, MeshResult& result) {
+void leave_out_unsound(const Pipeline& pipeline, MeshingSetup& prepared, MeshResult& result) {
   if (!prepared.settings.keep_going || !prepared.surface || prepared.surface->mirrored ||
       prepared.surface->given)
     return;
@@ -290,7 +290,7 @@ void leave_out_unsound(const Word& word, MeshingSetup& prepared, MeshResult& res
           prepared.failures.push_back(
               {place.face, fmt::format("the mesh of {} is not sound", show_place(run.mesh, place))});
       if (prepared.failures.size() == n_known) break;
-      run = run_pipeline(prepared, word);
+      run = run_pipeline(prepared, pipeline);
       seconds += run.seconds;
     }
   } catch (const InputError&) {
@@ -303,10 +303,10 @@ void leave_out_unsound(const Word& word, MeshingSetup& prepared, MeshResult& res
   result.seconds = seconds;
 }
 
-/// The word without layouts, whose gain is not worth an unsound mesh.
-Word without_layouts(const Word& word) {
-  Word other{"", {}, word.result};
-  for (const Stage* stage : word.stages) {
+/// The pipeline without layouts, whose gain is not worth an unsound mesh.
+Pipeline without_layouts(const Pipeline& pipeline) {
+  Pipeline other{"", {}, pipeline.result};
+  for (const Stage* stage : pipeline.stages) {
     if (stage->letter == 'R') continue;
     other.text += stage->letter;
     other.stages.push_back(stage);
@@ -315,7 +315,7 @@ Word without_layouts(const Word& word) {
 }
 
 /// Meshes without layouts where these changed an unsound mesh.
-void undo_layouts(const Word& plain, Budget& work, const MeshingSetup& prepared, MeshResult& result) {
+void undo_layouts(const Pipeline& plain, Budget& work, const MeshingSetup& prepared, MeshResult& result) {
   const Summaries& summaries = result.log.summaries;
   if (!repair_options(prepared.settings.options).refine_unsound || !summaries.has("layouts_together") ||
       summaries.number("layouts_together", "accepted") == 0)
@@ -342,14 +342,14 @@ long long work_on(const MeshingSetup& prepared, const MeshResult& result) {
   return work;
 }
 
-void refine_unsound(const PrepareWithHints& prepare_with_hints, const Word& word, MeshingSetup& prepared,
-                    MeshResult& result) {
+void refine_unsound(const PrepareWithHints& prepare_with_hints, const Pipeline& pipeline,
+                    MeshingSetup& prepared, MeshResult& result) {
   const auto quads = static_cast<long long>(result.mesh.quads.size());
   const long long once = work_on(prepared, result),
                   most =
                       std::max(std::min(kLeastWork + kWorkPerQuad * quads, kUsualWork), kMostTimes * quads);
   Budget finer(most - once), others(most / 3);
-  const Word plain = without_layouts(word);
+  const Pipeline plain = without_layouts(pipeline);
   undo_layouts(plain, finer, prepared, result);
   make_finer(prepare_with_hints, plain, finer, prepared, result);
   others.spend(std::max(-finer.left(), 0LL));

@@ -61,8 +61,8 @@ MeshMetrics metrics_of(const MeshingSetup& prepared, const Mesh& mesh, std::span
 /// Adds the angles between edges and cross field.
 void add_misalignment(const MeshingSetup& prepared, const Mesh& mesh, std::span<const HalfEdge> sides,
                       MeshMetrics& metrics);
-/// Adds the measures that programs registered; `word` is the text of the pipeline.
-void measure_added_metrics(const MeshingSetup& prepared, const Mesh& mesh, const std::string& word,
+/// Adds the measures that programs registered; `pipeline` is the text of the pipeline.
+void measure_added_metrics(const MeshingSetup& prepared, const Mesh& mesh, const std::string& pipeline,
                            MeshMetrics& metrics);
 /// Measures a curved mesh after its vertices moved, and adds the unsound places of its straight form.
 void measure_straight_form(const MeshingSetup& prepared, const std::vector<char>& left_out,
@@ -78,7 +78,7 @@ std::vector<char> unedited_patches(const MeshingSetup& prepared, const PipelineS
 MeshResult finish_meshing(const MeshingSetup& prepared, const std::string& label, PipelineState state);
 
 /// Meshes every patch stage by stage, and returns finish_meshing(). Throws as run_stage().
-MeshResult run_pipeline(const MeshingSetup& prepared, const Word& word);
+MeshResult run_pipeline(const MeshingSetup& prepared, const Pipeline& pipeline);
 
 /// Returns the patches as one mesh. Boundary nodes, at `nodes`, come first; the points inside each patch
 /// follow. Faces that are `left_out` (by region) are missing, with their own nodes. `log` receives the time

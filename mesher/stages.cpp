@@ -402,35 +402,36 @@ void add_stage(Stage stage) {
   stages().push_back(std::move(stage));
 }
 
-bool Word::quads_only() const {
+bool Pipeline::quads_only() const {
   return result == PatchForm::kQuads && !stages.empty() &&
          std::ranges::none_of(stages, [](const Stage* stage) { return stage->leaves_triangles; });
 }
 
-WordStart word_start(const Model& model) {
+PipelineStart pipeline_start(const Model& model) {
   const auto* file = std::get_if<ModelFile>(&model);
   const bool given = std::holds_alternative<GivenMesh>(model) || (file != nullptr && file->given);
-  return given ? WordStart::kGivenMesh : WordStart::kBoundary;
+  return given ? PipelineStart::kGivenMesh : PipelineStart::kBoundary;
 }
 
-Word parse_word(const std::string& text, WordStart start) {
+Pipeline parse_pipeline(const std::string& text, PipelineStart start) {
   const std::string label = "pipeline '" + text + "': ";
   if (text.empty()) throw InputError("empty pipeline: expected stages of " + known_stages());
-  Word word{text, {}, PatchForm::kBoundary};
+  Pipeline pipeline{text, {}, PatchForm::kBoundary};
   for (const char letter : text) {
     const auto stage = std::ranges::find(stages(), letter, &Stage::letter);
     if (stage == stages().end())
       throw InputError(label + "unknown stage '" + std::string(1, letter) + "'; known: " + known_stages() +
                        capitals_suggestion(text));
-    const bool begins = word.stages.empty() && start == WordStart::kGivenMesh;
-    if (stage->from != word.result && !begins)
-      throw InputError(label + "'" + letter + "' starts from " + form_name(stage->from) + ", but " +
-                       (word.stages.empty() ? "a pipeline starts from " : "what stands before it leaves ") +
-                       form_name(word.result));
-    word.stages.push_back(&*stage);
-    word.result = stage->to;
+    const bool begins = pipeline.stages.empty() && start == PipelineStart::kGivenMesh;
+    if (stage->from != pipeline.result && !begins)
+      throw InputError(
+          label + "'" + letter + "' starts from " + form_name(stage->from) + ", but " +
+          (pipeline.stages.empty() ? "a pipeline starts from " : "what stands before it leaves ") +
+          form_name(pipeline.result));
+    pipeline.stages.push_back(&*stage);
+    pipeline.result = stage->to;
   }
-  return word;
+  return pipeline;
 }
 
 }  // namespace delquad

@@ -70,7 +70,7 @@ std::string experiment_of(const BatchArguments& arguments, const std::map<std::s
       "# Made by `delquad batch`; `delquad run` reads it, too.\ntitle = {}\npipelines = [{}]\ncross = {}\n"
       "columns = [\"n_quads\", \"failing\", \"time_step\", \"deviation\", \"eta_mean\", \"eta_worst\", "
       "\"warnings\", \"seconds\"]\ncriteria = {}\n",
-      quoted("Parts of " + arguments.data.string()), quoted(quality.word),
+      quoted("Parts of " + arguments.data.string()), quoted(quality.pipeline),
       quoted(text_of({.kind = quality.cross})),
       quoted(is_preset ? arguments.criteria : fs::absolute(arguments.criteria).string()));
   for (const auto& [name, value] : quality.options.values())

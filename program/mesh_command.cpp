@@ -43,11 +43,11 @@ void print_left_out(const std::vector<FaceFailure>& failures) {
 }
 
 /// Meshes; of what is left out is told, too, when that fails.
-MeshResult mesh_or_report(const MeshArguments& arguments, const Prepared& prepared, const Word& word,
+MeshResult mesh_or_report(const MeshArguments& arguments, const Prepared& prepared, const Pipeline& pipeline,
                           const Context& context, Progress& progress) {
   std::vector<FaceFailure> left_out = prepared->failures;
   try {
-    MeshResult result = mesh(prepared, word.text, context);
+    MeshResult result = mesh(prepared, pipeline.text, context);
     left_out = result.failures;
     std::vector<Warning> warnings = result.warnings_on_mesh();
     // The last one is the error then.
@@ -67,14 +67,14 @@ MeshResult mesh_or_report(const MeshArguments& arguments, const Prepared& prepar
 }
 
 /// Tells the cost of a large mesh. Returns whether it is large.
-bool warn_of_cost(const MeshProblem& problem, double quads, const Word& word, Progress& progress) {
+bool warn_of_cost(const MeshProblem& problem, double quads, const Pipeline& pipeline, Progress& progress) {
   constexpr double kManyQuads = 2e6;
   if (!(quads > kManyQuads)) return false;
   // The bracket and the plate of docs/measurements.md, with half a million quads, need these.
   const std::map<char, double> microseconds = {{'C', 55}, {'R', 70}, {'L', 200}};
   constexpr double kOther = 11, kBytes = 700, kMoreBytes = 600, kMinute = 60e6, kGigabyte = 1e9;
   double time = 0, bytes = kBytes;
-  for (const Stage* stage : word.stages) {
+  for (const Stage* stage : pipeline.stages) {
     const auto slow = microseconds.find(stage->letter);
     time += slow == microseconds.end() ? kOther : slow->second;
     if (slow != microseconds.end()) bytes = kBytes + kMoreBytes;
@@ -131,7 +131,7 @@ std::vector<std::size_t> failing_quads(const MeshResult& result) {
 }
 
 /// Returns the exit code.
-int print_missing(const MeshResult& result, const Word& word, bool quads_wanted) {
+int print_missing(const MeshResult& result, const Pipeline& pipeline, bool quads_wanted) {
   print_left_out(result.failures);
   if (!result.failures.empty()) return kFacesLeftOut;
   if (!quads_wanted || result.mesh.triangles.empty()) return kDone;
@@ -140,17 +140,17 @@ int print_missing(const MeshResult& result, const Word& word, bool quads_wanted)
              "error: {} {} left among the quads of the written mesh (--allow-triangles accepts them{}) "
              "[odd-boundary]\n",
              n, n == 1 ? "triangle is" : "triangles are",
-             word.stages.front()->from != PatchForm::kQuads
+             pipeline.stages.front()->from != PatchForm::kQuads
                  ? ""
                  : "; a pipeline that begins with B, such as BCO, merges triangles");
   return kTrianglesLeft;
 }
 
-/// The text of the word that is asked for; `given`: of what is to be improved.
+/// The text of the pipeline that is asked for; `given`: of what is to be improved.
 std::string pipeline_text(const MeshArguments& arguments, const std::optional<Mesh>& given) {
   if (arguments.pipeline) return *arguments.pipeline;
   if (given) return given->quads.empty() ? "BCO" : "CO";
-  return quality_named(arguments.quality).word;
+  return quality_named(arguments.quality).pipeline;
 }
 
 /// Reads the cell of a record, and takes over its pipeline and how experiments write meshes.
@@ -163,7 +163,7 @@ std::optional<RecordedCell> read_record(MeshArguments& arguments) {
   if (const auto* file = std::get_if<ModelFile>(&cell.c.model); file && kind_of_file(file->path) == ".inp")
     refuse("{}: is the record of an improved deck: 'delquad improve {} -o FILE' keeps the deck",
            arguments.model.string(), file->path.string());
-  if (!arguments.pipeline) arguments.pipeline = cell.experiment.words[0].text;
+  if (!arguments.pipeline) arguments.pipeline = cell.experiment.parsed[0].text;
   arguments.keep_numbers |= cell.is_of_experiment;
   if (cell.is_of_experiment && arguments.msh.curves == MeshArguments().msh.curves)
     arguments.msh.curves = MshOptions().curves;
@@ -194,17 +194,19 @@ void print_before(const std::string& file, const Mesh& mesh, const Prepared& pre
 }
 
 /// Warns of a size that asks for another number of elements, which stages on given elements keep.
-void warn_of_number(const Mesh& given, const Prepared& prepared, const Word& word, Progress& progress) {
+void warn_of_number(const Mesh& given, const Prepared& prepared, const Pipeline& pipeline,
+                    Progress& progress) {
   constexpr double kMuch = 1.5;
   const double asked = prepared->size.expected_quads;
   const auto number =
       static_cast<double>(given.quads.size()) + static_cast<double>(given.triangles.size()) / 2;
-  if (word.stages.front()->from == PatchForm::kBoundary || (asked < kMuch * number && number < kMuch * asked))
+  if (pipeline.stages.front()->from == PatchForm::kBoundary ||
+      (asked < kMuch * number && number < kMuch * asked))
     return;
   progress.warn({Warning(fmt::format(
       "--size: about {:.2g} quads are wanted, and {} keeps the number of {:.0f}: '--pipeline DBCO' makes new "
       "ones between the edges of the boundary, which stay",
-      asked, word.text, number))});
+      asked, pipeline.text, number))});
 }
 
 /// The least and the largest wanted size at nodes.
@@ -302,7 +304,7 @@ void carry_given(const MeshArguments& arguments, const Mesh& mesh, MeshResult& r
 }
 
 /// `depth`: of water, at points; null: none is written. `is_kept`: the file of the given mesh is.
-void write_result(const MeshArguments& arguments, const Case& c, const Word& word,
+void write_result(const MeshArguments& arguments, const Case& c, const Pipeline& pipeline,
                   const std::function<double(const Vec3&)>& depth, bool is_kept, Progress& progress,
                   MeshResult& result) {
   const StageScope writing_files("writing");
@@ -325,7 +327,7 @@ void write_result(const MeshArguments& arguments, const Case& c, const Word& wor
   if (arguments.improve && !is_kept) carry_given(arguments, last, result, progress);
   result.log.add_time("write", writing.time());
   if (!arguments.fields.empty()) write_wanted(arguments.fields, result.mesh, result.prepared);
-  if (!arguments.json.empty()) write_text_file(arguments.json, run_record(c, word, result));
+  if (!arguments.json.empty()) write_text_file(arguments.json, run_record(c, pipeline, result));
 }
 
 int mesh_command(MeshArguments arguments) {
@@ -336,12 +338,12 @@ int mesh_command(MeshArguments arguments) {
   if (arguments.improve) given = read_mesh(arguments.model);
   const std::optional<RecordedCell> recorded = read_record(arguments);
   const std::string text = pipeline_text(arguments, given);
-  parse_word(text, WordStart::kGivenMesh);  // before anything is read
+  parse_pipeline(text, PipelineStart::kGivenMesh);  // before anything is read
   Case c = recorded ? recorded->c : read_case(arguments);
-  const Word word = parse_word(text, word_start(c.model));
+  const Pipeline pipeline = parse_pipeline(text, pipeline_start(c.model));
   c.allow_unsound = true;  // see below
   set_problem(arguments, c);
-  check_mesh_format(arguments.output, arguments.msh, c.order, word.result == PatchForm::kQuads);
+  check_mesh_format(arguments.output, arguments.msh, c.order, pipeline.result == PatchForm::kQuads);
   if (arguments.improve) check_triangles(arguments.model, arguments.output, arguments.msh);
   if (arguments.serendipity) check_serendipity(arguments.output, arguments.msh, c.order);
   const auto size_file = size_file_of(c.size.text, c.size.folder);
@@ -362,7 +364,7 @@ int mesh_command(MeshArguments arguments) {
   if (!arguments.json.empty()) check_output(arguments.json);
   if (!arguments.fields.empty()) check_fields_file(arguments.fields);
 
-  Progress progress(2 + static_cast<int>(word.stages.size()));
+  Progress progress(2 + static_cast<int>(pipeline.stages.size()));
   const auto told = [&](const std::string& head) {
     return Context{.progress = [&progress, head](const ProgressReport& report) {
       progress.step(head + ": " + report.stage);
@@ -370,22 +372,23 @@ int mesh_command(MeshArguments arguments) {
   };
   on_estimate() = [&, is_reported = false](double quads) mutable {
     is_reported =
-        is_reported || warn_of_cost(c, c.quads ? static_cast<double>(*c.quads) : quads, word, progress);
+        is_reported || warn_of_cost(c, c.quads ? static_cast<double>(*c.quads) : quads, pipeline, progress);
   };
   const Prepared prepared = prepare(c, told(c.name));
   on_estimate() = nullptr;
   progress.warn(prepared->warnings);
-  if (given && !c.size.text.empty()) warn_of_number(*given, prepared, word, progress);
-  MeshResult result = mesh_or_report(arguments, prepared, word, told(c.name + " " + word.text), progress);
+  if (given && !c.size.text.empty()) warn_of_number(*given, prepared, pipeline, progress);
+  MeshResult result =
+      mesh_or_report(arguments, prepared, pipeline, told(c.name + " " + pipeline.text), progress);
   const bool is_kept = keeps_given(arguments, given, result, progress);
-  write_result(arguments, c, word, depth, is_kept, progress, result);
+  write_result(arguments, c, pipeline, depth, is_kept, progress, result);
   progress.finish();
   if (given) print_before(arguments.model.string(), *given, result.prepared);
   print_after(arguments, result, command.seconds());
   if (arguments.view)
     view(page_of(arguments.output), result.mesh, arguments.output.filename().string(),
          {.warnings = lines_of(result.warnings), .failing = failing_quads(result)});
-  return print_missing(result, word, word.quads_only() && !arguments.allow_triangles);
+  return print_missing(result, pipeline, pipeline.quads_only() && !arguments.allow_triangles);
 }
 
 }  // namespace

@@ -278,7 +278,7 @@ CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
   add_surface(*mesh, arguments);
   std::string qualities;
   for (const Quality& q : quality_registry())
-    qualities += (qualities.empty() ? "" : ", ") + q.name + " (" + q.word + ", cross " +
+    qualities += (qualities.empty() ? "" : ", ") + q.name + " (" + q.pipeline + ", cross " +
                  text_of(CrossSpec{.kind = q.cross}) + ")";
   CLI::Option* quality =
       mesh->add_option("--quality", arguments.quality, "trade time against quality: " + qualities)

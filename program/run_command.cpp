@@ -56,8 +56,8 @@ void choose_pipelines(const RunArguments& arguments, Experiment& experiment) {
     if (std::ranges::none_of(names, is_named)) pipelines.insert(pipelines.end(), names.begin(), names.end());
   }
   const auto of_file = static_cast<double>(std::max<std::size_t>(experiment.pipelines.size(), 1));
-  experiment.words = located("--pipelines", [&] { return experiment.find_pipelines(pipelines); });
-  experiment.minutes *= static_cast<double>(experiment.words.size()) / of_file;
+  experiment.parsed = located("--pipelines", [&] { return experiment.find_pipelines(pipelines); });
+  experiment.minutes *= static_cast<double>(experiment.parsed.size()) / of_file;
 }
 
 std::vector<Experiment> read_experiments(const RunArguments& arguments) {

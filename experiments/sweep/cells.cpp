@@ -66,32 +66,32 @@ std::string model_digest(const Case& c) {
 }
 
 CellIdentity identify(const Experiment& experiment, const Case& c, const std::string& model,
-                      const Word& word) {
+                      const Pipeline& pipeline) {
   CellIdentity cell;
   cell.model_digest = model;
   cell.program_digest = program_digest();
-  std::string pipeline = word.text;
-  if ((cell.peer = experiment.peer_of(word)) != nullptr) {
+  std::string text = pipeline.text;
+  if ((cell.peer = experiment.peer_of(pipeline)) != nullptr) {
     cell.peer_version = version_of(*cell.peer, cell.no_peer_version);
     cell.peer_file = fs::absolute(cell.peer->file)
                          .lexically_normal()
                          .lexically_relative(fs::absolute(experiment.file).lexically_normal().parent_path())
                          .generic_string();
     cell.peer_files = command_files(cell.peer->folder, command_of_case(*cell.peer, c.name));
-    pipeline += peer_record(cell);
+    text += peer_record(cell);
   }
   for (const MetricCommand& metric : experiment.metrics)
     cell.metrics.push_back({&metric, metric_files(metric)});
   cell.solvers = experiment.solvers;
-  pipeline += metrics_by_command_record(cell);
+  text += metrics_by_command_record(cell);
   const ProblemRecord problem = record_of(c);
-  cell.key = digest(fmt::format("{}\n{}\n{}", problem.digest(), pipeline, cell.program_digest));
+  cell.key = digest(fmt::format("{}\n{}\n{}", problem.digest(), text, cell.program_digest));
   if (!problem.in_memory.empty()) cell.key = random_key();
   return cell;
 }
 
-fs::path cell_folder(const fs::path& folder, const Case& c, const Word& word) {
-  return folder / c.folder / word.text;
+fs::path cell_folder(const fs::path& folder, const Case& c, const Pipeline& pipeline) {
+  return folder / c.folder / pipeline.text;
 }
 
 std::vector<std::string> measure_by_commands(const CellIdentity& cell, const Case& c,

@@ -21,10 +21,11 @@ void set_added_parts(const std::string& text);
 
 /// Returns the cell of a pipeline on a variant of a case.
 CellIdentity identify(const Experiment& experiment, const Case& c, const std::string& model_digest,
-                      const Word& word);
+                      const Pipeline& pipeline);
 
 /// Returns the folder of the results of a cell, below the folder of the experiment.
-std::filesystem::path cell_folder(const std::filesystem::path& folder, const Case& c, const Word& word);
+std::filesystem::path cell_folder(const std::filesystem::path& folder, const Case& c,
+                                  const Pipeline& pipeline);
 
 /// Measures a cell by other programs in the folder `scratch`, which is made if necessary and gets mesh.msh
 /// and their files. Adds values, failures and the time to the result. Returns the failures, a line each.

@@ -33,9 +33,9 @@ std::vector<Metric> added_metrics_of(const Experiment& experiment, const Case& c
 }
 
 /// As if it had a mesh, as good as its number: no two cells have the same values.
-void add_planned_values(const Experiment& experiment, const Case& c, const Word& word, double number,
+void add_planned_values(const Experiment& experiment, const Case& c, const Pipeline& pipeline, double number,
                         CellRecord& cell) {
-  if (word.result != PatchForm::kQuads || cell.kind == kNotApplicable) return;
+  if (pipeline.result != PatchForm::kQuads || cell.kind == kNotApplicable) return;
   cell.added_metrics = added_metrics_of(experiment, c);
   for (const Metric& metric : metric_registry()) cell.values[metric.key] = number;
   for (const Metric& metric : cell.added_metrics) cell.values[metric.key] = number;
@@ -43,7 +43,7 @@ void add_planned_values(const Experiment& experiment, const Case& c, const Word&
     for (const std::string& key : hypothesis.measures)
       if (cell.values.contains(key.substr(0, key.find('.')))) cell.values[key] = number;
   cell.values["n_quads"] = 1;
-  cell.values["n_triangles"] = word.quads_only() ? 0 : 1;
+  cell.values["n_triangles"] = pipeline.quads_only() ? 0 : 1;
 }
 
 /// The cells in their order; `kind` is what there is of them.
@@ -56,17 +56,17 @@ std::vector<CellRecord> planned_cells(const Experiment& experiment, const StudyF
       const Case c = experiment.read_variant(i, v);
       const bool absent = c.may_be_absent && !fs::exists(model_path(c));
       const std::string model = absent ? "" : model_digest(c);
-      for (const Word& word : experiment.words) {
-        const CellIdentity identity = identify(experiment, c, model, word);
-        CellRecord& cell =
-            cells.emplace_back(CellRecord{c.folder, word.text, "", {}, c.name, domains.at(c.name), model});
+      for (const Pipeline& pipeline : experiment.parsed) {
+        const CellIdentity identity = identify(experiment, c, model, pipeline);
+        CellRecord& cell = cells.emplace_back(
+            CellRecord{c.folder, pipeline.text, "", {}, c.name, domains.at(c.name), model});
         cell.variant = c.variant;
         cell.skipped = absent;
         cell.kind = absent           ? "data not found"
                     : folder.empty() ? "to do"
-                                     : state_of_cell(cell_folder(folder, c, word), identity.key);
+                                     : state_of_cell(cell_folder(folder, c, pipeline), identity.key);
         if (absent) cell.reason = cell.kind;
-        add_planned_values(experiment, c, word, static_cast<double>(cells.size()), cell);
+        add_planned_values(experiment, c, pipeline, static_cast<double>(cells.size()), cell);
       }
     }
   return cells;

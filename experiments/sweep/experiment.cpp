@@ -115,18 +115,19 @@ std::vector<std::filesystem::path> Experiment::files() const {
     if (!c.may_be_absent) add(model_path(c));
   }
   // Programs of the system stay where they are.
-  const auto add_beside = [&](const fs::path& folder, const std::string& word) {
-    if (!fs::path(word).is_absolute()) add(folder / word);
+  const auto add_beside = [&](const fs::path& folder, const std::string& pipeline) {
+    if (!fs::path(pipeline).is_absolute()) add(folder / pipeline);
   };
   const auto add_files_of = [&](const Peer& peer, const std::vector<std::string>& command) {
-    for (const auto& [word, digest] : command_files(peer.folder, command)) add_beside(peer.folder, word);
+    for (const auto& [pipeline, digest] : command_files(peer.folder, command))
+      add_beside(peer.folder, pipeline);
   };
   for (const Peer& peer : peers) {
     add_files_of(peer, peer.version);
     for (const std::string& name : names) add_files_of(peer, command_of_case(peer, name));
   }
   for (const MetricCommand& metric : metrics)
-    for (const auto& [word, digest] : metric_files(metric)) add_beside(metric.folder, word);
+    for (const auto& [pipeline, digest] : metric_files(metric)) add_beside(metric.folder, pipeline);
   return {found.begin(), found.end()};
 }
 
@@ -213,25 +214,25 @@ Case Experiment::read_variant(std::size_t index_of_case, std::size_t variant) co
 void Experiment::check_comparisons(const TomlTable& table, const Case& c) const {
   std::vector<std::string> names;
   for (const PublishedRow& row : published) names.push_back(row.name);
-  for (const auto& [word, name] : c.compare) {
-    located(table.where("compare"), [&] { find_pipeline(word); });
+  for (const auto& [pipeline, name] : c.compare) {
+    located(table.where("compare"), [&] { find_pipeline(pipeline); });
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     throw InputError(table.where("compare") + ": no published row '" + name + "'" + suggestion(name, names));
   }
 }
 
-const Peer* Experiment::peer_of(const Word& word) const {
-  if (!word.stages.empty()) return nullptr;
-  return &*std::ranges::find(peers, word.text, &Peer::name);
+const Peer* Experiment::peer_of(const Pipeline& pipeline) const {
+  if (!pipeline.stages.empty()) return nullptr;
+  return &*std::ranges::find(peers, pipeline.text, &Peer::name);
 }
 
-Word Experiment::find_pipeline(const std::string& text) const {
+Pipeline Experiment::find_pipeline(const std::string& text) const {
   const bool is_peer = std::ranges::find(peers, text, &Peer::name) != peers.end();
   if (is_peer) return {text, {}, PatchForm::kQuads};
   std::vector<std::string> names;
   for (const Peer& peer : peers) names.push_back(peer.name);
   try {
-    return parse_word(text, word_start_);
+    return parse_pipeline(text, start_);
   } catch (const InputError& error) {
     const std::string what = error.what() + suggestion(text, names);
     throw InputError(what + (what.find("did you mean") != std::string::npos
@@ -240,11 +241,11 @@ Word Experiment::find_pipeline(const std::string& text) const {
   }
 }
 
-std::vector<Word> Experiment::find_pipelines(const std::vector<std::string>& texts) const {
+std::vector<Pipeline> Experiment::find_pipelines(const std::vector<std::string>& texts) const {
   if (texts.empty()) throw InputError("no pipeline given: expected pipelines such as DB");
-  std::vector<Word> found;
+  std::vector<Pipeline> found;
   for (const std::string& text : texts) {
-    if (std::ranges::find(found, text, &Word::text) != found.end())
+    if (std::ranges::find(found, text, &Pipeline::text) != found.end())
       throw InputError("pipeline '" + text + "' is given twice: expected it once");
     found.push_back(find_pipeline(text));
   }
@@ -263,13 +264,13 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
   experiment.cases_ = read_cases(table);
   if (table.has("start") ||
       std::ranges::any_of(experiment.cases_, [](const auto& c) { return c.has("start"); }))
-    experiment.word_start_ = WordStart::kGivenMesh;
+    experiment.start_ = PipelineStart::kGivenMesh;
   experiment.title = file.stem().string();
   read_fields(table, static_cast<TablePlan&>(experiment));
   read_fields(table, static_cast<ExperimentKeys&>(experiment));
   experiment.settle_calibration(table);
   if (with_pipelines)
-    experiment.words =
+    experiment.parsed =
         located(table.where("pipelines"), [&] { return experiment.find_pipelines(experiment.pipelines); });
   experiment.check_metrics(table);
   const std::vector<std::string> metrics = experiment.keys_of_metrics();
@@ -298,8 +299,9 @@ Experiment Experiment::read(const std::filesystem::path& file, const std::filesy
       const Case c = experiment.read_variant(i, v);
       check_case(c);
       check_adapt(c);
-      for (const Word& word : experiment.words)
-        if (!word.stages.empty()) located(c.where, [&] { parse_word(word.text, word_start(c.model)); });
+      for (const Pipeline& pipeline : experiment.parsed)
+        if (!pipeline.stages.empty())
+          located(c.where, [&] { parse_pipeline(pipeline.text, pipeline_start(c.model)); });
     }
   }
   return experiment;
@@ -319,7 +321,7 @@ std::string Experiment::plan(const StudyFile& study) const {
     add({name, geometry.domain});
     for (const Peer& peer : peers) add(command_files(peer.folder, command_of_case(peer, name)));
   }
-  for (const Word& word : words) add(word.text);
+  for (const Pipeline& pipeline : parsed) add(pipeline.text);
   for (const MetricCommand& metric : metrics) add(metric_files(metric));
   std::ranges::sort(parts);
   add(plan);
@@ -330,7 +332,7 @@ StudyFile describe(const Experiment& experiment) {
   StudyFile study;
   static_cast<TablePlan&>(study) = experiment;
   study.experiment = experiment.file.stem().string();
-  for (const Word& word : experiment.words) study.pipelines.push_back(word.text);
+  for (const Pipeline& pipeline : experiment.parsed) study.pipelines.push_back(pipeline.text);
   for (const Axis& axis : experiment.axes) study.axes.emplace_back(axis.title, axis.values);
   study.cells = experiment.n_cells();
   for (std::size_t i = 0; i < experiment.n_cases(); ++i) {

@@ -31,8 +31,8 @@ struct Axis {
 class Experiment : public TablePlan, public ExperimentKeys {
  public:
   std::filesystem::path file;
-  std::vector<Word> words;      ///< pipelines; peers are words without stages
-  std::string calibrate_where;  ///< file and line of the request for a calibration; empty: none
+  std::vector<Pipeline> parsed;  ///< pipelines; peers are pipelines without stages
+  std::string calibrate_where;   ///< file and line of the request for a calibration; empty: none
   std::vector<Axis> axes;
   long long max_elements = MeshProblem{}.max_elements;  ///< of every case
 
@@ -42,18 +42,18 @@ class Experiment : public TablePlan, public ExperimentKeys {
   /// Throws InputError, with file and line, for a hypothesis about a pipeline that is not run. Also throws
   /// for two pipelines without a common domain with quads. Call it after all pipelines are known.
   void check_hypotheses() const;
-  /// Returns pipelines by their texts: words, and names of peers. Throws InputError for none, and for
+  /// Returns pipelines by their texts: stages, and names of peers. Throws InputError for none, and for
   /// repeated ones.
-  std::vector<Word> find_pipelines(const std::vector<std::string>& texts) const;
-  /// Reads the [[peer]] tables of a separate file; returns their names, which `words` does not have yet.
+  std::vector<Pipeline> find_pipelines(const std::vector<std::string>& texts) const;
+  /// Reads the [[peer]] tables of a separate file; returns their names, which `parsed` does not have yet.
   /// Throws InputError with file and line.
   std::vector<std::string> add_peer_file(const std::filesystem::path& path);
-  /// Returns the peer; null for a word of stages.
-  const Peer* peer_of(const Word& word) const;
+  /// Returns the peer; null for a pipeline of stages.
+  const Peer* peer_of(const Pipeline& pipeline) const;
 
   std::size_t n_cases() const { return cases_.size(); }
   std::size_t n_variants() const;  ///< of each case
-  std::size_t n_cells() const { return n_cases() * n_variants() * words.size(); }
+  std::size_t n_cells() const { return n_cases() * n_variants() * parsed.size(); }
   /// Returns the file of the experiment and the files that it names beside it: models, published rows, files
   /// of peers and measures. Data of cases and missing files are left out.
   std::vector<std::filesystem::path> files() const;
@@ -61,7 +61,7 @@ class Experiment : public TablePlan, public ExperimentKeys {
   Case read_variant(std::size_t index_of_case, std::size_t variant = 0) const;
 
   /// Reads an experiment. `data` is the folder of models that cases call data. `with_pipelines` finds the
-  /// pipelines of the file; otherwise `words` stays empty. Throws InputError, with file and line, for
+  /// pipelines of the file; otherwise `parsed` stays empty. Throws InputError, with file and line, for
   /// anything against docs/experiments.md.
   static Experiment read(const std::filesystem::path& file, const std::filesystem::path& data = kDataFolder,
                          bool with_pipelines = true);
@@ -78,16 +78,16 @@ class Experiment : public TablePlan, public ExperimentKeys {
   void check_may_fail(const TomlTable& table, const MayFail& cells) const;
   std::vector<Metric> known_metrics() const;
   std::vector<std::string> keys_of_metrics() const;
-  Word find_pipeline(const std::string& text) const;
+  Pipeline find_pipeline(const std::string& text) const;
   void check_comparisons(const TomlTable& table, const Case& c) const;
 
   /// Returns the digest of everything that determines results, except the order of cases and hypotheses.
   /// `study` has problems and geometries.
   std::string plan(const StudyFile& study) const;
 
-  std::optional<TomlTable> table_;               ///< the file
-  Case defaults_;                                ///< its values for every case
-  WordStart word_start_ = WordStart::kBoundary;  ///< a given mesh if one of the cases has one
+  std::optional<TomlTable> table_;                  ///< the file
+  Case defaults_;                                   ///< its values for every case
+  PipelineStart start_ = PipelineStart::kBoundary;  ///< a given mesh if one of the cases has one
   std::vector<TomlTable> cases_;
   std::vector<TomlTable> variants_;  ///< named sets of keys, the first axis; empty: none
   std::optional<TomlTable> matrix_;

@@ -99,14 +99,14 @@ namespace {
 
 bool makes_quads(const std::string& text) {
   try {
-    return parse_word(text).result == PatchForm::kQuads;
+    return parse_pipeline(text).result == PatchForm::kQuads;
   } catch (const InputError&) {
     return false;  // a peer
   }
 }
 
 void check_reference_pipeline(const std::string& text) {
-  parse_word(text);
+  parse_pipeline(text);
   if (!makes_quads(text))
     throw InputError("'calibrate_to' is '" + text +
                      "', which makes no quads: expected a pipeline such as DBCO");
@@ -290,23 +290,23 @@ void Experiment::check_hypothesis(const TomlTable& table, const Hypothesis& h) c
 
 void Experiment::check_hypotheses() const {
   // The keys of a peer tell which cases it can mesh, without a look into files.
-  const auto may_mesh = [&](const Word& word, const Case& c) {
-    const Peer* peer = peer_of(word);
-    if (peer == nullptr) return word.result == PatchForm::kQuads;
+  const auto may_mesh = [&](const Pipeline& pipeline, const Case& c) {
+    const Peer* peer = peer_of(pipeline);
+    if (peer == nullptr) return pipeline.result == PatchForm::kQuads;
     const bool planar = planar_model(c) != nullptr, on_surface = !example_of(c).empty();
     return (peer->planar != HandOver::kNothing && !on_surface) ||
            (peer->surfaces != HandOver::kNothing && !planar);
   };
   std::vector<std::string> run;
-  for (const Word& word : words) run.push_back(word.text);
+  for (const Pipeline& pipeline : parsed) run.push_back(pipeline.text);
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
     const Hypothesis& h = hypotheses[i];
     const TomlTable& table = hypothesis_tables_[i];
-    std::vector<Word> compared;
+    std::vector<Pipeline> compared;
     for (const auto& [key, text] : {std::pair("better", h.better), std::pair("than", h.than)}) {
-      const auto at = std::ranges::find(words, text, &Word::text);
+      const auto at = std::ranges::find(parsed, text, &Pipeline::text);
       if (!h.along.empty()) continue;
-      if (at == words.end())
+      if (at == parsed.end())
         refuse("{}: '{}' is none of the pipelines that are run (--pipelines counts){}", table.where(key),
                text, suggestion_or_all(text, run));
       compared.push_back(*at);
@@ -315,8 +315,8 @@ void Experiment::check_hypotheses() const {
     bool shared = false;
     for (std::size_t k = 0; k < n_cases() && !shared; ++k) {
       const Case c = read_variant(k);
-      const auto makes_quads_of_it = [&](const Word& word) { return may_mesh(word, c); };
-      const auto made = std::ranges::count_if(h.along.empty() ? compared : words, makes_quads_of_it);
+      const auto makes_quads_of_it = [&](const Pipeline& pipeline) { return may_mesh(pipeline, c); };
+      const auto made = std::ranges::count_if(h.along.empty() ? compared : parsed, makes_quads_of_it);
       shared = static_cast<std::size_t>(made) >= needed;
     }
     if (!shared)

@@ -414,7 +414,7 @@ MeshResult run_peer(const Peer& peer, const Case& c, const Prepared& prepared, c
   return result;
 }
 
-MeshResult mesh_cell(const Case& c, const Word& word, const Peer* peer, const fs::path& scratch) {
+MeshResult mesh_cell(const Case& c, const Pipeline& word, const Peer* peer, const fs::path& scratch) {
   return mesh_in_loop(c, [&](const Case& task) {
     const Prepared prepared = prepare(task);
     if (peer == nullptr) return mesh(prepared, word.text);

@@ -93,7 +93,8 @@ MeshResult run_peer(const Peer& peer, const Case& c, const Prepared& prepared, c
                     const std::filesystem::path& scratch, const ReferenceCell& reference = {});
 /// Returns the mesh of a cell by the pipeline, or by the peer unless that is null. If the case has a loop,
 /// peers run at its sizes. Throws as run_peer() and delquad::mesh().
-MeshResult mesh_cell(const Case& c, const Word& word, const Peer* peer, const std::filesystem::path& scratch);
+MeshResult mesh_cell(const Case& c, const Pipeline& word, const Peer* peer,
+                     const std::filesystem::path& scratch);
 
 /// Returns delta, as it was written, if it is uniform; otherwise nothing.
 std::optional<double> uniform_size(const Case& c);

@@ -167,7 +167,7 @@ void write_points(TextWriter& out, const SampledSize& size) {
 Mesh triangles_of_domain(const Prepared& prepared) {
   if (std::optional<NodalMetric> metric = followed_metric(prepared)) return std::move(metric->mesh);
   Meshing meshing(prepared);
-  for (const Stage* stage : parse_word("F").stages) meshing.run(*stage);
+  for (const Stage* stage : parse_pipeline("F").stages) meshing.run(*stage);
   return meshing.mesh();
 }
 

@@ -307,8 +307,8 @@ bool may_differ_again(const MeshMetrics& metrics) {
 }
 
 /// `metrics`: "failed" where one of them has no value.
-Json start_record(const Case& c, const Word& word, const std::string& status, const CellIdentity* cell,
-                  const std::string& metrics = "ok") {
+Json start_record(const Case& c, const Pipeline& pipeline, const std::string& status,
+                  const CellIdentity* cell, const std::string& metrics = "ok") {
   Json json = Json::object();
   const auto mesh = cell != nullptr ? cell->files.find("mesh.msh") : decltype(cell->files.end()){};
   const bool has_mesh = cell != nullptr && mesh != cell->files.end();
@@ -316,9 +316,9 @@ Json start_record(const Case& c, const Word& word, const std::string& status, co
   if (cell != nullptr) json["key"] = cell->key;
   if (cell != nullptr && metrics != "ok") json["metrics_status"] = metrics;
   json["case"] = c.name;
-  json["pipeline"] = word.text;
+  json["pipeline"] = pipeline.text;
   json["status"] = status;
-  json["quads_only"] = word.quads_only();
+  json["quads_only"] = pipeline.quads_only();
   json["model"] = source_of(c);
   json["seed"] = c.seed;
   json["variant"] = Json::object();
@@ -347,8 +347,9 @@ std::string print(const Json& json) { return json.dump(2, ' ', false, kReplace) 
 
 }  // namespace
 
-std::string run_record(const Case& c, const Word& word, const MeshResult& result, const CellIdentity* cell) {
-  Json json = start_record(c, word, "ok", cell, may_differ_again(result.metrics) ? "failed" : "ok");
+std::string run_record(const Case& c, const Pipeline& pipeline, const MeshResult& result,
+                       const CellIdentity* cell) {
+  Json json = start_record(c, pipeline, "ok", cell, may_differ_again(result.metrics) ? "failed" : "ok");
   if (const Json own = added_metrics_json(result.metrics, cell); !own.empty()) json["own_metrics"] = own;
   json["sound"] = result.soundness.accepted();
   if (!result.soundness.accepted()) json["unsound"] = result.soundness.reasons;
@@ -375,9 +376,9 @@ std::string run_record(const Case& c, const Word& word, const MeshResult& result
   return cell != nullptr ? sealed(print(json)) : print(json);
 }
 
-std::string failure_record(const Case& c, const Word& word, const std::string& status,
+std::string failure_record(const Case& c, const Pipeline& pipeline, const std::string& status,
                            const std::string& kind, const std::string& reason, const CellIdentity* cell) {
-  Json json = start_record(c, word, status, cell);
+  Json json = start_record(c, pipeline, status, cell);
   json["kind"] = kind;
   json["reason"] = reason;
   add_problem(json, c);

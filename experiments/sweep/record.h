@@ -37,11 +37,11 @@ struct CellIdentity {
 
 /// Returns the JSON record of a pipeline on a case, with a newline at the end: every option, work of stages,
 /// times, measures, versions. In experiments it is sealed(); `cell` is null outside of these.
-std::string run_record(const Case& c, const Word& word, const MeshResult& result,
+std::string run_record(const Case& c, const Pipeline& pipeline, const MeshResult& result,
                        const CellIdentity* cell = nullptr);
 /// Returns the record of a cell that was not run: its status "failed" or "skipped", and the kind of the
 /// reason. Kinds are as in ProcessFailure, or "data not found".
-std::string failure_record(const Case& c, const Word& word, const std::string& status,
+std::string failure_record(const Case& c, const Pipeline& pipeline, const std::string& status,
                            const std::string& kind, const std::string& reason,
                            const CellIdentity* cell = nullptr);
 /// Returns the record of the measures of a mesh file; `criteria` is null if it was not judged.

@@ -109,8 +109,8 @@ RecordedCell recorded_cell(const Json& record, const fs::path& file, const fs::p
   for (const auto& [title, value] : record.at("variant").items()) c.variant.emplace_back(title, value);
   read_programs(record, reader, cell.experiment);
   const auto pipeline = record.at("pipeline").get<std::string>();
-  cell.experiment.words = {cell.experiment.peers.empty() ? parse_word(pipeline, word_start(c.model))
-                                                         : Word{pipeline, {}, PatchForm::kQuads}};
+  cell.experiment.parsed = {cell.experiment.peers.empty() ? parse_pipeline(pipeline, pipeline_start(c.model))
+                                                          : Pipeline{pipeline, {}, PatchForm::kQuads}};
   return cell;
 } catch (const Json::exception& error) {
   throw InputError(json_problem(file, "is no record of a mesh", error));

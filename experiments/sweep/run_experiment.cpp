@@ -21,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Pipelines that begin alike, by their stages: a stage, the cell that ends with it, and what follows. Peers
-/// come right after the root, without a stage, and last: those that are calibrated ask for a word's record.
+/// come right after the root, without a stage, and last: those that are calibrated ask for a pipeline's
+/// record.
 struct Branch {
   const Stage* stage = nullptr;  ///< null at the root and for a peer
   const Cell* cell = nullptr;    ///< null where no pipeline ends here
@@ -32,8 +33,8 @@ Branch make_tree(const std::vector<Cell>& cells, bool are_loops) {
   Branch root;
   for (const Cell& cell : cells) {
     Branch* at = &root;
-    const bool is_alone = are_loops || cell.word->stages.empty();
-    for (const Stage* stage : is_alone ? std::vector<const Stage*>() : cell.word->stages) {
+    const bool is_alone = are_loops || cell.pipeline->stages.empty();
+    for (const Stage* stage : is_alone ? std::vector<const Stage*>() : cell.pipeline->stages) {
       auto found = std::ranges::find(at->next, stage, &Branch::stage);
       if (found == at->next.end()) found = at->next.insert(found, Branch{stage, nullptr, {}});
       at = &*found;
@@ -60,7 +61,7 @@ const Branch& end_of_stretch(const Branch& branch) {
 void print_reason(const std::string& folder, const Cell& cell, const ProcessFailure& why) {
   if (why.kind == kNotApplicable) return;  // told once, at the end
   print_line(fmt::format("{}: {} {}: {}", cell.may_fail ? "failed, as it may" : "error", folder,
-                         cell.word->text, why.reason));
+                         cell.pipeline->text, why.reason));
 }
 
 /// Returns a function that reports a failure for all unfinished cells of a branch.
@@ -130,16 +131,16 @@ class Sweep {
   std::size_t n_works() const { return experiment_.n_cases() * experiment_.n_variants(); }
 
   /// Whole variants go to a shard, so that pipelines share their stages, unless there are too few.
-  bool is_in_shard(std::size_t work, std::size_t word) const {
-    const std::size_t n = experiment_.words.size();
-    return (n_works() >= options_.shard.count ? work : work * n + word) % options_.shard.count ==
+  bool is_in_shard(std::size_t work, std::size_t pipeline) const {
+    const std::size_t n = experiment_.parsed.size();
+    return (n_works() >= options_.shard.count ? work : work * n + pipeline) % options_.shard.count ==
            options_.shard.index;
   }
 
   std::size_t shard_size() const {
     std::size_t cells = 0;
     for (std::size_t i = 0; i < n_works(); ++i)
-      for (std::size_t w = 0; w < experiment_.words.size(); ++w) cells += is_in_shard(i, w);
+      for (std::size_t w = 0; w < experiment_.parsed.size(); ++w) cells += is_in_shard(i, w);
     return cells;
   }
 
@@ -175,14 +176,15 @@ class Sweep {
     } catch (const InputError&) {  // the file cannot be read, as the cells will say
     }
     const MachineState start = machine_state();
-    for (std::size_t w = 0; w < experiment_.words.size(); ++w) {
+    for (std::size_t w = 0; w < experiment_.parsed.size(); ++w) {
       if (!is_in_shard(i, w)) continue;
-      const Word& word = experiment_.words[w];
-      Cell cell{&word, identify(experiment_, work.c, model, word), cell_folder(folder_, work.c, word)};
+      const Pipeline& pipeline = experiment_.parsed[w];
+      Cell cell{&pipeline, identify(experiment_, work.c, model, pipeline),
+                cell_folder(folder_, work.c, pipeline)};
       cell.identity.experiment = copy_.generic_string();
       cell.identity.start = start;
       cell.reference = reference_of(cell, work.c, model);
-      cell.may_fail = may_fail(experiment_, {work.c.name, work.c.variant, word.text});
+      cell.may_fail = may_fail(experiment_, {work.c.name, work.c.variant, pipeline.text});
       if (!options_.force && is_done(cell))
         progress_.found(1);
       else
@@ -190,12 +192,12 @@ class Sweep {
     }
   }
 
-  /// The cell of the word that a peer is calibrated to, if it is run, too.
+  /// The cell of the pipeline that a peer is calibrated to, if it is run, too.
   ReferenceCell reference_of(const Cell& cell, const Case& c, const std::string& model) const {
     const Peer* peer = cell.identity.peer;
     if (peer == nullptr || peer->calibrate_to.empty()) return {};
-    const auto at = std::ranges::find(experiment_.words, peer->calibrate_to, &Word::text);
-    if (at == experiment_.words.end()) return {};
+    const auto at = std::ranges::find(experiment_.parsed, peer->calibrate_to, &Pipeline::text);
+    if (at == experiment_.parsed.end()) return {};
     return {cell_folder(folder_, c, *at), identify(experiment_, c, model, *at).key};
   }
 

@@ -144,11 +144,11 @@ void VariantWork::prepare() {
 
 void VariantWork::finish(const Cell& cell) {
   const StageScope finishing("writing");
-  const std::string label = c.folder + " " + cell.word->text;
+  const std::string label = c.folder + " " + cell.pipeline->text;
   const fs::path scratch = scratch_of(cell.folder);
-  const std::string name = c.name + " " + cell.word->text;
+  const std::string name = c.name + " " + cell.pipeline->text;
   const Peer* peer = cell.identity.peer;
-  MeshResult result = c.adapt           ? mesh_cell(c, *cell.word, peer, scratch)
+  MeshResult result = c.adapt           ? mesh_cell(c, *cell.pipeline, peer, scratch)
                       : peer != nullptr ? run_peer(*peer, c, prepared, name, scratch, cell.reference)
                                         : meshing->finish();
   if (const std::string& why = cell.identity.no_peer_version; !why.empty())
@@ -159,11 +159,12 @@ void VariantWork::finish(const Cell& cell) {
   if (!result.soundness.accepted())
     print_line(fmt::format("warning: {}: {}", name, result.soundness.complaint()));
   for (const std::string& failure : measure_by_solvers(cell.identity, c, result))
-    print_line(fmt::format("warning: {} {}: {}", c.folder, cell.word->text, failure));
+    print_line(fmt::format("warning: {} {}: {}", c.folder, cell.pipeline->text, failure));
   // Before anything of the cell is in place: it may take long.
   if (peer == nullptr) fs::remove_all(scratch);
-  for (const std::string& failure : measure_by_commands(cell.identity, c, cell.word->text, scratch, result))
-    print_line(fmt::format("error: {} {}: {}", c.folder, cell.word->text, failure));
+  for (const std::string& failure :
+       measure_by_commands(cell.identity, c, cell.pipeline->text, scratch, result))
+    print_line(fmt::format("error: {} {}: {}", c.folder, cell.pipeline->text, failure));
   write_cell(cell.folder, [&](const fs::path& at) {
     move_files(scratch, at);
     const Stopwatch writing;
@@ -177,7 +178,7 @@ void VariantWork::finish(const Cell& cell) {
     }
     CellIdentity identity = cell.identity;
     identity.files = marks_of(at);
-    write_text_file(at / "record.json", run_record(c, *cell.word, result, &identity));
+    write_text_file(at / "record.json", run_record(c, *cell.pipeline, result, &identity));
   });
   remove_scratch(cell);
   progress->done();
@@ -194,10 +195,10 @@ void VariantWork::give_up(const Cell& cell, const std::string& status, const Pro
         CellIdentity identity = cell.identity;
         identity.files = marks_of(at);
         write_text_file(at / "record.json",
-                        failure_record(c, *cell.word, status, why.kind, why.reason, &identity));
+                        failure_record(c, *cell.pipeline, status, why.kind, why.reason, &identity));
       });
     } catch (const InputError& error) {
-      print_line(fmt::format("error: {} {}: {}", c.folder, cell.word->text, error.what()));
+      print_line(fmt::format("error: {} {}: {}", c.folder, cell.pipeline->text, error.what()));
     }
   remove_scratch(cell);
   if (why.kind == "interrupted")

@@ -58,7 +58,7 @@ class SweepProgress {
 void print_line(const std::string& text);
 
 struct Cell {
-  const Word* word;
+  const Pipeline* pipeline;
   CellIdentity identity;
   std::filesystem::path folder;
   ReferenceCell reference = {};  ///< cell to which a peer is calibrated
@@ -75,7 +75,7 @@ struct VariantWork {
   bool allow_unsound;
   bool pictures;
   Prepared prepared;
-  std::optional<Meshing> meshing;  ///< of a word
+  std::optional<Meshing> meshing;  ///< of a pipeline
 
   /// Prepares the variant before the first stage.
   void prepare();

@@ -99,17 +99,17 @@ std::vector<std::string> compare_values(Json before, Json now) {
 }
 
 Rerun rerun(const Json& record, const RecordedCell& recorded) {
-  const Word& word = recorded.experiment.words[0];
+  const Pipeline& pipeline = recorded.experiment.parsed[0];
   const Case& c = recorded.c;
-  const CellIdentity cell = identify(recorded.experiment, c, model_digest(c), word);
+  const CellIdentity cell = identify(recorded.experiment, c, model_digest(c), pipeline);
   const TemporaryFolder scratch;
   const std::filesystem::path work = scratch.path() / "cell";
-  MeshResult result = mesh_cell(c, word, cell.peer, work);
+  MeshResult result = mesh_cell(c, pipeline, cell.peer, work);
   measure_by_solvers(cell, c, result);
-  measure_by_commands(cell, c, word.text, work, result);
+  measure_by_commands(cell, c, pipeline.text, work, result);
   std::ostringstream mesh;
   write_msh(mesh, result.mesh);
-  const Json now = Json::parse(run_record(c, word, result, &cell));
+  const Json now = Json::parse(run_record(c, pipeline, result, &cell));
   return {record.at("digests").at("mesh") == digest(mesh.view()), compare_causes(record, now),
           compare_values(record, now)};
 }
@@ -210,7 +210,7 @@ bool is_close(double a, double b) {
   return a == b || std::abs(a - b) <= kRounding * std::max(std::abs(a), std::abs(b));
 }
 
-/// As they were measured, of a peer or of a word.
+/// As they were measured, of a peer or of a pipeline.
 MeshMetrics metrics_of(const Json& record, const Prepared& prepared, const Mesh& mesh) {
   return record.contains("peer") ? prepared.measure(mesh).metrics
                                  : prepared.metrics(mesh, record.at("pipeline").get<std::string>());

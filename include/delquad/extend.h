@@ -189,7 +189,7 @@ void add_size(const std::string& name, std::function<void(const Options& options
 void add_cross(const std::string& name, std::function<void(const Options& options, CrossSpec& cross)> fill);
 
 /// A pipeline of stages from left to right; each continues the result of the previous one.
-struct Word {
+struct Pipeline {
   std::string text;  ///< "DB"
   std::vector<const Stage*> stages;
   PatchForm result = PatchForm::kBoundary;
@@ -198,12 +198,12 @@ struct Word {
 };
 
 /// Where pipelines begin: at the boundary, or at a given mesh.
-enum class WordStart { kBoundary, kGivenMesh };
+enum class PipelineStart { kBoundary, kGivenMesh };
 /// Returns the start of pipelines for a model.
-WordStart word_start(const Model& model);
+PipelineStart pipeline_start(const Model& model);
 
 /// Parses a pipeline. Throws InputError for an empty text, an unknown stage (with all known ones) and stages
 /// that cannot follow each other. With `start` kGivenMesh it may begin with any stage.
-Word parse_word(const std::string& text, WordStart start = WordStart::kBoundary);
+Pipeline parse_pipeline(const std::string& text, PipelineStart start = PipelineStart::kBoundary);
 
 }  // namespace delquad

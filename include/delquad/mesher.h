@@ -23,7 +23,8 @@
 // This header is the main entry of the library: it turns a problem and a pipeline into a mesh and its report.
 // Programs and the Python module use it.
 //
-//   mesh(problem, word)  =  mesh(prepare(problem), word)  =  Meshing, stage by stage, and its finish()
+//   mesh(problem, pipeline)  =  mesh(prepare(problem), pipeline)  =  Meshing, stage by stage, and its
+//   finish()
 
 namespace delquad {
 
@@ -32,7 +33,7 @@ const char* version();
 
 /// A trade of time against quality: "fast", "good", "best" or "regular", with its pipeline.
 struct Quality {
-  std::string name, word;
+  std::string name, pipeline;
   CrossKind cross;
   Options options = {};  ///< used unless the problem sets them
 };
@@ -251,8 +252,8 @@ class Prepared {
   /// docs/algorithms.md.
   double row_ends() const;
 
-  /// Measures a mesh of this problem, made by the pipeline `word`. Only added measures may use `word`.
-  MeshMetrics metrics(const Mesh& made, const std::string& word = {}) const;
+  /// Measures a mesh of this problem, made by this pipeline, which only added measures may use.
+  MeshMetrics metrics(const Mesh& made, const std::string& pipeline = {}) const;
   /// Measures a mesh of the same model by other programs: measures, bad quads, criteria and soundness of
   /// elements.
   MeshResult measure(Mesh of_others) const;
@@ -343,14 +344,16 @@ class Meshing {
 };
 
 /// Meshes by a pipeline such as "DB" or "DBCO" (see stage_registry()). Pipelines of a GivenMesh may begin
-/// from its elements, such as "CO". Throws as prepare() and parse_word(), and UnsoundError, with the mesh,
-/// unless the problem allows it.
-MeshResult mesh(const Prepared& prepared, const std::string& word, const Context& context = {});
+/// from its elements, such as "CO". Throws as prepare() and parse_pipeline(), and UnsoundError, with the
+/// mesh, unless the problem allows it.
+MeshResult mesh(const Prepared& prepared, const std::string& pipeline, const Context& context = {});
 
-/// Prepares and meshes. `word` is a pipeline, or the name of a quality. A quality has a pipeline, and
+/// Prepares and meshes by a pipeline, or by the name of a quality. A quality has a pipeline, and
 /// directions unless the problem sets them; it improves a GivenMesh by CO or, without quads, BCO. Problem and
-/// `word` fix every bit of the mesh, for any context. Throws as above. Several threads may call it at once.
-MeshResult mesh(MeshProblem problem, const std::string& word = kDefaultQuality, const Context& context = {});
+/// `pipeline` fix every bit of the mesh, for any context. Throws as above. Several threads may call it at
+/// once.
+MeshResult mesh(MeshProblem problem, const std::string& pipeline = kDefaultQuality,
+                const Context& context = {});
 
 /// Throws UnsoundError if the mesh is not accepted. The message begins with `label`.
 void require_sound(const std::string& label, const MeshResult& result);

@@ -43,7 +43,7 @@ struct MetricInput {
   const SizeField* given;         ///< requested size; null: the same
   const Options& options;         ///< of the problem
   std::string problem = {};       ///< its name, or the name of the case in experiments; empty: not known
-  std::string word = {};          ///< pipeline; empty for meshes by other programs
+  std::string pipeline = {};      ///< pipeline; empty for meshes by other programs
   const Mesh* surface = nullptr;  ///< triangulation of a surface; null: not known
 };
 

@@ -391,7 +391,7 @@ PYBIND11_MODULE(_core, m) {
   m.def("check_quality", [](const std::string& name) { quality_named(name); });
   m.def("qualities", [] {
     py::dict all;
-    for (const Quality& quality : quality_registry()) all[py::str(quality.name)] = quality.word;
+    for (const Quality& quality : quality_registry()) all[py::str(quality.name)] = quality.pipeline;
     return all;
   });
 }

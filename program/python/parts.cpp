@@ -73,7 +73,7 @@ void add_python_metric(const std::string& key, const py::object& function, const
           const auto copy = [](const Mesh* mesh) {
             return mesh == nullptr ? py::object(py::none()) : py::cast(std::make_shared<Mesh>(*mesh));
           };
-          return measure(copy(&in.mesh), "size"_a = size, "problem"_a = in.problem, "word"_a = in.word,
+          return measure(copy(&in.mesh), "size"_a = size, "problem"_a = in.problem, "word"_a = in.pipeline,
                          "surface"_a = copy(in.surface))
               .cast<double>();
         });

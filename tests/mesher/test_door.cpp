@@ -24,7 +24,7 @@ TEST(Door, AllWaysLeadToTheSameMesh) {
   const MeshResult result = mesh(prepared, "DBCO");
   expect_same(whole.mesh, result.mesh);
   Meshing meshing(prepared);
-  for (const Stage* stage : parse_word("DBCO").stages) {
+  for (const Stage* stage : parse_pipeline("DBCO").stages) {
     meshing.run(*stage);
     EXPECT_EQ(meshing.mesh().quads.empty(), stage->letter == 'D') << stage->letter;
   }
@@ -46,9 +46,9 @@ TEST(Door, WhatNobodySaysIsGood) {
   MeshProblem said = plate();
   // Directions that are said count more than the quality.
   said.cross.kind = CrossKind::kBoundary;
-  expect_same(mesh(said, "good").mesh, mesh(as_good, good.word).mesh);
+  expect_same(mesh(said, "good").mesh, mesh(as_good, good.pipeline).mesh);
   as_good.cross.kind = good.cross;
-  expect_same(mesh(plate()).mesh, mesh(as_good, good.word).mesh);
+  expect_same(mesh(plate()).mesh, mesh(as_good, good.pipeline).mesh);
   expect_refused(plate(), "god", {"unknown stage"});
 }
 

@@ -247,7 +247,7 @@ TEST(OwnMetrics, AreMeasuredWithTheOthers) {
 
 TEST(OwnMetrics, KnowProblemWordAndSurface) {
   metric_work() = [](const MetricInput& in) {
-    EXPECT_EQ(in.word, "DB");
+    EXPECT_EQ(in.pipeline, "DB");
     EXPECT_EQ(in.problem, "disc");
     return in.surface == nullptr ? 0.0 : static_cast<double>(in.surface->triangles.size());
   };

@@ -113,7 +113,7 @@ SurfaceModel spike() {
 
 // Where moves do not do: words without C and O leave much that fails.
 TEST(RepairFailingQuads, EditsLeaveFewer) {
-  const Word word = parse_word("DB");
+  const Pipeline word = parse_pipeline("DB");
   double before = 0, after = 0;
   int edits = 0;
   for (const double h : {0.11, 0.13, 0.17, 0.19, 0.23}) {
@@ -155,7 +155,7 @@ TEST(RepairFailingQuads, OfAGivenMeshToo) {
     const auto failing = [&](bool repairs) {
       given.options.set("repair.failing_quads", repairs);
       const MeshingSetup prepared = prepare_problem(given);
-      const MeshResult result = run_pipeline(prepared, parse_word("CO", WordStart::kGivenMesh));
+      const MeshResult result = run_pipeline(prepared, parse_pipeline("CO", PipelineStart::kGivenMesh));
       EXPECT_TRUE(result.soundness.sound());
       return failing_part(prepared, result.mesh);
     };

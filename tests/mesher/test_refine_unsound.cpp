@@ -138,7 +138,7 @@ TEST(RefineUnsound, KeepsTheBestMeshAndSaysWhyItEnds) {
 TEST(RefineUnsound, TriesFeatureAnglesLast) {
   const MeshProblem problem = ridge(0.2);
   MeshingSetup prepared = prepare_problem(problem);
-  const Word word = parse_word("DB");
+  const Pipeline word = parse_pipeline("DB");
   MeshResult result = run_pipeline(prepared, word);
   result.soundness = {};
   result.soundness.reasons = {"a test"};
@@ -158,7 +158,7 @@ TEST(RefineUnsound, TriesFeatureAnglesLast) {
 
 TEST(RefineUnsound, TakesAsMuchWorkAsItsQuadsAllow) {
   const MeshProblem problem = ridge(0.5);
-  const Word word = parse_word("DB");
+  const Pipeline word = parse_pipeline("DB");
   const auto tries_after = [&](long long lifting_cost) {
     MeshingSetup prepared = prepare_problem(problem);
     MeshResult result = run_pipeline(prepared, word);
@@ -179,7 +179,7 @@ TEST(RefineUnsound, TakesAsMuchWorkAsItsQuadsAllow) {
 
 TEST(RefineUnsound, CountsAllWork) {
   const MeshingSetup prepared = prepare_problem(ridge(0.2));
-  MeshResult result = run_pipeline(prepared, parse_word("DB"));
+  MeshResult result = run_pipeline(prepared, parse_pipeline("DB"));
   const long long made = work_on(prepared, result);
   EXPECT_GT(made, static_cast<long long>(result.mesh.quads.size()));
   result.log.summaries.add("cleanup", {{"looks", 3'000'000LL}});

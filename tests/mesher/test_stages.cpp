@@ -5,46 +5,46 @@ namespace delquad {
 namespace {
 
 TEST(Words, SomeMayLeaveTriangles) {
-  for (const char* word : {"FB", "DBC", "DLBCO"}) EXPECT_TRUE(parse_word(word).quads_only()) << word;
-  for (const char* word : {"FG", "DT", "FGC", "F"}) EXPECT_FALSE(parse_word(word).quads_only()) << word;
-  expect_input_error([] { parse_word("FGB"); }, {"'B'", "quads"});
+  for (const char* word : {"FB", "DBC", "DLBCO"}) EXPECT_TRUE(parse_pipeline(word).quads_only()) << word;
+  for (const char* word : {"FG", "DT", "FGC", "F"}) EXPECT_FALSE(parse_pipeline(word).quads_only()) << word;
+  expect_input_error([] { parse_pipeline("FGB"); }, {"'B'", "quads"});
 }
 
 TEST(Words, AreReadFromLeftToRight) {
-  const Word d = parse_word("D");
+  const Pipeline d = parse_pipeline("D");
   ASSERT_EQ(d.stages.size(), 1u);
   EXPECT_EQ(d.stages[0]->letter, 'D');
   EXPECT_EQ(d.result, PatchForm::kTriangles);
-  const Word fb = parse_word("FB");
+  const Pipeline fb = parse_pipeline("FB");
   ASSERT_EQ(fb.stages.size(), 2u);
   EXPECT_EQ(fb.stages[0]->letter, 'F');
   EXPECT_EQ(fb.stages[1]->letter, 'B');
   EXPECT_EQ(fb.result, PatchForm::kQuads);
-  EXPECT_EQ(parse_word("PB").result, PatchForm::kQuads);
+  EXPECT_EQ(parse_pipeline("PB").result, PatchForm::kQuads);
 }
 
 TEST(Words, SmoothingComesBetween) {
-  for (const char* text : {"FL", "DL", "FLB", "DLB", "FLLB"}) EXPECT_EQ(parse_word(text).text, text);
-  EXPECT_EQ(parse_word("DL").result, PatchForm::kTriangles);
-  EXPECT_EQ(parse_word("DLB").result, PatchForm::kQuads);
-  expect_input_error([] { parse_word("L"); }, {"'L' starts from triangles", "starts from a boundary"});
-  expect_input_error([] { parse_word("DBL"); }, {"'L' starts from triangles", "leaves quads"});
+  for (const char* text : {"FL", "DL", "FLB", "DLB", "FLLB"}) EXPECT_EQ(parse_pipeline(text).text, text);
+  EXPECT_EQ(parse_pipeline("DL").result, PatchForm::kTriangles);
+  EXPECT_EQ(parse_pipeline("DLB").result, PatchForm::kQuads);
+  expect_input_error([] { parse_pipeline("L"); }, {"'L' starts from triangles", "starts from a boundary"});
+  expect_input_error([] { parse_pipeline("DBL"); }, {"'L' starts from triangles", "leaves quads"});
 }
 
 TEST(Words, StagesOnQuadsFollowRecombination) {
-  EXPECT_EQ(parse_word("DBC").result, PatchForm::kQuads);
-  EXPECT_EQ(parse_word("FBCO").stages.size(), 4u);
-  EXPECT_EQ(parse_word("DBO").result, PatchForm::kQuads);
-  expect_input_error([] { parse_word("DC"); }, {"'C' starts from quads", "leaves triangles"});
+  EXPECT_EQ(parse_pipeline("DBC").result, PatchForm::kQuads);
+  EXPECT_EQ(parse_pipeline("FBCO").stages.size(), 4u);
+  EXPECT_EQ(parse_pipeline("DBO").result, PatchForm::kQuads);
+  expect_input_error([] { parse_pipeline("DC"); }, {"'C' starts from quads", "leaves triangles"});
 }
 
 TEST(Words, MistakesNameTheLetter) {
-  expect_input_error([] { parse_word(""); }, {"F (", "D (", "B ("});
-  expect_input_error([] { parse_word("DZ"); }, {"'DZ'", "'Z'", "F (", "D (", "B ("});
-  expect_input_error([] { parse_word("db"); }, {"'d'"});
-  expect_input_error([] { parse_word("B"); }, {"'B' starts from triangles", "starts from a boundary"});
-  expect_input_error([] { parse_word("FD"); }, {"'D' starts from a boundary", "leaves triangles"});
-  expect_input_error([] { parse_word("DBB"); }, {"'B' starts from triangles", "leaves quads"});
+  expect_input_error([] { parse_pipeline(""); }, {"F (", "D (", "B ("});
+  expect_input_error([] { parse_pipeline("DZ"); }, {"'DZ'", "'Z'", "F (", "D (", "B ("});
+  expect_input_error([] { parse_pipeline("db"); }, {"'d'"});
+  expect_input_error([] { parse_pipeline("B"); }, {"'B' starts from triangles", "starts from a boundary"});
+  expect_input_error([] { parse_pipeline("FD"); }, {"'D' starts from a boundary", "leaves triangles"});
+  expect_input_error([] { parse_pipeline("DBB"); }, {"'B' starts from triangles", "leaves quads"});
 }
 
 TEST(Words, LettersDiffer) {

@@ -22,7 +22,7 @@ inline MeshingSetup prepare_surface(MeshProblem problem, SurfaceModel model,
 }
 
 inline MeshResult meshed(const MeshingSetup& prepared, const std::string& pipeline) {
-  return run_pipeline(prepared, parse_word(pipeline));
+  return run_pipeline(prepared, parse_pipeline(pipeline));
 }
 
 inline MeshResult meshed(SurfaceModel model, double size, const std::string& pipeline,

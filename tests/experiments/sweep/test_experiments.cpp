@@ -57,7 +57,7 @@ TEST(Experiments, LewisHasThePublishedRows) {
 /// The targets of the rotated square, end to end.
 TEST(Experiments, RotatedSquareIsExact) {
   Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / "studies/rotated_square.toml");
-  e.words = {parse_word("DB")};
+  e.parsed = {parse_pipeline("DB")};
   const Folder folder;
   const Outcome outcome = run_experiment(e, folder / "out");
   ASSERT_EQ(outcome.table.rows.size(), 3u);
@@ -71,7 +71,7 @@ TEST(Experiments, RotatedSquareIsExact) {
 
 TEST(Experiments, LewisReachesThePublishedRow) {
   Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / "paper/table1_lewis.toml");
-  e.words = {parse_word("DB")};
+  e.parsed = {parse_pipeline("DB")};
   const Folder folder;
   const Outcome outcome = run_experiment(e, folder / "out");
   for (const TableRow& row : outcome.table.rows) {

@@ -52,7 +52,7 @@ TEST_F(Peers, AreVerifiedAsTheyWereMeasured) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");  // measures stay for the rest of a process
   const auto verified = [&] {
     add_metric({"letters", "letters", "", Better::kLower, 1, "a test"},
-               [](const MetricInput& in) { return static_cast<double>(in.word.size()); });
+               [](const MetricInput& in) { return static_cast<double>(in.pipeline.size()); });
     run_experiment(experiment("[\"DB\", \"copy\"]",
                               peer("copy", "cp '" + good_mesh() + "' $2", "output = 'msh'\n") + kPeerSquare),
                    out());

@@ -87,7 +87,7 @@ TEST_F(CalibratedPeers, NeedNoRecordOfOurs) {
   const std::string text =
       "pipelines = ['DB', 'grid']\ncalibrate = 'quads'\n" + peer("grid", kCoarserGrid) + kCalibratedSquare;
   Experiment alone = experiment(text);
-  alone.words = alone.find_pipelines({"grid"});
+  alone.parsed = alone.find_pipelines({"grid"});
   run_experiment(alone, out());
   EXPECT_EQ(records().at("grid").calibration->wanted, 100);
   const std::string record = read_text(out() / "square" / "grid" / "mesh.msh");
@@ -268,7 +268,7 @@ TEST_F(CalibratedPeers, AreReadFromFilesOfTheirOwn) {
 
   Experiment added = experiment("pipelines = ['DB']\ncalibrate = 'quads'\n" + kCalibratedSquare);
   EXPECT_EQ(added.add_peer_file(folder_ / "meshers" / "grid.toml"), Strings{"grid"});
-  added.words = added.find_pipelines({"DB", "grid"});
+  added.parsed = added.find_pipelines({"DB", "grid"});
   run_experiment(added, folder_ / "added");
   EXPECT_EQ(read_mesh(folder_ / "added" / "square" / "grid" / "mesh.msh").quads.size(), 100u);
   EXPECT_TRUE(rerun_record(folder_ / "added" / "square" / "grid" / "record.json").same_mesh);
@@ -288,7 +288,7 @@ TEST_F(CalibratedPeersPrograms, GmshFollowsSizesOnSurfaces) {
       "pipelines = ['DB']\ncalibrate = 'quads'\n[[case]]\nname = 'bracket'\nexample = 'bracket'\nsize = '3 + "
       "0.05*x'\n");
   e.add_peer_file(fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers/adapters/gmsh.toml");
-  e.words = e.find_pipelines({"DB", "gmsh"});
+  e.parsed = e.find_pipelines({"DB", "gmsh"});
   run_experiment(e, out());
   const auto cells = records();
   ASSERT_EQ(cells.at("gmsh").reason, "");
@@ -313,7 +313,7 @@ TEST_F(CalibratedPeersPrograms, AdaptersMeshOrSayWhyNot) {
     for (const std::string& name : e.add_peer_file(entry.path())) pipelines.push_back(name);
   }
   ASSERT_GE(pipelines.size(), 9u);
-  e.words = e.find_pipelines(pipelines);
+  e.parsed = e.find_pipelines(pipelines);
   run_experiment(e, out());
   int meshes = 0;
   for (const CellRecord& cell : read_records(out())) {
@@ -376,7 +376,7 @@ TEST_F(CalibratedPeers, AdaptersSpeakToProgramsThatAreAbsentHere) {
   for (const char* name : {"gmsh", "instant_meshes", "mmg", "quadriflow", "quadwild", "tqmesh"})
     e.add_peer_file(fs::path(DELQUAD_SOURCE_DIR) / "experiments/peers/adapters" /
                     (std::string(name) + ".toml"));
-  e.words =
+  e.parsed =
       e.find_pipelines({"instant-meshes", "mmg", "quadriflow-source", "quadwild", "tqmesh", "gmsh-quasi"});
   run_experiment(e, out());
   const std::string peers = DELQUAD_SOURCE_DIR "/experiments/peers/adapters/";

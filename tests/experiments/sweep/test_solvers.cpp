@@ -49,7 +49,7 @@ TEST_F(Solvers, MeasureEveryMeshWhereTheyAreAskedFor) {
 TEST_F(Solvers, BelongToWhatDeterminesACell) {
   const auto key = [&](const std::string& head) {
     const Experiment experiment = read("pipelines = ['DB']\n" + head);
-    return identify(experiment, experiment.read_variant(0), "model", experiment.words[0]).key;
+    return identify(experiment, experiment.read_variant(0), "model", experiment.parsed[0]).key;
   };
   const std::string none = key(""), one = key("solver = ['poisson']\n"),
                     two = key("solver = ['poisson', 'elasticity']\n");

@@ -135,7 +135,7 @@ Json record_of(const MeshProblem& problem, const MeshingSetup& prepared, const c
   c.name = problem.name;
   c.options = problem.options;
   if (result != nullptr) *result = made;
-  return Json::parse(run_record(c, parse_word(word), made));
+  return Json::parse(run_record(c, parse_pipeline(word), made));
 }
 
 MeshProblem case_of(const char* name) {

@@ -10,7 +10,7 @@ using testing_support::shared_data;
 
 Table run(const char* file, const Strings& words) {
   Experiment e = Experiment::read(fs::path(DELQUAD_EXPERIMENTS) / "paper" / file, shared_data());
-  e.words = e.find_pipelines(words);
+  e.parsed = e.find_pipelines(words);
   const Folder folder;
   return run_experiment(e, folder / "out").table;
 }

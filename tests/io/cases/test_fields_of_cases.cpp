@@ -204,8 +204,8 @@ TEST_F(Cases, SizeAwareCrossesSaveDislocations) {
   for (const char* word : {"DB", "PB"}) {
     Case aligned = c;
     aligned.cross.text = "boundary";
-    const auto before = run_pipeline(prepare_case(aligned), parse_word(word)).metrics.values;
-    const auto after = run_pipeline(p, parse_word(word)).metrics.values;
+    const auto before = run_pipeline(prepare_case(aligned), parse_pipeline(word)).metrics.values;
+    const auto after = run_pipeline(p, parse_pipeline(word)).metrics.values;
     for (const char* metric : {"eta_mean", "d4", "tau"})
       EXPECT_GT(after.at(metric), before.at(metric)) << word;
   }
@@ -263,7 +263,7 @@ TEST_F(Cases, OptionsReachTheStages) {
   EXPECT_EQ(insertion.h_max, 1.2);
   EXPECT_EQ(insertion.rejection, 0.6);
   EXPECT_EQ(recombination_options(c.options).treatment, Treatment::kNone);
-  const MeshResult result = run_pipeline(prepare_case(c), parse_word("FB"));
+  const MeshResult result = run_pipeline(prepare_case(c), parse_pipeline("FB"));
   EXPECT_TRUE(result.log.summaries.has("recombination"));
   EXPECT_FALSE(result.log.summaries.has("treatment"));
 }
@@ -274,7 +274,7 @@ TEST_F(Cases, CleanupOptionsReachTheStage) {
   EXPECT_EQ(cleanup_options(c.options).rounds, 2);
   EXPECT_EQ(cleanup_options(c.options).tolerance, 0.01);
   EXPECT_EQ(cleanup_options(c.options).seed, 7);
-  const MeshResult result = run_pipeline(prepare_case(c), parse_word("FBC"));
+  const MeshResult result = run_pipeline(prepare_case(c), parse_pipeline("FBC"));
   const Summaries& done = result.log.summaries;
   ASSERT_TRUE(done.has("cleanup"));
   EXPECT_LE(done.number("cleanup", "irregular_after"), done.number("cleanup", "irregular_before"));
@@ -287,7 +287,7 @@ TEST_F(Cases, OptimisationOptionsReachTheStage) {
   EXPECT_EQ(optimisation_options(c.options).iterations, 3);
   EXPECT_EQ(optimisation_options(c.options).size, 0);
   EXPECT_EQ(optimisation_options(c.options).alignment, 0.5);
-  const MeshResult result = run_pipeline(prepare_case(c), parse_word("FBO"));
+  const MeshResult result = run_pipeline(prepare_case(c), parse_pipeline("FBO"));
   const Summaries& done = result.log.summaries;
   ASSERT_TRUE(done.has("optimisation"));
   EXPECT_GT(done.number("optimisation", "iterations"), 0);
@@ -307,7 +307,7 @@ TEST_F(Cases, HopelessSizesAreRefusedEarly) {
 TEST_F(Cases, MostPointsFollowMostElements) {
   MeshingSetup p = prepare_case(read(square_ + "size = 0.1\n"));
   p.settings.max_elements = 20;  // far less than what was checked
-  expect_input_error([&] { run_pipeline(p, parse_word("F")); }, {"c.toml", "stopped at 80 points", "20"});
+  expect_input_error([&] { run_pipeline(p, parse_pipeline("F")); }, {"c.toml", "stopped at 80 points", "20"});
 }
 
 TEST_F(Cases, PatchesShareTheirInterface) {
@@ -316,7 +316,7 @@ TEST_F(Cases, PatchesShareTheirInterface) {
       "[[loop]]\ncircle = { centre = [0.5, 0.5], radius = 0.25 }\nregion = 'inside'\n"
       "[[loop]]\nrectangle = [[2, 0], [3, 1]]\n");
   for (const char* word : {"F", "D", "FB", "DB"}) {
-    const MeshResult result = run_pipeline(prepare_case(c), parse_word(word));
+    const MeshResult result = run_pipeline(prepare_case(c), parse_pipeline(word));
     EXPECT_EQ(check_invariants(result.mesh), Strings{}) << word;
     EXPECT_EQ(result.mesh.regions.size(), 3u);
   }

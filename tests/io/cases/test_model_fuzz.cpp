@@ -135,7 +135,7 @@ TEST_P(ModelFuzz, DamagedFilesAreMeshedOrRefused) {
     c.max_elements = 2000;
     c.keep_going = trial % 2 == 1;
     try {
-      run_pipeline(prepare_case(c), parse_word("DB"));
+      run_pipeline(prepare_case(c), parse_pipeline("DB"));
       ++meshed;
     } catch (const InputError& error) {
       ++refused;
