@@ -34,15 +34,6 @@ double distance(const Curve& curve, Vec2 x) {
   return least;
 }
 
-TEST(SimplifyOutlines, LinesWithoutLengthStay) {
-  PlanarModel model = model_of_rings({{{0, 0}, {9, 0}, {9, 6}, {0, 0}}, {{2, 1}, {2, 1}}, {{3, 1}, {3, 1}}});
-  model.curves[2].is_data = false;
-  std::vector<Warning> warnings;
-  model = simplify_outlines(
-      std::move(model), [](int, const Vec3&) { return 0.1; }, false, warnings);
-  EXPECT_EQ(model.curves[1].shape->point(1), (Vec2{2, 1}));
-}
-
 TEST(SimplifyOutlines, WhatGoesLiesWithinTheTolerance) {
   constexpr double kTolerance = 0.02;
   const std::vector<Vec2> ring = noisy_ring({0, 0}, 1, 0.004);
