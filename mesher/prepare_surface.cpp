@@ -115,8 +115,6 @@ void check_surface_cross(const CrossSpec& cross) {
 
 /// Least size beside short curves, over the least length of the criteria.
 constexpr double kLeastSize = 1.5;
-/// The growth of sizes away from spots inside of patches.
-constexpr double kSpotGradation = 0.7;
 /// Maps of given elements are taken when they distort less: these may be large, and every cut holds nodes.
 constexpr double kMaxSigmaOfGiven = 1.6;
 
@@ -354,7 +352,7 @@ class SurfaceSteps final : public ModelSteps {
       throw InputError(model_.source + ": none of the selected faces can be meshed");
     if (hints_.spots.empty()) return;
     wanted_.spots = hints_.spots;
-    if (!(wanted_.gradation > 0)) wanted_.gradation = kSpotGradation;
+    if (!(wanted_.gradation > 0)) wanted_.gradation = kShortCurveGradation;
     surface_->size = std::make_shared<SurfaceSize>(model_, wanted_);
     p.size.field = surface_->size;
   }

@@ -65,9 +65,6 @@ double expected_quads(const Mesh& fine, const SurfaceSize& size, const std::vect
 
 namespace {
 
-/// The growth of sizes away from curves that are shorter than the size, and from spots.
-constexpr double kShortCurveGradation = 0.7;
-
 /// Elements per full turn that are asked for by name; of several the most.
 std::vector<double> curvature_by_name(const std::vector<NamedSize>& named,
                                       const std::vector<Entity>& entities, const std::string& kind) {

@@ -30,6 +30,9 @@
 
 namespace delquad {
 
+/// The growth of sizes away from curves that are shorter than the size, and from spots.
+inline constexpr double kShortCurveGradation = 0.7;
+
 /// Returns the part of the size that does not depend on the model. `own` makes the size that replaces a
 /// missing base. A function is sampled on `domain`. Throws InputError for sizes that are not finite and
 /// positive.
