@@ -119,6 +119,15 @@ struct Mesh {
   /// ones.
   std::vector<std::array<int, 8>> hexahedra = {};
   std::vector<int> hex_volume = {};  ///< index into `volumes` of each hexahedron
+  /// Corners of a triangle, counterclockwise seen from the opposite side, then the three opposite ones.
+  std::vector<std::array<int, 6>> prisms = {};
+  std::vector<int> prism_volume = {};
+  /// Corners of the base, counterclockwise seen from the apex, then the apex.
+  std::vector<std::array<int, 5>> pyramids = {};
+  std::vector<int> pyramid_volume = {};
+  /// Corners of a triangle, counterclockwise seen from the apex, then the apex.
+  std::vector<std::array<int, 4>> tetrahedra = {};
+  std::vector<int> tet_volume = {};
   std::vector<Entity> volumes = {};
   /// Thickness of a shell, by triangle, then by quad; empty: none is known.
   std::vector<double> thickness = {};
