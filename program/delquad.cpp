@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <new>
@@ -38,7 +39,7 @@ constexpr const char* kExitCodes =
 
 /// The common arguments of all commands.
 struct CommonArguments {
-  bool quiet = false, all = false, version = false;
+  bool quiet = false, all = false, version = false, no_cache = false;
   double time_limit = 0;             ///< seconds; 0: none
   std::vector<std::string> help_of;  ///< command to explain
 };
@@ -50,6 +51,7 @@ void add_common(CLI::App& app, CommonArguments& common) {
   app.add_flag("-v,--verbose", common.all,
                "print all warnings, measures and times, not the worst and a summary")
       ->excludes(quiet);
+  app.add_flag("--no-cache", common.no_cache, "read CAD files anew (experiments always do)");
   app.add_flag("--version", common.version, "print version, commit and compiler; with -v libraries, too");
   app.add_subcommand("help", "Explain the program or a command")
       ->add_option("command", common.help_of, "which one")
@@ -124,6 +126,17 @@ void print_version(bool all) {
     if (of.contains(library)) fmt::print("  {:<14} {}\n", library, version);
 }
 
+/// Returns the user's folder for files that can be made again; empty: there is none.
+std::filesystem::path cache_of_user() {
+  const auto path_in = [](const char* name) {
+    const char* path = std::getenv(name);
+    return std::filesystem::path(path == nullptr ? "" : path);
+  };
+  if (const auto cache = path_in("XDG_CACHE_HOME"); cache.is_absolute()) return cache / "delquad";
+  if (const auto home = path_in("HOME"); home.is_absolute()) return home / ".cache" / "delquad";
+  return {};
+}
+
 int run_command_line(int argc, char** argv);
 
 /// As the program and its commands explain themselves.
@@ -172,6 +185,7 @@ int run_command_line(int argc, char** argv) {
   if (common.all) set_verbosity(Verbosity::kAll);
   const Command& command = *std::ranges::find_if(commands, [](const Command& c) { return c.app->parsed(); });
   if (common.quiet) be_quiet(command.only_prints());
+  if (command.has_time_limit && !common.no_cache) set_cad_cache(cache_of_user());
   const RunScope run_scope({.activities = &program_activities()});
   std::optional<TimeLimit> limit;
   if (common.time_limit > 0) limit.emplace(common.time_limit);

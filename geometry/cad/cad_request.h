@@ -14,6 +14,8 @@ namespace delquad::cad {
 /// Returns the program that reads CAD files: from the variable DELQUAD_CAD_WORKER, else from
 /// set_cad_worker(), else as find_program(), which may throw.
 std::filesystem::path find_worker();
+/// Returns the folder of set_cad_cache().
+std::filesystem::path cache_folder();
 
 /// The task of a worker: to read, heal and triangulate a shape.
 struct CadRequest {

@@ -11,10 +11,10 @@ namespace delquad {
 
 namespace {
 
-/// The worker that the program has chosen for all its threads.
+/// The worker and the cache that the program has chosen for all its threads.
 struct Chosen {
   std::mutex mutex;
-  std::filesystem::path program;
+  std::filesystem::path program, cache;
 };
 Chosen& chosen() {
   static Chosen one;
@@ -26,6 +26,16 @@ Chosen& chosen() {
 void set_cad_worker(const std::filesystem::path& program) {
   const std::lock_guard lock(chosen().mutex);
   chosen().program = program;
+}
+
+void set_cad_cache(const std::filesystem::path& folder) {
+  const std::lock_guard lock(chosen().mutex);
+  chosen().cache = folder;
+}
+
+std::filesystem::path cad::cache_folder() {
+  const std::lock_guard lock(chosen().mutex);
+  return chosen().cache;
 }
 
 std::filesystem::path cad::find_worker() {

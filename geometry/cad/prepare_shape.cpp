@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -11,9 +12,13 @@
 
 #include "base/activity.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "base/worker_process.h"
 #include "delquad/error.h"
+#include "geometry/cad/byte_archive.h"
 #include "geometry/cad/cad_request.h"
+#include "geometry/cad/cad_worker.h"
+#include "geometry/cad/kept_shapes.h"
 #include "geometry/cad/shape_file.h"
 
 namespace delquad::cad {
@@ -67,11 +72,32 @@ std::pair<Reply, std::string> ask_worker(const CadRequest& request) {
   return *std::move(last);
 }
 
-CadShape prepare(const CadRequest& request) {
-  const auto [reply, text] = ask_worker(request);
-  if (reply == Reply::kShape) return from_bytes(text);
+/// Returns the prepared shape as bytes.
+std::string ask_for_shape(const CadRequest& request) {
+  auto [reply, text] = ask_worker(request);
+  if (reply == Reply::kShape) return std::move(text);
   if (reply == Reply::kMessage) throw InputError(text);
   throw InputError(find_worker().string() + " is not the program that reads CAD files");
+}
+
+/// Returns all on which the prepared shape depends: content of the file, its name, options, and versions.
+std::string question_of(CadRequest request) {
+  const std::filesystem::path worker = find_worker();
+  std::string question = fmt::format("{} {} {} {}\n", kernel_version(), worker.string(), file_size(worker),
+                                     last_write_time(worker).time_since_epoch().count());
+  if (request.source == CadRequest::Source::kFile) {
+    const std::filesystem::path file = request.text;
+    request.text = file.filename().string() + '\n' + file_bytes(file);
+  }
+  request.threads = 1;
+  request.seconds = 0;
+  return question + to_bytes(request);
+}
+
+CadShape prepare(const CadRequest& request) {
+  const std::filesystem::path folder = cache_folder();
+  return from_bytes(kept_or_asked(folder, folder.empty() ? "" : question_of(request),
+                                  [&] { return ask_for_shape(request); }));
 }
 
 unsigned seconds_for(std::uintmax_t bytes) {

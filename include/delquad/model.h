@@ -238,6 +238,10 @@ struct CadModel {
 /// file. By default it is beside the running program or where it was installed. The environment variable
 /// DELQUAD_CAD_WORKER overrides both.
 void set_cad_worker(const std::filesystem::path& program);
+/// Keeps prepared CAD models of this process in a folder, which is made. A file with the same content,
+/// options and versions is then neither read nor triangulated again, at whatever size. The models last used
+/// stay, up to 1 GiB. Empty, the default: none is kept.
+void set_cad_cache(const std::filesystem::path& folder);
 
 /// Built-in model, see example_models().
 struct ExampleModel {

@@ -67,6 +67,40 @@ TEST_F(CadWorker, BytesGiveWhatTheirFileGives) {
   }
 }
 
+/// Reads a model with kept models in a folder, and returns whether the worker triangulated it.
+bool is_triangulated(const std::filesystem::path& file, const std::filesystem::path& cache,
+                     const CadOptions& options = {}) {
+  Activities activities(1);
+  bool triangulated = false;
+  activities.on_stage = [&](const char* name) { triangulated |= name == std::string(cad::kTriangulation); };
+  const RunScope run({.activities = &activities});
+  set_cad_cache(cache);
+  const SurfaceModel model = read_cad(file, options);
+  set_cad_cache({});
+  const SurfaceModel anew = read_cad(file, options);
+  EXPECT_EQ(model.fine.points, anew.fine.points);
+  EXPECT_EQ(model.fine.triangles, anew.fine.triangles);
+  return triangulated;
+}
+
+TEST_F(CadWorker, IsAskedOnceForEachContent) {
+  const auto cache = folder_ / "cache";
+  const auto is_asked = [&](const CadOptions& options = {}) { return is_triangulated(box_, cache, options); };
+  EXPECT_TRUE(is_asked());
+  EXPECT_FALSE(is_asked());
+  EXPECT_TRUE(is_asked({.unit = "m"}));
+  EXPECT_FALSE(is_asked({.unit = "m"}));
+  write_step(box_, BRepPrimAPI_MakeBox(1, 2, 4).Shape());
+  EXPECT_TRUE(is_asked());
+  EXPECT_FALSE(is_asked());
+  for (const auto& kept : std::filesystem::directory_iterator(cache))
+    std::filesystem::resize_file(kept, kept.file_size() - 20);
+  EXPECT_TRUE(is_asked());
+  EXPECT_FALSE(is_asked());
+  EXPECT_TRUE(is_triangulated(box_, "/dev/null/cache"));
+  EXPECT_TRUE(is_triangulated(box_, "/dev/null/cache"));
+}
+
 TEST_F(CadWorker, BadBytesAreRefused) {
   expect_input_error([] { read_cad(CadModel{}); }, {"CAD model", "without bytes"});
   expect_input_error([] { read_cad(CadModel{"", "solid cube\n"}); }, {"CAD data", "neither STEP"});
