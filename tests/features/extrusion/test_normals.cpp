@@ -172,7 +172,7 @@ TEST(Joints, OfPlatesHaveTheVolumeOfTheirUnion) {
   EXPECT_EQ(quads_by_name(leaning).at("front"), 2 + 3);
 }
 
-/// A pipe through a plate: the joint is a closed curve.
+/// A pipe through a plate, and a box with a wall inside: the joint is a closed curve, smooth or with corners.
 TEST(Joints, MayClose) {
   Mesh mesh;
   const auto ring = [](double s, double r, double z) {
@@ -183,6 +183,17 @@ TEST(Joints, MayClose) {
   const Mesh swept = extrude(mesh, AlongNormals{0.5, true}, {2});
   expect_sound(swept);
   EXPECT_NEAR(measure(swept).volume, kPi * (6 * 5 + (81 - 5.25 * 5.25) * 0.5), 2);
+  Mesh box = cube_surface(4, [](const Vec3& p) { return p; });
+  add_patch(
+      box, 4, 4,
+      [](double s, double t) {
+        return Vec3{0, 2 * s - 1, 2 * t - 1};
+      },
+      1);
+  const double t = 0.2;
+  const Mesh walls = extrude(box, AlongNormals{t, true}, {4});
+  expect_sound(walls);
+  EXPECT_NEAR(measure(walls).volume, power3(2 + t) - 2 * (1 - t) * (2 - t) * (2 - t), 1e-12);
 }
 
 TEST(Joints, Refused) {
