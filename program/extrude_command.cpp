@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -196,8 +197,9 @@ int extrude_command(const ExtrudeArguments& arguments) {
   const SweepPath path = path_of(arguments, mesh);
   const Mesh hexahedra =
       located(arguments.mesh.string(), [&] { return extrude(mesh, path, layers_of(arguments), &notes); });
-  for (const std::string& name : renamed_in_file(arguments.output, hexahedra))
-    notes.push_back(arguments.output.string() + " cannot hold all names as they are: " + name);
+  if (const auto renamed = renamed_in_file(arguments.output, hexahedra); !renamed.empty())
+    notes.push_back(fmt::format("{} cannot hold all names as they are: {}", arguments.output.string(),
+                                fmt::join(renamed, "; ")));
   if (const auto others = ignored_keywords(arguments.mesh); !others.empty())
     notes.push_back(fmt::format("{} loses these keywords of {}: {}", arguments.output.string(),
                                 arguments.mesh.string(), others));
