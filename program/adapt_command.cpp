@@ -145,6 +145,15 @@ void print_carried(const std::vector<MeshField>& carried) {
   fmt::print("  with the fields {}\n", fmt::join(names, ", "));
 }
 
+/// Warns of quads that are longer than solvers like, if nobody limited them.
+void warn_of_long_quads(const AdaptSpec& spec, MeshResult& result) {
+  constexpr double kLong = 100, kUsual = 20;
+  const double aspect = result.metrics.values.at("aspect_max");
+  if (spec.limits.aspect == 0 && !spec.isotropic && aspect > kLong)
+    result.warnings.emplace_back(fmt::format(
+        "quads are up to {:.3g} times as long as wide: --aspect {} limits the ratio", aspect, kUsual));
+}
+
 int adapt_command(const AdaptArguments& arguments) {
   const Stopwatch command;
   const RunScope run({.threads = arguments.threads});
@@ -189,6 +198,7 @@ int adapt_command(const AdaptArguments& arguments) {
   reduce_bandwidth(next);
   const std::vector<MeshField> carried = carried_over(mesh, std::span(files).first(n_solutions), asked, next,
                                                       arguments.transfer, made.result.warnings);
+  warn_of_long_quads(spec, made.result);
   progress.warn(made.result.warnings);
   {
     const Uninterrupted whole;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -114,7 +115,8 @@ struct ExtrudeArguments {
   std::string along, around, curve;  ///< as they were typed; empty: another way
   bool normals = false, both_sides = false;
   std::optional<double> angle, thickness;
-  int layers = 0;  ///< 0: of a curve as many as it has segments
+  std::vector<std::string> heights;  ///< "NAME=LENGTH"
+  int layers = 0;                    ///< 0: of a curve as many as it has segments
   double growth = 1;
   long long max_elements = 50'000'000;
   int threads = thread_count();
@@ -170,6 +172,17 @@ SweepPath path_of(const ExtrudeArguments& arguments, const Mesh& mesh) {
                  [&] { return AlongCurve{read_polyline(arguments.curve, centre)}; });
 }
 
+SweepLayers layers_of(const ExtrudeArguments& arguments) {
+  SweepLayers layers{arguments.layers, arguments.growth, arguments.max_elements};
+  for (const std::string& text : arguments.heights) {
+    const std::size_t at = text.rfind('=');
+    const auto height = at == std::string::npos ? std::nullopt : as_number(text.substr(at + 1));
+    if (!height) refuse("--height '{}': expected NAME=LENGTH, such as boss=12.5", text);
+    layers.heights[text.substr(0, at)] = *height;
+  }
+  return layers;
+}
+
 int extrude_command(const ExtrudeArguments& arguments) {
   check_hex_format(arguments.output, arguments.file);
   // The curve may lie in the mesh's own file.
@@ -182,11 +195,11 @@ int extrude_command(const ExtrudeArguments& arguments) {
   ReadNotes notes;
   const Mesh mesh = read_mesh(arguments.mesh, &notes);
   const SweepPath path = path_of(arguments, mesh);
-  const Mesh hexahedra = located(arguments.mesh.string(), [&] {
-    return extrude(mesh, path, {arguments.layers, arguments.growth, arguments.max_elements}, &notes);
-  });
-  for (const std::string& name : renamed_in_file(arguments.output, hexahedra))
-    notes.push_back(arguments.output.string() + " cannot hold all names as they are: " + name);
+  const Mesh hexahedra =
+      located(arguments.mesh.string(), [&] { return extrude(mesh, path, layers_of(arguments), &notes); });
+  if (const auto renamed = renamed_in_file(arguments.output, hexahedra); !renamed.empty())
+    notes.push_back(fmt::format("{} cannot hold all names as they are: {}", arguments.output.string(),
+                                fmt::join(renamed, "; ")));
   if (const auto others = ignored_keywords(arguments.mesh); !others.empty())
     notes.push_back(fmt::format("{} loses these keywords of {}: {}", arguments.output.string(),
                                 arguments.mesh.string(), others));
@@ -208,7 +221,7 @@ void add_extrude(CLI::App& app, Commands& commands) {
   extrude->add_option("mesh", arguments.mesh, "mesh file, quads alone")->required();
   extrude
       ->add_option("-o,--output", arguments.output,
-                   "hexahedra to write (.msh, .vtu, .inp, .e, .cgns, .med, .su2, .bdf or .unv)")
+                   "hexahedra to write (.msh, .vtu, .inp, .e, .cgns, .med, .su2, .foam, .bdf or .unv)")
       ->required();
   extrude->add_option("--along", arguments.along,
                       "X,Y,Z: the vector from the first layer of nodes to the last");
@@ -229,6 +242,8 @@ void add_extrude(CLI::App& app, Commands& commands) {
       ->add_option("--growth", arguments.growth, "height of each layer over the height of the layer before")
       ->capture_default_str()
       ->check(kLength);
+  extrude->add_option("--height", arguments.heights,
+                      "NAME=LENGTH: where a region ends, with --along or --normals; repeatable");
   extrude->add_flag("--binary", arguments.file.binary, "write .msh as bytes");
   extrude->add_option("--element", arguments.file.element,
                       "of .inp: C3D8, C3D8I, C3D8R, C3D20, C3D20R, DC3D8 or DC3D20");

@@ -160,8 +160,10 @@ void print_criteria(const CriteriaReport& report, const Mesh& mesh) {
     if (!r.failing.empty()) fmt::print(" in {} ({})", show_place(mesh, r.at), r.cause);
     fmt::print("{}\n", r.limit.on.empty() ? "" : " on '" + r.limit.on + "'");
   }
-  fmt::print("    time step: critical {:.4g}, {:.3g} times the step of squares of the least size; estimated",
-             report.critical_step, report.critical_step / report.step_of_squares);
+  fmt::print(
+      "    time step: critical {:.4g} (a length unless the sheet has a material), {:.3g} times the step of "
+      "squares of the least size; estimated",
+      report.critical_step, report.critical_step / report.step_of_squares);
   for (const auto& [program, step] : report.estimated_step) fmt::print(" {} {:.4g}", program, step);
   fmt::print("\n");
   for (const std::string& why : report.why) fmt::print("    {}\n", why);

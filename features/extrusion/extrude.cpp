@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -11,8 +12,10 @@
 #include "base/parallel_each.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/extrusion/joints.h"
 #include "features/extrusion/layers.h"
 #include "features/extrusion/section.h"
+#include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/find_crossings.h"
 #include "io/entity_names.h"
 #include "metrics/hexahedra.h"
@@ -25,11 +28,19 @@ namespace {
 class Levels {
  public:
   Levels(const Section& section, const LayeredPoints& layered)
-      : n_(static_cast<int>(section.mesh.points.size())),
+      : section_(section),
+        joints_(layered.joints),
+        n_(static_cast<int>(section.mesh.points.size())),
         n_levels_(layered.n_layers + (layered.is_closed ? 0 : 1)),
         is_closed_(layered.is_closed) {}
-  int point(int i, int level) const { return level % n_levels_ * n_ + i; }
-  int section_point(int point) const { return point % n_; }
+  int point(int i, int level) const {
+    const int point = level % n_levels_ * n_ + i;
+    return joints_.same_as.empty() ? point : joints_.same_as[point];
+  }
+  int section_point(int point) const {
+    const int beyond = point - n_levels_ * n_;
+    return beyond >= 0 ? joints_.origin[beyond] : section_.original(point % n_);
+  }
   /// How many layers of nodes lie between two points, the shorter way round.
   int distance(int a, int b) const {
     const int d = std::abs(a / n_ - b / n_);
@@ -37,33 +48,51 @@ class Levels {
   }
 
  private:
+  const Section& section_;
+  const FilledJoints& joints_;
   int n_, n_levels_;
   bool is_closed_;
 };
 
-/// Layer after layer, each in the order of the quads.
-std::vector<std::array<int, 8>> make_hexahedra(const Section& section, const LayeredPoints& layered) {
+/// Hexahedra layer by layer, in the order of the quads. Hexahedra of joints follow.
+struct SweptHexahedra {
+  std::vector<std::array<int, 8>> nodes;
+  std::vector<std::array<int, 2>> quad_and_layer;
+};
+
+SweptHexahedra make_hexahedra(const Section& section, const LayeredPoints& layered) {
   const Levels at(section, layered);
-  std::vector<std::array<int, 8>> hexahedra;
-  hexahedra.reserve(section.mesh.quads.size() * static_cast<std::size_t>(layered.n_layers));
+  const std::size_t n = section.mesh.quads.size();
+  SweptHexahedra swept;
+  swept.nodes.reserve(n * static_cast<std::size_t>(layered.n_layers));
+  swept.quad_and_layer.reserve(swept.nodes.capacity());
   for (int layer = 0; layer < layered.n_layers; ++layer)
-    for (const auto& [a, b, c, d] : section.mesh.quads)
-      hexahedra.push_back({at.point(a, layer), at.point(b, layer), at.point(c, layer), at.point(d, layer),
-                           at.point(a, layer + 1), at.point(b, layer + 1), at.point(c, layer + 1),
-                           at.point(d, layer + 1)});
-  return hexahedra;
+    for (int q = 0; q < static_cast<int>(n); ++q) {
+      if (layer >= layered.height(section, q)) continue;
+      const auto& [a, b, c, d] = section.mesh.quads[q];
+      swept.nodes.push_back({at.point(a, layer), at.point(b, layer), at.point(c, layer), at.point(d, layer),
+                             at.point(a, layer + 1), at.point(b, layer + 1), at.point(c, layer + 1),
+                             at.point(d, layer + 1)});
+      swept.quad_and_layer.push_back({q, layer});
+    }
+  for (const auto& [nodes, quad] : layered.joints.cells) {
+    swept.nodes.push_back(nodes);
+    swept.quad_and_layer.push_back({quad, 0});
+  }
+  return swept;
 }
 
 /// Parts whose hexahedra would have a negative volume run the other way round.
 void turn_towards_path(Section& section, const LayeredPoints& layered) {
-  const std::vector<std::array<int, 8>> hexahedra = make_hexahedra(section, layered);
-  const std::size_t n = section.mesh.quads.size();
-  std::vector<double> volume(hexahedra.size());
-  parallel_each(hexahedra.size(),
-                [&](std::size_t i) { volume[i] = signed_volume(corners_of(layered.points, hexahedra[i])); });
+  const SweptHexahedra swept = make_hexahedra(section, layered);
+  std::vector<double> volume(swept.nodes.size());
+  parallel_each(swept.nodes.size(), [&](std::size_t i) {
+    volume[i] = signed_volume(corners_of(layered.points, swept.nodes[i]));
+  });
   std::vector<double> of_part(section.n_parts, 0);
-  for (std::size_t i = 0; i < volume.size(); ++i) of_part[section.part[i % n]] += volume[i];
-  for (std::size_t q = 0; q < n; ++q)
+  for (std::size_t i = 0; i < volume.size(); ++i)
+    of_part[section.part[swept.quad_and_layer[i][0]]] += volume[i];
+  for (std::size_t q = 0; q < section.mesh.quads.size(); ++q)
     if (of_part[section.part[q]] < 0) std::swap(section.mesh.quads[q][1], section.mesh.quads[q][3]);
   for (WallEdge& wall : section.walls)
     if (of_part[section.part[wall.quad]] < 0) std::swap(wall.a, wall.b);
@@ -94,7 +123,8 @@ class FreeTags {
 };
 
 void require_positive(const Section& section, const std::vector<Entity>& volumes,
-                      const std::vector<Vec3>& points, const std::vector<std::array<int, 8>>& hexahedra) {
+                      const std::vector<Vec3>& points, const SweptHexahedra& swept) {
+  const std::vector<std::array<int, 8>>& hexahedra = swept.nodes;
   std::vector<char> is_bad(hexahedra.size(), 0);
   parallel_each(hexahedra.size(), [&](std::size_t i) {
     if (i % 1024 == 0) check_cancelled();
@@ -111,12 +141,17 @@ void require_positive(const Section& section, const std::vector<Entity>& volumes
   }
   Vec3 centre;
   for (const int v : hexahedra[worst]) centre = centre + 0.125 * points[v];
-  const std::size_t n = section.mesh.quads.size();
+  const auto [quad, layer] = swept.quad_and_layer[worst];
   throw InputError(fmt::format(
       "{} of {} hexahedra are inverted or flat, the worst in layer {} of '{}' at {} with a scaled Jacobian "
       "of {:.3g}. The sweep is too thick, or bends too much, for the section [inverted-hexahedra]",
-      n_bad, hexahedra.size(), worst / n + 1, volumes[section.mesh.quad_region[worst % n]].names[0],
+      n_bad, hexahedra.size(), layer + 1, volumes[section.mesh.quad_region[quad]].names[0],
       show_point(centre), least));
+}
+
+/// The number of layers on a quad; 0 for no quad.
+int height_of(const Section& section, const LayeredPoints& layered, int quad) {
+  return quad < 0 ? 0 : layered.height(section, quad);
 }
 
 /// The boundary as triangles, halves of quads along diagonals that two sides of a crack have in common.
@@ -125,16 +160,23 @@ void require_no_crossing(const Section& section, const LayeredPoints& layered) {
   const std::vector<Vec3>& points = section.mesh.points;
   std::vector<std::array<int, 3>> triangles;
   if (!layered.is_closed)
-    for (const int level : {0, layered.n_layers})
-      for (const auto& [a, b, c, d] : section.mesh.quads) {
+    for (const bool is_end : {false, true})
+      for (std::size_t q = 0; q < section.mesh.quads.size(); ++q) {
+        const auto& [a, b, c, d] = section.mesh.quads[q];
+        const int level = is_end ? layered.height(section, static_cast<int>(q)) : 0;
         triangles.push_back({at.point(a, level), at.point(b, level), at.point(c, level)});
         triangles.push_back({at.point(a, level), at.point(c, level), at.point(d, level)});
       }
+  for (const auto& [nodes, point] : layered.joints.ends) {
+    triangles.push_back({nodes[0], nodes[1], nodes[2]});
+    triangles.push_back({nodes[0], nodes[2], nodes[3]});
+  }
   for (const WallEdge& wall : section.walls) {
-    if (!wall.on_boundary) continue;
     const auto key = [&](int i) { return std::array{points[i].x, points[i].y, points[i].z}; };
     const auto [a, b] = key(wall.b) < key(wall.a) ? std::pair(wall.b, wall.a) : std::pair(wall.a, wall.b);
-    for (int layer = 0; layer < layered.n_layers; ++layer) {
+    const auto [first, last] =
+        std::minmax({height_of(section, layered, wall.quad), height_of(section, layered, wall.other)});
+    for (int layer = first; layer < last; ++layer) {
       triangles.push_back({at.point(a, layer), at.point(b, layer), at.point(b, layer + 1)});
       triangles.push_back({at.point(a, layer), at.point(b, layer + 1), at.point(a, layer + 1)});
     }
@@ -152,19 +194,37 @@ void require_no_crossing(const Section& section, const LayeredPoints& layered) {
         fmt::format("the swept body meets itself at {} [inverted-hexahedra]", show_point(crossing->at)));
 }
 
+/// Walls on the boundary, at steps between regions, and inside at named lines; then the ends of joints.
 void add_walls(const Section& section, const LayeredPoints& layered, Mesh& result) {
   const Levels at(section, layered);
-  std::vector<Entity> curves = section.mesh.curves;
-  const int nameless = static_cast<int>(curves.size());
-  if (std::ranges::any_of(section.walls, [](const WallEdge& wall) { return wall.curve < 0; }))
-    curves.push_back({FreeTags(curves).take(), {}});
-  result.regions = with_names(std::move(curves), 1);
+  const std::vector<Entity>& curves = section.mesh.curves;
+  std::map<int, int> curve_at;  // by end of a joint: a curve there
+  for (const auto& [nodes, point] : layered.joints.ends) curve_at[section.original(point)] = -1;
+  bool has_nameless = false;
+  for (const WallEdge& wall : section.walls)
+    for (const int end : {wall.a, wall.b})
+      if (const auto found = curve_at.find(section.original(end)); found != curve_at.end())
+        found->second = std::max(found->second, wall.curve);
+  const auto add = [&](const std::array<int, 4>& quad, int curve) {
+    result.quads.push_back(quad);
+    result.quad_region.push_back(curve < 0 ? static_cast<int>(curves.size()) : curve);
+    has_nameless |= curve < 0;
+  };
   for (int layer = 0; layer < layered.n_layers; ++layer)
     for (const WallEdge& wall : section.walls) {
-      result.quads.push_back({at.point(wall.a, layer), at.point(wall.b, layer), at.point(wall.b, layer + 1),
-                              at.point(wall.a, layer + 1)});
-      result.quad_region.push_back(wall.curve < 0 ? nameless : wall.curve);
+      const int here = height_of(section, layered, wall.quad),
+                other = height_of(section, layered, wall.other);
+      const bool is_inside = layer < here && layer < other;
+      if (is_inside ? wall.curve < 0 || curves[wall.curve].names.empty() : layer >= here && layer >= other)
+        continue;
+      const auto [a, b] = layer < here ? std::array{wall.a, wall.b} : std::array{wall.b, wall.a};
+      add({at.point(a, layer), at.point(b, layer), at.point(b, layer + 1), at.point(a, layer + 1)},
+          wall.curve);
     }
+  for (const auto& [nodes, point] : layered.joints.ends) add(nodes, curve_at.at(section.original(point)));
+  result.regions = curves;
+  if (has_nameless) result.regions.push_back({FreeTags(curves).take(), {}});
+  result.regions = with_names(std::move(result.regions), 1);
 }
 
 /// Faces where the sweep starts and ends, after the faces of the walls.
@@ -178,8 +238,8 @@ void add_caps(const Section& section, const LayeredPoints& layered, Mesh& result
       for (std::string& name : face.names) name += is_end ? " end" : " start";
       result.regions.push_back(std::move(face));
     }
-    const int level = is_end ? layered.n_layers : 0;
     for (std::size_t q = 0; q < section.mesh.quads.size(); ++q) {
+      const int level = is_end ? layered.height(section, static_cast<int>(q)) : 0;
       std::array<int, 4> quad = section.mesh.quads[q];
       if (!is_end) std::swap(quad[1], quad[3]);
       for (int& v : quad) v = at.point(v, level);
@@ -191,10 +251,14 @@ void add_caps(const Section& section, const LayeredPoints& layered, Mesh& result
 
 void add_point_curves(const Section& section, const LayeredPoints& layered, Mesh& result) {
   const Levels at(section, layered);
+  std::vector<int> height(section.mesh.points.size(), 0);
+  for (std::size_t q = 0; q < section.mesh.quads.size(); ++q)
+    for (const int v : section.mesh.quads[q])
+      height[v] = std::max(height[v], layered.height(section, static_cast<int>(q)));
   for (const NamedPoint& named : section.mesh.named_points) result.curves.push_back(named.entity);
   result.curves = with_names(std::move(result.curves), 0);
   for (std::size_t c = 0; c < result.curves.size(); ++c)
-    for (int layer = 0; layer < layered.n_layers; ++layer) {
+    for (int layer = 0; layer < height[section.mesh.named_points[c].point]; ++layer) {
       const int point = section.mesh.named_points[c].point;
       result.lines.push_back({at.point(point, layer), at.point(point, layer + 1)});
       result.line_curve.push_back(static_cast<int>(c));
@@ -204,22 +268,25 @@ void add_point_curves(const Section& section, const LayeredPoints& layered, Mesh
 }  // namespace
 
 Mesh extrude(const Mesh& mesh, const SweepPath& path, const SweepLayers& layers, ReadNotes* notes) {
-  Section section = make_section(mesh, notes);
+  const auto* normals = std::get_if<AlongNormals>(&path);
+  Section section = make_section(mesh, normals != nullptr && normals->both_sides, notes);
   LayeredPoints layered = place_layers(section, path, layers);
   turn_towards_path(section, layered);
   Mesh result;
   result.unit = mesh.unit;
-  result.hexahedra = make_hexahedra(section, layered);
   result.volumes = with_names(mesh.regions, 2);
-  require_positive(section, result.volumes, layered.points, result.hexahedra);
+  fill_joints(section, layered);
+  SweptHexahedra swept = make_hexahedra(section, layered);
+  require_positive(section, result.volumes, layered.points, swept);
   require_no_crossing(section, layered);
-  for (int layer = 0; layer < layered.n_layers; ++layer)
-    result.hex_volume.insert(result.hex_volume.end(), section.mesh.quad_region.begin(),
-                             section.mesh.quad_region.end());
+  result.hexahedra = std::move(swept.nodes);
+  for (const auto& [quad, layer] : swept.quad_and_layer)
+    result.hex_volume.push_back(section.mesh.quad_region[quad]);
   add_walls(section, layered, result);
   if (!layered.is_closed) add_caps(section, layered, result);
   add_point_curves(section, layered, result);
   result.points = std::move(layered.points);
+  if (!layered.layers_of.empty() || !layered.joints.cells.empty()) drop_unused_points(result);
   return result;
 }
 

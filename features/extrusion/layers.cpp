@@ -13,12 +13,15 @@
 
 #include "base/box.h"
 #include "base/cancel.h"
+#include "base/nearest_name.h"
 #include "base/parallel.h"
 #include "base/parallel_each.h"
 #include "base/predicates.h"
 #include "base/segment.h"
+#include "base/sort_unique.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "io/entity_names.h"
 
 namespace delquad {
 
@@ -108,15 +111,78 @@ LayeredPoints make_points(const Section& section, LayeredPoints result, const Pl
   return result;
 }
 
+/// Returns the height of each region, which is `length` if none is given.
+std::vector<double> heights_of_regions(const std::vector<Entity>& regions, const SweepLayers& layers,
+                                       double length) {
+  const std::vector<std::string> usual = group_names(regions, 2);
+  std::vector<double> heights(regions.size(), length);
+  for (const auto& [name, height] : layers.heights) {
+    if (!(height > 0) || !std::isfinite(height))
+      throw InputError(fmt::format("a height of {} for '{}': expected a finite length > 0", height, name));
+    bool is_known = false;
+    for (std::size_t r = 0; r < regions.size(); ++r)
+      if (usual[r] == name || std::ranges::find(regions[r].names, name) != regions[r].names.end())
+        heights[r] = height, is_known = true;
+    if (!is_known)
+      throw InputError(
+          fmt::format("no region has the name '{}' of a height{}", name, suggestion_or_all(name, usual)));
+  }
+  return heights;
+}
+
+/// Heights above the section by layer of nodes, and the number of layers of each region.
+struct LayerPlan {
+  std::vector<double> ends;
+  std::vector<int> layers_of;  ///< empty: all
+};
+
+/// For each height the nearest layer ends there; layers between two heights keep their proportions.
+LayerPlan plan_layers(const Section& section, const SweepLayers& layers, double length) {
+  std::vector<double> ends = layer_ends(layers.number, layers.growth);
+  if (layers.heights.empty()) {
+    for (double& end : ends) end *= length;
+    return {std::move(ends), {}};
+  }
+  const std::vector<double> of_region = heights_of_regions(section.mesh.regions, layers, length);
+  std::vector<double> heights;
+  for (const int region : section.mesh.quad_region) heights.push_back(of_region[region]);
+  sort_unique(heights);
+  const std::size_t n = heights.size(), number = ends.size() - 1;
+  if (number < n)
+    throw InputError(fmt::format("{} layers are too few for {} heights: expected at least {}", number, n, n));
+  LayerPlan plan{{0}, std::vector<int>(of_region.size(), 0)};
+  std::size_t first = 0;  // layer of nodes at the previous height
+  for (std::size_t h = 0; h < n; ++h) {
+    std::size_t last = first + 1;
+    const auto error = [&](std::size_t k) { return std::abs(ends[k] * heights.back() - heights[h]); };
+    while (last < number - (n - 1 - h) && error(last + 1) <= error(last)) ++last;
+    if (h + 1 == n) last = number;
+    const double from = plan.ends[first], part = (heights[h] - from) / (ends[last] - ends[first]);
+    for (std::size_t k = first + 1; k < last; ++k) plan.ends.push_back(from + (ends[k] - ends[first]) * part);
+    plan.ends.push_back(heights[h]);
+    for (std::size_t r = 0; r < of_region.size(); ++r)
+      if (of_region[r] == heights[h]) plan.layers_of[r] = static_cast<int>(last);
+    first = last;
+  }
+  return plan;
+}
+
+void require_no_heights(const SweepLayers& layers) {
+  if (!layers.heights.empty())
+    throw InputError("heights go along a vector, or along normals to one side: expected none here");
+}
+
 LayeredPoints along(const Section& section, const AlongVector& path, const SweepLayers& layers) {
   if (!is_finite(path.shift) || !(norm(path.shift) > 0))
     throw InputError(
         fmt::format("the vector {}: expected finite numbers that are not all 0", show_point(path.shift)));
   require_layers(section, layers, layers.number);
-  const std::vector<double> ends = layer_ends(layers.number, layers.growth);
-  return make_points(section, {{}, layers.number, false, true}, [&](std::size_t i, std::size_t level) {
-    return section.mesh.points[i] + ends[level] * path.shift;
-  });
+  const double length = layers.heights.empty() ? 1 : norm(path.shift);
+  const LayerPlan plan = plan_layers(section, layers, length);
+  return make_points(section, {{}, layers.number, false, true, plan.layers_of},
+                     [&](std::size_t i, std::size_t level) {
+                       return section.mesh.points[i] + plan.ends[level] / length * path.shift;
+                     });
 }
 
 LayeredPoints along(const Section& section, const AroundAxis& path, const SweepLayers& layers) {
@@ -129,6 +195,7 @@ LayeredPoints along(const Section& section, const AroundAxis& path, const SweepL
         fmt::format("the axis through {} along {}: expected finite numbers, and a direction that is not 0",
                     show_point(path.point), show_point(path.axis)));
   require_layers(section, layers, layers.number);
+  require_no_heights(layers);
   const bool is_closed = angle == kFull;
   if (is_closed && layers.number < kFewest)
     throw InputError(fmt::format("{} layers around an axis: expected at least {}", layers.number, kFewest));
@@ -147,6 +214,7 @@ LayeredPoints along(const Section& section, const AroundAxis& path, const SweepL
 }
 
 LayeredPoints along(const Section& section, const AlongCurve& path, const SweepLayers& layers) {
+  require_no_heights(layers);
   std::vector<Vec3> line = path.points;
   for (const Vec3& p : line)
     if (!is_finite(p))
@@ -173,11 +241,18 @@ LayeredPoints along(const Section& section, const AlongNormals& path, const Swee
     throw InputError(
         fmt::format("a thickness of {}: expected a finite number that is not 0", path.thickness));
   require_layers(section, layers, layers.number);
-  const std::vector<double> ends = layer_ends(layers.number, layers.growth);
+  if (path.both_sides) require_no_heights(layers);
+  // At joints parts run in different directions.
+  const bool is_signed = layers.heights.empty() && section.joints.empty();
+  const double length = is_signed ? path.thickness : std::abs(path.thickness);
+  LayerPlan plan = plan_layers(section, layers, length);
+  const double sign = layers.heights.empty() ? 1 : std::copysign(1, path.thickness);
   const std::vector<Vec3> directions = offset_directions(section);
-  const double start = path.both_sides ? -0.5 : 0;
-  return make_points(section, {{}, layers.number, false, true}, [&](std::size_t i, std::size_t level) {
-    return section.mesh.points[i] + (start + ends[level]) * path.thickness * directions[i];
+  const double start = path.both_sides ? -0.5 * length : 0;
+  LayeredPoints result{{}, layers.number, false, true, std::move(plan.layers_of)};
+  if (path.both_sides) result.thickness = length, result.shares = layer_ends(layers.number, layers.growth);
+  return make_points(section, std::move(result), [&](std::size_t i, std::size_t level) {
+    return section.mesh.points[i] + sign * (start + plan.ends[level]) * directions[i];
   });
 }
 
@@ -292,6 +367,15 @@ bool is_one_fan(std::vector<std::array<int, 2>> ends) {
 }
 
 }  // namespace
+
+Vec3 offset_direction(const Mesh& mesh, std::span<const SidedCorner> corners, const Vec3& at) {
+  std::vector<CornerNormal> normals;
+  for (const auto& [quad, corner, sign] : corners) {
+    normals.push_back(corner_normal(mesh, mesh.quads[quad], corner));
+    normals.back().normal = sign * normals.back().normal;
+  }
+  return offset_direction(normals, at);
+}
 
 std::vector<Vec3> offset_directions(const Section& section) {
   const Mesh& mesh = section.mesh;

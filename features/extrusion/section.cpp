@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <span>
 #include <utility>
 
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/extrusion/joints.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
@@ -41,18 +43,19 @@ void require_quads(const Mesh& mesh) {
 }
 
 /// Turns quads over that run along an edge in the same direction as a neighbor that came first.
-void orient(Section& section, std::span<const HalfEdge> sides) {
+void orient(Section& section, std::span<const HalfEdge> sides, bool with_joints) {
   std::vector<std::array<int, 4>>& quads = section.mesh.quads;
   const std::vector<Vec3>& points = section.mesh.points;
   std::vector<Neighbours> neighbours;
   std::vector<Vec3> middles;
   for_each_edge(sides, [&](std::span<const HalfEdge> at) {
     const Vec3 middle = 0.5 * (points[at[0].lo] + points[at[0].hi]);
-    if (at.size() > 2)
+    if (at.size() > 2 && !with_joints)
       throw InputError(
-          fmt::format("{} quads share the edge at {}: only surfaces whose edges have one or two are swept",
+          fmt::format("{} quads share the edge at {}: only surfaces whose edges have one or two are swept; "
+                      "--normals with --both-sides thickens such joints",
                       at.size(), show_point(middle)));
-    if (at.size() < 2) return;
+    if (at.size() != 2) return;
     neighbours.push_back({at[0].element, at[1].element, at[0].forward != at[1].forward});
     middles.push_back(middle);
   });
@@ -83,29 +86,36 @@ void drop_unrelated(Mesh& mesh, std::span<const HalfEdge> sides, ReadNotes* note
 /// `sides` of the quads as they are oriented.
 void find_walls(Section& section, std::span<const HalfEdge> sides) {
   const Mesh& mesh = section.mesh;
-  const auto add = [&](const HalfEdge& side, int curve, bool on_boundary) {
-    section.walls.push_back({side.forward ? side.lo : side.hi, side.forward ? side.hi : side.lo, side.element,
-                             curve, on_boundary});
+  const auto add = [&](std::span<const HalfEdge> at, int curve) {
+    const auto [a, b] = at[0].run();
+    section.walls.push_back({a, b, at[0].element, at.size() > 1 ? at[1].element : -1, curve});
   };
+  const auto is_between = [&](std::span<const HalfEdge> at) {
+    return at.size() > 1 && mesh.quad_region[at[0].element] != mesh.quad_region[at[1].element];
+  };
+  std::set<std::array<int, 2>> of_joints;
+  for (const JointEdge& joint : section.joints)
+    for (const auto& branch : joint.branches)
+      of_joints.insert({std::min(branch.ends[0], branch.ends[1]), std::max(branch.ends[0], branch.ends[1])});
   std::vector<std::pair<int, int>> with_line;
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
     const auto [a, b] = mesh.lines[l];
     const auto at = sides_of_edge(sides, a, b);
-    if (at.size() > 1 && mesh.curves[mesh.line_curve[l]].names.empty()) continue;
-    add(at[0], mesh.line_curve[l], at.size() == 1);
+    if (at.size() > 1 && mesh.curves[mesh.line_curve[l]].names.empty() && !is_between(at)) continue;
+    add(at, mesh.line_curve[l]);
     with_line.emplace_back(std::min(a, b), std::max(a, b));
   }
   std::sort(with_line.begin(), with_line.end());
   for_each_edge(sides, [&](std::span<const HalfEdge> at) {
-    if (at.size() == 1 &&
+    if ((at.size() == 1 || is_between(at)) && !of_joints.contains({at[0].lo, at[0].hi}) &&
         !std::binary_search(with_line.begin(), with_line.end(), std::pair(at[0].lo, at[0].hi)))
-      add(at[0], -1, true);
+      add(at, -1);
   });
 }
 
 }  // namespace
 
-Section make_section(const Mesh& given, ReadNotes* notes) {
+Section make_section(const Mesh& given, bool with_joints, ReadNotes* notes) {
   require_quads(given);
   Section section;
   section.mesh = given;
@@ -114,8 +124,9 @@ Section make_section(const Mesh& given, ReadNotes* notes) {
   section.mesh.periodic.clear();
   section.mesh.periodic_faces.clear();
   const std::vector<HalfEdge> sides = sorted_half_edges(section.mesh);
-  orient(section, sides);
+  orient(section, sides, with_joints);
   drop_unrelated(section.mesh, sides, notes);
+  if (with_joints) split_joints(section, notes);
   find_walls(section, sorted_half_edges(section.mesh));
   return section;
 }

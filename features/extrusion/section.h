@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -15,8 +16,19 @@ namespace delquad {
 struct WallEdge {
   int a, b;   ///< the quad lies on the left
   int quad;   ///< the first quad with this edge
+  int other;  ///< the second one; -1: none
   int curve;  ///< index into Mesh::curves; -1: no line lies there
-  bool on_boundary;
+};
+
+/// An edge that three or more quads share.
+struct JointEdge {
+  /// A quad at the edge, with its own copies of the ends.
+  struct Branch {
+    int quad;
+    std::array<int, 2> ends;
+    bool is_forward;  ///< whether the quad runs from the first end to the second
+  };
+  std::vector<Branch> branches;  ///< counterclockwise seen from the second end
 };
 
 /// The section that is swept: quads with the same orientation as their neighbors.
@@ -24,12 +36,22 @@ struct Section {
   Mesh mesh;              ///< quads, and points that they use
   std::vector<int> part;  ///< number of the edge-connected part of each quad
   int n_parts = 0;
-  std::vector<WallEdge> walls;  ///< all edges on the boundary; inner edges whose line has a name
+  /// All edges on the boundary; inner edges whose line has a name, or that lie between two regions.
+  std::vector<WallEdge> walls;
+  std::vector<JointEdge> joints;
+  std::vector<int> origin;  ///< point of the mesh for each copy of a point at a joint, after all other points
+
+  /// Returns the point that a point is a copy of, or the point itself.
+  int original(int point) const {
+    const int first = static_cast<int>(mesh.points.size() - origin.size());
+    return point < first ? point : origin[point - first];
+  }
 };
 
 /// Returns the quads of a mesh as a section; `notes` tells the omissions. Throws InputError, with the place,
-/// for meshes that extrude() refuses.
-Section make_section(const Mesh& mesh, ReadNotes* notes);
+/// for meshes that extrude() refuses. At joints, each part of the surface gets its own copies of points.
+/// Without `with_joints`, edges of three quads are refused.
+Section make_section(const Mesh& mesh, bool with_joints, ReadNotes* notes);
 
 /// Returns a unit vector perpendicular to a vector that is not 0.
 Vec3 unit_across(const Vec3& v);

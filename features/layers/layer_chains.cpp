@@ -205,7 +205,7 @@ class ChainFinder {
     if (is_cut(curve_[p]) || is_cut(curve_[before_[p]])) return;
     throw InputError(
         fmt::format("{}: another curve meets the layer inside of its region at {}: expected "
-                    "layers beside which only boundaries of regions go on",
+                    "boundaries of regions alone; an inner curve may begin beyond the layers",
                     where(chain), show_node(domain_, node)));
   }
 

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/segment.h"
 #include "geometry/surface/laplacian.h"
 
 namespace delquad {
@@ -20,15 +21,20 @@ namespace {
 constexpr int kMaxStarts = 16;  ///< limit of tried paths from one loop
 /// Extra cost of a path, over its length, for an end that becomes a new corner.
 constexpr double kNewCorner = 0.15, kNewCornerAtStart = 0.05;
-/// Extra cost of a path that runs into a third loop.
-constexpr double kWrongLoop = 2;
+/// Extra cost of a path that runs into a third loop, and of one beside a point that nodes have to keep.
+constexpr double kWrongLoop = 2, kBesidePoint = 2;
+/// Part of the length of a path within which it runs beside a point.
+constexpr double kBeside = 0.03;
 /// The least angular defect of a sharp tip (radians), and the angle around a blunt one.
 constexpr double kTipDefect = 0.5, kBluntTip = 200 * std::numbers::pi / 180;
 
 class PathChoice {
  public:
-  PathChoice(const Chart& chart, const std::vector<CutEnd>& ends)
-      : chart_(chart), ends_(ends), around_(triangles_around(chart)) {}
+  PathChoice(const Chart& chart, const std::vector<CutEnd>& ends, int tip = -1)
+      : chart_(chart), ends_(ends), around_(triangles_around(chart)) {
+    for (std::size_t v = chart.n_boundary; v < chart.points.size(); ++v)
+      if (const int i = static_cast<int>(v); i != tip && end_of(i) == CutEnd::kCorner) inner_.push_back(i);
+  }
 
   // Tries paths from these starts; `down` falls towards `target`.
   void try_from(const std::vector<int>& starts, const std::vector<double>& down,
@@ -39,6 +45,7 @@ class PathChoice {
       const EdgePoint& last = path->points.back();
       double factor = 1 + end_cost(end_of(start)) + end_cost(last.b < 0 ? end_of(last.a) : CutEnd::kAnywhere);
       if (!target[last.a]) factor += kWrongLoop;
+      factor += kBesidePoint * nearness(*path);
       if (factor * path->length < cost_) {
         cost_ = factor * path->length;
         best_ = std::move(path);
@@ -46,17 +53,20 @@ class PathChoice {
     }
   }
 
-  /// Returns the loop's corners; without these, starts of its curves and points spread along it.
+  /// Returns the loop's corners; without these, or if points inside may be in the way, starts of its curves
+  /// and points spread along it, too.
   std::vector<int> starts(const std::vector<int>& loop) const {
     std::vector<int> corners, begins;
     for (int v : loop) {
       if (end_of(v) == CutEnd::kCorner) corners.push_back(v);
       if (end_of(v) == CutEnd::kCurveStart) begins.push_back(v);
     }
-    if (!corners.empty()) return spread(corners);
+    std::vector<int> some = spread(corners);
+    if (!some.empty() && inner_.empty()) return some;
     const std::vector<int> all = spread(loop);
-    begins.insert(begins.end(), all.begin(), all.end());
-    return begins;
+    some.insert(some.end(), begins.begin(), begins.end());
+    some.insert(some.end(), all.begin(), all.end());
+    return some;
   }
 
   std::optional<CutPath> best() && { return std::move(best_); }
@@ -66,6 +76,19 @@ class PathChoice {
 
   static double end_cost(CutEnd end) {
     return end == CutEnd::kCorner ? 0 : end == CutEnd::kCurveStart ? kNewCornerAtStart : kNewCorner;
+  }
+
+  /// Returns how near a path runs to a corner inside that is not on it, from 0 to 1. Beyond kBeside of its
+  /// length it is 0.
+  double nearness(const CutPath& path) const {
+    double least = kBeside * path.length;
+    for (const int v : inner_) {
+      if (std::ranges::find(path.points, EdgePoint{v}) != path.points.end()) continue;
+      for (std::size_t i = 1; i < path.points.size(); ++i)
+        least = std::min(least, distance_to_segment(chart_.points[v], position(chart_, path.points[i - 1]),
+                                                    position(chart_, path.points[i])));
+    }
+    return path.length > 0 ? 1 - least / (kBeside * path.length) : 0;
   }
 
   static std::vector<int> spread(const std::vector<int>& all) {
@@ -78,6 +101,7 @@ class PathChoice {
   const Chart& chart_;
   const std::vector<CutEnd>& ends_;
   std::vector<std::vector<int>> around_;
+  std::vector<int> inner_;  ///< corners inside, except the tip
   double cost_ = std::numeric_limits<double>::infinity();
   std::optional<CutPath> best_;
 };
@@ -220,7 +244,7 @@ std::optional<CutPath> plan_tip_cut(const Chart& chart, int tip, const std::vect
   std::vector<double> u(n, 0.0);
   u[tip] = 1;
   u = LaplaceSolver(chart, fixed).solve(u, std::vector<double>(n, 0.0));
-  PathChoice choice(chart, ends);
+  PathChoice choice(chart, ends, tip);
   choice.try_from({tip}, u, boundary);
   for (const auto& loop : chart.loops) choice.try_from(choice.starts(loop), negated(u), at_tip);
   return std::move(choice).best();

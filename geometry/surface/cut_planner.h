@@ -15,7 +15,7 @@ enum class CutEnd : char { kAnywhere, kCurveStart, kCorner };
 
 /// Returns the shortest of several paths between the two longest loops of a chart (own method). A harmonic
 /// function falls along them, so that they meet both loops at right angles. They begin at corners of either
-/// loop, if there are any.
+/// loop, if there are any. Paths just beside a corner inside the chart are avoided.
 std::optional<CutPath> plan_seam(const Chart& chart, const std::vector<CutEnd>& ends);
 
 /// Returns the sharp tips (of cones) inside the chart if they have most of its curvature; else none.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -30,8 +32,10 @@ struct AlongCurve {
 /// Sweep along the normals, which look to the side from which quads run counterclockwise. At edges and
 /// corners between planes each plane moves by the thickness.
 struct AlongNormals {
-  double thickness = 0;     ///< negative: against the normals
-  bool both_sides = false;  ///< half of it to each side
+  double thickness = 0;  ///< negative: against the normals
+  /// Half of it to each side. Then three or more quads may share an edge, with an even number of layers:
+  /// hexahedra fill the joints of plates.
+  bool both_sides = false;
 };
 using SweepPath = std::variant<AlongVector, AroundAxis, AlongCurve, AlongNormals>;
 
@@ -41,15 +45,18 @@ struct SweepLayers {
   int number = 0;
   double growth = 1;  ///< height of each layer over the height of the previous one, above 0
   long long max_elements = 50'000'000;
+  /// Lengths along a vector, or thicknesses along normals, by names of regions; other regions have the length
+  /// of the path. A layer ends at each height. Growth is kept between heights, in parts.
+  std::map<std::string, double> heights = {};
 };
 
 /// Sweeps a mesh of quads of order 1 and returns hexahedra. Each region becomes a volume of its names, or
 /// "region_3" by its number. Unless the sweep closes, its quads become faces NAME + " start" and NAME + "
 /// end". Curves on the boundary and named curves inside become faces of their names ("curve_5"); named points
 /// become curves. Quads may run either way round. `notes` tells the omissions. Throws InputError, with the
-/// place, for triangles, higher order, edges of three quads, one-sided surfaces, and sections that touch the
-/// axis. It also refuses hexahedra that are not positive, a body that meets itself, paths out of range, and
-/// more than max_elements.
+/// place, for triangles, higher order, edges of three quads (see AlongNormals), one-sided surfaces, and
+/// sections that touch the axis. It also refuses hexahedra that are not positive, a body that meets itself,
+/// paths out of range, and more than max_elements.
 Mesh extrude(const Mesh& mesh, const SweepPath& path, const SweepLayers& layers, ReadNotes* notes = nullptr);
 
 /// Measures of hexahedra.

@@ -83,65 +83,170 @@ std::vector<PatchSides> sides_of_patches(const Mesh& mesh, const std::vector<Mes
   return patches;
 }
 
-/// A mesh one cell thick: the points of the plane, then the points of its copy above.
+/// The lists of polyMesh.
 struct FoamMesh {
-  double thickness = 0;                 ///< the mean size of cells
+  std::vector<Vec3> points;
   std::vector<std::vector<int>> faces;  ///< they look out of their owner
   std::vector<int> owner, neighbour;
   std::vector<FoamPatch> patches;
-  std::map<std::string, std::vector<int>> zones;  ///< faces on named curves inside
+  std::map<std::string, std::vector<int>> zones;  ///< named faces inside
 
-  FoamMesh(const Mesh& mesh, const std::vector<MeshGroup>& groups) {
-    const int above = static_cast<int>(mesh.points.size());
-    const auto add = [&](std::vector<int> face, int cell) {
-      faces.push_back(std::move(face));
-      owner.push_back(cell);
-    };
-    const auto wall = [&](const std::array<int, 2>& run) {
-      return std::vector{run[0], run[1], run[1] + above, run[0] + above};
-    };
-    // In OpenFOAM's order: by owner, then by neighbor.
-    std::vector<std::pair<std::array<int, 2>, std::array<int, 2>>> inside;
-    for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> sides) {
-      if (sides.size() > 1) inside.push_back({{sides[0].element, sides[1].element}, sides[0].run()});
-    });
-    std::ranges::sort(inside);
-    const std::map<std::array<int, 2>, int> group_of = groups_of_lines(mesh, groups);
-    for (const auto& [cells, run] : inside) {
-      const auto [lo, hi] = std::minmax(run[0], run[1]);
-      if (const auto group = group_of.find({lo, hi}); group != group_of.end())
-        zones[groups[group->second].label].push_back(static_cast<int>(faces.size()));
-      add(wall(run), cells[0]), neighbour.push_back(cells[1]);
-    }
-    const std::vector<PatchSides> sides = sides_of_patches(mesh, groups);
-    for (const PatchSides& patch : sides) {
-      const bool is_cyclic = patch.image >= 0;
-      patches.push_back({patch.name,
-                         is_cyclic                           ? "cyclic"
-                         : name_contains(patch.name, "wall") ? "wall"
-                                                             : "patch",
-                         faces.size(), patch.sides.size(), is_cyclic ? sides[patch.image].name : ""});
-      for (const BoundarySide& side : patch.sides) {
-        std::vector<int> face = wall(side.run);
-        // A face and its image begin at the same node, and run round in opposite ways.
-        if (patch.is_image) std::ranges::rotate(face, face.begin() + 1);
-        add(std::move(face), side.element);
-      }
-    }
-    patches.push_back({"frontAndBack", "empty", faces.size(), 0});
-    double area = 0;
-    for_each_element(mesh, [&](int e, const auto& v) {
-      add({v.rbegin(), v.rend()}, e);
-      std::vector<int> front(v.begin(), v.end());
-      for (int& i : front) i += above;
-      add(std::move(front), e);
-      for (std::size_t k = 0; k < v.size(); ++k)
-        area += cross(mesh.points[v[k]], mesh.points[v[(k + 1) % v.size()]]).z / 2;
-    });
-    patches.back().size = faces.size() - patches.back().first;
-    thickness = std::sqrt(area / static_cast<double>(mesh.triangles.size() + mesh.quads.size()));
+  void add(std::vector<int> face, int cell) {
+    faces.push_back(std::move(face));
+    owner.push_back(cell);
+  }
+  /// Begins a patch, whose faces are added next. A name that contains "wall" makes a wall.
+  void begin_patch(const std::string& name, std::size_t size) {
+    patches.push_back({name, name_contains(name, "wall") ? "wall" : "patch", faces.size(), size});
   }
 };
+
+/// A planar mesh one cell thick: the points of the plane, then the points of its copy above. The thickness is
+/// the mean size of cells.
+FoamMesh planar_foam(const Mesh& mesh, const std::vector<MeshGroup>& groups) {
+  FoamMesh foam;
+  const int above = static_cast<int>(mesh.points.size());
+  const auto wall = [&](const std::array<int, 2>& run) {
+    return std::vector{run[0], run[1], run[1] + above, run[0] + above};
+  };
+  // In OpenFOAM's order: by owner, then by neighbor.
+  std::vector<std::pair<std::array<int, 2>, std::array<int, 2>>> inside;
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> sides) {
+    if (sides.size() > 1) inside.push_back({{sides[0].element, sides[1].element}, sides[0].run()});
+  });
+  std::ranges::sort(inside);
+  const std::map<std::array<int, 2>, int> group_of = groups_of_lines(mesh, groups);
+  for (const auto& [cells, run] : inside) {
+    const auto [lo, hi] = std::minmax(run[0], run[1]);
+    if (const auto group = group_of.find({lo, hi}); group != group_of.end())
+      foam.zones[groups[group->second].label].push_back(static_cast<int>(foam.faces.size()));
+    foam.add(wall(run), cells[0]), foam.neighbour.push_back(cells[1]);
+  }
+  const std::vector<PatchSides> sides = sides_of_patches(mesh, groups);
+  for (const PatchSides& patch : sides) {
+    foam.begin_patch(patch.name, patch.sides.size());
+    if (patch.image >= 0)
+      foam.patches.back().type = "cyclic", foam.patches.back().neighbour = sides[patch.image].name;
+    for (const BoundarySide& side : patch.sides) {
+      std::vector<int> face = wall(side.run);
+      // A face and its image begin at the same node, and run round in opposite ways.
+      if (patch.is_image) std::ranges::rotate(face, face.begin() + 1);
+      foam.add(std::move(face), side.element);
+    }
+  }
+  const std::size_t n_cells = mesh.triangles.size() + mesh.quads.size();
+  foam.patches.push_back({"frontAndBack", "empty", foam.faces.size(), 2 * n_cells});
+  double area = 0;
+  for_each_element(mesh, [&](int e, const auto& v) {
+    foam.add({v.rbegin(), v.rend()}, e);
+    std::vector<int> front(v.begin(), v.end());
+    for (int& i : front) i += above;
+    foam.add(std::move(front), e);
+    for (std::size_t k = 0; k < v.size(); ++k)
+      area += cross(mesh.points[v[k]], mesh.points[v[(k + 1) % v.size()]]).z / 2;
+  });
+  foam.points = mesh.points;
+  for (const Vec3& p : mesh.points)
+    foam.points.push_back(p + Vec3{0, 0, std::sqrt(area / static_cast<double>(n_cells))});
+  return foam;
+}
+
+/// The corners of the faces of a cell, counterclockwise seen from outside.
+const std::vector<std::vector<int>>& faces_of_cell(CellShape shape) {
+  static const std::map<CellShape, std::vector<std::vector<int>>> kFaces = {
+      {CellShape::kHexahedron,
+       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}}};
+  return kFaces.at(shape);
+}
+
+struct CellFace {
+  std::vector<int> sorted, nodes;  ///< the same ones; `nodes` run round seen from outside
+  int cell;
+};
+
+/// The faces of all cells by their sorted nodes: neighbors have theirs one after the other.
+std::vector<CellFace> sorted_faces(const Mesh& mesh) {
+  std::vector<CellFace> faces;
+  for (const CellBlock& cells : cell_blocks(mesh))
+    for (std::size_t i = 0; cells.dim == 3 && i < cells.size(); ++i) {
+      const std::vector<int> corners = cells.nodes(i);
+      for (const std::vector<int>& places : faces_of_cell(cells.shape)) {
+        CellFace face{{}, {}, static_cast<int>(cells.first + i)};
+        for (const int k : places) face.nodes.push_back(corners[k]);
+        face.sorted = face.nodes;
+        std::ranges::sort(face.sorted);
+        faces.push_back(std::move(face));
+      }
+    }
+  std::ranges::stable_sort(faces, {}, &CellFace::sorted);
+  return faces;
+}
+
+/// The index of the group of each triangle and quad, by its sorted nodes.
+std::map<std::vector<int>, int> groups_of_faces(const Mesh& mesh, const std::vector<MeshGroup>& groups) {
+  const std::vector<CellBlock> blocks = cell_blocks(mesh);
+  std::map<std::vector<int>, int> group_of;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const CellBlock& cells : blocks)
+      for (const std::size_t i : items_in_block(groups[g], cells)) {
+        std::vector<int> nodes = cells.nodes(i);
+        std::ranges::sort(nodes);
+        if (groups[g].dim == 2) group_of.emplace(std::move(nodes), static_cast<int>(g));
+      }
+  return group_of;
+}
+
+/// Whether the cells are one layer between flat ends, across a coordinate axis: flow there has no third
+/// dimension. `ends`: patches of faces named "... start" and "... end".
+bool is_slice(const FoamMesh& foam, std::size_t n_cells, const std::vector<std::size_t>& ends) {
+  std::size_t n_faces = 0;
+  for (const std::size_t end : ends) n_faces += foam.patches[end].size;
+  if (n_faces != 2 * n_cells) return false;
+  for (const auto axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+    std::set<double> heights;
+    for (const std::size_t end : ends)
+      for (std::size_t k = 0; k < foam.patches[end].size && heights.size() < 3; ++k)
+        for (const int v : foam.faces[foam.patches[end].first + k]) heights.insert(foam.points[v].*axis);
+    if (heights.size() == 2) return true;
+  }
+  return false;
+}
+
+/// Named faces on the boundary are patches, named faces inside are zones.
+FoamMesh solid_foam(const Mesh& mesh, const std::vector<MeshGroup>& groups) {
+  const std::vector<CellFace> faces = sorted_faces(mesh);
+  const std::map<std::vector<int>, int> group_of = groups_of_faces(mesh, groups);
+  std::vector<std::pair<std::array<int, 2>, const CellFace*>> inside;  // by owner, then by neighbor
+  std::map<int, std::vector<const CellFace*>> outside;                 // by group; -1: none
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (i + 1 < faces.size() && faces[i].sorted == faces[i + 1].sorted) {
+      inside.push_back({{faces[i].cell, faces[i + 1].cell}, &faces[i]});
+      ++i;
+      continue;
+    }
+    const auto group = group_of.find(faces[i].sorted);
+    outside[group == group_of.end() ? -1 : group->second].push_back(&faces[i]);
+  }
+  std::ranges::sort(inside, {}, [](const auto& face) { return face.first; });
+  FoamMesh foam;
+  foam.points = mesh.points;
+  std::vector<std::size_t> ends;  // patches
+  for (const auto& [cells, face] : inside) {
+    if (const auto group = group_of.find(face->sorted); group != group_of.end())
+      foam.zones[groups[group->second].label].push_back(static_cast<int>(foam.faces.size()));
+    foam.add(face->nodes, cells[0]), foam.neighbour.push_back(cells[1]);
+  }
+  for (auto& [group, patch] : outside) {
+    std::ranges::stable_sort(patch, {}, &CellFace::cell);
+    const std::string name = group < 0 ? "" : groups[group].name;
+    if (name.ends_with(" start") || name.ends_with(" end")) ends.push_back(foam.patches.size());
+    foam.begin_patch(group < 0 ? "defaultFaces" : groups[group].label, patch.size());
+    for (const CellFace* face : patch) foam.add(face->nodes, face->cell);
+  }
+  if (is_slice(foam, n_cells(mesh, 3), ends))
+    for (const std::size_t end : ends) foam.patches[end].type = "empty";
+  return foam;
+}
 
 template <class Items, class Write>
 void write_foam_list(TextWriter& out, const Items& items, const Write& write) {
@@ -152,7 +257,7 @@ void write_foam_list(TextWriter& out, const Items& items, const Write& write) {
 
 /// The files of constant/polyMesh (OpenFOAM's user guide, "Mesh description"). All arguments must outlive
 /// them.
-std::vector<FileToWrite> foam_files(const std::filesystem::path& home, const Mesh& mesh,
+std::vector<FileToWrite> foam_files(const std::filesystem::path& home, int dim,
                                     const std::vector<MeshGroup>& groups, const FoamMesh& foam) {
   std::vector<FileToWrite> files;
   const auto add = [&](const std::string& name, const std::string& kind,
@@ -164,9 +269,7 @@ std::vector<FileToWrite> foam_files(const std::filesystem::path& home, const Mes
                      })});
   };
   add("points", "vectorField", [&](TextWriter& out) {
-    std::vector<Vec3> points = mesh.points;
-    for (const Vec3& p : mesh.points) points.push_back(p + Vec3{0, 0, foam.thickness});
-    write_foam_list(out, points,
+    write_foam_list(out, foam.points,
                     [&](const Vec3& p) { out << '(' << p.x << ' ' << p.y << ' ' << p.z << ')'; });
   });
   add("faces", "faceList", [&](TextWriter& out) {
@@ -196,9 +299,9 @@ std::vector<FileToWrite> foam_files(const std::filesystem::path& home, const Mes
       out << ";\n    flipMap List<bool> " << zone.second.size() << "{0};\n}";
     });
   });
-  add("cellZones", "regIOobject", [&](TextWriter& out) {
+  add("cellZones", "regIOobject", [&, dim](TextWriter& out) {
     std::vector<MeshGroup> regions = groups;
-    std::erase_if(regions, [](const MeshGroup& group) { return group.dim != 2; });
+    std::erase_if(regions, [dim](const MeshGroup& group) { return group.dim != dim; });
     write_foam_list(out, regions, [&](const MeshGroup& region) {
       out << region.label << "\n{\n    type cellZone;\n    cellLabels List<label> ";
       write_foam_list(out, region.items, [&](int cell) { out << cell; });
@@ -210,11 +313,12 @@ std::vector<FileToWrite> foam_files(const std::filesystem::path& home, const Mes
 
 /// constant/polyMesh beside the file, which is the one that ParaView opens.
 void write_foam(const std::filesystem::path& path, const Mesh& mesh) {
-  require_planar(path, "OpenFOAM's mesh of one cell's thickness", mesh);
+  const int dim = dimension_of(mesh);
+  if (dim == 2) require_planar(path, "OpenFOAM's mesh of one cell's thickness", mesh);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {plain_label});
-  const FoamMesh foam(mesh, groups);
+  const FoamMesh foam = dim == 2 ? planar_foam(mesh, groups) : solid_foam(mesh, groups);
   const std::filesystem::path constant = path.parent_path() / "constant", home = constant / "polyMesh";
-  std::vector<FileToWrite> files = foam_files(home, mesh, groups, foam);
+  std::vector<FileToWrite> files = foam_files(home, dim, groups, foam);
   files.push_back({path, [](std::ostream& out) { out << "quad mesh by Delquad\n"; }});
   std::error_code ignored;  // what is missing then is told by the first file
   std::filesystem::create_directory(constant, ignored);
@@ -234,8 +338,9 @@ constexpr UniqueLabels::Rules kFoamLabels{plain_label};
 
 MeshFormat foam_format() {
   return {.extensions = {".foam"},
-          .description = "OpenFOAM: constant/polyMesh beside it, one cell thick",
+          .description = "OpenFOAM: constant/polyMesh beside it, planar meshes one cell thick",
           .write = write_by<write_foam>,
+          .has_hexahedra = true,
           .labels = &kFoamLabels,
           .names = kRegionNames | kBoundaryNames | kInnerNames | kPeriodicPairs};
 }

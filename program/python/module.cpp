@@ -103,9 +103,10 @@ py::list periodic_faces_of(const Mesh& mesh) {
   return pairs;
 }
 
-Mesh extruded(const Mesh& mesh, int layers, double growth, int threads, double time_limit,
-              const py::object& along, const py::object& point, const py::object& axis, double degrees,
-              const py::object& curve, const py::object& thickness, bool both_sides) {
+Mesh extruded(const Mesh& mesh, int layers, double growth, const std::map<std::string, double>& heights,
+              int threads, double time_limit, const py::object& along, const py::object& point,
+              const py::object& axis, double degrees, const py::object& curve, const py::object& thickness,
+              bool both_sides) {
   const auto path = [&]() -> SweepPath {
     if (!along.is_none()) return AlongVector{read_vec3(along, "along")};
     if (!point.is_none())
@@ -116,7 +117,7 @@ Mesh extruded(const Mesh& mesh, int layers, double growth, int threads, double t
   Mesh result;
   CallingThread().run([&](const std::stop_token& stop) {
     const RunScope scope({.threads = threads, .cancel = stop, .seconds = time_limit});
-    result = extrude(mesh, path, {layers, growth});
+    result = extrude(mesh, path, {.number = layers, .growth = growth, .heights = heights});
   });
   return result;
 }

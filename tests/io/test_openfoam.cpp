@@ -68,6 +68,93 @@ TEST(OpenFoam, NamedCurvesInsideAreFaceZones) {
   }
 }
 
+/// n x 2 x m bricks, warped inside, with named faces at x = 0 and 1, and the ends of a sweep along z.
+Mesh bricks(int n, int m) {
+  Mesh mesh;
+  const auto at = [&](int i, int j, int k) { return (k * 3 + j) * (n + 1) + i; };
+  for (int k = 0; k <= m; ++k)
+    for (int j = 0; j <= 2; ++j)
+      for (int i = 0; i <= n; ++i)
+        mesh.points.push_back({i + 0.1 * (i % n > 1 && j == 1), j + 0.2 * (i % n > 1 && j == 1), 1.0 * k});
+  for (int k = 0; k < m; ++k)
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < n; ++i) {
+        const auto end = [&](int l) {
+          return std::array{at(i, j, l), at(i + 1, j, l), at(i + 1, j + 1, l), at(i, j + 1, l)};
+        };
+        const auto below = end(k), above = end(k + 1);
+        mesh.hexahedra.push_back(
+            {below[0], below[1], below[2], below[3], above[0], above[1], above[2], above[3]});
+        mesh.hex_volume.push_back(i < 1);
+        if (i < 2)
+          mesh.quads.push_back({below[0], above[0], above[3], below[3]}), mesh.quad_region.push_back(i);
+        if (k == 0)
+          mesh.quads.push_back({below[0], below[3], below[2], below[1]}), mesh.quad_region.push_back(2);
+        if (k == m - 1) mesh.quads.push_back(above), mesh.quad_region.push_back(3);
+      }
+  mesh.volumes = {{1, {"water"}}, {2, {"steel"}}};
+  mesh.regions = {{1, {"inner wall"}}, {2, {"screen"}}, {3, {"water start"}}, {4, {"water end"}}};
+  return mesh;
+}
+
+/// Writes the mesh and tests the lists that OpenFOAM reads. Returns the text of the patches and zones.
+std::string check_foam(const Mesh& mesh) {
+  const Folder folder;
+  write_mesh(folder / "a.foam", mesh);
+  const auto home = folder / "constant/polyMesh";
+  const auto list = [&](const char* name) {
+    std::istringstream text(read_text(home / name));
+    std::vector<int> numbers;
+    for (std::string line; std::getline(text, line);)
+      if (!line.empty() && std::isdigit(line[0])) numbers.push_back(std::stoi(line));
+    numbers.erase(numbers.begin());  // how many follow
+    return numbers;
+  };
+  const auto points = rows_of(read_text(home / "points")), faces = rows_of(read_text(home / "faces"));
+  const std::vector<int> owner = list("owner"), neighbour = list("neighbour");
+  EXPECT_EQ(owner.size(), faces.size());
+  std::vector<Vec3> area(mesh.hexahedra.size());
+  std::vector<double> volume(mesh.hexahedra.size(), 0);
+  std::vector<int> n_faces(mesh.hexahedra.size(), 0);
+  std::array<int, 2> last = {-1, -1};
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto corner = [&](std::size_t k) {
+      const auto& p = points[static_cast<std::size_t>(faces[f][k])];
+      return Vec3{p[0], p[1], p[2]};
+    };
+    const Vec3 outward = 0.5 * cross(corner(2) - corner(0), corner(3) - corner(1));
+    const double part = dot(corner(0) + corner(1) + corner(2) + corner(3), outward) / 12;
+    const auto add = [&](int cell, double sign) {
+      area[cell] = area[cell] + sign * outward, volume[cell] += sign * part, ++n_faces[cell];
+    };
+    add(owner[f], 1);
+    if (f >= neighbour.size()) continue;
+    add(neighbour[f], -1);
+    EXPECT_LT(owner[f], neighbour[f]);
+    EXPECT_LT(last, (std::array{owner[f], neighbour[f]}));
+    last = {owner[f], neighbour[f]};
+  }
+  for (std::size_t c = 0; c < area.size(); ++c) {
+    EXPECT_EQ(n_faces[c], 6);
+    EXPECT_LT(norm(area[c]), 1e-12);
+    EXPECT_GT(volume[c], 0.5);
+  }
+  return read_text(home / "boundary") + read_text(home / "faceZones") + read_text(home / "cellZones");
+}
+
+TEST(OpenFoam, HexahedraHavePatchesAndZonesByTheirNames) {
+  const std::string text = check_foam(bricks(4, 3));
+  EXPECT_TRUE(holds(text, "inner_wall\n{\n    type wall;\n    nFaces 6;", "water_end\n{\n    type patch;",
+                    "defaultFaces\n{\n    type patch;\n    nFaces 30;",
+                    "screen\n{\n    type faceZone;\n    faceLabels List<label> 6\n",
+                    "steel\n{\n    type cellZone;\n    cellLabels List<label> 6\n"));
+}
+
+TEST(OpenFoam, OneFlatLayerIsTwoDimensional) {
+  const std::string text = check_foam(bricks(4, 1));
+  EXPECT_TRUE(holds(text, "water_start\n{\n    type empty;", "water_end\n{\n    type empty;", "type wall;"));
+}
+
 TEST(Su2, TellsSettingsOfPeriodicMarkers) {
   const Folder folder;
   write_mesh(folder / "a.su2", channel());

@@ -64,6 +64,21 @@ TEST(AdaptCommand, ModelsAndOtherFormats) {
 }
 
 // Steps in time: the mesh is fine where any of them asks for it, and has the last one's values.
+TEST(AdaptCommand, WarnsOfLongQuads) {
+  const Workplace folder;
+  const Mesh mesh = quad_grid(16, 16);
+  MeshField field{"u", true, 1, {}};
+  for (const Vec3& p : mesh.points) field.values.push_back(p.x * p.x);
+  write_fields(folder / "a.vtu", mesh, {field});
+  const auto warns = [&](const std::string& options) {
+    const ProgramResult result = folder.run("adapt a.vtu:u --quads 1000 --quality fast -o b.vtu " + options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return holds(result.err, "times as long as wide: --aspect 20 limits");
+  };
+  EXPECT_TRUE(warns(""));
+  EXPECT_FALSE(warns("--aspect 20"));
+}
+
 TEST(AdaptCommand, SeveralFiles) {
   const Workplace folder;
   const Mesh mesh = quad_grid(16, 16);

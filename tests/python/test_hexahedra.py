@@ -30,6 +30,7 @@ def test_volumes_and_arrays(tmp_path):
     assert delquad.extrude(quads, around=((-1, 0, 0), (0, 1, 0)), angle=90, layers=15).volume == pytest.approx(ring.volume / 4)
     assert delquad.extrude(quads, curve=[(0, 0, 0), (0, 0, 1), (0, 0, 3)]).volume == pytest.approx(3)
     quads.write(tmp_path / "q.msh")
+    assert delquad.extrude(quads, along=(0, 0, 1), layers=3, heights={"domain": 2.5}).volume == pytest.approx(2.5)
     shell = delquad.extrude(tmp_path / "q.msh", normals=0.5, both_sides=True, layers=2)
     assert shell.volume == pytest.approx(0.5) and shell.points[:, 2].min() == -0.25
     for name in ("a.msh", "a.vtu", "a.inp"):

@@ -172,6 +172,7 @@ def extrude(
     both_sides: bool = False,
     layers: int = 0,
     growth: float = 1.0,
+    heights: Mapping[str, float] | None = None,
     threads: int = 0,
     time_limit: float = 0.0,
 ) -> Mesh: ...

@@ -7,7 +7,7 @@ from . import _core
 
 
 def extrude(
-    mesh, *, along=None, around=None, angle=360.0, curve=None, normals=None, both_sides=False, layers=0, growth=1.0, threads=0, time_limit=0.0
+    mesh, *, along=None, around=None, angle=360.0, curve=None, normals=None, both_sides=False, layers=0, growth=1.0, heights=None, threads=0, time_limit=0.0
 ):
     """Sweeps a mesh of quads, or the file of one, and returns a Mesh of hexahedra. One of these sets the path:
 
@@ -17,6 +17,7 @@ def extrude(
     normals: a thickness along the normals, negative against them; both_sides: half of it to each side.
 
     layers: their number; 0, with curve only, for one on each segment. growth: height of a layer over the previous height, above 0.
+    heights: a dict from names of regions to lengths, with along or normals; a layer ends at each height.
     threads: 0 for the number of cores. time_limit: in seconds; 0 for none.
 
     Regions become volumes. Curves on the boundary and named inner curves become faces, named points curves. The start and
@@ -30,4 +31,4 @@ def extrude(
     if sum(way is not None for way in (along, around, curve, normals)) != 1:
         raise _core.InputError("expected one of along, around, curve and normals")
     point, axis = (None, None) if around is None else around
-    return _core.extrude(mesh, layers, growth, threads, time_limit, along, point, axis, angle, curve, normals, both_sides)
+    return _core.extrude(mesh, layers, growth, heights or {}, threads, time_limit, along, point, axis, angle, curve, normals, both_sides)

@@ -105,7 +105,7 @@ TEST(Normals, NoiseDoesNotMatterAtEdges) {
   add_patch(mesh, 4, 9, [&](double s, double t) {
     return Vec3{s == 0 ? 0 : noise(s, t), t, s == 0 ? noise(1, t) : -s};
   });
-  Section section = make_section(mesh, nullptr);
+  Section section = make_section(mesh, false, nullptr);
   const std::vector<Vec3> directions = offset_directions(section);
   for (std::size_t i = 0; i < directions.size(); ++i)
     if (norm(Vec3{section.mesh.points[i].x, 0, section.mesh.points[i].z}) < 1e-3) {
@@ -126,6 +126,88 @@ TEST(Normals, WhereThereAreNone) {
   add_patch(folded, 1, 1, [](double s, double t) { return Vec3{-s, t, -0.001 * s}; });
   expect_not_extruded(folded, AlongNormals{0.1}, {1}, {"folds back"});
   expect_not_extruded(quad_grid(1, 1), AlongNormals{0}, {1}, {"thickness of 0"});
+}
+
+/// Plates of a length of 3 along y that leave the origin at these angles (degrees), `n` quads along y.
+Mesh star(const std::vector<double>& degrees, int n = 3) {
+  Mesh mesh;
+  for (std::size_t k = 0; k < degrees.size(); ++k)
+    add_patch(
+        mesh, 4, n,
+        [&](double s, double t) {
+          const double a = degrees[k] * kPi / 180;
+          return Vec3{2 * s * std::cos(a), 3 * t, 2 * s * std::sin(a)};
+        },
+        static_cast<int>(k));
+  return mesh;
+}
+
+TEST(Joints, OfPlatesHaveTheVolumeOfTheirUnion) {
+  const double t = 0.4;
+  for (const int layers : {2, 4, 6}) {
+    const Mesh tee = extrude(star({0, 90, 180}), AlongNormals{t, true}, {layers});
+    expect_sound(tee);
+    EXPECT_NEAR(measure(tee).volume, 3 * (4 * t + (2 - t / 2) * t), 1e-12);
+    EXPECT_EQ(tee.hexahedra.size(), 36u * layers + 9 * layers * layers / 4);
+    const Mesh cross = extrude(star({0, 90, 180, 270}), AlongNormals{-t, true}, {layers});
+    expect_sound(cross);
+    EXPECT_NEAR(measure(cross).volume, 3 * (8 * t - t * t), 1e-12);
+  }
+  // Three plates at equal angles: their middles overlap in a triangle of height 1.5 t.
+  const Mesh star_of_three = extrude(star({30, 150, 270}), AlongNormals{t, true}, {2});
+  expect_sound(star_of_three);
+  EXPECT_NEAR(measure(star_of_three).volume,
+              3 * (3 * (2 - t / std::sqrt(12.0)) * t + std::sqrt(3.0) / 4 * t * t), 1e-12);
+  EXPECT_GT(measure(star_of_three).least_jacobian, 0.8);
+  // Quads that run either way round, and lines on the joint and at its end.
+  Mesh mixed = star({0, 70, 180});
+  for (std::size_t q = 0; q < mixed.quads.size(); q += 3) std::swap(mixed.quads[q][1], mixed.quads[q][3]);
+  mixed.curves = {{1, {"weld"}}, {2, {"front"}}};
+  mixed.lines = {{0, 5}, {0, 1}};
+  mixed.line_curve = {0, 1};
+  ReadNotes notes;
+  const Mesh leaning = extrude(mixed, AlongNormals{0.3, true}, {2, 1.5}, &notes);
+  expect_sound(leaning);
+  EXPECT_EQ(notes, ReadNotes{"1 lines on joints of plates were left out"});
+  EXPECT_EQ(quads_by_name(leaning).at("front"), 2 + 3);
+}
+
+/// A pipe through a plate, and a box with a wall inside: the joint is a closed curve, smooth or with corners.
+TEST(Joints, MayClose) {
+  Mesh mesh;
+  const auto ring = [](double s, double r, double z) {
+    return Vec3{r * std::cos(2 * kPi * s), r * std::sin(2 * kPi * s), z};
+  };
+  add_patch(mesh, 24, 6, [&](double s, double t) { return ring(s, 5, 6 * t - 3); });
+  add_patch(mesh, 24, 3, [&](double s, double t) { return ring(s, 5 + 4 * t, 0); });
+  const Mesh swept = extrude(mesh, AlongNormals{0.5, true}, {2});
+  expect_sound(swept);
+  EXPECT_NEAR(measure(swept).volume, kPi * (6 * 5 + (81 - 5.25 * 5.25) * 0.5), 2);
+  Mesh box = cube_surface(4, [](const Vec3& p) { return p; });
+  add_patch(
+      box, 4, 4,
+      [](double s, double t) {
+        return Vec3{0, 2 * s - 1, 2 * t - 1};
+      },
+      1);
+  const double t = 0.2;
+  const Mesh walls = extrude(box, AlongNormals{t, true}, {4});
+  expect_sound(walls);
+  EXPECT_NEAR(measure(walls).volume, power3(2 + t) - 2 * (1 - t) * (2 - t) * (2 - t), 1e-12);
+}
+
+TEST(Joints, Refused) {
+  const Mesh tee = star({0, 90, 180});
+  expect_not_extruded(tee, AlongNormals{0.1}, {2}, {"3 quads share the edge", "--both-sides"});
+  expect_not_extruded(tee, AlongNormals{0.1, true}, {3}, {"3 layers", "even number", "(0, 0, 0)"});
+  expect_not_extruded(tee, AlongNormals{5, true}, {2}, {"inverted or flat"});
+  Mesh ends_inside;
+  add_patch(ends_inside, 4, 4, [](double s, double t) { return Vec3{s - 0.5, t, 0}; });
+  add_patch(ends_inside, 2, 2, [](double s, double t) { return Vec3{0, t / 2, s}; });
+  expect_not_extruded(ends_inside, AlongNormals{0.1, true}, {2}, {"ends at (0, 0.5, 0) inside of a plate"});
+  add_patch(ends_inside, 2, 2, [](double s, double t) { return Vec3{0, 0.5 + t / 2, s}; });
+  add_patch(ends_inside, 2, 2, [](double s, double t) { return Vec3{t / 2, 0.5, s}; });
+  expect_not_extruded(ends_inside, AlongNormals{0.1, true}, {2}, {"4 joints of plates meet at (0, 0.5, 0)"});
 }
 
 }  // namespace

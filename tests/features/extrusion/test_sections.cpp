@@ -70,6 +70,53 @@ TEST(Sections, NamesBecomeThoseOfVolumesFacesAndCurves) {
     }
 }
 
+TEST(Sections, RegionsEndAtTheirHeights) {
+  const Mesh mesh = extrude(two_regions(), AlongVector{{0, 0, 3}}, {.number = 3, .heights = {{"metal", 1}}});
+  expect_sound(mesh);
+  EXPECT_NEAR(measure(mesh).volume, 4 * 1 + 4 * 3, 1e-13);
+  EXPECT_EQ(std::ranges::count(mesh.hex_volume, 0), 4);
+  EXPECT_EQ(mesh.lines.size(), 1u);  // the sensor, in steel
+  std::map<std::string, int> counts = quads_by_name(mesh);
+  EXPECT_EQ(counts["weld"], 6);
+  EXPECT_EQ(counts["south"], 2 + 6);
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+    for (const int v : mesh.quads[q])
+      if (mesh.regions[mesh.quad_region[q]].names[0] == "steel end") {
+        EXPECT_EQ(mesh.points[v].z, 1);
+      }
+  // A layer ends at each height. Layers in between keep their growth.
+  const Mesh graded = extrude(two_regions(), AlongVector{{0, 0, -1}},
+                              {.number = 6, .growth = 1.3, .heights = {{"steel", 1.1}, {"region_7", 3}}});
+  expect_sound(graded);
+  std::set<double> levels;
+  for (const Vec3& p : graded.points) levels.insert(-p.z);
+  const std::vector<double> at(levels.begin(), levels.end());
+  ASSERT_EQ(at.size(), 7u);
+  EXPECT_EQ(at.back(), 3);
+  EXPECT_EQ(std::ranges::count(at, 1.1), 1);
+  EXPECT_NEAR((at[2] - at[1]) / (at[1] - at[0]), 1.3, 1e-12);
+  EXPECT_NEAR((at[6] - at[5]) / (at[5] - at[4]), 1.3, 1e-12);
+  // Thicknesses of shells.
+  const Mesh box = cube_surface(2, [](const Vec3& p) { return p; });
+  Mesh sides = box;
+  sides.regions.push_back({2, {"thick"}});
+  for (std::size_t q = 0; q < 4; ++q) sides.quad_region[q] = 1;
+  for (const double sign : {1, -1})
+    expect_sound(extrude(sides, AlongNormals{0.1 * sign}, {.number = 2, .heights = {{"thick", 0.2}}}));
+  const auto refused = [](const SweepPath& path, const SweepLayers& layers,
+                          std::initializer_list<const char*> parts) {
+    expect_not_extruded(two_regions(), path, layers, parts);
+  };
+  const AlongVector up{{0, 0, 3}};
+  refused(up, {.number = 3, .heights = {{"stel", 1}}},
+          {"no region has the name 'stel'", "did you mean 'steel'"});
+  refused(up, {.number = 3, .heights = {{"steel", 0}}}, {"height of 0 for 'steel'"});
+  refused(up, {.number = 1, .heights = {{"steel", 1}}}, {"1 layers are too few for 2 heights"});
+  refused(AlongNormals{1, true}, {.number = 2, .heights = {{"steel", 1}}}, {"expected none here"});
+  refused(AroundAxis{{-1, 0, 0}, {0, 1, 0}, 90}, {.number = 2, .heights = {{"steel", 1}}},
+          {"heights go along a vector"});
+}
+
 TEST(Sections, QuadsMayRunEitherWayRound) {
   const Mesh plain = two_regions();
   Mesh mixed = plain;

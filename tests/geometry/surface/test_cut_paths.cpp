@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/segment.h"
 #include "geometry/surface/cut_planner.h"
 #include "geometry/surface/laplacian.h"
 #include "tests/support/meshing.h"
@@ -104,6 +105,31 @@ TEST(CutPlanner, SeamBeginsAtACorner) {
   ASSERT_TRUE(seam);
   EXPECT_NEAR(seam->length, 2, 1e-9);
   EXPECT_EQ(chart.fine_node[seam->points.front().a], corner);
+}
+
+TEST(CutPlanner, SeamKeepsAwayFromPointsInside) {
+  SurfaceModel model = cylinder(24, 10, 1, 2);
+  std::vector<CutEnd> ends(model.fine.points.size(), CutEnd::kAnywhere);
+  const int corner = model.fine.lines[7][0];
+  ends[corner] = CutEnd::kCorner;
+  const auto at = [&](int v) -> Vec3& { return model.fine.points[v]; };
+  int inside = 0;  // on the ruling of the corner
+  while (norm(Vec3{at(inside).x - at(corner).x, at(inside).y - at(corner).y, at(inside).z - 1}) > 1e-9)
+    ++inside;
+  ends[inside] = CutEnd::kCorner;
+  const auto distance = [&](int v) {
+    const Chart chart = one_chart(model);
+    const auto seam = plan_seam(chart, ends);
+    double least = 9;
+    for (std::size_t i = 1; i < seam->points.size(); ++i)
+      least = std::min(least, distance_to_segment(at(v), position(chart, seam->points[i - 1]),
+                                                  position(chart, seam->points[i])));
+    return least;
+  };
+  EXPECT_LT(distance(corner), 1e-12);
+  EXPECT_LT(distance(inside), 1e-12);
+  at(inside) = Motion{{}, 0.05}(at(inside));
+  EXPECT_GT(distance(inside), 0.06);
 }
 
 TEST(CutPlanner, TipsAreFoundAndReached) {
