@@ -18,7 +18,7 @@
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/find_crossings.h"
 #include "io/entity_names.h"
-#include "metrics/hexahedra.h"
+#include "metrics/cells.h"
 
 namespace delquad {
 

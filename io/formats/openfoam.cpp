@@ -151,48 +151,21 @@ FoamMesh planar_foam(const Mesh& mesh, const std::vector<MeshGroup>& groups) {
   return foam;
 }
 
-/// The corners of the faces of a cell, counterclockwise seen from outside.
-const std::vector<std::vector<int>>& faces_of_cell(CellShape shape) {
-  static const std::map<CellShape, std::vector<std::vector<int>>> kFaces = {
-      {CellShape::kHexahedron,
-       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}}};
-  return kFaces.at(shape);
+/// Returns the nodes of a side, counterclockwise seen from outside.
+std::vector<int> nodes_of(const Mesh& mesh, const CellSide& side) {
+  const std::array<int, 4> nodes = solid_at(mesh, side.element).side(side.side);
+  return {nodes.begin(), nodes.end() - (nodes[3] < 0 ? 1 : 0)};
 }
 
-struct CellFace {
-  std::vector<int> sorted, nodes;  ///< the same ones; `nodes` run round seen from outside
-  int cell;
-};
-
-/// The faces of all cells by their sorted nodes: neighbors have theirs one after the other.
-std::vector<CellFace> sorted_faces(const Mesh& mesh) {
-  std::vector<CellFace> faces;
-  for (const CellBlock& cells : cell_blocks(mesh))
-    for (std::size_t i = 0; cells.dim == 3 && i < cells.size(); ++i) {
-      const std::vector<int> corners = cells.nodes(i);
-      for (const std::vector<int>& places : faces_of_cell(cells.shape)) {
-        CellFace face{{}, {}, static_cast<int>(cells.first + i)};
-        for (const int k : places) face.nodes.push_back(corners[k]);
-        face.sorted = face.nodes;
-        std::ranges::sort(face.sorted);
-        faces.push_back(std::move(face));
-      }
-    }
-  std::ranges::stable_sort(faces, {}, &CellFace::sorted);
-  return faces;
-}
-
-/// The index of the group of each triangle and quad, by its sorted nodes.
-std::map<std::vector<int>, int> groups_of_faces(const Mesh& mesh, const std::vector<MeshGroup>& groups) {
+/// Returns the index of the group of each triangle and quad, see side_key().
+std::map<std::array<int, 4>, int> groups_of_faces(const Mesh& mesh, const std::vector<MeshGroup>& groups) {
   const std::vector<CellBlock> blocks = cell_blocks(mesh);
-  std::map<std::vector<int>, int> group_of;
+  std::map<std::array<int, 4>, int> group_of;
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const CellBlock& cells : blocks)
-      for (const std::size_t i : items_in_block(groups[g], cells)) {
-        std::vector<int> nodes = cells.nodes(i);
-        std::ranges::sort(nodes);
-        if (groups[g].dim == 2) group_of.emplace(std::move(nodes), static_cast<int>(g));
-      }
+      if (groups[g].dim == 2)
+        for (const std::size_t i : items_in_block(groups[g], cells))
+          group_of.emplace(side_key(cells.nodes(i)), static_cast<int>(g));
   return group_of;
 }
 
@@ -214,34 +187,34 @@ bool is_slice(const FoamMesh& foam, std::size_t n_cells, const std::vector<std::
 
 /// Named faces on the boundary are patches, named faces inside are zones.
 FoamMesh solid_foam(const Mesh& mesh, const std::vector<MeshGroup>& groups) {
-  const std::vector<CellFace> faces = sorted_faces(mesh);
-  const std::map<std::vector<int>, int> group_of = groups_of_faces(mesh, groups);
-  std::vector<std::pair<std::array<int, 2>, const CellFace*>> inside;  // by owner, then by neighbor
-  std::map<int, std::vector<const CellFace*>> outside;                 // by group; -1: none
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (i + 1 < faces.size() && faces[i].sorted == faces[i + 1].sorted) {
-      inside.push_back({{faces[i].cell, faces[i + 1].cell}, &faces[i]});
+  const std::vector<SolidSide> sides = sorted_sides(mesh);
+  const std::map<std::array<int, 4>, int> group_of = groups_of_faces(mesh, groups);
+  std::vector<std::pair<std::array<int, 2>, const SolidSide*>> inside;  // by owner, then by neighbor
+  std::map<int, std::vector<CellSide>> outside;                         // by group; -1: none
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (i + 1 < sides.size() && sides[i].nodes == sides[i + 1].nodes) {
+      inside.push_back({{sides[i].side.element, sides[i + 1].side.element}, &sides[i]});
       ++i;
       continue;
     }
-    const auto group = group_of.find(faces[i].sorted);
-    outside[group == group_of.end() ? -1 : group->second].push_back(&faces[i]);
+    const auto group = group_of.find(sides[i].nodes);
+    outside[group == group_of.end() ? -1 : group->second].push_back(sides[i].side);
   }
   std::ranges::sort(inside, {}, [](const auto& face) { return face.first; });
   FoamMesh foam;
   foam.points = mesh.points;
   std::vector<std::size_t> ends;  // patches
   for (const auto& [cells, face] : inside) {
-    if (const auto group = group_of.find(face->sorted); group != group_of.end())
+    if (const auto group = group_of.find(face->nodes); group != group_of.end())
       foam.zones[groups[group->second].label].push_back(static_cast<int>(foam.faces.size()));
-    foam.add(face->nodes, cells[0]), foam.neighbour.push_back(cells[1]);
+    foam.add(nodes_of(mesh, face->side), cells[0]), foam.neighbour.push_back(cells[1]);
   }
   for (auto& [group, patch] : outside) {
-    std::ranges::stable_sort(patch, {}, &CellFace::cell);
+    std::ranges::stable_sort(patch, {}, &CellSide::element);
     const std::string name = group < 0 ? "" : groups[group].name;
     if (name.ends_with(" start") || name.ends_with(" end")) ends.push_back(foam.patches.size());
     foam.begin_patch(group < 0 ? "defaultFaces" : groups[group].label, patch.size());
-    for (const CellFace* face : patch) foam.add(face->nodes, face->cell);
+    for (const CellSide& side : patch) foam.add(nodes_of(mesh, side), side.element);
   }
   if (is_slice(foam, n_cells(mesh, 3), ends))
     for (const std::size_t end : ends) foam.patches[end].type = "empty";
@@ -340,7 +313,7 @@ MeshFormat foam_format() {
   return {.extensions = {".foam"},
           .description = "OpenFOAM: constant/polyMesh beside it, planar meshes one cell thick",
           .write = write_by<write_foam>,
-          .has_hexahedra = true,
+          .has_cells = true,
           .labels = &kFoamLabels,
           .names = kRegionNames | kBoundaryNames | kInnerNames | kPeriodicPairs};
 }
