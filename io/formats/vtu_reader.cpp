@@ -76,6 +76,13 @@ std::string from_base64(std::string_view text, size_t* used = nullptr) {
   return bytes;
 }
 
+/// Chooses the field of a mesh's own thickness.
+const FieldChoice kThickness = [](const std::vector<MeshField>& all) {
+  const auto at = std::ranges::find_if(all, is_thickness);
+  return at == all.end() ? std::vector<std::size_t>()
+                         : std::vector{static_cast<std::size_t>(at - all.begin())};
+};
+
 class VtuReader {
  public:
   explicit VtuReader(const std::filesystem::path& path, ReadNotes* notes = nullptr)
@@ -84,6 +91,8 @@ class VtuReader {
   }
 
   Mesh read() {
+    const bool keeps_points = choice_ != nullptr;
+    if (!keeps_points) choice_ = &kThickness;
     parse();
     const Tree& file = child(tree_, "VTKFile");
     if (attribute(file, "type") != "UnstructuredGrid")
@@ -103,7 +112,11 @@ class VtuReader {
     if (notes_ != nullptr && has_curved_hexahedra_) notes_->push_back(kCornersOfHexahedra);
     for (const auto& [name, data] : grid)
       if (name == "FieldData") read_names(data);
-    if (choice_ == nullptr) drop_unused_points(mesh_);
+    if (keeps_points) return std::move(mesh_);
+    drop_unused_points(mesh_);
+    if (fields_.empty()) return std::move(mesh_);
+    fields_[0].values.insert(fields_[0].values.end(), of_quads_[0].begin(), of_quads_[0].end());
+    set_thickness(fields_[0].values, mesh_);
     return std::move(mesh_);
   }
 
@@ -314,8 +327,7 @@ class VtuReader {
                                                          tags(piece, {"curve"}, types.size()),
                                                          tags(piece, {"region", "face"}, types.size()),
                                                          tags(piece, {"volume"}, types.size())}};
-    std::vector<MeshField> fields;
-    if (choice_ != nullptr) fields = read_fields_of(piece, n_points, types.size());
+    const std::vector<MeshField> fields = read_fields_of(piece, n_points, types.size());
     double begin = 0;
     for (size_t c = 0; c < types.size(); ++c) {
       if (!(begin <= offsets[c] && offsets[c] <= static_cast<double>(corners.size())))
@@ -484,7 +496,7 @@ class VtuReader {
   Mesh mesh_;
   std::map<std::pair<int, int>, int> index_;  // by dimension and tag
   NamedPoints point_names_;
-  const FieldChoice* choice_ = nullptr;  // of fields; null: none are read
+  const FieldChoice* choice_ = nullptr;  // of fields; null: the thickness of the mesh
   std::vector<MeshField> fields_;        // triangles among the cells
   std::vector<std::vector<double>> of_quads_, of_hexahedra_;
   ReadNotes* notes_;
